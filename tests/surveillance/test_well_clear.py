@@ -15,6 +15,7 @@ from airhilt.surveillance.well_clear import (
     AlertLevel,
     AlertName,
     Gap,
+    Volume,
     level_of,
     time_to_violation_s,
 )
@@ -69,6 +70,18 @@ def test_traffic_that_passes_at_3_nm_is_well_clear() -> None:
 def test_preventive_alerts_reach_further_in_altitude(gap_ft: float, name: str | None) -> None:
     level = level_of(meets(80.0, 900.0), Gap(gap_ft * FOOT, 0.0))
     assert (None if level is None else level.name) == name
+
+
+@pytest.mark.parametrize("volume", [PREVENTIVE.volume, WARNING.volume])
+def test_just_the_least_vertical_distance_is_not_well_clear(volume: Volume) -> None:
+    motion = meets(20.0, 500.0)
+    for gap_m in (volume.zthr_m, -volume.zthr_m):
+        level, sinking = Gap(gap_m, 0.0), Gap(gap_m, -1e-9)
+        assert time_to_violation_s(motion, level, volume) is not None
+        if gap_m > 0.0:
+            assert time_to_violation_s(motion, sinking, volume) is not None
+        farther = Gap(math.nextafter(gap_m, 2.0 * gap_m), 0.0)
+        assert time_to_violation_s(motion, farther, volume) is None
 
 
 def test_no_alert_comes_before_the_earliest_time() -> None:

@@ -9,7 +9,17 @@ from typing import Any
 import pytest
 
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
-from airhilt.world.flight.guard import Guard
+from airhilt.world.flight import load_aircraft_type
+from airhilt.world.flight.guard import (
+    BANK_LIMIT,
+    OVERSPEED_FACTOR,
+    OVERSPEED_MACH,
+    PITCH_LIMIT,
+    SINK_FACTOR,
+    STALL_FACTOR,
+    Guard,
+)
+from stand_ins import state_at
 
 
 def test_flying_into_the_ground_ends_with_ground_contact(
@@ -90,3 +100,22 @@ def test_a_state_that_is_not_finite_ends_the_flight(
     aircraft.advance()
     assert aircraft.ended == "state_not_finite"
     assert aircraft.state is good
+
+
+@pytest.mark.parametrize(
+    ("limit", "named"),
+    [
+        ({"roll_rad": BANK_LIMIT}, "bank"),
+        ({"pitch_rad": -PITCH_LIMIT}, "pitch"),
+        ({"calibrated_airspeed_m_s": STALL_FACTOR * 143 * KNOT}, "stall"),
+        ({"calibrated_airspeed_m_s": OVERSPEED_FACTOR * 340 * KNOT}, "airspeed"),
+        ({"mach": 0.82 + OVERSPEED_MACH}, "Mach"),
+        ({"velocity_down_m_s": SINK_FACTOR * 4_000 * FOOT_PER_MINUTE}, "sink rate"),
+    ],
+)
+def test_a_flight_that_has_just_reached_a_limit_ends_with_the_name_of_that_limit(
+    limit: dict[str, float], named: str
+) -> None:
+    state = state_at(altitude_m=3_000.0, speed_m_s=250 * KNOT, **limit)
+    cause = Guard(load_aircraft_type("737")).check(state)
+    assert str(cause).startswith(f"envelope_exceeded: {named}")

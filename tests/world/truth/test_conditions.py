@@ -97,6 +97,14 @@ def test_a_loss_is_predicted_within_a_time(within_s: float, true_at_start: bool)
     assert case.after(2.0)
 
 
+def test_a_loss_is_predicted_within_just_the_time_that_it_takes() -> None:
+    condition = {"type": "predicted_loss_of_separation", "actors": PAIR}
+    loss_s = Case(condition).watch.monitor.time_to_loss_s(("AA", "BB"))
+    assert loss_s is not None
+    assert Case(condition | {"within_s": loss_s})()
+    assert not Case(condition | {"within_s": math.nextafter(loss_s, 0.0)})()
+
+
 def test_a_loss_is_predicted_however_far_ahead_where_no_time_is_given() -> None:
     far = (Straight(-400_000.0, east_m_s=250.0), Straight(400_000.0, east_m_s=-250.0))
     condition = {"type": "predicted_loss_of_separation", "actors": PAIR}
@@ -159,6 +167,21 @@ def test_of_an_aircraft_that_has_ended_nothing_is_true(condition: dict[Any, Any]
     assert case()
     case.end()
     assert not case()
+
+
+@pytest.mark.parametrize(
+    "condition",
+    [
+        {"type": "threshold_within", "actor": "AA", "runway": "01", "within_s": 1200.0},
+        {"type": "bound_for_runway", "actor": "AA", "runway": "01"},
+        {"type": "on_runway", "actor": "AA", "runway": "01"},
+    ],
+    ids=lambda condition: condition["type"],
+)
+def test_where_there_is_no_airport_nothing_is_true_of_its_runways(
+    condition: dict[Any, Any],
+) -> None:
+    assert not Case(condition)()
 
 
 LATE, EARLY = {"type": "time", "at_s": 20.0}, {"type": "time", "at_s": 10.0}
@@ -263,6 +286,16 @@ def test_the_threshold_is_no_matter_of_who_has_passed_it_or_stands_or_has_landed
     assert not Airport(condition, speed=0.5)()
     assert not Airport(condition, on_ground=True)()
     assert not Airport({**condition, "actor": "BB"}, car_along_m=-900.0)()
+
+
+def test_at_one_metre_a_second_or_less_nobody_comes_to_the_threshold() -> None:
+    case = Airport({"type": "threshold_within", "actor": "AA", "runway": "01", "within_s": 1200.0},
+                   along_m=-1_000.0)  # fmt: skip
+    plane = case.watch.aircraft["AA"]
+    north_m_s = 1.0 / math.cos(Layout(load_airport("KDCA")).runway("01").course_rad)
+    for speed, comes in ((north_m_s, False), (1.01 * north_m_s, True)):
+        plane.state = plane.state._replace(velocity_east_m_s=0.0, velocity_north_m_s=speed)
+        assert case() == comes
 
 
 def test_a_speed_is_above_a_value_over_the_ground() -> None:

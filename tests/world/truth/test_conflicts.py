@@ -45,6 +45,11 @@ def test_the_motion_of_a_pair_is_that_of_now_though_one_of_them_stands(mover: st
     assert changed == pytest.approx(50.0 if mover == "B" else -50.0, abs=1.0)
 
 
+def test_the_motion_of_a_pair_is_worked_out_once_for_all_who_ask_in_a_tick() -> None:
+    monitor = Watch(Straight(east_m_s=10.0), Straight(1_000.0, east_m_s=10.0)).monitor
+    assert monitor.motion(("A", "B")) is monitor.motion(("A", "B"))
+
+
 @pytest.mark.parametrize("above_ft", [0.0, 500.0, 990.0])
 def test_a_pair_that_no_scenario_names_is_watched_at_every_tick_when_it_is_near(
     above_ft: float,
@@ -130,6 +135,8 @@ def test_a_steep_crossing_between_two_ticks_is_seen_at_the_height_of_the_passage
         (100.0, 0.0, {"loss_of_separation", "nmac"}),
         (0.0, 60.0, {"loss_of_separation", "nmac"}),
         (151.0, 99.0, {"loss_of_separation", "nmac"}),
+        (499.5 * FOOT, 99.0, {"loss_of_separation", "nmac"}),
+        (500.5 * FOOT, 99.0, {"loss_of_separation"}),
         (155.0, 0.0, {"loss_of_separation"}),
         (0.0, 101.0, {"loss_of_separation"}),
         (9_250.0, 999.0, {"loss_of_separation"}),
@@ -244,6 +251,7 @@ def test_a_pair_that_is_always_followed_has_a_closest_approach_however_far() -> 
         (Straight(rate_fpm=300, target_ft=35_050), (35_000, 0, None)),
         (Straight(rate_fpm=1_500, target_ft=37_000), (35_000, 1_500, 37_000)),
         (Straight(rate_fpm=-1_500, target_ft=31_000), (35_000, -1_500, 31_000)),
+        (Straight(altitude_ft=0, target_ft=5_000, on_ground=True), (0, 0, None)),
     ],
 )
 def test_the_vertical_profile_leads_to_the_level_that_is_flown_to(

@@ -243,7 +243,16 @@ def test_past_the_crossing_an_arrival_is_not_in_the_way_of_who_rolls_uncleared()
     assert watch.incurred == [(None, "D")]
 
 
-@pytest.mark.parametrize(("above_ft", "category"), [(60.0, "A"), (300.0, "B"), (700.0, "C")])
+@pytest.mark.parametrize("phase", ["en_route", "taxi", "vacate"])
+def test_who_is_bound_for_a_runway_uses_it_only_to_take_off_or_to_land(phase: str) -> None:
+    moving = airliner(300.0, phase, speed_kt=20.0)
+    assert Watch({"A": moving, "OPS": vehicle(800.0)}).look().incurred == []
+
+
+@pytest.mark.parametrize(
+    ("above_ft", "category"),
+    [(60.0, "A"), (99.5, "A"), (100.5, "B"), (300.0, "B"), (499.5, "B"), (500.5, "C"), (700.0, "C")],
+)
 def test_the_closest_distance_makes_the_category(above_ft: float, category: str) -> None:
     """A go-around over a vehicle: it comes from afar, passes above, and is gone."""
     plane, car = arrival(25.0), vehicle(800.0)

@@ -1,0 +1,149 @@
+"""How far radars and surface surveillance see, and how surely their replies are valid."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import pytest
+from geographiclib.geodesic import Geodesic
+
+from airhilt import load
+from airhilt.messages import RadarKind, RadarPlot, SurfaceTrack
+from airhilt.scenario.models import Radar, SurfaceSurveillance
+from airhilt.sensors import radar, surface
+from airhilt.sensors.base import SensorContext, SensorType
+from airhilt.shapes.sizes import Dimensions
+from airhilt.sim import Director, Priority, Virtual, parse_latency
+from airhilt.surveillance.radar import Antenna
+from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, SECOND_NS
+from airhilt.world.mover import SurfaceState
+from airhilt.world.site import ScenarioSite
+
+CENTRE = {"type": "from_centre", "bearing_deg": 0.0, "distance_nm": 0.0}
+
+
+@dataclass
+class Body:
+    """All that the sensors read of what moves: an airliner that stands still in the air."""
+
+    state: SurfaceState
+    ended: str | None = None
+    on_ground: bool = False
+    dimensions: Dimensions = Dimensions(length_m=39.5, span_m=34.0, height_m=12.5)
+
+
+@dataclass
+class Acting:
+    """All that the sensors read of an actor."""
+
+    spec: Any
+    body: Body
+    category: str = "aircraft"
+    emitter_category: str = "A3"
+
+
+class Field:
+    """Washington National with a radar in its middle, and one airliner in the air."""
+
+    def __init__(self, kind: RadarKind = "terminal") -> None:
+        given = load("s01b_noncompliance")
+        site = Radar.model_validate({"name": "R1", "kind": kind, "position": CENTRE})
+        seen = {"radars": (site,), "surface_surveillance": SurfaceSurveillance()}
+        self.scenario = given.model_copy(update=seen)
+        self.site = ScenarioSite.of(self.scenario)
+        self.centre = self.site.place(self.site.centre)
+        self.antenna = Antenna(*self.centre, self.site.ground_m + site.antenna_height_ft * FOOT)
+
+    def state(self, away_m: float, height_m: float) -> SurfaceState:
+        degrees = [angle / DEGREE for angle in self.centre]
+        there = Geodesic.WGS84.Direct(*degrees, 90.0, away_m)
+        place = there["lat2"] * DEGREE, there["lon2"] * DEGREE
+        altitude_m = self.site.ground_m + height_m
+        return SurfaceState(*place, altitude_m, height_m, 0.0, 0.0, 0.0, 0.0)
+
+    def at_range(self, range_nm: float, height_m: float) -> SurfaceState:
+        """Return the state at a slant range from the antenna, found by bisection."""
+        near_m, far_m = 0.0, 1.1 * range_nm * NAUTICAL_MILE
+        while far_m - near_m > 1.0:
+            middle_m = 0.5 * (near_m + far_m)
+            slant_m = self.antenna.to(self.state(middle_m, height_m)).range_m
+            if slant_m < range_nm * NAUTICAL_MILE:
+                near_m = middle_m
+            else:
+                far_m = middle_m
+        return self.state(near_m, height_m)
+
+    def seen(self, sensor_type: SensorType, state: SurfaceState, seconds: float) -> list[Any]:
+        """Return the plots or tracks of an airliner in a state."""
+        published: list[Any] = []
+        director = Director(Virtual())
+        aircraft = self.scenario.actors[0]
+        acting: Any = Acting(aircraft, Body(state))
+        context = SensorContext(
+            director=director,
+            scenario=self.scenario,
+            site=self.site,
+            actors={aircraft.callsign: acting},
+            latency=parse_latency("fixed"),
+            seed=1,
+            state_at_ns=lambda: director.now_ns,
+            publish=lambda _, message, *, raw=None: published.append(message),
+            step_done=lambda _: None,
+        )
+        sensor = sensor_type.create(context)
+        assert sensor is not None
+        sensor.start()
+        director.at(round(seconds * SECOND_NS), director.stop, Priority.OBSERVE)
+        director.run()
+        return [each for each in published if isinstance(each, RadarPlot | SurfaceTrack)]
+
+
+@pytest.mark.parametrize(
+    ("kind", "range_nm", "height_ft", "has_echo", "has_reply"),
+    [
+        ("terminal", 59.7, 15_000, True, True),
+        ("terminal", 60.3, 15_000, False, True),
+        ("terminal", 119.7, 30_000, False, True),
+        ("terminal", 120.3, 30_000, False, False),
+        ("en_route", 249.7, 60_000, True, True),
+        ("en_route", 250.3, 60_000, False, False),
+    ],
+)
+def test_radars_see_as_far_as_their_sources_say(
+    kind: RadarKind, range_nm: float, height_ft: float, has_echo: bool, has_reply: bool
+) -> None:
+    """The FAA gives 60 NM for the primary radar of the ASR-11; 120 and 250 NM are typical."""
+    field = Field(kind)
+    plots = field.seen(radar.SENSOR, field.at_range(range_nm, height_ft * FOOT), 240.0)
+    assert any(plot.kind != "secondary" for plot in plots) == has_echo
+    assert any(plot.kind != "primary" for plot in plots) == has_reply
+
+
+def test_of_a_hundred_replies_two_have_no_valid_code_and_four_no_valid_altitude() -> None:
+    """EUROCONTROL's standard asks for 98 % and 96 %."""
+    field = Field()
+    plots = field.seen(radar.SENSOR, field.at_range(80.0, 9_000.0), 4.8 * 1_000)
+    codes, altitudes = (
+        sum(getattr(plot, name) is None for plot in plots) for name in ("mode_a", "mode_c_ft")
+    )
+    assert codes / len(plots) == pytest.approx(0.02, abs=0.01)
+    assert altitudes / len(plots) == pytest.approx(0.04, abs=0.015)
+
+
+@pytest.mark.parametrize(
+    ("height_ft", "kinds"),
+    [
+        (195.0, {"primary", "secondary", "combined"}),
+        (205.0, {"secondary"}),
+        (2_499.5, {"secondary"}),
+        (2_500.5, set()),
+    ],
+)
+def test_over_an_airport_radar_sees_up_to_200_ft_and_transponders_are_located_in_class_d(
+    height_ft: float, kinds: set[str]
+) -> None:
+    """AIM 4-5-5 gives the height of the radar, and AIM 3-2-5 that of class D airspace."""
+    field = Field()
+    tracks = field.seen(surface.SENSOR, field.state(1_000.0, height_ft * FOOT), 120.0)
+    assert {track.kind for track in tracks} == kinds
