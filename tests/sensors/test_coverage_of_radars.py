@@ -21,6 +21,7 @@ from airhilt.world.mover import SurfaceState
 from airhilt.world.site import ScenarioSite
 
 CENTRE = {"type": "from_centre", "bearing_deg": 0.0, "distance_nm": 0.0}
+AIRLINER = Dimensions(length_m=39.5, span_m=34.0, height_m=12.5)
 
 
 @dataclass
@@ -30,7 +31,7 @@ class Body:
     state: SurfaceState
     ended: str | None = None
     on_ground: bool = False
-    dimensions: Dimensions = Dimensions(length_m=39.5, span_m=34.0, height_m=12.5)
+    dimensions: Dimensions = AIRLINER
 
 
 @dataclass

@@ -91,5 +91,3 @@ def test_surfaces_move_more_at_low_pressure_up_to_four_times(part: float, scale:
     pitch = B737.gains.pitch
     expected = scale * (pitch.rate_s + pitch.rate_integral * 0.05) * 0.01
     assert airframe.got["set_elevator"] == pytest.approx((expected,))
-
-

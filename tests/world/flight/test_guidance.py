@@ -51,7 +51,5 @@ def test_a_corner_is_cut_by_the_circle_of_four_fifths_of_the_bank(
     flown = route(CORNER, place(CORNER, turn_deg, 30_000.0))
     first = flown.leg
     before_m = lead_m + ROLL_LEAD_S * SPEED_M_S - later_m
-    flown.turn_rate(
-        state_at(place(CORNER, 180.0, before_m), altitude_m=0.0, speed_m_s=SPEED_M_S)
-    )
+    flown.turn_rate(state_at(place(CORNER, 180.0, before_m), altitude_m=0.0, speed_m_s=SPEED_M_S))
     assert (flown.leg is not first) == turns

@@ -38,9 +38,9 @@ def test_it_may_not_begin_slower_or_faster(in_cruise: Callable[..., Any]) -> Non
 @pytest.mark.parametrize("degrees", [90.1, -90.1, 135.0, 180.0, 270.0])
 def test_beyond_the_poles_there_is_no_place_to_begin(degrees: float) -> None:
     latitude = math.radians(degrees)
-    with pytest.raises(ValueError, match="latitude_rad is .*; expected within"):
+    with pytest.raises(ValueError, match=r"latitude_rad is .*; expected within"):
         InitialCondition(latitude, 0.0, 3_000.0, 0.0, 100.0)
-    with pytest.raises(ValueError, match="latitude_rad is .*; expected within"):
+    with pytest.raises(ValueError, match=r"latitude_rad is .*; expected within"):
         OnGround(latitude, 0.0, 0.0)
 
 

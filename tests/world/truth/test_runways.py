@@ -251,7 +251,15 @@ def test_who_is_bound_for_a_runway_uses_it_only_to_take_off_or_to_land(phase: st
 
 @pytest.mark.parametrize(
     ("above_ft", "category"),
-    [(60.0, "A"), (99.5, "A"), (100.5, "B"), (300.0, "B"), (499.5, "B"), (500.5, "C"), (700.0, "C")],
+    [
+        (60.0, "A"),
+        (99.5, "A"),
+        (100.5, "B"),
+        (300.0, "B"),
+        (499.5, "B"),
+        (500.5, "C"),
+        (700.0, "C"),
+    ],
 )
 def test_the_closest_distance_makes_the_category(above_ft: float, category: str) -> None:
     """A go-around over a vehicle: it comes from afar, passes above, and is gone."""
