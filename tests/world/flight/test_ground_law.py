@@ -37,7 +37,7 @@ def test_it_is_led_to_the_line_by_0_4_m_s_for_each_metre_and_by_8_ft_s_at_most(
 
 
 def test_while_it_taxies_the_nose_wheel_is_turned_alike_at_any_speed() -> None:
-    angles = []
+    angles: list[float] = []
     for speed_m_s in (2.0, 4.0, 8.0):
         airframe = StandIn()
         law(airframe).follow_line(state_at(speed_m_s=speed_m_s), 0.0, 0.1)

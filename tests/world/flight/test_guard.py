@@ -116,6 +116,6 @@ def test_a_state_that_is_not_finite_ends_the_flight(
 def test_a_flight_that_has_just_reached_a_limit_ends_with_the_name_of_that_limit(
     limit: dict[str, float], named: str
 ) -> None:
-    state = state_at(altitude_m=3_000.0, speed_m_s=250 * KNOT, **limit)
+    state = state_at(altitude_m=3_000.0, speed_m_s=250 * KNOT)._replace(**limit)
     cause = Guard(load_aircraft_type("737")).check(state)
     assert str(cause).startswith(f"envelope_exceeded: {named}")

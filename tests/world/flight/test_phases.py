@@ -36,8 +36,10 @@ class Systems:
 
     @property
     def all(self) -> AircraftSystems:
-        parts: Any = (self.airframe, self.autopilot, self.ground)
-        return AircraftSystems(B737, *parts, TICK_S)
+        airframe: Any = self.airframe
+        autopilot: Any = self.autopilot
+        ground: Any = self.ground
+        return AircraftSystems(B737, airframe, autopilot, ground, TICK_S)
 
     def en_route(self) -> EnRoute:
         """Return the climb to 1,500 m on the runway's course."""
@@ -55,7 +57,7 @@ def along(distance_m: float, **state: float) -> AircraftState:
 def test_takeoff_thrust_is_set_within_seconds_and_not_at_once() -> None:
     systems = Systems()
     phase: FlightPhase = TakeoffRoll(systems.all, FINAL, systems.en_route())
-    levers = []
+    levers: list[float] = []
     for _ in range(round(10.0 / TICK_S)):
         phase = phase.fly(along(60.0, speed_m_s=20.0))
         levers += systems.airframe.got["set_throttle"]
