@@ -54,10 +54,11 @@ from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.sensors.starting import start_sensors
 from airhilt.sim import Director, Pace, Priority, RealTime, StepRecord, interruptible
 from airhilt.text import LONGEST_LINE, readable
-from airhilt.units import SECOND_NS, seconds_to_ns
+from airhilt.units import FOOT_PER_MINUTE, SECOND_NS, seconds_to_ns
 from airhilt.workers import Worker
 from airhilt.workers.pool import WorkerPool
 from airhilt.world.actors.advisory_delivery import AdvisoryDelivery
+from airhilt.world.flight import Aircraft
 
 if TYPE_CHECKING:
     from airhilt.sensors.cameras.renderer_link import RendererKeeper
@@ -241,12 +242,17 @@ class Simulation:
 
     def _make_collector(self) -> Collector:
         setup, world = self._setup, self._world
+        usual_rates_m_s = {
+            callsign: actor.body.kind.speeds.climb_rate_fpm * FOOT_PER_MINUTE
+            for callsign, actor in setup.actors.items()
+            if isinstance(actor.body, Aircraft)
+        }
         return Collector(
             setup.scenario,
             setup.site.ground_m,
             world.monitor,
             world.runways,
-            Plans(setup.lines, setup.ends_ns),
+            Plans(setup.lines, setup.ends_ns, usual_rates_m_s),
             setup.options.advisory_channel == "frequency",
             [
                 worker.description.name

@@ -20,7 +20,7 @@ def frame_of(table: pa.Table) -> DataFrame:
     return table.to_pandas(types_mapper=kinds.get)
 
 
-def read_table(folder: SweepFolder, machine: bool = False) -> pa.Table:
+def read_table(folder: SweepFolder, machine: bool) -> pa.Table:
     """Return the runs of a sweep as a table of Arrow, a row a run.
 
     Parameters
@@ -49,7 +49,7 @@ def read_table(folder: SweepFolder, machine: bool = False) -> pa.Table:
     return pa.table(columns, schema=pa.schema(both.values()))
 
 
-def read_frame(folder: SweepFolder, machine: bool = False) -> DataFrame:
+def read_frame(folder: SweepFolder, machine: bool) -> DataFrame:
     """Return the runs of a sweep as a data frame, a row a run; it raises what `read_table` does.
 
     Its ``attrs`` have the ``units`` and the ``descriptions`` of the columns, by their names.

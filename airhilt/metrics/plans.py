@@ -12,9 +12,6 @@ from airhilt.scenario.models import ScriptedCommand
 from airhilt.surveillance.tcas import AltitudeAt
 from airhilt.units import FOOT, FOOT_PER_MINUTE, SECOND_NS, seconds_to_ns
 
-DEFAULT_RATE_M_S = 1500 * FOOT_PER_MINUTE
-"""Vertical speed of a scripted climb without one, in m/s."""
-
 
 class Plans:
     """The altitude commands of the script, and when each is carried out.
@@ -26,9 +23,17 @@ class Plans:
     ends_ns
         Time by which each line ends, by its id. Until it has ended, this is when it would end if
         the frequency were free.
+    usual_rates_m_s
+        Vertical speed of a climb that is scripted without one, in m/s, by callsign of the aircraft.
     """
 
-    def __init__(self, lines: Sequence[EffectiveLine], ends_ns: Mapping[str, int]) -> None:
+    def __init__(
+        self,
+        lines: Sequence[EffectiveLine],
+        ends_ns: Mapping[str, int],
+        usual_rates_m_s: Mapping[str, float],
+    ) -> None:
+        self._usual_rates_m_s = usual_rates_m_s
         self._due: dict[str, list[tuple[int, AltitudeCommand]]] = {}
         for effective in lines:
             for scripted in effective.line.commands if effective.line else ():
@@ -51,7 +56,8 @@ class Plans:
             last = VerticalProfile(altitudes[-1], rates[-1], targets[-1])
             begin_m = last.at(time_s - times[-1])
             rate = command.vertical_rate_fpm
-            speed = DEFAULT_RATE_M_S if rate is None else rate * FOOT_PER_MINUTE
+            usual_m_s = self._usual_rates_m_s[callsign]
+            speed = usual_m_s if rate is None else rate * FOOT_PER_MINUTE
             target_m = command.altitude_ft * FOOT
             times.append(time_s)
             altitudes.append(begin_m)

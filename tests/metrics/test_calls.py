@@ -76,9 +76,11 @@ def test_text_that_nobody_recognised_measures_no_recognition() -> None:
     assert numbers.wer is numbers.slot_accuracy is numbers.transcripts_missing is None
 
 
-def test_recognised_calls_are_compared_with_what_was_said() -> None:
-    air = OnTheAir().say(LANDING, "american one two three runway zero one cleared to land")
-    numbers = air.say(LANDING, "delta runway zero one cleared for takeoff").numbers()
+@pytest.mark.parametrize("engine", ["embedded", "whisper"])
+def test_recognised_calls_are_compared_with_what_was_said(engine: str) -> None:
+    right, wrong = LANDING.lower().replace(",", ""), "delta runway zero one cleared for takeoff"
+    air = OnTheAir().say(LANDING, right, engine=engine).say(LANDING, wrong, engine=engine)
+    numbers = air.numbers()
     assert (numbers.calls, numbers.words) == (2, 20)
     assert numbers.wer == pytest.approx(6 / 20)
     assert (numbers.callsign_accuracy, numbers.slot_accuracy) == (0.5, 0.75)

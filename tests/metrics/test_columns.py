@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from airhilt.messages import Status
 from airhilt.metrics.columns import column_of, metric_columns, metrics_of
 from airhilt.metrics.summary import (
     AdvisorySummary,
@@ -66,6 +67,12 @@ def detection(actor: str, t_s: float, range_m: float) -> FirstDetection:
     return FirstDetection(
         actor=actor, t_s=t_s, t_frame_s=t_s, camera="tower", range_m=range_m, size_px=20.0
     )
+
+
+def test_every_modality_that_can_be_on_or_off_has_a_column() -> None:
+    modalities = Status.model_json_schema()["properties"]["modality"]["enum"]
+    assert "enhancement" in modalities
+    assert {f"modalities_{name}" for name in modalities} <= {each.name for each in metric_columns()}
 
 
 def test_every_column_has_a_name_of_its_own_a_unit_and_a_description() -> None:

@@ -56,6 +56,24 @@ def test_a_difference_of_shares_has_the_interval_of_agresti_and_min() -> None:
     )
 
 
+@pytest.mark.parametrize(
+    ("both", "only_first", "only_second", "neither"),
+    [(4, 3, 2, 1), (0, 1, 7, 2), (5, 0, 0, 5), (1, 6, 0, 0)],
+)
+def test_the_interval_is_that_of_wald_with_half_a_pair_more_of_each_kind(
+    both: int, only_first: int, only_second: int, neither: int
+) -> None:
+    counts = np.array([both, only_first, only_second, neither])
+    first = np.repeat([True, True, False, False], counts)
+    second = np.repeat([True, False, True, False], counts)
+    found = share_difference(first, second, alone(counts.sum()))
+    steps, shares = np.array([0.0, -1.0, 1.0, 0.0]), (counts + 0.5) / (counts.sum() + 2.0)
+    mean = shares @ steps
+    deviation = np.sqrt(shares @ (steps - mean) ** 2 / (counts.sum() + 2.0))
+    assert found.low == pytest.approx(max(mean - 1.959964 * deviation, -1.0))
+    assert found.high == pytest.approx(min(mean + 1.959964 * deviation, 1.0))
+
+
 @pytest.mark.parametrize("n", [1, 2, 3])
 def test_a_few_pairs_that_all_differ_are_no_sure_difference(n: int) -> None:
     found = share_difference(np.zeros(n, bool), np.ones(n, bool), alone(n))

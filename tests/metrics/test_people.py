@@ -32,6 +32,9 @@ from airhilt.record import RunFolder
 from airhilt.report.people_csv import write_people_csv
 
 SECOND = 1_000_000_000
+VOICE = AdvisoryAudio(
+    id="a-1", revision=1, recipient="AAL1", text="", t_dec_ns=0, engine="", samples=0, sha256=""
+)
 GO_AROUND = ActorCommand(command=GoAroundCommand(action="go_around"))
 
 
@@ -63,13 +66,10 @@ def reaction(*messages: tuple[float, str, Message]) -> PersonReaction:
 
 
 def test_the_reaction_time_begins_with_the_first_audible_sample() -> None:
-    voice = AdvisoryAudio(
-        id="a-1", revision=1, recipient="AAL1", text="", t_dec_ns=0, engine="", samples=0, sha256=""
-    )
     found = reaction(
         (10.0, "advisory/AAL1", advisory(GoAround(runway="01"))),
         (10.1, "perceived/AAL1", perceived("seen")),
-        (10.8, "tts/a-1", voice),
+        (10.8, "tts/a-1", VOICE),
         (10.9, "perceived/AAL1", perceived("heard", after_s=0.1)),
         (12.5, "command/AAL1", GO_AROUND),
     )
@@ -78,13 +78,17 @@ def test_the_reaction_time_begins_with_the_first_audible_sample() -> None:
     assert (found.first_action, found.followed) == ("go_around", True)
 
 
-def test_what_is_not_heard_is_reacted_to_from_its_display() -> None:
+@pytest.mark.parametrize("is_voiced", [False, True])
+def test_what_is_not_heard_is_reacted_to_from_its_display(is_voiced: bool) -> None:
+    """A voice that was made is not heard where the page has no sound."""
     found = reaction(
         (10.0, "advisory/AAL1", advisory()),
         (10.1, "perceived/AAL1", perceived("seen")),
+        *([(10.4, "tts/a-1", VOICE)] if is_voiced else []),
         (11.1, "microphone/AAL1", MicrophoneAudio(phase="pressed", delay_s=0.02)),
     )
     assert found.reaction_time_s == pytest.approx(1.0)
+    assert (found.t_heard_s, found.voice_to_loudspeaker_s) == (None, None)
     assert (found.first_action, found.followed) == ("spoken call", None)
 
 
@@ -109,6 +113,19 @@ def test_what_the_person_did_before_is_no_reaction() -> None:
 
 def test_commands_to_other_aircraft_are_of_nobody_at_a_seat() -> None:
     assert person((1.0, "command/DAL2", GO_AROUND)).commands == 0
+
+
+@pytest.mark.parametrize("times", [0, 2])
+def test_who_is_asked_to_say_again_is_asked_as_often_as_calls_ask(times: int) -> None:
+    asking = [f"line7.say-again-{number + 1}" for number in range(times)]
+    said = [
+        SpokenTruth(
+            id=name, speaker="Tower", addressed="AAL1", frequency_khz=119_100, text="", t_tx_ns=0,
+            t_end_ns=0,
+        )
+        for name in ("line7", *asking)
+    ]  # fmt: skip
+    assert person(*((1.0, "truth/radio/x", one) for one in said)).asked_to_say_again == times
 
 
 def call(

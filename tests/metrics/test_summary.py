@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from typing import Any, cast
+from typing import Any, cast, get_args
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from pydantic import BaseModel, ValidationError
 
 from airhilt.cli.progress import print_summary
 from airhilt.commands import AltitudeCommand
@@ -18,6 +19,7 @@ from airhilt.messages import (
     AdvisoryAudio,
     ConflictTruth,
     Evidence,
+    HearingTruth,
     Severity,
     SpokenTruth,
     Status,
@@ -36,6 +38,7 @@ from airhilt.sensors.radio.backends import TextRadio
 from airhilt.sensors.radio.script import planned_ends_ns
 from airhilt.sim import StepRecord
 from airhilt.units import FOOT, FOOT_PER_MINUTE, SECOND_NS
+from airhilt.world.flight import load_aircraft_type
 from airhilt.world.loading import load
 from airhilt.world.truth.gaps import Gap
 from airhilt.world.truth.runways import Incursion
@@ -105,7 +108,7 @@ class FollowedRun:
             always=False,
             names=(FIRST, SECOND),
         )
-        self.collector = Collector(scenario, 0.0, self.watch.monitor, None, Plans([], {}))
+        self.collector = Collector(scenario, 0.0, self.watch.monitor, None, Plans([], {}, {}))
 
     def take(self, message: Any) -> Airport | FollowedRun:
         self.collector.take("", message, b"")
@@ -189,6 +192,29 @@ def test_an_alert_of_traffic_by_its_address_is_one_of_that_traffic() -> None:
     assert summary.advisories[0].traffic == (FIRST, SECOND)
 
 
+@pytest.mark.parametrize(
+    ("begin_m", "speed_m_s", "nuisance"),
+    [(60_000.0, 250.0, 0), (110_000.0, 250.0, 1), (60_000.0, -250.0, 1)],
+)
+def test_an_alert_of_another_pair_is_no_nuisance_if_that_pair_loses_separation_soon(
+    begin_m: float, speed_m_s: float, nuisance: int
+) -> None:
+    """The two meet after 4 min, after more than 7 min, or fly apart; UAL7 is elsewhere."""
+    watch = Watch(
+        Straight(-begin_m, east_m_s=speed_m_s),
+        Straight(begin_m, east_m_s=-speed_m_s),
+        names=(FIRST, SECOND),
+    )
+    records = AdvisoryRecords(
+        {name: name for name in (FIRST, SECOND, "UAL7")},
+        (FIRST, "UAL7"),
+        watch.monitor,
+        lambda *_: False,
+    )
+    records.add(advisory(0.0))
+    assert records.nuisance_alerts([]) == nuisance
+
+
 @pytest.mark.parametrize(("severity", "alerts"), [("ADVISORY", 0), ("CAUTION", 1), ("WARNING", 1)])
 def test_only_what_is_spoken_can_be_a_nuisance(severity: str, alerts: int) -> None:
     quiet = SCENARIO.model_copy(update={"conflict": None})
@@ -199,6 +225,13 @@ def test_the_margin_over_tcas_is_when_it_would_have_spoken_after_the_first_warni
     summary = FollowedRun().take(advisory(1.0)).summary()
     assert summary.margin_over_tcas_ta_s == pytest.approx(60.0 - 48.0, abs=1.5)
     assert summary.margin_over_tcas_ra_s == pytest.approx(60.0 - 35.0, abs=1.5)
+
+
+def test_a_warning_that_comes_after_tcas_has_spoken_has_a_negative_margin() -> None:
+    followed = FollowedRun()
+    followed.watch.fly(20.0)
+    summary = followed.take(advisory(20.0)).summary()
+    assert summary.margin_over_tcas_ta_s == pytest.approx((60.0 - 48.0) - 20.0, abs=1.5)
 
 
 def test_a_conflict_is_avoided_if_somebody_was_warned_and_separation_was_kept() -> None:
@@ -310,8 +343,8 @@ def test_latencies_are_given_by_stage() -> None:
 # --- what the script still has in store -----------------------------------------------------
 
 
-def plans(*climbs: tuple[float, int]) -> Plans:
-    """Plans of a script in which AA is given levels (ft) at times (s)."""
+def plans(*climbs: tuple[float, int], rate_fpm: int | None = 1_500) -> Plans:
+    """Plans of a script in which AA, a Cessna 172, is given levels (ft) at times (s)."""
     lines = [
         RadioLine(
             id=f"line{number}", at_s=at_s, speaker="Centre", frequency_khz=134325 + number,
@@ -320,7 +353,7 @@ def plans(*climbs: tuple[float, int]) -> Plans:
                 ScriptedCommand(
                     actor="AA", delay_s=2.0,
                     command=AltitudeCommand(
-                        action="altitude", altitude_ft=level_ft, vertical_rate_fpm=1_500
+                        action="altitude", altitude_ft=level_ft, vertical_rate_fpm=rate_fpm
                     ),
                 ),
             ),
@@ -328,7 +361,8 @@ def plans(*climbs: tuple[float, int]) -> Plans:
         for number, (at_s, level_ft) in enumerate(climbs)
     ]  # fmt: skip
     effective = [EffectiveLine(line, line, 0.0, (), frozenset()) for line in lines]
-    return Plans(effective, planned_ends_ns(effective, TextRadio(160.0)))
+    usual_m_s = load_aircraft_type("c172p").speeds.climb_rate_fpm * FOOT_PER_MINUTE
+    return Plans(effective, planned_ends_ns(effective, TextRadio(160.0)), {"AA": usual_m_s})
 
 
 LEVEL = VerticalProfile(31_000 * FOOT, 0.0)
@@ -342,6 +376,12 @@ def test_a_climb_that_is_planned_begins_after_its_line_and_its_delay() -> None:
     """A line of eight words at 20 s ends at 23 s; two seconds later it is carried out."""
     at = plans((20.0, 33_000)).altitude_at("AA", 0, LEVEL)
     assert feet(at, 0, 25, 65, 105, 500) == [31_000, 31_000, 32_000, 33_000, 33_000]
+
+
+def test_a_climb_without_a_rate_is_planned_with_the_usual_one_of_the_type() -> None:
+    """A Cessna 172 climbs with 500 ft/min."""
+    at = plans((20.0, 33_000), rate_fpm=None).altitude_at("AA", 0, LEVEL)
+    assert feet(at, 25, 145, 265, 500) == [31_000, 32_000, 33_000, 33_000]
 
 
 def test_what_was_carried_out_already_is_in_the_profile_and_not_planned_again() -> None:
@@ -381,7 +421,7 @@ class Airport(FollowedRun):
 
     def __init__(self, *incursions: Incursion, scenario: Scenario = SCENARIO) -> None:
         super().__init__(scenario)
-        plans = Plans([], {})
+        plans = Plans([], {}, {})
         runways = cast(Any, Runways(*incursions))
         self.collector = Collector(scenario, 0.0, self.watch.monitor, runways, plans)
         self.collector.window.opened_ns = 0
@@ -545,6 +585,34 @@ def test_the_margin_over_tcas_is_counted_from_the_voice() -> None:
     assert followed.summary().margin_over_tcas_ta_s == pytest.approx(57.0 - 48.0, abs=1.5)
 
 
+@pytest.mark.parametrize(("outcome", "spoken_s"), [("understood", 9.8), ("misheard", None)])
+def test_an_advisory_on_the_frequency_is_spoken_from_when_the_call_begins_that_is_understood(
+    outcome: str, spoken_s: float | None
+) -> None:
+    """The worker has the voice ready at 9.2 s; the frequency is free at 9.8 s."""
+    watch = FollowedRun().watch
+    collector = Collector(
+        SCENARIO, 0.0, watch.monitor, None, Plans([], {}, {}), is_on_frequency=True
+    )
+    name = f"advisory.a.0.{FIRST}"
+    of_call = {"id": name, "t_ns": 12 * SECOND_NS}
+    for message in (
+        advisory(9.0).model_copy(update={"recipient": FIRST}),
+        voice(9.2, recipient=FIRST),
+        SpokenTruth(
+            **of_call, speaker="assistant", addressed=FIRST, frequency_khz=134_325, text="traffic",
+            t_tx_ns=round(9.8 * SECOND_NS), t_end_ns=12 * SECOND_NS,
+        ),
+        HearingTruth(
+            **of_call, actor=FIRST, outcome=cast(Any, outcome), text="traffic", source="ear"
+        ),
+    ):  # fmt: skip
+        collector.take("", message, b"")
+    summary = collector.summary(RUN, 70 * SECOND_NS)
+    assert summary.t_first_warning_s == spoken_s
+    assert summary.advisories[0].t_spoken_s == spoken_s
+
+
 # --- with a radio ---------------------------------------------------------------------------
 
 
@@ -601,3 +669,23 @@ def test_the_terminal_says_nothing_of_recognition_where_there_was_none(
 ) -> None:
     print_summary(FollowedRun().summary(), tmp_path)
     assert "recognition" not in capsys.readouterr().out
+
+
+# --- as a record ----------------------------------------------------------------------------
+
+
+def models_in(annotation: Any) -> Iterator[type[BaseModel]]:
+    """Yield the models that a type is made of."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        yield annotation
+        for field in annotation.model_fields.values():
+            yield from models_in(field.annotation)
+    for part in get_args(annotation):
+        yield from models_in(part)
+
+
+@pytest.mark.parametrize("model", sorted(set(models_in(Summary)), key=lambda each: each.__name__))
+def test_no_number_of_a_summary_can_be_changed_by_mistake(model: type[BaseModel]) -> None:
+    made = model.model_construct()
+    with pytest.raises(ValidationError, match="frozen"):
+        setattr(made, next(iter(model.model_fields)), None)
