@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import itertools
 import json
+import math
 from pathlib import Path
+from types import SimpleNamespace
+from typing import cast
 
 import pytest
 
@@ -18,7 +21,12 @@ from airhilt.record import read_log
 from airhilt.scenario import Scenario
 from airhilt.sensors.cockpit import instruments_of
 from airhilt.units import DEGREE, FOOT, KNOT, SECOND_NS
-from airhilt.world.flight import Aircraft, InitialCondition, load_aircraft_type
+from airhilt.world.flight import (
+    Aircraft,
+    AircraftState,
+    InitialCondition,
+    load_aircraft_type,
+)
 from airhilt.world.flight.state import Atmosphere
 from airhilt.world.loading import load_text
 from shortened import shortened
@@ -125,6 +133,32 @@ def test_every_type_of_aircraft_shows_gear_and_flaps(name: str) -> None:
     assert shown.radio_height_ft is None
     assert shown.selected_airspeed_kt == pytest.approx(kind.speeds.approach_kt, abs=1.0)
     assert shown.flaps == pytest.approx(kind.landing.flaps, abs=0.05)
+
+
+def shown_at(**state: float) -> CockpitInstruments:
+    """Return the instruments of an aircraft in a state."""
+    still = dict.fromkeys(AircraftState._fields, 0.0)
+    aircraft = SimpleNamespace(
+        state=AircraftState(**{**still, **state}), gear=0.0, flaps=0.0, on_ground=False,
+        phase="en_route", target_altitude_m=0.0, target_speed_m_s=0.0,
+    )  # fmt: skip
+    return instruments_of("N1", cast(Aircraft, aircraft), None)
+
+
+@pytest.mark.parametrize(
+    ("height_ft", "shown_ft"), [(0, 0), (50, 50), (2499, 2499), (2500, 2500), (2501, None)]
+)
+def test_a_radio_altimeter_shows_heights_up_to_2500_ft(
+    height_ft: int, shown_ft: int | None
+) -> None:
+    """The range of ARINC 707 ends there: 762 m."""
+    assert shown_at(height_agl_m=height_ft * 762.0 / 2500.0).radio_height_ft == shown_ft
+
+
+@pytest.mark.parametrize("degrees", [-12.5, 0.0, 3.0])
+def test_an_attitude_is_shown_in_degrees(degrees: float) -> None:
+    shown = shown_at(pitch_rad=math.radians(degrees), roll_rad=math.radians(2.0 * degrees))
+    assert (shown.pitch_deg, shown.roll_deg) == (degrees, 2.0 * degrees)
 
 
 def test_a_vehicle_shows_its_driver_where_it_is(tmp_path: Path) -> None:

@@ -228,6 +228,20 @@ def test_gain_control_evens_out_a_weak_and_a_strong_half() -> None:
     assert difference(after) < difference(before) - 4.0
 
 
+def test_gain_control_leaves_a_call_at_its_usual_level_as_loud_as_it_is() -> None:
+    steady = np.sin(2 * np.pi * 1000.0 * np.arange(4 * SAMPLE_RATE_HZ) / SAMPLE_RATE_HZ)
+    with_control, without = (
+        VhfChannel(replace(PROFILES["vhf"], gain_control=strength, fade_db=0.0))
+        for strength in (0.9, 0.0)
+    )
+    settled = slice(2 * SAMPLE_RATE_HZ, 3 * SAMPLE_RATE_HZ)
+    loud, plain = (
+        channel.transmit(steady.astype(np.float32), None, np.random.default_rng(0))[settled]
+        for channel in (with_control, without)
+    )
+    assert decibels(power(loud) / power(plain)) == pytest.approx(0.0, abs=0.5)
+
+
 def test_a_call_ends_with_the_squelch_tail() -> None:
     said = speech()
     heard = VhfChannel(PROFILES["vhf"]).transmit(said, 10.0, np.random.default_rng(0))

@@ -281,6 +281,13 @@ def test_a_controller_who_checks_corrects_a_wrong_readback_and_the_crew_does_wha
     assert [command.altitude_ft for _, command, _ in world.done] == [33_000]
 
 
+def test_a_controller_does_not_correct_what_another_one_has_said() -> None:
+    """The crew tells the next unit wrongly what it was cleared to; that unit did not say it."""
+    report = {**READBACK, "to": "Potomac Approach", "text": WRONG, "answers": "clearance"}
+    world = World(CLEARANCE, report, controller_checks_readbacks=True).run()
+    assert world.said() == ["clearance", "readback"]
+
+
 def test_a_right_readback_is_not_corrected() -> None:
     world = World(CLEARANCE, READBACK, controller_checks_readbacks=True).run()
     assert world.said() == ["clearance", "readback"]
@@ -528,6 +535,17 @@ def test_a_crew_may_take_for_its_own_what_it_reads() -> None:
     world.transcribe("delta four five six climb and maintain flight level three three zero", 18.0)
     world.run()
     assert ("DAL456", 33_000) in [(who, command.altitude_ft) for who, command, _ in world.done]
+
+
+@pytest.mark.parametrize(
+    "text",
+    [CLEARANCE["text"], "american one two three climb and maintain flight level three four zero"],
+)
+def test_a_crew_lets_be_what_it_reads_for_others(text: str) -> None:
+    check = line("check", 2, "DAL456", TOWER, "Washington Center, Delta four five six.")
+    world = Reading(check, CLEARANCE, topology="asr_first").transcribe(text, 18.0).run()
+    assert world.hearings("DAL456") == []
+    assert {who for who, _, _ in world.done} == {"AAL123"}
 
 
 def test_nobody_reads_a_call_that_was_blocked() -> None:

@@ -391,6 +391,40 @@ def test_a_call_in_which_the_sound_is_lost_has_no_samples_though_some_were_strea
     assert not air.chunks("second")
 
 
+class Mute(Buzzing):
+    """Voices that fail."""
+
+    def synthesise(self, text: str, voice: VoiceSpec) -> Audio:
+        raise SpeechError("no voice")
+
+
+def test_where_the_voices_fail_a_call_takes_the_time_of_its_words_and_has_no_sound() -> None:
+    lost: list[str] = []
+    mute = AudioRadio(Mute(), VhfChannel(PROFILES["vhf"]), SEED, RADIO)
+    radio = FallbackRadio(mute, 150.0, lambda cause, _: lost.append(cause))
+    assert radio.has_sound
+    for _ in range(2):
+        speech, seconds = radio.speak("Tower", "hold short of runway")
+        assert (speech, seconds) == (None, pytest.approx(4 / 150.0 * 60.0))
+    assert (lost, radio.has_sound) == (["no voice"], False)
+
+
+def test_what_ended_when_a_piece_of_a_persons_call_begins_is_not_heard_in_it() -> None:
+    """The piece begins with its 32,002nd sample; the other call began between two samples."""
+    sample_ns = SECOND_NS // SAMPLE_RATE_HZ
+    first, begin = 2 * SAMPLE_RATE_HZ + 1, 4 * SAMPLE_RATE_HZ + 1
+    said = Utterance("person", KHZ, "AAL1", None, "")
+    person = OnAir(said, 0, 5 * SECOND_NS, spoken(5.0), is_open_ended=True)
+    said = Utterance("other", KHZ, "Tower", None, "")
+    begun_ns = SAMPLE_RATE_HZ * sample_ns + 3 * sample_ns // 2
+    other = OnAir(said, begun_ns, first * sample_ns, spoken(1.0))
+
+    def received(mixed_with: tuple[OnAir, ...]) -> bytes:
+        return audio_radio().receive(person, mixed_with, "none", begin, 5 * SECOND_NS)
+
+    assert received((other,)) == received(())
+
+
 # --- a person's microphone ----------------------------------------------------------------------
 
 IRREGULAR_S = [0.02, 0.31, 0.05, 0.48, 0.02, 0.6, 0.1, 0.42]
