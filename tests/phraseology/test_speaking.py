@@ -38,6 +38,7 @@ ON_FREQUENCY = ("AAL123", "BAW38", "DLH4AB", "UAL1200", "N172SP", "G-ABCD", "OPS
         ("AAL123", "American one twenty three", "American one two tree"),
         ("BAW38", "Speedbird thirty eight", "Speedbird tree eight"),
         ("UAL1200", "United twelve hundred", "United one two zero zero"),
+        ("UAL100", "United one hundred", "United one zero zero"),
         ("FDX1602", "Fedex sixteen zero two", "Fedex one six zero two"),
         ("DLH4AB", "Lufthansa four alfa bravo", "Lufthansa fower alfa bravo"),
         ("SWA5", "Southwest five", "Southwest fife"),
