@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections import deque
+from collections import defaultdict, deque
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
@@ -127,7 +127,7 @@ class VisualTrack:
     _first_box: Box | None = None
     _explained_ns: int = 0
     _looks: deque[_Look] = field(default_factory=lambda: deque(maxlen=LOOKS + 1))
-    _votes: dict[VisibleClass, float] = field(default_factory=dict)
+    _votes: defaultdict[VisibleClass, float] = field(default_factory=lambda: defaultdict(float))
 
     @property
     def last(self) -> Observation:
@@ -183,7 +183,7 @@ class VisualTrack:
         self.observations.append(observation)
         while observation.t_ns - self.observations[0].t_ns > OBSERVED_NS:
             self.observations.popleft()
-        self._votes[label] = self._votes.get(label, 0.0) + observation.confidence
+        self._votes[label] += observation.confidence
         self._look(observation.t_ns, observation.confidence)
         if explained_by is not None:
             self.explained_by, self._explained_ns = explained_by, observation.t_ns

@@ -296,6 +296,13 @@ def test_who_climbs_up_from_below_is_in_the_air_for_all_that() -> None:
     assert told[-1].severity is Severity.WARNING
 
 
+@pytest.mark.parametrize("closing_m_s", [130.0, 170.0])
+def test_who_will_pass_wide_of_the_nose_is_no_matter(closing_m_s: float) -> None:
+    """It nears and grows as surely as one on a collision course, and passes 50 spans aside."""
+    assert watching(closing_camera(closing_m_s, 550.0, 22.0, 6.0), 6.0) == []
+    assert watching(closing_camera(closing_m_s, 0.0, 22.0, 6.0), 6.0) != []
+
+
 def test_what_is_doubtful_in_all_pictures_is_not_certain_in_many() -> None:
     """A detector takes a cloud for an aircraft in every other picture, and it comes nearer."""
     cloud = closing_camera(130.0, 0.0, 15.0, 6.0, sizes=AIRLINER)

@@ -131,6 +131,13 @@ def test_a_departure_lights_them_ahead_from_30_knots_until_it_is_in_the_air() ->
     assert field.out("OPS3")[0] == pytest.approx(lifts_off_s, abs=3.5)
 
 
+def test_an_entrance_that_a_departure_passes_3_s_after_30_knots_stays_dark() -> None:
+    """At 2 m/s2 it has 30 kt after 7.7 s and 60 m, and passes an entrance 100 m on after 10 s."""
+    near, far = (comes_to_hold(0.0, along_m=along_m) for along_m in (150.0, 250.0))
+    assert not lit(Mover("AAL123", NORTH, takes_off(30.0)), near).red("OPS1")
+    assert lit(Mover("AAL123", NORTH, takes_off(30.0)), far).red("OPS1")
+
+
 def test_a_landing_lights_only_what_it_reaches_in_30_s_and_nothing_once_it_taxies() -> None:
     field = lit(arrival(), comes_to_hold(0.0, along_m=2050.0), seconds=160)
     assert field.out("OPS1")[0] < 110.0

@@ -57,6 +57,15 @@ def test_traffic_far_down_the_runway_is_alerted_before_the_touchdown_too() -> No
     assert warning_s == pytest.approx(15.0, abs=1.5)
 
 
+def test_who_crosses_slowly_near_the_threshold_is_met_where_it_crosses() -> None:
+    """On a runway that leads neither north nor east; the caution comes 30 s before."""
+    truck = Mover("OPS1", SOUTHEAST, drives(-8.0, along_m=100.0, speed_m_s=3.0), category="C2")
+    field = airfield(Mover("AAL123", SOUTHEAST, lands(THRESHOLD_S)), truck)
+    (first, left_s), *_ = times(field)
+    met_s = THRESHOLD_S + 100.0 / APPROACH_M_S
+    assert (first, TOUCHDOWN_S - left_s) == ("CAUTION", pytest.approx(met_s - 30.0, abs=1.0))
+
+
 def test_the_crew_is_told_what_is_there_and_nobody_else_is_told() -> None:
     field = airfield(arrival(), Mover("OPS1", NORTH, stands(800.0), category="C2"))
     assert {told.recipient for _, told in field.told} == {"AAL123"}

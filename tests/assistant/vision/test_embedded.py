@@ -89,6 +89,13 @@ def test_pictures_of_any_size_give_boxes_within_them(
             assert 0.0 <= top < bottom <= rows
 
 
+@pytest.mark.parametrize("shape", [(0, 0, 3), (0, 640, 3), (360, 0, 3)])
+def test_in_a_picture_without_pixels_there_is_nothing(
+    detector: EmbeddedDetector, shape: tuple[int, ...]
+) -> None:
+    assert detector.detect(np.zeros(shape, np.uint8)) == []
+
+
 def test_in_an_even_picture_there_is_nothing(detector: EmbeddedDetector) -> None:
     for level in (0, 90, 200, 255):
         assert not detector.detect(np.full((360, 640, 3), level, dtype=np.uint8))
@@ -222,6 +229,16 @@ def test_a_network_of_another_shape_is_named(tmp_path: Path) -> None:
     path = copy(tmp_path)
     shutil.copy(recogniser.MODEL / "ctc.onnx", path)
     with pytest.raises(VisionError, match=r"detector\.onnx has .*; expected a network of tools/"):
+        EmbeddedDetector(path)
+
+
+@pytest.mark.parametrize(("name", "other"), [(b"picture", b"drawing"), (b"found", b"shown")])
+def test_a_network_that_only_takes_or_only_gives_something_else_is_named(
+    tmp_path: Path, name: bytes, other: bytes
+) -> None:
+    path = copy(tmp_path)
+    path.write_bytes(path.read_bytes().replace(name, other))
+    with pytest.raises(VisionError, match=rf"detector\.onnx has .*'{other.decode()}'.*; expected"):
         EmbeddedDetector(path)
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from functools import partial
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, cast
 
 import pytest
 
@@ -27,6 +27,7 @@ from airhilt.sensors.radio.conversation import RadioConversation
 from airhilt.sensors.radio.hearing import Heard, HearingModel
 from airhilt.sensors.radio.listeners import TRANSCRIPT_PATIENCE_S
 from airhilt.sensors.radio.readback_policy import MOST_REPEATS, REPEAT_AFTER_S, REPEAT_SPREAD_S
+from airhilt.sensors.radio.seats import Seats
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director, Priority, Virtual
 from airhilt.units import FOOT, SECOND_NS, seconds_to_ns
@@ -197,6 +198,18 @@ def test_a_call_that_is_missed_is_made_again_and_its_readback_waits_for_that() -
     assert world.hearings("AAL123") == [
         ("clearance", "missed"), ("clearance.repeat-1", "understood"),
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize("unit", ["Atlanta Centre", "Washington Centre"])
+def test_an_answer_that_tells_somebody_to_act_is_made_again_if_it_is_missed(unit: str) -> None:
+    check = line("check", 2, "DAL456", unit, f"{unit}, Delta four five six.")
+    answer = line(
+        "answer", 10, unit, "DAL456", "Delta four five six, climb flight level three three zero.",
+        answers="check", commands=[{"actor": "DAL456", "command": CLIMB}],
+    )  # fmt: skip
+    world = World(check, answer, heard={("answer", "DAL456"): MISSED}).run()
+    assert world.said() == ["check", "answer", "answer.repeat-1"]
+    assert [who for who, _, _ in world.done] == ["DAL456"]
 
 
 def test_one_who_is_not_sure_asks_again() -> None:
@@ -585,6 +598,18 @@ def test_without_a_transcript_a_crew_that_reads_misses_the_call_after_20_s() -> 
     waited_s = (again.t_tx_ns - first.t_end_ns) / SECOND_NS
     soonest_s = TRANSCRIPT_PATIENCE_S + REPEAT_AFTER_S
     assert soonest_s <= waited_s <= soonest_s + REPEAT_SPREAD_S
+
+
+@pytest.mark.parametrize("seat", [TOWER, "AAL123"])
+def test_what_a_person_says_is_of_a_person_however_little_of_it_is_understood(seat: str) -> None:
+    world = World(CLEARANCE, READBACK)
+    lines = world.scenario.radio.lines
+    stations = Stations(cast(Any, world.actors), ScenarioSite.of(world.scenario), lines)
+    seats = Seats([seat], stations, {}, world.publish, lambda: 0)
+    mumbled, spoken = seats.unclear(seat, KHZ, "..."), seats.make(seat, KHZ, READBACK["text"])
+    assert (mumbled.speaker, spoken.speaker) == (seat, seat)
+    assert mumbled.is_of_person
+    assert spoken.is_of_person
 
 
 @pytest.mark.parametrize("topology", ["parallel", "asr_first", "gated_fusion"])

@@ -1,0 +1,307 @@
+"""Single steps of a decision, each against what follows from geometry, kinematics or symmetry."""
+
+from __future__ import annotations
+
+import math
+from types import SimpleNamespace
+from typing import Any, cast
+
+import numpy as np
+import pytest
+
+from airfield import BRIEFING, FIELD, NORTH, charted, degrees
+from airhilt.assistant.decision.aerodrome import Aerodrome, Vector, Way
+from airhilt.assistant.decision.approach import Approach
+from airhilt.assistant.decision.clarifications import Clarifications
+from airhilt.assistant.decision.clearances import Clearances
+from airhilt.assistant.decision.guard import Doubt, Guard
+from airhilt.assistant.decision.intruder_advice import evasion
+from airhilt.assistant.decision.line_of_sight import GroundFix, PictureGeometry
+from airhilt.assistant.decision.loss_prediction import SeparationStandard, predict
+from airhilt.assistant.decision.mobiles import Mobile, use_of
+from airhilt.assistant.decision.occupancy import velocity_of
+from airhilt.assistant.decision.occupied_runway import _cannot_stop
+from airhilt.assistant.decision.runway_advice import advice
+from airhilt.assistant.decision.tcas_tracks import IntruderTrack
+from airhilt.assistant.decision.tracks import Track
+from airhilt.assistant.decision.visual_tracks import Observation
+from airhilt.messages import (
+    AdsbReport,
+    AirportBriefing,
+    Climb,
+    HoldPosition,
+    Severity,
+    TcasReply,
+    Transcript,
+)
+from airhilt.phraseology import Instruction, parse_call
+from airhilt.units import FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
+from projected import TRUCK, Body, Camera, standing
+
+assert BRIEFING.airport is not None
+AERODROME = Aerodrome(BRIEFING.airport)
+
+
+def report(**given: Any) -> AdsbReport:
+    usual = {
+        "icao24": "a1b2c3", "callsign": "AAL123", "t_adsb_in_ns": 0, "t_adsb_out_ns": 0,
+        "latitude_deg": 38.85, "longitude_deg": -77.04, "altitude_ft": 4000.0,
+        "ground_speed_kt": 140.0, "track_deg": NORTH.course_deg, "vertical_rate_fpm": 0.0,
+        "nacp": 9, "nacv": 2, "receiver": "centre", "on_ground": False,
+    }  # fmt: skip
+    return AdsbReport.model_validate(usual | given)
+
+
+# --- the field ------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("longitude_deg", [-77.04, 13.5, 179.999])
+def test_the_local_frame_of_an_airport_begins_in_the_middle_of_its_thresholds(
+    longitude_deg: float,
+) -> None:
+    """Also where the runways lie on both sides of the 180th meridian."""
+    east_deg, north_deg = 0.02, 0.01
+    ends = [(50.0, longitude_deg), (50.0 + north_deg, longitude_deg + east_deg)]
+    first, second = ((latitude, math.remainder(longitude, 360.0)) for latitude, longitude in ends)
+    runways = [
+        charted(NORTH).model_copy(update={"ident": ident, "threshold": begin, "end": end})
+        for ident, begin, end in (("05", first, second), ("23", second, first))
+    ]
+    given = {"icao": "XFLD", "elevation_ft": 0.0, "runways": tuple(runways)}
+    field = Aerodrome(AirportBriefing.model_validate(given))
+    middle = (50.0 + north_deg / 2.0, math.remainder(longitude_deg + east_deg / 2.0, 360.0))
+    assert field.locate(*middle) == pytest.approx((0.0, 0.0), abs=0.1)
+
+
+# --- calls ----------------------------------------------------------------------------------
+
+
+def call(text: str, t_s: float = 0.0) -> Transcript:
+    t_ns = round(t_s * SECOND_NS)
+    return Transcript(
+        id=f"at {t_s}", frequency_khz=119_100, text=text, confidence=1.0, engine="text",
+        t_tx_ns=t_ns, t_end_ns=t_ns,
+    )  # fmt: skip
+
+
+def test_a_callsign_may_be_asked_about_again_after_a_whole_minute() -> None:
+    questions = Clarifications("s")
+
+    def asked(t_s: float) -> int:
+        said = Instruction("cross", "01")
+        doubt = Doubt("AAL123", "runway", 0.5, said, call("", t_s), is_answered=True)
+        return len(list(questions.ask(round(t_s * SECOND_NS), doubt, "DAL456")))
+
+    assert [asked(t_s) for t_s in (10.0, 69.999, 70.0)] == [1, 0, 1]
+
+
+@pytest.mark.parametrize(
+    ("words", "minutes"),
+    [
+        ("cleared to land runway one", 10),
+        ("cleared for takeoff runway one", 3),
+        ("line up and wait runway one", 5),
+        ("cross runway one", 1),
+    ],
+)
+def test_a_clearance_that_nobody_uses_is_in_force_for_whole_minutes(
+    words: str, minutes: int
+) -> None:
+    clearances = Clearances(Guard())
+    given = call(f"American one two three, {words}")
+    clearances.take(parse_call(given.text, ("AAL123",)), given)
+    (known,) = clearances.in_force(minutes * 60 * SECOND_NS)
+    assert known.callsign == "AAL123"
+    assert not list(clearances.in_force(minutes * 60 * SECOND_NS + 1))
+
+
+# --- what is seen ---------------------------------------------------------------------------
+
+
+def test_two_fixes_together_are_weighed_by_their_covariances() -> None:
+    rng = np.random.default_rng(4)
+    spreads = [spread @ spread.T for spread in rng.normal(size=(2, 2, 2)) * 5.0]
+    points = rng.normal(size=(2, 2)) * 10.0
+    first, second = (
+        GroundFix(Vector(*point), spread[0, 0], spread[1, 1], spread[0, 1])
+        for point, spread in zip(points, spreads, strict=True)
+    )
+    merged = first.merged(second)
+    weights = [np.linalg.inv(spread) for spread in spreads]
+    together = np.linalg.inv(sum(weights))
+    assert merged.point == pytest.approx(
+        together @ sum(weight @ point for weight, point in zip(weights, points, strict=True))
+    )
+    assert (merged.east_m2, merged.north_m2, merged.both_m2) == pytest.approx(
+        (together[0, 0], together[1, 1], together[0, 1])
+    )
+
+
+@pytest.mark.parametrize(("seconds", "share"), [(2.0, 1.0), (0.5, 0.0)])
+def test_what_drives_has_its_velocity_once_it_was_seen_for_a_second(
+    seconds: float, share: float
+) -> None:
+    def drives(t_s: float) -> tuple[tuple[float, float, float], float]:
+        return (6.0 * t_s, 80.0 + 8.0 * t_s, 0.0), 0.0
+
+    camera = Camera(
+        "c", FIELD, standing((0.0, 0.0, 30.0), 0.0, -20.0), [Body("truck", *TRUCK, drives)],
+        error_px=0.0,
+    )  # fmt: skip
+    pictures = [camera.detections(k * SECOND_NS // 8) for k in range(round(8 * seconds) + 1)]
+    observations = [
+        Observation.of(each.t_frame_ns, PictureGeometry(each.view), each.detections[0].box, 0.9)
+        for each in pictures
+    ]
+    seen = SimpleNamespace(
+        tracks=(SimpleNamespace(last=observations[-1], observations=observations),)
+    )
+    assert velocity_of(cast(Any, seen), AERODROME) == pytest.approx(
+        (6.0 * share, 8.0 * share), abs=0.5
+    )
+
+
+@pytest.mark.parametrize("vertical_ft", [450.0, 1000.0])
+def test_who_descends_goes_down_as_far_as_who_climbs_goes_up(vertical_ft: float) -> None:
+    level = SimpleNamespace(
+        label="airplane",
+        last=SimpleNamespace(
+            ray=SimpleNamespace(elevation_rad=0.0),
+            geometry=SimpleNamespace(view=SimpleNamespace(height_m=3000.0)),
+        ),
+    )
+    straight = Approach(0.05, 0.001, 0.001, (0.0, 0.0), 0.001, 0.01)
+    up, down = (
+        evasion(cast(Any, level), straight, report(vertical_rate_fpm=rate), vertical_ft * FOOT)
+        for rate in (500.0, -500.0)
+    )
+    assert isinstance(up, Climb)
+    assert isinstance(down, Climb)
+    assert (up.sense, down.sense) == ("climb", "descend")
+    assert up.altitude_ft is not None
+    assert down.altitude_ft is not None
+    assert up.altitude_ft - 4000.0 == 4000.0 - down.altitude_ft > vertical_ft
+
+
+# --- in the air -----------------------------------------------------------------------------
+
+
+def flying(north_m: float, east_m: float, north_m_s: float) -> Track:
+    latitude, longitude = FIELD.to_place(east_m, north_m)
+    return Track("a1b2c3", "AAL123", 0, latitude, longitude, 10_000.0, north_m_s, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(("distance_m", "is_over"), [(45_000.0, False), (90_000.0, True)])
+def test_two_that_pass_clear_are_no_matter_while_no_turn_could_bring_them_together(
+    distance_m: float, is_over: bool
+) -> None:
+    """They near each other with 240 m/s, 15 km to the side: 43 km within the 180 s that count."""
+    first, second = flying(0.0, 0.0, 120.0), flying(distance_m, 15_000.0, -120.0)
+    found = predict(first, second, SeparationStandard(), None, is_on_ground=False, is_told=False)
+    assert found.time_to_loss_s is None
+    assert found.is_over is is_over
+
+
+def test_a_track_has_the_last_callsign_that_was_reported() -> None:
+    track = Track.of(report(callsign=None), 4000.0)
+    assert track.callsign == "a1b2c3"
+    for t_ns, callsign in enumerate(("AAL123", None, "AAL124"), start=1):
+        track.update(report(callsign=callsign, t_adsb_in_ns=t_ns), 4000.0)
+        assert track.callsign == (callsign or "AAL123")
+
+
+@pytest.mark.parametrize(("mode", "step_ft"), [("S", 25), ("C", 100)])
+def test_the_track_of_an_intruder_comes_to_its_altitude_and_its_climb(
+    mode: str, step_ft: int
+) -> None:
+    """It climbs steadily with 1,500 ft/min; replies have steps of 25 ft, or of 100 ft in Mode C."""
+
+    def reply(t_s: int) -> TcasReply:
+        altitude_ft = 8000.0 + 25.0 * t_s
+        return TcasReply.model_validate(
+            {
+                "t_ns": t_s * SECOND_NS, "callsign": "AAL123", "own_icao24": "a1b2c3",
+                "icao24": "a0c172" if mode == "S" else None, "mode": mode,
+                "range_m": 20_000.0 - 100.0 * t_s, "bearing_deg": 0.0,
+                "altitude_ft": step_ft * round(altitude_ft / step_ft), "has_tcas": False,
+                "on_ground": False,
+            }
+        )  # fmt: skip
+
+    track = IntruderTrack.of(reply(0))
+    for t_s in range(1, 60):
+        assert track.misfit(reply(t_s)) is not None  # It is taken for the same aircraft.
+        track.update(reply(t_s))
+    now = track.vertical(59 * SECOND_NS)
+    assert now.altitude_m / FOOT == pytest.approx(8000.0 + 25.0 * 59, abs=100.0)
+    assert now.rate_m_s / FOOT_PER_MINUTE == pytest.approx(1500.0, rel=0.4)
+
+
+# --- at a runway ----------------------------------------------------------------------------
+
+
+def near(along_m: float, height_m: float, **given: Any) -> Mobile:
+    latitude_deg, longitude_deg = degrees(NORTH.local(along_m, 0.0))
+    altitude_ft = (AERODROME.ground_m + height_m) / FOOT
+    return Mobile.of(
+        report(altitude_ft=altitude_ft, **given), AERODROME.locate(latitude_deg, longitude_deg)
+    )
+
+
+@pytest.mark.parametrize(
+    ("degrees_off", "kind"),
+    [(0.0, "arrival"), (10.0, "arrival"), (-10.0, "arrival"), (30.0, None), (-45.0, None)],
+)
+def test_who_flies_across_the_final_does_not_land(degrees_off: float, kind: str | None) -> None:
+    mobile = near(-3000.0, 150.0, vertical_rate_fpm=-700.0, track_deg=(4.0 + degrees_off) % 360.0)
+    use = use_of(mobile, AERODROME.strips)
+    assert (use and use.kind) == kind
+
+
+@pytest.mark.parametrize(
+    ("height_m", "vertical_rate_fpm", "kind"),
+    [(160.0, -700.0, "arrival"), (160.0, 0.0, None), (1500.0, -700.0, None)],
+)
+def test_who_is_too_high_or_flies_level_over_the_final_does_not_land(
+    height_m: float, vertical_rate_fpm: float, kind: str | None
+) -> None:
+    """A glide path of 5 degrees and 150 m more is at 412 m there, 3 km before the threshold."""
+    mobile = near(-3000.0, height_m, vertical_rate_fpm=vertical_rate_fpm)
+    use = use_of(mobile, AERODROME.strips)
+    assert (use and use.kind) == kind
+
+
+@pytest.mark.parametrize("speed_m_s", [5.0, 10.0, 20.0])
+@pytest.mark.parametrize("share", [0.9, 1.1])
+def test_who_can_stop_short_of_the_pavement_with_firm_braking_is_told_to(
+    speed_m_s: float, share: float
+) -> None:
+    """Braking with 2.5 m/s2 takes v^2 / 5 m."""
+    (strip,) = (strip for strip in AERODROME.strips if strip.name == "01/19")
+    along_m, across_m = 700.0, -(22.5 + share * speed_m_s**2 / 5.0)
+    latitude_deg, longitude_deg = degrees(NORTH.local(along_m, across_m))
+    given = report(
+        altitude_ft=None, on_ground=True, ground_speed_kt=speed_m_s / KNOT, emitter_category="C2",
+        track_deg=NORTH.course_deg + 90.0,
+    )  # fmt: skip
+    mobile = Mobile.of(given, AERODROME.locate(latitude_deg, longitude_deg))
+    threat = SimpleNamespace(strip=strip, runway="01", finding=None, kind="runway_conflict")
+    nobody = SimpleNamespace(use=lambda _: None)
+    told = advice(mobile, cast(Any, threat), Severity.WARNING, cast(Any, nobody), cast(Any, None))
+    assert told == (HoldPosition(runway="01") if share > 1.0 else None)
+
+
+@pytest.mark.parametrize(("margin_m", "cannot"), [(0.5, True), (-0.5, False)])
+def test_an_error_of_position_to_one_side_is_that_of_one_axis(
+    margin_m: float, cannot: bool
+) -> None:
+    """Of a circular normal error with a 95 % radius of 30 m, one axis errs by more than 20.16 m
+    to one side in 5 % of cases: 1.645 of its standard deviations, of which 30 m are 2.4477."""
+    error_m = 1.645 / 2.4477 * 30.0
+    braking_m = 8.0**2 / (2.0 * 4.0)
+    line_m = braking_m - error_m - margin_m
+    obstacle = SimpleNamespace(
+        mobile=SimpleNamespace(nacp=9, speed_m_s=8.0), way=Way(line_m + 50.0, line_m + 150.0)
+    )
+    strip = SimpleNamespace(margin_m=lambda _: 50.0)
+    assert _cannot_stop(cast(Any, obstacle), cast(Any, strip), 0.67, 0.0) is cannot
