@@ -16,6 +16,7 @@ import argparse
 import itertools
 import json
 import math
+import random
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import NamedTuple
@@ -26,12 +27,20 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from airhilt.assistant.asr.beam_search import BeamSearch
-from airhilt.assistant.asr.engines.embedded import Ctc
+from airhilt.assistant.asr.engines.embedded import Ctc, Emission
 from airhilt.assistant.asr.language import Language
 from airhilt.assistant.asr.pieces import Pieces
+from airhilt.metrics.words import in_words
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.channel import VhfChannel
-from eval_asr import SpokenCall, noise_alone, rosters_for, spoken
+from eval_asr import (
+    SpokenCall,
+    noise_alone,
+    one_digit_off,
+    rosters_for,
+    spoken,
+    word_error_rate,
+)
 
 MOST_TALKATIVE = 0.005
 """Largest share of transmissions without speech that may give words."""
@@ -41,15 +50,37 @@ WEIGHTS, REWARDS = (0.0, 0.2, 0.4, 0.6, 0.8), (0.0, 1.0, 2.0, 3.0)
 WEIGHED_CALLS, WEIGHED_RATIOS = 60, (None, 10.0, 3.0)
 """Calls, and ratios, that they are tried with."""
 RATIOS = (None, 20.0, 10.0, 6.0, 3.0, 0.0, -3.0)
+MISLEADING_SHARE = 0.1
+"""Share of the rosters that have a callsign one digit off instead of the one that is said."""
 
 
 class HeardCall(NamedTuple):
     """Recognised call: words, their posteriors, and which words are right."""
 
-    reference: list[str]
-    hypothesis: list[str]
-    posteriors: list[float]
+    reference: str
+    path: list[Emission]
     right: list[bool]
+    """Whether each word of the path was said there."""
+
+    def text(self, kept: NDArray[np.bool_]) -> str:
+        """Return the words that are kept."""
+        return " ".join(each.word for each, is_kept in zip(self.path, kept, strict=True) if is_kept)
+
+
+class Curves(NamedTuple):
+    """Curves of a word, and of a callsign that was found."""
+
+    word: dict[str, float]
+    callsign: dict[str, float]
+
+    def __call__(self, path: Sequence[Emission]) -> NDArray[np.float64]:
+        """Return the confidence of each word."""
+        posteriors = np.array([each.posterior for each in path])
+        return np.where(
+            [each.is_callsign for each in path],
+            logistic(self.callsign, posteriors),
+            logistic(self.word, posteriors),
+        )
 
 
 def fit(posteriors: NDArray[np.float64], right: NDArray[np.bool_]) -> dict[str, float]:
@@ -79,23 +110,21 @@ def main() -> None:
     parser.add_argument("model", type=Path)
     given = parser.parse_args()
     utterances = [each for path in sorted(given.folder.glob("*.jsonl")) for each in spoken(path)]
-    rosters = rosters_for(utterances)
+    rosters = misleading(utterances, rosters_for(utterances))
     weigh(given.model, utterances)
     engine = Ctc(given.model)
     calls = list(heard_calls(engine, utterances, rosters))
     silent = [
-        [emission.posterior for emission in engine.path(engine.posteriors(audio), rosters[0])]
+        engine.path(engine.posteriors(audio), rosters[0])
         for audio in noise_alone(SILENT_CALLS, seed=6)
     ]
-    word_curve = fit(
-        np.array([posterior for call in calls for posterior in call.posteriors]),
-        np.array([right for call in calls for right in call.right]),
-    )
-    threshold, talkative = quietest_threshold(word_curve, silent)
-    least, errors = best_threshold(word_curve, calls)
+    curves = curves_of(calls)
+    threshold, talkative = quietest_threshold(curves, silent)
+    least, errors = best_threshold(curves, calls)
     card = json.loads((given.model / "card.json").read_text())
-    card["word_calibration"] = word_curve
-    card["call_calibration"] = call_calibration(word_curve, calls, least)
+    card["word_calibration"] = curves.word
+    card["callsign_calibration"] = curves.callsign
+    card["call_calibration"] = call_calibration(curves, calls, least)
     card["least_word_confidence"] = least
     card["best_word_threshold"] = threshold
     card["calibrated_on"] = {
@@ -128,7 +157,7 @@ def weigh(model: Path, utterances: Sequence[SpokenCall]) -> None:
     for weight, reward in itertools.product(WEIGHTS, REWARDS):
         search = BeamSearch(language, weight, reward)
         found = [pieces.text(search.units(posteriors)) for _, posteriors in calls]
-        tried.append((jiwer.wer([text for text, _ in calls], found), weight, reward))
+        tried.append((word_error_rate([text for text, _ in calls], found), weight, reward))
     _, weight, reward = min(tried)
     card = json.loads((model / "card.json").read_text())
     card |= {"language_weight": weight, "piece_reward": reward}
@@ -147,68 +176,90 @@ def heard_calls(
             rng = np.random.default_rng([index, 77 if snr_db is None else int(snr_db) + 10])
             heard = channel.transmit(each.speech, snr_db, rng, (), "cockpit")
             path = engine.path(engine.posteriors(heard), rosters[index])
-            hypothesis = [emission.word for emission in path]
-            yield HeardCall(
-                each.text.split(),
-                hypothesis,
-                [emission.posterior for emission in path],
-                right_words(each.text, hypothesis),
-            )
+            yield HeardCall(each.text, path, right_words(each.text, [word.word for word in path]))
+
+
+def misleading(
+    utterances: Sequence[SpokenCall], rosters: Sequence[tuple[str, ...]]
+) -> list[tuple[str, ...]]:
+    """Return rosters of which `MISLEADING_SHARE` have a callsign one digit off the right one."""
+    rng = random.Random(79)
+    changed = []
+    for each, roster in zip(utterances, rosters, strict=True):
+        said = each.callsign
+        if said and any(map(str.isdigit, said)) and rng.random() < MISLEADING_SHARE:
+            other = one_digit_off(said, rng)
+            roster = tuple(other if name == said else name for name in roster)
+        changed.append(roster)
+    return changed
 
 
 def right_words(reference: str, hypothesis: Sequence[str]) -> list[bool]:
-    """Return for each recognised word whether it was said there."""
+    """Return for each recognised word whether it was said there, in this or another spelling."""
     right = [False] * len(hypothesis)
     if hypothesis:
-        for chunk in jiwer.process_words(reference, " ".join(hypothesis)).alignments[0]:
+        said, heard = (" ".join(map(_spelled, words)) for words in (reference.split(), hypothesis))
+        for chunk in jiwer.process_words(said, heard).alignments[0]:
             if chunk.type == "equal":
                 for at in range(chunk.hyp_start_idx, chunk.hyp_end_idx):
                     right[at] = True
     return right
 
 
-def call_calibration(
-    curve: dict[str, float], calls: Sequence[HeardCall], least: float
-) -> dict[str, float]:
+def _spelled(word: str) -> str:
+    """Return a word as one token, in the spelling in which words are compared."""
+    return "_".join(in_words(word)) or word
+
+
+def curves_of(calls: Sequence[HeardCall]) -> Curves:
+    """Fit the curve of words, and that of callsigns; one is right if all its words are."""
+    words, callsigns = [], []
+    for call in calls:
+        pairs = list(zip(call.path, call.right, strict=True))
+        words += [(each.posterior, right) for each, right in pairs if not each.is_callsign]
+        found = [(each.posterior, right) for each, right in pairs if each.is_callsign]
+        if found:
+            callsigns.append((found[0][0], all(right for _, right in found)))
+    return Curves(*(fit(*map(np.array, zip(*each, strict=True))) for each in (words, callsigns)))
+
+
+def call_calibration(curves: Curves, calls: Sequence[HeardCall], least: float) -> dict[str, float]:
     """Return the curve of whole calls, of which words below the least confidence are left out."""
     confidences, whole = [], []
     for call in calls:
-        if not call.posteriors:
+        if not call.path:
             continue
-        trust = logistic(curve, np.array(call.posteriors))
-        kept = [word for word, t in zip(call.hypothesis, trust, strict=True) if t >= least]
+        trust = curves(call.path)
         confidences.append(float(np.prod(trust)))
-        whole.append(kept == call.reference)
+        whole.append(in_words(call.text(trust >= least)) == in_words(call.reference))
     return fit(np.array(confidences), np.array(whole))
 
 
-def quietest_threshold(curve: dict[str, float], silent: list[list[float]]) -> tuple[float, float]:
+def quietest_threshold(curves: Curves, silent: Sequence[Sequence[Emission]]) -> tuple[float, float]:
     """Return the confidence that the best word must have, and the share of silence that passes.
 
     The result is the least at which `MOST_TALKATIVE` of them do.
     """
-    best = logistic(curve, np.array([max(each, default=0.0) for each in silent]))
+    best = np.array([curves(path).max(initial=0.0) for path in silent])
     least = math.ceil(100.0 * float(np.quantile(best, 1.0 - MOST_TALKATIVE))) / 100.0
-    has_words = np.array([bool(each) for each in silent])
+    has_words = np.array([bool(path) for path in silent])
     return least, float(np.mean(has_words & (best >= least)))
 
 
-def best_threshold(curve: dict[str, float], calls: Sequence[HeardCall]) -> tuple[float, float]:
+def best_threshold(curves: Curves, calls: Sequence[HeardCall]) -> tuple[float, float]:
     """Return the least confidence of a word that is kept, and the word error rate with it."""
-    references = [" ".join(call.reference) for call in calls]
-    rates = []
-    for least in np.arange(0.0, 0.8, 0.05):
-        kept = [
-            " ".join(
-                word
-                for word, trust in zip(
-                    call.hypothesis, logistic(curve, np.array(call.posteriors)), strict=True
-                )
-                if trust >= least
-            )
-            for call in calls
-        ]
-        rates.append((float(jiwer.wer(references, kept)), float(least)))
+    references = [call.reference for call in calls]
+    trusts = [curves(call.path) for call in calls]
+    rates = [
+        (
+            word_error_rate(
+                references,
+                [call.text(trust >= least) for call, trust in zip(calls, trusts, strict=True)],
+            ),
+            float(least),
+        )
+        for least in np.arange(0.0, 0.8, 0.05)
+    ]
     errors, least = min(rates)
     return round(least, 2), errors
 

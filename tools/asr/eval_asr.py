@@ -17,7 +17,7 @@ import json
 import random
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -28,6 +28,7 @@ from numpy.typing import NDArray
 
 from airhilt.assistant.asr.engines import asr_engine
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
+from airhilt.metrics.words import in_words
 from airhilt.phraseology import parse_call
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.channel import BackgroundNoise, VhfChannel
@@ -85,7 +86,16 @@ class Score:
     @property
     def word_error_rate(self) -> float:
         """Share of words."""
-        return float(jiwer.wer(self.references, self.hypotheses))
+        return word_error_rate(self.references, self.hypotheses)
+
+
+def word_error_rate(references: Sequence[str], hypotheses: Sequence[str]) -> float:
+    """Return the share of wrong words, compared in the form of `airhilt.metrics.words.in_words`."""
+    return float(jiwer.wer(_in_words(references), _in_words(hypotheses)))
+
+
+def _in_words(texts: Iterable[str]) -> list[str]:
+    return [" ".join(in_words(text)) for text in texts]
 
 
 def spoken(path: Path) -> Iterator[SpokenCall]:
@@ -196,7 +206,13 @@ def reliability(scores: list[Score]) -> list[tuple[str, int, float, float]]:
     """Return confidence bins: label, calls, mean confidence, share that is wholly right."""
     confidences = np.array([c for s in scores for c in s.confidences])
     right = np.array(
-        [r == h for s in scores for r, h in zip(s.references, s.hypotheses, strict=True)]
+        [
+            reference == heard
+            for each in scores
+            for reference, heard in zip(
+                _in_words(each.references), _in_words(each.hypotheses), strict=True
+            )
+        ]
     )
     rows = []
     for low in np.arange(0.0, 1.0, 0.1):

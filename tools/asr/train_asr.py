@@ -1,9 +1,10 @@
 """Trains the embedded recogniser on speech that `asr_speech` has made, and writes its ONNX file.
 
 A TDNN-CTC network (temporal convolutions with residuals) whose units are the word pieces of
-`learn_pieces`, so that it can write words that no training text has. Noise and levels vary anew
-each time an utterance is seen: they are mixed as mel powers, which costs next to nothing. A share
-of the calls really went through `airhilt.sensors.radio.channel`.
+`learn_pieces`, so that it can write words that no training text has. Its inside has a step of
+60 ms, which is cheap, and its output one of 30 ms, in which single letters fit. Noise and levels
+vary anew each time an utterance is seen: they are mixed as mel powers, which costs next to nothing.
+A share of the calls really went through `airhilt.sensors.radio.channel`.
 
     python tools/asr/learn_pieces.py build/asr/pieces.txt
     python tools/asr/train_asr.py prepare build/asr/train     (as often as there are new shards)
@@ -28,6 +29,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import onnx
 import torch
 from torch import Tensor, nn
 
@@ -38,47 +40,77 @@ from airhilt.sensors.radio.channel import VhfChannel
 from synthesisers import FAMILY
 
 STRIDE = 6
-"""Frames of features to one of the output: 60 ms."""
-WIDTH, NARROW = 224, 128
+"""Frames of features to a step inside the network: 60 ms."""
+OUTPUTS = 2
+"""Steps of the output to one inside."""
+WIDTH, NARROW, SQUEEZED = 256, 128, 32
 DILATIONS = (1, 1, 2, 1, 2, 4, 1, 2)
 HALFWAY, HALFWAY_WEIGHT = 4, 0.3
 """Block after which the pieces are asked for too, and the weight of that loss (intermediate CTC:
 Lee and Watanabe, ICASSP 2021)."""
-BATCH_FRAMES = 9_000
-EASY_SHARE = 0.06
-"""Share of the steps at the beginning in which only short, clear calls are drawn, unless a training
-begins with weights."""
+BATCH_FRAMES = 12_000
+EASY_SHARE, CLEAR_SHARE = 0.06, 0.3
+"""Shares of the steps at the beginning in which only short, clear calls are drawn, and in which no
+call has much noise, unless a training begins with weights."""
+LARGE = 10_000
+"""Weights from which on a matrix is kept in half precision."""
 REAL_SHARE = 0.25
 """Share of the utterances that `prepare` also sends through the real channel, with noise."""
 
 
+class Convolution(nn.Module):
+    """A convolution over time whose weights are a matrix, as `torch.optim.Muon` asks for."""
+
+    def __init__(
+        self, inputs: int, outputs: int, size: int, *, stride: int = 1, dilation: int = 1
+    ) -> None:
+        super().__init__()
+        begin = nn.Conv1d(inputs, outputs, size)
+        self.weight = nn.Parameter(begin.weight.detach().flatten(1))
+        self.bias = nn.Parameter(begin.weight.new_zeros(outputs))
+        self.size, self.stride, self.dilation = size, stride, dilation
+
+    def forward(self, x: Tensor) -> Tensor:
+        """Return (batch, outputs, frames / stride)."""
+        weight = self.weight.unflatten(1, (-1, self.size))
+        padding = self.dilation * (self.size // 2)
+        return nn.functional.conv1d(x, weight, self.bias, self.stride, padding, self.dilation)
+
+
 class Residual(nn.Module):
-    """A convolution with a way round it."""
+    """A convolution with a way round it, whose channels the whole call weighs.
+
+    Squeeze and excitation: Hu et al., CVPR 2018; for speech: Han et al., Interspeech 2020.
+    """
 
     def __init__(self, width: int, dilation: int) -> None:
         super().__init__()
-        self.convolve = nn.Conv1d(width, width, 5, padding=2 * dilation, dilation=dilation)
+        self.convolve = Convolution(width, width, 5, dilation=dilation)
         self.norm = nn.BatchNorm1d(width)
+        self.squeeze = nn.Linear(width, SQUEEZED)
+        self.excite = nn.Linear(SQUEEZED, width)
         self.drop = nn.Dropout1d(0.05)
 
     def forward(self, x: Tensor) -> Tensor:
         """Return the same shape."""
-        return x + self.drop(torch.relu(self.norm(self.convolve(x))))
+        y = torch.relu(self.norm(self.convolve(x)))
+        weights = torch.sigmoid(self.excite(torch.relu(self.squeeze(y.mean(2)))))
+        return x + self.drop(y * weights[:, :, None])
 
 
 class Recogniser(nn.Module):
-    """Log-mel features (batch, frames, bins) to logits (batch, frames / 6, pieces + 1)."""
+    """Log-mel features (batch, frames, bins) to logits (batch, frames / 3, pieces + 1)."""
 
     def __init__(self, pieces: int) -> None:
         super().__init__()
         self.front = nn.Sequential(
-            nn.Conv1d(BINS, NARROW, 5, stride=2, padding=2), nn.BatchNorm1d(NARROW), nn.ReLU(),
-            nn.Conv1d(NARROW, WIDTH, 5, stride=3, padding=2), nn.BatchNorm1d(WIDTH), nn.ReLU(),
+            Convolution(BINS, NARROW, 5, stride=2), nn.BatchNorm1d(NARROW), nn.ReLU(),
+            Convolution(NARROW, WIDTH, 5, stride=3), nn.BatchNorm1d(WIDTH), nn.ReLU(),
         )  # fmt: skip
         blocks = [Residual(WIDTH, dilation) for dilation in DILATIONS]
         self.lower = nn.Sequential(*blocks[:HALFWAY])
         self.upper = nn.Sequential(*blocks[HALFWAY:])
-        self.head = nn.Conv1d(WIDTH, pieces + 1, 1)
+        self.head = nn.Linear(WIDTH, OUTPUTS * (pieces + 1))
 
     def forward(self, features: Tensor) -> Tensor:
         """Return the logits."""
@@ -87,10 +119,12 @@ class Recogniser(nn.Module):
     def both(self, features: Tensor) -> tuple[Tensor, Tensor]:
         """Return the logits halfway and at the end."""
         halfway = self.lower(self.front(features.transpose(1, 2)))
-        return (
-            self.head(halfway).transpose(1, 2),
-            self.head(self.upper(halfway)).transpose(1, 2),
-        )
+        return self._logits(halfway), self._logits(self.upper(halfway))
+
+    def _logits(self, x: Tensor) -> Tensor:
+        """Return `OUTPUTS` steps of logits for each step inside."""
+        steps = self.head(x.transpose(1, 2))
+        return steps.reshape(steps.shape[0], -1, steps.shape[2] // OUTPUTS)
 
 
 # --- data ----------------------------------------------------------------------------------
@@ -208,8 +242,16 @@ class Mixer:
         self._rng = np.random.default_rng(seed)
         self._bank = noise_bank()
 
-    def mix(self, utterance: Utterance, easy: bool) -> np.ndarray:
-        """Return the features of a call as they may be, without much noise if it is ``easy``."""
+    def mix(self, utterance: Utterance, easy: bool, clear: bool) -> np.ndarray:
+        """Return the features of a call as they may be.
+
+        Parameters
+        ----------
+        easy
+            Whether it is neither warped nor masked, nor has much noise.
+        clear
+            Whether it has not much noise.
+        """
         rng = self._rng
         log = utterance.mel.astype(np.float32)
         if utterance.real:
@@ -218,8 +260,8 @@ class Mixer:
             log = self._warped(log)
         power = np.exp(log)
         kind = rng.random()
-        if easy:
-            snr_db = rng.uniform(15, 35)
+        if easy or clear:
+            snr_db = rng.uniform(12, 35)
         elif kind < 0.55:
             snr_db = rng.uniform(-4, 14)
         else:
@@ -315,11 +357,11 @@ def train(given: Training) -> None:
     pieces = pieces_of(given.into)
     torch.manual_seed(given.seed)
     network = Recogniser(len(pieces))
-    optimiser = torch.optim.AdamW(network.parameters(), lr=given.rate, weight_decay=0.01)
+    optimisers = optimisers_of(network, given.rate)
     checkpoint = given.into / "checkpoint.pt"
     if given.begin_with is not None:
         network.load_state_dict(weights_of(given.begin_with), strict=False)
-    step = _resume(network, optimiser, checkpoint)
+    step = _resume(network, optimisers, checkpoint)
     parameters = sum(p.numel() for p in network.parameters())
     known: set[str] = set()
     utterances = load(given.build / "train", pieces, known, given.without)
@@ -327,21 +369,24 @@ def train(given: Training) -> None:
     mixer, order = Mixer(given.seed + step), random.Random(given.seed + step)
     begun = saved = looked = time.time()
     first, mean = step, 8.0
-    easy_steps = EASY_SHARE * given.steps if given.begin_with is None else 0
+    is_new = given.begin_with is None
     network.train()
     while step < given.steps:
         if time.time() - looked > 120.0:
             looked = time.time()
             utterances += load(given.build / "train", pieces, known, given.without)
-        easy = step < easy_steps
+        easy = is_new and step < EASY_SHARE * given.steps
+        clear = is_new and step < CLEAR_SHARE * given.steps
         for batch in _batches(utterances, order, easy):
-            for group in optimiser.param_groups:
-                group["lr"] = _rate(given.rate, step, given.steps)
-            loss = _loss(network, *_mixed(batch, mixer, order, easy), given.bfloat16)
-            optimiser.zero_grad()
+            for optimiser in optimisers:
+                for group in optimiser.param_groups:
+                    group["lr"] = _rate(given.rate, step, given.steps)
+            loss = _loss(network, *_mixed(batch, mixer, order, easy, clear), given.bfloat16)
+            network.zero_grad()
             loss.backward()
             nn.utils.clip_grad_norm_(network.parameters(), 1.0)
-            optimiser.step()
+            for optimiser in optimisers:
+                optimiser.step()
             step += 1
             mean += 0.02 * (loss.item() - mean)
             if step % 100 == 0:
@@ -352,8 +397,20 @@ def train(given: Training) -> None:
                 break
         if time.time() - saved > 240.0:
             saved = time.time()
-            _save(network, optimiser, step, given, len(utterances))
-    _save(network, optimiser, step, given, len(utterances))
+            _save(network, optimisers, step, given, len(utterances))
+    _save(network, optimisers, step, given, len(utterances))
+
+
+def optimisers_of(network: Recogniser, rate: float) -> list[torch.optim.Optimizer]:
+    """Return the optimisers: Muon (Jordan 2024) of the matrices inside, AdamW of all else."""
+    matrices: list[nn.Parameter] = []
+    others: list[nn.Parameter] = []
+    for name, weight in network.named_parameters():
+        (matrices if weight.ndim == 2 and not name.startswith("head") else others).append(weight)
+    return [
+        torch.optim.Muon(matrices, lr=rate, weight_decay=0.05, adjust_lr_fn="match_rms_adamw"),
+        torch.optim.AdamW(others, lr=rate, weight_decay=0.01),
+    ]
 
 
 def pieces_of(folder: Path) -> Pieces:
@@ -368,10 +425,10 @@ def _rate(most: float, step: int, steps: int) -> float:
 
 
 def _mixed(
-    batch: list[Utterance], mixer: Mixer, order: random.Random, easy: bool
+    batch: list[Utterance], mixer: Mixer, order: random.Random, easy: bool, clear: bool
 ) -> tuple[list[np.ndarray], list[Sequence[int]]]:
     """Return features and units of a batch, at times with a call in which nobody speaks."""
-    inputs = [mixer.mix(each, easy) for each in batch]
+    inputs = [mixer.mix(each, easy, clear) for each in batch]
     targets = [each.units for each in batch]
     if not easy and order.random() < 0.3:
         inputs.append(mixer.noise_alone())
@@ -408,7 +465,7 @@ def _loss(
     for row, mixed in enumerate(inputs):
         features[row, : len(mixed)] = torch.from_numpy(mixed)
     units = torch.tensor([u for t in targets for u in t])
-    steps = torch.tensor([-(-len(mixed) // STRIDE) for mixed in inputs])
+    steps = torch.tensor([OUTPUTS * -(-len(mixed) // STRIDE) for mixed in inputs])
     sizes = torch.tensor([len(t) for t in targets])
     with torch.autocast("cpu", dtype=torch.bfloat16, enabled=bfloat16):
         both = network.both(features)
@@ -441,21 +498,30 @@ def keep(folder: Path, target: Path) -> None:
         shutil.copy(folder / name, target / name)
 
 
-def _resume(network: nn.Module, optimiser: torch.optim.Optimizer, path: Path) -> int:
+def _resume(network: nn.Module, optimisers: list[torch.optim.Optimizer], path: Path) -> int:
     """Go on from a checkpoint; return the steps that are done, 0 if there is none."""
     if not path.exists():
         return 0
     state = torch.load(path, weights_only=True)
     network.load_state_dict(state["network"])
-    optimiser.load_state_dict(state["optimiser"])
+    for optimiser, its_state in zip(optimisers, state["optimisers"], strict=True):
+        optimiser.load_state_dict(its_state)
     print(f"goes on from step {state['step']}")
     return int(state["step"])
 
 
 def _save(
-    network: nn.Module, optimiser: torch.optim.Optimizer, step: int, given: Training, calls: int
+    network: nn.Module,
+    optimisers: list[torch.optim.Optimizer],
+    step: int,
+    given: Training,
+    calls: int,
 ) -> None:
-    state = {"network": network.state_dict(), "optimiser": optimiser.state_dict(), "step": step}
+    state = {
+        "network": network.state_dict(),
+        "optimisers": [optimiser.state_dict() for optimiser in optimisers],
+        "step": step,
+    }
     path = given.into / "checkpoint.tmp"
     torch.save(state, path)
     path.rename(given.into / "checkpoint.pt")
@@ -485,9 +551,11 @@ def export(folder: Path, target: Path) -> None:
         input_names=["features"], output_names=["logits"],
         dynamic_axes={"features": {0: "batch", 1: "frames"}, "logits": {0: "batch", 1: "frames"}},
     )  # fmt: skip
+    _halve(target / "ctc.onnx")
     shutil.copy(folder / "pieces.txt", target / "pieces.txt")
     card = json.loads((folder / "training.json").read_text()) | {
         "word_calibration": {"slope": 1.0, "offset": 0.0},
+        "callsign_calibration": {"slope": 1.0, "offset": 0.0},
         "call_calibration": {"slope": 1.0, "offset": 0.0},
         "least_word_confidence": 0.0,
         "best_word_threshold": 0.0,
@@ -495,6 +563,21 @@ def export(folder: Path, target: Path) -> None:
         "piece_reward": 2.5,
     }
     (target / "card.json").write_text(json.dumps(card, indent=2) + "\n")
+
+
+def _halve(path: Path) -> None:
+    """Keep the large weights of an ONNX file in half precision, which a node turns back."""
+    model = onnx.load(path)
+    for place, weight in enumerate(model.graph.initializer):
+        values = onnx.numpy_helper.to_array(weight)
+        if values.dtype != np.float32 or values.size < LARGE:
+            continue
+        name, half = weight.name, f"{weight.name}.half"
+        halved = onnx.numpy_helper.from_array(values.astype(np.float16), half)
+        model.graph.initializer[place].CopyFrom(halved)
+        turn = onnx.helper.make_node("Cast", [half], [name], to=onnx.TensorProto.FLOAT)
+        model.graph.node.insert(0, turn)
+    onnx.save(model, path)
 
 
 def _lines(path: Path) -> list[str]:

@@ -133,8 +133,19 @@ def test_any_word_for_a_digit_will_do() -> None:
 def test_what_is_clearly_said_is_left_as_it_is() -> None:
     heard = posteriors(*clear("climb", "american", "one"))
     path = likeliest(heard)
-    assert with_callsign(path, cast(Spotted, spotted(heard, "AAL1"))) == path
-    assert path[0] == Emission("climb", cast(Any, pytest.approx(0.99, abs=1e-3)), 0)
+    found = with_callsign(path, cast(Spotted, spotted(heard, "AAL1")))
+    assert [(each.word, each.begin) for each in found] == [(each.word, each.begin) for each in path]
+    assert found[0] == Emission("climb", cast(Any, pytest.approx(0.99, abs=1e-3)), 0)
+
+
+def test_the_words_of_a_callsign_of_the_roster_have_the_likelihood_of_the_whole() -> None:
+    heard = posteriors(*clear("climb", "american"), {"one": 0.6, "two": 0.2})
+    spot = cast(Spotted, spotted(heard, "AAL1"))
+    climb, *callsign = with_callsign(likeliest(heard), spot)
+    assert not climb.is_callsign
+    assert [(each.posterior, each.is_callsign) for each in callsign] == [
+        (np.exp(-spot.loss), True)
+    ] * 2
 
 
 def test_a_name_that_is_no_piece_is_spelled() -> None:

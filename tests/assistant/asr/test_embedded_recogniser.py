@@ -18,7 +18,7 @@ import pytest
 
 import airhilt.assistant.asr.engines.embedded
 from airhilt.assistant.asr.engines import asr_engine
-from airhilt.assistant.asr.engines.embedded import FILES, Calibration, Ctc
+from airhilt.assistant.asr.engines.embedded import FILES, Calibration, Ctc, Emission
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.errors import SpeechError
 from airhilt.scenario.radio_profiles import PROFILES
@@ -108,6 +108,18 @@ def test_confidences_go_through_the_calibrations_of_the_card(folder: Path) -> No
     word = Calibration(**sharp)(0.8)
     assert heard.words == (("bravo", pytest.approx(word, abs=1e-4)),)
     assert heard.confidence == pytest.approx(Calibration(**offset)(word), abs=1e-3)
+
+
+def test_a_callsign_of_the_roster_has_a_calibration_of_its_own(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shy = {"slope": 1.0, "offset": -1.0}
+    engine = with_card(folder, callsign_calibration=shy)
+    path = [Emission("climb", 0.9, 0), Emission("alfa", 0.9, 1, is_callsign=True)]
+    monkeypatch.setattr(engine, "path", lambda *_: path)
+    (_, climb), (_, alfa) = engine.recognise(call(BRAVO_HZ), ()).words
+    assert climb == pytest.approx(0.9)
+    assert alfa == pytest.approx(Calibration(**shy)(0.9))
 
 
 def test_a_word_that_is_too_unsure_is_left_out_and_makes_the_call_unsure(folder: Path) -> None:
@@ -311,7 +323,7 @@ def test_windows_change_nothing(embedded: Ctc, monkeypatch: pytest.MonkeyPatch) 
     spoken = said_by(*CALLS[0])
     audio = np.tile(np.concatenate([spoken, silence(0.5)]), 1 + 65 * SAMPLE_RATE_HZ // len(spoken))
     by_windows = embedded.posteriors(audio)
-    monkeypatch.setattr(airhilt.assistant.asr.engines.embedded, "WINDOW_STEPS", len(audio))
+    monkeypatch.setattr(airhilt.assistant.asr.engines.embedded, "WINDOW_FRAMES", len(audio))
     assert np.abs(by_windows - embedded.posteriors(audio)).max() < 1e-4
 
 

@@ -32,19 +32,19 @@ MODEL = Path(__file__).parents[1] / "model"
 """The model that ships with AIRHILT."""
 FILES = ("ctc.onnx", "pieces.txt", "language.npz", "card.json")
 """Files of a model's folder."""
-EXPECTED = "a network of tools/asr/train_asr.py: features [1, n, 64] to logits [1, n/6, pieces + 1]"
+EXPECTED = "a network of tools/asr/train_asr.py: features [1, n, 64] to logits [1, n/3, pieces + 1]"
 LEAST_SAMPLES = 1_600
 """Least number of samples that can hold a word: a tenth of a second."""
-STEP_FRAMES = 6
-"""Frames of features in a step of posteriors: 60 ms."""
-WINDOW_STEPS = 500
-"""Steps that the network computes at a time, half a minute.
+WINDOW_FRAMES = 3_000
+"""Frames of features that the network computes at a time, half a minute.
 
 A microphone that is stuck for ten minutes takes little memory then."""
-CONTEXT_STEPS = 80
-"""Steps that the network sees on both sides of a window.
+CONTEXT_FRAMES = 480
+"""Frames that the network sees on both sides of a window.
 
-They are more than any step depends on, so that windows change nothing."""
+They are more than its convolutions reach."""
+TRIAL_FRAMES = 12
+"""Frames of a first look; the steps of the network must divide them."""
 
 
 @dataclass(frozen=True)
@@ -67,6 +67,8 @@ class Card(BaseModel):
     model_config = ConfigDict(extra="ignore", frozen=True, allow_inf_nan=False)
     word_calibration: Calibration
     """Calibration of the highest posterior of a word."""
+    callsign_calibration: Calibration = Calibration(1.0, 0.0)
+    """Calibration of ``exp(-loss)`` of a callsign of the roster that was found in a call."""
     call_calibration: Calibration
     """Calibration of the product of the confidences of a call's words."""
     least_word_confidence: Confidence
@@ -91,6 +93,8 @@ class Emission:
     """Least of its pieces' highest posteriors."""
     begin: int
     """Step at which it begins."""
+    is_callsign: bool = False
+    """Whether it is of a callsign of the roster, whose ``exp(-loss)`` the posterior is then."""
 
 
 class Ctc:
@@ -127,12 +131,13 @@ class Ctc:
                 f"{first_problem(error)}; expected it as tools/asr/train_asr.py writes it"
             ) from None
         self._word, self._call = card.word_calibration, card.call_calibration
+        self._callsign = card.callsign_calibration
         self._least = card.least_word_confidence
         self._best_word_threshold = card.best_word_threshold
         self._roster: tuple[tuple[str, ...], Spotter] | None = None
         network = where / "ctc.onnx"
         self._session = open_network(network, f"recogniser {self.name}: {network}", EXPECTED)
-        units = self._trial(network)
+        units, self._step_frames = self._trial(network)
         if units != len(self._pieces) + 1:
             raise SpeechError(
                 f"recogniser {self.name}: {where} does not fit together: ctc.onnx tells {units} "
@@ -149,7 +154,7 @@ class Ctc:
         if not np.isfinite(audio).all():
             raise SpeechError(f"recogniser {self.name}: the audio has samples that are no numbers")
         words = [
-            (each.word, self._word(each.posterior))
+            (each.word, (self._callsign if each.is_callsign else self._word)(each.posterior))
             for each in self.path(self.posteriors(audio), callsigns)
         ]
         best = max((confidence for _, confidence in words), default=0.0)
@@ -183,53 +188,57 @@ class Ctc:
         return self._roster[1]
 
     def posteriors(self, audio: Audio) -> NDArray[np.float32]:
-        """Return the posterior of the blank and of each piece, shape (steps of 60 ms, units)."""
+        """Return the posterior of the blank and of each piece, shape (steps, units)."""
         features = normalised(mel_power(audio))
-        steps = -(-len(features) // STEP_FRAMES)
-        windows = [self._window(features, begin) for begin in range(0, steps, WINDOW_STEPS)]
+        windows = [
+            self._window(features, begin) for begin in range(0, len(features), WINDOW_FRAMES)
+        ]
         return np.concatenate(windows)
 
-    def _trial(self, network: Path) -> int:
-        """Return the number of units of the network.
+    def _trial(self, network: Path) -> tuple[int, int]:
+        """Return the number of units of the network, and the frames of a step.
 
         Raises
         ------
         SpeechError
             It is a network of another kind.
         """
-        features = np.zeros((1, 2 * STEP_FRAMES + 1, BINS), np.float32)
+        features = np.zeros((1, TRIAL_FRAMES, BINS), np.float32)
         try:
             shape = first_look(self._session, {"features": features})[0].shape
         except Exception as error:  # onnxruntime raises classes of its own that share no base
             found = first_line(error)
         else:
-            if len(shape) == 3 and shape[:2] == (1, 3):
-                return int(shape[2])
+            if len(shape) == 3 and shape[0] == 1 and shape[1] > 1 and TRIAL_FRAMES % shape[1] == 0:
+                return int(shape[2]), TRIAL_FRAMES // int(shape[1])
             found = f"it makes {list(shape)} of {list(features.shape)}"
         raise SpeechError(
             f"recogniser {self.name}: {network} is of another kind: {found}; expected {EXPECTED}"
         )
 
     def _window(self, features: NDArray[np.float32], begin: int) -> NDArray[np.float32]:
-        """Return the posteriors of the window that begins at a step."""
-        first = max(begin - CONTEXT_STEPS, 0)
-        last = begin + WINDOW_STEPS + CONTEXT_STEPS
-        seen = features[first * STEP_FRAMES : last * STEP_FRAMES]
+        """Return the posteriors of the window that begins at a frame."""
+        first = max(begin - CONTEXT_FRAMES, 0)
+        seen = features[first : begin + WINDOW_FRAMES + CONTEXT_FRAMES]
         logits = self._session.run(None, {"features": seen[None]})[0][0]
-        logits = logits[begin - first : begin - first + WINDOW_STEPS]
+        logits = logits[(begin - first) // self._step_frames :][
+            : WINDOW_FRAMES // self._step_frames
+        ]
         weights = np.exp(logits - logits.max(axis=1, keepdims=True))
         return np.asarray(weights / weights.sum(axis=1, keepdims=True), np.float32)
 
 
 def with_callsign(path: Sequence[Emission], spotted: Spotted) -> list[Emission]:
-    """Return words in which a callsign replaces those at its place."""
+    """Return words in which a callsign is at its place, instead of others or as it was heard."""
     there = [each for each in path if spotted.begin <= each.begin < spotted.end]
-    if is_same([each.word for each in there], spotted.words):
-        return list(path)
     posterior = float(np.exp(-spotted.loss))
+    if is_same([each.word for each in there], spotted.words):
+        words = [Emission(each.word, posterior, each.begin, True) for each in there]
+    else:
+        words = [Emission(word, posterior, spotted.begin, True) for word in spotted.words]
     return [
         *(each for each in path if each.begin < spotted.begin),
-        *(Emission(word, posterior, spotted.begin) for word in spotted.words),
+        *words,
         *(each for each in path if each.begin >= spotted.end),
     ]
 
