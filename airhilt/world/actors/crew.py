@@ -31,7 +31,7 @@ from airhilt.messages import (
 )
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
 from airhilt.world.actors.actor import Reaction, Unable
-from airhilt.world.actors.envelope import unflyable
+from airhilt.world.actors.envelope import too_low, unflyable
 from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
 from airhilt.world.actors.runway_operations import RunwayOperations
 from airhilt.world.flight.aircraft import Aircraft
@@ -177,6 +177,8 @@ class Crew:
     def _avoid(self, advisory: Advisory, recommendation: Climb | MaintainLevel | Turn) -> bool:
         if self._must_descend_below(recommendation):
             raise Unable("unable, emergency descent")
+        if not isinstance(recommendation, Turn):
+            self._require_above_ground(recommendation)
         if not self._followed:
             self._altitude_before_m = self.aircraft.target_altitude_m
         match recommendation:
@@ -190,6 +192,17 @@ class Crew:
                 self._turn_by(degrees)
         self._followed[advisory.id] = advisory.revision
         return True
+
+    def _require_above_ground(self, recommendation: Climb | MaintainLevel) -> None:
+        aircraft = self.aircraft
+        why = too_low(
+            recommendation.altitude_ft,
+            aircraft.kind,
+            aircraft.state.altitude_m,
+            self._site.ground_m,
+        )
+        if why is not None:
+            raise Unable(f"unable {why}")
 
     def _turn_by(self, degrees: float) -> None:
         self.aircraft.en_route.turn_by(degrees * DEGREE)

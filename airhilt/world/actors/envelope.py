@@ -1,4 +1,4 @@
-"""Commands that a crew refuses because its aircraft cannot fly them."""
+"""Commands and recommendations that a crew refuses because its aircraft cannot fly them."""
 
 from __future__ import annotations
 
@@ -44,6 +44,25 @@ def unflyable(
             return _altitude(altitude_ft, kind, ground_m)
         case _:
             return None
+
+
+def too_low(
+    altitude_ft: float, kind: AircraftType, altitude_m: float, ground_m: float
+) -> str | None:
+    """Return why an aircraft cannot go to a level that an advisory recommends; None if it can.
+
+    A level above its ceiling is no reason: it climbs as high as it can.
+
+    Parameters
+    ----------
+    altitude_m
+        Its altitude now.
+    ground_m
+        Elevation of the ground below it.
+    """
+    if altitude_ft * FOOT >= altitude_m:
+        return None
+    return _altitude(altitude_ft, kind, ground_m)
 
 
 def _speed(cas_kt: float, kind: AircraftType, altitude_m: float) -> str | None:

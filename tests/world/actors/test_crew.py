@@ -338,6 +338,31 @@ def test_a_crew_flies_up_to_the_limits_of_its_aircraft(aircraft: Aircraft) -> No
     assert aircraft.target_speed_m_s == pytest.approx(127 * KNOT)
 
 
+@pytest.mark.parametrize(
+    "recommended",
+    [
+        Climb(sense="descend", altitude_ft=-5_000, vertical_rate_fpm=6_000),
+        Climb(sense="descend", altitude_ft=499, vertical_rate_fpm=1_000),
+        MaintainLevel(altitude_ft=-1e300),
+    ],
+)
+def test_a_crew_is_unable_to_descend_to_the_ground_for_an_advisory(
+    aircraft: Aircraft, recommended: Climb | MaintainLevel
+) -> None:
+    crew = crew_of(aircraft)
+    reaction = crew.hear(advisory(recommended))
+    with pytest.raises(Unable, match="ft: a c172p flies at 500 to 13000 ft here"):
+        reaction.act()
+    assert level_ft(aircraft) == pytest.approx(5_000)
+    crew.hear(advisory(CLIMB, name="s-2")).act()
+    assert level_ft(aircraft) == pytest.approx(CLIMB.altitude_ft)
+
+
+def test_a_crew_climbs_as_high_as_it_can_for_an_advisory(aircraft: Aircraft) -> None:
+    crew_of(aircraft).hear(advisory(CLIMB.model_copy(update={"altitude_ft": 90_000}))).act()
+    assert level_ft(aircraft) == pytest.approx(13_000)
+
+
 def test_the_ground_below_counts(aircraft: Aircraft) -> None:
     centre = GeodeticPosition(type="geodetic", lat_deg=47.0, lon_deg=8.0)
     model = ReactionModel("AAL123", Reactions(), 1)
