@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+import importlib.util
 import json
 import os
 import re
 import shutil
 import subprocess
 import sys
+from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from airhilt import load
+from paths import DATA
 from shortened import shortened
+from tiny_models import write_xtts, write_yolo
 
 LOOPBACK_UP = """
 import fcntl, os, socket, struct, sys
@@ -29,7 +34,7 @@ OTHER_ENGINES = (
 """Engines that ship, and that a run does not have unless it is told so."""
 NEEDS_FLITE = pytest.mark.skipif(shutil.which("flite") is None, reason="needs flite")
 SPEAKS_TO = re.compile(
-    r'(?:connect|sendto|sendmsg)\(.*(?:inet_addr\(|inet_pton\(AF_INET6, )"([^"]+)"'
+    r'(?:connect|sendto|sendm?msg)\(.*(?:inet_addr\(|inet_pton\(AF_INET6, )"([^"]+)"'
 )
 
 LOOPBACK = re.compile(r"127\.\d+\.\d+\.\d+|::1|::ffff:127\.\d+\.\d+\.\d+")
@@ -54,17 +59,24 @@ def talked_to(scenario: dict[str, Any], folder: Path, home: Path, *flags: str) -
     file.write_text(json.dumps(scenario))
     command = [
         "unshare", "--map-root-user", "--net", sys.executable, "-c", LOOPBACK_UP,
-        "strace", "-f", "-e", "trace=connect,sendto,sendmsg", "-o", str(trace),
+        "strace", "-f", "--seccomp-bpf", "-e", "trace=connect,sendto,sendmsg,sendmmsg",
+        "-o", str(trace),
         sys.executable, "-m", "airhilt", "cosim", "--scenario", str(file),
         "--latency", "fixed", "--no-report", "--out", str(folder / "run"), *flags,
     ]  # fmt: skip
-    variables = {"HOME": str(home), "XDG_CACHE_HOME": str(home / ".cache")}
+    variables = {"HOME": str(home), "XDG_CACHE_HOME": str(home / ".cache"), "OMP_NUM_THREADS": "1"}
     done = subprocess.run(
         command, env={**os.environ, **variables}, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr[-2000:]
     lines = trace.read_text(errors="replace").splitlines()
     return {found[1] for line in lines if (found := SPEAKS_TO.search(line))}
+
+
+def few_pictures(scenario: dict[str, Any]) -> dict[str, Any]:
+    """Return a scenario with one small camera that takes two pictures a second."""
+    camera = {**scenario["cameras"][0], "rate_hz": 2.0, "width_px": 320, "height_px": 180}
+    return scenario | {"cameras": [camera]}
 
 
 def kept_by_others(home: Path) -> list[str]:
@@ -97,3 +109,80 @@ def test_a_run_connects_to_nobody_and_leaves_nothing_for_others_to_send(
     addresses = talked_to(scenario, tmp_path, home, *flags)
     assert {each for each in addresses if not LOOPBACK.fullmatch(each)} == set()
     assert kept_by_others(home) == []
+
+
+def _whisper(_: Path) -> tuple[str, ...]:
+    return ("--no-cameras", "--asr", f"whisper:{DATA / 'tiny_whisper'}")
+
+
+def _coqui(folder: Path) -> tuple[str, ...]:
+    write_xtts(folder, longest_text=400)
+    return ("--no-cameras", "--tts", f"coqui:{folder}")
+
+
+def _yolo(folder: Path, suffix: str) -> tuple[str, ...]:
+    write_yolo(folder)
+    return ("--no-speech", "--detector", f"yolo:{folder / 'yolov10n'}{suffix}")
+
+
+def _renderer(_: Path, name: str) -> tuple[str, ...]:
+    return ("--no-speech", "--renderer", name)
+
+
+def engine(
+    package: str, flags: Callable[[Path], tuple[str, ...]], *kept: str, marker: str = "slow"
+) -> Any:
+    """Return a case of an engine that needs a package.
+
+    Parameters
+    ----------
+    flags
+        Returns the flags of its run, and writes a model into a folder if it needs one.
+    kept
+        Beginnings of the names of files that the package itself keeps in the home.
+    """
+    needs = pytest.mark.skipif(
+        importlib.util.find_spec(package) is None, reason=f"needs the package {package}"
+    )
+    marks = [needs, pytest.mark.slow, getattr(pytest.mark, marker)]
+    return pytest.param(flags, kept, marks=marks)
+
+
+SETTINGS = ".config/Ultralytics/"
+SHADERS = ".cache/mesa_shader_cache"
+"""Mesa's, which draws where there is no graphics card."""
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="needs network namespaces")
+@pytest.mark.filterwarnings("ignore")  # what writes the models has warnings of its own
+@pytest.mark.parametrize(
+    ("flags", "kept"),
+    [
+        engine("faster_whisper", _whisper, marker="whisper"),
+        engine("TTS", _coqui, marker="coqui"),
+        engine("ultralytics", partial(_yolo, suffix=".pt"), SETTINGS, marker="yolo"),
+        engine("ultralytics", partial(_yolo, suffix=".onnx"), SETTINGS, marker="yolo"),
+        engine("open3d", partial(_renderer, name="open3d")),
+        engine("moderngl", partial(_renderer, name="moderngl"), SHADERS),
+    ],
+    ids=["whisper", "coqui", "yolo.pt", "yolo.onnx", "open3d", "moderngl"],
+)
+def test_a_run_with_an_engine_of_an_extra_connects_to_nobody(
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    flags: Callable[[Path], tuple[str, ...]],
+    kept: tuple[str, ...],
+) -> None:
+    if problem := _namespace_problem():
+        pytest.skip(problem)
+    home, model = tmp_path / "home", tmp_path / "model"
+    for folder in (home, model):
+        folder.mkdir()
+    with monkeypatch.context() as writing:
+        writing.setenv("YOLO_OFFLINE", "true")
+        writing.setenv("YOLO_CONFIG_DIR", str(tmp_path))
+        given = flags(model)
+    scenario = shortened(load("s01a_bad_readback").model_dump(mode="json"), 2.0)
+    addresses = talked_to(few_pictures(scenario), tmp_path, home, *given)
+    assert {each for each in addresses if not LOOPBACK.fullmatch(each)} == set()
+    assert [path for path in kept_by_others(home) if not path.startswith(kept)] == []

@@ -17,62 +17,16 @@ import pytest
 from airhilt.errors import SpeechError
 from airhilt.voices.engine import VoiceSpec
 from airhilt.voices.engines.coqui import MODEL_FILES, Coqui
+from tiny_models import XTTS_SPEAKERS, write_xtts
 
 INSTALLED = importlib.util.find_spec("TTS") is not None
-SPEAKERS = ("Ana Florence", "Craig Gutsy", "Viktor Eka")
-WIDTH, TIMBRE = 32, 16
 LANDING = "Cleared to land runway one left."
-
-
-def make_tiny_model(folder: Path) -> None:
-    """Write what XTTS-v2's publisher gives out, tiny, though its vocoder has but one size."""
-    import torch
-    from tokenizers import Tokenizer, models
-    from TTS.tts.configs.xtts_config import XttsArgs, XttsConfig
-    from TTS.tts.layers.xtts.tokenizer import VoiceBpeTokenizer
-    from TTS.tts.models.xtts import Xtts
-
-    letters = {letter: i for i, letter in enumerate("abcdefghijklmnopqrstuvwxyz.,'-")}
-    tokenizer = Tokenizer(models.BPE(letters, []))
-    tokenizer.add_special_tokens(["[STOP]", "[UNK]", "[SPACE]", "[START]", "[en]"])
-    tokenizer.save(str(folder / "vocab.json"))
-    config = XttsConfig(
-        model_args=XttsArgs(
-            gpt_layers=1,
-            gpt_n_heads=2,
-            gpt_n_model_channels=WIDTH,
-            gpt_max_text_tokens=60,
-            gpt_max_audio_tokens=12,
-            gpt_num_audio_tokens=66,
-            gpt_start_audio_token=64,
-            gpt_stop_audio_token=65,
-            gpt_use_perceiver_resampler=True,
-            decoder_input_dim=WIDTH,
-            d_vector_dim=TIMBRE,
-        )
-    )
-    config.save_json(str(folder / "config.json"))
-    with torch.random.fork_rng():
-        torch.manual_seed(1)
-        model = Xtts(config)
-        model.tokenizer = VoiceBpeTokenizer(folder / "vocab.json")
-        model.init_models()
-        model.hifigan_decoder.waveform_decoder.conv_post.weight.data *= 30  # up to full scale
-        voices = {
-            name: {
-                "gpt_cond_latent": torch.randn(1, 32, WIDTH),
-                "speaker_embedding": torch.randn(1, TIMBRE, 1),
-            }
-            for name in SPEAKERS
-        }
-    torch.save({"model": model.state_dict()}, folder / "model.pth")
-    torch.save(voices, folder / "speakers_xtts.pth")
 
 
 @pytest.fixture(scope="module")
 def model(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
     folder = tmp_path_factory.mktemp("xtts")
-    make_tiny_model(folder)
+    write_xtts(folder)
     yield folder
     shutil.rmtree(folder)  # the vocoder's 90 MB
 
@@ -133,14 +87,14 @@ def test_without_the_package_the_error_says_how_to_get_it(
 class TestWithCoquiTts:
     def test_the_voices_are_the_speakers_of_the_model(self, engine: Coqui) -> None:
         drawn = {engine.voice_of(f"AAL{number}").name for number in range(60)}
-        assert drawn == set(SPEAKERS)
+        assert drawn == set(XTTS_SPEAKERS)
 
     def test_a_speaker_has_the_same_voice_in_every_run(self, engine: Coqui, model: Path) -> None:
         assert Coqui(model).voice_of("TOWER") == engine.voice_of("TOWER")
         assert Coqui(model).version == engine.version
 
     def test_speech_is_mono_at_16_khz_within_full_scale(self, engine: Coqui) -> None:
-        for name in SPEAKERS:
+        for name in XTTS_SPEAKERS:
             audio = engine.synthesise(LANDING, VoiceSpec(name))
             assert audio.dtype == np.float32
             assert audio.ndim == 1
@@ -157,31 +111,31 @@ class TestWithCoquiTts:
             return spoken[-1]
 
         monkeypatch.setattr(engine._model, "inference", listen)
-        audio = engine.synthesise(LANDING, VoiceSpec(SPEAKERS[0]))
+        audio = engine.synthesise(LANDING, VoiceSpec(XTTS_SPEAKERS[0]))
         assert engine._model.config.audio.output_sample_rate == 24_000
         assert len(audio) == pytest.approx(len(spoken[0]["wav"]) * 16_000 / 24_000, abs=1)
 
     def test_the_same_text_and_voice_sound_the_same(self, engine: Coqui, model: Path) -> None:
-        voice = VoiceSpec(SPEAKERS[1], 1.05)
+        voice = VoiceSpec(XTTS_SPEAKERS[1], 1.05)
         first = engine.synthesise(LANDING, voice)
         engine.synthesise("Go around.", voice)
         np.testing.assert_array_equal(engine.synthesise(LANDING, voice), first)
         np.testing.assert_array_equal(Coqui(model).synthesise(LANDING, voice), first)
 
     def test_another_text_sounds_otherwise(self, engine: Coqui) -> None:
-        voice = VoiceSpec(SPEAKERS[1])
+        voice = VoiceSpec(XTTS_SPEAKERS[1])
         landing, around = (engine.synthesise(text, voice) for text in (LANDING, "Go around."))
         assert not np.array_equal(landing, around)
 
     def test_another_voice_sounds_otherwise(self, engine: Coqui) -> None:
-        spoken = [engine.synthesise(LANDING, VoiceSpec(name)) for name in SPEAKERS[:2]]
+        spoken = [engine.synthesise(LANDING, VoiceSpec(name)) for name in XTTS_SPEAKERS[:2]]
         assert not np.array_equal(spoken[0], spoken[1])
 
     def test_speaking_leaves_the_draws_of_torch_alone(self, engine: Coqui) -> None:
         import torch
 
         before = torch.random.get_rng_state()
-        engine.synthesise("Go around.", VoiceSpec(SPEAKERS[0]))
+        engine.synthesise("Go around.", VoiceSpec(XTTS_SPEAKERS[0]))
         assert torch.equal(torch.random.get_rng_state(), before)
 
     def test_a_voice_that_the_model_lacks_is_refused(self, engine: Coqui) -> None:
@@ -190,7 +144,7 @@ class TestWithCoquiTts:
 
     def test_a_text_longer_than_the_model_takes_is_refused(self, engine: Coqui) -> None:
         with pytest.raises(SpeechError, match="cannot speak 'Go around"):
-            engine.synthesise("Go around. " * 20, VoiceSpec(SPEAKERS[0]))
+            engine.synthesise("Go around. " * 20, VoiceSpec(XTTS_SPEAKERS[0]))
 
     def test_it_needs_no_network(self, model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         def refuse(*_: Any, **__: Any) -> None:
@@ -198,7 +152,7 @@ class TestWithCoquiTts:
 
         monkeypatch.setattr(socket, "getaddrinfo", refuse)
         monkeypatch.setattr(socket.socket, "connect", refuse)
-        assert len(Coqui(model).synthesise("Go around.", VoiceSpec(SPEAKERS[0])))
+        assert len(Coqui(model).synthesise("Go around.", VoiceSpec(XTTS_SPEAKERS[0])))
 
     def test_a_checkpoint_as_its_publisher_wrote_it_loads(
         self, model: Path, tmp_path: Path
@@ -215,7 +169,7 @@ class TestWithCoquiTts:
             torch.save({"config": XttsConfig(), "model": weights}, folder / "model.pth")
         first, second = Coqui(folder), Coqui(folder)
         assert first.version == second.version
-        assert len(first.synthesise("Go around.", VoiceSpec(SPEAKERS[0])))
+        assert len(first.synthesise("Go around.", VoiceSpec(XTTS_SPEAKERS[0])))
         shutil.rmtree(folder)
 
     def test_files_that_are_no_model_are_refused(self, tmp_path: Path) -> None:

@@ -14,6 +14,7 @@ from airhilt.assistant.vision.detectors import vision_engine
 from airhilt.assistant.vision.detectors.yolo import LABELS, LEAST_CONFIDENCE, YoloDetector
 from airhilt.errors import VisionError
 from pictures import background
+from tiny_models import write_yolo
 
 INSTALLED = importlib.util.find_spec("ultralytics") is not None
 pytestmark = [
@@ -21,8 +22,6 @@ pytestmark = [
     pytest.mark.skipif(not INSTALLED, reason="no ultralytics: pip install airhilt[yolo]"),
     pytest.mark.filterwarnings("ignore"),
 ]
-NAMES = {4: "airplane", 2: "car", 5: "bus", 7: "truck", 14: "bird", 16: "dog", 17: "horse"}
-"""Some of COCO's."""
 PICTURE = background(640, 360)
 
 
@@ -68,33 +67,9 @@ _OPERATORS: list[object] = []
 
 @pytest.fixture(scope="module")
 def models(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A folder with YOLOv10 of COCO's classes, as .pt and as .onnx, and one of other classes.
-
-    Its layers are scaled to noise, and its last one finds airplanes and dogs here and there.
-    """
-    import torch
-    from ultralytics import YOLO
-
+    """A folder with `tiny_models.write_yolo`'s."""
     folder = tmp_path_factory.mktemp("models")
-    torch.manual_seed(1)
-    model = YOLO("yolov10n.yaml")
-    model.model.names = {index: NAMES.get(index, f"class{index}") for index in range(80)}
-    for layer in model.model.modules():
-        if isinstance(layer, torch.nn.BatchNorm2d):
-            layer.momentum = 1.0
-    with torch.no_grad():
-        model.model.train()(torch.rand(4, 3, 128, 128))
-    model.model.eval()
-    head = model.model.model[-1]
-    for branch in (*head.cv3, *head.one2one_cv3):
-        torch.nn.init.normal_(branch[-1].weight, std=0.01)
-        branch[-1].bias.data[[4, 16]] = -2.0
-    model.save(folder / "yolov10n.pt")
-    YOLO(folder / "yolov10n.pt").export(format="onnx", imgsz=320, simplify=False)
-    (folder / "yolov10n.onnx").rename(folder / "fixed.onnx")
-    YOLO(folder / "yolov10n.pt").export(format="onnx", dynamic=True, simplify=False)
-    model.model.names = {index: f"class{index}" for index in range(80)}
-    model.save(folder / "others.pt")
+    write_yolo(folder)
     return folder
 
 
