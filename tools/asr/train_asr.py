@@ -360,7 +360,7 @@ def train(given: Training) -> None:
     optimisers = optimisers_of(network, given.rate)
     checkpoint = given.into / "checkpoint.pt"
     if given.begin_with is not None:
-        network.load_state_dict(weights_of(given.begin_with), strict=False)
+        begin_with(network, given.begin_with)
     step = _resume(network, optimisers, checkpoint)
     parameters = sum(p.numel() for p in network.parameters())
     known: set[str] = set()
@@ -482,6 +482,28 @@ def weights_of(folder: Path) -> dict[str, Tensor]:
     """Return the weights that `keep` has written."""
     with np.load(folder / "weights.npz", allow_pickle=False) as archive:
         return {name: torch.from_numpy(archive[name].astype(np.float32)) for name in archive.files}
+
+
+def begin_with(network: Recogniser, folder: Path) -> None:
+    """Give a network the weights that `keep` has written.
+
+    Raises
+    ------
+    SystemExit
+        They are those of another network.
+    """
+    weights = weights_of(folder)
+    expected = {
+        name: weight.shape
+        for name, weight in network.state_dict().items()
+        if weight.is_floating_point()
+    }
+    if expected != {name: weight.shape for name, weight in weights.items()}:
+        raise SystemExit(
+            f"train_asr: {folder} has weights of another network; expected those that "
+            f"`train_asr.py keep` writes of this one, with {len(expected)} arrays"
+        )
+    network.load_state_dict(weights, strict=False)
 
 
 def keep(folder: Path, target: Path) -> None:
