@@ -12,6 +12,7 @@
     python tools/bench.py frames            memory of a renderer's process over 10,000 pictures
     python tools/bench.py sight             whole runs with cameras against real time
     python tools/bench.py many              runs one after the other in a process: CPU, memory
+    python tools/bench.py page             frames a second of the page that follows 20 aircraft
     python tools/bench.py soak              two simulated hours with speech: memory, time
     python tools/bench.py sweep             overhead of a sweep, gain of a second worker
     python tools/bench.py startup           from the command to the first simulated second
@@ -42,6 +43,7 @@ BENCHMARKS = {
     "sight": "pictures",
     "many": "many_runs",
     "sweep": "sweeps",
+    "page": "page",
     "soak": "soak",
     "startup": "startup",
 }

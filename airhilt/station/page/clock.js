@@ -1,10 +1,20 @@
-// The time shown, one for the whole page: it plays, pauses, jumps and loops.
+// The time shown, one for the whole page: it plays, pauses, jumps and loops, or follows a live run.
+
+import { LiveTime } from "./live_time.js";
 
 export const RATES = [0.25, 0.5, 1, 2, 4, 8];
 
+const BETWEEN_TELLS_MS = 100; // between two drawings of what does not move, while a run is followed
+const HIDDEN_MS = 500; // without a frame, as on a page that nobody sees
+
 export class Clock {
   #listeners = [];
+  #animations = [];
   #last = null;
+  #run = new LiveTime();
+  #told = 0;
+  #telling = null;
+  #frame = 0;
 
   /** A clock of a run that lasts `end` seconds; while it is live, the end moves on, and may be followed. */
   constructor(end, live = false) {
@@ -15,6 +25,7 @@ export class Clock {
     this.rate = 1;
     this.playing = false;
     this.loop = { from: null, to: null, on: false };
+    if (live) requestAnimationFrame((now) => this.#follow(now));
   }
 
   /** Calls a function with the clock, now and after each change. */
@@ -23,7 +34,17 @@ export class Clock {
     listener(this);
   }
 
-  tell() { this.#listeners.forEach((listener) => listener(this)); }
+  /** Calls a function that draws what moves: after each change, and at each frame while a live run is followed. */
+  animate(draw) {
+    this.#animations.push(draw);
+    draw(this);
+  }
+
+  tell() {
+    this.#told = performance.now();
+    this.#listeners.forEach((listener) => listener(this));
+    this.#animations.forEach((draw) => draw(this));
+  }
 
   /** Shows a time in seconds. */
   set(t) {
@@ -34,16 +55,43 @@ export class Clock {
 
   /** Takes in that a live run has come to a time. */
   setEnd(end) {
+    const now = performance.now();
     this.end = Math.max(end, this.end);
-    if (this.following) this.t = this.end;
-    this.tell();
+    this.#run.arrived(this.end, now);
+    if (!this.live) { this.tell(); return; }
+    this.#telling ??= setTimeout(() => this.#tellSlowly(), Math.max(BETWEEN_TELLS_MS - (now - this.#told), 0));
+  }
+
+  #tellSlowly() {
+    this.#telling = null;
+    this.#told = performance.now();
+    if (this.following && this.#told - this.#frame > HIDDEN_MS) this.#jump();
+    this.#listeners.forEach((listener) => listener(this));
+  }
+
+  /** Takes in that a live run has another pace from now on. */
+  paced() { this.#run.paced(); }
+
+  #jump() {
+    this.t = this.end;
+    this.#run.jump(this.end);
+  }
+
+  #follow(now) {
+    this.#frame = now;
+    const t = this.#run.at(now);
+    if (this.following && t !== this.t) {
+      this.t = t;
+      this.#animations.forEach((draw) => draw(this));
+    }
+    requestAnimationFrame((later) => this.#follow(later));
   }
 
   /** Shows what is happening now, as it happens. */
   follow() {
     this.playing = false;
     this.following = true;
-    this.t = this.end;
+    this.#jump();
     this.tell();
   }
 

@@ -112,7 +112,7 @@ export class Live {
     if (!changes) { this.#panes.talk.take(message); return; }
     const { plan, transcript, traffic, cameras, sounds } = this.#panes;
     this.#seen = next;
-    const changed = this.#run.apply(changes), has = (...kinds) => kinds.some((kind) => changed.has(kind));
+    const { pace, phase } = this.#run, changed = this.#run.apply(changes), has = (...kinds) => kinds.some((kind) => changed.has(kind));
     this.#panes.talk.take(message);
     for (const [kind, ...rest] of changes) {
       if (kind === "picture") cameras.add(...rest);
@@ -125,6 +125,7 @@ export class Live {
     if (has("call")) transcript.redraw();
     if (has("camera")) cameras.renew();
     if (has("clock")) this.#tell();
+    if (this.#run.pace !== pace || this.#run.phase !== phase) this.#clock.paced();
     for (const kind of changed) this.#undrawn.add(kind);
     this.#drawing ??= setTimeout(() => this.#drawLists(), Math.max(SLOWLY_MS - (performance.now() - this.#drawn), 0));
     this.#clock.setEnd(this.#run.now ?? 0);

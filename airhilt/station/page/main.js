@@ -41,10 +41,11 @@ async function begin() {
   const transcript = new Transcript(run, clock), cameras = new Cameras(run, clock, plan, (name) => live?.watch(name));
   const advisories = new Advisories(run, clock, { call: (id) => transcript.goTo(id), camera: (name) => cameras.choose(name) });
   const traffic = new Traffic(run, clock), transport = new Transport(run, clock);
-  const panes = [plan, profile, latencies, marks, transcript, advisories, traffic, cameras, sounds, transport];
+  const panes = [profile, latencies, marks, transcript, advisories, traffic, cameras, sounds, transport];
   noteReading(byId("calls"), byId("advisories"));
-  connectTheme(() => { profile.redraw(); latencies.draw(); plan.draw(); marks.draw(); });
+  connectTheme(() => { profile.redraw(); latencies.draw(); plan.redraw(); marks.draw(); });
   clock.listen(() => panes.forEach((pane) => pane.draw()));
+  clock.animate(() => plan.draw());
   const seat = live ? new Seat(run, live, clock, cameras) : null;
   const talk = live ? new Talk(run, live) : null;
   if (live) transcript.hearOnly(() => talk.heard);

@@ -6,6 +6,8 @@ import { instruction, known, words } from "./words.js";
 export const METRE_PER_NM = 1852;
 const COLOURS = 8;
 const MOST_LATENCIES = 4000; // bars of a live run that are kept: some ten minutes
+const LONGEST_INTERVAL_S = 12; // between two reports of an actor: a turn of a surveillance radar
+const AHEAD = 1.5; // intervals between reports for which an actor is shown further on after the last one
 const FULL_S = 300, OLD_STEP_S = 2; // of a live run, what is older than that is kept in steps of this
 export const SEVERITIES = ["INFO", "ADVISORY", "CAUTION", "WARNING"];
 
@@ -30,7 +32,7 @@ export class Track {
   state(t, span) {
     const now = Math.min(Math.max(t, this.first), this.last);
     const from = Math.max(now - span, this.first), to = Math.min(now + span, this.last), seconds = Math.max(to - from, 1e-9);
-    const [e1, n1] = this.place(from), [e2, n2] = this.place(to), [east, north] = this.place(now);
+    const [e1, n1] = this.place(from), [e2, n2] = this.place(to), [east, north] = this.place(t);
     const moved = Math.hypot(e2 - e1, n2 - n1);
     const { speed, course } = this.velocity(now) ?? { speed: moved / seconds, course: moved > 0.5 ? Math.atan2(e2 - e1, n2 - n1) : 0 };
     return {
@@ -58,6 +60,7 @@ export class Track {
 export class LiveTrack extends Track {
   patience = 15;
   #velocities = [];
+  #interval = 0; // s between two reports, rather too long than too short
   #thinAt = 2000;
 
   constructor(callsign, category, type, index) {
@@ -66,6 +69,7 @@ export class LiveTrack extends Track {
 
   add([t, east, north, altitude, velocity, heading, onGround, phase]) {
     if (this.t.length && t <= this.last) return;
+    if (this.t.length) this.#interval = Math.min(Math.max(t - this.last, 0.8 * this.#interval), LONGEST_INTERVAL_S);
     const wasOnGround = this.on_ground.length && this.on_ground.at(-1)[1] === this.last;
     if (onGround && wasOnGround) this.on_ground.at(-1)[1] = t;
     else if (onGround) this.on_ground.push([t, t]);
@@ -87,6 +91,14 @@ export class LiveTrack extends Track {
     for (const name of ["t", "east", "north", "altitude_ft", "heading_deg"]) this[name] = kept.map((i) => this[name][i]);
     this.#velocities = kept.map((i) => this.#velocities[i]);
     this.#thinAt = kept.length + 1000;
+  }
+
+  /** After its last report an actor goes on straight, for a little more than it takes until the next one. */
+  place(t) {
+    const [east, north] = super.place(t), ahead = Math.min(t - this.last, AHEAD * this.#interval);
+    if (!(ahead > 0)) return [east, north];
+    const [eastward, northward] = this.#velocities.at(-1);
+    return [east + eastward * ahead, north + northward * ahead];
   }
 
   velocity(t) {

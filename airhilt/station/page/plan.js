@@ -8,6 +8,9 @@ const HISTORY_DOTS = 8;
 const FONT_SMALL = FONT.replace("12px", "11px");
 const LEADERS_S = [0, 10, 30, 60, 120];
 const MOST_POINTS = 1500; // of a track that are drawn
+const RENEWED_MS = 1000; // after which tracks that grow are drawn again
+const ROOM = 90; // pixels for the data blocks of who is at the edge
+const SPARE = 0.08; // of the width, by which more is shown than is needed, so that the view changes seldom
 const LONGEST_SHOWN_M = 900_000;
 const AIRCRAFT = [[0, -1], [0.12, -0.7], [0.12, -0.25], [1, 0.2], [1, 0.36], [0.12, 0.14], [0.08, 0.66], [0.4, 0.86], [0.4, 1], [0, 0.9], [-0.4, 1], [-0.4, 0.86], [-0.08, 0.66], [-0.12, 0.14], [-1, 0.36], [-1, 0.2], [-0.12, -0.25], [-0.12, -0.7]];
 const VEHICLE = [[-0.6, 1], [-0.6, -0.5], [-0.3, -1], [0.3, -1], [0.6, -0.5], [0.6, 1]];
@@ -27,6 +30,9 @@ export class Plan {
   #camera = null;
   #dragged = null;
   #names = []; // boxes of the names of the runways, which data blocks are not to cover
+  #still = null; // picture of what does not move
+  #stillSince = 0;
+  #described = 0;
 
   constructor(run, clock) {
     this.#run = run;
@@ -36,7 +42,7 @@ export class Plan {
     onSize(this.#canvas, (pen, width, height) => {
       const was = this.#size;
       this.#size = { pen, width, height };
-      if (!was || this.#fitted) this.fit(this.#fitted ?? "all"); else this.draw();
+      if (!was || this.#fitted) this.fit(this.#fitted ?? "all"); else this.redraw();
     });
   }
 
@@ -53,7 +59,12 @@ export class Plan {
   }
 
   /** Keeps all traffic of a live run in view, unless somebody looks elsewhere. */
-  keepFitted() { if (this.#fitted === "all") this.#fitTo("all"); }
+  keepFitted() {
+    if (this.#fitted !== "all" || !this.#size) return;
+    const { width, height } = this.#size, { east, north } = this.#run.bounds, [left, bottom] = this.#pixel([east[0], north[0]]), [right, top] = this.#pixel([east[1], north[1]]);
+    const edge = ROOM / 2 - 1, sees = left >= edge && right <= width - edge && top >= edge && bottom <= height - edge;
+    if (!sees) this.#fitTo("all", SPARE);
+  }
 
   #views() {
     const options = [["all", "all traffic"]];
@@ -66,7 +77,7 @@ export class Plan {
   #controls() {
     const canvas = this.#canvas;
     byId("plan-view").addEventListener("change", (event) => this.fit(event.target.value));
-    for (const id of ["plan-leader", "plan-rings", "plan-tracks"]) byId(id).addEventListener("change", () => this.draw());
+    for (const id of ["plan-leader", "plan-rings", "plan-tracks"]) byId(id).addEventListener("change", () => this.redraw());
     byId("plan-in").addEventListener("click", () => this.zoom(1.5));
     byId("plan-out").addEventListener("click", () => this.zoom(1 / 1.5));
     canvas.addEventListener("wheel", (event) => {
@@ -97,7 +108,7 @@ export class Plan {
   #move(dx, dy) {
     this.#free();
     this.#centre = [this.#centre[0] - dx / this.#scale, this.#centre[1] + dy / this.#scale];
-    this.draw();
+    this.redraw();
   }
 
   /** Zooms about a point of the canvas, by default its middle. */
@@ -108,24 +119,25 @@ export class Plan {
     this.#free();
     this.#centre = [this.#centre[0] + (px - width / 2) * shift, this.#centre[1] - (py - height / 2) * shift];
     this.#scale = scale;
-    this.draw();
+    this.redraw();
   }
 
   /** Shows all traffic of the whole run, the airport, or the surroundings of the closest approach. */
   fit(name) {
     this.#fitTo(name);
-    this.draw();
+    this.redraw();
   }
 
-  #fitTo(name) {
+  #fitTo(name, spare = 0) {
     if (!this.#size) return;
     const points = name === "airport" ? this.#field() : name === "conflict" ? this.#closest() : this.#field();
     const begin = name === "all" ? this.#run.bounds : { east: [Infinity, -Infinity], north: [Infinity, -Infinity] };
     const range = (i, known) => points.reduce(([low, high], point) => [Math.min(low, point[i]), Math.max(high, point[i])], known);
     const found = [range(0, begin.east), range(1, begin.north)], [[west, east], [south, north]] = found[0][0] <= found[0][1] ? found : [[-1e4, 1e4], [-1e4, 1e4]];
-    const { width, height } = this.#size, room = 90; // for the data blocks of who is at the edge
+    const { width, height } = this.#size;
     this.#centre = [(west + east) / 2, (south + north) / 2];
-    this.#scale = Math.min(Math.max(width - room, 80) / Math.max(east - west, 200), Math.max(height - room, 80) / Math.max(north - south, 200));
+    this.#scale = Math.min(Math.max(width - ROOM, 80) / Math.max(east - west, 200), Math.max(height - ROOM, 80) / Math.max(north - south, 200)) * (1 - spare);
+    this.#still = null;
     this.#fitted = name;
     byId("plan-view").value = name;
   }
@@ -150,20 +162,42 @@ export class Plan {
     if (close) pen.closePath();
   }
 
+  /** Draws everything again, because the view, the size or the colours have changed. */
+  redraw() {
+    this.#still = null;
+    this.draw();
+  }
+
+  /** Draws what moves, over the picture of what does not. */
   draw() {
     if (!this.#size || document.body.dataset.seat === "pilot") return;
-    const { pen, width, height } = this.#size, t = this.#clock.t;
-    pen.fillStyle = colour("--map");
-    pen.fillRect(0, 0, width, height);
-    if (this.#run.airport) this.#drawAirport(this.#run.airport);
-    if (byId("plan-rings").checked) this.#drawRings();
+    const { pen, width, height } = this.#size, t = this.#clock.t, now = performance.now();
+    if (!this.#still || (this.#clock.live && now - this.#stillSince > RENEWED_MS)) this.#renewStill(now);
+    pen.drawImage(this.#still, 0, 0, width, height);
+    if (!this.#run.airport && byId("plan-rings").checked) this.#drawRings();
     if (this.#camera) this.#drawCamera();
-    if (byId("plan-tracks").checked) this.#drawTracks();
     const states = this.#run.states(t).filter(({ state }) => state.isThere);
     states.forEach(({ track, state }) => this.#drawActor(track, state, t));
     this.#drawBlocks(states, t);
     this.#drawScale();
+    if (this.#clock.playing || (this.#clock.following && now - this.#described < RENEWED_MS)) return;
+    this.#described = now;
     this.#describe(states);
+  }
+
+  /** Draws the airport, the rings about it, and the tracks, and keeps the picture of them. */
+  #renewStill(now) {
+    const { pen, width, height } = this.#size, copy = document.createElement("canvas");
+    pen.fillStyle = colour("--map");
+    pen.fillRect(0, 0, width, height);
+    if (this.#run.airport) this.#drawAirport(this.#run.airport);
+    if (this.#run.airport && byId("plan-rings").checked) this.#drawRings();
+    if (byId("plan-tracks").checked) this.#drawTracks();
+    copy.width = this.#canvas.width;
+    copy.height = this.#canvas.height;
+    copy.getContext("2d").drawImage(this.#canvas, 0, 0);
+    this.#still = copy;
+    this.#stillSince = now;
   }
 
   #drawAirport(airport) {
@@ -416,7 +450,6 @@ export class Plan {
   }
 
   #describe(states) {
-    if (this.#clock.playing) return;
     const parts = states.map(({ track, state }) => `${track.callsign} ${state.ended ? "ended" : state.onGround ? state.phase || "on the ground" : `${whole(state.altitude)} feet`}`);
     this.#canvas.setAttribute("aria-label", `Plan view: ${parts.join(", ") || "no traffic"}`);
   }

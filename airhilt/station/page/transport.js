@@ -49,7 +49,7 @@ export class Transport {
     byId("play-word").textContent = playing ? "Pause" : "Play";
     byId("play-shape").setAttribute("d", playing ? PAUSE : PLAY);
     byId("slider").max = end;
-    byId("slider").value = t;
+    byId("slider").value = following ? end : t;
     byId("slider").setAttribute("aria-valuetext", seconds(t));
     byId("time").textContent = following ? seconds(t) : `${seconds(t)} of ${seconds(end)}`;
     byId("rate").value = rate;

@@ -1,0 +1,67 @@
+"""What the page shows between two messages of a live run."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pytest import approx, fixture, mark
+
+from devtools import Page
+from stations import seat_page
+
+pytestmark = mark.browser
+FRAMES = """import(new URL('page/live_time.js', location)).then(({ LiveTime }) => {
+    const time = new LiveTime(), shown = [];
+    const messages = %s;
+    for (let now = 0; now < %d; now += 16) {
+        while (messages.length && messages[0][0] <= now) time.arrived(messages.shift()[1], now);
+        shown.push(time.at(now));
+    }
+    return shown;
+})"""
+TRACK = """import(new URL('page/model.js', location)).then(({ LiveTrack }) => {
+    const track = new LiveTrack('AAL123', 'aircraft', '', 0);
+    for (const t of [0, 0.5, 1]) track.add([t, 100 * t, 0, 1000, [100, 0], 90, false, '']);
+    return [0.75, 1, 1.5, 60].map((t) => track.state(t, 1).east);
+})"""
+
+
+@fixture
+def station(page: Page) -> Any:
+    with seat_page() as (_, url):
+        page.open(url)
+        page.wait_for("document.body.dataset.ready")
+        yield page
+        page.open("about:blank")
+
+
+def frames(page: Page, messages: list[tuple[float, float]], until_ms: int) -> list[float]:
+    """Return the times shown in frames of 16 ms, with messages of (wall time in ms, run time)."""
+    shown: list[float] = page.evaluate(FRAMES % ([list(one) for one in messages], until_ms))
+    return shown
+
+
+def test_the_time_shown_passes_evenly_though_messages_do_not(station: Page) -> None:
+    messages = [(ms + 60 * (ms // 100 % 3), ms / 1000) for ms in range(0, 6000, 100)]
+    shown = frames(station, messages, 6000)
+    steps = [after - before for before, after in zip(shown, shown[1:], strict=False)][200:]
+    assert min(steps) > 0.012
+    assert max(steps) < 0.020
+    assert shown[-1] == approx(5.9, abs=0.15)
+
+
+def test_the_time_shown_stands_soon_after_the_last_message(station: Page) -> None:
+    shown = frames(station, [(ms, ms / 1000) for ms in range(0, 3100, 100)], 9000)
+    assert 3.0 <= shown[-1] <= 3.51
+    assert shown[-300:] == [shown[-1]] * 300
+
+
+def test_the_time_shown_jumps_to_a_run_that_is_far_ahead(station: Page) -> None:
+    shown = frames(station, [(0, 0.0), (100, 0.1), (200, 500.0)], 300)
+    assert shown[-1] >= 500.0
+
+
+def test_an_actor_goes_on_for_one_and_a_half_intervals_after_its_last_report(
+    station: Page,
+) -> None:
+    assert station.evaluate(TRACK) == [75, 100, 150, 100 + 0.75 * 100]
