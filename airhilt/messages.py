@@ -1003,6 +1003,16 @@ class WorkloadAnswer(Message):
         return self
 
 
+class PageRefusal(Message):
+    """``page``: what the page of a run with seats has refused a browser or a stranger, in words.
+
+    In the log it is an event of the kind ``refused``; it changes nothing of the run.
+    """
+
+    limit = Limit(size_bytes=2_000, rate_hz=5)
+    text: str = Field(min_length=1, max_length=400)
+
+
 class SeatPresence(Message):
     """``seat/<seat>``: a person has taken a seat, or has left it.
 
@@ -1328,6 +1338,7 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "microphone/{seat}": MicrophoneAudio,
     "perceived/{seat}": AdvisoryPerceived,
     "pace": PaceCommand,
+    "page": PageRefusal,
     "seat/{seat}": SeatPresence,
     "seat/{seat}/info": SeatInfo,
     "notice/{seat}": SeatNotice,

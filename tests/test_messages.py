@@ -25,6 +25,7 @@ from airhilt.messages import (
     MaintainLevel,
     MicrophoneAudio,
     PaceCommand,
+    PageRefusal,
     PartialTranscript,
     RadarPlot,
     Recommendation,
@@ -164,6 +165,7 @@ EXAMPLES: dict[str, dict[str, Any]] = {
         "id": "s-1", "revision": 2, "recipient": "AAL1", "way": "heard", "after_s": 0.02,
     },
     "PaceCommand": {"factor": 0.5},
+    "PageRefusal": {"text": "refused a page of another version"},
     "WorkloadQuestion": {"seat": "TOWER", "number": 1, "scale": "isa"},
     "WorkloadAnswer": {"question": 1, "isa": 3},
     "SeatPresence": {"is_taken": True},
@@ -339,7 +341,7 @@ def test_the_schema_has_the_limit_of_every_key_that_others_publish_on() -> None:
     assert limits["advisory/{recipient}"] == {"size_bytes": 32_000, "rate_hz": 50}
     assert {MODELS[key] for key in limits} == {
         *WORKER_OUTPUTS.values(), PartialTranscript, ActorCommand, SpokenWords, MicrophoneAudio,
-        AdvisoryPerceived, PaceCommand, WorkloadAnswer,
+        AdvisoryPerceived, PaceCommand, PageRefusal, WorkloadAnswer,
     }  # fmt: skip
 
 

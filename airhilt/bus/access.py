@@ -24,7 +24,15 @@ BY_CERTIFICATE: Subjects = {CERTIFICATE_NAME.format(role): (role,) for role in R
 PUBLISHED: Mapping[Role, tuple[str, ...]] = {
     "observer": (),
     "worker": ("advisory/*", "asr/*", "asr/*/partial", "vision/*", "tts/*"),
-    "operator": ("command/*", "speech/*", "microphone/*", "perceived/*", "pace", "workload/*"),
+    "operator": (
+        "command/*",
+        "speech/*",
+        "microphone/*",
+        "perceived/*",
+        "pace",
+        "workload/*",
+        "page",
+    ),  # fmt: skip
     "recorder": (),
 }
 """Keys on which a role may publish without a grant; a voice is heard, but refused."""

@@ -28,6 +28,7 @@ from airhilt.messages import (
     Message,
     MicrophoneAudio,
     PaceCommand,
+    PageRefusal,
     PartialTranscript,
     SeatPresence,
     SpokenWords,
@@ -49,6 +50,7 @@ HEARD: Mapping[str, type[Message]] = {
     "microphone/*": MicrophoneAudio,
     "perceived/*": AdvisoryPerceived,
     "pace": PaceCommand,
+    "page": PageRefusal,
     "workload/*": WorkloadAnswer,
     "tts/*": AdvisoryAudio,
 }
@@ -58,6 +60,8 @@ AT_SEATS = (SpokenWords, MicrophoneAudio, AdvisoryPerceived, SeatPresence, Workl
 ANSWERS = "worker/*/step"
 """Keys on which programs answer that were not asked."""
 ANSWERS_LIMIT = Limit(size_bytes=0, rate_hz=20)
+PAGE = "page"
+"""Key of the refusals of a page: they are logged, and change nothing of the run."""
 LIMITS = {keys: kind.limit for keys, kind in HEARD.items() if kind.limit is not None}
 MOST_NOTICES = 20
 """Number of refusals that are told on the terminal; the log has all."""
@@ -175,7 +179,7 @@ class ExternalPrograms:
     def _hear(self, key: str, data: bytes) -> None:
         """Take a message from the bus; a program that takes no grants needs real time."""
         self._intake.release(len(data))
-        if isinstance(self._director.pace, Virtual):
+        if isinstance(self._director.pace, Virtual) and key != PAGE:
             self._director.change_pace(RealTime())
             self._observer.notice(
                 f"a program that takes no grants published on {key}: going on in real time"
@@ -199,6 +203,9 @@ class ExternalPrograms:
             self._refuse(key, str(error))
             if self._is_strict:
                 raise
+            return
+        if isinstance(message, PageRefusal):
+            self._event("refused", PAGE, readable(message.text))
             return
         stamped = message.model_copy(update={"t_ns": self._director.now_ns})
         if isinstance(stamped, Advisory) and not self.has_decision:
@@ -248,10 +255,10 @@ class ExternalPrograms:
             It is none.
         """
         known = ", ".join(sorted(self._seats)) or "none: there is no --seat"
-        if isinstance(message, PaceCommand) and not self._seats:
+        if isinstance(message, PaceCommand | PageRefusal) and not self._seats:
             raise WorkerError(
-                "a program published on 'pace', which people at seats may change alone; expected a "
-                "run with --seat"
+                f"a program published on {key!r}, which is for the page of people at seats alone; "
+                "expected a run with --seat"
             )
         if isinstance(message, AT_SEATS) and key.split("/")[1] not in self._seats:
             raise WorkerError(
@@ -260,6 +267,9 @@ class ExternalPrograms:
 
     def take_refused(self, key: str, cause: str) -> None:
         """Refuse what only a cause is known of, such as what an earlier run refused."""
+        if key == PAGE:
+            self._event("refused", PAGE, readable(cause))
+            return
         self._note_first(key)
         self._refuse(key, cause)
 
@@ -282,8 +292,8 @@ class ExternalPrograms:
         return self._dropped
 
     def _note_first(self, key: str) -> None:
-        """Tell once that such a program has published."""
-        if not self.heard:
+        """Tell once that such a program has published; a page that refuses takes no part."""
+        if not self.heard and key != PAGE:
             self.heard = True
             self._event("unregistered", key, "a program that takes no grants has published")
 
@@ -313,7 +323,7 @@ def _parse(key: str, data: bytes, now_ns: int) -> Message:
         )
     family, _, rest = key.partition("/")
     kind = SeatPresence if family == "seat" else HEARD.get(f"{family}/*" if rest else key)
-    if kind not in (ActorCommand, PaceCommand, *AT_SEATS):
+    if kind not in (ActorCommand, PaceCommand, PageRefusal, *AT_SEATS):
         return parse_output(UNREGISTERED, key, data, now_ns)
     try:
         return kind.model_validate_json(data)

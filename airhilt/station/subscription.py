@@ -25,6 +25,7 @@ from airhilt.messages import (
     Message,
     MicrophoneAudio,
     PaceCommand,
+    PageRefusal,
     SpokenWords,
     WorkloadAnswer,
     worker_output,
@@ -65,6 +66,8 @@ MOST_SOUNDS = 60
 """Largest number of transmissions and spoken advisories whose sound is kept."""
 MOST_SOUND_BYTES = 64_000_000
 """Largest size of these sounds, in bytes: half an hour."""
+LONGEST_REFUSAL = 400
+"""Greatest length of a refusal in the log, in characters."""
 MOST_PICTURES = 48
 """Largest number of pictures of a camera that are kept: about three seconds."""
 
@@ -204,6 +207,11 @@ class Subscription:
     def set_pace(self, pace: PaceCommand) -> None:
         """Let the time of the run pass more slowly, stand still, or pass again."""
         self._session.put(f"{self._prefix}/pace", pace.model_dump_json())
+
+    def log_refusal(self, text: str) -> None:
+        """Let the log of the run have what was refused at the page, in words."""
+        message = PageRefusal(text=text[:LONGEST_REFUSAL])
+        self._session.put(f"{self._prefix}/page", message.model_dump_json())
 
     def fly(self, seat: str, command: Command) -> None:
         """Give a command to the aircraft or vehicle of a seat."""

@@ -25,7 +25,9 @@ class Notices(Observer):
         self.texts.append(text)
 
 
-def programs(notices: Notices, events: list[Any], *, is_strict: bool = False) -> ExternalPrograms:
+def programs(
+    notices: Notices, events: list[Any], *, is_strict: bool = False, seats: tuple[str, ...] = ()
+) -> ExternalPrograms:
     return ExternalPrograms(
         Director(Virtual()),
         cast(Any, None),
@@ -38,7 +40,7 @@ def programs(notices: Notices, events: list[Any], *, is_strict: bool = False) ->
         occupy=lambda *_: None,
         set_pace=lambda _: None,
         answer=lambda *_: None,
-        seats=(),
+        seats=seats,
         workers=("decision",),
         has_decision=False,
         is_strict=is_strict,
@@ -87,6 +89,21 @@ def test_the_terminal_tells_of_few_refusals_and_the_log_of_all() -> None:
     for text in (*notices.texts, *(event[2] for event in events)):
         assert text.isprintable()
         assert len(text) <= MOST_CHARACTERS
+
+
+def test_what_a_page_has_refused_is_logged_and_changes_nothing_else() -> None:
+    notices, events = Notices(), list[Any]()
+    heard = programs(notices, events, seats=("tower",))
+    heard.take("page", b'{"text": "refused a page of another version\\u001b[0m"}')
+    assert events == [("refused", "page", "refused a page of another version\ufffd[0m")]
+    assert not heard.heard
+    assert notices.texts == []
+
+
+def test_a_run_without_seats_has_no_page_that_refuses() -> None:
+    notices = Notices()
+    programs(notices, []).take("page", b'{"text": "x"}')
+    assert "expected a run with --seat" in notices.texts[0]
 
 
 def test_every_key_that_is_heard_has_a_limit() -> None:

@@ -26,9 +26,9 @@ def page_process(run: subprocess.Popen[str]) -> psutil.Process:
     return next(child for child in children if "view" in child.cmdline())
 
 
-def listening(url: str, origin: str | None = None) -> ClientConnection:
+def listening(url: str, origin: str | None = None, version: str = "") -> ClientConnection:
     given = None if origin is None else Origin(origin)
-    place = url.replace("http", "ws") + "api/live"
+    place = url.replace("http", "ws") + f"api/live?version={version}"
     opened = connect(place, open_timeout=PATIENCE_S, origin=given, proxy=None)
     assert isinstance(opened, ClientConnection)
     return opened
@@ -140,6 +140,12 @@ def test_a_seat_has_one_person_and_what_it_says_is_said(brief_file: Path, tmp_pa
             assert "Somebody has the seat" in answer(other, "refused")
             send(other, fly={"action": "turn", "degrees": 30})
             assert "Take one first" in answer(other, "refused")
+            with pytest.raises(InvalidStatus, match="403"):
+                listening(url, origin="http://evil.example")
+            with listening(url, version="0") as stale, listening(url) as garbage:
+                assert how_closed(stale) == 4426
+                send(garbage, command=1)
+                assert how_closed(garbage) == 1008
             send(own, say={"text": "Washington Center, American one two three, hello"})
             send(own, fly={"action": "altitude", "altitude_ft": 34000})
             while selected_altitude_ft(answer(own, "own")) != 34000:
@@ -153,6 +159,19 @@ def test_a_seat_has_one_person_and_what_it_says_is_said(brief_file: Path, tmp_pa
     assert keys.count("speech/AAL123") == keys.count("command/AAL123") == 1
     said = [json.loads(one.data) for one in messages if one.key.startswith("truth/radio/seat.")]
     assert said[0]["text"] == "Washington Center, American one two three, hello"
+    events = [json.loads(one.data) for one in messages if one.key == "truth/event"]
+    refused = [
+        one["text"] for one in events if (one["kind"], one["subject"]) == ("refused", "page")
+    ]
+    words = [
+        "no seat",
+        "Somebody has",
+        "no seat",
+        "evil.example",
+        "another version",
+        "of a browser",
+    ]
+    assert [word in text for word, text in zip(words, refused, strict=True)] == [True] * len(words)
     assert replay(out).identical
 
 

@@ -116,13 +116,19 @@ def _show_live(
     subscription = Subscription(
         connect, run.take, run.lost, tls=tls, seats=seats, sounds=sounds if seats else None
     )
-    browsers = Browsers(changes, subscription, of_seats, sounds, tell)
+
+    def refused(text: str) -> None:
+        tell(text)
+        if seats:  # The page of a run without seats publishes nothing.
+            subscription.log_refusal(text)
+
+    browsers = Browsers(changes, subscription, of_seats, sounds, refused)
     try:
         serve(
             live_app(subscription, browsers),
             address,
             opened=_opened,
-            notice=tell,
+            notice=refused,
             browser=browser,
             is_over=lambda: run.is_over and browsers.has_been_empty(LINGER_S),
         )
