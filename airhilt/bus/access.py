@@ -32,7 +32,7 @@ PUBLISHED: Mapping[Role, tuple[str, ...]] = {
         "pace",
         "workload/*",
         "page",
-    ),  # fmt: skip
+    ),
     "recorder": (),
 }
 """Keys on which a role may publish without a grant; a voice is heard, but refused."""

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Sequence
 from typing import Any
 
-from pytest import approx, fixture, mark
+import pytest
 
 from devtools import Page
 from stations import seat_page
 
-pytestmark = mark.browser
+pytestmark = pytest.mark.browser
 FRAMES = """import(new URL('page/live_time.js', location)).then(({ LiveTime }) => {
     const time = new LiveTime(), shown = [];
     const messages = %s;
@@ -26,7 +28,7 @@ TRACK = """import(new URL('page/model.js', location)).then(({ LiveTrack }) => {
 })"""
 
 
-@fixture
+@pytest.fixture
 def station(page: Page) -> Any:
     with seat_page() as (_, url):
         page.open(url)
@@ -35,7 +37,7 @@ def station(page: Page) -> Any:
         page.open("about:blank")
 
 
-def frames(page: Page, messages: list[tuple[float, float]], until_ms: int) -> list[float]:
+def frames(page: Page, messages: Sequence[tuple[float, float]], until_ms: int) -> list[float]:
     """Return the times shown in frames of 16 ms, with messages of (wall time in ms, run time)."""
     shown: list[float] = page.evaluate(FRAMES % ([list(one) for one in messages], until_ms))
     return shown
@@ -44,10 +46,10 @@ def frames(page: Page, messages: list[tuple[float, float]], until_ms: int) -> li
 def test_the_time_shown_passes_evenly_though_messages_do_not(station: Page) -> None:
     messages = [(ms + 60 * (ms // 100 % 3), ms / 1000) for ms in range(0, 6000, 100)]
     shown = frames(station, messages, 6000)
-    steps = [after - before for before, after in zip(shown, shown[1:], strict=False)][200:]
+    steps = [after - before for before, after in itertools.pairwise(shown)][200:]
     assert min(steps) > 0.012
     assert max(steps) < 0.020
-    assert shown[-1] == approx(5.9, abs=0.15)
+    assert shown[-1] == pytest.approx(5.9, abs=0.15)
 
 
 def test_the_time_shown_stands_soon_after_the_last_message(station: Page) -> None:

@@ -102,7 +102,7 @@ def test_a_spoken_clearance_is_recognised_read_back_and_flown(tmp_path: Path) ->
 
 
 def test_of_calls_spoken_in_noise_those_in_doubt_are_asked_for_again(tmp_path: Path) -> None:
-    """The noise of a live call depends on its time, so that no single call is sure to be in doubt."""
+    """The noise of a live call depends on its time, so no single call is sure to be in doubt."""
     out, file = tmp_path / "run", microphone_file(tmp_path / "said.wav", GO_AROUND)
     options = ("--seat", "tower", "--assistant", "none", "--snr", "-6")
     with (

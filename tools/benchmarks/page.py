@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import shutil
 import sys
@@ -15,20 +16,19 @@ from benchmarks.traffic import airport_scenario
 
 sys.path.append(str(Path(__file__).parents[2] / "tests" / "support"))
 
-from devtools import BROWSERS, Page, browser_page  # noqa: E402
-from stations import running  # noqa: E402
+from devtools import BROWSERS, Page, browser_page
+from stations import running
 
 SETTLING_S = 10
 MEASURED_S = 30
 COUNTED = """
-    const fill = CanvasRenderingContext2D.prototype.fillRect, draw = CanvasRenderingContext2D.prototype.drawImage;
+    const pen = CanvasRenderingContext2D.prototype;
     let isDrawn = false;
     const noted = (inner) => function (...given) {
         if (this.canvas.id === "plan") isDrawn = true;
         return inner.apply(this, given);
     };
-    CanvasRenderingContext2D.prototype.fillRect = noted(fill);
-    CanvasRenderingContext2D.prototype.drawImage = noted(draw);
+    for (const name of ["fillRect", "drawImage"]) pen[name] = noted(pen[name]);
     window.counted = { frames: 0, plans: [] };
     const look = (now) => {
         window.counted.frames += 1;
@@ -65,7 +65,7 @@ def page() -> dict[str, float]:
             used_s, browser_s = cpu_s(run) - before_s, cpu_s(chromium) - browser_before_s
             browser.open("about:blank")
     plans = counted["plans"]
-    stood_ms = sorted(b - a for a, b in zip(plans, plans[1:], strict=False))
+    stood_ms = sorted(b - a for a, b in itertools.pairwise(plans))
     return {
         "frames_per_s": counted["frames"] / MEASURED_S,
         "plans_per_s": len(plans) / MEASURED_S,
