@@ -281,8 +281,15 @@ class Options(BaseModel):
             in_sweeps=False,
         ),
     ] = 5.0
-    run_name: Annotated[str, AfterValidator(_one_chunk)] | None = None
-    """First part of the keys of the run; None: scenario and seed."""
+    run_name: Annotated[
+        Annotated[str, AfterValidator(_one_chunk)] | None,
+        Flag(
+            "--run-name",
+            "Name of the run in its keys and on its page.  [default: scenario and seed]",
+            "NAME",
+            in_sweeps=False,
+        ),
+    ] = None
     cameras: Annotated[bool, Flag("--no-cameras", "Leave cameras and vision out.")] = True
     renderer: Annotated[
         str,

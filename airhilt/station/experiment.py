@@ -139,6 +139,7 @@ class Conductor:
             plan = self._progress.plan
             given = {**plan.options, **trial.conditions, "seat": (plan.seat,)}
             given["nasa_tlx"] = plan.nasa_tlx
+            given["run_name"] = f"Trial-{state['trial']}"  # It tells a participant nothing.
             name = self._progress.new_run(trial)
             self._started.start(loading.find(trial.scenario), options_of(given), name)
 
@@ -181,7 +182,7 @@ class Conductor:
         if row is not None and row["state"] != "ended":
             return shown | {"step": row["state"], "url": row["url"]}
         if row is not None and row["name"] in self._progress.attempts(trial):
-            shown["said"] = f"The last run of this trial did not finish: {row['said']}"
+            shown["said"] = "The last run of this trial did not finish."
         return shown | {"step": "ready", "rest_s": self._rest_s(position)}
 
     def _next(self) -> Trial | None:

@@ -18,6 +18,7 @@ from airhilt.errors import AirhiltError, RunFolderError, StationError
 from airhilt.messages import NasaTlx
 from airhilt.station.experiment import Conductor, Progress, write_tables
 from airhilt.station.plan import Plan, balanced_latin_square, plan_of
+from airhilt.station.started_runs import StartedRuns
 
 Cli = Callable[..., subprocess.CompletedProcess[str]]
 ANSWERS = NasaTlx(
@@ -90,6 +91,22 @@ def test_a_finished_trial_is_not_run_again_and_has_a_row(
     assert row["nasa_tlx.raw_tlx"] == 25.0
     assert row["duration_s"] == pytest.approx(8.0)
     assert (tmp_path / "experiment.csv").read_text().startswith('"participant"')
+
+
+def test_a_participant_is_told_nothing_of_the_scenario(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started: list[tuple[str | None, str]] = []
+    monkeypatch.setattr(
+        StartedRuns,
+        "start",
+        lambda _, __, options, name: started.append((options.run_name, name)),
+    )
+    progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
+    conductor = Conductor(progress)
+    conductor.begin()
+    assert started == [("Trial-1", "01-s02a_headon-1")]
+    assert "headon" not in json.dumps(conductor.state())
 
 
 def test_numbers_that_a_run_did_not_write_do_not_enter_the_table(

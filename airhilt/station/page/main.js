@@ -28,6 +28,7 @@ async function begin() {
   const run = new Run(await answer.json()), together = window.parent === window ? null : window.parent.together;
   const clock = together ? new FollowingClock(run.end_s, together.clock) : new Clock(run.end_s, Boolean(run.live));
   if (together) document.body.dataset.together = "true";
+  if (run.live) run.title = run.run.replace(/^Trial-/, "Trial ");
   document.title = `${run.title || run.run} - AIRHILT`;
   const folder = run.folder?.split(/[\\/]/).at(-1), assistant = run.summary?.assistant, named = [folder ?? run.run, assistant ? `assistant ${assistant}` : ""].filter((text) => text).join(", ");
   byId("title").textContent = together ? named : run.title || run.run;
