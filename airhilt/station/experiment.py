@@ -179,9 +179,9 @@ class Conductor:
             return shown | {"step": "questions"}
         run = self._last_run()
         row = next((row for row in self._started.rows() if run and row["name"] == run.name), None)
-        if row is not None and row["state"] != "ended":
-            return shown | {"step": row["state"], "url": row["url"]}
         if row is not None and row["name"] in self._progress.attempts(trial):
+            if row["state"] != "ended":
+                return shown | {"step": row["state"], "url": row["url"]}
             shown["said"] = "The last run of this trial did not finish."
         return shown | {"step": "ready", "rest_s": self._rest_s(position)}
 

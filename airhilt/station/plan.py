@@ -12,6 +12,7 @@ from airhilt.errors import AirhiltError, first_problem
 from airhilt.options import options_of
 from airhilt.scenario import loading
 from airhilt.scenario.seats import seats_of
+from airhilt.world.loading import load
 
 Identifier = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,19}$")]
 SETTLED = ("seat", "out", "overwrite", "pace", "run_name", "endpoint", "attach", "nasa_tlx")
@@ -104,7 +105,7 @@ class Plan(BaseModel):
         """
         for trial in self.trials():
             options_of({**self.options, **trial.conditions})
-            seats_of([self.seat], loading.read(loading.find(trial.scenario)))
+            seats_of([self.seat], load(loading.find(trial.scenario)))
 
 
 def balanced_latin_square(size: int) -> list[list[int]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import os
 import shutil
 import subprocess
 from collections import Counter
@@ -11,14 +12,16 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import psutil
 import pyarrow.parquet as pq
 import pytest
 
 from airhilt.errors import AirhiltError, RunFolderError, StationError
+from airhilt.library import find
 from airhilt.messages import NasaTlx
 from airhilt.station.experiment import Conductor, Progress, write_tables
 from airhilt.station.plan import Plan, balanced_latin_square, plan_of
-from airhilt.station.started_runs import StartedRuns
+from airhilt.station.started_runs import StartedRun, StartedRuns
 
 Cli = Callable[..., subprocess.CompletedProcess[str]]
 ANSWERS = NasaTlx(
@@ -91,6 +94,37 @@ def test_a_finished_trial_is_not_run_again_and_has_a_row(
     assert row["nasa_tlx.raw_tlx"] == 25.0
     assert row["duration_s"] == pytest.approx(8.0)
     assert (tmp_path / "experiment.csv").read_text().startswith('"participant"')
+
+
+def test_the_page_of_a_trial_that_is_over_is_not_that_of_the_next_one(
+    recorded_run: Path, tmp_path: Path
+) -> None:
+    progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
+    name = f"01-{progress.trials[0].name}"
+    shutil.copytree(recorded_run, progress.folder / name)
+    progress.answer(name, ANSWERS)
+    still_there = StartedRun(
+        name=name,
+        scenario="s02a_headon",
+        seats=("AAL123",),
+        process=os.getpid(),
+        created_s=psutil.Process().create_time(),
+    )
+    kept = progress.folder / ".station"
+    kept.mkdir()
+    (kept / f"{name}.json").write_text(still_there.model_dump_json())
+    state = Conductor(progress).state()
+    assert (state["trial"], state["step"], state["url"]) == (2, "ready", "")
+
+
+def test_a_scenario_that_cannot_be_run_is_refused_before_a_participant_comes(
+    tmp_path: Path,
+) -> None:
+    content = json.loads(find("scenarios", "s02a_headon").read_text()) | {"duration_s": 1.0}
+    path = tmp_path / "late.json"
+    path.write_text(json.dumps(content))
+    with pytest.raises(AirhiltError, match="when the run has ended"):
+        plan(scenarios=[str(path)]).check()
 
 
 def test_a_participant_is_told_nothing_of_the_scenario(

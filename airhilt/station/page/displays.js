@@ -61,6 +61,9 @@ export class Displays {
     this.#panel.offer(category, this.#run.airport);
   }
 
+  /** Shows on the strips only calls on the frequencies that a function returns. */
+  hearOnly(heard) { this.#strips.hearOnly(heard); }
+
   /** Takes in what the instruments show. */
   take(shown) { this.#instruments.take(shown); }
 

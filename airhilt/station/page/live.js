@@ -90,7 +90,8 @@ export class Live {
     byId("state").textContent = PHASES[phase] ?? (pace === "paused" ? "paused" : `running, ${PACES[pace] ?? pace}`);
     if (!this.#isOver) return;
     byId("link").hidden = false;
-    byId("link-text").textContent = phase === "gone" ? "The run has ended without saying so. What is shown is how far it came." : `The run ${phase === "finished" ? "is over" : "was stopped"}. Its debrief is on the first page of the station, or at “airhilt view” with its folder.`;
+    byId("pace").hidden = true;
+    byId("link-text").textContent = /^Trial \d+$/.test(this.#run.title) ? "The trial is over. Go back to the page of the experiment." : phase === "gone" ? "The run has ended without saying so. What is shown is how far it came." : `The run ${phase === "finished" ? "is over" : "was stopped"}. Its debrief is on the first page of the station, or at “airhilt view” with its folder.`;
   }
 
   /** Sends what somebody at a seat wishes. */

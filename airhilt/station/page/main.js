@@ -49,7 +49,7 @@ async function begin() {
   clock.animate(() => plan.draw());
   const seat = live ? new Seat(run, live, clock, cameras) : null;
   const talk = live ? new Talk(run, live) : null;
-  if (live) transcript.hearOnly(() => talk.heard);
+  if (live) for (const pane of [transcript, seat]) pane.hearOnly(() => talk.heard);
   live?.connect({ plan, profile, marks, transcript, advisories, traffic, cameras, sounds, transport, seat, talk });
   connectKeys([
     ...timeKeys(clock, transport),

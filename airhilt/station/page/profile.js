@@ -58,7 +58,7 @@ export class Profile {
       this.#picture = copy;
     }
     pen.drawImage(this.#picture, 0, 0, width, height);
-    const x = this.#x(this.#clock.t), { top, bottom } = this.#area;
+    const { top, bottom, right } = this.#area, x = Math.min(this.#x(this.#clock.t), right); // the lines are a little older than the time
     pen.strokeStyle = colour("--ink");
     pen.lineWidth = 1.4;
     pen.beginPath();

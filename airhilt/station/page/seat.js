@@ -26,6 +26,9 @@ export class Seat {
 
   get keys() { return this.#displays.keys; }
 
+  /** Shows on the displays only calls on the frequencies that a function returns. */
+  hearOnly(heard) { this.#displays.hearOnly(heard); }
+
   /** Takes in which seats are free, taken or one's own. */
   setSeats(seats) {
     this.#own = Object.keys(seats).find((name) => seats[name] === "yours") ?? null;

@@ -13,12 +13,16 @@ export class Strips {
   #clock;
   #strips = new Map();
   #drawn = 0;
+  #heard = () => null;
 
   constructor(run, clock) {
     this.#run = run;
     this.#clock = clock;
     this.#list.addEventListener("keydown", (event) => this.#key(event));
   }
+
+  /** Shows only calls on the frequencies in kHz that a function returns; null: of all. */
+  hearOnly(heard) { this.#heard = heard; }
 
   /** Adds strips of those who are new, and shows what is known of all. */
   draw() {
@@ -66,7 +70,8 @@ export class Strips {
 
   /** The last call of this callsign that the recogniser has understood. */
   #lastCall(callsign) {
-    return this.#run.calls.findLast((call) => call.from <= this.#clock.t && (call.addressed === callsign || call.speaker === callsign || call.transcripts.some((one) => one.speaker === callsign)));
+    const heard = this.#heard();
+    return this.#run.calls.findLast((call) => (!heard || heard.includes(call.frequency_khz)) && call.from <= this.#clock.t && (call.addressed === callsign || call.speaker === callsign || call.transcripts.some((one) => one.speaker === callsign)));
   }
 
   #cock(item) {
