@@ -6,6 +6,7 @@ AXE_CORE=axe/node_modules/axe-core/axe.min.js pytest -m slow tests/station
 
 from __future__ import annotations
 
+import json
 import os
 import shutil
 from pathlib import Path
@@ -13,8 +14,9 @@ from typing import Any
 
 import pytest
 
+from airhilt import load
 from devtools import Page
-from stations import running, stationed, viewed
+from stations import experimenting, running, seat_page, stationed, viewed
 
 AXE = Path(os.environ.get("AXE_CORE", "node_modules/axe-core/axe.min.js"))
 pytestmark = [
@@ -71,10 +73,52 @@ def test_two_runs_side_by_side(page: Page, spoken_run: Path, airport_run: Path) 
 @pytest.mark.parametrize("seat", ["AAL123", "tower"])
 def test_the_seats(page: Page, encounter_file: Path, tmp_path: Path, seat: str) -> None:
     with running(encounter_file, tmp_path / "run", "--seat", seat) as (_, url):
-        page.open(url, width=1280, height=720)
-        page.wait_for("document.getElementById('state').textContent.startsWith('running')")
-        page.click("seat-take")
-        page.wait_for("document.body.dataset.seat")
+        seated(page, url)
         page.wait_for("!document.getElementById('own-advisories').hidden")
         assert serious(page) == []
         page.open("about:blank")
+
+
+def test_the_seat_of_a_driver(page: Page, tmp_path: Path) -> None:
+    short = load("s01b_nominal").model_copy(update={"cameras": ()})
+    file = tmp_path / "driver.json"
+    file.write_text(short.model_dump_json())
+    with running(file, tmp_path / "run", "--seat", "OPS1") as (_, url):
+        seated(page, url)
+        page.wait_for("document.querySelector('#panel-actions button')")
+        assert serious(page) == []
+        page.open("about:blank")
+
+
+@pytest.mark.parametrize("dialog", ["help", "consent", "tlx-dialog"])
+def test_the_dialogs(page: Page, dialog: str) -> None:
+    with seat_page() as (_, url):
+        opened(page, url)
+        page.evaluate(
+            "import(new URL('page/tlx.js', location)).then(({ Tlx }) => new Tlx().begin())"
+        )
+        page.evaluate("document.getElementById('consent-text').textContent = 'It is recorded.'")
+        page.evaluate(f"document.getElementById('{dialog}').showModal()")
+        assert serious(page) == []
+        page.open("about:blank")
+
+
+@pytest.mark.parametrize("done", [0, 1], ids=["ready", "questions"])
+def test_an_experiment(page: Page, recorded_run: Path, tmp_path: Path, done: int) -> None:
+    plan = {"participants": ["P01"], "seat": "AAL123", "scenarios": ["s02a_headon"]}
+    file, out = tmp_path / "plan.json", tmp_path / "out"
+    file.write_text(json.dumps(plan))
+    for number in range(1, done + 1):
+        shutil.copytree(recorded_run, out / "P01" / f"{number:02d}-s02a_headon-{number}")
+    with experimenting(file, "--participant", "P01", "--out", str(out)) as url:
+        opened(page, url)
+        page.wait_for("document.getElementById('step').textContent")
+        assert serious(page) == []
+        page.open("about:blank")
+
+
+def seated(page: Page, url: str) -> None:
+    page.open(url, width=1280, height=720)
+    page.wait_for("document.getElementById('state').textContent.startsWith('running')")
+    page.click("seat-take")
+    page.wait_for("document.body.dataset.seat")

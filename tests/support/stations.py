@@ -42,7 +42,20 @@ TOWER = SeatInfo(
 @contextmanager
 def viewed(*run_folders: Path) -> Iterator[str]:
     """Start `airhilt view`, yield the URL that it prints, and interrupt it."""
-    arguments = ["view", *map(str, run_folders), "--port", "0", "--no-browser"]
+    with _served("view", *map(str, run_folders)) as url:
+        yield url
+
+
+@contextmanager
+def experimenting(plan: Path, *options: str) -> Iterator[str]:
+    """Start `airhilt experiment`, yield the URL that it prints, and interrupt it."""
+    with _served("experiment", str(plan), *options) as url:
+        yield url
+
+
+@contextmanager
+def _served(*command: str) -> Iterator[str]:
+    arguments = [*command, "--port", "0", "--no-browser"]
     process = subprocess.Popen(
         [sys.executable, "-m", "airhilt", *arguments], stdout=subprocess.PIPE, text=True
     )
