@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ssl
 from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
@@ -63,8 +64,29 @@ def station_address(
     for path in (certificate, key):
         if path is not None and not path.is_file():
             raise StationError(f"{path}: no such file; expected a PEM file")
+    _check_certificate(certificate, key)
     try:
         token = "" if token_file is None else token_file.read_text("utf-8").strip()
     except (OSError, UnicodeDecodeError) as error:
         raise StationError(f"{token_file}: cannot be read: {error}") from None
     return Address(host, port, certificate, key, token)
+
+
+def _check_certificate(certificate: Path | None, key: Path | None) -> None:
+    """Complain about files that are no certificate with its key.
+
+    Raises
+    ------
+    StationError
+        They are none, or the key asks for a password.
+    """
+    if certificate is None or key is None:
+        return
+    try:
+        context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+        context.load_cert_chain(certificate, key, password=lambda: b"")
+    except (OSError, ValueError) as error:
+        raise StationError(
+            f"{certificate}, {key}: {error}; expected a PEM certificate and its key, without a "
+            "password"
+        ) from None

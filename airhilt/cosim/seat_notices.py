@@ -28,7 +28,8 @@ class SeatNotices:
         """Receive a message of the run."""
         match message:
             case Event(kind="unable", subject=subject, text=text):
-                self._tell(key_chunk(subject), f"Unable: {text}")
+                why = text.removeprefix("unable").lstrip(" ,:")
+                self._tell(key_chunk(subject), f"Unable: {why}")
             case Event(kind="refused", subject=subject, text=text):
                 self._tell(subject.rpartition("/")[2], f"Refused: {text}")
 

@@ -157,7 +157,7 @@ def test_a_person_is_told_what_the_aircraft_cannot_do_and_what_is_refused(tmp_pa
     ]
     log = logged(tower(5.0), tmp_path / "run", ["AAL123"], given)
     unable, refused = [one["text"] for one in contents(log, "notice/AAL123")]
-    assert unable.startswith("Unable: ")
+    assert unable.startswith("Unable: 60000 ft")
     assert refused.startswith("Refused: ")
 
 

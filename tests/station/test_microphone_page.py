@@ -17,6 +17,7 @@ from airhilt.messages import SpokenWords
 from airhilt.station import browsers
 from airhilt.station.held_button import AHEAD_S, LARGEST_PIECE_BYTES, HeldButton
 from microphone import (
+    BUTTON,
     microphone_file,
     open_microphone,
     page_with_microphone,
@@ -75,6 +76,12 @@ def test_what_is_said_while_the_space_bar_is_held_comes_at_the_seat(
         open_microphone(page)
         talk(page)
         pressed, pcm = run.call()
+        page.key("keyDown", " ", 32)
+        page.wait_for(f"{BUTTON} === 'On the air'")
+        run.seat.add("notice", 60.0, "Your call was cut after 60 s.")
+        page.wait_for(f"{BUTTON} === 'Hold to talk'")  # Though the space bar is still held.
+        page.key("keyUp", " ", 32)
+        run.call()
     assert 0.0 <= pressed.delay_s < 60.0
     said, expected = from_pcm(pcm), voice(WORDS)
     assert len(said) > len(expected) - SAMPLE_RATE_HZ // 5

@@ -61,7 +61,7 @@ export class Seat {
     const done = changes.filter(([kind, card]) => kind === "task" && card.done).map(([, card]) => card.line);
     this.#tasks = this.#tasks.filter((card) => !done.includes(card.line));
     const notices = changes.filter(([kind]) => kind === "notice");
-    if (notices.length) this.refuse(notices.at(-1)[2]);
+    if (notices.length) { this.refuse(notices.at(-1)[2]); byId("panel-state").textContent = ""; }
     this.#tasks.push(...changes.filter(([kind]) => kind === "task").map(([, card]) => card).filter(isOpen));
     this.#drawTasks();
   }

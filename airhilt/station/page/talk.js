@@ -10,6 +10,7 @@ import { Phrases } from "./phrases.js";
 import { Workload } from "./workload.js";
 
 const ECHO_MS = 2000;
+const CUT = "Your call was cut"; // how the run, or the station, tells that a call has been ended
 
 export class Talk {
   #run;
@@ -70,7 +71,9 @@ export class Talk {
   }
 
   /** Takes in a message of the server. */
-  take({ own, changes, sounds, echo }) {
+  take({ own, changes, sounds, echo, refused }) {
+    const told = [refused ?? "", ...(own ?? []).filter(([kind]) => kind === "notice").map(([, , text]) => text)];
+    if (told.some((text) => text.startsWith(CUT))) this.#microphone.release(); // Nobody hears what is said from now on.
     if (changes?.some(([kind]) => kind === "clock")) this.#pace.draw();
     for (const [kind, row] of this.#own ? changes ?? [] : []) {
       if (kind === "name") this.#takeActive(); // An advisory knew the aircraft by its address alone.
