@@ -1,4 +1,4 @@
-"""What the page shows between two messages of a live run."""
+"""What the page shows of a live run between two messages, and what it keeps of it."""
 
 from __future__ import annotations
 
@@ -25,6 +25,26 @@ TRACK = """import(new URL('page/model.js', location)).then(({ LiveTrack }) => {
     const track = new LiveTrack('AAL123', 'aircraft', '', 0);
     for (const t of [0, 0.5, 1]) track.add([t, 100 * t, 0, 1000, [100, 0], 90, false, '']);
     return [0.75, 1, 1.5, 60].map((t) => track.state(t, 1).east);
+})"""
+
+
+LONG = """import(new URL('page/model.js', location)).then(({ LiveTrack, Run }) => {
+    const none = { tracks: [], calls: [], events: [], advisories: [], spoken: [] };
+    const run = new Run({ ...none, scenario: { name: '' } });
+    const track = new LiveTrack('AAL123', 'aircraft', '', 0);
+    let most = 0;
+    for (let t = 0; t < 40000; t += 0.5) {
+        track.add([t, t, 0, 1000, [1, 0], 90, false, '']);
+        most = Math.max(most, track.t.length);
+    }
+    for (let i = 0; i < 9000; i += 100) {
+        const rows = [];
+        for (let j = i; j < i + 100; j += 1) rows.push({ id: `${j}`, from: j, to: j, t: j });
+        for (const kind of ['call', 'event', 'advisory', 'spoken'])
+            run.apply(rows.map((row) => [kind, row]));
+    }
+    const kept = [run.calls, run.events, run.advisories, run.spoken].map((rows) => rows.length);
+    return { most, kept, early: track.place(10000)[0], newest: run.calls.at(-1).id };
 })"""
 
 
@@ -67,3 +87,11 @@ def test_an_actor_goes_on_for_one_and_a_half_intervals_after_its_last_report(
     station: Page,
 ) -> None:
     assert station.evaluate(TRACK) == [75, 100, 150, 100 + 0.75 * 100]
+
+
+def test_what_is_kept_of_a_long_run_has_a_bound(station: Page) -> None:
+    found = station.evaluate(LONG)
+    assert found["most"] <= 3600
+    assert max(found["kept"]) <= 2400
+    assert found["early"] == pytest.approx(10000)
+    assert found["newest"] == "8999"

@@ -5,6 +5,7 @@ import { before } from "./series.js";
 import { counted, fixed, seconds } from "./words.js";
 
 const FOUND = "#ffdd33", THERE = "#5ce1ff";
+const MOST_RECORDS = 1000; // of pictures of a camera of a live run: about a minute
 const RADIANS = Math.PI / 180;
 
 export class Cameras {
@@ -63,6 +64,7 @@ export class Cameras {
     this.#records.set(name, record);
     if (record.seq.length && seq <= record.seq.at(-1)) return;
     for (const [part, value] of Object.entries({ seq, t, views: view, found, there: [] })) record[part].push(value);
+    if (record.seq.length > 1.2 * MOST_RECORDS) for (const values of Object.values(record)) values.splice(0, values.length - MOST_RECORDS);
   }
 
   /** Shows another camera. */

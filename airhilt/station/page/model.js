@@ -8,7 +8,9 @@ const COLOURS = 8;
 const MOST_LATENCIES = 4000; // bars of a live run that are kept: some ten minutes
 const LONGEST_INTERVAL_S = 12; // between two reports of an actor: a turn of a surveillance radar
 const AHEAD = 1.5; // intervals between reports for which an actor is shown further on after the last one
-const FULL_S = 300, OLD_STEP_S = 2; // of a live run, what is older than that is kept in steps of this
+const FULL_S = 300, OLD_STEP_S = 2; // of a live run, what is older than that is kept in steps of this at least
+const MOST_STATES = 2500; // of an actor of a live run that are kept: its old ones in longer steps the longer it is there
+const MOST_ROWS = { calls: 1000, events: 2000, advisories: 1000, spoken: 200 }; // of a live run that are kept, the newest
 export const SEVERITIES = ["INFO", "ADVISORY", "CAUTION", "WARNING"];
 
 /** The track of one actor. */
@@ -61,7 +63,8 @@ export class LiveTrack extends Track {
   patience = 15;
   #velocities = [];
   #interval = 0; // s between two reports, rather too long than too short
-  #thinAt = 2000;
+  #thinAt = MOST_STATES;
+  #oldStep = OLD_STEP_S;
 
   constructor(callsign, category, type, index) {
     super({ callsign, category, type, t: [], east_nm: [], north_nm: [], altitude_ft: [], heading_deg: [], on_ground: [], phases: [] }, index);
@@ -83,14 +86,21 @@ export class LiveTrack extends Track {
     if (this.t.length > this.#thinAt) this.#thin();
   }
 
-  /** Keeps of what is long ago one state in two seconds, so that a long run needs little memory. */
+  /** Keeps few states of what is long ago, so that a run of any length needs no more memory. */
   #thin() {
-    const kept = [], full = this.last - FULL_S;
-    let last = -Infinity;
-    this.t.forEach((t, i) => { if (t >= full || t - last >= OLD_STEP_S) { kept.push(i); last = t; } });
+    let kept = this.#every(this.#oldStep);
+    while (kept.length > MOST_STATES && this.#oldStep < this.last) kept = this.#every(this.#oldStep *= 2);
     for (const name of ["t", "east", "north", "altitude_ft", "heading_deg"]) this[name] = kept.map((i) => this[name][i]);
     this.#velocities = kept.map((i) => this.#velocities[i]);
     this.#thinAt = kept.length + 1000;
+  }
+
+  /** Indices of the states of the last minutes, and of one in so many seconds of what was before. */
+  #every(step) {
+    const kept = [], full = this.last - FULL_S;
+    let last = -Infinity;
+    this.t.forEach((t, i) => { if (t >= full || t - last >= step) { kept.push(i); last = t; } });
+    return kept;
   }
 
   /** After its last report an actor goes on straight, for a little more than it takes until the next one. */
@@ -159,6 +169,7 @@ export class Run {
     }
     if (this.latencies.length > 2 * MOST_LATENCIES) this.latencies.splice(0, this.latencies.length - MOST_LATENCIES);
     if (changed.has("call")) this.calls.sort((a, b) => a.from - b.from);
+    for (const [name, most] of Object.entries(MOST_ROWS)) if (this[name].length > 1.2 * most) this[name].splice(0, this[name].length - most);
     if (changed.has("call") || changed.has("event")) this.moments = momentsOf(this);
     return changed;
   }

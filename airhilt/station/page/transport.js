@@ -7,9 +7,12 @@ import { METRE_PER_NM } from "./model.js";
 
 const PLAY = "M4 2l10 6-10 6z", PAUSE = "M3 2h4v12H3zM9 2h4v12H9z";
 
+const MOST_LISTED = 300; // events of a live run that can be chosen, the newest
+
 export class Transport {
   #run;
   #clock;
+  #first = 0; // index of the first event that can be chosen
 
   constructor(run, clock) {
     this.#run = run;
@@ -31,8 +34,9 @@ export class Transport {
 
   /** Lists the events again, because there are new ones. */
   renew() {
-    const { moments } = this.#run;
-    byId("events").replaceChildren(html("option", { value: "" }, `an event (${moments.length})`), ...moments.map((moment, i) => html("option", { value: i }, `${seconds(moment.t)}  ${moment.text}`)));
+    const { moments } = this.#run, first = this.#clock.live ? Math.max(moments.length - MOST_LISTED, 0) : 0;
+    this.#first = first;
+    byId("events").replaceChildren(html("option", { value: "" }, `an event (${moments.length})`), ...moments.slice(first).map((moment, i) => html("option", { value: first + i }, `${seconds(moment.t)}  ${moment.text}`)));
   }
 
   /** Goes to the next event, or to the one before with a step of -1. */
@@ -56,7 +60,7 @@ export class Transport {
     byId("loop").setAttribute("aria-pressed", loop.on);
     byId("loop-text").textContent = loop.from === null && loop.to === null ? "" : `${loop.from === null ? "?" : seconds(loop.from)} to ${loop.to === null ? "?" : seconds(loop.to)}`;
     const moment = this.#run.moments.findLastIndex((one) => Math.abs(one.t - t) < 0.05);
-    if (document.activeElement !== byId("events")) byId("events").value = moment < 0 ? "" : moment;
+    if (document.activeElement !== byId("events")) byId("events").value = moment < this.#first ? "" : moment;
     this.#drawApart(t);
   }
 
