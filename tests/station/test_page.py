@@ -163,7 +163,8 @@ def test_an_actor_that_truth_and_surveillance_both_tell_of_is_one(
     opened(page, spoken_url)
     names = page.evaluate(
         "import(new URL('page/model.js', location)).then(({ Run }) => {"
-        "const run = new Run({ tracks: [], calls: [], events: [], scenario: { name: '' } });"
+        "const run = new Run({ tracks: [], calls: [], spoken: [], events: [], advisories: [],"
+        "scenario: { name: '' } });"
         f"run.apply([{', '.join(told)}]);"
         "return run.tracks.map((track) => track.callsign).join(); })"
     )

@@ -295,8 +295,8 @@ def test_who_can_stop_short_of_the_pavement_with_firm_braking_is_told_to(
 def test_an_error_of_position_to_one_side_is_that_of_one_axis(
     margin_m: float, cannot: bool
 ) -> None:
-    """Of a circular normal error with a 95 % radius of 30 m, one axis errs by more than 20.16 m
-    to one side in 5 % of cases: 1.645 of its standard deviations, of which 30 m are 2.4477."""
+    """One axis of a circular normal error with a 95 % radius of 30 m errs by more than 20.16 m to
+    one side in 5 % of cases: 1.645 of its standard deviations, of which 30 m are 2.4477."""
     error_m = 1.645 / 2.4477 * 30.0
     braking_m = 8.0**2 / (2.0 * 4.0)
     line_m = braking_m - error_m - margin_m
