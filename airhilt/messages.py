@@ -1009,7 +1009,7 @@ class PageRefusal(Message):
     In the log it is an event of the kind ``refused``; it changes nothing of the run.
     """
 
-    limit = Limit(size_bytes=2_000, rate_hz=5)
+    limit = Limit(size_bytes=2_000, rate_hz=50)
     text: str = Field(min_length=1, max_length=400)
 
 
