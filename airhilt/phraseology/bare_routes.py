@@ -37,7 +37,7 @@ _ROUTES = (
         r"(?:(?:taxi|route|is|via|on|along|taxiway|left|right|then|continue|we|will|take|now) )*"
         rf"(?P<via>{_LISTED})"
         rf"(?: {_TO_RUNWAY}|(?: and)?(?: to)?(?: the)? (?P<stand>{STAND})"
-        r"| to (?:the )?(?P<place>(?:north|south|east|west|cargo|main)(?: [a-z]+){1,2}))?"
+        r"| to (?:the )?(?P<place>(?:north|south|east|west|cargo|main)(?: [a-z]+){1,2}|fbo|f b o))?"
     ),
 )
 _CROSSED_AT = re.compile(rf"{_PIECE} (?=(?:left|right)(?: on| onto)? {_LETTER})")
@@ -64,6 +64,8 @@ def bare_route(
         True if "and" or "then" leads to the words.
     """
     text = " ".join(words)
+    if last in ("follow", "give_way") and " then " in text:
+        text, is_joined = text.split(" then ", 1)[1], True
     if last == "cross":
         text = _CROSSED_AT.sub("", text, count=1)
     if words[0] in ("on", "at") and last in ("hold_short", "cross", "line_up"):

@@ -37,11 +37,14 @@ _VALUE = re.compile(
     r"|(?P<turn>left|right) (?P<turned>[0-9]{3})|(?P<heading>[0-9]{3}) on the heading"
     r"|(?P<degrees>10|15|20|25|30|40|45) (?P<side>left|right)"
     r"|(?P<setting>2[89][0-9]{2}|3[01][0-9]{2}|9[5-9][0-9]|10[0-4][0-9])(?= |$)"
+    r"|(?P<cut>1[89]|2[0-9]|3[0-6]) decimal (?P<part>[0-9]{1,3})"
     r"|(?P<mhz>1[1-3][0-9])(?P<fraction>[0-9]{1,3})(?: for [a-z]+)?"
     r"|(?P<short>(?:1[89]|2[0-9]|3[0-6])[1-46-9])"
     rf"|(?P<group>(?:1[89]|2[0-9]|3[0-6]){_FRACTION})(?= |$)"
     r"|decimal (?P<ground>[0-9]{1,2})|(?P<code>[0-7]{4})|(?P<number>[0-9]{3}))(?: |$)"
 )
+_FURTHER = re.compile(r"expect further(?: clearance)?(?: at| time)*(?: [0-9]{2,4})?$")
+"""The time to which an aircraft holds."""
 _JOINT = re.compile(r"(?:and|then)(?: and| then)* ")
 
 
@@ -63,7 +66,7 @@ def without_courtesies(words: list[str]) -> list[str]:
     return kept
 
 
-def bare_values(words: list[str], beside: set[Action]) -> Bare:
+def bare_values(words: list[str], beside: set[Action], last: Action | None = None) -> Bare:
     """Return the values of a readback that has nothing else; nothing if any word is left over.
 
     Parameters
@@ -72,8 +75,10 @@ def bare_values(words: list[str], beside: set[Action]) -> Bare:
         Words that belong to no action, without courtesies.
     beside
         Actions of the call, which tell what a number without a unit is.
+    last
+        Action right before the words.
     """
-    text, at = " ".join(words), 0
+    text, at = _FURTHER.sub("", " ".join(words)).strip(), 0
     bare, is_then = Bare(), False
     found_values: list[tuple[re.Match[str], bool]] = []
     while at < len(text):
@@ -87,7 +92,9 @@ def bare_values(words: list[str], beside: set[Action]) -> Bare:
         at, is_then = found.end(), False
     has_level = "altitude" in beside or any(found["level"] for found, _ in found_values)
     for index, (found, is_later) in enumerate(found_values):
-        setting = _setting_of(found, is_behind_level=index > 0 and has_level)
+        setting = _setting_of(
+            found, is_behind_level=(index > 0 and has_level) or last == "cross_fix"
+        )
         if setting is not None:
             bare.pressure_hpa = setting
             continue
@@ -192,6 +199,8 @@ def _frequency(found: re.Match[str], text: str) -> Instruction | None:
     """Return a frequency; four digits of which none is above 7 may also be a code."""
     if found["ground"]:
         mhz, fraction = GROUND_MHZ, found["ground"]
+    elif found["cut"]:
+        mhz, fraction = f"1{found['cut']}", found["part"]
     elif found["mhz"]:
         mhz, fraction = found["mhz"], found["fraction"]
     else:

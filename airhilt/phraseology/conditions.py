@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from airhilt.phraseology.call import CLEARANCES, REPORTS, Action, Instruction
-from airhilt.phraseology.forms import BARE_RUNWAY, NO_VALUE, Read
+from airhilt.phraseology.forms import BARE_RUNWAY, DEPARTED, NO_VALUE, Read
 from airhilt.phraseology.scan import Found, Span
 
 Reads = list[tuple[Read, Found]]
@@ -16,6 +16,7 @@ CONDITIONED: frozenset[Action] = CLEARANCES | {"hold_position"}
 SEQUENCED: frozenset[Action] = frozenset(
     {"altitude", "speed", "mach", "heading", "direct", "turn_by", "descend_via", "climb_via"}
 )
+_TALKS: frozenset[Action] = frozenset({"contact", "monitor"})
 YIELDED: frozenset[Action] = frozenset({"give_way", "follow"})
 """Actions that a taxi route waits for after "then"."""
 """Actions that wait for the one before them after "then" (FAA Order JO 7110.65, 5-7-2)."""
@@ -57,15 +58,29 @@ _AIRBORNE = re.compile(
     r"(?<!\S)(?:airborne|(?:after|on) departure|off the ground|in the air)(?!\S)"
 )
 AIRBORNE = "when airborne"
-DEPARTED = "after departure"
 _RIVALS: dict[Action, Callable[[Instruction], float | None]] = {
     "heading": lambda told: told.heading_deg,
     "altitude": lambda told: None if told.bound else told.altitude_ft,
     "speed": lambda told: None if told.bound else told.speed_kt,
 }
 """Actions of which one call gives one value for a time, with that value."""
+_ENTERING = frozenset({"cleared_for_takeoff", "line_up", "cross"})
+"""Clearances to go on to a runway."""
 _EXCLUSIVE = frozenset({"cleared_to_land", "cleared_for_takeoff", "line_up"})
 """Clearances of which one aircraft gets one at a time, except line-up and take-off."""
+
+
+_RECEIVED = re.compile(r"when receiving (?:the )?(.*?)(?: vor| v o r)?")
+"""A condition that names the navaid to go to (FAA Order JO 7110.65, 4-4-1)."""
+
+
+def without_goals(reads: Reads) -> None:
+    """Drop the directs to a fix that no word names."""
+    reads[:] = [
+        (read, each)
+        for read, each in reads
+        if read.instruction.action != "direct" or read.instruction.position is not None
+    ]
 
 
 def attach(conditions: list[Span], reads: Reads, text: str) -> None:
@@ -158,6 +173,9 @@ def _set(
     told = read.instruction
     if told.action in REPORTS:
         return  # What is seen waits for nothing.
+    received = _RECEIVED.fullmatch(condition or "") if told.action == "direct" else None
+    if received and told.position is None:
+        told = replace(told, position=received[1])
     told = replace(told, condition=condition or told.condition, until=until or told.until)
     reads[index] = read._replace(instruction=told), each
 
@@ -228,7 +246,7 @@ def put_in_order(reads: Reads, texts: list[str], text: str) -> None:
             _set(reads, index, condition=DEPARTED)
         elif index and _waits_with(reads[index - 1][0], read, text):
             _set(reads, index, condition=reads[index - 1][0].instruction.condition)
-        elif _waits(told, reads[:index], is_then=texts[max(each.first - 1, 0)] == "then"):
+        elif _waits(told, reads[:index], is_then=_is_then(texts, each.first)):
             _set(reads, index, condition="then")
 
 
@@ -257,6 +275,14 @@ def _share_runway(reads: Reads, index: int, text: str) -> None:
             return
 
 
+def _is_then(texts: list[str], first: int) -> bool:
+    """Return whether "then" stands before an action: "then back to one eighty on the speed"."""
+    at = first - 1
+    while at > 0 and texts[at] in ("back", "to", "down", "it"):
+        at -= 1
+    return texts[max(at, 0)] == "then"
+
+
 def _waits(told: Instruction, before: Reads, *, is_then: bool) -> bool:
     """Return whether an action waits for the one before it.
 
@@ -267,7 +293,9 @@ def _waits(told: Instruction, before: Reads, *, is_then: bool) -> bool:
     if told.action == "taxi":
         return last == "give_way" or (is_then and last in (None, *YIELDED))
     is_limited = bool(before) and before[-1][0].instruction.until is not None
-    return is_then and (told.action in SEQUENCED or (is_limited and told.action == "contact"))
+    is_moved = last in ("taxi", "vacate", "cross", "hold_short", "backtrack", "push_back")
+    is_later = is_limited or is_moved
+    return is_then and (told.action in SEQUENCED or (is_later and told.action in _TALKS))
 
 
 def _waits_with(before: Read, read: Read, text: str) -> bool:
@@ -300,6 +328,31 @@ def _without_rivals(instructions: list[Instruction]) -> list[Instruction]:
     ]
 
 
+def _without_stopped(instructions: list[Instruction]) -> list[Instruction]:
+    """Return instructions with low confidence in a clearance that the same call stops.
+
+    A word between them is lost: "line up runway 23, disregard, hold short runway 23".
+    """
+    now = [each for each in instructions if each.condition is None]
+    is_held = any(each.action == "hold_position" for each in now)
+    is_gone = any(each.action == "go_around" for each in now)
+    kept_off = {each.runway for each in now if each.action == "hold_short" and each.runway}
+
+    def is_stopped(told: Instruction) -> bool:
+        if told.action == "cleared_to_land":
+            return is_gone
+        return told.action in _ENTERING and (is_held or told.runway in kept_off)
+
+    if not (is_held or is_gone or kept_off):
+        return instructions
+    return [
+        replace(each, confidence=min(each.confidence, NO_VALUE))
+        if each.condition is None and is_stopped(each)
+        else each
+        for each in instructions
+    ]
+
+
 def doubtful(instructions: list[Instruction]) -> list[Instruction]:
     """Return instructions with low confidence in those that exclude each other.
 
@@ -308,7 +361,7 @@ def doubtful(instructions: list[Instruction]) -> list[Instruction]:
     """
     if len(instructions) < 2:
         return instructions
-    instructions = _without_rivals(instructions)
+    instructions = _without_stopped(_without_rivals(instructions))
     now = [each for each in instructions if each.action in _EXCLUSIVE and each.condition is None]
     actions = {each.action for each in now}
     runways = {each.runway for each in now if each.runway}

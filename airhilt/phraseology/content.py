@@ -18,6 +18,7 @@ from airhilt.phraseology.conditions import (
     merge_levels,
     put_in_order,
     withdraw,
+    without_goals,
 )
 from airhilt.phraseology.denials import AFTERWARDS, BETWEEN, is_expected, is_meant
 from airhilt.phraseology.forms import Read, Segment
@@ -77,6 +78,7 @@ def content_of(words: Words) -> Content:
         plain = _blank(plain, span)
     reads = _reads(scan, texts, plain, starts)
     attach(conditions, reads, text)
+    without_goals(reads)
     merge_levels(reads, plain)
     withdraw(reads)
     put_in_order(reads, texts, text)
@@ -212,7 +214,7 @@ def _take_bare(
             is_level = last == "heading" and LEVEL.fullmatch(" ".join(gap.words)) is not None
             if is_called and not is_level:
                 continue
-            bare = bare_values(gap.words, beside)
+            bare = bare_values(gap.words, beside, last)
             content.pressure_hpa = content.pressure_hpa or bare.pressure_hpa
             for each in bare.instructions:
                 if is_level and before is not None:  # It waits for what the heading waits for.

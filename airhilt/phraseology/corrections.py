@@ -6,14 +6,17 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 
-from airhilt.phraseology.call import Instruction
+from airhilt.phraseology.call import CLEARANCES, Instruction
 from airhilt.phraseology.content import Content
 from airhilt.phraseology.ground import route_of
 from airhilt.phraseology.slots import (
     FREQUENCY,
+    LETTER,
     LEVEL,
     NAMED_RUNWAY,
+    NO_SENSE,
     RUNWAY,
+    SHORTENED,
     SIDED_RUNWAY,
     TAXIWAY,
     designator,
@@ -44,6 +47,11 @@ _VERBS = (
 _RUNWAY_SLIP = re.compile(
     rf"(?<!\S)(?:runway )?{SIDED_RUNWAY} correction (?=(?:runway )?{SIDED_RUNWAY})"
 )
+_ROUTE_SLIP = re.compile(
+    rf"(?<!\S)(?P<said>{LETTER}(?: [0-9]{{1,2}}(?!\S))?(?: {LETTER}(?: [0-9]{{1,2}}(?!\S))?)*)"
+    rf" correction (?:via )?(?P<meant>(?={LETTER}){TAXIWAY}(?: (?={LETTER}){TAXIWAY})*)"
+)
+"""A route, and the one that corrects it."""
 _MEANT = re.compile(
     r"(?<!\S)(?:(?:no|oh|actually|negative) )*(?:(?:i )?sorry|make that|scratch that|i mean|i meant"
     r"|(?<=no )(?:it|that|make it)(?: is)?)(?: (?:it|that|make that|that is|it is))*"
@@ -80,6 +88,10 @@ def without_slips(words: Words) -> Words:
             mended.take(words, last, len(words.texts))
             words = mended
             continue
+        route = _ROUTE_SLIP.search(text)
+        if route and route["said"].split()[0] == route["meant"].split()[0]:
+            words = _with_route(words, text, route)
+            continue
         found = _SLIP.search(text)
         if found is None:
             return words
@@ -100,6 +112,17 @@ def without_slips(words: Words) -> Words:
             mended.add(words.texts[index], words.confidences[index] * sure)
         words = mended
     return words
+
+
+def _with_route(words: Words, text: str, route: re.Match[str]) -> Words:
+    """Return words with the route that corrects another, which begins with the same taxiway."""
+    first, last = len(text[: route.start()].split()), len(text[: route.start("meant")].split())
+    size = len(route["meant"].split())
+    mended = Words(words.texts[:first], words.confidences[:first])
+    for index in range(last, len(words.texts)):
+        sure = MENDED if index < last + size else 1.0
+        mended.add(words.texts[index], words.confidences[index] * sure)
+    return mended
 
 
 def _with_correction(words: Words) -> Words:
@@ -149,14 +172,21 @@ class Corrections:
     def _take(self, content: Content, begin: int, end: int, marker: str) -> None:
         """Add the meaning of the words from a marker on."""
         part = Words(self._words.texts[begin:end], self._words.confidences[begin:end])
+        withdrawn, is_anew = list(content.instructions), False
         if marker == "disregard":
             content.instructions.clear()
             content.doing.clear()
             content.traffic.clear()
             size = len(_DISREGARDED.match(" ".join(part.texts))[0].split())  # type: ignore[index]
-            if size > 1:
-                part = Words(part.texts[size:], part.confidences[size:])
+            is_anew = size == 1 and bool(withdrawn)
+            part = (
+                Words(part.texts[size:], part.confidences[size:]) if size > 1 or is_anew else part
+            )
         new = self._read(part)
+        if is_anew:
+            kept = [i for i, each in enumerate(new.instructions) if each not in withdrawn]
+            new.doing = [new.doing[i] for i in kept]
+            new.instructions = [_given_anew(new.instructions[i], withdrawn) for i in kept]
         content.traffic += new.traffic
         content.pressure_hpa = new.pressure_hpa or content.pressure_hpa
         if marker == "correction" and content.instructions:
@@ -174,6 +204,14 @@ class Corrections:
                 content.doing.pop()
         content.instructions += new.instructions
         content.doing += new.doing
+
+
+def _given_anew(told: Instruction, withdrawn: list[Instruction]) -> Instruction:
+    """Return what is said behind a bare "disregard": a clearance may be what is withdrawn."""
+    if told.action not in CLEARANCES:
+        return told
+    is_again = any(told.action == each.action for each in withdrawn)
+    return replace(told, confidence=min(told.confidence, NO_SENSE if is_again else SHORTENED))
 
 
 def _corrects_itself(last: Instruction, new: Content) -> bool:

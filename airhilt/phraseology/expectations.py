@@ -73,7 +73,9 @@ def _level_in_a_while(text: str) -> tuple[float | None, float, int]:
 
 _IN_A_WHILE = re.compile(r"(?: to)? [1-6][0-9]{2} (?:in|by|at|within)(?!\S)")
 _RUNWAYS = re.compile(rf"(?<!\S)(?:runway |(?={SIDED_RUNWAY})){RUNWAY}")
-_BARE_RUNWAY = re.compile(rf"(?: to)? (?={SIDED_RUNWAY}|[0-9]+(?:$| \|)){RUNWAY}")
+_BARE_RUNWAY = re.compile(
+    rf"(?: to)? (?={SIDED_RUNWAY}|[0-9]+(?:$| (?:\||we|with|and|got|have|looking)(?!\S))){RUNWAY}"
+)
 _EXPECT = r"(?:expect(?:ing)?|plan(?:ning)?(?: on)?|anticipate)"
 _RUNWAY = RUNWAY.replace("(0?", "(?P<number>0?", 1).replace("(left|", "(?P<side>left|", 1)
 

@@ -32,6 +32,8 @@ BARE_VALUE = 0.85
 LONG_NAME = 0.75
 """Confidence in a name of a fix of three words, which may have a word that is not its own."""
 
+DEPARTED = "after departure"
+"""Condition of what a clearance before departure says."""
 UNITS = (
     "tower", "ground", "approach", "departure", "arrival", "centre", "control", "radar",
     "director", "delivery", "apron", "ramp", "information", "radio",
@@ -112,6 +114,12 @@ _AHEAD = re.compile(
     rf"(?<!departing )(?P<word>runway ){RUNWAY}(?= (?:winds? |number [0-9]|#|cleared short))"
 )
 """A named runway before its clearance, with other words between them."""
+_BEFORE_TURN = re.compile(
+    rf"(?<!of )(?<!final )(?<!base )(?<!on )(?<!for )(?<!behind )(?<!crossing )(?<!landing )"
+    rf"(?<!departing )(?P<word>runway ){RUNWAY} (?:(?:fly|turn)(?: (?:left|right))?"
+    r"|(?:left|right)(?: turn)?)(?: to)?(?: heading)? [0-9]{3}(?: degrees)? $"
+)
+"""A runway whose take-off is cleared behind the turn after it (FAA Order JO 7110.65, 3-9-9)."""
 _BEGINS = re.compile(
     rf"(?:.* )?(?:\||correction|wind calm|knots)(?: (?:{_ACK}))* |(?:(?:{_ACK}) )*"
 )
@@ -206,14 +214,18 @@ def _opening(segment: Segment) -> re.Match[str] | None:
 
     It is none if the call names another one, but to hold short of.
     """
-    opening = _OPENING.match(segment.text) or _AHEAD.search(segment.before)
+    opening = (
+        _OPENING.match(segment.text)
+        or _AHEAD.search(segment.before)
+        or _BEFORE_TURN.search(segment.before_all)
+    )
     if opening is None:
         return None
     is_at_begin = opening.re is _OPENING
-    at = opening.end() if is_at_begin else segment.begin + opening.end()
-    others = list(NAMED_RUNWAY.finditer(segment.text, at))
+    offset = segment.begin if opening.re is _AHEAD else 0
+    others = list(NAMED_RUNWAY.finditer(segment.text, offset + opening.end()))
     if not is_at_begin:
-        others += NAMED_RUNWAY.finditer(segment.text, 0, segment.begin + opening.start())
+        others += NAMED_RUNWAY.finditer(segment.text, 0, offset + opening.start())
     is_only = all(segment.text[: other.start()].endswith("short of ") for other in others)
     return opening if is_only else None
 

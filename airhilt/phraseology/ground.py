@@ -217,6 +217,21 @@ def vacate(segment: Segment, action: Action) -> Read | None:
     return Read(read, segment.start, segment.found.end() + (found.end() if found else 0))
 
 
+def followed(segment: Segment, action: Action) -> Read | None:
+    """Read whom a pilot follows on a route: "via B following the company embraer"."""
+    is_route = _ROUTE_BEFORE.search(segment.text[: segment.start])
+    return about_other(segment, action) if is_route else None
+
+
+_ROUTE_BEFORE = re.compile(rf"(?<!\S)via {_LISTED}$")
+
+
+def start_at(segment: Segment, action: Action) -> Read | None:
+    """Read a start-up that waits for a time (ICAO Doc 4444, 12.3.4.1)."""
+    read = Instruction(action, condition=f"at time{segment.found['time']}", confidence=SHORTENED)
+    return Read(read, segment.start, segment.found.end())
+
+
 def about_other(segment: Segment, action: Action) -> Read | None:
     """Read an action about another aircraft."""
     place = _PLACE.match(segment.after)
@@ -284,10 +299,14 @@ FORMS: Listed = (
      r"push(?:back)?(?: (?:is )?(?:approved|at (?:your |own |pilot )+discretion)"
      r"|(?= and start(?:up)? (?:is )?approved))", alone),
     ("startup start", "start_up",
+     r"start(?:up)? at(?: time)?(?P<time> [0-9]{2}(?:[0-9]{2})?)(?! (?:minutes?|miles?|decimal))",
+     start_at),
+    ("startup start", "start_up",
      r"start(?:up)? (?:is )?(?:approved|at (?:your |own |pilot )+discretion)", alone),
     ("push pushback", "push_back",
      r"push(?:back)?(?= and start(?:up)? at (?:your |own |pilot )+discretion)", alone),
     ("startup start", "start_up", r"start(?:up)?(?= and push(?:back)? (?:is )?approved)", alone),
+    ("following", "follow", r"following(?= (?:the|that|company)(?!\S))", followed),
     ("follow", "follow", r"follow(?! (?:me|is|was|are|will)(?!\S))", about_other),
     ("give giving", "give_way", r"giv(?:e|ing) way(?: to)?", about_other),
     ("pass passing", "give_way", r"pass(?:ing)? behind", about_other),

@@ -70,10 +70,14 @@ def turn_by(segment: Segment, action: Action) -> Read | None:
     return Read(read, segment.start, segment.found.end())
 
 
+_AFTER_CONDITION = re.compile(r"# (?:then |proceed |cleared )?$")
+"""A condition right before an action, which may name its fix."""
+
+
 def direct(segment: Segment, action: Action) -> Read | None:
     """Read a fix to go to."""
     fix, confidence = fix_of(segment)
-    if fix is None:
+    if fix is None and not _AFTER_CONDITION.search(segment.before_all):
         return None
     turn = cast(Turn | None, segment.found.groupdict().get("turn"))
     read = Instruction(action, position=fix, turn=turn, confidence=confidence)
@@ -101,14 +105,20 @@ _HEADING = (
     r"(?: degrees(?! (?:left|right)))?"
 )
 _TURN_AT = re.compile(
-    rf" (?:at|from|on|onto|on to) (?!a (?!\||$))(?:taxiway |intersection )?({TAXIWAY})"
+    rf" (?:(?:at|from|on|onto|on to) (?!a (?!\||$))(?:taxiway |intersection )?|(?={LETTER}))"
+    rf"({TAXIWAY})"
 )
-_TURN = re.compile(r"(?<!\S)(?:turn|left|right)(?: [a-z]+)?$")
+_TURN = re.compile(r"(?<!\S)(?:turn|(?<![0-9] )(?:left|right))(?: [a-z]+)?$")
 _COMPASS = r"(?:north|south)?(?:east|west|north|south)?"
+_TRACK = (
+    r"(?: (?:on the )?(?:inbound (?:track|course|heading) )?[0-9]{1,3}(?: degrees)?"
+    r" (?:radial|course|bearing|inbound)| (?:on the )?inbound (?:track|course|heading) [0-9]{3}"
+    r"(?: degrees)?)"
+)
 _TURNS = (
-    r"(?: on the [0-9]{1,3} (?:radial|course|bearing))?(?: as published)?"
+    rf"{_TRACK}?(?: as published)?"
     r"(?: [0-9]{1,2} (?:miles?|minutes?)(?: legs?)?)?"
-    r"(?: (?P<turn>left|right)(?: hand)? (?:turns|pattern))?"
+    r"(?: (?P<turn>left|right)(?: hand)? (?:turns?|pattern|circuits?))?"
 )
 _DIRECT = r"(?:(?:proceed(?:ing)?|clear(?:ed)?(?: to proceed)?|then) )?direct(?: to)?"
 
@@ -135,7 +145,9 @@ FORMS: Listed = (
     ("turn turning", "turn_by",
      r"turn(?:ing)? (?P<turn>left|right) (?P<degrees>[0-9]{1,2}) degrees", turn_by),
     (" ".join(str(degrees) for degrees in range(5, 185, 5)), "turn_by",
-     r"(?P<degrees>[0-9]{1,3}) degrees (?P<turn>left|right)(?! (?:of|for)(?!\S))", turn_by),
+     r"(?<!up to )(?P<degrees>[0-9]{1,3}) degrees (?P<turn>left|right)"
+     r"(?! (?:of|for|deviation)(?!\S))",
+     turn_by),
     ("turn turning", "direct",
      rf"turn(?:ing)? (?P<turn>left|right)(?: now| immediately)? {_DIRECT} (?P<fix>{FIX})", direct),
     ("turn turning", "heading",

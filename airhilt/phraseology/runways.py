@@ -25,6 +25,7 @@ from airhilt.phraseology.slots import (
     NAMED_RUNWAY,
     NUMBERED_LINK,
     RUNWAY,
+    SIDED_RUNWAY,
     TAXIWAY,
     designator,
     runway_confidence,
@@ -55,6 +56,22 @@ _OF = re.compile(
     rf" (?:(?:end|threshold|side|middle|edge|numbers) of|on|crossing|off|near|beside) {RUNWAY}"
 )
 """A runway without the word, where animals are."""
+_ANY_RUNWAY = re.compile(rf"(?<!\S)(?:runway |(?={SIDED_RUNWAY})){RUNWAY}")
+_THE_RUNWAY = re.compile(
+    r"(?<!\S)the (?:runway(?! [0-9])|threshold|touchdown zone|numbers|centre ?line|approach end"
+    r"|departure end|far end|near end)(?!\S)"
+)
+"""Words for a runway that the same call may name elsewhere."""
+_BY_WIND = re.compile(r" (?:wind|#)")
+"""Words behind a runway that is also that of the clearance behind them."""
+_ELSEWHERE = re.compile(
+    rf" (?:\S+ )*?(?:on|at|near|by|along|beside|crossing|off|in|over|from)(?: the)?"
+    rf" (?P<place>taxiway {TAXIWAY}|{LETTER}(?: [0-9]{{1,2}}(?!\S))?(?!.*runway)"
+    r"|(?:(?:north|south|east|west|main|cargo|general aviation|run up|parking|perimeter"
+    r"|service|airport) ){0,2}(?:apron|ramp|stand|gate|hangars?|terminal|fence|road"
+    r"|perimeter|parking|pad|taxiway)(?: [0-9]{1,3})?)(?!\S)"
+)
+"""A place on the ground that is no runway."""
 _HEARSAY = re.compile(r"(?<!\S)(?:reported|reports|earlier|previous)(?!\S)")
 """Words of what somebody else saw before."""
 _READY = re.compile(r"(?<!\S)ready(?!\S)")
@@ -120,10 +137,22 @@ def bare_hold_short(segment: Segment, action: Action) -> Read | None:
 def wildlife(segment: Segment, action: Action) -> Read | None:
     """Read a report of wildlife, which counts even without a place."""
     end = segment.found.end()
+    here = segment.text[segment.start : segment.limit]
     is_next = is_next_runway(segment)
     named = None if is_next else NAMED_RUNWAY.search(segment.after) or _OF.search(segment.after)
+    if named is None and "runway" not in here.split():
+        elsewhere = _ELSEWHERE.search(here)
+        if elsewhere:
+            place = Instruction(action, position=elsewhere["place"].strip(), confidence=NO_RUNWAY)
+            return Read(place, segment.start, max(end, segment.start + elsewhere.end()))
+    if named is None and _THE_RUNWAY.search(here):
+        told = {designator(*each.groups()) for each in _ANY_RUNWAY.finditer(segment.text)}
+        if len(told) == 1:
+            seen = Instruction(action, told.pop(), confidence=NO_RUNWAY)
+            return Read(seen, segment.start, end)
     runway = designator(*named.groups()) if named else None
-    end += named.end() if named else 0
+    is_shared = named is not None and _BY_WIND.match(segment.after, named.end()) is not None
+    end += named.end() if named and not is_shared else 0
     at = POSITION.match(segment.text, end, segment.limit)
     confidence = runway_confidence(named[1]) if named else 1.0
     if named and named.re is _OF:

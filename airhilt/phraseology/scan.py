@@ -57,21 +57,32 @@ _VERB = (
     r"|hold|cleared|expedite|direct|cross|resume|squawk|heading)(?!\S))"
 )
 _MARKER = r"the (?:outer |middle |inner )?marker"
+_GROUND_PLACE = (
+    rf"(?:the )?(?:holding (?:point|decimal)(?: {TAXIWAY})?(?: runway {RUNWAY})?|stop bar"
+    r"|hold(?:ing)? line"
+    r"|end of (?:the )?(?:runway|taxiway)|run up (?:area|pad)|hold short line|holding position"
+    r"|(?:gate|stand|spot|bay) [0-9]{1,3}|apron|ramp|edge of the (?:ramp|apron)|holding bay)"
+)
+"""Pattern of a place on the ground where something else is to be done."""
+_CALL_THERE = r"(?: (?:contact|monitor|call|switch|change|report|advise|stand ?by)(?!\S))"
 _EVENTS = {
-    "at": rf"at (?:(?:pilot|your|own) (?:discretion|convenience)"
+    "approaching": rf"approaching {_GROUND_PLACE}(?={_CALL_THERE})",
+    "at": rf"at (?:{_GROUND_PLACE}(?={_CALL_THERE})|(?:pilot|your|own) (?:discretion|convenience)"
     rf"|(?:{LEVEL_WORDS}|{FIX})(?={_VERB}))",
     "passing": rf"passing (?:{_MARKER}|(?:{LEVEL_WORDS}|{FIX})(?={_VERB}))",
     "crossing": rf"crossing (?:{_MARKER}|{FIX}(?={_VERB}))",
     "leaving": rf"leaving (?:{LEVEL_WORDS}|{FIX})(?={_VERB})",
     "on": r"on (?:the go|departure)",
-    "reaching": rf"reaching (?:{LEVEL_WORDS}|{FIX})(?={_VERB})",
+    "reaching": rf"reaching (?:{_GROUND_PLACE}(?={_CALL_THERE})"
+    rf"|(?:{LEVEL_WORDS}|{FIX})(?={_VERB}))",
     "depart": rf"depart {FIX}(?= heading)",
     "leave": rf"leave {FIX}(?= heading)",
     "event": rf"event of(?: (?!fly|climb|turn)[a-z]+){{1,3}}?(?={_VERB})",
     "case": rf"case of(?: (?!fly|climb|turn)[a-z]+){{1,3}}?(?={_VERB})",
     "missed": r"missed approach instructions(?: are)?",
     "climb": r"climb out instructions(?: are)?",
-    "when": r"when (?:ready|able)",
+    "when": rf"when (?:ready|able|receiving (?:the )?{FIX}(?: vor| v o r)?"
+    r"(?=(?: (?:proceed|cleared|then))? direct(?!\S)))",
     "if": r"if able",
     "whenever": r"whenever (?:ready|able)",
     "in": r"in (?:about |another )?(?:[0-9]+|a|a couple|a few)(?: more)?(?: of)?"

@@ -34,7 +34,8 @@ TOO_HIGH = 0.6
 """Confidence in a level in feet from `TRANSITION_FT` on: "to four thousand" sounds like 24,000."""
 
 NUMBER_ENDS = (
-    r"(?! (?:thousand|hundred|miles?|knots|feet|degrees|oclock|decimal|nautical|minutes|d m e))"
+    r"(?! (?:thousand|hundred|miles?|knots|feet|degrees|oclock|decimal|nautical|minutes|d m e|ahead"
+    r"|aircraft|in front)(?!\S))"
 )
 """Pattern after a number that is not followed by a unit, and so may be a runway."""
 SIDE = (
@@ -93,7 +94,7 @@ FIX_ENDS = (
     r"|over|looking|affirm|wilco|copy|okay|tower|ground|centre|control|director|delivery|follow"
     r"|number|squawking|below|above|remain|circle|change|published|enter|intersection|waypoint|vor"
     r"|who|what|where|why|how|which|we|you|i|he|she|they|there|is|are|was|right hand|left hand"
-    r"|since"
+    r"|since|weather|there"
     r"|vortac|ndb|v|by|own|delay)"
 )
 """Words that end the name of a fix."""
@@ -127,7 +128,8 @@ BARE_WIND = re.compile(
 """A wind without the word."""
 _AT_RUNWAY = re.compile(r"(?<!\S)(?:land|takeoff|option|touch and go|wind)(?!\S)")
 PRESSURE = re.compile(
-    r"(?<!\S)(?:altimeter|qnh|q n h) (?:is )?([0-9]{3,4}|[0-9]{2} decimal [0-9]{2})(?!\S)"
+    r"(?<!\S)(?:altimeter|qnh|q n h) (?:is |now |is now )?"
+    r"([0-9]{3,4}|[0-9]{2} decimal [0-9]{2})(?!\S)"
 )
 
 

@@ -10,6 +10,7 @@ import re
 from airhilt.phraseology.call import Action, Instruction
 from airhilt.phraseology.forms import (
     BARE_VALUE,
+    DEPARTED,
     LONG_NAME,
     NO_VALUE,
     UNIT,
@@ -54,7 +55,9 @@ def contact(segment: Segment, action: Action) -> Read | None:
     station = station.strip() if station else None
     after = segment.after
     full, joined = FREQUENCY.search(after), _ON_JOINED.match(after)
-    without_hundred = _SHORT_JOINED.match(after) if station else None
+    without_hundred = (
+        _SHORT_JOINED.match(after) if station or _BY_NUMBER.match(segment.found[0]) else None
+    )
     short = SHORT_FREQUENCY.search(after) if station and "ground" in station else None
     if short and any(sign.isdigit() for sign in after[: short.start()]):
         short = None
@@ -69,7 +72,8 @@ def contact(segment: Segment, action: Action) -> Read | None:
         khz, confidence, found = frequency_khz(joined[1], joined[2]), BARE_VALUE, joined
     elif without_hundred:
         mhz, fraction = without_hundred.groups()
-        khz, confidence, found = frequency_khz(f"1{mhz}", fraction), BARE_VALUE, without_hundred
+        sure = BARE_VALUE if station else SHORTENED
+        khz, confidence, found = frequency_khz(f"1{mhz}", fraction), sure, without_hundred
     if station is None and khz is None:
         return None
     read = Instruction(
@@ -83,6 +87,7 @@ def contact(segment: Segment, action: Action) -> Read | None:
 
 
 _NO_FREQUENCY = r"(?!\S)(?! (?:left|right|centre|knots|miles?|degrees|thousand|feet|oclock))"
+_BY_NUMBER = re.compile(r"(?:contact|monitor)(?:ing)?$")
 _SHORT_JOINED = re.compile(
     rf" (?:on |at |frequency )*(1[89]|2[0-9]|3[0-6])(?: decimal )?([0-9]{{1,3}}){_NO_FREQUENCY}"
 )
@@ -90,16 +95,34 @@ _SHORT_JOINED = re.compile(
 _ON_JOINED = re.compile(r" (?:on |at |now |frequency |#+ )*(1[1-3][0-9])([0-9]{1,3})(?!\S)")
 
 
+_DELIVERED = re.compile(r"(?<!\S)(?:squawk [0-7]{4}|as filed|class [a-z]+ airspace)(?!\S)")
+"""Words of a clearance before departure."""
+_TOLD = re.compile(r"(?<!\S)(?:frequency|is|be)(?!\S)")
+_DEPARTURE_TOLD = re.compile(
+    r"(?<!contact )(?<!monitor )departure (?:frequency|is|will be)(?: is| will be)?$"
+)
+"""A frequency that is told for the flight after departure (FAA Order JO 7110.65, 4-3-2 e)."""
+
+
 def frequency(segment: Segment, action: Action) -> Read | None:
     """Read a frequency that is given or read back, alone or after its station."""
     khz = frequency_khz(segment.found[1], segment.found[2])
     if khz is None:
         return None
-    station = re.search(rf"(?<!\S)(?:[a-z]+ )?(?:{UNIT})(?: on| frequency)?$", segment.before)
-    name = re.sub(r" (?:on|frequency)$", "", station[0]) if station else None
+    station = re.search(
+        rf"(?<!\S)(?:(?!airspace )[a-z]+ )?(?:{UNIT})(?: on| frequency| is| will be)*$",
+        segment.before,
+    )
+    name = re.sub(r"(?: (?:on|frequency|is|will|be))+$", "", station[0]) if station else None
     is_cut = DIGITS_GO_ON.match(segment.text, segment.found.end())
     confidence = NO_VALUE if is_cut else BARE_VALUE
-    read = Instruction(action, position=name, frequency_khz=khz, confidence=confidence)
+    is_told = bool(
+        station and _DEPARTURE_TOLD.search(segment.before) and _DELIVERED.search(segment.text)
+    )
+    read = Instruction(
+        action, position=name, condition=DEPARTED if is_told else None, frequency_khz=khz,
+        confidence=confidence,
+    )  # fmt: skip
     return Read(read, segment.begin + station.start() if station else segment.start,
                 segment.found.end())  # fmt: skip
 
@@ -112,13 +135,21 @@ def station_frequency(segment: Segment, action: Action) -> Read | None:
     elif found["short"]:
         mhz, fraction = f"1{found['short'][:2]}", found["short"][2:]
     else:
-        mhz, fraction = found.group(2, 3)
+        mhz, fraction = found["mhz"], found["khz"]
     khz = frequency_khz(mhz, fraction)
     if khz is None:
         return None
     confidence = BARE_VALUE if found["fraction"] or found["unit"] == "frequency" else SHORTENED
     unit = None if found["unit"] == "frequency" else found["unit"]
-    read = Instruction(action, position=unit, frequency_khz=khz, confidence=confidence)
+    is_told = (
+        unit == "departure"
+        and _TOLD.search(found["told"]) is not None
+        and _DELIVERED.search(segment.text) is not None
+    )
+    read = Instruction(
+        action, position=unit, condition=DEPARTED if is_told else None, frequency_khz=khz,
+        confidence=confidence,
+    )  # fmt: skip
     return Read(read, segment.start, found.end())
 
 
@@ -167,6 +198,7 @@ FORMS: Listed = (
     ("squawk squawking", "squawk", r"squawk(?:ing)? (?P<thousands>[0-7]) thousand", squawk),
     ("squawk squawking", "squawk", r"squawk(?:ing)? (?:v f r|vfr)", squawk),
     ("squawk squawking", "ident", r"squawk(?:ing)? ident", alone),
+    ("squawk code", "squawk", r"(?<!your )(?:squawk|code) is (?P<code>[0-7]{4})", squawk),
     ("squawk", "squawk", r"squawk(?: (?:standby|stand by|altitude|charlie|low|normal|mayday))?",
      nothing),
     ("ident", "ident", r"ident", alone),
@@ -183,12 +215,14 @@ FORMS: Listed = (
      rf"(?:contact(?:ing)?|call|try)(?! me(?!\S))(?P<station>{_STATION})?", contact),
     ("go going", "contact", rf"go(?:ing)?(?: over)? to(?: the)?(?P<station>{_STATION})", contact),
     ("over switch switching change changing", "contact",
-     rf"(?:over|switch(?:ing)?|chang(?:e|ing)(?! in))(?: over)?(?: to)?(?: my| frequency)*"
+     rf"(?:over(?! the(?!\S))|switch(?:ing)?|chang(?:e|ing)(?! in))"
+     r"(?: over)?(?: to)?(?: my| frequency)*"
      rf"(?P<station>{_STATION})?", contact),
     ("monitor monitoring", "monitor", rf"monitor(?:ing)?(?P<station>{_STATION})?", contact),
     (" ".join((*UNITS, "frequency")), "contact",
-     rf"(?P<unit>{UNIT}|frequency)(?: frequency| on| is| will be)* "
-     r"(?:(1[1-3][0-9])([0-9]{1,3})(?!\S)|(?<=ground )decimal (?P<fraction>[0-9]{1,3})"
+     rf"(?P<unit>{UNIT}|frequency)(?P<told>(?: frequency| on| is| will be)*) "
+     r"(?:(?P<mhz>1[1-3][0-9])(?P<khz>[0-9]{1,3})(?!\S)"
+     r"|(?<=ground )decimal (?P<fraction>[0-9]{1,3})"
      rf"|(?P<short>(?:1[89]|2[0-9]|3[0-6])[0-9]{{1,3}}){_NO_FREQUENCY})",
      station_frequency),
     ("stand standby", "monitor", rf"stand ?by(?: for| on)?(?P<station>{_STATION})", contact),

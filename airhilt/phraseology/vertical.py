@@ -50,6 +50,7 @@ _BARE_LEVEL = re.compile(
     r"(?! (?:left|right|knots|degrees|miles?|decimal|thousand|hundred|feet|or|minutes?|oclock|per))"
 )
 """A level without its unit."""
+_HUNDREDS = re.compile(r" ([5-9]00)(?!\S)(?! (?:feet|thousand|knots|miles?|degrees|decimal))")
 _SHORT_UNTIL = re.compile(r" (?:[2-9]|1[0-9]) #")
 """Thousands of feet without the word, to be kept until something."""
 _DIGITS = re.compile(r"(?<!\S)[0-9]")
@@ -111,6 +112,15 @@ def bare_level(text: str) -> tuple[float | None, float, int]:
     return feet, SHORTENED if has_sense else NO_SENSE, found.end()
 
 
+def _hundreds(text: str) -> tuple[float | None, float, int]:
+    """Return a bound in hundreds of feet without the unit: "not above five hundred".
+
+    Few aircraft ever fly at flight level 500 or above.
+    """
+    found = _HUNDREDS.match(text)
+    return (float(found[1]), SHORTENED, found.end()) if found else (None, NO_VALUE, 0)
+
+
 def altitude(segment: Segment, action: Action) -> Read | None:
     """Read a level, with its sense and its bound."""
     words = segment.found[0].split()
@@ -125,6 +135,8 @@ def altitude(segment: Segment, action: Action) -> Read | None:
     is_passed = _PASSED.match(segment.after) is not None
     is_short = sense == "maintain" and _SHORT_UNTIL.match(segment.after) is not None
     is_verb = sense != "maintain" or words[0] != "maintain"
+    if feet is None and bound is not None:
+        feet, confidence, taken = _hundreds(segment.after)
     if feet is None and (is_verb or is_short) and not is_passed:
         feet, confidence, taken = bare_level(segment.after)
     along = _ALONG.match(segment.text, segment.found.end()) if feet is None else None
@@ -163,6 +175,8 @@ def limited_level(segment: Segment, action: Action) -> Read | None:
     if found[0].startswith("not"):
         bound = "or_more" if found["bound"] == "below" else "or_less"
     feet, confidence, taken = level_in(segment.after, is_here=True)
+    if feet is None:
+        feet, confidence, taken = _hundreds(segment.after)
     if feet is None:
         return None
     end = found.end() + taken
@@ -326,10 +340,12 @@ FORMS: Listed = (
      altitude),
     ("stopping", "altitude", r"stopping(?: at)?(?= (?:flight|level|[0-9]))", altitude),
     ("climb climbing", "climb_via",
-     rf"climb(?:ing)? via(?: the)?{_PROCEDURE}(?: (?:sid|departure)|(?= except| squawk| \||$))",
+     rf"climb(?:ing)? via(?: the)?{_PROCEDURE}"
+     r"(?: (?:sid|departure)|(?= except| squawk| altimeter| qnh| \||$))",
      via_procedure),
     ("descend descending", "descend_via",
-     rf"descend(?:ing)? via(?: the)?{_PROCEDURE}(?: (?:star|arrival)|(?= except| \||$))",
+     rf"descend(?:ing)? via(?: the)?{_PROCEDURE}"
+     r"(?: (?:star|arrival)|(?= except| altimeter| qnh| \||$))",
      via_procedure),
     ("climb climbing descend descending maintain", "altitude",
      r"(?:climb|descend|maintain)(?:ing)?(?: to)?(?: (?:and )?maintain(?:ing)?)?(?: a)? block",
@@ -341,19 +357,25 @@ FORMS: Listed = (
      altitude),
     ("amend", "altitude", r"amend (?:your )?altitude(?: to)?(?= [0-9]| flight)", altitude),
     ("expedite expediting", "altitude", r"expedit(?:e|ing) to(?= flight| level| [0-9])", altitude),
-    ("up down", "altitude", r"(?:up|down) to(?= [0-9]| flight| level)", altitude),
+    ("up down", "altitude", r"(?:up|down) to(?= [0-9]| flight| level)"
+     r"(?! [0-9]{1,3} (?:miles?|nautical|degrees|left|right|d m e|knots|minutes?)(?!\S))",
+     altitude),
     ("expedite expediting", "altitude",
      r"expedit(?:e|ing) (?:your |the )?(?:climb|descent|descend)(?: to| and maintain)?"
      rf"{_OR}",
      altitude),
     ("not", "altitude",
-     r"not (?P<bound>above|below)(?= [0-9]| flight| level| altitude [0-9])", limited_level),
+     r"not (?:to be )?(?P<bound>above|below)(?= [0-9]| flight| level| altitude [0-9])",
+     limited_level),
     ("at", "altitude", r"at or (?P<bound>above|below)(?= [0-9]| flight| level)", limited_level),
+    ("pd", "altitude", r"pd(?: down)?(?: to|(?= flight| level))(?= [0-9]| flight| level)",
+     by_discretion),
     ("discretion pilot", "altitude",
      r"(?:pilot )?discretion(?: down to| to|(?= flight| level| [0-9]+ thousand))"
      r"(?= [0-9]| flight| level)", by_discretion),
     ("recleared", "altitude", r"recleared(?: to)?(?= flight| level| [0-9])", altitude),
-    ("except", "altitude", r"except maintain", altitude),
+    ("except", "altitude", r"except(?: maintain|(?= flight level [0-9]| [0-9]+ thousand))",
+     altitude),
     ("maintain maintaining remain", "altitude",
      r"(?:maintain(?:ing)?|remain)(?: v f r| vfr)? at or (?P<bound>above|below)", altitude),
     ("maintain maintaining", "altitude",
@@ -362,7 +384,8 @@ FORMS: Listed = (
     ("remain", "altitude",
      r"remain(?: at)?(?= flight level| level|(?: [0-9]+) thousand)", altitude),
     ("level", "altitude", r"level off(?: at)?", altitude),
-    ("at", "vertical_rate", rf"at {_RATE}(?: feet)? (?:per minute|a minute|min)", rate),
+    ("at with", "vertical_rate",
+     rf"(?:at|with) {_RATE}(?: feet)? (?:per minute|a minute|min)", rate),
     ("rate", "vertical_rate",
      rf"rate(?: of (?:climb|descent))?(?: at)? {_RATE}(?: feet)?(?: (?:per minute|a minute|min))?",
      rate),

@@ -53,6 +53,7 @@ def acted_on(text: str) -> set[Any]:
         "your landing clearance is cancelled, go around",
         "runway 01, cleared for takeoff, cancel takeoff, hold position",
         "cleared to land runway 01, disregard",
+        "cleared to land runway 01, disregard, cleared to land runway 01",
         "line up and wait runway 01, cancel that",
         "cleared to land runway 01, negative",
         # to come, perhaps
