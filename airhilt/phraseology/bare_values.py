@@ -37,7 +37,7 @@ _VALUE = re.compile(
     r"|(?P<turn>left|right) (?P<turned>[0-9]{3})|(?P<heading>[0-9]{3}) on the heading"
     r"|(?P<degrees>10|15|20|25|30|40|45) (?P<side>left|right)"
     r"|(?P<setting>2[89][0-9]{2}|3[01][0-9]{2}|9[5-9][0-9]|10[0-4][0-9])(?= |$)"
-    r"|(?P<cut>1[89]|2[0-9]|3[0-6]) decimal (?P<part>[0-9]{1,3})"
+    r"|(?P<cut>1[89]|2[0-7]|3[2-6]) decimal (?P<part>[0-9]{1,3})"
     r"|(?P<mhz>1[1-3][0-9])(?P<fraction>[0-9]{1,3})(?: for [a-z]+)?"
     r"|(?P<short>(?:1[89]|2[0-9]|3[0-6])[1-46-9])"
     rf"|(?P<group>(?:1[89]|2[0-9]|3[0-6]){_FRACTION})(?= |$)"

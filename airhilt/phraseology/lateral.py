@@ -33,15 +33,16 @@ def heading(segment: Segment, action: Action) -> Read | None:
     turn = cast(Turn | None, parts.get("turn"))
     kept = parts.get("kept")
     at = _TURN_AT.match(segment.after) if turn and number is None else None
+    taxiway_at = at[2] if at else None
     is_cut = at is not None and segment.after[at.end() : at.end() + 2].strip().isdigit()
     confidence = 1.0 if has_sense or kept or (at and not is_cut) else NO_VALUE
     if turn is None and _TURN.search(segment.before):
         confidence = NO_VALUE  # The side of the turn was not understood.
-    if "bare" in parts:
+    if "bare" in parts or (at and at["bare"] is not None):
         confidence = min(confidence, BARE_VALUE)
     read = Instruction(
         action,
-        position=f"{kept} heading" if kept else taxiway(at[1]) if at else None,
+        position=f"{kept} heading" if kept else taxiway(taxiway_at) if taxiway_at else None,
         turn=turn,
         heading_deg=float(number) if number and has_sense else None,
         immediate=is_immediate(segment, segment.found.end()),
@@ -105,8 +106,8 @@ _HEADING = (
     r"(?: degrees(?! (?:left|right)))?"
 )
 _TURN_AT = re.compile(
-    rf" (?:(?:at|from|on|onto|on to) (?!a (?!\||$))(?:taxiway |intersection )?|(?={LETTER}))"
-    rf"({TAXIWAY})"
+    rf" (?:(?:at|from|on|onto|on to) (?!a (?!\||$))(?:taxiway |intersection )?"
+    rf"|(?P<bare>(?={LETTER}(?: [0-9]+)?(?! {LETTER}))))({TAXIWAY})"
 )
 _TURN = re.compile(r"(?<!\S)(?:turn|(?<![0-9] )(?:left|right))(?: [a-z]+)?$")
 _COMPASS = r"(?:north|south)?(?:east|west|north|south)?"
