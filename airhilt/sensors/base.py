@@ -30,6 +30,7 @@ RESERVED = frozenset(
     {
         "speech",
         "microphone",
+        "page",
         "perceived",
         "seat",
         "pace",
