@@ -236,13 +236,13 @@ class Subscription:
         model = worker_output(key) or HEARD.get(key.partition("/")[0])
         limit = None if model is None else model.limit
         if limit is not None and len(sample.payload) + header_size > limit.size_bytes:
-            self.dropped += 1
+            self._drop()
             return
         data = sample.payload.to_bytes()
         if attachment is not None:
             header = attachment.to_bytes()
             if not self._keep_sound(key, header, data):
-                self.dropped += 1
+                self._drop()
                 return
             data = header
         self._post(Logged(key, "", 0, data))
@@ -258,7 +258,12 @@ class Subscription:
                 return
         except queue.Full:
             self._taken(logged)
-        self.dropped += 1
+        self._drop()
+
+    def _drop(self) -> None:
+        """Count a message that is dropped; subscribers call from threads of their own."""
+        with self._lock:
+            self.dropped += 1
 
     def _taken(self, logged: Logged) -> None:
         """Take note that a message does not wait any more."""
