@@ -54,14 +54,14 @@ def has_unknown_side(text: str, start: int, end: int) -> bool:
     for found in _RUNWAY.finditer(text, start):
         if found.start() >= end:
             return False
-        if found[2] is None and _side_follows(text[found.end() :].split(maxsplit=_FARTHEST)):
+        if found[2] is None and _side_follows(text[found.end() :].split(maxsplit=_FARTHEST + 1)):
             return True
     return False
 
 
 def _side_follows(words: list[str]) -> bool:
     """Return whether a side, or an unknown word that may be one, follows a runway."""
-    for word, following in zip(words, [*words[1:], ""], strict=True):
+    for word, following in zip(words[:_FARTHEST], [*words[1:], ""], strict=False):
         if word in _SIDES or is_unknown(word):
             return following not in _OF_TURN
         if word not in _SMALL:
