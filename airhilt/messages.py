@@ -1003,6 +1003,10 @@ class WorkloadAnswer(Message):
         return self
 
 
+LONGEST_REFUSAL = 400
+"""Greatest length of a refusal of a page in the log, in characters."""
+
+
 class PageRefusal(Message):
     """``page``: what the page of a run with seats has refused a browser or a stranger, in words.
 
@@ -1010,7 +1014,7 @@ class PageRefusal(Message):
     """
 
     limit = Limit(size_bytes=2_000, rate_hz=50)
-    text: str = Field(min_length=1, max_length=400)
+    text: str = Field(min_length=1, max_length=LONGEST_REFUSAL)
 
 
 class SeatPresence(Message):

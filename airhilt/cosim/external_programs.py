@@ -40,6 +40,8 @@ from airhilt.sim import Director, RealTime, Virtual
 from airhilt.text import readable
 from airhilt.workers.pool import parse_output
 
+PAGE = "page"
+"""Key of the refusals of a page: they are logged, and change nothing of the run."""
 HEARD: Mapping[str, type[Message]] = {
     "advisory/*": Advisory,
     "asr/*": Transcript,
@@ -50,7 +52,7 @@ HEARD: Mapping[str, type[Message]] = {
     "microphone/*": MicrophoneAudio,
     "perceived/*": AdvisoryPerceived,
     "pace": PaceCommand,
-    "page": PageRefusal,
+    PAGE: PageRefusal,
     "workload/*": WorkloadAnswer,
     "tts/*": AdvisoryAudio,
 }
@@ -60,8 +62,6 @@ AT_SEATS = (SpokenWords, MicrophoneAudio, AdvisoryPerceived, SeatPresence, Workl
 ANSWERS = "worker/*/step"
 """Keys on which programs answer that were not asked."""
 ANSWERS_LIMIT = Limit(size_bytes=0, rate_hz=20)
-PAGE = "page"
-"""Key of the refusals of a page: they are logged, and change nothing of the run."""
 LIMITS = {keys: kind.limit for keys, kind in HEARD.items() if kind.limit is not None}
 MOST_NOTICES = 20
 """Number of refusals that are told on the terminal; the log has all."""

@@ -20,6 +20,7 @@ from airhilt.bus.access import Role
 from airhilt.bus.session import connect_client, find_run
 from airhilt.commands import Command
 from airhilt.messages import (
+    LONGEST_REFUSAL,
     ActorCommand,
     AdvisoryPerceived,
     Message,
@@ -66,8 +67,6 @@ MOST_SOUNDS = 60
 """Largest number of transmissions and spoken advisories whose sound is kept."""
 MOST_SOUND_BYTES = 64_000_000
 """Largest size of these sounds, in bytes: half an hour."""
-LONGEST_REFUSAL = 400
-"""Greatest length of a refusal in the log, in characters."""
 MOST_PICTURES = 48
 """Largest number of pictures of a camera that are kept: about three seconds."""
 
