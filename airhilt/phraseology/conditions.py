@@ -16,10 +16,10 @@ CONDITIONED: frozenset[Action] = CLEARANCES | {"hold_position"}
 SEQUENCED: frozenset[Action] = frozenset(
     {"altitude", "speed", "mach", "heading", "direct", "turn_by", "descend_via", "climb_via"}
 )
+"""Actions that wait for the one before them after "then" (FAA Order JO 7110.65, 5-7-2)."""
 _TALKS: frozenset[Action] = frozenset({"contact", "monitor"})
 YIELDED: frozenset[Action] = frozenset({"give_way", "follow"})
 """Actions that a taxi route waits for after "then"."""
-"""Actions that wait for the one before them after "then" (FAA Order JO 7110.65, 5-7-2)."""
 IN_FLIGHT: frozenset[Action] = frozenset({"heading", "direct", "turn_by"})
 """Actions that wait for the take-off that is cleared in the same call."""
 WITHDRAWN: dict[Action, Action] = {
@@ -53,7 +53,7 @@ _CONSEQUENCE = re.compile(
 )
 """Words of what is to be done under a condition that are no action of this grammar."""
 _AHEAD_OF_YOU = re.compile(r"(?:before|after|behind) (?:you|yours?|that)")
-"""What somebody else does: "one to depart before you"."""
+"""Conditions on what somebody else does: "one to depart before you"."""
 _AIRBORNE = re.compile(
     r"(?<!\S)(?:airborne|(?:after|on) departure|off the ground|in the air)(?!\S)"
 )

@@ -79,8 +79,8 @@ BARE_FEET = re.compile(
     rf"(?! (?:miles?|degrees|thousand|decimal)){_NO_RATE}(?: feet)?"
 )
 _NOT_NAMES = (
-    r"(?:question|cancelled|approved|runway|heading|as|at|and|then|via|on|or|to|for|with|from|of|the|a|when|after|until|before"
-    r"|once|if|behind|is|it|who|what|in|any|my|your|this|that|radial|course|flight|level|thousand"
+    r"(?:question|cancelled|runway|heading|as|at|and|then|via|on|or|to|for|with|from|of|the|a"
+    r"|when|after|until|before|once|if|behind|is|it|who|what|in|any|my|your|this|that|radial|course|flight|level|thousand"
     r"|approach|approved|present|own)(?!\S)"
 )
 FIX_ENDS = (
@@ -94,7 +94,7 @@ FIX_ENDS = (
     r"|over|looking|affirm|wilco|copy|okay|tower|ground|centre|control|director|delivery|follow"
     r"|number|squawking|below|above|remain|circle|change|published|enter|intersection|waypoint|vor"
     r"|who|what|where|why|how|which|we|you|i|he|she|they|there|is|are|was|right hand|left hand"
-    r"|since|weather|there"
+    r"|since|weather"
     r"|vortac|ndb|v|by|own|delay)"
 )
 """Words that end the name of a fix."""

@@ -1,4 +1,4 @@
-"""What stands side by side in a call keeps apart: values, clearances, conditions and callsigns."""
+"""Values, clearances, conditions and callsigns that stand side by side in a call keep apart."""
 
 from __future__ import annotations
 
@@ -160,7 +160,7 @@ def test_a_word_of_pilots_in_traffic_information_makes_no_pilot_of_the_controlle
 
 @pytest.mark.parametrize("heard", [0.5, 0.9])
 def test_details_are_as_sure_as_they_were_heard_and_as_they_make_sense(heard: float) -> None:
-    """What makes sense by 0.6 and was heard by 0.5 has 0.3, of which the sense alone is 0.6."""
+    """Details that make sense by 0.6 and were heard by 0.5 have 0.3, and their sense alone 0.6."""
     read = Instruction("line_up", confidence=0.6 * heard, action_heard=heard, details_heard=1.0)
     assert read.details_confidence == pytest.approx(0.6)
     clear = Instruction("line_up", confidence=heard, details_heard=heard)

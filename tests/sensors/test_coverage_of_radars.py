@@ -1,4 +1,4 @@
-"""How far radars and surface surveillance see, and how surely their replies are valid."""
+"""The reach of radars and surface surveillance, and the validity of their replies."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the page shows of a live run between two messages, and what it keeps of it."""
+"""The page of a live run between two messages, and the part of the run that it keeps."""
 
 from __future__ import annotations
 
