@@ -1,13 +1,15 @@
 """Weighs the embedded recogniser's language model, and makes its confidence mean what it says.
 
     python tools/asr/calibrate_asr.py build/asr/dev airhilt/assistant/asr/model
+    python tools/asr/calibrate_asr.py build/asr/dev airhilt/assistant/asr/model --callsigns-only
 
 The calls of the folder (not those of training, nor those that scores are given of) go through the
 channel at many ratios. First the weight of the language model and the reward of a piece are chosen
-with which the fewest words of some of the calls are wrong. Then two logistic curves are fitted by
-maximum likelihood (Platt, 1999): from the posterior of a word, and from the product of a call's, to
-how often they are right. Words below the threshold that costs least errors are left out of
-transcripts, and transmissions whose best word is no better than in noise alone are empty.
+with which the fewest words of some of the calls are wrong. Then three logistic curves are fitted by
+maximum likelihood (Platt, 1999) to how often something is right: from the posterior of a word, from
+the likelihood that a callsign of the roster loses, and from the product of a call's confidences.
+Words below the threshold that costs least errors are left out of transcripts, and transmissions
+whose best word is no better than in noise alone are empty.
 """
 
 from __future__ import annotations
@@ -19,7 +21,7 @@ import math
 import random
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import jiwer
 import numpy as np
@@ -60,7 +62,7 @@ class HeardCall(NamedTuple):
     reference: str
     path: list[Emission]
     right: list[bool]
-    """Whether each word of the path was said there."""
+    """True for each word of the path that was said there."""
 
     def text(self, kept: NDArray[np.bool_]) -> str:
         """Return the words that are kept."""
@@ -108,33 +110,48 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", type=Path)
     parser.add_argument("model", type=Path)
+    parser.add_argument(
+        "--callsigns-only",
+        action="store_true",
+        help="fit the curve of callsigns alone, and leave the rest of the card as it is",
+    )
     given = parser.parse_args()
     utterances = [each for path in sorted(given.folder.glob("*.jsonl")) for each in spoken(path)]
     rosters = misleading(utterances, rosters_for(utterances))
-    weigh(given.model, utterances)
+    if not given.callsigns_only:
+        weigh(given.model, utterances)
     engine = Ctc(given.model)
     calls = list(heard_calls(engine, utterances, rosters))
-    silent = [
-        engine.path(engine.posteriors(audio), rosters[0])
-        for audio in noise_alone(SILENT_CALLS, seed=6)
-    ]
     curves = curves_of(calls)
-    threshold, talkative = quietest_threshold(curves, silent)
-    least, errors = best_threshold(curves, calls)
-    card = json.loads((given.model / "card.json").read_text())
-    card["word_calibration"] = curves.word
-    card["callsign_calibration"] = curves.callsign
-    card["call_calibration"] = call_calibration(curves, calls, least)
-    card["least_word_confidence"] = least
-    card["best_word_threshold"] = threshold
-    card["calibrated_on"] = {
-        "calls": len(calls),
-        "word_error_rate": round(errors, 4),
-        "transmissions_without_speech": len(silent),
-        "of_those_with_words": round(talkative, 4),
-    }
+    fitted: dict[str, Any] = {"callsign_calibration": curves.callsign}
+    if not given.callsigns_only:
+        fitted |= thresholds(engine, curves, calls, rosters[0])
+    card = json.loads((given.model / "card.json").read_text()) | fitted
     (given.model / "card.json").write_text(json.dumps(card, indent=2) + "\n")
     print(json.dumps(card, indent=2))
+
+
+def thresholds(
+    engine: Ctc, curves: Curves, calls: Sequence[HeardCall], roster: Sequence[str]
+) -> dict[str, Any]:
+    """Return the curves of words and calls for the card, and the thresholds that they give."""
+    silent = [
+        engine.path(engine.posteriors(audio), roster) for audio in noise_alone(SILENT_CALLS, seed=6)
+    ]
+    threshold, talkative = quietest_threshold(curves, silent)
+    least, errors = best_threshold(curves, calls)
+    return {
+        "word_calibration": curves.word,
+        "call_calibration": call_calibration(curves, calls, least),
+        "least_word_confidence": least,
+        "best_word_threshold": threshold,
+        "calibrated_on": {
+            "calls": len(calls),
+            "word_error_rate": round(errors, 4),
+            "transmissions_without_speech": len(silent),
+            "of_those_with_words": round(talkative, 4),
+        },
+    }
 
 
 def weigh(model: Path, utterances: Sequence[SpokenCall]) -> None:

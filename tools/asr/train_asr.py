@@ -556,7 +556,7 @@ def _save(
         "rate": given.rate,
         "seed": given.seed,
         "without": given.without,
-        "begun_with": str(given.begin_with or ""),
+        "begun_with": given.begin_with.name if given.begin_with else "",
     }
     (given.into / "training.json").write_text(json.dumps(card, indent=2) + "\n")
 

@@ -1,9 +1,11 @@
 """Make the tiny recogniser of the tests: three words, each of them a tone.
 
     python tools/make/tiny_recogniser.py tests/data/tiny_recogniser
+    python tools/make/tiny_recogniser.py tests/data/tiny_recogniser_of_30_ms --step-frames 3
 
-The network looks at four mel bands in every sixth frame and gives the posteriors that belong to
-the loudest, or those of silence where none stands out. Needs ``onnx``, which AIRHILT does not.
+The network looks at four mel bands in every sixth frame, or more often, and gives the posteriors
+that belong to the loudest, or those of silence where none stands out. Needs ``onnx``, which AIRHILT
+does not.
 """
 
 from __future__ import annotations
@@ -49,13 +51,15 @@ def main() -> None:
     """Write the network, its pieces, an even language model and its card."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("out", type=Path)
-    out = parser.parse_args().out
+    parser.add_argument("--step-frames", type=int, default=6, help="frames of 10 ms in a step")
+    given = parser.parse_args()
+    out: Path = given.out
     out.mkdir(parents=True, exist_ok=True)
     constants = {
         "begin": np.array([0], np.int64),
         "end": np.array([np.iinfo(np.int64).max], np.int64),
         "frames": np.array([1], np.int64),
-        "step": np.array([6], np.int64),
+        "step": np.array([given.step_frames], np.int64),
         "bands": np.array(BANDS, np.int64),
         "one_more": np.array([0, 0, 1, 0, 0, 0], np.int64),
         "stands_out": np.array(STANDS_OUT, np.float32),
@@ -63,8 +67,8 @@ def main() -> None:
     }
     graph = helper.make_graph(
         [
-            helper.make_node("Slice", ["features", "begin", "end", "frames", "step"], ["sixth"]),
-            helper.make_node("Gather", ["sixth", "bands"], ["tones"], axis=2),
+            helper.make_node("Slice", ["features", "begin", "end", "frames", "step"], ["some"]),
+            helper.make_node("Gather", ["some", "bands"], ["tones"], axis=2),
             helper.make_node("Pad", ["tones", "one_more", "stands_out"], ["all"]),
             helper.make_node("ArgMax", ["all"], ["loudest"], axis=2, keepdims=0),
             helper.make_node("Gather", ["table", "loudest"], ["logits"], axis=0),
@@ -84,6 +88,7 @@ def main() -> None:
     card = {
         "made_by": "tools/make/tiny_recogniser.py",
         "word_calibration": as_it_is,
+        "callsign_calibration": as_it_is,
         "call_calibration": as_it_is,
         "least_word_confidence": 0.5,
         "best_word_threshold": 0.0,

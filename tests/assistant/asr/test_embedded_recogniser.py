@@ -28,6 +28,8 @@ from paths import DATA
 
 TINY = DATA / "tiny_recogniser"
 """Made by tools/make/tiny_recogniser.py: each tone below is a word with a known posterior."""
+TINY_OF_30_MS = DATA / "tiny_recogniser_of_30_ms"
+"""The same with twice as many steps."""
 ALFA_HZ, BRAVO_HZ, CHARLIE_HZ, DOUBTFUL_ALFA_HZ = 588.0, 1_202.0, 2_108.0, 3_446.0
 TONE_S = 0.24
 
@@ -99,6 +101,21 @@ def test_words_come_in_order_with_their_posteriors() -> None:
     assert [word for word, _ in heard.words] == heard.text.split()
     assert [sure for _, sure in heard.words] == pytest.approx([0.8, 0.9, 0.9, 0.95], abs=1e-4)
     assert heard.confidence == pytest.approx(0.8 * 0.9 * 0.9 * 0.95, abs=1e-3)
+
+
+def test_a_network_tells_how_long_its_steps_are() -> None:
+    audio = call(BRAVO_HZ, ALFA_HZ, ALFA_HZ, CHARLIE_HZ)
+    slow, fast = Ctc(TINY), Ctc(TINY_OF_30_MS)
+    assert fast.recognise(audio, ()).text == slow.recognise(audio, ()).text
+    assert len(fast.posteriors(audio)) == pytest.approx(2 * len(slow.posteriors(audio)), abs=1)
+
+
+def test_windows_of_short_steps_fit_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    audio = call(*(BRAVO_HZ, ALFA_HZ, CHARLIE_HZ) * 20)
+    engine = Ctc(TINY_OF_30_MS)
+    at_once = engine.posteriors(audio)
+    monkeypatch.setattr(airhilt.assistant.asr.engines.embedded, "WINDOW_FRAMES", 300)
+    assert np.array_equal(engine.posteriors(audio), at_once)
 
 
 def test_confidences_go_through_the_calibrations_of_the_card(folder: Path) -> None:

@@ -67,7 +67,7 @@ class Card(BaseModel):
     model_config = ConfigDict(extra="ignore", frozen=True, allow_inf_nan=False)
     word_calibration: Calibration
     """Calibration of the highest posterior of a word."""
-    callsign_calibration: Calibration = Calibration(1.0, 0.0)
+    callsign_calibration: Calibration
     """Calibration of ``exp(-loss)`` of a callsign of the roster that was found in a call."""
     call_calibration: Calibration
     """Calibration of the product of the confidences of a call's words."""
@@ -94,7 +94,7 @@ class Emission:
     begin: int
     """Step at which it begins."""
     is_callsign: bool = False
-    """Whether it is of a callsign of the roster, whose ``exp(-loss)`` the posterior is then."""
+    """True: it is of a callsign of the roster, and its posterior is ``exp(-loss)`` of that."""
 
 
 class Ctc:
@@ -233,9 +233,11 @@ def with_callsign(path: Sequence[Emission], spotted: Spotted) -> list[Emission]:
     there = [each for each in path if spotted.begin <= each.begin < spotted.end]
     posterior = float(np.exp(-spotted.loss))
     if is_same([each.word for each in there], spotted.words):
-        words = [Emission(each.word, posterior, each.begin, True) for each in there]
+        words = [Emission(each.word, posterior, each.begin, is_callsign=True) for each in there]
     else:
-        words = [Emission(word, posterior, spotted.begin, True) for word in spotted.words]
+        words = [
+            Emission(word, posterior, spotted.begin, is_callsign=True) for word in spotted.words
+        ]
     return [
         *(each for each in path if each.begin < spotted.begin),
         *words,

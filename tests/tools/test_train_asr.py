@@ -1,0 +1,75 @@
+"""The network of the recogniser: what is exported, and what a training begins with."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+torch = pytest.importorskip("torch", reason="no torch or onnx: pip install torch onnx")
+onnx = pytest.importorskip("onnx", reason="no torch or onnx: pip install torch onnx")
+
+import onnxruntime  # noqa: E402
+
+import train_asr  # noqa: E402
+
+pytestmark = pytest.mark.filterwarnings("default")  # torch's own
+PIECES = ("_alfa", "_bravo", "_", "a", "b")
+
+
+@pytest.fixture
+def trained(tmp_path: Path) -> Path:
+    """Return the folder of a network that was saved after no step."""
+    torch.manual_seed(0)
+    network = train_asr.Recogniser(len(PIECES))
+    given = train_asr.Training(tmp_path, tmp_path, 0)
+    (tmp_path / "pieces.txt").write_text("\n".join(PIECES))
+    train_asr._save(network, train_asr.optimisers_of(network, 1e-3), 0, given, 0)
+    return tmp_path
+
+
+def test_what_is_exported_hears_what_the_network_hears_in_steps_of_30_ms(trained: Path) -> None:
+    train_asr.export(trained, trained / "model")
+    network = train_asr.Recogniser(len(PIECES))
+    network.load_state_dict(torch.load(trained / "checkpoint.pt", weights_only=True)["network"])
+    network.eval()
+    features = np.random.default_rng(0).standard_normal((1, 120, 64)).astype(np.float32)
+    session = onnxruntime.InferenceSession(str(trained / "model" / "ctc.onnx"))
+    (heard,) = session.run(None, {"features": features})
+    with torch.no_grad():
+        expected = network(torch.from_numpy(features)).numpy()
+    assert heard.shape == (1, 40, len(PIECES) + 1)
+    assert np.abs(heard - expected).max() < 0.02 * np.abs(expected).max()
+
+
+def test_large_weights_are_kept_in_half_precision(trained: Path) -> None:
+    train_asr.export(trained, trained / "model")
+    parameters = sum(each.numel() for each in train_asr.Recogniser(len(PIECES)).parameters())
+    assert (trained / "model" / "ctc.onnx").stat().st_size < 2.2 * parameters
+
+
+def test_a_training_begins_with_the_weights_that_were_kept(trained: Path) -> None:
+    train_asr.keep(trained, trained / "kept")
+    network = train_asr.Recogniser(len(PIECES))
+    train_asr.begin_with(network, trained / "kept")
+    saved = torch.load(trained / "checkpoint.pt", weights_only=True)["network"]
+    for name, weight in network.state_dict().items():
+        assert torch.allclose(weight.float(), saved[name].float(), atol=1e-3), name
+
+
+def test_weights_of_another_network_are_refused(trained: Path) -> None:
+    train_asr.keep(trained, trained / "kept")
+    with pytest.raises(SystemExit, match="weights of another network"):
+        train_asr.begin_with(train_asr.Recogniser(len(PIECES) + 1), trained / "kept")
+
+
+def test_all_weights_have_one_optimiser() -> None:
+    network = train_asr.Recogniser(len(PIECES))
+    given = [
+        id(weight)
+        for optimiser in train_asr.optimisers_of(network, 1e-3)
+        for group in optimiser.param_groups
+        for weight in group["params"]
+    ]
+    assert sorted(given) == sorted(id(weight) for weight in network.parameters())
