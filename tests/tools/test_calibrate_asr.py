@@ -7,6 +7,7 @@ import pytest
 
 import calibrate_asr
 from airhilt.assistant.asr.engines.embedded import Emission
+from airhilt.assistant.asr.spotting import Aligned, Odds, SpokenForm
 from eval_asr import SpokenCall
 
 SAID = "american one two three climb alfa"
@@ -36,20 +37,57 @@ def test_a_word_is_right_where_it_was_said_in_whatever_spelling(
     assert calibrate_asr.right_words(SAID, heard.split()) == right
 
 
-def test_a_callsign_is_right_only_if_all_its_words_are() -> None:
-    """Half of the callsigns have a wrong digit, whatever their likelihood; all other words are
-    right where they are likely."""
+def test_the_curve_of_words_leaves_callsigns_of_the_roster_out() -> None:
+    """Words of callsigns are wrong whatever their confidence; others are right where likely."""
     calls = [
-        call(f"american one two {digit} climb alfa", [likely] * 4 + [0.9, 0.9], range(4))
-        for digit in ("three", "four")
-        for likely in (0.2, 0.5, 0.9)
-    ] + [call("american one two three turn alfa", [0.9] * 4 + [0.1, 0.9], range(0))] * 4
-    curves = calibrate_asr.curves_of(calls)
-    of_callsign, of_word = curves(
-        [Emission("one", 0.9, 0, is_callsign=True), Emission("climb", 0.9, 1)]
+        call("delta four four four climb alfa", [0.99] * 4 + [0.9, 0.9], range(4)),
+        call("american one two three turn alfa", [0.9] * 4 + [0.1, 0.9], range(0)),
+    ] * 4
+    curve = calibrate_asr.curve_of(calls)
+    of_callsign, of_word = calibrate_asr.confidences_of(
+        curve, [Emission("one", 0.7, 0, is_callsign=True), Emission("climb", 0.9, 1)]
     )
-    assert of_callsign == pytest.approx(0.5, abs=0.02)
+    assert of_callsign == 0.7
     assert of_word > 0.9
+
+
+def aligned(callsign: str, loss: float) -> Aligned:
+    form = SpokenForm(("american",), ("one", "two", "three"))
+    return Aligned(callsign, form, 0, 20, loss)
+
+
+def trials(seed: int, count: int) -> list[calibrate_asr.Trial]:
+    """Return calls in which the callsign that was said loses little, and others much; a fifth
+    calls nobody of the roster."""
+    rng = np.random.default_rng(seed)
+    made = []
+    for _ in range(count):
+        losses = {"AAL123": rng.exponential(9.0), "AAL124": rng.exponential(9.0)}
+        said = str(rng.choice(["AAL123", "AAL124"])) if rng.random() < 0.8 else None
+        if said:
+            losses[said] = rng.exponential(2.0)
+        made.append(calibrate_asr.Trial(said, [aligned(*each) for each in losses.items()]))
+    return made
+
+
+def test_the_odds_of_callsigns_give_the_share_that_is_right() -> None:
+    odds = Odds(**calibrate_asr.fit_odds(trials(1, 600)))
+    sure, right = [], []
+    for said, (one, other) in trials(2, 600):
+        log_odds = np.array([odds(one), odds(other), 0.0])
+        sure.append(float(np.exp(log_odds[0] - np.logaddexp.reduce(log_odds))))
+        right.append(said == one.callsign)
+    for low, high in ((0.0, 0.2), (0.2, 0.8), (0.8, 1.0)):
+        chosen = [low <= each <= high for each in sure]
+        share = np.mean(np.array(right)[chosen])
+        assert share == pytest.approx(np.mean(np.array(sure)[chosen]), abs=0.08)
+
+
+def test_calls_to_somebody_who_cannot_be_written_tell_nothing_of_odds() -> None:
+    some = trials(1, 200)
+    unknown = [calibrate_asr.Trial("OPS1", [aligned("AAL123", 0.0)])] * 50
+    without_forms = [calibrate_asr.Trial(None, [])] * 50
+    assert calibrate_asr.fit_odds([*some, *unknown, *without_forms]) == calibrate_asr.fit_odds(some)
 
 
 def test_some_rosters_have_a_callsign_one_digit_off_instead() -> None:

@@ -5,9 +5,9 @@
 
 The calls of the folder (not those of training, nor those that scores are given of) go through the
 channel at many ratios. First the weight of the language model and the reward of a piece are chosen
-with which the fewest words of some of the calls are wrong. Then three logistic curves are fitted by
-maximum likelihood (Platt, 1999) to how often something is right: from the posterior of a word, from
-the likelihood that a callsign of the roster loses, and from the product of a call's confidences.
+with which the fewest words of some of the calls are wrong, and by maximum likelihood the odds that
+a callsign of the roster was said. Then two logistic curves are fitted (Platt, 1999) to how often
+something is right: from the posterior of a word, and from the product of a call's confidences.
 Words below the threshold that costs least errors are left out of transcripts, and transmissions
 whose best word is no better than in noise alone are empty.
 """
@@ -20,6 +20,7 @@ import json
 import math
 import random
 from collections.abc import Iterator, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -32,6 +33,8 @@ from airhilt.assistant.asr.beam_search import BeamSearch
 from airhilt.assistant.asr.engines.embedded import Ctc, Emission
 from airhilt.assistant.asr.language import Language
 from airhilt.assistant.asr.pieces import Pieces
+from airhilt.assistant.asr.spotting import Aligned, Odds, Spotter
+from airhilt.audio.pcm import Audio
 from airhilt.metrics.words import in_words
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.channel import VhfChannel
@@ -54,6 +57,10 @@ WEIGHED_CALLS, WEIGHED_RATIOS = 60, (None, 10.0, 3.0)
 RATIOS = (None, 20.0, 10.0, 6.0, 3.0, 0.0, -3.0)
 MISLEADING_SHARE = 0.1
 """Share of the rosters that have a callsign one digit off instead of the one that is said."""
+BEGIN_ODDS = Odds(offset=1.0, name=1.0, sign=1.0, loss=0.5)
+"""Odds that a fit begins with."""
+MOST_LOSS = 1e3
+"""Loss of a form that is longer than the call."""
 
 
 class HeardCall(NamedTuple):
@@ -69,20 +76,11 @@ class HeardCall(NamedTuple):
         return " ".join(each.word for each, is_kept in zip(self.path, kept, strict=True) if is_kept)
 
 
-class Curves(NamedTuple):
-    """Curves of a word, and of a callsign that was found."""
-
-    word: dict[str, float]
-    callsign: dict[str, float]
-
-    def __call__(self, path: Sequence[Emission]) -> NDArray[np.float64]:
-        """Return the confidence of each word."""
-        posteriors = np.array([each.posterior for each in path])
-        return np.where(
-            [each.is_callsign for each in path],
-            logistic(self.callsign, posteriors),
-            logistic(self.word, posteriors),
-        )
+def confidences_of(curve: dict[str, float], path: Sequence[Emission]) -> NDArray[np.float64]:
+    """Return the confidence of each word, with the curve of those of no callsign."""
+    posteriors = np.array([each.posterior for each in path])
+    is_callsign = [each.is_callsign for each in path]
+    return np.where(is_callsign, posteriors, logistic(curve, posteriors))
 
 
 def fit(posteriors: NDArray[np.float64], right: NDArray[np.bool_]) -> dict[str, float]:
@@ -113,36 +111,39 @@ def main() -> None:
     parser.add_argument(
         "--callsigns-only",
         action="store_true",
-        help="fit the curve of callsigns alone, and leave the rest of the card as it is",
+        help="fit the odds of callsigns alone, and leave the rest of the card as it is",
     )
     given = parser.parse_args()
     utterances = [each for path in sorted(given.folder.glob("*.jsonl")) for each in spoken(path)]
     rosters = misleading(utterances, rosters_for(utterances))
     if not given.callsigns_only:
         weigh(given.model, utterances)
-    engine = Ctc(given.model)
-    calls = list(heard_calls(engine, utterances, rosters))
-    curves = curves_of(calls)
-    fitted: dict[str, Any] = {"callsign_calibration": curves.callsign}
+    aligned = list(aligned_calls(given.model, utterances, rosters))
+    write_into_card(given.model, {"callsign_odds": fit_odds(aligned)})
     if not given.callsigns_only:
-        fitted |= thresholds(engine, curves, calls, rosters[0])
-    card = json.loads((given.model / "card.json").read_text()) | fitted
-    (given.model / "card.json").write_text(json.dumps(card, indent=2) + "\n")
-    print(json.dumps(card, indent=2))
+        engine = Ctc(given.model)
+        calls = list(heard_calls(engine, utterances, rosters))
+        write_into_card(given.model, thresholds(engine, calls, rosters[0]))
+    print((given.model / "card.json").read_text())
 
 
-def thresholds(
-    engine: Ctc, curves: Curves, calls: Sequence[HeardCall], roster: Sequence[str]
-) -> dict[str, Any]:
+def write_into_card(model: Path, fitted: dict[str, Any]) -> None:
+    """Replace values of a model's card."""
+    card = json.loads((model / "card.json").read_text()) | fitted
+    (model / "card.json").write_text(json.dumps(card, indent=2) + "\n")
+
+
+def thresholds(engine: Ctc, calls: Sequence[HeardCall], roster: Sequence[str]) -> dict[str, Any]:
     """Return the curves of words and calls for the card, and the thresholds that they give."""
+    curve = curve_of(calls)
     silent = [
         engine.path(engine.posteriors(audio), roster) for audio in noise_alone(SILENT_CALLS, seed=6)
     ]
-    threshold, talkative = quietest_threshold(curves, silent)
-    least, errors = best_threshold(curves, calls)
+    threshold, talkative = quietest_threshold(curve, silent)
+    least, errors = best_threshold(curve, calls)
     return {
-        "word_calibration": curves.word,
-        "call_calibration": call_calibration(curves, calls, least),
+        "word_calibration": curve,
+        "call_calibration": call_calibration(curve, calls, least),
         "least_word_confidence": least,
         "best_word_threshold": threshold,
         "calibrated_on": {
@@ -176,9 +177,63 @@ def weigh(model: Path, utterances: Sequence[SpokenCall]) -> None:
         found = [pieces.text(search.units(posteriors)) for _, posteriors in calls]
         tried.append((word_error_rate([text for text, _ in calls], found), weight, reward))
     _, weight, reward = min(tried)
-    card = json.loads((model / "card.json").read_text())
-    card |= {"language_weight": weight, "piece_reward": reward}
-    (model / "card.json").write_text(json.dumps(card, indent=2) + "\n")
+    write_into_card(model, {"language_weight": weight, "piece_reward": reward})
+
+
+class Trial(NamedTuple):
+    """Who was called in a call, and where the callsigns of its roster fit best."""
+
+    said: str | None
+    """None: none of the roster."""
+    aligned: list[Aligned]
+
+
+def aligned_calls(
+    model: Path, utterances: Sequence[SpokenCall], rosters: Sequence[tuple[str, ...]]
+) -> Iterator[Trial]:
+    """Yield the trials of each utterance at each ratio."""
+    engine = Ctc(model)
+    pieces = Pieces((model / "pieces.txt").read_text(encoding="utf-8").split())
+    for index, each in enumerate(utterances):
+        spotter = Spotter(pieces, rosters[index], BEGIN_ODDS)
+        said = each.callsign if each.callsign in rosters[index] else None
+        for audio in at_ratios(each, index):
+            yield Trial(said, spotter.aligned(engine.posteriors(audio)))
+
+
+def fit_odds(trials: Sequence[Trial]) -> dict[str, float]:
+    """Return the odds with which what was said is likeliest: one callsign of the roster, or none.
+
+    Trials whose callsign has no form that the recogniser can write are left out.
+    """
+    features: list[tuple[float, ...]] = []
+    of_callsign: list[int] = []
+    of_trial: list[int] = []
+    said: list[int] = []
+    for trial in trials:
+        forms: dict[str, list[tuple[float, ...]]] = {}
+        for callsign, form, _, _, loss in trial.aligned:
+            row = (1.0, len(form.name), len(form.signs), -min(loss, MOST_LOSS))
+            forms.setdefault(callsign, []).append(row)
+        if not forms or (trial.said and trial.said not in forms):
+            continue
+        said.append(len(of_callsign) + list(forms).index(trial.said) if trial.said else -1)
+        of_trial.append(len(of_callsign))
+        for rows in forms.values():
+            of_callsign.append(len(features))
+            features += rows
+    matrix, chosen = np.array(features), np.array(said)
+
+    def loss_of(odds: NDArray[np.float64]) -> float:
+        likeliest = np.maximum.reduceat(matrix @ odds, of_callsign)
+        all_of_them = np.logaddexp(np.logaddexp.reduceat(likeliest, of_trial), 0.0)
+        return float(np.mean(all_of_them - np.where(chosen >= 0, likeliest[chosen], 0.0)))
+
+    begin = np.array(list(asdict(BEGIN_ODDS).values()))
+    found = minimize(loss_of, begin, method="Nelder-Mead").x
+    return {
+        name: round(float(value), 4) for name, value in zip(asdict(BEGIN_ODDS), found, strict=True)
+    }
 
 
 def heard_calls(
@@ -187,13 +242,18 @@ def heard_calls(
     rosters: Sequence[tuple[str, ...]],
 ) -> Iterator[HeardCall]:
     """Yield what the recogniser makes of each utterance at each ratio."""
-    channel = VhfChannel(PROFILES["vhf"])
     for index, each in enumerate(utterances):
-        for snr_db in RATIOS:
-            rng = np.random.default_rng([index, 77 if snr_db is None else int(snr_db) + 10])
-            heard = channel.transmit(each.speech, snr_db, rng, (), "cockpit")
-            path = engine.path(engine.posteriors(heard), rosters[index])
+        for audio in at_ratios(each, index):
+            path = engine.path(engine.posteriors(audio), rosters[index])
             yield HeardCall(each.text, path, right_words(each.text, [word.word for word in path]))
+
+
+def at_ratios(call: SpokenCall, seed: int) -> Iterator[Audio]:
+    """Yield a call as it is received at each ratio."""
+    channel = VhfChannel(PROFILES["vhf"])
+    for snr_db in RATIOS:
+        rng = np.random.default_rng([seed, 77 if snr_db is None else int(snr_db) + 10])
+        yield channel.transmit(call.speech, snr_db, rng, (), "cockpit")
 
 
 def misleading(
@@ -228,45 +288,48 @@ def _spelled(word: str) -> str:
     return "_".join(in_words(word)) or word
 
 
-def curves_of(calls: Sequence[HeardCall]) -> Curves:
-    """Fit the curve of words, and that of callsigns; one is right if all its words are."""
-    words, callsigns = [], []
-    for call in calls:
-        pairs = list(zip(call.path, call.right, strict=True))
-        words += [(each.posterior, right) for each, right in pairs if not each.is_callsign]
-        found = [(each.posterior, right) for each, right in pairs if each.is_callsign]
-        if found:
-            callsigns.append((found[0][0], all(right for _, right in found)))
-    return Curves(*(fit(*map(np.array, zip(*each, strict=True))) for each in (words, callsigns)))
+def curve_of(calls: Sequence[HeardCall]) -> dict[str, float]:
+    """Fit the curve of words, but those of callsigns of the roster."""
+    words = [
+        (each.posterior, right)
+        for call in calls
+        for each, right in zip(call.path, call.right, strict=True)
+        if not each.is_callsign
+    ]
+    return fit(*map(np.array, zip(*words, strict=True)))
 
 
-def call_calibration(curves: Curves, calls: Sequence[HeardCall], least: float) -> dict[str, float]:
+def call_calibration(
+    curve: dict[str, float], calls: Sequence[HeardCall], least: float
+) -> dict[str, float]:
     """Return the curve of whole calls, of which words below the least confidence are left out."""
     confidences, whole = [], []
     for call in calls:
         if not call.path:
             continue
-        trust = curves(call.path)
+        trust = confidences_of(curve, call.path)
         confidences.append(float(np.prod(trust)))
         whole.append(in_words(call.text(trust >= least)) == in_words(call.reference))
     return fit(np.array(confidences), np.array(whole))
 
 
-def quietest_threshold(curves: Curves, silent: Sequence[Sequence[Emission]]) -> tuple[float, float]:
+def quietest_threshold(
+    curve: dict[str, float], silent: Sequence[Sequence[Emission]]
+) -> tuple[float, float]:
     """Return the confidence that the best word must have, and the share of silence that passes.
 
     The result is the least at which `MOST_TALKATIVE` of them do.
     """
-    best = np.array([curves(path).max(initial=0.0) for path in silent])
+    best = np.array([confidences_of(curve, path).max(initial=0.0) for path in silent])
     least = math.ceil(100.0 * float(np.quantile(best, 1.0 - MOST_TALKATIVE))) / 100.0
     has_words = np.array([bool(path) for path in silent])
     return least, float(np.mean(has_words & (best >= least)))
 
 
-def best_threshold(curves: Curves, calls: Sequence[HeardCall]) -> tuple[float, float]:
+def best_threshold(curve: dict[str, float], calls: Sequence[HeardCall]) -> tuple[float, float]:
     """Return the least confidence of a word that is kept, and the word error rate with it."""
     references = [call.reference for call in calls]
-    trusts = [curves(call.path) for call in calls]
+    trusts = [confidences_of(curve, call.path) for call in calls]
     rates = [
         (
             word_error_rate(

@@ -1,9 +1,10 @@
 """Finds the callsigns of a roster in the posteriors of a call.
 
-The roster says who may be on the frequency, and a name that is half heard is probably one of
+The roster says who may be on the frequency, and a callsign that is half heard is probably one of
 those. For each way to say a callsign the likeliest alignment is found (Viterbi over the CTC states
-of its pieces, which may begin and end anywhere in the call). It is compared with the likeliest path
-of all over the same time. If little is lost, the callsign counts as said.
+of its pieces, which may begin and end anywhere in the call). Its loss against the likeliest path of
+all over the same time gives the odds that it was said rather than nobody of the roster called.
+Callsigns at the same place share the probability (Bayes' rule).
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,18 +20,69 @@ from numpy.typing import NDArray
 from airhilt.assistant.asr.pieces import Pieces
 from airhilt.phraseology import LETTERS, TELEPHONY
 from airhilt.phraseology.numbers import speak_digits, speak_group
+from airhilt.phraseology.spoken_forms import is_registration
 from airhilt.phraseology.telephony import names
 
-SAME = (("nine", "niner"), ("three", "tree"), ("five", "fife"), ("four", "fower"))
+SAME = (
+    ("zero", "oh"), ("nine", "niner"), ("three", "tree"), ("five", "fife"), ("four", "fower")
+)  # fmt: skip
 """Words that stand for the same digit."""
-MOST_LOSS = 2.5
-"""Largest `Spotted.loss` with which a callsign was said. Chosen on calls like those of training
-(``tools/asr/calibrate_asr.py``), and on calls by somebody whose callsign is one digit off."""
-MARGIN = 0.3
-"""Least loss, per word, by which every other callsign must fit worse."""
+TAKEN = 0.5
+"""Least confidence with which a callsign counts as said."""
+NAME_WEIGHT = 0.4
+"""Weight of what is lost in a name, against what is lost in digits and letters.
+
+Names are many and are heard badly, signs are few. Of 1, 0.4 and 0.15 this fits calls best
+(``tools/asr/calibrate_asr.py``)."""
+ABBREVIATED = (3, 2)
+"""Last signs of a registration that are said after its first (ICAO Annex 10 volume II,
+5.2.1.7.2.2; FAA Order JO 7110.65, 2-4-9)."""
 LEAST_POSTERIOR = 1e-8
 _AIRLINE = re.compile(r"([A-Z]{3})([0-9]{1,4})([A-Z]{0,2})")
-_AMERICAN = re.compile(r"N([1-9][0-9]{0,4}[A-Z]{0,2})")
+
+
+class SpokenForm(NamedTuple):
+    """One way to say a callsign."""
+
+    name: tuple[str, ...]
+    """Words of the airline's name; empty for a registration."""
+    signs: tuple[str, ...]
+    """Words of digits and letters."""
+
+
+@dataclass(frozen=True)
+class Odds:
+    """Log-odds that somebody of the roster was called so, and not nobody of it.
+
+    They are linear in the words of the form and in the log-likelihood that it loses.
+    """
+
+    offset: float
+    name: float
+    """Of a word of the name."""
+    sign: float
+    """Of a word of a digit or a letter."""
+    loss: float
+    """Of a unit of loss."""
+
+    def __call__(self, aligned: Aligned) -> float:
+        """Return the log-odds of an alignment."""
+        form = aligned.form
+        said = self.name * len(form.name) + self.sign * len(form.signs)
+        return self.offset + said - self.loss * aligned.loss
+
+
+class Aligned(NamedTuple):
+    """A form of a callsign where it fits best."""
+
+    callsign: str
+    form: SpokenForm
+    begin: int
+    """First step of its alignment."""
+    end: int
+    """Step after the last one of its alignment."""
+    loss: float
+    """Log-likelihood lost against the likeliest path there, in the name by `NAME_WEIGHT`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,8 +95,8 @@ class Spotted:
     """First step of its alignment."""
     end: int
     """Step after the last one of its alignment."""
-    loss: float
-    """Log-likelihood lost against the likeliest path there, per word; 0 if it is that path."""
+    confidence: float
+    """Probability that it was said, and neither another of the roster nor none."""
 
 
 def is_same(one: Sequence[str], other: Sequence[str]) -> bool:
@@ -52,21 +105,33 @@ def is_same(one: Sequence[str], other: Sequence[str]) -> bool:
     return [first_of.get(word, word) for word in one] == [first_of.get(w, w) for w in other]
 
 
-def spoken_forms(callsign: str) -> Iterator[tuple[str, ...]]:
-    """Yield the ways to say a flight number or a registration of the United States in full."""
+def spoken_forms(callsign: str) -> Iterator[SpokenForm]:
+    """Yield the ways to say a flight number or a registration, in full or abbreviated.
+
+    A registration may follow the name of a maker, which is not part of the form: "Cessna four kilo
+    lima" is looked for as "four kilo lima".
+    """
     airline = _AIRLINE.fullmatch(callsign)
     if airline and airline[1] in TELEPHONY:
-        number, letters = airline[2], _spell(airline[3])
+        letters = _spell(airline[3])
         for name in names(airline[1]):
-            yield (*name.split(), *_spell(number), *letters)
-            if len(number) > 1 and number[0] != "0" and not letters:
-                yield (*name.split(), *speak_group(int(number), "icao").split())
-    american = _AMERICAN.fullmatch(callsign)
-    if american:
-        signs = _spell(american[1])
-        yield ("november", *signs)
-        if len(signs) >= 3:
-            yield signs
+            for number in _ways(airline[2]):
+                yield SpokenForm(tuple(name.split()), (*number, *letters))
+    elif is_registration(callsign):
+        first, *rest = _spell(callsign.replace("-", ""))
+        yield SpokenForm((), (first, *rest))
+        yield SpokenForm((), tuple(rest))
+        for size in ABBREVIATED:
+            if len(rest) > size:
+                yield SpokenForm((), (first, *rest[-size:]))
+        yield SpokenForm((), tuple(rest[-ABBREVIATED[0] :]))
+
+
+def _ways(number: str) -> Iterator[tuple[str, ...]]:
+    """Yield a flight number digit by digit, and in pairs."""
+    yield _spell(number)
+    if len(number) > 1 and number[0] != "0":
+        yield tuple(speak_group(int(number), "faa").split())
 
 
 def _spell(signs: str) -> tuple[str, ...]:
@@ -85,51 +150,93 @@ class Spotter:
         Pieces of the recogniser.
     """
 
-    def __init__(self, pieces: Pieces, callsigns: Sequence[str]) -> None:
+    def __init__(self, pieces: Pieces, callsigns: Sequence[str], odds: Odds) -> None:
         known = [
             {word: unit for word in variants if (unit := pieces.unit(word)) is not None}
             for variants in SAME
         ]
+        self._odds = odds
         self._same = [list(units.values()) for units in known if units]
         standing_for = {
             word: next(iter(units), word)
             for variants, units in zip(SAME, known, strict=True)
             for word in variants
         }
-        self._forms: list[tuple[str, tuple[str, ...], tuple[int, ...]]] = []
+        self._forms: list[tuple[str, SpokenForm]] = []
+        written: list[tuple[int, ...]] = []
+        names: list[int] = []
         for callsign in dict.fromkeys(callsigns):
-            for form in dict.fromkeys(spoken_forms(callsign)):
-                words = tuple(standing_for.get(word, word) for word in form)
-                units = pieces.units(words)
-                if units is not None:
-                    self._forms.append((callsign, words, units))
-        longest = max((len(units) for _, _, units in self._forms), default=0)
-        self._units = np.zeros((len(self._forms), longest), np.intp)
-        for row, (_, _, units) in enumerate(self._forms):
+            for name, said in dict.fromkeys(spoken_forms(callsign)):
+                signs = tuple(standing_for.get(word, word) for word in said)
+                of_name, of_signs = pieces.units(name), pieces.units(signs)
+                if of_name is not None and of_signs:
+                    self._forms.append((callsign, SpokenForm(name, signs)))
+                    written.append((*of_name, *of_signs))
+                    names.append(len(of_name))
+        longest = max(map(len, written), default=0)
+        self._last = np.array([len(units) - 1 for units in written], np.intp)
+        self._units = np.zeros((len(written), longest), np.intp)
+        for row, units in enumerate(written):
             self._units[row, : len(units)] = units
+        is_name = np.arange(longest) < np.array(names, np.intp)[:, None]
+        self._weights = np.where(is_name, NAME_WEIGHT, 1.0).astype(np.float32)
 
     def spot(self, posteriors: NDArray[np.float32]) -> Spotted | None:
-        """Return the callsign that fits best, if it fits and no other does about as well there.
+        """Return the callsign that was probably said, if one was.
 
         Parameters
         ----------
         posteriors
             Posteriors of each unit at each step, shape (steps, units).
         """
+        likeliest: dict[str, Aligned] = {}
+        for each in sorted(self.aligned(posteriors), key=self._odds, reverse=True):
+            likeliest.setdefault(each.callsign, each)
+        if not likeliest:
+            return None
+        best, *others = likeliest.values()
+        rivals = [each for each in others if each.begin < best.end and best.begin < each.end]
+        odds = np.array([self._odds(best), *map(self._odds, rivals), 0.0])
+        confidence = float(np.exp(odds[0] - np.logaddexp.reduce(odds)))
+        if confidence < TAKEN:
+            return None
+        words = best.form.name + best.form.signs
+        return Spotted(best.callsign, words, best.begin, best.end, confidence)
+
+    def aligned(self, posteriors: NDArray[np.float32]) -> list[Aligned]:
+        """Return the likeliest alignment of each form of each callsign.
+
+        A form has a state for each of its pieces and one for the gap after it.
+        """
         if not self._forms or not len(posteriors):
-            return None
-        best, *others = sorted(
-            self._aligned(self._losses(posteriors)),
-            key=lambda each: (each.loss, -len(each.words), each.callsign),
-        )
-        rivals = (
-            other.loss
-            for other in others
-            if other.callsign != best.callsign and other.begin < best.end and best.begin < other.end
-        )
-        if best.loss > MOST_LOSS or min(rivals, default=np.inf) < best.loss + MARGIN:
-            return None
-        return best
+            return []
+        count, size = self._units.shape
+        repeats = np.zeros((count, size), bool)
+        repeats[:, 1:] = self._units[:, 1:] == self._units[:, :-1]
+        rows = np.arange(count)
+        best = np.full(count, -np.inf, np.float32)
+        best_begin, best_end = np.zeros((2, count), np.intp)
+        word, gap = np.full((2, count, size), -np.inf, np.float32)
+        word_begin, gap_begin = np.zeros((2, count, size), np.intp)
+        for step, here in enumerate(self._losses(posteriors)):
+            came, came_begin = np.zeros((count, size), np.float32), np.full((count, size), step)
+            direct = np.where(repeats[:, 1:], -np.inf, word[:, :-1])
+            is_direct = direct > gap[:, :-1]
+            came[:, 1:] = np.where(is_direct, direct, gap[:, :-1])
+            came_begin[:, 1:] = np.where(is_direct, word_begin[:, :-1], gap_begin[:, :-1])
+            gap_begin = np.where(gap >= word, gap_begin, word_begin)
+            gap = np.maximum(gap, word) + here[0] * self._weights
+            word_begin = np.where(word >= came, word_begin, came_begin)
+            word = np.maximum(word, came) + here[self._units] * self._weights
+            ended = word[rows, self._last]
+            is_better = ended > best
+            best = np.where(is_better, ended, best)
+            best_begin = np.where(is_better, word_begin[rows, self._last], best_begin)
+            best_end = np.where(is_better, step + 1, best_end)
+        return [
+            Aligned(callsign, form, int(best_begin[row]), int(best_end[row]), -float(best[row]))
+            for row, (callsign, form) in enumerate(self._forms)
+        ]
 
     def _losses(self, posteriors: NDArray[np.float32]) -> NDArray[np.float32]:
         """Return log-likelihoods against that of the likeliest unit of each step."""
@@ -139,36 +246,3 @@ class Spotter:
         for variants in self._same:
             log[:, variants] = log[:, variants].max(axis=1, keepdims=True)
         return log
-
-    def _aligned(self, log: NDArray[np.float32]) -> Iterator[Spotted]:
-        """Yield the best alignment of each form.
-
-        A form has a state for each of its pieces and one for the gap after it.
-        """
-        count, size = self._units.shape
-        repeats = np.zeros((count, size), bool)
-        repeats[:, 1:] = self._units[:, 1:] == self._units[:, :-1]
-        last = np.array([len(units) - 1 for _, _, units in self._forms])
-        rows = np.arange(count)
-        best = np.full(count, -np.inf, np.float32)
-        best_begin, best_end = np.zeros((2, count), np.intp)
-        word, gap = np.full((2, count, size), -np.inf, np.float32)
-        word_begin, gap_begin = np.zeros((2, count, size), np.intp)
-        for step, here in enumerate(log):
-            came, came_begin = np.zeros((count, size), np.float32), np.full((count, size), step)
-            direct = np.where(repeats[:, 1:], -np.inf, word[:, :-1])
-            is_direct = direct > gap[:, :-1]
-            came[:, 1:] = np.where(is_direct, direct, gap[:, :-1])
-            came_begin[:, 1:] = np.where(is_direct, word_begin[:, :-1], gap_begin[:, :-1])
-            gap_begin = np.where(gap >= word, gap_begin, word_begin)
-            gap = np.maximum(gap, word) + here[0]
-            word_begin = np.where(word >= came, word_begin, came_begin)
-            word = np.maximum(word, came) + here[self._units]
-            ended = word[rows, last]
-            is_better = ended > best
-            best = np.where(is_better, ended, best)
-            best_begin = np.where(is_better, word_begin[rows, last], best_begin)
-            best_end = np.where(is_better, step + 1, best_end)
-        for row, (callsign, words, _) in enumerate(self._forms):
-            loss = -float(best[row]) / len(words)
-            yield Spotted(callsign, words, int(best_begin[row]), int(best_end[row]), loss)

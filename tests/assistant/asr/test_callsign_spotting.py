@@ -10,7 +10,7 @@ import pytest
 
 from airhilt.assistant.asr.engines.embedded import Emission, with_callsign
 from airhilt.assistant.asr.pieces import BEGIN, Pieces
-from airhilt.assistant.asr.spotting import Spotted, Spotter, spoken_forms
+from airhilt.assistant.asr.spotting import NAME_WEIGHT, Odds, Spotted, Spotter, spoken_forms
 
 WORDS = [
     "american", "climb", "delta", "eight", "five", "four", "golf", "niner", "november", "one",
@@ -18,6 +18,7 @@ WORDS = [
 ]  # fmt: skip
 PIECES = Pieces([BEGIN + word for word in WORDS])
 UNIT = {word: unit for unit, word in enumerate(WORDS, start=1)}
+ODDS = Odds(offset=0.8, name=1.4, sign=1.1, loss=0.6)
 
 
 def posteriors(*steps: dict[Any, Any]) -> npt.NDArray[np.floating[Any]]:
@@ -38,7 +39,7 @@ def clear(*words: str) -> list[dict[str, float]]:
 
 
 def spotted(heard: npt.NDArray[np.floating[Any]], *callsigns: str) -> Any:
-    return Spotter(PIECES, callsigns).spot(heard)
+    return Spotter(PIECES, callsigns, ODDS).spot(heard)
 
 
 def likeliest(heard: npt.NDArray[np.floating[Any]]) -> list[Emission]:
@@ -55,10 +56,44 @@ def text(path: list[Emission]) -> str:
     return " ".join(each.word for each in path)
 
 
-def test_a_callsign_that_is_clearly_said_costs_nothing() -> None:
-    found = spotted(posteriors(*clear("american", "one", "two", "climb")), "AAL12", "DAL12")
+def probability(*log_odds: float) -> float:
+    """Return the probability of the first of some callsigns, of which none may be said."""
+    shares = np.exp([*log_odds, 0.0])
+    return float(shares[0] / shares.sum())
+
+
+def test_a_callsign_that_is_clearly_said_has_the_odds_of_its_words() -> None:
+    found = spotted(posteriors(*clear("american", "one", "two", "climb")), "AAL12")
     assert found.callsign == "AAL12"
-    assert found.loss == pytest.approx(0.0, abs=1e-3)
+    assert found.confidence == pytest.approx(probability(0.8 + 1.4 + 2 * 1.1), abs=1e-3)
+
+
+def test_what_a_digit_loses_counts_more_than_what_a_name_does() -> None:
+    lost = 4.0
+    shares = {"american": np.exp(-lost), "delta": 1.0 - np.exp(-lost)}
+    of_name = spotted(posteriors(shares, *clear("one", "two", "six")), "AAL126")
+    shares = {"one": np.exp(-lost), "four": 1.0 - np.exp(-lost)}
+    of_digit = spotted(posteriors(*clear("american"), shares, *clear("two", "six")), "AAL126")
+    said = 0.8 + 1.4 + 3 * 1.1
+    assert of_name.confidence == pytest.approx(
+        probability(said - 0.6 * NAME_WEIGHT * lost), abs=0.01
+    )
+    assert of_digit.confidence == pytest.approx(probability(said - 0.6 * lost), abs=0.01)
+
+
+def test_two_of_the_roster_at_one_place_share_the_probability() -> None:
+    heard = posteriors(*clear("american", "one"), {"two": 0.6, "three": 0.35}, *clear("six"))
+    said = 0.8 + 1.4 + 3 * 1.1
+    alone, beside = spotted(heard, "AAL126"), spotted(heard, "AAL126", "AAL136")
+    assert alone.confidence == pytest.approx(probability(said), abs=0.01)
+    other = said - 0.6 * np.log(0.6 / 0.35)
+    assert beside.confidence == pytest.approx(probability(said, other), abs=0.01)
+
+
+def test_another_callsign_elsewhere_in_the_call_is_no_rival() -> None:
+    heard = posteriors(*clear("american", "one", "two", "six", "climb", "delta", "niner"))
+    alone, both = spotted(heard, "AAL126"), spotted(heard, "AAL126", "DAL9")
+    assert (both.callsign, both.confidence) == (alone.callsign, alone.confidence)
 
 
 def test_a_word_that_is_nearly_lost_is_found_again() -> None:
@@ -71,10 +106,12 @@ def test_a_word_that_is_nearly_lost_is_found_again() -> None:
 
 def test_words_of_a_callsign_are_less_sure_where_it_fits_less() -> None:
     heard = posteriors({"american": 0.1}, *clear("one", "two"))
-    sure = with_callsign(likeliest(heard), cast(Spotted, spotted(heard, "AAL12")))
-    assert all(each.posterior < 0.9 for each in sure)
     plain = posteriors(*clear("american", "one", "two"))
-    assert all(each.posterior > 0.9 for each in likeliest(plain))
+    sure, less_sure = (
+        with_callsign(likeliest(each), cast(Spotted, spotted(each, "AAL12")))[0].posterior
+        for each in (plain, heard)
+    )
+    assert 0.5 < less_sure < sure - 0.005
 
 
 @pytest.mark.parametrize("said", ["four", "eight"])
@@ -84,7 +121,7 @@ def test_another_number_that_is_clearly_said_is_not_overheard(said: str) -> None
 
 
 def test_of_two_that_fit_alike_none_is_taken() -> None:
-    heard = posteriors({"american": 0.1}, *clear("one"), {"two": 0.3, "three": 0.3}, *clear("six"))
+    heard = posteriors(*clear("american", "one"), {"two": 0.3, "three": 0.3}, *clear("six"))
     assert spotted(heard, "AAL126", "AAL136") is None
     assert spotted(heard, "AAL126", "UAL136").callsign == "AAL126"
 
@@ -104,7 +141,7 @@ def test_a_callsign_with_a_word_that_the_recogniser_does_not_know_is_left_out() 
 
 def test_the_same_digit_twice_needs_a_gap_between() -> None:
     said = posteriors(*clear("american", "one", "one"))
-    assert spotted(said, "AAL11").loss == pytest.approx(0.0, abs=1e-3)
+    assert spotted(said, "AAL11").confidence == pytest.approx(probability(4.4), abs=1e-3)
     assert spotted(posteriors(*clear("american", "one")), "AAL11") is None
 
 
@@ -113,12 +150,35 @@ def test_the_same_digit_twice_needs_a_gap_between() -> None:
     [
         ("AAL1260", {"american one two six zero", "american twelve sixty"}),
         ("DAL9", {"delta niner"}),
-        ("N54G", {"november five four golf", "five four golf"}),
+        ("AAL12G", {"american one two golf", "american twelve golf"}),
+        ("AAL905", {"american niner zero five"}),
+        ("N54G", {"november five four golf", "five four golf", "november four golf"}),
+        (
+            "N1254G",
+            {
+                "november one two five four golf",
+                "one two five four golf",
+                "november five four golf",
+                "november four golf",
+                "five four golf",
+            },
+        ),
+        (
+            "G-ABCD",
+            {
+                "golf alfa bravo charlie delta",
+                "alfa bravo charlie delta",
+                "golf bravo charlie delta",
+                "golf charlie delta",
+                "bravo charlie delta",
+            },
+        ),
         ("OPS1", set()),
     ],
 )
 def test_callsigns_are_looked_for_as_they_may_be_said(callsign: str, forms: set[Any]) -> None:
-    assert {" ".join(form) for form in spoken_forms(callsign)} == forms
+    said = {" ".join(form.name + form.signs) for form in spoken_forms(callsign)}
+    assert said == forms
 
 
 def test_any_word_for_a_digit_will_do() -> None:
@@ -126,8 +186,8 @@ def test_any_word_for_a_digit_will_do() -> None:
     heard = np.full((4, len(pieces) + 1), 1e-6, np.float32)
     heard[0, UNIT["delta"]] = heard[2, len(pieces)] = 1.0
     heard[[1, 3], 0] = 1.0
-    found = Spotter(pieces, ("DAL9",)).spot(heard)
-    assert found.loss == pytest.approx(0.0, abs=1e-3)
+    found = Spotter(pieces, ("DAL9",), ODDS).spot(heard)
+    assert found.confidence == pytest.approx(probability(0.8 + 1.4 + 1.1), abs=1e-3)
 
 
 def test_what_is_clearly_said_is_left_as_it_is() -> None:
@@ -138,13 +198,13 @@ def test_what_is_clearly_said_is_left_as_it_is() -> None:
     assert found[0] == Emission("climb", cast(Any, pytest.approx(0.99, abs=1e-3)), 0)
 
 
-def test_the_words_of_a_callsign_of_the_roster_have_the_likelihood_of_the_whole() -> None:
+def test_the_words_of_a_callsign_of_the_roster_have_the_confidence_of_the_whole() -> None:
     heard = posteriors(*clear("climb", "american"), {"one": 0.6, "two": 0.2})
     spot = cast(Spotted, spotted(heard, "AAL1"))
     climb, *callsign = with_callsign(likeliest(heard), spot)
     assert not climb.is_callsign
     assert [(each.posterior, each.is_callsign) for each in callsign] == [
-        (np.exp(-spot.loss), True)
+        (spot.confidence, True)
     ] * 2
 
 
@@ -154,6 +214,6 @@ def test_a_name_that_is_no_piece_is_spelled() -> None:
     heard[1::2, 0] = 1.0
     for step, unit in enumerate((1, 2, 3, 4, 5)):
         heard[2 * step, unit] = 1.0
-    found = cast(Spotted, Spotter(pieces, ("GTI12", "GTI21")).spot(heard))
+    found = cast(Spotted, Spotter(pieces, ("GTI12", "GTI21"), ODDS).spot(heard))
     assert (found.callsign, found.words) == ("GTI12", ("giant", "one", "two"))
-    assert found.loss == pytest.approx(0.0, abs=1e-3)
+    assert found.confidence > 0.98

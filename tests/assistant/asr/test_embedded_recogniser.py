@@ -127,16 +127,16 @@ def test_confidences_go_through_the_calibrations_of_the_card(folder: Path) -> No
     assert heard.confidence == pytest.approx(Calibration(**offset)(word), abs=1e-3)
 
 
-def test_a_callsign_of_the_roster_has_a_calibration_of_its_own(
+def test_a_callsign_of_the_roster_needs_no_calibration(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shy = {"slope": 1.0, "offset": -1.0}
-    engine = with_card(folder, callsign_calibration=shy)
+    engine = with_card(folder, word_calibration=shy)
     path = [Emission("climb", 0.9, 0), Emission("alfa", 0.9, 1, is_callsign=True)]
     monkeypatch.setattr(engine, "path", lambda *_: path)
     (_, climb), (_, alfa) = engine.recognise(call(BRAVO_HZ), ()).words
-    assert climb == pytest.approx(0.9)
-    assert alfa == pytest.approx(Calibration(**shy)(0.9))
+    assert climb == pytest.approx(Calibration(**shy)(0.9))
+    assert alfa == pytest.approx(0.9)
 
 
 def test_a_word_that_is_too_unsure_is_left_out_and_makes_the_call_unsure(folder: Path) -> None:

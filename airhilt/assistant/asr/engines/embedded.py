@@ -21,7 +21,7 @@ from airhilt.assistant.asr.engine import Recognised
 from airhilt.assistant.asr.features import BINS, mel_power, normalised
 from airhilt.assistant.asr.language import Language
 from airhilt.assistant.asr.pieces import Pieces
-from airhilt.assistant.asr.spotting import Spotted, Spotter, is_same
+from airhilt.assistant.asr.spotting import Odds, Spotted, Spotter, is_same
 from airhilt.audio.pcm import Audio
 from airhilt.engines import Engine
 from airhilt.errors import SpeechError, first_line, first_problem
@@ -67,8 +67,8 @@ class Card(BaseModel):
     model_config = ConfigDict(extra="ignore", frozen=True, allow_inf_nan=False)
     word_calibration: Calibration
     """Calibration of the highest posterior of a word."""
-    callsign_calibration: Calibration
-    """Calibration of ``exp(-loss)`` of a callsign of the roster that was found in a call."""
+    callsign_odds: Odds
+    """Odds of a callsign of the roster that may have been said in a call."""
     call_calibration: Calibration
     """Calibration of the product of the confidences of a call's words."""
     least_word_confidence: Confidence
@@ -90,11 +90,11 @@ class Emission:
 
     word: str
     posterior: float
-    """Least of its pieces' highest posteriors."""
+    """Least of its pieces' highest posteriors, or of a callsign of the roster its confidence."""
     begin: int
     """Step at which it begins."""
     is_callsign: bool = False
-    """True: it is of a callsign of the roster, and its posterior is ``exp(-loss)`` of that."""
+    """Whether it is of a callsign of the roster."""
 
 
 class Ctc:
@@ -131,7 +131,7 @@ class Ctc:
                 f"{first_problem(error)}; expected it as tools/asr/train_asr.py writes it"
             ) from None
         self._word, self._call = card.word_calibration, card.call_calibration
-        self._callsign = card.callsign_calibration
+        self._odds = card.callsign_odds
         self._least = card.least_word_confidence
         self._best_word_threshold = card.best_word_threshold
         self._roster: tuple[tuple[str, ...], Spotter] | None = None
@@ -154,7 +154,7 @@ class Ctc:
         if not np.isfinite(audio).all():
             raise SpeechError(f"recogniser {self.name}: the audio has samples that are no numbers")
         words = [
-            (each.word, (self._callsign if each.is_callsign else self._word)(each.posterior))
+            (each.word, each.posterior if each.is_callsign else self._word(each.posterior))
             for each in self.path(self.posteriors(audio), callsigns)
         ]
         best = max((confidence for _, confidence in words), default=0.0)
@@ -184,7 +184,7 @@ class Ctc:
 
     def _spotter(self, callsigns: tuple[str, ...]) -> Spotter:
         if self._roster is None or self._roster[0] != callsigns:
-            self._roster = (callsigns, Spotter(self._pieces, callsigns))
+            self._roster = (callsigns, Spotter(self._pieces, callsigns, self._odds))
         return self._roster[1]
 
     def posteriors(self, audio: Audio) -> NDArray[np.float32]:
@@ -230,14 +230,10 @@ class Ctc:
 
 def with_callsign(path: Sequence[Emission], spotted: Spotted) -> list[Emission]:
     """Return words in which a callsign is at its place, instead of others or as it was heard."""
-    there = [each for each in path if spotted.begin <= each.begin < spotted.end]
-    posterior = float(np.exp(-spotted.loss))
-    if is_same([each.word for each in there], spotted.words):
-        words = [Emission(each.word, posterior, each.begin, is_callsign=True) for each in there]
-    else:
-        words = [
-            Emission(word, posterior, spotted.begin, is_callsign=True) for word in spotted.words
-        ]
+    there = [(each.word, each.begin) for each in path if spotted.begin <= each.begin < spotted.end]
+    if not is_same([word for word, _ in there], spotted.words):
+        there = [(word, spotted.begin) for word in spotted.words]
+    words = [Emission(word, spotted.confidence, begin, is_callsign=True) for word, begin in there]
     return [
         *(each for each in path if each.begin < spotted.begin),
         *words,
