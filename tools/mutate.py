@@ -7,8 +7,8 @@
 Needs `pip install -e '.[mutation]'`, and about two hours of one core for 500. It works on copies of
 the tree in the folder. The first command runs the tests once to know which of them run which line,
 draws mutants in equal numbers from the areas of `mutation.mutants.AREAS`, and tries each with the
-tests that run its line. When it was stopped, it goes on when it is given again. ``--again`` tries
-what survived with more tests.
+tests that run its line, or those that a value from its import matters to. When it was stopped, it
+goes on when it is given again. ``--again`` tries what survived with more tests.
 
 A mutant is killed if a test fails or hangs. Only tests of the folders in `TESTS` are tried, those
 that are not slow and need no browser.
@@ -30,7 +30,7 @@ import standard_output
 from mutation import covering, score
 from mutation.mutants import Mutant, draw
 from mutation.score import Result
-from mutation.selection import Covering, affordable, batches, ordered
+from mutation.selection import Covering, affordable, batches, file_of, ordered
 from mutation.trial import Bench
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -120,13 +120,17 @@ def _try_all(folder: Path, mutants: Sequence[Mutant], budget_s: float, part: str
     tree = folder / f"tree-{part.replace('/', '-of-')}"
     shutil.rmtree(tree, ignore_errors=True)
     shutil.copytree(folder / "tree", tree)
-    files = sorted({test.partition("::")[0] for test in covered.seconds})
+    files = sorted({file_of(test) for test in covered.seconds})
     with Bench(tree, folder / "cache", files) as bench:
         baseline = bench.baseline([test for test in covered.seconds if test.startswith(UNMUTATED)])
         if set(baseline) != {("survived", "")}:
             sys.exit(f"{UNMUTATED} without a mutant: {baseline}; expected it to pass")
         for number, mutant in enumerate(mutants, start=1):
-            tests = ordered(mutant.path, covered.tests(mutant), covered.seconds)
+            tests = [
+                test
+                for group in covered.tests(mutant)
+                for test in ordered(mutant.path, group, covered.seconds)
+            ]
             chosen = affordable(tests, covered.seconds, budget_s)
             expected_s = sum(covered.seconds[test] for test in chosen)
             verdict = bench.tried(

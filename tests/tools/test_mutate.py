@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ast
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -11,10 +13,17 @@ import pytest
 cosmic_ray = pytest.importorskip("cosmic_ray", reason="pip install -e '.[mutation]'")
 pytest.importorskip("coverage", reason="pip install -e '.[mutation]'")
 
+from mutation import covering  # noqa: E402
 from mutation.functions import changed_functions, replace  # noqa: E402
 from mutation.mutants import AREAS, Module, Mutant, draw, places  # noqa: E402
 from mutation.score import Equivalent, Result, equivalent, table  # noqa: E402
-from mutation.selection import affordable, batches, ordered  # noqa: E402
+from mutation.selection import (  # noqa: E402
+    Covering,
+    affordable,
+    batches,
+    function_of,
+    ordered,
+)
 from mutation.trial import Outcome, Verdict  # noqa: E402
 
 SOURCE = '''
@@ -101,7 +110,84 @@ def test_the_lines_of_a_condition_are_those_of_its_head_and_of_a_default_the_who
     assert list(module.lines_of(6)) == [6, 7, 8, 9, 10]
     assert module.runs_at_import(2)
     assert not module.runs_at_import(10)
-    assert module.lines_that_use(module.names_bound_at(2)) == {10}
+    assert module.lines_that_use(module.names_given_at(2)) == {10}
+    assert Module("def f(x=LIMIT):\n    return x").lines_that_use({"LIMIT"}) == {1, 2}
+
+
+PACKAGE = {
+    "airhilt/__init__.py": "",
+    "airhilt/levels.py": """
+LIMIT_M = 3.0
+LEVELS_M = (LIMIT_M, 5.0)
+
+class Speeds:
+    taxi_kt = 15.0
+
+def tenfold(value):
+    return 10 * value
+
+WIDE_M = tenfold(4.0)
+
+def is_near(distance_m):
+    return distance_m < max(LEVELS_M)
+""",
+    "tests/test_levels.py": """
+import pytest
+from airhilt.levels import LIMIT_M, WIDE_M, Speeds, is_near, tenfold
+
+FIELDS = ["taxi_kt"]
+
+def test_limit():
+    assert LIMIT_M == 3.0
+
+@pytest.mark.parametrize("field", FIELDS)
+def test_field(field):
+    assert getattr(Speeds, field) == 15.0
+
+def test_near():
+    assert is_near(1.0)
+
+def test_tenfold():
+    assert tenfold(2) == 20
+
+def test_wide():
+    assert WIDE_M == 40.0
+""",
+    "tests/test_others.py": "def test_nothing():\n    pass\n",
+}
+
+
+@pytest.fixture(scope="module")
+def covered(tmp_path_factory: pytest.TempPathFactory) -> Covering:
+    """What a small package covers, whose tests read constants without running a line of it."""
+    folder = tmp_path_factory.mktemp("covered")
+    for name, text in PACKAGE.items():
+        path = folder / "tree" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    tests = [name for name in PACKAGE if name.startswith("tests/")]
+    command = [sys.executable, covering.__file__, folder / "tree", folder / "out" / "all", *tests]
+    subprocess.run(command, check=True, capture_output=True)
+    return Covering(folder / "tree", folder / "out")
+
+
+@pytest.mark.parametrize(
+    ("text", "groups"),
+    [
+        ("LIMIT_M = 3.0", ["", "limit", "near", "field tenfold wide"]),
+        ("taxi_kt", ["", "field", "", "limit near tenfold wide"]),
+        ("10 * value", ["tenfold", "wide", "", "field limit near"]),
+        ("max(LEVELS_M)", ["near"]),
+    ],
+)
+def test_what_an_import_sets_is_tried_first_with_tests_that_name_it_then_with_those_that_use_it(
+    covered: Covering, text: str, groups: list[str]
+) -> None:
+    lines = PACKAGE["airhilt/levels.py"].splitlines()
+    line = 1 + next(index for index, each in enumerate(lines) if text in each)
+    tests = covered.tests(Mutant("flight", "airhilt/levels.py", "NumberReplacer", 0, line, 0))
+    named = [sorted(test.partition("_")[2] for test in map(function_of, each)) for each in tests]
+    assert [" ".join(each) for each in named] == groups
 
 
 TESTS = {

@@ -8,8 +8,10 @@ errors that are raised.
 from __future__ import annotations
 
 import ast
+import re
 from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import permutations
@@ -40,6 +42,9 @@ IDENTITIES = ("Is", "IsNot")
 TYPES = frozenset(
     {"bool", "bytes", "dict", "float", "int", "list", "object", "set", "str", "tuple"}
 )
+
+FUNCTIONS = (ast.FunctionDef, ast.AsyncFunctionDef)
+WORD = re.compile(r"[A-Za-z_]\w*")
 
 Position = tuple[int, int]
 """Line, from 1, and column, from 0."""
@@ -141,29 +146,120 @@ class Module:
     def runs_at_import(self, line: int) -> bool:
         """Return whether a line is outside all functions."""
         return not any(
-            isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef)
-            and node.lineno <= line <= (node.end_lineno or 0)
+            isinstance(node, FUNCTIONS) and node.lineno <= line <= (node.end_lineno or 0)
             for node in ast.walk(self._tree)
         )
 
-    def names_bound_at(self, line: int) -> set[str]:
-        """Return the names that the statement of a line assigns to."""
-        return {
-            node.id
-            for node in ast.walk(self.statement(line))
-            if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
-        }
+    def names_given_at(self, line: int) -> frozenset[str]:
+        """Return the names that what is on a line gives a value.
 
-    def lines_that_use(self, names: set[str]) -> set[int]:
-        """Return the lines inside functions with one of some names, or attributes."""
-        return {
-            node.lineno
-            for function in ast.walk(self._tree)
-            if isinstance(function, ast.FunctionDef | ast.AsyncFunctionDef)
-            for node in ast.walk(function)
-            if (isinstance(node, ast.Name) and node.id in names)
-            or (isinstance(node, ast.Attribute) and node.attr in names)
-        }
+        These are the names that its statement assigns to; inside a function, that of the function.
+        """
+        functions = [
+            node.name
+            for node in ast.walk(self._tree)
+            if isinstance(node, FUNCTIONS) and node.lineno <= line <= (node.end_lineno or 0)
+        ]
+        return frozenset(functions[:1]) if functions else _given(self.statement(line))
+
+    def names_made_of(self, names: AbstractSet[str]) -> frozenset[str]:
+        """Return some names, and those that statements outside functions give a value with them."""
+        return _closure(names, [each for each in self._definitions if not each.is_function])
+
+    def functions_with(self, names: AbstractSet[str]) -> frozenset[str]:
+        """Return the functions that have some names in them, or what is made of them.
+
+        A word of a text is a name too, and so is a keyword.
+        """
+        known = _closure(names, self._definitions)
+        return frozenset(
+            name for each in self._definitions if each.is_function for name in each.gives & known
+        )
+
+    def lines_that_use(self, names: AbstractSet[str]) -> set[int]:
+        """Return the lines inside functions with one of some names, or attributes.
+
+        A default of a parameter is used by the whole function.
+        """
+        found: set[int] = set()
+        for function in ast.walk(self._tree):
+            if isinstance(function, FUNCTIONS):
+                found |= {node.lineno for node in ast.walk(function) if _is_named(node, names)}
+                if any(_is_named(node, names) for node in ast.walk(function.args)):
+                    found |= set(range(function.lineno, (function.end_lineno or 0) + 1))
+        return found
+
+    def imports(self, module: str) -> bool:
+        """Return whether a module, or something in it, is imported by its full name."""
+        return module in self._imported
+
+    @cached_property
+    def _imported(self) -> set[str]:
+        names: set[str] = set()
+        for node in ast.walk(self._tree):
+            if isinstance(node, ast.ImportFrom) and node.module:
+                names |= {node.module, *(f"{node.module}.{each.name}" for each in node.names)}
+            elif isinstance(node, ast.Import):
+                names |= {each.name for each in node.names}
+        return names
+
+    @cached_property
+    def _definitions(self) -> list[_Definition]:
+        """The statements of the module and of its classes, without the classes themselves."""
+        classes = [node for node in self._tree.body if isinstance(node, ast.ClassDef)]
+        return [
+            _Definition(_given(node), frozenset(_words(node)), isinstance(node, FUNCTIONS))
+            for holder in (self._tree, *classes)
+            for node in holder.body
+            if not isinstance(node, ast.ClassDef)
+        ]
+
+
+@dataclass(frozen=True)
+class _Definition:
+    """A statement outside functions, or a function: what it gives a value, and all its words."""
+
+    gives: frozenset[str]
+    words: frozenset[str]
+    is_function: bool
+
+
+def _closure(names: AbstractSet[str], definitions: Sequence[_Definition]) -> frozenset[str]:
+    """Return some names, and those of the definitions that are made of them."""
+    known = frozenset(names)
+    while made := [each for each in definitions if each.words & known and not each.gives <= known]:
+        known = known.union(*(each.gives for each in made))
+    return known
+
+
+def _given(statement: ast.stmt) -> frozenset[str]:
+    """Return the name of a function, or the names that a statement assigns to."""
+    if isinstance(statement, FUNCTIONS):
+        return frozenset({statement.name})
+    return frozenset(
+        node.id
+        for node in ast.walk(statement)
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store)
+    )
+
+
+def _is_named(node: ast.AST, names: AbstractSet[str]) -> bool:
+    return (isinstance(node, ast.Name) and node.id in names) or (
+        isinstance(node, ast.Attribute) and node.attr in names
+    )
+
+
+def _words(statement: ast.stmt) -> Iterator[str]:
+    """Yield the names, attributes, parameters and keywords of a statement, and words of texts."""
+    for node in ast.walk(statement):
+        if isinstance(node, ast.Name):
+            yield node.id
+        elif isinstance(node, ast.Attribute):
+            yield node.attr
+        elif isinstance(node, ast.arg | ast.keyword) and node.arg:
+            yield node.arg
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+            yield from WORD.findall(node.value)
 
 
 def _span(node: ast.AST) -> tuple[Position, Position]:
@@ -178,7 +274,7 @@ def _unmutated(tree: ast.Module) -> Iterator[ast.AST]:
             yield node
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef):
             yield from node.decorator_list
-        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef) and node.returns is not None:
+        if isinstance(node, FUNCTIONS) and node.returns is not None:
             yield node.returns
         if isinstance(node, ast.AnnAssign | ast.arg) and node.annotation is not None:
             yield node.annotation

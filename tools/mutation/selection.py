@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from functools import cache
 from itertools import groupby, takewhile
 from pathlib import Path, PurePosixPath
@@ -12,7 +12,7 @@ from pathlib import Path, PurePosixPath
 from coverage import CoverageData
 
 from mutation.covering import LINES, TIMES
-from mutation.mutants import AREAS, Module, Mutant, module_paths
+from mutation.mutants import Module, Mutant, module_paths
 
 FILE_S = 0.3
 """Time to import a file of tests, an estimate in s."""
@@ -49,21 +49,28 @@ class Covering:
             self._databases.append((data, by_context))
         self.tests_of = cache(self._tests_of)
         self.module = cache(self._module)
+        self._functions_with = cache(lambda file, names: self.module(file).functions_with(names))
+        self._paths = module_paths(tree, ["airhilt"])
 
-    def tests(self, mutant: Mutant) -> set[str]:
-        """Return the tests that run a mutant's line.
+    def tests(self, mutant: Mutant) -> list[set[str]]:
+        """Return groups of tests that may notice a mutant, the likeliest first.
 
-        What runs when its module is imported matters to those that use the names that are bound
-        there, and if there are none, to all tests of the module.
+        First are those that run its line. A line that has run when its module was imported matters
+        to others too: those that name what gets its value from it, those that run a line of the
+        package that does, and then all that import the module or run something of it.
         """
         module = self.module(mutant.path)
-        if not module.runs_at_import(mutant.line):
-            return self._at(mutant.path, module.lines_of(mutant.line))
-        names = module.names_bound_at(mutant.line)
-        users: set[str] = set()
-        for path in self._paths():
-            users |= self._at(path, self.module(path).lines_that_use(names))
-        return users or set().union(*self.tests_of(mutant.path).values())
+        at_import = module.runs_at_import(mutant.line)
+        running = set() if at_import else self._at(mutant.path, module.lines_of(mutant.line))
+        if not at_import and not self.is_imported(mutant):
+            return [running]
+        names = module.names_made_of(module.names_given_at(mutant.line))
+        naming = {test for test in self.seconds if self._names(test, names)}
+        touching = self._touching(mutant.path)
+        found: list[set[str]] = []
+        for group in (running, naming & touching, self._using(names), naming | touching):
+            found.append(group.difference(*found))
+        return found
 
     def is_imported(self, mutant: Mutant) -> bool:
         """Return whether a mutant's line has run when modules and tests were imported."""
@@ -74,11 +81,25 @@ class Covering:
             for line in lines
         )
 
-    def _paths(self) -> list[str]:
-        return [path for folders in AREAS.values() for path in module_paths(self._tree, folders)]
+    def _names(self, test: str, names: frozenset[str]) -> bool:
+        """Return whether a test, or what its file has for it, has one of some names in it."""
+        return function_of(test) in self._functions_with(file_of(test), names)
 
-    def _at(self, path: str, lines: Iterable[int]) -> set[str]:
-        by_line = self.tests_of(path)
+    def _touching(self, path: str) -> set[str]:
+        """Return the tests that run a line of a module, or whose file imports it."""
+        name = path.removesuffix(".py").replace("/", ".")
+        importing = {file for file in map(file_of, self.seconds) if self.module(file).imports(name)}
+        running = set().union(*self.tests_of(path).values())
+        return running | {test for test in self.seconds if file_of(test) in importing}
+
+    def _using(self, names: frozenset[str]) -> set[str]:
+        """Return the tests that run a line of the package with some names."""
+        return set().union(
+            *(self._at(path, self.module(path).lines_that_use(names)) for path in self._paths)
+        )
+
+    def _at(self, path: str, lines: Collection[int]) -> set[str]:
+        by_line = self.tests_of(path) if lines else {}
         return set().union(*(by_line.get(line, ()) for line in lines))
 
     def _module(self, path: str) -> Module:
@@ -94,6 +115,16 @@ class Covering:
         return found
 
 
+def file_of(test: str) -> str:
+    """Return the path of the file that a test is in."""
+    return test.partition("::")[0]
+
+
+def function_of(test: str) -> str:
+    """Return the name of the function of a test."""
+    return test.partition("[")[0].rpartition("::")[2]
+
+
 def ordered(path: str, tests: Iterable[str], seconds: Mapping[str, float]) -> list[str]:
     """Return tests in the order in which they are tried on a mutant of a module.
 
@@ -102,7 +133,7 @@ def ordered(path: str, tests: Iterable[str], seconds: Mapping[str, float]) -> li
     """
     files: defaultdict[str, list[str]] = defaultdict(list)
     for test in tests:
-        files[test.partition("::")[0]].append(test)
+        files[file_of(test)].append(test)
     for each in files.values():
         each.sort(key=lambda test: (seconds[test], test))
 
@@ -123,7 +154,7 @@ def affordable(tests: Sequence[str], seconds: Mapping[str, float], budget_s: flo
     chosen: list[str] = []
     files: set[str] = set()
     for test in tests:
-        file = test.partition("::")[0]
+        file = file_of(test)
         cost_s = seconds[test] + (FILE_S if file not in files else 0.0)
         if not chosen or cost_s <= budget_s:
             chosen.append(test)
@@ -140,7 +171,7 @@ def batches(tests: Sequence[str], seconds: Mapping[str, float]) -> Iterator[list
     """
     batch: list[str] = []
     duration_s, limit_s = 0.0, FIRST_S
-    for _, of_file in groupby(tests, key=lambda test: test.partition("::")[0]):
+    for _, of_file in groupby(tests, key=file_of):
         if batch and duration_s >= limit_s:
             yield batch
             batch, duration_s, limit_s = [], 0.0, GROWTH * limit_s
