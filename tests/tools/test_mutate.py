@@ -166,8 +166,8 @@ def covered(tmp_path_factory: pytest.TempPathFactory) -> Covering:
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
     tests = [name for name in PACKAGE if name.startswith("tests/")]
-    command = [sys.executable, covering.__file__, folder / "tree", folder / "out" / "all", *tests]
-    subprocess.run(command, check=True, capture_output=True)
+    command = [sys.executable, covering.__file__, str(folder / "tree"), str(folder / "out" / "all")]
+    subprocess.run([*command, *tests], check=True, capture_output=True)
     return Covering(folder / "tree", folder / "out")
 
 

@@ -184,8 +184,8 @@ class Module:
         found: set[int] = set()
         for function in ast.walk(self._tree):
             if isinstance(function, FUNCTIONS):
-                found |= {node.lineno for node in ast.walk(function) if _is_named(node, names)}
-                if any(_is_named(node, names) for node in ast.walk(function.args)):
+                found |= set(_lines_with(function, names))
+                if any(_lines_with(function.args, names)):
                     found |= set(range(function.lineno, (function.end_lineno or 0) + 1))
         return found
 
@@ -206,11 +206,11 @@ class Module:
     @cached_property
     def _definitions(self) -> list[_Definition]:
         """The statements of the module and of its classes, without the classes themselves."""
-        classes = [node for node in self._tree.body if isinstance(node, ast.ClassDef)]
+        bodies = [node.body for node in self._tree.body if isinstance(node, ast.ClassDef)]
         return [
             _Definition(_given(node), frozenset(_words(node)), isinstance(node, FUNCTIONS))
-            for holder in (self._tree, *classes)
-            for node in holder.body
+            for body in (self._tree.body, *bodies)
+            for node in body
             if not isinstance(node, ast.ClassDef)
         ]
 
@@ -243,10 +243,12 @@ def _given(statement: ast.stmt) -> frozenset[str]:
     )
 
 
-def _is_named(node: ast.AST, names: AbstractSet[str]) -> bool:
-    return (isinstance(node, ast.Name) and node.id in names) or (
-        isinstance(node, ast.Attribute) and node.attr in names
-    )
+def _lines_with(root: ast.AST, names: AbstractSet[str]) -> Iterator[int]:
+    for node in ast.walk(root):
+        if (isinstance(node, ast.Name) and node.id in names) or (
+            isinstance(node, ast.Attribute) and node.attr in names
+        ):
+            yield node.lineno
 
 
 def _words(statement: ast.stmt) -> Iterator[str]:
