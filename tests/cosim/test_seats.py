@@ -51,6 +51,11 @@ def test_nobody_speaks_or_acts_for_the_person_in_an_aircraft(tmp_path: Path) -> 
     assert not [one for one in commands if one["subject"] == "AAL123"]
 
 
+def test_who_has_no_line_in_the_script_selects_from_all_its_frequencies(tmp_path: Path) -> None:
+    log = logged(tower(2.0), tmp_path / "run", ["OPS2"])
+    assert contents(log, "seat/OPS2/info")[0]["frequencies_khz"] == [119_100]
+
+
 def test_a_person_flies_by_commands(tmp_path: Path) -> None:
     command = {"action": "go_around", "climb_to_ft": 3000.0}
     given = [message("command/AAL123", 5.0, command=command)]

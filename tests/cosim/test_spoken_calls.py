@@ -59,13 +59,15 @@ def test_a_spoken_call_of_the_script_is_done_once_it_is_taken(tmp_path: Path) ->
     assert calls(log)[1]["id"] == "landing_readback"
 
 
-def test_two_who_press_at_once_block_each_other(tmp_path: Path) -> None:
+def test_two_who_press_at_once_block_each_other_and_both_are_told(tmp_path: Path) -> None:
     said = [*holding(2.0, 2.0), *holding(2.5, 2.0, "AAL123")]
     seats = ["tower", "AAL123"]
     log = logged(tower(8.0), tmp_path / "run", seats, sorted(said, key=lambda one: one.t_ns),
                  speech=True)  # fmt: skip
     assert [len(one["blocked_by"]) for one in calls(log)] == [1, 1]
     assert not contents(log, "truth/hearing/")
+    for seat in (SEAT, "AAL123"):
+        assert "blocked" in contents(log, f"notice/{seat}")[0]["text"]
 
 
 def test_a_call_that_is_too_long_is_cut_and_its_person_told(tmp_path: Path) -> None:

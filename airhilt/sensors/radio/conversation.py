@@ -50,6 +50,8 @@ from airhilt.world.actors.listening import Understanding
 
 FromSeat = SpokenWords | MicrophoneAudio
 """Message with the words, or the voice, of the person at a seat."""
+BLOCKED = "Your call was blocked: somebody else was on the air at the same time."
+"""Notice to a person whose call nobody could understand."""
 
 
 class RadioConversation:
@@ -266,7 +268,7 @@ class RadioConversation:
         return [
             SeatInfo(
                 seat=seat,
-                frequencies_khz=self._stations.frequencies_of(seat),
+                frequencies_khz=self._stations.selectable(seat),
                 has_sound=self._backend.has_sound,
                 is_recognised=is_recognised,
                 voice_is_recorded=voice_is_recorded,
@@ -351,6 +353,8 @@ class RadioConversation:
             self._publish(f"asr/{said.frequency_khz}", ended.transcript)
         if self._advisories is not None:
             self._advisories.ended(ended.on_air)
+        if ended.is_blocked and self._seats.has_person(said.speaker):
+            self._seats.notify(said.speaker, BLOCKED)
         if said.is_from_microphone:
             self._spoken.ended(ended)
         if call is None:

@@ -56,12 +56,19 @@ class Stations:
         """Return the frequencies of an actor or a unit, in kHz."""
         return tuple(frequency for frequency, names in self._on.items() if name in names)
 
+    def selectable(self, name: str) -> tuple[int, ...]:
+        """Return the frequencies in kHz that an actor or a unit selects from.
+
+        They are its own ones, or all of the script if it has none.
+        """
+        return self.frequencies_of(name) or tuple(self._on)
+
     def frequency_of(self, name: str) -> int | None:
         """Return the frequency on which an actor is called, in kHz; None if there is none at all.
 
         It is the first one of the script that is the actor's, otherwise the first one of all.
         """
-        return next(iter((*self.frequencies_of(name), *self._on)), None)
+        return next(iter(self.selectable(name)), None)
 
     def is_actor(self, name: str) -> bool:
         """Return whether a name is that of an actor, not of a unit."""
