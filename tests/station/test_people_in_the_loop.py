@@ -14,14 +14,18 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import psutil
 import pytest
 
+from airhilt.assistant.asr.engines import asr_engine
+from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.cosim.replay import replay
 from airhilt.library import find
 from airhilt.phraseology import TAU_ASR, parse_call
 from airhilt.record import open_run
 from devtools import Page
+from loudspeaker import given_out, tap
 from microphone import (
     BUTTON,
     microphone_file,
@@ -35,8 +39,11 @@ from microphone import (
 pytestmark = [pytest.mark.slow, pytest.mark.browser]
 PATIENCE_S = 300.0
 GO_AROUND = "American one two three, go around, climb and maintain three thousand"
+UNABLE = "Washington Tower, American one two three, unable, traffic on the runway"
+HALF_SECOND = SAMPLE_RATE_HZ // 2
+"""Number of samples."""
 A_SECOND = "new Promise((done) => setTimeout(done, 1000))"
-"""Time that the person in the tests takes to think."""
+"""Time that the person in the tests takes to think, or to hear all of a call."""
 CALLS = "document.getElementById('calls').textContent"
 
 
@@ -132,37 +139,56 @@ def test_of_calls_spoken_in_noise_those_in_doubt_are_asked_for_again(tmp_path: P
     assert sum(text.startswith("Say again") for text in answers) >= is_certain.count(False)
 
 
-def test_two_people_who_talk_at_once_are_both_blocked(tmp_path: Path) -> None:
-    out, file = tmp_path / "run", microphone_file(tmp_path / "said.wav", GO_AROUND)
-    options = ("--seat", "tower", "--seat", "AAL123", "--assistant", "none")
+def test_two_people_hear_each_other_and_block_each_other_when_both_talk(tmp_path: Path) -> None:
+    said_by_tower = microphone_file(tmp_path / "tower.wav", GO_AROUND)
+    said_by_pilot = microphone_file(tmp_path / "pilot.wav", UNABLE)
+    out, options = tmp_path / "run", ("--seat", "tower", "--seat", "AAL123", "--assistant", "none")
     with (
-        running(out, "s01b_nominal", 60.0, *options) as url,
-        page_with_microphone(*playing(file)) as tower,
-        page_with_microphone(*playing(file)) as pilot,
+        running(out, "s01b_nominal", 150.0, *options) as url,
+        page_with_microphone(*playing(said_by_tower)) as tower,
+        page_with_microphone(*playing(said_by_pilot)) as pilot,
     ):
+        for page in (tower, pilot):
+            tap(page)
         sit_down(tower, url)
-        pilot.open(url)
-        pilot.wait_for("document.getElementById('seat-state').textContent.includes('taken')")
-        pilot.evaluate("document.getElementById('seat-name').value = 'AAL123'")
-        pilot.click("seat-take")
-        pilot.wait_for("!document.getElementById('talk').hidden")
+        sit_down(pilot, url, "AAL123")
         for page in (tower, pilot):
             open_microphone(page)
+        for speaker, listener, words in ((tower, pilot, "go around"), (pilot, tower, "unable")):
+            for page in (tower, pilot):
+                given_out(page)
+            talk(speaker)
+            listener.wait_for(f"{CALLS}.includes('{words}')")
+            listener.evaluate(A_SECOND)  # The words are known before all of them are heard.
+            heard, own = given_out(listener), given_out(speaker)
+            assert loudness(heard) > 0.02
+            assert words in asr_engine("embedded").recognise(heard, ("AAL123",)).text
+            assert loudness(own) < 0.001  # Nobody hears while transmitting.
         hold(tower)
         hold(pilot)
         pilot.wait_for("document.querySelector('.lamp').textContent.includes('busy')")
         for page in (tower, pilot):
             page.key("keyUp", " ", 32)
-        tower.wait_for("document.querySelectorAll('#calls > li').length >= 2")
+        for page in (tower, pilot):
+            page.wait_for("document.getElementById('seat-state').textContent.includes('blocked')")
     calls = [one for one in contents(out, "truth/radio/") if one["is_from_microphone"]]
-    assert {one["speaker"] for one in calls} == {"Washington Tower", "AAL123"}
-    assert all(one["blocked_by"] for one in calls)
+    assert [(one["speaker"], bool(one["blocked_by"])) for one in calls[:2]] == [
+        ("Washington Tower", False), ("AAL123", False),
+    ]  # fmt: skip
+    assert {one["speaker"] for one in calls[2:]} == {"Washington Tower", "AAL123"}
+    assert all(one["blocked_by"] for one in calls[2:])
     assert replay(out).identical
 
 
 def hold(page: Page) -> None:
     page.key("keyDown", " ", 32)
     page.wait_for(f"{BUTTON} === 'On the air'")
+
+
+def loudness(audio: Audio) -> float:
+    """Return the root mean square of the loudest half second."""
+    pieces = audio[: len(audio) // HALF_SECOND * HALF_SECOND].reshape(-1, HALF_SECOND)
+    return float(np.sqrt(np.mean(pieces**2, axis=1)).max(initial=0.0))
 
 
 def test_a_pilot_who_is_warned_goes_around(tmp_path: Path) -> None:

@@ -53,10 +53,12 @@ def playing(path: Path) -> tuple[str, ...]:
     return (*FAKE, f"--use-file-for-fake-audio-capture={path}")
 
 
-def sit_down(page: Page, url: str) -> None:
-    """Open the page and take the first seat."""
+def sit_down(page: Page, url: str, seat: str | None = None) -> None:
+    """Open the page and take a seat; None: the first one."""
     page.open(url, width=1280, height=720)
     page.wait_for("document.getElementById('state').textContent.startsWith('running')")
+    if seat is not None:
+        page.evaluate(f"document.getElementById('seat-name').value = {seat!r}")
     page.click("seat-take")
     page.wait_for("!document.getElementById('talk').hidden")
 

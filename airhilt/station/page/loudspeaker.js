@@ -3,7 +3,8 @@
 import { byId, html } from "./dom.js";
 
 const RATE_HZ = 16000;
-const AHEAD_S = 0.08; // between the coming of a piece of sound and its playing, against gaps
+const AHEAD_S = 0.15; // between the coming of a piece of sound and its playing, against gaps
+const PIECE_S = 0.5; // in which pieces sound comes; a shorter first one says how late the microphone is
 const TONES = { CAUTION: [700, [0]], WARNING: [1100, [0, 0.18, 0.36]] }; // Hz, and when each pulse begins, in s
 const PULSE_S = 0.12;
 
@@ -63,7 +64,8 @@ export class Loudspeaker {
     const bytes = Uint8Array.from(atob(pcm), (letter) => letter.charCodeAt(0)), samples = new Int16Array(bytes.buffer);
     const buffer = this.#context.createBuffer(1, samples.length, RATE_HZ), channel = buffer.getChannelData(0);
     samples.forEach((sample, i) => { channel[i] = sample / 32768; });
-    const due = Math.max(this.#due.get(id) ?? 0, this.#context.currentTime + AHEAD_S);
+    const late = this.#due.has(id) ? 0 : Math.max(PIECE_S - buffer.duration, 0);
+    const due = Math.max(this.#due.get(id) ?? 0, this.#context.currentTime + AHEAD_S + late);
     this.#start(buffer, due);
     this.#due.set(id, due + buffer.duration);
   }
