@@ -27,8 +27,14 @@ PERIOD_S = 0.05
 """Time between two messages to a browser, in s."""
 MOST_BROWSERS = 20
 """Largest number of browsers at a time."""
+SILENT_S = 4.0
+"""Time after which a browser that says nothing may be gone, in s: pages ask every 2 s."""
+STALLED_S = 5.0
+"""Time after which a browser is gone that takes nothing of what is sent to it, in s."""
 HOLD_S = 5.0
 """Time for which the seat of a browser that is gone is kept for it, in s."""
+ENDINGS = (asyncio.CancelledError, TimeoutError, WebSocketDisconnect, RuntimeError)
+"""Exceptions with which a connection ends: Starlette raises the last one on a closed connection."""
 POLICY_VIOLATION, TRY_LATER = 1008, 1013
 """Codes with which a WebSocket is closed (RFC 6455, 7.4.1, and IANA's registry)."""
 OLD_PAGE = 4426
@@ -46,6 +52,7 @@ class _Browser:
         self.socket = socket
         self.identity = identity
         """Name that it keeps when its connection is lost; empty: it has none."""
+        self.last_heard_s = time.monotonic()
         self.watched: str | None = None
         self.seat: str | None = None
         self.seen_of_seat = 0
@@ -132,20 +139,17 @@ class Browsers:
         browser.heard = self._sounds.next_number
         self._browsers.append(browser)
         self._empty_since_s = None
-        for seat, whose in list(self._held.items()):
-            if identity and whose == identity:
-                del self._held[seat]
-                browser.seat = seat
+        await self._give_back(browser)
         self._tell_seats()
         sending = asyncio.create_task(self._send(socket, browser, begin))
+        listening = asyncio.create_task(self._listen(socket, browser))
         try:
-            await self._listen(socket, browser)
-        except WebSocketDisconnect:
-            pass
+            await asyncio.wait((sending, listening), return_when=asyncio.FIRST_COMPLETED)
         finally:
-            sending.cancel()
-            with suppress(asyncio.CancelledError, WebSocketDisconnect, RuntimeError):
-                await sending
+            for task in (sending, listening):
+                task.cancel()
+                with suppress(*ENDINGS):
+                    await task
             await self._release(browser)
             self._browsers.remove(browser)
             self._hold(browser)
@@ -157,6 +161,7 @@ class Browsers:
     async def _listen(self, socket: WebSocket, browser: _Browser) -> None:
         """Do what a browser wishes until it leaves, or sends what is no wish."""
         while (received := await socket.receive())["type"] != "websocket.disconnect":
+            browser.last_heard_s = time.monotonic()
             pcm: bytes | None = received.get("bytes")
             wrong = None if pcm is None else what_is_wrong_with(pcm)
             try:
@@ -264,6 +269,23 @@ class Browsers:
         if seat is not None:
             await asyncio.to_thread(self._run.occupy, seat, is_taken=False)
 
+    async def _give_back(self, browser: _Browser) -> None:
+        """Give a browser the seat that it had before its connection was lost.
+
+        That connection may not have ended yet, if the network is cut; nothing comes over it then.
+        """
+        if not browser.identity:
+            return
+        for seat, whose in list(self._held.items()):
+            if whose == browser.identity:
+                del self._held[seat]
+                browser.seat = seat
+        for other in self._browsers:
+            is_silent = time.monotonic() - other.last_heard_s > SILENT_S
+            if other is not browser and other.identity == browser.identity and is_silent:
+                await self._release(other)
+                browser.seat, other.seat = other.seat or browser.seat, None
+
     def _hold(self, browser: _Browser) -> None:
         """Keep the seat of a browser that is gone, in case that it comes back."""
         if browser.seat is not None:
@@ -277,6 +299,7 @@ class Browsers:
         await asyncio.sleep(HOLD_S)
         if self._held.get(seat) == identity:
             del self._held[seat]
+            self._tell_seats()
             await asyncio.to_thread(self._run.occupy, seat, is_taken=False)
 
     def _tell_seats(self) -> None:
@@ -298,25 +321,38 @@ class Browsers:
         await asyncio.to_thread(self._run.watch, watched)
 
     async def _send(self, socket: WebSocket, browser: _Browser, number: int) -> None:
+        """Send all changes to a browser.
+
+        Raises
+        ------
+        TimeoutError
+            It takes nothing any more: the network is cut, which the connection alone does not tell
+            while something waits to be sent.
+        """
+
+        async def send(text: str) -> None:
+            async with asyncio.timeout(STALLED_S):
+                await socket.send_text(text)
+
         while True:
             while browser.unsent:
-                await socket.send_text(browser.unsent.popleft())
+                await send(browser.unsent.popleft())
             if browser.seat is not None:
                 own = self._of_seats[browser.seat].since(browser.seen_of_seat)
                 if own is not None:
                     browser.seen_of_seat = own.next_number
-                    await socket.send_text(f'{{"own":{own.changes}}}')
+                    await send(f'{{"own":{own.changes}}}')
             sounds = self._sounds.since(browser.heard)
             if sounds is not None:
                 browser.heard = sounds.next_number
                 if heard := _on(browser.tuned, sounds.changes):
-                    await socket.send_text(json.dumps({"sounds": heard}))
+                    await send(json.dumps({"sounds": heard}))
             batch = self._changes.since(number)
             if batch is None:
                 await asyncio.sleep(PERIOD_S)
                 continue
             number = batch.next_number
-            await socket.send_text(f'{{"next":{number},"changes":{batch.changes}}}')
+            await send(f'{{"next":{number},"changes":{batch.changes}}}')
             await asyncio.sleep(0)
 
 

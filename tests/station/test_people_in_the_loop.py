@@ -5,6 +5,7 @@ They take minutes: ``pytest -m slow tests/station/test_people_in_the_loop.py``.
 
 from __future__ import annotations
 
+import itertools
 import json
 import signal
 import subprocess
@@ -24,6 +25,8 @@ from airhilt.cosim.replay import replay
 from airhilt.library import find
 from airhilt.phraseology import TAU_ASR, parse_call
 from airhilt.record import open_run
+from airhilt.units import SECOND_NS
+from cut_network import through_network
 from devtools import Page
 from loudspeaker import given_out, tap
 from microphone import (
@@ -44,6 +47,7 @@ HALF_SECOND = SAMPLE_RATE_HZ // 2
 """Number of samples."""
 A_SECOND = "new Promise((done) => setTimeout(done, 1000))"
 """Time that the person in the tests takes to think, or to hear all of a call."""
+SEAT_STATE = "document.getElementById('seat-state').textContent"
 CALLS = "document.getElementById('calls').textContent"
 
 
@@ -189,6 +193,36 @@ def loudness(audio: Audio) -> float:
     """Return the root mean square of the loudest half second."""
     pieces = audio[: len(audio) // HALF_SECOND * HALF_SECOND].reshape(-1, HALF_SECOND)
     return float(np.sqrt(np.mean(pieces**2, axis=1)).max(initial=0.0))
+
+
+def test_the_run_goes_on_while_the_network_of_a_person_is_cut(tmp_path: Path) -> None:
+    out, options = tmp_path / "run", ("--seat", "tower", "--assistant", "none", "--no-speech")
+    with (
+        running(out, "s01b_nominal", 60.0, *options) as url,
+        through_network(url) as (network, url_through),
+        page_with_microphone() as own,
+        page_with_microphone() as other,
+    ):
+        sit_down(own, url_through)
+        other.open(url)
+        other.wait_for(f"{SEAT_STATE}.includes('taken')")
+        network.cut()
+        own.evaluate("new Promise((done) => setTimeout(done, 5000))")
+        assert own.evaluate("!document.getElementById('link').hidden")
+        network.mend()
+        own.wait_for("document.getElementById('link').hidden")
+        assert "taken" in other.evaluate(SEAT_STATE)
+        network.cut()
+        other.wait_for(f"!{SEAT_STATE}.includes('taken')")
+        network.mend()
+        own.wait_for(f"{SEAT_STATE}.includes('given back')")
+        own.wait_for("document.getElementById('link').hidden")
+    (taken, left) = [one for one in contents(out, "seat/") if "is_taken" in one]
+    assert (taken["is_taken"], left["is_taken"]) == (True, False)
+    by_script = next(one for one in contents(out, "truth/radio/") if one["id"] == "landing")
+    assert by_script["t_tx_ns"] >= left["t_ns"]
+    times_ns = [one["t_ns"] for one in contents(out, "truth/state/AAL123")]
+    assert max(b - a for a, b in itertools.pairwise(times_ns)) <= SECOND_NS
 
 
 def test_a_pilot_who_is_warned_goes_around(tmp_path: Path) -> None:

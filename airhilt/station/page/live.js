@@ -4,6 +4,7 @@ import { byId } from "./dom.js";
 
 const RETRY_MS = 1000;
 const SILENT_MS = 4000; // an answer to an echo comes every two seconds
+const DEAD_MS = 8000; // without a message, after which another connection is tried: the server has given this one up
 const OLD_PAGE = 4426; // code with which the server closes: the page is of another version
 const PHASES = { waiting: "waiting for the run", finished: "finished", stopped: "stopped", gone: "the run is not there any more" };
 const PACES = { realtime: "real time", virtual: "as fast as it can" };
@@ -47,12 +48,14 @@ export class Live {
   }
 
   #open() {
+    this.#abandon();
     const url = new URL("api/live", location.href);
     url.protocol = url.protocol.replace("http", "ws");
     url.searchParams.set("from", this.#seen);
     url.searchParams.set("browser", identity());
     url.searchParams.set("version", this.#run.version ?? "");
     this.#socket = new WebSocket(url);
+    this.#heard = performance.now();
     this.#socket.onopen = () => { this.#heard = performance.now(); this.#tell(); this.watch(this.#watched); this.#panes.talk.reconnected(); };
     this.#socket.onmessage = (event) => {
       this.#heard = performance.now();
@@ -60,6 +63,7 @@ export class Live {
       this.#take(JSON.parse(event.data));
     };
     this.#socket.onclose = (event) => {
+      this.#panes.talk.lost();
       if (this.#isOver) { this.#tell(); return; }
       const isOld = event.code === OLD_PAGE;
       this.#warn(event.reason || (this.#panes.seat.own ? "Connection lost, trying again. Your seat is kept for 5 s; then its script goes on." : "Connection lost, trying again."), isOld);
@@ -68,10 +72,22 @@ export class Live {
     byId("link-reload").onclick = () => location.reload();
   }
 
+  /** Leaves a connection over which nothing comes; its end may come much later, and says nothing new. */
+  #abandon() {
+    if (!this.#socket) return;
+    this.#socket.onopen = this.#socket.onmessage = this.#socket.onclose = null;
+    this.#socket.close();
+  }
+
   /** Tells if nothing comes although the connection is there: the network is cut, or the station stands still. */
   #listen() {
-    this.#isSilent = this.#socket.readyState === WebSocket.OPEN && !this.#isOver && performance.now() - this.#heard > SILENT_MS;
-    if (this.#isSilent) this.#warn("Nothing comes from the station. What is shown is old.");
+    const isOpen = this.#socket.readyState === WebSocket.OPEN, isOpening = this.#socket.readyState === WebSocket.CONNECTING, silentMs = performance.now() - this.#heard;
+    this.#isSilent = isOpen && !this.#isOver && silentMs > SILENT_MS;
+    if (this.#isSilent) {
+      this.#panes.talk.lost();
+      this.#warn(this.#panes.seat.own ? "Nothing comes from the station. What is shown is old, and nobody hears you. If it stays so, your seat is given back." : "Nothing comes from the station. What is shown is old.");
+    }
+    if (!this.#isOver && ((isOpen && silentMs > DEAD_MS) || (isOpening && silentMs > SILENT_MS))) this.#open();
   }
 
   get #isOver() { return ["finished", "stopped", "gone"].includes(this.#run.phase); }
@@ -93,6 +109,9 @@ export class Live {
     byId("pace").hidden = true;
     byId("link-text").textContent = /^Trial \d+$/.test(this.#run.title) ? "The trial is over. Go back to the page of the experiment." : phase === "gone" ? "The run has ended without saying so. What is shown is how far it came." : `The run ${phase === "finished" ? "is over" : "was stopped"}. Its debrief is on the first page of the station, or at “airhilt view” with its folder.`;
   }
+
+  /** True while the station can be reached. */
+  get isThere() { return this.#socket?.readyState === WebSocket.OPEN && !this.#isSilent; }
 
   /** Sends what somebody at a seat wishes. */
   send(wish) {

@@ -4,6 +4,8 @@ import { byId, html } from "./dom.js";
 
 const RATE_HZ = 16000;
 const AHEAD_S = 0.15; // between the coming of a piece of sound and its playing, against gaps
+const MOST_BEHIND_S = 1.5; // by which sound is played later than it came: after a stall, old sound is left out
+const MOST_SOURCES = 10; // pieces of a transmission that may still have to be stopped
 const PIECE_S = 0.5; // in which pieces sound comes; a shorter first one says how late the microphone is
 const TONES = { CAUTION: [700, [0]], WARNING: [1100, [0, 0.18, 0.36]] }; // Hz, and when each pulse begins, in s
 const PULSE_S = 0.12;
@@ -11,7 +13,7 @@ const PULSE_S = 0.12;
 export class Loudspeaker {
   #context = null;
   #gain = null;
-  #due = new Map(); // when the next piece of each transmission is to be played
+  #playing = new Map(); // of each transmission: when its next piece is due, and those that are played
   #waiting = new Map(); // pieces of the transmissions that are played when they have ended
   #volume = html("input", { type: "range", min: 0, max: 1, step: 0.05, value: 0.8 });
 
@@ -34,7 +36,7 @@ export class Loudspeaker {
 
   end() {
     this.#context?.suspend();
-    this.#due.clear();
+    this.#playing.clear();
     this.#waiting.clear();
     byId("hearing").hidden = true;
   }
@@ -60,14 +62,22 @@ export class Loudspeaker {
     return pulses.length || url ? latency : null;
   }
 
-  #play(id, pcm) {
+  /** Plays a piece after those of its transmission that came before; `isOld`: they have all been waiting. */
+  #play(id, pcm, isOld = false) {
     const bytes = Uint8Array.from(atob(pcm), (letter) => letter.charCodeAt(0)), samples = new Int16Array(bytes.buffer);
     const buffer = this.#context.createBuffer(1, samples.length, RATE_HZ), channel = buffer.getChannelData(0);
     samples.forEach((sample, i) => { channel[i] = sample / 32768; });
-    const late = this.#due.has(id) ? 0 : Math.max(PIECE_S - buffer.duration, 0);
-    const due = Math.max(this.#due.get(id) ?? 0, this.#context.currentTime + AHEAD_S + late);
-    this.#start(buffer, due);
-    this.#due.set(id, due + buffer.duration);
+    const now = this.#context.currentTime;
+    let line = this.#playing.get(id);
+    if (line && !isOld && line.due - now > MOST_BEHIND_S) {
+      for (const source of line.sources) source.stop();
+      line = { due: now, sources: [] };
+    }
+    line ??= { due: now + Math.max(PIECE_S - buffer.duration, 0) + AHEAD_S, sources: [] };
+    const due = Math.max(line.due, now + AHEAD_S);
+    line.sources = [...line.sources.slice(-MOST_SOURCES), this.#start(buffer, due)];
+    line.due = due + buffer.duration;
+    this.#playing.set(id, line);
   }
 
   #start(buffer, at) {
@@ -75,6 +85,7 @@ export class Loudspeaker {
     source.buffer = buffer;
     source.connect(this.#gain);
     source.start(at);
+    return source;
   }
 
   #pulse(hertz, at) {
@@ -96,9 +107,9 @@ export class Loudspeaker {
   }
 
   #close(id) {
-    for (const pcm of this.#waiting.get(id) ?? []) this.#play(id, pcm);
+    for (const pcm of this.#waiting.get(id) ?? []) this.#play(id, pcm, true);
     this.#waiting.delete(id);
-    this.#due.delete(id);
+    this.#playing.delete(id);
   }
 
   #setVolume() { if (this.#gain) this.#gain.gain.value = Number(this.#volume.value) ** 2; }

@@ -20,7 +20,7 @@ export class Microphone {
   #held = false;
   #delay = 0;
 
-  /** `link` has send(wish), sendSound(buffer), unsent(), frequency(), and delay(event), the time since an event in s. */
+  /** `link` has send(wish), sendSound(buffer), unsent(), isThere(), frequency(), and delay(event), the time since an event in s. */
   constructor(link) {
     this.#link = link;
     const button = byId("talk-button");
@@ -51,6 +51,8 @@ export class Microphone {
   /** Begins to transmit. */
   press(event) {
     if (this.#held || !this.#node) return;
+    if (!this.#link.isThere()) { this.#tell("Nobody hears you: the connection is lost."); return; }
+    this.#tell("");
     this.#held = true;
     this.#link.send({ press: { frequency_khz: this.#link.frequency(), delay_s: this.#link.delay(event) } });
     this.#node.port.postMessage({ isOn: true });

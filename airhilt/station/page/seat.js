@@ -8,6 +8,7 @@ export class Seat {
   #run;
   #live;
   #own = null;
+  #isLeaving = false; // somebody has asked for that
   #tasks = [];
   #displays;
   #clock;
@@ -19,7 +20,10 @@ export class Seat {
     byId("seat").hidden = !run.seats?.length;
     byId("seat-name").replaceChildren(...(run.seats ?? []).map((name) => html("option", { value: name }, name)));
     this.#displays = new Displays(run, clock, cameras, (command) => live.send({ fly: command }), (text) => { byId("panel-state").textContent = text; });
-    byId("seat-take").addEventListener("click", () => live.send(this.#own ? { leave: this.#own } : { take: byId("seat-name").value }));
+    byId("seat-take").addEventListener("click", () => {
+      this.#isLeaving = Boolean(this.#own);
+      live.send(this.#own ? { leave: this.#own } : { take: byId("seat-name").value });
+    });
     byId("say").addEventListener("submit", (event) => { event.preventDefault(); this.#say(); });
     this.setSeats({});
   }
@@ -31,11 +35,14 @@ export class Seat {
 
   /** Takes in which seats are free, taken or one's own. */
   setSeats(seats) {
+    const before = this.#own;
     this.#own = Object.keys(seats).find((name) => seats[name] === "yours") ?? null;
+    const isLost = before && !this.#own && !this.#isLeaving;
     byId("seat-take").textContent = this.#own ? "Leave the seat" : "Take the seat";
     byId("seat-name").disabled = Boolean(this.#own);
     if (this.#own) byId("seat-name").value = this.#own;
-    byId("seat-state").textContent = this.#own ? "" : Object.keys(seats).filter((name) => seats[name] === "taken").map((name) => `${name} is taken.`).join(" ");
+    if (isLost) this.refuse(`The seat ${before} was given back while the connection was lost, and its script goes on. Take it again.`);
+    else byId("seat-state").textContent = this.#own ? "" : Object.keys(seats).filter((name) => seats[name] === "taken").map((name) => `${name} is taken.`).join(" ");
     byId("seat-hint").textContent = this.#own ? "" : "Who takes a seat speaks and acts there, and sees what that seat sees. Until then its calls wait.";
     byId("say").hidden = !this.#own;
     this.#displays.setSeat(this.#own);

@@ -29,7 +29,7 @@ export class Talk {
     this.#run = run;
     this.#live = live;
     this.#microphone = new Microphone({
-      send: (wish) => live.send(wish), sendSound: (buffer) => live.sendSound(buffer), unsent: () => live.unsent(), frequency: () => this.#frequencies.transmit, delay: (event) => this.#delay(event),
+      send: (wish) => live.send(wish), sendSound: (buffer) => live.sendSound(buffer), unsent: () => live.unsent(), isThere: () => live.isThere, frequency: () => this.#frequencies.transmit, delay: (event) => this.#delay(event),
     });
     this.#advisories = new OwnAdvisories(run, (perceived) => live.send({ perceived: { ...perceived, after_s: Math.max(-10, Math.min(10, perceived.after_s - this.#roundTrip / 2)) } }), (severity, url) => this.#loudspeaker.warn(severity, url));
     this.#pace = new RunPace(run, (factor) => live.send({ pace: { factor } }));
@@ -49,6 +49,9 @@ export class Talk {
 
   /** Frequencies that the person at the seat listens to, in kHz; null without a seat. */
   get heard() { return this.#own ? this.#frequencies.heard : null; }
+
+  /** Takes in that the connection is lost: nobody is on the air without it. */
+  lost() { this.#microphone.release(); }
 
   /** Takes in that the connection is there again. */
   reconnected() { if (this.#own) this.#frequencies.tell(); }
