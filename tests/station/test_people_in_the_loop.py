@@ -26,7 +26,7 @@ from airhilt.library import find
 from airhilt.phraseology import TAU_ASR, parse_call
 from airhilt.record import open_run
 from airhilt.units import SECOND_NS
-from cut_network import through_network
+from cut_network import forgive, through_network
 from devtools import Page
 from loudspeaker import given_out, tap
 from microphone import (
@@ -217,6 +217,7 @@ def test_the_run_goes_on_while_the_network_of_a_person_is_cut(tmp_path: Path) ->
         network.mend()
         own.wait_for(f"{SEAT_STATE}.includes('given back')")
         own.wait_for("document.getElementById('link').hidden")
+        forgive(own)
     (taken, left) = [one for one in contents(out, "seat/") if "is_taken" in one]
     assert (taken["is_taken"], left["is_taken"]) == (True, False)
     by_script = next(one for one in contents(out, "truth/radio/") if one["id"] == "landing")

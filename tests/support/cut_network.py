@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from urllib.parse import urlsplit
 
+from devtools import Page
+
 
 class Network:
     """Passes on connections to a port of this machine while it is not cut."""
@@ -64,6 +66,11 @@ class Network:
         with suppress(OSError):
             if from_ not in self._forgotten:
                 to.shutdown(socket.SHUT_WR)
+
+
+def forgive(page: Page) -> None:
+    """Take away the complaints of the browser about connections that cannot be opened."""
+    page.complaints[:] = [one for one in page.complaints if "before the connection" not in one]
 
 
 @contextmanager

@@ -56,7 +56,7 @@ export class Live {
     url.searchParams.set("version", this.#run.version ?? "");
     this.#socket = new WebSocket(url);
     this.#heard = performance.now();
-    this.#socket.onopen = () => { this.#heard = performance.now(); this.#tell(); this.watch(this.#watched); this.#panes.talk.reconnected(); };
+    this.#socket.onopen = () => { this.#heard = performance.now(); this.#tell(); this.watch(this.#watched); };
     this.#socket.onmessage = (event) => {
       this.#heard = performance.now();
       if (this.#isSilent) { this.#isSilent = false; this.#tell(); }

@@ -53,9 +53,6 @@ export class Talk {
   /** Takes in that the connection is lost: nobody is on the air without it. */
   lost() { this.#microphone.release(); }
 
-  /** Takes in that the connection is there again. */
-  reconnected() { if (this.#own) this.#frequencies.tell(); }
-
   /** Takes in one's own seat, null for none. */
   setSeat(own) {
     this.#pace.show(Boolean(own));
