@@ -45,7 +45,7 @@ def test_a_crew_reads_back_and_does_what_was_recognised_and_it_replays(tmp_path:
 
 def test_what_is_not_recognised_with_confidence_is_asked_for_again(tmp_path: Path) -> None:
     said = spoken(SEAT, 5.0, voice(GO_AROUND))
-    log = logged(tower(20.0), tmp_path / "run", ["tower"], said, speech=True, snr_db=0.0)
+    log = logged(tower(20.0), tmp_path / "run", ["tower"], said, speech=True, snr_db=-3.0)
     assert contents(log, "truth/hearing/AAL123")[0]["outcome"] == "unsure"
     assert calls(log)[1]["text"].startswith("Say again")
     assert not [one for one in contents(log, "truth/event") if one["kind"] == "command"]

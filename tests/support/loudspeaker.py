@@ -63,4 +63,5 @@ def given_out(page: Page) -> Audio:
     times = np.arange(int(len(samples) * SAMPLE_RATE_HZ / rate_hz)) * rate_hz / SAMPLE_RATE_HZ
     audio = np.interp(times, np.arange(len(samples)), samples).astype(np.float32)
     sounding = np.flatnonzero(np.abs(audio) > SILENCE)
-    return audio[sounding[0] :] if len(sounding) else audio[:0]
+    begin = int(sounding[0]) if len(sounding) else len(audio)
+    return np.asarray(audio[begin:], np.float32)

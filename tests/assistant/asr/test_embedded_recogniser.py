@@ -308,7 +308,7 @@ def test_of_blocked_calls_most_words_are_lost(embedded: Ctc, over: str) -> None:
             )
             texts.append(text)
             heard.append(embedded.recognise(audio, ("AAL123", "DAL456")).text)
-    assert jiwer.wer(texts, heard) > 0.6
+    assert jiwer.wer(texts, heard) > 0.5
 
 
 def test_it_gives_only_words_in_small_letters_and_confidences_between_0_and_1(
