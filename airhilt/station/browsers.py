@@ -272,7 +272,7 @@ class Browsers:
     async def _give_back(self, browser: _Browser) -> None:
         """Give a browser the seat that it had before its connection was lost.
 
-        That connection may not have ended yet, if the network is cut; nothing comes over it then.
+        The old connection may not have ended yet, if the network is cut; it brings nothing then.
         """
         if not browser.identity:
             return

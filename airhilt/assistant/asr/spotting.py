@@ -59,11 +59,11 @@ class Odds:
 
     offset: float
     name: float
-    """Of a word of the name."""
+    """Log-odds that a word of the name adds."""
     sign: float
-    """Of a word of a digit or a letter."""
+    """Log-odds that the word of a digit or a letter adds."""
     loss: float
-    """Of a unit of loss."""
+    """Log-odds that a unit of loss takes away."""
 
     def __call__(self, aligned: Aligned) -> float:
         """Return the log-odds of an alignment."""
