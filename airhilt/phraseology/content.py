@@ -107,8 +107,13 @@ def _is_doubtful(told: Instruction, text: str, read: Read, each: Found) -> bool:
     """Return whether words may be missing that change what an instruction means.
 
     They are the side of a runway, the "are" of a question, and a condition of which one unknown
-    word is left: "super able climb" may have been "when able climb".
+    word is left: "super able climb" may have been "when able climb". Behind an animal without a
+    place, an unknown word may be of the name of a place: "deer park".
     """
+    if told.action == "wildlife" and told.runway is None and told.position is None:
+        behind = text[read.end :].split(maxsplit=1)
+        if behind and is_unknown(behind[0]):
+            return True
     if told.runway is not None and has_unknown_side(text, read.start, read.end):
         return True
     if _OR.match(text, read.end) or _OR_INSIDE.search(text, each.match.end(), read.end):

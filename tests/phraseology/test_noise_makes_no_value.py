@@ -115,3 +115,10 @@ def test_words_put_in_never_make_a_value(text: str, noise: list[tuple[int, str]]
 @pytest.mark.parametrize("text", CALLS)
 def test_the_calls_are_clear_as_they_are(text: str) -> None:
     assert in_effect(text)
+
+
+def test_an_animal_before_an_unknown_word_may_be_of_a_name_and_is_not_sure() -> None:
+    (told,) = parse_call(f"{NAME} via static the deer static park four arrival", KNOWN).instructions
+    (seen,) = parse_call(f"{NAME} deer ahead", KNOWN).instructions
+    assert (told.action, seen.action) == ("wildlife", "wildlife")
+    assert told.confidence < TAU_ASR <= seen.confidence

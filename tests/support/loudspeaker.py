@@ -1,4 +1,4 @@
-"""What the loudspeaker of a page gives out, taken where the page hands its sound to the browser."""
+"""Sound that the loudspeaker of a page gives out, taken where the page hands it to the browser."""
 
 from __future__ import annotations
 

@@ -159,7 +159,10 @@ def test_wide():
 
 @pytest.fixture(scope="module")
 def covered(tmp_path_factory: pytest.TempPathFactory) -> Covering:
-    """What a small package covers, whose tests read constants without running a line of it."""
+    """Return the covered lines of a small package.
+
+    Its tests read constants without running a line of it.
+    """
     folder = tmp_path_factory.mktemp("covered")
     for name, text in PACKAGE.items():
         path = folder / "tree" / name

@@ -181,7 +181,7 @@ def weigh(model: Path, utterances: Sequence[SpokenCall]) -> None:
 
 
 class Trial(NamedTuple):
-    """Who was called in a call, and where the callsigns of its roster fit best."""
+    """Call with the callsign that is said in it, and where those of its roster fit best."""
 
     said: str | None
     """None: none of the roster."""

@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from airhilt.assistant.asr.pieces import Pieces
 from airhilt.phraseology import LETTERS, TELEPHONY
 from airhilt.phraseology.numbers import speak_digits, speak_group
-from airhilt.phraseology.spoken_forms import is_registration
+from airhilt.phraseology.spoken_forms import MAKER, forms, is_registration
 from airhilt.phraseology.telephony import names
 
 SAME = (
@@ -32,11 +32,11 @@ TAKEN = 0.5
 NAME_WEIGHT = 0.4
 """Weight of what is lost in a name, against what is lost in digits and letters.
 
-Names are many and are heard badly, signs are few. Of 1, 0.4 and 0.15 this fits calls best
-(``tools/asr/calibrate_asr.py``)."""
-ABBREVIATED = (3, 2)
-"""Last signs of a registration that are said after its first (ICAO Annex 10 volume II,
-5.2.1.7.2.2; FAA Order JO 7110.65, 2-4-9)."""
+Names are many and are heard badly, signs are few. The calls of two tests were likelier by 0.4 and
+0.15 than by 1, and about alike by both."""
+LEAST_BARE = 3
+"""Least signs of a registration that are looked for without its first sign: fewer are in any
+call, as a value."""
 LEAST_POSTERIOR = 1e-8
 _AIRLINE = re.compile(r"([A-Z]{3})([0-9]{1,4})([A-Z]{0,2})")
 
@@ -118,13 +118,11 @@ def spoken_forms(callsign: str) -> Iterator[SpokenForm]:
             for number in _ways(airline[2]):
                 yield SpokenForm(tuple(name.split()), (*number, *letters))
     elif is_registration(callsign):
-        first, *rest = _spell(callsign.replace("-", ""))
-        yield SpokenForm((), (first, *rest))
-        yield SpokenForm((), tuple(rest))
-        for size in ABBREVIATED:
-            if len(rest) > size:
-                yield SpokenForm((), (first, *rest[-size:]))
-        yield SpokenForm((), tuple(rest[-ABBREVIATED[0] :]))
+        for name, signs, _ in forms(callsign):
+            if name == MAKER and len(signs) >= LEAST_BARE:
+                yield SpokenForm((), _spell(signs))
+            elif name != MAKER and len(name) == 1:
+                yield SpokenForm((), _spell(name.upper() + signs))
 
 
 def _ways(number: str) -> Iterator[tuple[str, ...]]:
@@ -148,6 +146,10 @@ class Spotter:
     ----------
     pieces
         Pieces of the recogniser.
+    callsigns
+        Callsigns of the roster; those with a word that has no pieces are not looked for.
+    odds
+        Odds that one of them was said, by how well it fits.
     """
 
     def __init__(self, pieces: Pieces, callsigns: Sequence[str], odds: Odds) -> None:

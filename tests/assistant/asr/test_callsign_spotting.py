@@ -130,6 +130,13 @@ def test_noise_is_nobody() -> None:
     assert spotted(posteriors(*[{}] * 30), "AAL12", "N54") is None
 
 
+def test_a_value_is_no_short_registration_without_its_first_sign() -> None:
+    heard = posteriors(*clear("climb", "five", "four"))
+    assert spotted(heard, "N54", "N5", "N4") is None
+    said = posteriors(*clear("november", "five", "four"))
+    assert spotted(said, "N54", "N5", "N4").callsign == "N54"
+
+
 def test_nothing_is_found_without_a_roster_or_without_audio() -> None:
     assert spotted(posteriors(*clear("american", "one"))) is None
     assert spotted(np.zeros((0, len(WORDS) + 1), np.float32), "AAL1") is None
@@ -152,6 +159,7 @@ def test_the_same_digit_twice_needs_a_gap_between() -> None:
         ("DAL9", {"delta niner"}),
         ("AAL12G", {"american one two golf", "american twelve golf"}),
         ("AAL905", {"american niner zero five"}),
+        ("N54", {"november five four"}),
         ("N54G", {"november five four golf", "five four golf", "november four golf"}),
         (
             "N1254G",

@@ -307,8 +307,8 @@ def test_of_blocked_calls_most_words_are_lost(embedded: Ctc, over: str) -> None:
                 "cockpit",
             )
             texts.append(text)
-            heard.append(embedded.recognise(audio, ("AAL123", "DAL456")).text)
-    assert jiwer.wer(texts, heard) > 0.5
+            heard.append(embedded.recognise(audio, ()).text)
+    assert jiwer.wer(texts, heard) > 0.6
 
 
 def test_it_gives_only_words_in_small_letters_and_confidences_between_0_and_1(

@@ -94,7 +94,7 @@ class Emission:
     begin: int
     """Step at which it begins."""
     is_callsign: bool = False
-    """Whether it is of a callsign of the roster."""
+    """True if it is of a callsign of the roster."""
 
 
 class Ctc:
