@@ -29,6 +29,38 @@ def trained(tmp_path: Path) -> Path:
     return tmp_path
 
 
+def calls_of(*lengths: int) -> list[train_asr.Utterance]:
+    """Return calls of some lengths, each with a unit of its own."""
+    return [
+        train_asr.Utterance(np.zeros((length, train_asr.BINS), np.float16), (index,), False)
+        for index, length in enumerate(lengths)
+    ]
+
+
+def test_a_batch_follows_from_the_seed_and_its_step() -> None:
+    calls = calls_of(*range(100, 300, 5))
+    one, again, other = (
+        train_asr.Batches(calls, 2_000, seed, easy=0, clear=0) for seed in (1, 1, 2)
+    )
+    first = one[7]
+    one[8]
+    assert all(map(torch.equal, first, again[7]))
+    assert not torch.equal(first.features[:1, :90], other[7].features[:1, :90])
+
+
+def test_long_calls_are_drawn_as_often_as_short_ones() -> None:
+    batches = train_asr.Batches(calls_of(*[200] * 60, *[800] * 60), 8_000, 0, easy=0, clear=0)
+    units = torch.cat([batches[step].units for step in range(400)])
+    share = float((units < 60).float().mean())
+    assert 0.45 < share < 0.55
+
+
+def test_the_first_batches_of_a_new_training_have_short_calls_only() -> None:
+    batches = train_asr.Batches(calls_of(*[200] * 20, *[800] * 20), 4_000, 0, easy=5, clear=5)
+    assert all(int(batches[step].units.max()) < 20 for step in range(5))
+    assert any(int(batches[step].units.max()) >= 20 for step in range(5, 15))
+
+
 def test_what_is_exported_hears_what_the_network_hears_in_steps_of_30_ms(trained: Path) -> None:
     train_asr.export(trained, trained / "model")
     network = train_asr.Recogniser(len(PIECES))

@@ -23,7 +23,7 @@ from typing import Any
 
 from eval_asr import evaluate
 from synthesisers import FAMILY
-from train_asr import Training, export, train
+from train_asr import Training, add_options, export, train
 
 MEASURES = ("wer", "callsigns", "items", "acted_upon", "acted_upon_wrongly")
 
@@ -34,21 +34,18 @@ def lineages() -> list[str]:
     return sorted({voice.lineage for voice in voices if not voice.is_test_only})
 
 
-def judge(
-    build: Path, lineage: str, steps: int, limit: int, *, bfloat16: bool = False
-) -> list[dict[str, Any]]:
+def judge(given: Training, limit: int) -> list[dict[str, Any]]:
     """Train without a lineage, and return the scores on it."""
-    into = build / "without" / lineage
-    train(Training(build, into, steps, without=lineage, bfloat16=bfloat16))
-    model = into / "model"
-    export(into, model)
-    shutil.copy(build / "language.npz", model / "language.npz")
+    train(given)
+    model = given.into / "model"
+    export(given.into, model)
+    shutil.copy(given.build / "language.npz", model / "language.npz")
     numbers = []
     for calls in ("test", "exam"):
-        if (build / calls).is_dir():
-            rows = evaluate(f"embedded:{model}", build / calls, limit, (lineage,))
+        if (given.build / calls).is_dir():
+            rows = evaluate(f"embedded:{model}", given.build / calls, limit, (given.without,))
             numbers += [{"set": calls, **row} for row in rows]
-    (into / "scores.json").write_text(json.dumps(numbers, indent=1) + "\n")
+    (given.into / "scores.json").write_text(json.dumps(numbers, indent=1) + "\n")
     return numbers
 
 
@@ -71,15 +68,17 @@ def main() -> None:
     """Print the scores of each lineage and their mean."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("build", type=Path)
-    parser.add_argument("--steps", type=int, default=6_000)
     parser.add_argument("--lineage", action="append", help="lineage to leave out; all if not given")
     parser.add_argument("--limit", type=int, default=150, help="calls of a lineage and set")
-    parser.add_argument("--bfloat16", action="store_true", help="faster on AVX512-BF16")
-    given = parser.parse_args()
+    add_options(parser, steps=6_000)
+    given = vars(parser.parse_args())
+    build, limit, chosen = given.pop("build"), given.pop("limit"), given.pop("lineage")
     numbers = [
         row
-        for lineage in given.lineage or lineages()
-        for row in judge(given.build, lineage, given.steps, given.limit, bfloat16=given.bfloat16)
+        for lineage in chosen or lineages()
+        for row in judge(
+            Training(build, build / "without" / lineage, without=lineage, **given), limit
+        )
     ]
     for row in means(numbers):
         print(json.dumps(row))

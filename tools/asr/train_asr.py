@@ -19,19 +19,19 @@ from __future__ import annotations
 import argparse
 import json
 import math
-import random
 import shutil
 import time
 import zlib
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import onnx
 import torch
 from torch import Tensor, nn
+from torch.utils.data import DataLoader, Dataset
 
 from airhilt.assistant.asr.features import BINS, FLOOR, mel_power
 from airhilt.assistant.asr.pieces import Pieces
@@ -48,7 +48,12 @@ DILATIONS = (1, 1, 2, 1, 2, 4, 1, 2)
 HALFWAY, HALFWAY_WEIGHT = 4, 0.3
 """Block after which the pieces are asked for too, and the weight of that loss (intermediate CTC:
 Lee and Watanabe, ICASSP 2021)."""
-BATCH_FRAMES = 12_000
+NEIGHBOURS = 0.02
+"""Share of the utterances, those of about one length, that a batch is drawn from."""
+EASY_FRAMES = 450
+"""Frames of the longest call that is easy."""
+SILENT_SHARE = 0.3
+"""Share of the batches with a call in which nobody speaks."""
 EASY_SHARE, CLEAR_SHARE = 0.06, 0.3
 """Shares of the steps at the beginning in which only short, clear calls are drawn, and in which no
 call has much noise, unless a training begins with weights."""
@@ -184,19 +189,17 @@ class Utterance:
     real: bool
 
 
-def load(folder: Path, pieces: Pieces, known: set[str], without: str) -> list[Utterance]:
-    """Return the utterances of shards that are not known yet.
+def load(folder: Path, pieces: Pieces, without: str) -> list[Utterance]:
+    """Return the utterances of the prepared shards of a folder.
 
     Parameters
     ----------
     without
         Lineage that is left out, with all other voices of its speakers; empty for none.
     """
-    fresh = [path for path in sorted(folder.glob("*.mel.npz")) if path.name not in known]
-    known |= {path.name for path in fresh}
     left_out = speakers_of(without)
     found = []
-    for path in fresh:
+    for path in sorted(folder.glob("*.mel.npz")):
         lines = [json.loads(line) for line in _lines(path)]
         texts = [pieces.units(line["text"].split()) for line in lines]
         is_kept = [
@@ -238,9 +241,9 @@ def noise_bank() -> np.ndarray:
 class Mixer:
     """Makes what the network sees out of clean mel powers: speed, timbre, noise, gain control."""
 
-    def __init__(self, seed: int) -> None:
-        self._rng = np.random.default_rng(seed)
-        self._bank = noise_bank()
+    def __init__(self, bank: np.ndarray, rng: np.random.Generator) -> None:
+        self._bank = bank
+        self._rng = rng
 
     def mix(self, utterance: Utterance, easy: bool, clear: bool) -> np.ndarray:
         """Return the features of a call as they may be.
@@ -318,6 +321,78 @@ class Mixer:
         return log
 
 
+class Batch(NamedTuple):
+    """Calls of about one length, and what is said in them."""
+
+    features: Tensor
+    """Shape (calls, frames, bins); calls that are shorter end with zeros."""
+    units: Tensor
+    """Units of all calls, one after another."""
+    steps: Tensor
+    """Steps of the output of each call."""
+    sizes: Tensor
+    """Number of units of each call."""
+
+
+class Batches(Dataset[Batch]):
+    """The batches of a training: each follows from the seed and its step alone.
+
+    Any process may therefore make it, and a training that goes on sees what it would have seen.
+
+    Parameters
+    ----------
+    easy, clear
+        Steps before which only short, clear calls are drawn, and no call has much noise.
+    """
+
+    def __init__(
+        self, utterances: Sequence[Utterance], frames: int, seed: int, easy: float, clear: float
+    ) -> None:
+        self._all = sorted(utterances, key=lambda each: len(each.mel))
+        short = [each for each in self._all if len(each.mel) < EASY_FRAMES and not each.real]
+        self._easy = short or self._all
+        self._frames, self._seed = frames, seed
+        self._easy_steps, self._clear_steps = easy, clear
+        self._bank = noise_bank()
+
+    def __getitem__(self, step: int) -> Batch:
+        """Return the batch of a step.
+
+        A call is drawn by the chance of its length, and with it others of about that length: as
+        many as fill the batch. So each call is drawn as often as any other.
+        """
+        rng = np.random.default_rng([self._seed, step])
+        easy = step < self._easy_steps
+        drawn_from = self._easy if easy else self._all
+        ends = np.cumsum([len(each.mel) for each in drawn_from])
+        middle = int(np.searchsorted(ends, rng.integers(ends[-1]), side="right"))
+        count = max(1, self._frames // len(drawn_from[middle].mel))
+        around = max(count, round(NEIGHBOURS * len(drawn_from)))
+        begin = min(max(0, middle - around // 2), max(0, len(drawn_from) - around))
+        near = drawn_from[begin : begin + around]
+        drawn = [near[index] for index in rng.permutation(len(near))[:count]]
+        mixer = Mixer(self._bank, rng)
+        inputs = [mixer.mix(each, easy, step < self._clear_steps) for each in drawn]
+        targets = [each.units for each in drawn]
+        if not easy and rng.random() < SILENT_SHARE:
+            inputs.append(mixer.noise_alone())
+            targets.append(())
+        return _as_batch(inputs, targets)
+
+
+def _as_batch(inputs: Sequence[np.ndarray], targets: Sequence[Sequence[int]]) -> Batch:
+    longest = -(-max(len(mixed) for mixed in inputs) // 48) * 48
+    features = torch.zeros(len(inputs), longest, BINS)
+    for row, mixed in enumerate(inputs):
+        features[row, : len(mixed)] = torch.from_numpy(mixed)
+    return Batch(
+        features,
+        torch.tensor([unit for target in targets for unit in target]),
+        torch.tensor([OUTPUTS * -(-len(mixed) // STRIDE) for mixed in inputs]),
+        torch.tensor([len(target) for target in targets]),
+    )
+
+
 # --- training ------------------------------------------------------------------------------
 
 
@@ -331,12 +406,20 @@ class Training:
         Folder with ``pieces.txt`` and the prepared shards in ``train``.
     into
         Folder of the checkpoint; a training goes on from the one that is there.
+    batch_frames
+        Frames of a batch, about.
     without
         Lineage that is left out; empty for none.
     begin_with
         Folder of `keep` whose weights a new training begins with; None: random ones.
     bfloat16
-        Whether convolutions are computed in bfloat16, which processors with AVX512-BF16 do faster.
+        Whether convolutions are computed in bfloat16, which accelerators and processors with
+        AVX512-BF16 do faster.
+    device
+        Device of torch: ``cpu`` or ``cuda``. On an accelerator, the same seed gives weights that
+        differ a little from run to run, because it sums in another order each time.
+    workers
+        Processes that mix batches; 0: the training does it itself.
     """
 
     build: Path
@@ -344,9 +427,12 @@ class Training:
     steps: int
     rate: float = 1.5e-3
     seed: int = 0
+    batch_frames: int = 12_000
     without: str = ""
     begin_with: Path | None = None
     bfloat16: bool = False
+    device: str = "cpu"
+    workers: int = 0
 
 
 def train(given: Training) -> None:
@@ -357,48 +443,43 @@ def train(given: Training) -> None:
     pieces = pieces_of(given.into)
     torch.manual_seed(given.seed)
     network = Recogniser(len(pieces))
-    optimisers = optimisers_of(network, given.rate)
-    checkpoint = given.into / "checkpoint.pt"
     if given.begin_with is not None:
         begin_with(network, given.begin_with)
-    step = _resume(network, optimisers, checkpoint)
+    network.to(given.device)
+    optimisers = optimisers_of(network, given.rate)
+    first = _resume(network, optimisers, given.into / "checkpoint.pt")
     parameters = sum(p.numel() for p in network.parameters())
-    known: set[str] = set()
-    utterances = load(given.build / "train", pieces, known, given.without)
+    utterances = load(given.build / "train", pieces, given.without)
     print(f"{parameters / 1e6:.2f} M parameters, {len(pieces)} pieces, {len(utterances)} calls")
-    mixer, order = Mixer(given.seed + step), random.Random(given.seed + step)
-    begun = saved = looked = time.time()
-    first, mean = step, 8.0
-    is_new = given.begin_with is None
+    new = given.steps if given.begin_with is None else 0
+    batches = Batches(
+        utterances, given.batch_frames, given.seed, EASY_SHARE * new, CLEAR_SHARE * new
+    )
+    loader = DataLoader(
+        batches, batch_size=None, sampler=range(first, given.steps), num_workers=given.workers
+    )
+    begun = saved = time.time()
+    mean = torch.tensor(8.0, device=given.device)
     network.train()
-    while step < given.steps:
-        if time.time() - looked > 120.0:
-            looked = time.time()
-            utterances += load(given.build / "train", pieces, known, given.without)
-        easy = is_new and step < EASY_SHARE * given.steps
-        clear = is_new and step < CLEAR_SHARE * given.steps
-        for batch in _batches(utterances, order, easy):
-            for optimiser in optimisers:
-                for group in optimiser.param_groups:
-                    group["lr"] = _rate(given.rate, step, given.steps)
-            loss = _loss(network, *_mixed(batch, mixer, order, easy, clear), given.bfloat16)
-            network.zero_grad()
-            loss.backward()
-            nn.utils.clip_grad_norm_(network.parameters(), 1.0)
-            for optimiser in optimisers:
-                optimiser.step()
-            step += 1
-            mean += 0.02 * (loss.item() - mean)
-            if step % 100 == 0:
-                each = (time.time() - begun) / (step - first)
-                about = f"{len(utterances)} calls{', easy ones' if easy else ''}"
-                print(f"step {step}  {each:.2f} s each  loss {mean:.3f}  {about}", flush=True)
-            if step >= given.steps:
-                break
+    for step, batch in enumerate(loader, start=first):
+        for optimiser in optimisers:
+            for group in optimiser.param_groups:
+                group["lr"] = _rate(given.rate, step, given.steps)
+        loss = _loss(network, batch, given)
+        network.zero_grad()
+        loss.backward()
+        nn.utils.clip_grad_norm_(network.parameters(), 1.0)
+        for optimiser in optimisers:
+            optimiser.step()
+        mean += 0.02 * (loss.detach() - mean)
+        done = step + 1
+        if done % 100 == 0:
+            each = (time.time() - begun) / (done - first)
+            print(f"step {done}  {each:.3f} s each  loss {mean.item():.3f}", flush=True)
         if time.time() - saved > 240.0:
             saved = time.time()
-            _save(network, optimisers, step, given, len(utterances))
-    _save(network, optimisers, step, given, len(utterances))
+            _save(network, optimisers, done, given, len(utterances))
+    _save(network, optimisers, max(first, given.steps), given, len(utterances))
 
 
 def optimisers_of(network: Recogniser, rate: float) -> list[torch.optim.Optimizer]:
@@ -424,50 +505,9 @@ def _rate(most: float, step: int, steps: int) -> float:
     return most * min(1.0, (step + 1) / 300) * (0.5 * (1 + math.cos(math.pi * decay)) + 0.003)
 
 
-def _mixed(
-    batch: list[Utterance], mixer: Mixer, order: random.Random, easy: bool, clear: bool
-) -> tuple[list[np.ndarray], list[Sequence[int]]]:
-    """Return features and units of a batch, at times with a call in which nobody speaks."""
-    inputs = [mixer.mix(each, easy, clear) for each in batch]
-    targets = [each.units for each in batch]
-    if not easy and order.random() < 0.3:
-        inputs.append(mixer.noise_alone())
-        targets.append(())
-    return inputs, targets
-
-
-def _batches(
-    utterances: list[Utterance], order: random.Random, easy: bool
-) -> list[list[Utterance]]:
-    """Return batches of some of the utterances, each of utterances of about one length."""
-    pool = order.sample(utterances, min(600, len(utterances)))
-    if easy:
-        pool = [u for u in pool if len(u.mel) < 450 and not u.real]
-    batches: list[list[Utterance]] = []
-    batch: list[Utterance] = []
-    for each in sorted(pool, key=lambda u: len(u.mel)):
-        batch.append(each)
-        if len(batch) * len(each.mel) > BATCH_FRAMES:
-            batches.append(batch)
-            batch = []
-    order.shuffle(batches)
-    return batches
-
-
-def _loss(
-    network: Recogniser,
-    inputs: list[np.ndarray],
-    targets: list[Sequence[int]],
-    bfloat16: bool,
-) -> Tensor:
-    longest = -(-max(len(mixed) for mixed in inputs) // 48) * 48
-    features = torch.zeros(len(inputs), longest, BINS)
-    for row, mixed in enumerate(inputs):
-        features[row, : len(mixed)] = torch.from_numpy(mixed)
-    units = torch.tensor([u for t in targets for u in t])
-    steps = torch.tensor([OUTPUTS * -(-len(mixed) // STRIDE) for mixed in inputs])
-    sizes = torch.tensor([len(t) for t in targets])
-    with torch.autocast("cpu", dtype=torch.bfloat16, enabled=bfloat16):
+def _loss(network: Recogniser, batch: Batch, given: Training) -> Tensor:
+    features, units, steps, sizes = (each.to(given.device, non_blocking=True) for each in batch)
+    with torch.autocast(given.device, dtype=torch.bfloat16, enabled=given.bfloat16):
         both = network.both(features)
     halfway, end = (
         nn.functional.ctc_loss(
@@ -508,7 +548,7 @@ def begin_with(network: Recogniser, folder: Path) -> None:
 
 def keep(folder: Path, target: Path) -> None:
     """Write the weights of a checkpoint in half precision, for other trainings to begin with."""
-    state = torch.load(folder / "checkpoint.pt", weights_only=True)["network"]
+    state = _network_of(folder)
     arrays: dict[str, Any] = {
         name: weight.numpy().astype(np.float16)
         for name, weight in state.items()
@@ -524,7 +564,7 @@ def _resume(network: nn.Module, optimisers: list[torch.optim.Optimizer], path: P
     """Go on from a checkpoint; return the steps that are done, 0 if there is none."""
     if not path.exists():
         return 0
-    state = torch.load(path, weights_only=True)
+    state = torch.load(path, weights_only=True, map_location="cpu")
     network.load_state_dict(state["network"])
     for optimiser, its_state in zip(optimisers, state["optimisers"], strict=True):
         optimiser.load_state_dict(its_state)
@@ -552,7 +592,7 @@ def _save(
         "parameters": sum(p.numel() for p in network.parameters()),
         "calls": calls,
         "steps": step,
-        "batch_frames": BATCH_FRAMES,
+        "batch_frames": given.batch_frames,
         "rate": given.rate,
         "seed": given.seed,
         "without": given.without,
@@ -561,11 +601,17 @@ def _save(
     (given.into / "training.json").write_text(json.dumps(card, indent=2) + "\n")
 
 
+def _network_of(folder: Path) -> dict[str, Tensor]:
+    """Return the network of a checkpoint."""
+    state = torch.load(folder / "checkpoint.pt", weights_only=True, map_location="cpu")
+    return dict(state["network"])
+
+
 def export(folder: Path, target: Path) -> None:
     """Write the network as ONNX, with its pieces and a card that is not calibrated yet."""
     pieces = pieces_of(folder)
     network = Recogniser(len(pieces))
-    network.load_state_dict(torch.load(folder / "checkpoint.pt", weights_only=True)["network"])
+    network.load_state_dict(_network_of(folder))
     network.eval()
     target.mkdir(parents=True, exist_ok=True)
     torch.onnx.export(
@@ -606,6 +652,17 @@ def _lines(path: Path) -> list[str]:
     return path.with_name(path.name.replace(".mel.npz", ".jsonl")).read_text().splitlines()
 
 
+def add_options(parser: argparse.ArgumentParser, steps: int) -> None:
+    """Add the options of a training that are those of `Training`."""
+    parser.add_argument("--steps", type=int, default=steps)
+    parser.add_argument("--rate", type=float, default=1.5e-3, help="highest learning rate")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--batch-frames", type=int, default=12_000, help="frames of a batch")
+    parser.add_argument("--bfloat16", action="store_true", help="faster on CUDA and AVX512-BF16")
+    parser.add_argument("--device", default="cpu", help="device of torch, such as cuda")
+    parser.add_argument("--workers", type=int, default=0, help="processes that mix batches")
+
+
 def main() -> None:
     """Read the command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
@@ -615,12 +672,9 @@ def main() -> None:
     two = commands.add_parser("train", help="train, from the checkpoint if there is one")
     two.add_argument("build", type=Path)
     two.add_argument("--into", type=Path, required=True, help="folder of the checkpoint")
-    two.add_argument("--steps", type=int, default=36_000)
-    two.add_argument("--rate", type=float, default=1.5e-3)
-    two.add_argument("--seed", type=int, default=0)
     two.add_argument("--begin-with", type=Path, help="folder with weights to begin with")
     two.add_argument("--without", default="", help="lineage that is left out")
-    two.add_argument("--bfloat16", action="store_true", help="faster on AVX512-BF16")
+    add_options(two, steps=36_000)
     three = commands.add_parser("export", help="write the ONNX file")
     three.add_argument("folder", type=Path, help="folder of the checkpoint")
     three.add_argument("target", type=Path)
