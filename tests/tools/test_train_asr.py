@@ -32,7 +32,7 @@ def trained(tmp_path: Path) -> Path:
 def calls_of(*lengths: int) -> list[train_asr.Utterance]:
     """Return calls of some lengths, each with a unit of its own."""
     return [
-        train_asr.Utterance(np.zeros((length, train_asr.BINS), np.float16), (index,), False)
+        train_asr.Utterance(np.zeros((length, 64), np.float16), (index,), False)
         for index, length in enumerate(lengths)
     ]
 
