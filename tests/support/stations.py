@@ -132,14 +132,14 @@ class PretendedRun:
 
     run = "pretended"
 
-    def __init__(self) -> None:
+    def __init__(self, seat: SeatInfo = TOWER) -> None:
         self.done: queue.Queue[Message | Command] = queue.Queue()
         self.presence: queue.Queue[tuple[str, bool]] = queue.Queue()
         self.changes, self.seat, self.sounds = Changes(), Changes(), Changes()
         self.told: list[str] = []
         """Lines that the terminal was told."""
         self.changes.add("clock", 0.0, "running", "realtime")
-        self.seat.add("info", TOWER.model_dump(mode="json", exclude={"t_ns"}))
+        self.seat.add("info", seat.model_dump(mode="json", exclude={"t_ns"}))
 
     def watch(self, cameras: set[str]) -> None:
         """Draw nothing."""
@@ -192,10 +192,10 @@ class PretendedRun:
 
 
 @contextmanager
-def seat_page() -> Iterator[tuple[PretendedRun, str]]:
+def seat_page(seat: SeatInfo = TOWER) -> Iterator[tuple[PretendedRun, str]]:
     """Serve the page of a pretended run in this process; yield the run and the URL."""
-    run, urls, is_over = PretendedRun(), queue.Queue[str](), threading.Event()
-    browsers = Browsers(run.changes, run, {"TOWER": run.seat}, run.sounds, run.told.append)
+    run, urls, is_over = PretendedRun(seat), queue.Queue[str](), threading.Event()
+    browsers = Browsers(run.changes, run, {seat.seat: run.seat}, run.sounds, run.told.append)
     thread = threading.Thread(
         target=serve,
         args=(live_app(run, browsers), Address(port=0)),  # type: ignore[arg-type]

@@ -28,18 +28,20 @@ export class Displays {
     requestAnimationFrame(() => this.#draw());
   }
 
-  /** Keys of the cockpit, for the list of keys. */
+  /** Keys of the displays, each for the seats that have what it works. */
   get keys() {
-    const inCockpit = (act) => () => { if (document.body.dataset.seat) act(); };
-    return [
-      { names: ["s"], shown: ["S"], text: "cockpit: speed", act: inCockpit(() => this.#panel.focus("speed")) },
-      { names: ["h"], shown: ["H"], text: "cockpit: track", act: inCockpit(() => this.#panel.focus("track")) },
-      { names: ["a"], shown: ["A"], text: "cockpit: altitude", act: inCockpit(() => this.#panel.focus("altitude")) },
-      { names: ["g"], shown: ["G"], text: "cockpit: go around", act: inCockpit(() => this.#panel.goAround()) },
-      { names: ["b"], shown: ["B"], text: "brake, hold position", act: inCockpit(() => this.#panel.brake()) },
-      { names: ["r"], shown: ["R"], text: "cockpit: longer range", act: inCockpit(() => this.#nd.step(1)) },
-      { names: ["e"], shown: ["E"], text: "cockpit: shorter range", act: inCockpit(() => this.#nd.step(-1)) },
-    ];
+    const panel = this.#panel, nd = this.#nd;
+    const at = (...seats) => () => seats.includes(document.body.dataset.seat);
+    const inCockpit = [
+      { names: ["s"], shown: ["S"], text: "cockpit: speed", act: () => panel.focus("speed") },
+      { names: ["h"], shown: ["H"], text: "cockpit: track", act: () => panel.focus("track") },
+      { names: ["a"], shown: ["A"], text: "cockpit: altitude", act: () => panel.focus("altitude") },
+      { names: ["g"], shown: ["G"], text: "cockpit: go around", act: () => panel.goAround() },
+      { names: ["r"], shown: ["R"], text: "cockpit: longer range", act: () => nd.step(1) },
+      { names: ["e"], shown: ["E"], text: "cockpit: shorter range", act: () => nd.step(-1) },
+    ].map((key) => ({ ...key, isUsed: at("pilot") }));
+    const brake = { names: ["b"], shown: ["B"], text: "brake, hold position", act: () => panel.brake() };
+    return [...inCockpit, { ...brake, isUsed: at("pilot", "driver") }];
   }
 
   /** Takes in which seat the person has, null for none. */

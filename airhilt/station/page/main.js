@@ -55,10 +55,9 @@ async function begin() {
     ...timeKeys(clock, transport),
     { names: ["m"], shown: ["M"], text: "sound off or on", act: () => sounds.mute() },
     { names: ["f"], shown: ["F"], text: "all traffic in the plan", act: () => plan.fit("all") },
-    { names: ["+", "="], shown: ["+"], text: "zoom in", act: () => plan.zoom(1.5) },
-    { names: ["-"], shown: ["-"], text: "zoom out", act: () => plan.zoom(1 / 1.5) },
+    { names: ["+", "="], shown: ["+"], text: "zoom in", repeats: true, act: () => plan.zoom(1.5) },
+    { names: ["-"], shown: ["-"], text: "zoom out", repeats: true, act: () => plan.zoom(1 / 1.5) },
     ...(run.seats?.length ? [...seat.keys, ...talk.keys] : []),
-    { names: ["?"], shown: ["?"], text: "this list", act: () => byId("help").showModal() },
   ]);
   if (together && !together.join(window, run)) sounds.mute();
   document.body.dataset.ready = "true";

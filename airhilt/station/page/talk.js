@@ -44,7 +44,12 @@ export class Talk {
 
   /** Keys of a seat, for the list of keys. */
   get keys() {
-    return [{ names: ["1", "2", "3", "4", "5"], shown: ["1", "5"], text: "workload, when it is asked", act: ({ key }) => this.#workload.rate(Number(key)) }];
+    const isUsed = () => Boolean(this.#own), ratings = ["1", "2", "3", "4", "5"];
+    return [
+      { names: [], shown: ["Space"], text: "hold to talk", isUsed }, // the microphone takes it
+      { names: ["Enter"], shown: ["Enter"], text: "press a button, tick a box or clear it", isUsed, act: ({ target }) => target.click() },
+      { names: ratings, shown: ratings, text: "workload, when it is asked", isUsed, act: ({ key }) => this.#workload.rate(Number(key)) },
+    ];
   }
 
   /** Frequencies that the person at the seat listens to, in kHz; null without a seat. */

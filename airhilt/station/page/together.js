@@ -48,5 +48,5 @@ connectTheme(() => {
   }
 });
 clock.listen(() => { transport.draw(); marks.draw(); });
-connectKeys([...timeKeys(clock, transport), { names: ["?"], shown: ["?"], text: "this list", act: () => byId("help").showModal() }]);
+connectKeys(timeKeys(clock, transport));
 byId("two").replaceChildren(...frames);
