@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import Any
 
 import pytest
 
@@ -15,6 +16,41 @@ pytestmark = pytest.mark.browser
 CATEGORIES = {"AAL123": "aircraft", "DAL456": "aircraft", "OPS1": "vehicle"}
 KIND = {"TOWER": "controller", "AAL123": "pilot", "OPS1": "driver"}
 KEYS = "[...document.querySelectorAll('#help-keys dd')].map((one) => one.textContent)"
+
+
+INSTRUMENTS = {
+    "callsign": "AAL123", "airspeed_kt": 265.0, "mach": 0.78, "altitude_ft": 35000,
+    "vertical_speed_fpm": 0, "north": "true", "heading_deg": 90.0, "track_deg": 90.0,
+    "ground_speed_kt": 480.0, "pitch_deg": 2.0, "roll_deg": 0.0, "gear": 0.0, "flaps": 0.0,
+    "on_ground": False, "mode": "en_route", "radio_height_ft": None,
+    "selected_altitude_ft": 35000, "selected_airspeed_kt": 265,
+}  # fmt: skip
+ADVISORY = {
+    "t": 0.5, "equipment": "", "id": "a-1", "revision": 1, "severity": "WARNING", "active": True,
+    "kind": "loss_of_separation", "traffic": ["AAL123", "DAL456"],
+    "texts": [{"recipient": "ATC", "message": "Both lose separation.", "recommendation": None}],
+    "evidence": {
+        "sources": ["adsb"], "shares": {}, "note": "", "rules": [], "runway": None,
+        "time_to_go_s": None, "time_to_loss_s": None, "radio_ids": [], "camera_ids": [],
+        "tracks": [], "inconsistencies": [],
+    },
+}  # fmt: skip
+TRAFFIC = "document.getElementById('nd').ariaLabel"
+
+
+def fly(run: PretendedRun, t_s: float = 1.0) -> None:
+    """Let two aircraft fly towards each other, 20 NM apart, and tell the pilot of one of them."""
+    for name, east_m, speed_m_s in (("AAL123", 0.0, 240.0), ("DAL456", 37_040.0, -240.0)):
+        heading_deg = 90.0 if speed_m_s > 0.0 else 270.0
+        place = (t_s, east_m, 0.0, 35_000, [speed_m_s, 0.0], heading_deg, False, "")
+        run.changes.add("state", name, "aircraft", "B737", *place)
+    run.seat.add("cockpit", INSTRUMENTS)
+
+
+def advise(run: PretendedRun, recipient: str, message: str, **other: Any) -> None:
+    """Give an advisory to somebody."""
+    text = {"recipient": recipient, "message": message, "recommendation": None}
+    run.changes.add("advisory", ADVISORY | {"id": message, "texts": [text]} | other)
 
 
 @contextmanager
@@ -83,3 +119,17 @@ def test_enter_ticks_a_box_where_the_space_bar_is_to_talk(page: Page) -> None:
         assert page.evaluate(ticked) is False
         page.press("Enter", 13)
         assert page.evaluate(ticked) is True
+
+
+def test_a_pilot_is_shown_no_advisory_to_somebody_else(page: Page) -> None:
+    listed = "document.getElementById('advisories').innerText"
+    with seated(page, "AAL123") as run:
+        fly(run)
+        page.wait_for(f"{TRAFFIC}.includes('DAL456')")
+        advise(run, "ATC", "Both lose separation.")
+        advise(run, "AAL123", "Bird strike risk.", severity="CAUTION", traffic=["AAL123"])
+        page.wait_for(f"{listed}.includes('Bird strike risk.')")
+        assert "Both lose separation." not in page.evaluate(listed)
+        assert "WARNING" not in page.evaluate(TRAFFIC)
+        advise(run, "AAL123", "Descend now.")
+        page.wait_for(f"{listed}.includes('Descend now.') && {TRAFFIC}.includes('WARNING')")

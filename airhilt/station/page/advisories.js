@@ -32,7 +32,7 @@ export class Advisories {
 
   /** Makes the rows again, because there are new advisories. */
   redraw() {
-    this.#items = this.#run.advisories.map((row) => ({ row, item: this.#item(row) }));
+    this.#items = this.#run.advisories.filter((row) => this.#run.textsOf(row).length).map((row) => ({ row, item: this.#item(row) }));
     this.#list.replaceChildren(...this.#items.map(({ item }) => item));
     if (!this.#items.length) this.#list.append(html("li", { class: "empty" }, `No advisory ${this.#clock.live ? "so far" : "in this run"}.`));
     this.#current = "";
@@ -59,8 +59,8 @@ export class Advisories {
   }
 
   #item(row) {
-    const source = row.equipment ? `${words(row.equipment)}, ` : "", texts = [...new Map(row.texts.map((text) => [text.message, text])).values()];
-    const to = (message) => row.texts.filter((text) => text.message === message).map((text) => text.recipient).join(", ");
+    const source = row.equipment ? `${words(row.equipment)}, ` : "", seen = this.#run.textsOf(row), texts = [...new Map(seen.map((text) => [text.message, text])).values()];
+    const to = (message) => seen.filter((text) => text.message === message).map((text) => text.recipient).join(", ");
     return html("li", {},
       html("div", { class: "row-head" }, timeButton(this.#clock, row.t, seconds(row.t)), row.active ? badge(row.severity) : html("span", { class: "badge" }, "over"), html("span", { class: "dim" }, `${source}${words(row.kind)}`)),
       texts.map((text) => html("div", {}, html("span", { class: "dim" }, `${to(text.message)}: `), text.message, text.recommendation ? html("span", { class: "who" }, ` (${instruction(text.recommendation)})`) : null)),

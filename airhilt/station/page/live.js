@@ -126,7 +126,7 @@ export class Live {
 
   #take(message) {
     const { next, changes, seats, own, refused } = message;
-    if (seats) { this.#panes.seat.setSeats(seats); this.#panes.talk.setSeat(this.#panes.seat.own); }
+    if (seats) this.#takeSeats(seats);
     if (own) this.#panes.seat.take(own);
     if (refused) this.#panes.seat.refuse(refused);
     if (!changes) { this.#panes.talk.take(message); return; }
@@ -151,12 +151,19 @@ export class Live {
     this.#clock.setEnd(this.#run.now ?? 0);
   }
 
+  #takeSeats(seats) {
+    const { seat, talk, advisories } = this.#panes, before = seat.own;
+    seat.setSeats(seats);
+    talk.setSeat(seat.own);
+    if (seat.own !== before) advisories.redraw();
+  }
+
   /** Draws what takes long: not with every message. */
   #drawLists() {
     const { profile, marks, advisories, transport } = this.#panes;
     this.#drawing = null;
     this.#drawn = performance.now();
-    if (this.#undrawn.has("advisory")) advisories.redraw();
+    if (["advisory", "name", "briefing"].some((kind) => this.#undrawn.has(kind))) advisories.redraw();
     if (this.#undrawn.has("call") || this.#undrawn.has("event")) transport.renew();
     this.#undrawn.clear();
     profile.redraw();

@@ -11,6 +11,7 @@ const AHEAD = 1.5; // intervals between reports for which an actor is shown furt
 const FULL_S = 300, OLD_STEP_S = 2; // of a live run, what is older than that is kept in steps of this at least
 const MOST_STATES = 2500; // of an actor of a live run that are kept: its old ones in longer steps the longer it is there
 const MOST_ROWS = { calls: 1000, events: 2000, advisories: 1000, spoken: 200 }; // of a live run that are kept, the newest
+const CONTROLLER = "ATC"; // as recipient of advisories
 export const SEVERITIES = ["INFO", "ADVISORY", "CAUTION", "WARNING"];
 
 /** The track of one actor. */
@@ -127,6 +128,7 @@ function put(rows, row, same) {
 export class Run {
   #callsigns = new Map(); // by the addresses under which actors were known first
   #active = { t: null, rows: [] };
+  #own = null; // the seat of the person at this page
   #actors; // that have had a track so far
 
   constructor(given) {
@@ -203,6 +205,22 @@ export class Run {
   /** The callsign of an actor that an advisory may know by its address alone. */
   callsignOf(name) { return this.#callsigns.get(name) ?? name; }
 
+  /** The seat of the person at this page, which sees the advisories to it alone; null: all are seen. */
+  get own() { return this.#own; }
+
+  set own(seat) {
+    this.#own = seat;
+    this.#active = { t: null, rows: [] };
+  }
+
+  /** Texts of an advisory that are seen here. */
+  textsOf(row) { return this.#own === null ? row.texts : row.texts.filter(({ recipient }) => this.isTo(recipient)); }
+
+  /** True if what is sent to a recipient is for the own seat. */
+  isTo(recipient) {
+    return recipient === this.#own || (recipient === CONTROLLER && this.#own === this.controller) || this.callsignOf(recipient) === this.#own;
+  }
+
   states(t) { return this.tracks.map((track) => ({ track, state: track.state(t, this.span) })); }
 
   /** Highest severity of the advisories that are active for an actor at a time, or null. */
@@ -211,12 +229,12 @@ export class Run {
     return ranks.length ? SEVERITIES[Math.max(...ranks)] : null;
   }
 
-  /** The newest revision of each advisory at a time, where its conflict is not over; found once for each time. */
+  /** The newest revision of each advisory that is seen at a time, where its conflict is not over; found once for each time. */
   activeAdvisories(t) {
     const { advisories } = this, known = this.#active;
     if (known.t === t && known.of === advisories.at(-1) && known.count === advisories.length) return known.rows;
     const newest = new Map();
-    for (const row of advisories) if (row.t <= t) newest.set(`${row.equipment}/${row.id}`, row);
+    for (const row of advisories) if (row.t <= t && this.textsOf(row).length) newest.set(`${row.equipment}/${row.id}`, row);
     this.#active = { t, of: advisories.at(-1), count: advisories.length, rows: [...newest.values()].filter((row) => row.active) };
     return this.#active.rows;
   }

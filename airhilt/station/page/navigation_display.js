@@ -156,7 +156,7 @@ export class NavigationDisplay {
     const below = feet < 0 ? 1 : -1, arrow = state.onGround || Math.abs(state.rate) < CLIMBS_FPM ? "" : state.rate > 0 ? " \u2191" : " \u2193";
     if (!state.onGround) this.#text(`${tag}${arrow}`, px, py + below * 16, ink, 12, "center");
     this.#text(track.callsign, px + 11, py + (state.onGround ? 0 : -below * 3), ink === INK.text ? INK.dim : ink, 11);
-    return `${track.callsign} ${nm.toFixed(1)} NM, ${hundreds * 100} feet ${feet < 0 ? "below" : "above"}`;
+    return `${track.callsign} ${nm.toFixed(1)} NM, ${hundreds * 100} feet ${feet < 0 ? "below" : "above"}${severity >= 2 ? `, ${SEVERITIES[severity]}` : ""}`;
   }
 
   #symbol(x, y, severity, isNear, ink, category) {

@@ -4,8 +4,6 @@ import { badge } from "./advisories.js";
 import { byId, html } from "./dom.js";
 import { capital, instruction, known, percent, seconds, words } from "./words.js";
 
-const CONTROLLER = "ATC";
-
 export class OwnAdvisories {
   #run;
   #tell;
@@ -20,9 +18,9 @@ export class OwnAdvisories {
     this.#warn = warn;
   }
 
-  /** Takes in advisories to a seat, as the run publishes them. */
-  takeAdvisory(own, row) {
-    const texts = row.texts.filter(({ recipient }) => this.#isFor(own, recipient));
+  /** Takes in an advisory, as the run publishes it. */
+  takeAdvisory(row) {
+    const texts = this.#run.textsOf(row);
     if (!texts.length) return;
     const name = `${row.equipment}/${row.id}`;
     if (row.active) this.#shown.set(name, { row, text: texts.at(-1) }); else this.#shown.delete(name);
@@ -33,9 +31,9 @@ export class OwnAdvisories {
     if (row.equipment) this.#sound(row, recipient, null);
   }
 
-  /** Takes in that the assistant speaks an advisory. */
-  takeSpoken(own, { id, revision, recipient, sound }) {
-    if (!this.#isFor(own, recipient)) return;
+  /** Takes in that the assistant speaks an advisory to somebody. */
+  takeSpoken({ id, revision, recipient, sound }) {
+    if (!this.#run.isTo(recipient)) return;
     const row = this.#run.advisories.find((one) => one.id === id && one.revision === revision && !one.equipment);
     this.#sound(row ?? { id, revision, severity: "CAUTION" }, recipient, sound ? `api/calls/${encodeURIComponent(sound)}.wav` : null);
   }
@@ -55,10 +53,6 @@ export class OwnAdvisories {
     if (equipment || this.#told.has(name)) return;
     this.#told.add(name);
     this.#tell({ id, revision, recipient, way, after_s: after });
-  }
-
-  #isFor(own, recipient) {
-    return recipient === own || (recipient === CONTROLLER && own === this.#run.controller) || this.#run.callsignOf(recipient) === own;
   }
 
   #draw() {

@@ -38,6 +38,7 @@ export class Seat {
     const before = this.#own;
     this.#own = Object.keys(seats).find((name) => seats[name] === "yours") ?? null;
     const isLost = before && !this.#own && !this.#isLeaving;
+    this.#run.own = this.#own;
     byId("seat-take").textContent = this.#own ? "Leave the seat" : "Take the seat";
     byId("seat-name").disabled = Boolean(this.#own);
     if (this.#own) byId("seat-name").value = this.#own;

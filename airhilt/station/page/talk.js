@@ -72,7 +72,7 @@ export class Talk {
   }
 
   #takeActive() {
-    for (const row of this.#run.activeAdvisories(this.#run.now ?? 0)) this.#advisories.takeAdvisory(this.#own, row);
+    for (const row of this.#run.activeAdvisories(this.#run.now ?? 0)) this.#advisories.takeAdvisory(row);
   }
 
   /** Takes in a message of the server. */
@@ -82,8 +82,8 @@ export class Talk {
     if (changes?.some(([kind]) => kind === "clock")) this.#pace.draw();
     for (const [kind, row] of this.#own ? changes ?? [] : []) {
       if (kind === "name") this.#takeActive(); // An advisory knew the aircraft by its address alone.
-      if (kind === "advisory") this.#advisories.takeAdvisory(this.#own, row);
-      if (kind === "spoken") this.#advisories.takeSpoken(this.#own, row);
+      if (kind === "advisory") this.#advisories.takeAdvisory(row);
+      if (kind === "spoken") this.#advisories.takeSpoken(row);
     }
     for (const [kind, ...rest] of own ?? []) {
       if (kind === "info") this.#prepare(rest[0]);
