@@ -35,6 +35,22 @@ ADVISORY = {
         "tracks": [], "inconsistencies": [],
     },
 }  # fmt: skip
+BANDS = """(() => {
+    const pfd = document.getElementById('pfd'), height = pfd.height - 80;
+    const copy = Object.assign(document.createElement('canvas'), { width: 14, height });
+    const pen = copy.getContext('2d', { willReadFrequently: true });
+    pen.drawImage(pfd, 40 - pfd.width, -30);
+    const data = pen.getImageData(0, 0, 14, height).data;
+    const seen = { red: [false, false], green: [false, false] };
+    for (let i = 0; i < data.length; i += 4) {
+        const isBelow = Number(i > data.length / 2), [red, green, blue] = data.slice(i, i + 3);
+        if (red > 190 && green < 70 && blue < 60) seen.red[isBelow] = true;
+        if (green > 170 && red < 60 && blue < 110) seen.green[isBelow] = true;
+    }
+    return [...seen.red, ...seen.green];
+})()"""
+"""Red above and below the middle of the vertical speed indicator, and green above and below it."""
+INSTRUMENT = "document.getElementById('pfd').ariaLabel"
 TRAFFIC = "document.getElementById('nd').ariaLabel"
 
 
@@ -108,7 +124,11 @@ def test_the_list_of_keys_has_those_that_act_at_the_seat(page: Page) -> None:
         page.press("?", 191)
         listed = page.evaluate(KEYS)
         assert "hold to talk" in listed
-        assert not {"cockpit: go around", "brake, hold position", "1 s back"} & set(listed)
+        assert not {
+            "cockpit: go around",
+            "brake, hold position, reject take-off",
+            "1 s back",
+        } & set(listed)
 
 
 def test_enter_ticks_a_box_where_the_space_bar_is_to_talk(page: Page) -> None:
@@ -133,3 +153,53 @@ def test_a_pilot_is_shown_no_advisory_to_somebody_else(page: Page) -> None:
         assert "WARNING" not in page.evaluate(TRAFFIC)
         advise(run, "AAL123", "Descend now.")
         page.wait_for(f"{listed}.includes('Descend now.') && {TRAFFIC}.includes('WARNING')")
+
+
+def test_a_pilot_sees_on_the_instruments_what_tcas_advises(page: Page) -> None:
+    descend = {
+        "action": "altitude", "sense": "descend", "altitude_ft": 34_000.0,
+        "vertical_rate_fpm": 1_500.0, "turn_deg": 0.0,
+    }  # fmt: skip
+    with seated(page, "AAL123") as run:
+        fly(run)
+        tcas(run, 0, "traffic, traffic", "CAUTION")
+        page.wait_for(f"{INSTRUMENT}.includes('TCAS: traffic')")
+        assert page.evaluate(BANDS) == [False, False, False, False]
+        tcas(run, 1, "descend, descend", "WARNING", descend)
+        page.wait_for(f"{INSTRUMENT}.includes('TCAS: descend, fly −2,000 to −1,500 feet')")
+        page.wait_for(f"JSON.stringify({BANDS}) === '[true,true,false,true]'")
+        assert "WARNING" in page.evaluate(TRAFFIC)
+        tcas(run, 2, "clear of conflict", "INFO", active=False)
+        page.wait_for(f"{INSTRUMENT}.includes('clear of conflict')")
+        page.wait_for(f"JSON.stringify({BANDS}) === '[false,false,false,false]'")
+
+
+def tcas(
+    run: PretendedRun, revision: int, note: str, severity: str, advised: Any = None,
+    *, active: bool = True,
+) -> None:  # fmt: skip
+    """Let TCAS of the own aircraft tell something of the other one."""
+    text = {"recipient": "AAL123", "message": note, "recommendation": advised}
+    evidence = ADVISORY["evidence"] | {"sources": ["tcas"], "note": note}
+    row = {"equipment": "tcas", "id": "t", "revision": revision, "severity": severity}
+    row |= {"active": active, "texts": [text], "evidence": evidence}
+    run.changes.add("advisory", ADVISORY | row)
+
+
+@pytest.mark.parametrize(
+    ("mode", "button", "actions"),
+    [
+        ("takeoff_roll", "Reject take-off", ["cancel_takeoff"]),
+        ("glide", "Go around", ["hold_position", "go_around"]),
+    ],
+)
+def test_a_pilot_may_reject_a_take_off_on_the_roll_and_go_around_elsewhere(
+    page: Page, mode: str, button: str, actions: list[str]
+) -> None:
+    offered = "[...document.querySelectorAll('#panel-actions button:not([hidden])')][0]"
+    with seated(page, "AAL123") as run:
+        run.seat.add("cockpit", INSTRUMENTS | {"mode": mode, "on_ground": mode != "glide"})
+        page.wait_for(f"{offered}.textContent === '{button}'")
+        page.press("b", 66)
+        page.press("g", 71)
+        assert commands(run, page) == actions

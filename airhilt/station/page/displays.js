@@ -6,9 +6,11 @@ import { ModePanel } from "./mode_panel.js";
 import { NavigationDisplay } from "./navigation_display.js";
 import { PrimaryFlightDisplay } from "./primary_flight_display.js";
 import { Strips } from "./strips.js";
+import { spoken, tcasOf } from "./tcas.js";
 
 export class Displays {
   #run;
+  #clock;
   #seat = null;
   #arranged = undefined;
   #instruments = new Instruments();
@@ -21,6 +23,7 @@ export class Displays {
   /** `send(command)` gives a command to the own aircraft; `tell(text)` says what came of it. */
   constructor(run, clock, cameras, send, tell) {
     this.#run = run;
+    this.#clock = clock;
     this.#cameras = cameras;
     this.#nd = new NavigationDisplay(run, clock);
     this.#strips = new Strips(run, clock);
@@ -40,7 +43,7 @@ export class Displays {
       { names: ["r"], shown: ["R"], text: "cockpit: longer range", act: () => nd.step(1) },
       { names: ["e"], shown: ["E"], text: "cockpit: shorter range", act: () => nd.step(-1) },
     ].map((key) => ({ ...key, isUsed: at("pilot") }));
-    const brake = { names: ["b"], shown: ["B"], text: "brake, hold position", act: () => panel.brake() };
+    const brake = { names: ["b"], shown: ["B"], text: "brake, hold position, reject take-off", act: () => panel.brake() };
     return [...inCockpit, { ...brake, isUsed: at("pilot", "driver") }];
   }
 
@@ -67,15 +70,22 @@ export class Displays {
   hearOnly(heard) { this.#strips.hearOnly(heard); }
 
   /** Takes in what the instruments show. */
-  take(shown) { this.#instruments.take(shown); }
+  take(shown) {
+    this.#instruments.take(shown);
+    this.#panel.setMode(shown.mode);
+  }
+
+  #drawCockpit(shown) {
+    const told = tcasOf(this.#run, this.#clock.t), label = ["Primary flight display", spoken(told)].filter((text) => text).join(", ");
+    this.#pfd.draw(shown, told);
+    this.#nd.draw(this.#seat, shown, told);
+    if (byId("pfd").ariaLabel !== label) byId("pfd").ariaLabel = label;
+  }
 
   #draw() {
     if (this.#arranged !== this.#run.categories) this.#arrange();
     const shown = this.#instruments.now(), { seat } = document.body.dataset;
-    if (seat === "pilot") {
-      this.#pfd.draw(shown);
-      this.#nd.draw(this.#seat, shown);
-    }
+    if (seat === "pilot") this.#drawCockpit(shown);
     if (seat === "controller") this.#strips.draw();
     requestAnimationFrame(() => this.#draw());
   }

@@ -8,6 +8,7 @@ const FIELDS = [
   { id: "altitude", name: "Altitude", unit: "ft", least: 0, most: 60_000, command: (value) => ({ action: "altitude", altitude_ft: value }) },
 ];
 const OF_RUNWAYS = [["Line up", "line_up"], ["Take off", "take_off"], ["Approach", "land"]];
+const URGENT = [["Go around", "go_around"], ["Reject take-off", "cancel_takeoff"]]; // one of them is shown
 const AT_ONCE = [["Hold position", "hold_position"], ["Continue", "continue"], ["Own route", "resume_route"]];
 const NAMES_IN_VEHICLE = { hold_position: "Brake, hold position", continue: "Drive on" };
 const OF_VEHICLES = ["hold_position", "continue"];
@@ -15,6 +16,7 @@ const OF_VEHICLES = ["hold_position", "continue"];
 export class ModePanel {
   #send;
   #tell;
+  #isVehicle = false;
 
   /** `send(command)` gives a command to the own aircraft; `tell(text)` says what came of it. */
   constructor(send, tell) {
@@ -23,9 +25,8 @@ export class ModePanel {
     byId("panel-values").replaceChildren(...FIELDS.map((field) => this.#field(field)));
     const runway = html("select", { id: "panel-runway", "aria-label": "Runway" });
     byId("panel-runways").replaceChildren(runway, ...OF_RUNWAYS.map(([name, action]) => this.#button(name, () => this.#atRunway(name, action))));
-    const around = this.#button("Go around", () => this.#give("Go around", { action: "go_around" }));
-    around.id = "panel-go-around";
-    byId("panel-actions").replaceChildren(around, ...AT_ONCE.map(([name, action]) => { const button = this.#button(name, () => this.#give(name, { action })); button.dataset.action = action; return button; }));
+    const actions = [...URGENT, ...AT_ONCE].map(([name, action]) => this.#atOnce(name, action));
+    byId("panel-actions").replaceChildren(...actions);
   }
 
   /** Offers what an aircraft or a vehicle can do, and the runways of the airport. */
@@ -34,20 +35,35 @@ export class ModePanel {
     byId("panel-title").textContent = isVehicle ? "Vehicle" : "Mode panel";
     byId("panel-values").hidden = isVehicle;
     byId("panel-runways").hidden = isVehicle || !idents.length;
-    for (const button of byId("panel-actions").children) {
-      button.hidden = isVehicle && !OF_VEHICLES.includes(button.dataset.action);
-      if (button.dataset.action in NAMES_IN_VEHICLE) button.textContent = isVehicle ? NAMES_IN_VEHICLE[button.dataset.action] : AT_ONCE.find(([, action]) => action === button.dataset.action)[0];
+    this.#isVehicle = isVehicle;
+    for (const [name, action] of AT_ONCE) {
+      this.#action(action).hidden = isVehicle && !OF_VEHICLES.includes(action);
+      this.#action(action).textContent = (isVehicle && NAMES_IN_VEHICLE[action]) || name;
     }
+    this.setMode("");
     const select = byId("panel-runway"), chosen = select.value;
     if (select.options.length !== idents.length) select.replaceChildren(...idents.map((ident) => html("option", { value: ident, selected: ident === chosen }, ident)));
+  }
+
+  /** Takes in what autopilot and guidance do: a take-off is rejected where there is no approach to break off. */
+  setMode(mode) {
+    const isRolling = mode === "takeoff_roll";
+    this.#action("go_around").hidden = this.#isVehicle || isRolling;
+    this.#action("cancel_takeoff").hidden = this.#isVehicle || !isRolling;
   }
 
   /** Puts the cursor into the field of speed, track or altitude. */
   focus(id) { byId(`panel-${id}`).select(); }
 
-  brake() { byId("panel-actions").querySelector("[data-action=hold_position]").click(); }
+  /** Rejects a take-off, or stops elsewhere on the ground. */
+  brake() { this.#press(this.#action("cancel_takeoff").hidden ? "hold_position" : "cancel_takeoff"); }
 
-  goAround() { byId("panel-go-around").click(); }
+  goAround() { this.#press("go_around"); }
+
+  #action(name) { return byId(`panel-${name.replaceAll("_", "-")}`); }
+
+  /** Presses a button, if it is shown. */
+  #press(name) { if (!this.#action(name).hidden) this.#action(name).click(); }
 
   #give(text, command) {
     this.#send(command);
@@ -57,6 +73,12 @@ export class ModePanel {
   #button(name, act) {
     const button = html("button", { type: "button" }, name);
     button.addEventListener("click", act);
+    return button;
+  }
+
+  #atOnce(name, action) {
+    const button = this.#button(name, () => this.#give(button.textContent, { action }));
+    button.id = `panel-${action.replaceAll("_", "-")}`;
     return button;
   }
 

@@ -34,8 +34,8 @@ export class NavigationDisplay {
     if (next) this.#range.value = next;
   }
 
-  /** Draws the surroundings of the own aircraft; `shown` is what its instruments show, or null. */
-  draw(callsign, shown) {
+  /** Draws the surroundings of the own aircraft; `shown` is what its instruments show, `tcas` what TCAS tells, or null. */
+  draw(callsign, shown, tcas) {
     if (!this.#size) return;
     const { pen, width, height } = this.#size, track = this.#run.track(callsign);
     pen.fillStyle = INK.black;
@@ -50,6 +50,8 @@ export class NavigationDisplay {
     this.#ownship(x, y);
     this.#text(`GS ${whole(shown.ground_speed_kt)}`, 8, 14, INK.text);
     this.#text(`ALT ${whole(shown.altitude_ft)}`, 8, 32, INK.text);
+    if (tcas?.severity === "CAUTION") this.#text("TRAFFIC", 8, 52, INK.caution, 15);
+    if (tcas?.severity === "WARNING") this.#text("RESOLUTION ADVISORY", 8, 52, INK.warning, 13);
     this.#canvas.setAttribute("aria-label", `Navigation display, traffic: ${seen.join(", ") || "none within range"}`);
   }
 

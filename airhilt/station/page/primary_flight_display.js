@@ -5,7 +5,7 @@ import { bearing, whole } from "./words.js";
 
 const FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
 // Colours of the instrument, the same in a light and in a dark page (FAA AC 25-11B, 31.c).
-export const INK = { sky: "#1d6fb8", ground: "#80501f", tape: "#20262d", text: "#ffffff", dim: "#b9c2cb", selected: "#ff7df2", mode: "#5fe08a", black: "#000000", caution: "#ffc400", warning: "#ff5b52", own: "#ffd84d" };
+export const INK = { sky: "#1d6fb8", ground: "#80501f", tape: "#20262d", text: "#ffffff", dim: "#b9c2cb", selected: "#ff7df2", mode: "#5fe08a", black: "#000000", caution: "#ffc400", warning: "#ff5b52", own: "#ffd84d", fly: "#12c94a", avoid: "#e0261b" };
 const HEAD = 26, FOOT = 44, SPEED = 66, ALTITUDE = 74, CLIMB = 40;
 const KNOTS_A_TAPE = 80, FEET_A_TAPE = 800, DEGREES_A_HEIGHT = 44, DEGREES_A_WIDTH = 60;
 
@@ -16,14 +16,16 @@ export class PrimaryFlightDisplay {
   #canvas = byId("pfd");
   #size = null;
   #shown = null;
+  #tcas = null;
 
   constructor() {
-    onSize(this.#canvas, (pen, width, height) => { this.#size = { pen, width, height }; this.draw(this.#shown); });
+    onSize(this.#canvas, (pen, width, height) => { this.#size = { pen, width, height }; this.draw(this.#shown, this.#tcas); });
   }
 
-  /** Draws what the instruments show; null: nothing is known. */
-  draw(shown) {
+  /** Draws what the instruments show, and what TCAS tells; null: nothing is known, nothing is told. */
+  draw(shown, tcas) {
     this.#shown = shown;
+    this.#tcas = tcas;
     if (!this.#size) return;
     const { pen, width, height } = this.#size;
     pen.fillStyle = INK.black;
@@ -36,6 +38,20 @@ export class PrimaryFlightDisplay {
     this.#climb(shown, box);
     this.#heading(shown, box);
     this.#mode(shown);
+    if (tcas) this.#advisory(tcas, box);
+  }
+
+  /** The words of TCAS, below the horizon. */
+  #advisory({ words, severity }, { left, right, top, bottom }) {
+    const { pen } = this.#size, x = (left + right) / 2, y = top + (bottom - top) * 0.72, ink = { WARNING: INK.warning, CAUTION: INK.caution }[severity] ?? INK.mode;
+    pen.font = `600 17px ${FONT}`;
+    const wide = pen.measureText(words).width + 20;
+    pen.fillStyle = INK.black;
+    pen.strokeStyle = ink;
+    pen.lineWidth = 2;
+    pen.fillRect(x - wide / 2, y - 15, wide, 30);
+    pen.strokeRect(x - wide / 2, y - 15, wide, 30);
+    this.#text(words, x, y + 1, ink, 17, "center");
   }
 
   #text(text, x, y, ink, size = 13, align = "left") {
@@ -170,6 +186,12 @@ export class PrimaryFlightDisplay {
     const left = right + ALTITUDE + 3, middle = (top + bottom) / 2, half = (bottom - top) / 2 - 40, { pen } = this.#size;
     pen.fillStyle = INK.tape;
     pen.fillRect(left, middle - half - 14, CLIMB - 6, 2 * half + 28);
+    for (const [band, ink] of [[this.#tcas?.red, INK.avoid], [this.#tcas?.green, INK.fly]]) {
+      if (!band) continue;
+      const [low, high] = band.map((fpm) => middle - climbScale(fpm) * half);
+      pen.fillStyle = ink;
+      pen.fillRect(left, high, 7, low - high);
+    }
     for (const fpm of [500, 1000, 2000, 4000]) {
       for (const side of [-1, 1]) {
         const y = middle - side * climbScale(fpm) * half;
