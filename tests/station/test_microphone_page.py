@@ -18,6 +18,7 @@ from airhilt.station import browsers
 from airhilt.station.held_button import AHEAD_S, LARGEST_PIECE_BYTES, HeldButton
 from microphone import (
     BUTTON,
+    FAKE,
     microphone_file,
     open_microphone,
     page_with_microphone,
@@ -43,6 +44,18 @@ SPOKEN = {
     "id": "a-1", "revision": 1, "recipient": "ATC", "from": 1.0, "to": 2.0, "text": "",
     "sound": "a-1-1-ATC",
 }  # fmt: skip
+GRANTED = """(() => {
+    const devices = navigator.mediaDevices, ask = devices.getUserMedia.bind(devices);
+    const tracks = [], grant = new Promise((done) => { window.grant = done; });
+    devices.getUserMedia = async (wanted) => {
+        await grant;
+        const stream = await ask(wanted);
+        tracks.push(...stream.getTracks());
+        return stream;
+    };
+    Object.defineProperty(window, 'granted', { get: () => tracks.map((one) => one.readyState) });
+})()"""
+"""Lets the microphone be granted once `grant` is called; `granted` has the states of its tracks."""
 WORDS = "American one two three, cleared to land"
 
 
@@ -158,6 +171,27 @@ def test_what_is_no_sound_is_refused_in_words(seat: tuple[PretendedRun, str], so
             while socket.recv(timeout=60.0):
                 pass
         assert "expected" in (socket.close_reason or "")
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("is_late", [False, True], ids=["open", "being opened"])
+def test_who_leaves_the_seat_has_no_open_microphone(
+    seat: tuple[PretendedRun, str], is_late: bool
+) -> None:
+    _, url = seat
+    with page_with_microphone(*FAKE) as page:
+        sit_down(page, url)
+        page.evaluate(GRANTED)
+        if is_late:
+            page.click("talk-button")
+            page.click("consent-open")
+        else:
+            page.evaluate("window.grant()")
+            open_microphone(page)
+        page.click("seat-take")
+        page.wait_for("document.getElementById('talk').hidden")
+        page.evaluate("window.grant()")
+        page.wait_for("window.granted.length && window.granted.every((one) => one !== 'live')")
 
 
 def test_who_leaves_the_page_while_talking_is_released(seat: tuple[PretendedRun, str]) -> None:

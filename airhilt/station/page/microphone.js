@@ -9,6 +9,7 @@ const WHY = {
   NotFoundError: "There is no microphone. Type what you want to say.",
   NotReadableError: "Another program has the microphone. Type what you want to say.",
 };
+const AUDIO = { channelCount: 1, echoCancellation: false, noiseSuppression: false, autoGainControl: true };
 const CONSENT = "What you say while you hold the button goes to this run. It is recognised, and everybody in the run hears it.";
 const RECORDED = "It is recorded in the folder of the run, as sound and as text.";
 const NOT_RECORDED = "Its sound is not recorded. The words are, as they were recognised.";
@@ -17,8 +18,9 @@ export class Microphone {
   #link;
   #info = null;
   #node = null;
+  #stream = null;
+  #isOpening = false;
   #held = false;
-  #delay = 0;
 
   /** `link` has send(wish), sendSound(buffer), unsent(), isThere(), frequency(), and delay(event), the time since an event in s. */
   constructor(link) {
@@ -87,23 +89,29 @@ export class Microphone {
   }
 
   async #open() {
+    if (this.#isOpening) return;
+    this.#isOpening = true;
     this.#tell("Opening the microphone.");
     try {
-      if (!navigator.mediaDevices) throw new DOMException("not secure", "SecurityError");
-      const stream = await navigator.mediaDevices.getUserMedia({ audio: { channelCount: 1, echoCancellation: false, noiseSuppression: false, autoGainControl: true } });
-      const { context, source } = connected(stream);
-      await context.audioWorklet.addModule("page/microphone-worklet.js");
-      await context.resume();
-      const node = new AudioWorkletNode(context, "microphone", { numberOfOutputs: 0, channelCount: 1, channelCountMode: "explicit" });
-      node.port.onmessage = ({ data }) => this.#take(data);
-      source.connect(node);
-      stream.getTracks()[0].addEventListener("ended", () => { this.#close(); this.#tell("The microphone is gone. Type what you want to say."); });
-      this.#node = node;
+      await this.#connect();
       this.#tell("");
     } catch (error) {
       this.#tell(WHY[error.name] ?? `The microphone cannot be opened: ${error.message}. Type what you want to say.`);
     }
+    this.#isOpening = false;
     this.#draw();
+  }
+
+  async #connect() {
+    if (!navigator.mediaDevices) throw new DOMException("not secure", "SecurityError");
+    const stream = await navigator.mediaDevices.getUserMedia({ audio: AUDIO });
+    const { context, source } = connected(stream), node = await listening(context);
+    if (!this.#info) { end(stream, context); return; } // The seat was left meanwhile.
+    node.port.onmessage = ({ data }) => this.#take(data);
+    source.connect(node);
+    stream.getTracks()[0].addEventListener("ended", () => { this.#close(); this.#tell("The microphone is gone. Type what you want to say."); });
+    this.#node = node;
+    this.#stream = stream;
   }
 
   #take({ pcm, level, isOver }) {
@@ -115,9 +123,8 @@ export class Microphone {
 
   #close() {
     this.release();
-    const context = this.#node?.context;
-    this.#node = null;
-    context?.close();
+    if (this.#node) end(this.#stream, this.#node.context);
+    this.#node = this.#stream = null;
     byId("talk-level").value = 0;
     this.#draw();
   }
@@ -142,4 +149,17 @@ function connected(stream) {
     const other = new AudioContext({ latencyHint: "interactive" });
     return { context: other, source: other.createMediaStreamSource(stream) };
   }
+}
+
+/** Returns the node that gives out what the microphone hears. */
+async function listening(context) {
+  await context.audioWorklet.addModule("page/microphone-worklet.js");
+  await context.resume();
+  return new AudioWorkletNode(context, "microphone", { numberOfOutputs: 0, channelCount: 1, channelCountMode: "explicit" });
+}
+
+/** Ends a microphone, so that the browser does not show it as open any more. */
+function end(stream, context) {
+  for (const track of stream.getTracks()) track.stop();
+  context.close();
 }
