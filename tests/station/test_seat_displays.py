@@ -203,3 +203,41 @@ def test_a_pilot_may_reject_a_take_off_on_the_roll_and_go_around_elsewhere(
         page.press("b", 66)
         page.press("g", 71)
         assert commands(run, page) == actions
+
+
+CALL = {
+    "id": "c-1", "from": 0.2, "to": 0.8, "frequency_khz": 119_100, "snr_db": None,
+    "speaker": None, "addressed": None, "said": None, "blocked_by": [], "transcripts": [],
+    "hearings": [], "has_sound": False,
+}  # fmt: skip
+CARD = {
+    "line": "l-1", "seat": "AAL123", "t": 0.5, "addressed": "TOWER", "text": "American 123.",
+    "done": False,
+}  # fmt: skip
+
+
+def test_a_task_card_stays_where_it_is_while_the_instruments_move(page: Page) -> None:
+    with seated(page, "AAL123") as run:
+        run.seat.add("task", CARD)
+        page.wait_for("window.card = document.querySelector('#tasks button')")
+        page.evaluate("window.card.focus()")
+        run.seat.add("cockpit", INSTRUMENTS | {"altitude_ft": 34_000})
+        page.wait_for("document.getElementById('instruments').textContent.includes('34,000')")
+        assert page.evaluate("document.activeElement === window.card")
+
+
+def test_a_list_keeps_the_focus_and_open_evidence_when_something_new_comes(page: Page) -> None:
+    listed = "document.getElementById('advisories').innerText"
+    with seated(page, "TOWER") as run:
+        advise(run, "ATC", "Both lose separation.")
+        page.wait_for("document.querySelector('#advisories summary')")
+        page.evaluate("document.querySelector('#advisories summary').click()")
+        run.changes.add("call", CALL)
+        page.wait_for("document.querySelector('#calls button')")
+        page.evaluate("document.querySelector('#calls button').focus()")
+        advise(run, "ATC", "Runway occupied.")
+        run.changes.add("call", CALL | {"said": "Tower, hello."})
+        page.wait_for(f"{listed}.includes('Runway occupied.')")
+        page.wait_for("document.getElementById('calls').innerText.includes('Tower, hello.')")
+        assert page.evaluate("document.activeElement.closest('#calls') !== null")
+        assert page.evaluate("document.querySelector('#advisories details').open")

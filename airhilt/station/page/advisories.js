@@ -1,12 +1,13 @@
 // The advisories of the assistant, each with what it rests on.
 
 import { byId, html, svg, timeButton } from "./dom.js";
-import { keepInView } from "./rows.js";
+import { Rows, keepInView } from "./rows.js";
 import { capital, instruction, known, percent, seconds, words } from "./words.js";
 
 const SHAPES = {
   INFO: "M8 2a6 6 0 1 0 .01 0M8 7v4M8 4.6v.6", ADVISORY: "M8 1.5L14.5 8 8 14.5 1.5 8z", CAUTION: "M8 2L15 14H1z", WARNING: "M5 1.5h6L14.5 5v6L11 14.5H5L1.5 11V5z",
 };
+const MOST_LIVE = 200; // of a live run that are listed, the newest
 const FILLED = ["CAUTION", "WARNING"];
 
 /** The severity of an advisory, by shape, text and colour. */
@@ -15,6 +16,7 @@ export const badge = (severity) => html("span", { class: `badge ${severity} ${FI
 
 export class Advisories {
   #list = byId("advisories");
+  #rows = new Rows(this.#list);
   #run;
   #clock;
   #links;
@@ -30,12 +32,13 @@ export class Advisories {
     this.redraw();
   }
 
-  /** Makes the rows again, because there are new advisories. */
+  /** Shows the advisories again, because there are new ones. */
   redraw() {
-    this.#items = this.#run.advisories.filter((row) => this.#run.textsOf(row).length).map((row) => ({ row, item: this.#item(row) }));
-    this.#list.replaceChildren(...this.#items.map(({ item }) => item));
-    if (!this.#items.length) this.#list.append(html("li", { class: "empty" }, `No advisory ${this.#clock.live ? "so far" : "in this run"}.`));
-    this.#current = "";
+    const rows = this.#run.advisories.filter((row) => this.#run.textsOf(row).length).slice(this.#clock.live ? -MOST_LIVE : 0);
+    const shown = rows.map((row) => ({ ...row, texts: this.#run.textsOf(row) })), name = (row) => `${row.equipment}/${row.id}/${row.revision}`;
+    const items = this.#rows.show(shown, name, (row) => this.#item(row), `No advisory ${this.#clock.live ? "so far" : "in this run"}.`);
+    this.#items = rows.map((row, i) => ({ row, item: items[i] }));
+    this.#current = null;
     this.draw();
   }
 
@@ -59,8 +62,8 @@ export class Advisories {
   }
 
   #item(row) {
-    const source = row.equipment ? `${words(row.equipment)}, ` : "", seen = this.#run.textsOf(row), texts = [...new Map(seen.map((text) => [text.message, text])).values()];
-    const to = (message) => seen.filter((text) => text.message === message).map((text) => text.recipient).join(", ");
+    const source = row.equipment ? `${words(row.equipment)}, ` : "", texts = [...new Map(row.texts.map((text) => [text.message, text])).values()];
+    const to = (message) => row.texts.filter((text) => text.message === message).map((text) => text.recipient).join(", ");
     return html("li", {},
       html("div", { class: "row-head" }, timeButton(this.#clock, row.t, seconds(row.t)), row.active ? badge(row.severity) : html("span", { class: "badge" }, "over"), html("span", { class: "dim" }, `${source}${words(row.kind)}`)),
       texts.map((text) => html("div", {}, html("span", { class: "dim" }, `${to(text.message)}: `), text.message, text.recommendation ? html("span", { class: "who" }, ` (${instruction(text.recommendation)})`) : null)),

@@ -2,6 +2,7 @@
 
 import { badge } from "./advisories.js";
 import { byId, html } from "./dom.js";
+import { Rows } from "./rows.js";
 import { capital, instruction, known, percent, seconds, words } from "./words.js";
 
 export class OwnAdvisories {
@@ -10,6 +11,7 @@ export class OwnAdvisories {
   #warn;
   #shown = new Map(); // the newest text of each advisory in force
   #told = new Set();
+  #rows = new Rows(byId("own-advisories"));
 
   /** `tell(perceived)` reports to the run; `warn(severity, url)` sounds, and returns when it is audible, in s. */
   constructor(run, tell, warn) {
@@ -57,13 +59,15 @@ export class OwnAdvisories {
 
   #draw() {
     byId("own-advisories").hidden = !this.#shown.size;
-    byId("own-advisories").replaceChildren(...[...this.#shown.values()].map(({ row, text }) => html("div", { class: `own-advisory ${row.severity}-fill` },
-      html("div", { class: "row-head" }, badge(row.severity), html("span", { class: "dim" }, seconds(row.t))),
-      html("div", { class: "own-text" }, text.message),
-      text.recommendation ? html("div", { class: "who" }, capital(instruction(text.recommendation))) : null,
-      html("div", { class: "dim" }, restsOn(row.evidence)))));
+    this.#rows.show([...this.#shown.values()], ({ row }) => `${row.equipment}/${row.id}`, inWords);
   }
 }
+
+const inWords = ({ row, text }) => html("div", { class: `own-advisory ${row.severity}-fill` },
+  html("div", { class: "row-head" }, badge(row.severity), html("span", { class: "dim" }, seconds(row.t))),
+  html("div", { class: "own-text" }, text.message),
+  text.recommendation ? html("div", { class: "who" }, capital(instruction(text.recommendation))) : null,
+  html("div", { class: "dim" }, restsOn(row.evidence)));
 
 function restsOn({ sources, shares, time_to_go_s: toGo, note }) {
   const basis = sources.map((name) => (known(shares[name]) ? `${words(name)} ${percent(shares[name])}` : words(name))).join(", ");

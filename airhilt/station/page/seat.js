@@ -2,6 +2,7 @@
 
 import { Displays } from "./displays.js";
 import { byId, html } from "./dom.js";
+import { Rows } from "./rows.js";
 import { bearing, feet, known, percent, seconds, whole, words } from "./words.js";
 
 export class Seat {
@@ -10,6 +11,7 @@ export class Seat {
   #own = null;
   #isLeaving = false; // somebody has asked for that
   #tasks = [];
+  #rows = new Rows(byId("tasks"));
   #displays;
   #clock;
 
@@ -89,13 +91,14 @@ export class Seat {
   }
 
   #drawTasks() {
-    const own = this.#tasks.filter((card) => card.seat === this.#own);
-    byId("tasks").replaceChildren(...own.map((card) => {
-      const button = html("button", { type: "button" }, card.text);
-      button.addEventListener("click", () => { byId("words").value = card.text; byId("words").focus(); });
-      return html("li", {}, html("span", { class: "dim" }, `Due since ${seconds(card.t)}${card.addressed ? `, to ${card.addressed}` : ""}: `), button);
-    }));
+    this.#rows.show(this.#tasks.filter((card) => card.seat === this.#own), (card) => card.line, (card) => this.#row(card));
     if (!this.#own) byId("instruments").hidden = true;
+  }
+
+  #row(card) {
+    const button = html("button", { type: "button" }, card.text);
+    button.addEventListener("click", () => { byId("words").value = card.text; byId("words").focus(); });
+    return html("li", {}, html("span", { class: "dim" }, `Due since ${seconds(card.t)}${card.addressed ? `, to ${card.addressed}` : ""}: `), button);
   }
 
   #say() {

@@ -1,7 +1,7 @@
 // The calls on the radio: what was said, what was recognised with which confidence, who understood it.
 
 import { byId, html, timeButton } from "./dom.js";
-import { keepInView } from "./rows.js";
+import { Rows, keepInView } from "./rows.js";
 import { capital, decibels, fixed, known, megahertz, percent, seconds, words } from "./words.js";
 
 /** Confidence below which a word is marked: the paper's tau_ASR. */
@@ -10,6 +10,7 @@ const MOST_LIVE = 200; // calls of a live run that are listed, the newest
 
 export class Transcript {
   #list = byId("calls");
+  #rows = new Rows(this.#list);
   #run;
   #clock;
   #items = [];
@@ -25,14 +26,14 @@ export class Transcript {
   /** Shows only the calls on the frequencies in kHz that a function returns; null: all. */
   hearOnly(tuned) { this.#tuned = tuned; }
 
-  /** Makes the rows again, because there are new calls. */
+  /** Shows the calls again, because there are new ones. */
   redraw() {
     const heard = this.#tuned(), calls = this.#run.calls.filter((call) => !heard || heard.includes(call.frequency_khz)).slice(this.#clock.live ? -MOST_LIVE : 0);
     const several = new Set(calls.map((call) => call.frequency_khz)).size > 1;
-    this.#items = calls.map((call) => ({ call, item: this.#item(call, several) }));
-    this.#list.replaceChildren(...this.#items.map(({ item }) => item));
-    if (!this.#items.length) this.#list.append(html("li", { class: "empty" }, this.#clock.live ? "Nobody has said anything so far." : "Nobody says anything in this run."));
-    this.#current = "";
+    const empty = this.#clock.live ? "Nobody has said anything so far." : "Nobody says anything in this run.";
+    const shown = calls.map((call) => ({ call, several })), items = this.#rows.show(shown, ({ call }) => call.id, (one) => this.#item(one), empty);
+    this.#items = calls.map((call, i) => ({ call, item: items[i] }));
+    this.#current = null;
     this.draw();
   }
 
@@ -52,7 +53,7 @@ export class Transcript {
     if (found) this.#clock.set(found.from);
   }
 
-  #item(call, several) {
+  #item({ call, several }) {
     const who = call.speaker ?? call.transcripts.find((one) => one.speaker)?.speaker ?? "somebody";
     const facts = [several ? megahertz(call.frequency_khz) : null, known(call.snr_db) ? decibels(call.snr_db) : null, call.blocked_by.length ? "blocked" : null].filter((fact) => fact);
     return html("li", {},
