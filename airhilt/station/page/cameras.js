@@ -1,10 +1,13 @@
 // The picture of a camera at the time shown, drawn again by the server, with the boxes of a detector.
 
+import { keepNewest } from "./bounds.js";
 import { byId, html, svg } from "./dom.js";
 import { before } from "./series.js";
 import { counted, fixed, seconds } from "./words.js";
 
 const FOUND = "#ffdd33", THERE = "#5ce1ff";
+const MOST_WATCHED = 4; // cameras of a live run whose pictures are kept, those that began last
+const MOST_BOXES = 50; // that are drawn in a picture
 const MOST_RECORDS = 1000; // of pictures of a camera of a live run: about a minute
 const RADIANS = Math.PI / 180;
 
@@ -62,8 +65,10 @@ export class Cameras {
   add(name, seq, t, view, found) {
     const record = this.#records.get(name) ?? { seq: [], t: [], views: [], found: [], there: [] };
     this.#records.set(name, record);
+    keepNewest(this.#records, MOST_WATCHED);
     if (record.seq.length && seq <= record.seq.at(-1)) return;
-    for (const [part, value] of Object.entries({ seq, t, views: view, found, there: [] })) record[part].push(value);
+    const seen = found && { ...found, boxes: found.boxes.slice(0, MOST_BOXES) };
+    for (const [part, value] of Object.entries({ seq, t, views: view, found: seen, there: [] })) record[part].push(value);
     if (record.seq.length > 1.2 * MOST_RECORDS) for (const values of Object.values(record)) values.splice(0, values.length - MOST_RECORDS);
   }
 

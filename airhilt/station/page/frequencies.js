@@ -1,7 +1,10 @@
 // The frequency panel of a seat: which frequencies are heard, on which one is spoken, and which are busy.
 
+import { keepNewest } from "./bounds.js";
 import { byId, html } from "./dom.js";
 import { megahertz } from "./words.js";
+
+const MOST_OPEN = 100; // transmissions at a time
 
 export class Frequencies {
   #tune;
@@ -37,6 +40,7 @@ export class Frequencies {
   take(pieces) {
     for (const [phase, { id, frequency_khz: khz }] of pieces) {
       if (phase === "opened") this.#open.set(id, khz);
+      keepNewest(this.#open, MOST_OPEN);
       if (phase === "closed") this.#open.delete(id);
     }
     this.#draw();

@@ -130,18 +130,17 @@ export class Live {
     if (own) this.#panes.seat.take(own);
     if (refused) this.#panes.seat.refuse(refused);
     if (!changes) { this.#panes.talk.take(message); return; }
-    const { plan, transcript, traffic, cameras, sounds } = this.#panes;
+    const { plan, transcript, cameras, sounds } = this.#panes;
     this.#seen = next;
     const { pace, phase } = this.#run, changed = this.#run.apply(changes), has = (...kinds) => kinds.some((kind) => changed.has(kind));
     this.#panes.talk.take(message);
     for (const [kind, ...rest] of changes) {
       if (kind === "picture") cameras.add(...rest);
-      if (kind === "call") this.#panes.seat.heard(rest[0]);
       if (kind === "call" && this.#clock.following && !this.#panes.seat.own) sounds.add(rest[0]);
     }
+    if (has("call")) this.#panes.seat.heard(changes.filter(([kind]) => kind === "call").map(([, call]) => call));
     if (has("briefing")) plan.renew();
     if (has("state")) plan.keepFitted();
-    if (has("track")) traffic.redraw();
     if (has("call")) transcript.redraw();
     if (has("camera")) cameras.renew();
     if (has("clock")) this.#tell();
@@ -160,11 +159,12 @@ export class Live {
 
   /** Draws what takes long: not with every message. */
   #drawLists() {
-    const { profile, marks, advisories, transport } = this.#panes;
+    const { profile, marks, advisories, traffic, transport } = this.#panes;
     this.#drawing = null;
     this.#drawn = performance.now();
     if (["advisory", "name", "briefing"].some((kind) => this.#undrawn.has(kind))) advisories.redraw();
     if (this.#undrawn.has("call") || this.#undrawn.has("event")) transport.renew();
+    if (this.#undrawn.has("track")) traffic.redraw();
     this.#undrawn.clear();
     profile.redraw();
     marks.draw();

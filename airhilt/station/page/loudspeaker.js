@@ -1,5 +1,6 @@
 // What the person at a seat hears: the frequencies while somebody speaks there, and the assistant.
 
+import { keepNewest } from "./bounds.js";
 import { byId, html } from "./dom.js";
 
 const RATE_HZ = 16000;
@@ -7,6 +8,8 @@ const AHEAD_S = 0.15; // between the coming of a piece of sound and its playing,
 const MOST_BEHIND_S = 1.5; // by which sound is played later than it came: after a stall, old sound is left out
 const MOST_SOURCES = 10; // pieces of a transmission that may still have to be stopped
 const PIECE_S = 0.5; // in which pieces sound comes; a shorter first one says how late the microphone is
+const MOST_WAITING = 130; // pieces of a transmission in slow motion, the newest: a call lasts 60 s at most
+const MOST_OPEN = 20; // transmissions at a time
 const TONES = { CAUTION: [700, [0]], WARNING: [1100, [0, 0.18, 0.36]] }; // Hz, and when each pulse begins, in s
 const PULSE_S = 0.12;
 
@@ -46,9 +49,15 @@ export class Loudspeaker {
     for (const [phase, { id, pcm }] of pieces) {
       if (phase === "closed") this.#close(id);
       if (pcm && !isOwn(id) && !isDeaf && this.#context) {
-        if (isSlow) this.#waiting.set(id, [...(this.#waiting.get(id) ?? []), pcm]); else this.#play(id, pcm);
+        if (isSlow) this.#keep(id, pcm); else this.#play(id, pcm);
       }
     }
+  }
+
+  /** Keeps a piece until its transmission has ended. */
+  #keep(id, pcm) {
+    this.#waiting.set(id, [...(this.#waiting.get(id) ?? []), pcm].slice(-MOST_WAITING));
+    keepNewest(this.#waiting, MOST_OPEN);
   }
 
   /** Plays the tone of a severity and then the voice, and returns when the first sample is audible, in s from now; null if nothing is played. */
@@ -78,6 +87,7 @@ export class Loudspeaker {
     line.sources = [...line.sources.slice(-MOST_SOURCES), this.#start(buffer, due)];
     line.due = due + buffer.duration;
     this.#playing.set(id, line);
+    keepNewest(this.#playing, MOST_OPEN);
   }
 
   #start(buffer, at) {

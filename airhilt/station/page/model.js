@@ -1,5 +1,6 @@
 // What the server said of the run, prepared for drawing: tracks in metres, states at any time, events.
 
+import { keepNewest } from "./bounds.js";
 import { at, before } from "./series.js";
 import { instruction, known, words } from "./words.js";
 
@@ -10,6 +11,10 @@ const LONGEST_INTERVAL_S = 12; // between two reports of an actor: a turn of a s
 const AHEAD = 1.5; // intervals between reports for which an actor is shown further on after the last one
 const FULL_S = 300, OLD_STEP_S = 2; // of a live run, what is older than that is kept in steps of this at least
 const MOST_STATES = 2500; // of an actor of a live run that are kept: its old ones in longer steps the longer it is there
+const MOST_TRACKS = 200; // of a live run that are kept: those that were reported last
+const MOST_CAMERAS = 100; // of a live run that can be chosen
+const MOST_ADDRESSES = 2000; // of actors whose callsigns are kept
+const MOST_PHASES = 500; // of an actor of a live run, and of its times on the ground, the newest
 const MOST_ROWS = { calls: 1000, events: 2000, advisories: 1000, spoken: 200 }; // of a live run that are kept, the newest
 const CONTROLLER = "ATC"; // as recipient of advisories
 export const SEVERITIES = ["INFO", "ADVISORY", "CAUTION", "WARNING"];
@@ -78,6 +83,7 @@ export class LiveTrack extends Track {
     if (onGround && wasOnGround) this.on_ground.at(-1)[1] = t;
     else if (onGround) this.on_ground.push([t, t]);
     if (this.phases.at(-1)?.what !== phase) this.phases.push({ from: t, what: phase });
+    for (const kept of [this.on_ground, this.phases]) if (kept.length > MOST_PHASES) kept.shift();
     this.t.push(t);
     this.east.push(east);
     this.north.push(north);
@@ -128,6 +134,7 @@ function put(rows, row, same) {
 export class Run {
   #callsigns = new Map(); // by the addresses under which actors were known first
   #active = { t: null, rows: [] };
+  #moments = null; // until somebody asks for them
   #own = null; // the seat of the person at this page
   #actors; // that have had a track so far
 
@@ -139,7 +146,6 @@ export class Run {
     this.#actors = order.length;
     this.span = given.airport ? 1 : 4; // s before and after an instant over which its speed is a mean
     this.title = given.scenario.title || given.scenario.name;
-    this.moments = momentsOf(this);
     this.bounds = { east: [Infinity, -Infinity], north: [Infinity, -Infinity] };
     for (const track of this.tracks) track.east.forEach((east, i) => this.#widen(east, track.north[i]));
   }
@@ -149,6 +155,9 @@ export class Run {
     bounds.east = [Math.min(bounds.east[0], east), Math.max(bounds.east[1], east)];
     bounds.north = [Math.min(bounds.north[0], north), Math.max(bounds.north[1], north)];
   }
+
+  /** The events that one may jump to, in the order of their times. */
+  get moments() { return this.#moments ??= momentsOf(this); }
 
   /** Takes in the changes of a live run, and returns which parts of it are different now. */
   apply(changes) {
@@ -164,7 +173,7 @@ export class Run {
         case "spoken": this.spoken.push(rest[0]); break;
         case "advisory": put(this.advisories, rest[0], (a, b) => a.id === b.id && a.revision === b.revision && a.equipment === b.equipment); break;
         case "event": this.events.push(rest[0]); break;
-        case "camera": this.cameras.push(rest[0]); break;
+        case "camera": if (this.cameras.length < MOST_CAMERAS) this.cameras.push(rest[0]); break;
         case "latency": this.latencies.push(rest[0]); break;
         default: break;
       }
@@ -172,7 +181,7 @@ export class Run {
     if (this.latencies.length > 2 * MOST_LATENCIES) this.latencies.splice(0, this.latencies.length - MOST_LATENCIES);
     if (changed.has("call")) this.calls.sort((a, b) => a.from - b.from);
     for (const [name, most] of Object.entries(MOST_ROWS)) if (this[name].length > 1.2 * most) this[name].splice(0, this[name].length - most);
-    if (changed.has("call") || changed.has("event")) this.moments = momentsOf(this);
+    if (changed.has("call") || changed.has("event")) this.#moments = null;
     return changed;
   }
 
@@ -181,6 +190,7 @@ export class Run {
    */
   #rename(address, callsign) {
     this.#callsigns.set(address, callsign);
+    keepNewest(this.#callsigns, MOST_ADDRESSES);
     const track = this.track(address);
     if (!track) return;
     if (this.track(callsign)) this.tracks.splice(this.tracks.indexOf(track), 1);
@@ -191,13 +201,22 @@ export class Run {
   #addState([name, category, type, ...state]) {
     let track = this.track(name);
     const isNew = !track || track.type !== type;
-    if (!track) this.tracks.push(track = new LiveTrack(name, category, type, this.#actors++));
+    if (!track) this.#addTrack(track = new LiveTrack(name, category, type, this.#actors++));
     track.type = type;
     track.category = this.categories?.[name] ?? category;
     track.add(state);
     this.now = Math.max(this.now ?? 0, state[0]);
     this.#widen(state[1], state[2]);
     return isNew;
+  }
+
+  /** Adds a track, in the place of the one whose last report is the oldest if there are too many. */
+  #addTrack(track) {
+    if (this.tracks.length >= MOST_TRACKS) {
+      const oldest = this.tracks.reduce((a, b) => (b.last < a.last ? b : a));
+      this.tracks.splice(this.tracks.indexOf(oldest), 1);
+    }
+    this.tracks.push(track);
   }
 
   track(callsign) { return this.tracks.find((track) => track.callsign === callsign); }

@@ -1,9 +1,14 @@
 // The advisories to the person at a seat: shown large, sounded, spoken; tells the run when that was.
 
 import { badge } from "./advisories.js";
+import { keepNewest } from "./bounds.js";
 import { byId, html } from "./dom.js";
+import { SEVERITIES } from "./model.js";
 import { Rows } from "./rows.js";
 import { capital, instruction, known, percent, seconds, words } from "./words.js";
+
+const MOST_SHOWN = 10; // at a time, those that began last
+const MOST_TOLD = 1000; // reports that are not made again
 
 export class OwnAdvisories {
   #run;
@@ -26,6 +31,7 @@ export class OwnAdvisories {
     if (!texts.length) return;
     const name = `${row.equipment}/${row.id}`;
     if (row.active) this.#shown.set(name, { row, text: texts.at(-1) }); else this.#shown.delete(name);
+    keepNewest(this.#shown, MOST_SHOWN);
     this.#draw();
     if (!row.active) return;
     const { recipient } = texts.at(-1);
@@ -54,12 +60,15 @@ export class OwnAdvisories {
     const name = `${way} ${id} ${revision} ${recipient}`;
     if (equipment || this.#told.has(name)) return;
     this.#told.add(name);
+    keepNewest(this.#told, MOST_TOLD);
     this.#tell({ id, revision, recipient, way, after_s: after });
   }
 
   #draw() {
     byId("own-advisories").hidden = !this.#shown.size;
-    this.#rows.show([...this.#shown.values()], ({ row }) => `${row.equipment}/${row.id}`, inWords);
+    const rank = ({ row }) => SEVERITIES.indexOf(row.severity), shown = [...this.#shown.values()];
+    shown.sort((a, b) => rank(b) - rank(a) || b.row.t - a.row.t);
+    this.#rows.show(shown, ({ row }) => `${row.equipment}/${row.id}`, inWords);
   }
 }
 
@@ -67,9 +76,9 @@ const inWords = ({ row, text }) => html("div", { class: `own-advisory ${row.seve
   html("div", { class: "row-head" }, badge(row.severity), html("span", { class: "dim" }, seconds(row.t))),
   html("div", { class: "own-text" }, text.message),
   text.recommendation ? html("div", { class: "who" }, capital(instruction(text.recommendation))) : null,
-  html("div", { class: "dim" }, restsOn(row.evidence)));
+  html("div", { class: "dim" }, restsOn(row.evidence, text.message)));
 
-function restsOn({ sources, shares, time_to_go_s: toGo, note }) {
+function restsOn({ sources, shares, time_to_go_s: toGo, note }, said) {
   const basis = sources.map((name) => (known(shares[name]) ? `${words(name)} ${percent(shares[name])}` : words(name))).join(", ");
-  return [note, basis ? `rests on ${basis}` : "", known(toGo) ? `time to go ${seconds(toGo)}` : ""].filter((part) => part).join("; ");
+  return [note === said ? "" : note, basis ? `rests on ${basis}` : "", known(toGo) ? `time to go ${seconds(toGo)}` : ""].filter((part) => part).join("; ");
 }

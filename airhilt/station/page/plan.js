@@ -8,6 +8,7 @@ const HISTORY_DOTS = 8;
 const FONT_SMALL = FONT.replace("12px", "11px");
 const LEADERS_S = [0, 10, 30, 60, 120];
 const MOST_POINTS = 1500; // of a track that are drawn
+const MOST_NAMED = 30; // actors in words
 const RENEWED_MS = 1000; // after which tracks that grow are drawn again
 const ROOM = 90; // pixels for the data blocks of who is at the edge
 const SPARE = 0.08; // of the width, by which more is shown than is needed, so that the view changes seldom
@@ -451,6 +452,7 @@ export class Plan {
 
   #describe(states) {
     const parts = states.map(({ track, state }) => `${track.callsign} ${state.ended ? "ended" : state.onGround ? state.phase || "on the ground" : `${whole(state.altitude)} feet`}`);
-    this.#canvas.setAttribute("aria-label", `Plan view: ${parts.join(", ") || "no traffic"}`);
+    const more = parts.length > MOST_NAMED ? [`and ${parts.length - MOST_NAMED} more`] : [];
+    this.#canvas.setAttribute("aria-label", `Plan view: ${[...parts.slice(0, MOST_NAMED), ...more].join(", ") || "no traffic"}`);
   }
 }

@@ -71,8 +71,8 @@ export class Profile {
     const { pen, width, height } = this.#size, { left, right, top, bottom } = this.#area, tracks = this.#run.tracks;
     pen.fillStyle = colour("--panel");
     pen.fillRect(0, 0, width, height);
-    const values = tracks.flatMap((track) => thinned(track).map((i) => track.altitude_ft[i]));
-    const low = values.length ? Math.min(...values) : 0, high = values.length ? Math.max(...values) : 1000, pad = Math.max((high - low) * 0.08, 50);
+    const values = tracks.flatMap((track) => thinned(track).map((i) => track.altitude_ft[i])), first = values[0];
+    const low = values.reduce((a, b) => Math.min(a, b), first ?? 0), high = values.reduce((a, b) => Math.max(a, b), first ?? 1000), pad = Math.max((high - low) * 0.08, 50);
     const y = (feet) => bottom - (feet - low + pad) / (high - low + 2 * pad) * (bottom - top);
     pen.font = FONT.replace("12px", "11px");
     pen.lineWidth = 1;

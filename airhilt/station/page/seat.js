@@ -5,6 +5,8 @@ import { byId, html } from "./dom.js";
 import { Rows } from "./rows.js";
 import { bearing, feet, known, percent, seconds, whole, words } from "./words.js";
 
+const MOST_TASKS = 50; // cards at a time, the newest
+
 export class Seat {
   #run;
   #live;
@@ -73,12 +75,14 @@ export class Seat {
     const notices = changes.filter(([kind]) => kind === "notice");
     if (notices.length) { this.refuse(notices.at(-1)[2]); byId("panel-state").textContent = ""; }
     this.#tasks.push(...changes.filter(([kind]) => kind === "task").map(([, card]) => card).filter(isOpen));
+    this.#tasks.splice(0, this.#tasks.length - MOST_TASKS);
     this.#drawTasks();
   }
 
-  /** Takes a card away once somebody has made its call. */
-  heard(call) {
-    this.#tasks = this.#tasks.filter((card) => card.line !== call.id);
+  /** Takes cards away once somebody has made their calls. */
+  heard(calls) {
+    const made = new Set(calls.map((call) => call.id));
+    this.#tasks = this.#tasks.filter((card) => !made.has(card.line));
     this.#drawTasks();
   }
 

@@ -1,5 +1,6 @@
 // The sound of each frequency, and of the assistant, in time with the clock.
 
+import { keepNewest } from "./bounds.js";
 import { byId, html } from "./dom.js";
 import { megahertz } from "./words.js";
 
@@ -41,6 +42,7 @@ export class Sounds {
 }
 
 const MOST_BEHIND = 3;
+const MOST_HEARD = 1000; // calls that are not heard again
 
 /** The calls of a live run, each when it has ended; where they come faster than they are spoken, old ones are left out. */
 export class LiveSounds {
@@ -60,6 +62,7 @@ export class LiveSounds {
   add(call) {
     if (!call.has_sound || this.#heard.has(call.id)) return;
     this.#heard.add(call.id);
+    keepNewest(this.#heard, MOST_HEARD);
     if (!this.#box.checked) return;
     this.#waiting = [...this.#waiting, call.id].slice(-MOST_BEHIND);
     if (this.#audio.paused || this.#audio.ended) this.#next();

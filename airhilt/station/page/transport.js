@@ -12,6 +12,8 @@ const MOST_LISTED = 300; // events of a live run that can be chosen, the newest
 export class Transport {
   #run;
   #clock;
+  #isOld = false; // The list of events lacks new ones.
+  #listed = []; // events as they were when they were listed
   #first = 0; // index of the first event that can be chosen
 
   constructor(run, clock) {
@@ -26,16 +28,20 @@ export class Transport {
     byId("loop-from").addEventListener("click", () => clock.mark("from"));
     byId("loop-to").addEventListener("click", () => clock.mark("to"));
     byId("loop").addEventListener("click", () => clock.toggleLoop());
-    byId("events").addEventListener("change", (event) => { if (event.target.value !== "") clock.set(run.moments[Number(event.target.value)].t); });
+    byId("events").addEventListener("change", (event) => { if (event.target.value !== "") clock.set(this.#listed[Number(event.target.value)].t); });
+    byId("events").addEventListener("blur", () => { if (this.#isOld) this.renew(); });
     byId("live").hidden = !clock.live;
     byId("live").addEventListener("click", () => clock.follow());
     this.renew();
   }
 
-  /** Lists the events again, because there are new ones. */
+  /** Lists the events again, because there are new ones; not while somebody chooses one. */
   renew() {
+    this.#isOld = document.activeElement === byId("events");
+    if (this.#isOld) return;
     const { moments } = this.#run, first = this.#clock.live ? Math.max(moments.length - MOST_LISTED, 0) : 0;
     this.#first = first;
+    this.#listed = moments;
     byId("events").replaceChildren(html("option", { value: "" }, `an event (${moments.length})`), ...moments.slice(first).map((moment, i) => html("option", { value: first + i }, `${seconds(moment.t)}  ${moment.text}`)));
   }
 

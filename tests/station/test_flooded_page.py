@@ -1,0 +1,106 @@
+"""The page of a run that a program floods: what it keeps has a bound, and it goes on."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from devtools import Page
+from stations import TOWER, PretendedRun, seat_page
+
+pytestmark = pytest.mark.browser
+FLOOD = 6_000
+"""Messages of each kind, all with other names."""
+SHOWN = """({
+    actors: document.querySelectorAll('#traffic tbody tr').length,
+    strips: document.querySelectorAll('.flight-strip').length,
+    calls: document.querySelectorAll('#calls > li').length,
+    advisories: document.querySelectorAll('#advisories > li').length,
+    own: document.querySelectorAll('.own-advisory').length,
+    cameras: document.getElementById('camera').options.length,
+    cards: document.querySelectorAll('#tasks > li').length,
+    events: document.getElementById('events').options.length,
+})"""
+KEPT = """import(new URL('page/model.js', location)).then(({ Run }) => {
+    const none = { tracks: [], calls: [], events: [], advisories: [], spoken: [], cameras: [] };
+    const run = new Run({ ...none, scenario: { name: '' } });
+    for (let i = 0; i < 20000; i += 1) {
+        const state = [i, 0, 0, 1000, [1, 0], 90, i % 2 === 0, `phase ${i}`];
+        run.apply([
+            ['state', 'AAL123', 'aircraft', '', ...state],
+            ['state', `${i}`, 'aircraft', '', ...state],
+            ['camera', { name: `${i}` }],
+        ]);
+    }
+    const own = run.track('AAL123');
+    return [run.tracks.length, own.phases.length, own.on_ground.length, run.cameras.length,
+        Boolean(run.track('19999')), own.phases.at(-1).what];
+})"""
+
+
+def flood(run: PretendedRun) -> None:
+    """Let a program publish what no run has so much of."""
+    evidence: dict[str, Any] = {
+        "sources": [], "shares": {}, "note": "", "rules": [], "runway": None,
+        "time_to_go_s": None, "time_to_loss_s": None, "radio_ids": [], "camera_ids": [],
+        "tracks": [], "inconsistencies": [],
+    }  # fmt: skip
+    for i in range(FLOOD):
+        name, t_s = f"X{i}", i / FLOOD
+        place = (t_s, 10.0 * i, 10.0 * i, 1000, [100.0, 0.0], 90.0, False, "")
+        run.changes.add("state", name, "aircraft", "", *place)
+        camera = {"name": name, "carrier": None, "width_px": 640, "height_px": 360}
+        run.changes.add("camera", camera | {"horizontal_fov_deg": 60.0})
+        call = {"id": name, "from": t_s, "to": t_s, "frequency_khz": 119_100, "snr_db": None}
+        call |= {"speaker": None, "addressed": None, "said": "word " * 100, "blocked_by": []}
+        run.changes.add("call", call | {"transcripts": [], "hearings": [], "has_sound": False})
+        text = {"recipient": "ATC", "message": "word " * 100, "recommendation": None}
+        row = {"t": t_s, "equipment": "", "id": name, "revision": 0, "severity": "WARNING"}
+        row |= {"active": True, "kind": "runway_conflict", "traffic": [name], "texts": [text]}
+        run.changes.add("advisory", row | {"evidence": evidence})
+        run.changes.add("event", {"t": t_s, "kind": "status", "who": name, "text": "", "state": ""})
+        sound = {"id": name, "frequency_khz": 119_100}
+        run.sounds.add("opened", sound)
+        card = {"line": name, "seat": "TOWER", "t": t_s, "addressed": None, "text": name}
+        run.seat.add("task", card | {"done": False})
+
+
+def test_a_flooded_page_shows_the_newest_of_all_and_can_be_used(page: Page) -> None:
+    with seat_page(TOWER) as (run, url):
+        run.changes.add("briefing", "TOWER", None, {})
+        page.open(url, width=1280, height=720)
+        page.wait_for("document.getElementById('state').textContent.startsWith('running')")
+        page.click("seat-take")
+        page.wait_for("document.body.dataset.seat === 'controller'")
+        flood(run)
+        run.changes.add("clock", 2.0, "paused", "paused")
+        page.wait_for("document.getElementById('state').textContent === 'paused'")
+        newest = f"document.querySelector('#strips [data-callsign=X{FLOOD - 1}]')"
+        page.wait_for(f"{newest} && document.getElementById('calls').childElementCount > 1")
+        shown = page.evaluate(SHOWN)
+        most = {
+            "actors": 200, "strips": 200, "calls": 200, "advisories": 200, "own": 10,
+            "cameras": 100, "cards": 50, "events": 301,
+        }  # fmt: skip
+        assert {kind: number for kind, number in shown.items() if number > most[kind]} == {}
+        page.evaluate("document.getElementById('words').value = 'American 123, hold.'")
+        page.click("say-button")
+        while not hasattr(said := run.next(), "text"):
+            pass
+        assert said.text == "American 123, hold."
+        assert page.evaluate("document.documentElement.scrollHeight <= innerHeight")
+        page.open("about:blank")
+
+
+def test_the_actors_and_cameras_that_are_kept_of_a_run_have_a_bound(page: Page) -> None:
+    with seat_page() as (_, url):
+        page.open(url)
+        page.wait_for("document.body.dataset.ready")
+        tracks, phases, on_ground, cameras, has_newest, phase = page.evaluate(KEPT)
+        assert tracks <= 200
+        assert max(phases, on_ground) <= 1000
+        assert cameras <= 100
+        assert has_newest
+        assert phase == "phase 19999"
+        page.open("about:blank")
