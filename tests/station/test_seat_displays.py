@@ -241,3 +241,25 @@ def test_a_list_keeps_the_focus_and_open_evidence_when_something_new_comes(page:
         page.wait_for("document.getElementById('calls').innerText.includes('Tower, hello.')")
         assert page.evaluate("document.activeElement.closest('#calls') !== null")
         assert page.evaluate("document.querySelector('#advisories details').open")
+
+
+def test_a_pace_that_nobody_can_choose_is_shown_and_goes_on_in_real_time(page: Page) -> None:
+    chosen = "document.getElementById('pace-factor').selectedOptions[0]?.textContent"
+    with seated(page, "TOWER", pace="4x") as run:
+        page.wait_for(f"{chosen} === '4x'")
+        run.changes.add("clock", 2.0, "paused", "paused")
+        page.wait_for("document.getElementById('pace-pause').textContent === 'Go on'")
+        page.click("pace-pause")
+        assert run.next().factor == 1.0
+        run.changes.add("clock", 3.0, "running", "0.5x")
+        page.wait_for(f"{chosen} === 'half as fast'")
+
+
+def test_who_watches_a_run_without_seats_is_told_what_was_refused(page: Page) -> None:
+    with seat_page(None) as (run, url):
+        page.open(url)
+        refused = {"t": 1.0, "kind": "refused", "who": "page", "text": "a stranger's origin"}
+        run.changes.add("event", refused)
+        told = "document.getElementById('refused').textContent"
+        page.wait_for(f'{told} === "Refused at 1.0 s: a stranger\'s origin"')
+        page.open("about:blank")

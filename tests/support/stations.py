@@ -192,10 +192,17 @@ class PretendedRun:
 
 
 @contextmanager
-def seat_page(seat: SeatInfo = TOWER) -> Iterator[tuple[PretendedRun, str]]:
-    """Serve the page of a pretended run in this process; yield the run and the URL."""
-    run, urls, is_over = PretendedRun(seat), queue.Queue[str](), threading.Event()
-    browsers = Browsers(run.changes, run, {seat.seat: run.seat}, run.sounds, run.told.append)
+def seat_page(seat: SeatInfo | None = TOWER) -> Iterator[tuple[PretendedRun, str]]:
+    """Serve the page of a pretended run in this process; yield the run and the URL.
+
+    Parameters
+    ----------
+    seat
+        The only seat; None: the run has none.
+    """
+    run, urls, is_over = PretendedRun(seat or TOWER), queue.Queue[str](), threading.Event()
+    seats = {} if seat is None else {seat.seat: run.seat}
+    browsers = Browsers(run.changes, run, seats, run.sounds, run.told.append)
     thread = threading.Thread(
         target=serve,
         args=(live_app(run, browsers), Address(port=0)),  # type: ignore[arg-type]

@@ -1,13 +1,14 @@
 // A run that goes on: its changes come over a WebSocket, which is opened again when it is lost.
 
 import { byId } from "./dom.js";
+import { PACES } from "./run-pace.js";
+import { seconds } from "./words.js";
 
 const RETRY_MS = 1000;
 const SILENT_MS = 4000; // an answer to an echo comes every two seconds
 const DEAD_MS = 8000; // without a message, after which another connection is tried: the server has given this one up
 const OLD_PAGE = 4426; // code with which the server closes: the page is of another version
 const PHASES = { waiting: "waiting for the run", finished: "finished", stopped: "stopped", gone: "the run is not there any more" };
-const PACES = { realtime: "real time", virtual: "as fast as it can" };
 const SLOWLY_MS = 1000; // between two drawings of what takes long
 
 /** The name of this browser tab, which it keeps when its connection is lost or the page is loaded again. */
@@ -128,7 +129,7 @@ export class Live {
     const { next, changes, seats, own, refused } = message;
     if (seats) this.#takeSeats(seats);
     if (own) this.#panes.seat.take(own);
-    if (refused) this.#panes.seat.refuse(refused);
+    if (refused) this.#refuse(refused);
     if (!changes) { this.#panes.talk.take(message); return; }
     const { plan, transcript, cameras, sounds } = this.#panes;
     this.#seen = next;
@@ -150,6 +151,18 @@ export class Live {
     this.#clock.setEnd(this.#run.now ?? 0);
   }
 
+  /** Shows why something was not done: at the seats, or where the run has none, below the title. */
+  #refuse(text) {
+    if (this.#run.seats?.length) this.#panes.seat.refuse(text);
+    else byId("refused").textContent = text;
+  }
+
+  /** Shows who watches a run without seats what the run has refused last. */
+  #tellRefused() {
+    const last = this.#run.seats?.length ? null : this.#run.events.findLast(({ kind }) => kind === "refused");
+    if (last) this.#refuse(`Refused at ${seconds(last.t)}: ${last.text}`);
+  }
+
   #takeSeats(seats) {
     const { seat, talk, advisories } = this.#panes, before = seat.own;
     seat.setSeats(seats);
@@ -164,6 +177,7 @@ export class Live {
     this.#drawn = performance.now();
     if (["advisory", "name", "briefing"].some((kind) => this.#undrawn.has(kind))) advisories.redraw();
     if (this.#undrawn.has("call") || this.#undrawn.has("event")) transport.renew();
+    if (this.#undrawn.has("event")) this.#tellRefused();
     if (this.#undrawn.has("track")) traffic.redraw();
     this.#undrawn.clear();
     profile.redraw();
