@@ -263,3 +263,39 @@ def test_who_watches_a_run_without_seats_is_told_what_was_refused(page: Page) ->
         told = "document.getElementById('refused').textContent"
         page.wait_for(f'{told} === "Refused at 1.0 s: a stranger\'s origin"')
         page.open("about:blank")
+
+
+def test_a_screen_reader_is_told_of_an_advisory_to_others_while_nobody_has_a_seat(
+    page: Page,
+) -> None:
+    with seat_page(None) as (run, url):
+        run.changes.add("clock", 1.0, "running", "realtime")
+        page.open(url)
+        page.wait_for("document.getElementById('state').textContent.startsWith('running')")
+        advise(run, "ATC", "Both lose separation.")
+        told = "document.getElementById('alert').textContent"
+        page.wait_for(f"{told} === 'WARNING: Both lose separation.'")
+        page.open("about:blank")
+
+
+def test_a_range_ring_has_its_name_where_it_is_seen(page: Page) -> None:
+    written = """(() => {
+        const texts = window.texts = [], write = CanvasRenderingContext2D.prototype.fillText;
+        CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+            if (this.canvas.id === 'plan' && text.endsWith(' NM') && y < this.canvas.height - 20)
+                texts.push([x, y, this.canvas.width, this.canvas.height]);
+            write.call(this, text, x, y);
+        };
+    })()"""
+    with seat_page(None) as (run, url):
+        page.open(url, width=1280, height=720)
+        fly(run)
+        page.wait_for("document.getElementById('plan').ariaLabel.includes('DAL456')")
+        page.evaluate("document.getElementById('plan').focus()")
+        for _ in range(4):
+            page.press("ArrowDown", 40)  # The middle of the rings leaves the plan at its top.
+        page.evaluate(written)
+        page.press("ArrowDown", 40)
+        page.wait_for("window.texts.length")
+        assert all(0 < x < wide and 0 < y < high for x, y, wide, high in page.evaluate("texts"))
+        page.open("about:blank")

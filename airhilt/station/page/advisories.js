@@ -8,6 +8,7 @@ const SHAPES = {
   INFO: "M8 2a6 6 0 1 0 .01 0M8 7v4M8 4.6v.6", ADVISORY: "M8 1.5L14.5 8 8 14.5 1.5 8z", CAUTION: "M8 2L15 14H1z", WARNING: "M5 1.5h6L14.5 5v6L11 14.5H5L1.5 11V5z",
 };
 const MOST_LIVE = 200; // of a live run that are listed, the newest
+const MOST_ANNOUNCED = 3; // at once, the newest
 const FILLED = ["CAUTION", "WARNING"];
 
 /** The severity of an advisory, by shape, text and colour. */
@@ -23,6 +24,7 @@ export class Advisories {
   #items = [];
   #current = "";
   #last = 0;
+  #names = null; // of the advisories that were listed last
 
   /** `links.call(id)` and `links.camera(name)` show what an advisory rests on. */
   constructor(run, clock, links) {
@@ -38,6 +40,7 @@ export class Advisories {
     const shown = rows.map((row) => ({ ...row, texts: this.#run.textsOf(row) })), name = (row) => `${row.equipment}/${row.id}/${row.revision}`;
     const items = this.#rows.show(shown, name, (row) => this.#item(row), `No advisory ${this.#clock.live ? "so far" : "in this run"}.`);
     this.#items = rows.map((row, i) => ({ row, item: items[i] }));
+    this.#announceNew(rows, name);
     this.#current = null;
     this.draw();
   }
@@ -45,20 +48,30 @@ export class Advisories {
   draw() {
     const { t } = this.#clock, active = new Set(this.#run.activeAdvisories(t)), now = this.#items.filter(({ row }) => active.has(row));
     const names = now.map(({ row }) => `${row.id}/${row.revision}`).join(" ");
-    this.#announce(t);
+    this.#announceTimely(t);
     if (names === this.#current) return;
     this.#current = names;
     for (const { row, item } of this.#items) if (active.has(row)) item.setAttribute("aria-current", "true"); else item.removeAttribute("aria-current");
     if (now.length) keepInView(this.#list, now.at(-1).item);
   }
 
-  /** Tells a screen reader of an advisory whose time has just come while the clock plays. */
-  #announce(t) {
-    if (this.#clock.playing && t > this.#last) {
-      const come = this.#run.advisories.find((row) => row.active && this.#last < row.t && row.t <= t);
-      if (come) byId("alert").textContent = `${come.severity}: ${come.texts[0]?.message ?? ""}`;
-    }
+  /** Announces advisories whose time has just come while the clock plays. */
+  #announceTimely(t) {
+    if (this.#clock.playing && t > this.#last) this.#announce(this.#run.advisories.filter((row) => this.#last < row.t && row.t <= t));
     this.#last = t;
+  }
+
+  /** Announces advisories that have just come of a live run; those of before are known, when the page is opened. */
+  #announceNew(rows, name) {
+    const before = this.#names;
+    this.#names = new Set(rows.map(name));
+    if (before && this.#clock.following) this.#announce(rows.filter((row) => !before.has(name(row))));
+  }
+
+  /** Tells a screen reader of advisories; those to the own seat are an alert where they are shown. */
+  #announce(rows) {
+    const told = rows.filter((row) => row.active).slice(-MOST_ANNOUNCED).map((row) => `${row.severity}: ${row.texts[0]?.message ?? ""}`);
+    if (told.length && !this.#run.own) byId("alert").textContent = told.join(". ");
   }
 
   #item(row) {

@@ -41,7 +41,7 @@ export class NavigationDisplay {
     pen.fillStyle = INK.black;
     pen.fillRect(0, 0, width, height);
     if (!shown || !track) { this.#text("NO POSITION", width / 2, height / 2, INK.caution, 16, "center"); return; }
-    const t = this.#clock.t, own = track.state(t, this.#run.span), reach = Math.min(height - 98, width * 0.62), x = width / 2, y = height - 46;
+    const t = this.#clock.t, own = track.state(t, this.#run.span), reach = Math.min(height - 98, width * 0.62), x = width / 2, y = Math.min(height - 46, reach + 110);
     const view = { x, y, own, up: own.speed > 3 ? own.course : own.heading, scale: reach / Number(this.#range.value) / METRE_PER_NM, reach };
     this.#runways(view);
     this.#compass(view, shown);

@@ -273,8 +273,19 @@ export class Plan {
       pen.beginPath();
       pen.arc(x, y, nm * unit, 0, 2 * Math.PI);
       pen.stroke();
-      if (x + 4 > 0 && x + 50 < width && y - nm * unit > 16) write(pen, `${Number(nm.toFixed(2))} NM`, x + 4, y - nm * unit - 3, colour("--dim"), colour("--map"));
+      const seen = this.#onRing(x, y, nm * unit);
+      if (seen) write(pen, `${Number(nm.toFixed(2))} NM`, ...seen, colour("--dim"), colour("--map"));
     }
+  }
+
+  /** Where the name of a ring can be read: at its top, or else at another place of it that is seen; null if there is none. */
+  #onRing(x, y, radius) {
+    const { width, height } = this.#size;
+    for (const degrees of [0, 180, 90, 270, 45, 315, 135, 225]) {
+      const angle = degrees * Math.PI / 180, left = x + radius * Math.sin(angle) + 4, bottom = y - radius * Math.cos(angle) - 3;
+      if (left > 4 && left + 46 < width && bottom > 16 && bottom < height - 34) return [left, bottom];
+    }
+    return null;
   }
 
   #drawCamera() {

@@ -12,8 +12,12 @@ export function connectTheme(changed) {
     forgetColours();
     changed();
   };
-  choice.value = localStorage.getItem(NAME) ?? "";
+  const show = () => {
+    choice.value = localStorage.getItem(NAME) ?? "";
+    apply();
+  };
   choice.addEventListener("change", () => { localStorage.setItem(NAME, choice.value); apply(); });
+  window.addEventListener("storage", ({ key }) => { if (key === NAME) show(); }); // another page, or the one around this
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", apply);
-  apply();
+  show();
 }

@@ -40,13 +40,7 @@ window.together = {
     return i === 0;
   },
 };
-connectTheme(() => {
-  marks.draw();
-  for (const frame of frames) {
-    const root = frame.contentDocument?.documentElement;
-    if (root) root.dataset.theme = byId("theme").value;
-  }
-});
+connectTheme(() => marks.draw());
 clock.listen(() => { transport.draw(); marks.draw(); });
 connectKeys(timeKeys(clock, transport));
 byId("two").replaceChildren(...frames);
