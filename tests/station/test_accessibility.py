@@ -25,7 +25,8 @@ pytestmark = [
     pytest.mark.skipif(not AXE.is_file(), reason="no axe-core: npm install axe-core"),
 ]
 FOUND = """
-    axe.run(document, {runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'best-practice']})
+    axe.run(document, {runOnly: [
+        'wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa', 'best-practice']})
     .then(({passes, violations}) => [passes.length, violations
         .filter(({impact}) => ['serious', 'critical'].includes(impact))
         .map(({id, nodes}) => [id, nodes.map((node) => node.html.slice(0, 200))])])

@@ -299,3 +299,26 @@ def test_a_range_ring_has_its_name_where_it_is_seen(page: Page) -> None:
         page.wait_for("window.texts.length")
         assert all(0 < x < wide and 0 < y < high for x, y, wide, high in page.evaluate("texts"))
         page.open("about:blank")
+
+
+def test_all_range_rings_are_drawn_alike_with_names_and_without(page: Page) -> None:
+    drawn = """(() => {
+        const rings = window.rings = [], draw = CanvasRenderingContext2D.prototype.arc;
+        const stroke = CanvasRenderingContext2D.prototype.stroke;
+        CanvasRenderingContext2D.prototype.arc = function (x, y, radius, ...more) {
+            this.isRing = this.canvas.id === 'plan' && radius > 60;
+            draw.call(this, x, y, radius, ...more);
+        };
+        CanvasRenderingContext2D.prototype.stroke = function () {
+            if (this.isRing) rings.push(`${this.strokeStyle} ${this.lineWidth}`);
+            this.isRing = false;
+            stroke.call(this);
+        };
+    })()"""
+    with seat_page(None) as (run, url):
+        page.open(url, width=1280, height=720)
+        page.evaluate(drawn)
+        fly(run)
+        page.wait_for("window.rings.length > 2")
+        assert page.evaluate("new Set(window.rings).size") == 1
+        page.open("about:blank")

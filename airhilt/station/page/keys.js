@@ -31,7 +31,7 @@ export function connectKeys(keys) {
   const help = { names: ["?"], shown: ["?"], text: "this list", act: () => showHelp() }, all = [...keys, help];
   const used = () => all.filter(({ isUsed }) => !isUsed || isUsed());
   const showHelp = () => {
-    byId("help-keys").replaceChildren(...used().flatMap(inWords));
+    byId("help-keys").replaceChildren(...used().map(inWords));
     byId("help").showModal();
   };
   document.addEventListener("keydown", (event) => {
@@ -48,7 +48,7 @@ export function connectKeys(keys) {
 /** Returns a key and what it does, for the list. */
 function inWords({ shown, text }) {
   const keys = shown.flatMap((key, i) => [i ? " " : "", html("kbd", {}, key)]);
-  return [html("dt", {}, keys), html("dd", {}, text)];
+  return html("div", {}, html("dt", {}, keys), html("dd", {}, text));
 }
 
 /** True if the element with the focus has its own use for a key. */

@@ -67,7 +67,7 @@ export class Latencies {
   }
 
   #drawGrid(x, from, to, bottom) {
-    const { pen, height } = this.#size;
+    const { pen, width, height } = this.#size;
     pen.font = FONT.replace("12px", "11px");
     pen.textAlign = "center";
     pen.lineWidth = 1;
@@ -78,7 +78,7 @@ export class Latencies {
       pen.lineTo(x(time), bottom);
       pen.stroke();
       pen.fillStyle = colour("--dim");
-      pen.fillText(seconds(time, 0), x(time), height - 6);
+      pen.fillText(seconds(time, 0), Math.min(x(time), width - 20), height - 6);
     }
     pen.strokeStyle = colour("--ink");
     pen.lineWidth = 1.5;

@@ -20,6 +20,9 @@ const ANIMAL = [[0, -0.9], [0.9, 0], [0, 0.9], [-0.9, 0]];
 /** Altitude of a data block: hundreds of feet in three digits, as on a radar display. */
 export const level = (feet) => String(Math.max(Math.round(feet / 100), 0)).padStart(3, "0");
 
+/** True if two boxes, each left, top, right and bottom, cover each other. */
+const overlap = (a, b) => a[0] < b[2] && a[2] > b[0] && a[1] < b[3] && a[3] > b[1];
+
 export class Plan {
   #canvas = byId("plan");
   #run;
@@ -31,6 +34,7 @@ export class Plan {
   #camera = null;
   #dragged = null;
   #names = []; // boxes of the names of the runways, which data blocks are not to cover
+  #ringNames = []; // those of the range rings
   #still = null; // picture of what does not move
   #stillSince = 0;
   #described = 0;
@@ -249,9 +253,13 @@ export class Plan {
       if (length < 40) continue;
       runway.ends.forEach((end, i) => {
         const [from, to] = i ? [b, a] : [a, b];
-        const x = from[0] - (to[0] - from[0]) / length * 14, y = from[1] - (to[1] - from[1]) / length * 14;
-        this.#names.push([x - 11, y - 8, x + 11, y + 8]);
-        write(pen, end.ident, x, y + 4, colour("--ink"), colour("--map"));
+        const boxes = [14, 30, 46].map((far) => {
+          const x = from[0] - (to[0] - from[0]) / length * far, y = from[1] - (to[1] - from[1]) / length * far;
+          return [x - 11, y - 8, x + 11, y + 8];
+        });
+        const box = boxes.find((one) => !this.#names.some((other) => overlap(one, other))) ?? boxes[0];
+        this.#names.push(box);
+        write(pen, end.ident, box[0] + 11, box[1] + 12, colour("--ink"), colour("--map"));
       });
     }
   }
@@ -263,8 +271,7 @@ export class Plan {
     const [x, y] = this.#pixel(this.#run.airport ? [0, 0] : own.place(Math.min(Math.max(this.#clock.t, own.first), own.last)));
     const unit = METRE_PER_NM * this.#scale, step = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50, 100].find((nm) => nm * unit > 70) ?? 200;
     const most = Math.hypot(Math.max(Math.abs(x), Math.abs(width - x)), Math.max(Math.abs(y), Math.abs(height - y)));
-    pen.strokeStyle = colour("--ring");
-    pen.lineWidth = 1;
+    this.#ringNames = [];
     pen.font = FONT_SMALL;
     pen.textAlign = "left";
     const least = Math.max(Math.hypot(Math.max(-x, 0, x - width), Math.max(-y, 0, y - height)) - step * unit, 0);
@@ -272,16 +279,24 @@ export class Plan {
       const nm = i * step;
       pen.beginPath();
       pen.arc(x, y, nm * unit, 0, 2 * Math.PI);
+      pen.strokeStyle = colour("--ring");
+      pen.lineWidth = 1;
       pen.stroke();
-      const seen = this.#onRing(x, y, nm * unit);
-      if (seen) write(pen, `${Number(nm.toFixed(2))} NM`, ...seen, colour("--dim"), colour("--map"));
+      this.#nameRing(`${Number(nm.toFixed(2))} NM`, this.#onRing(x, y, nm * unit));
     }
+  }
+
+  #nameRing(name, place) {
+    if (!place) return;
+    const [left, bottom] = place;
+    this.#ringNames.push([left - 2, bottom - 11, left + 42, bottom + 3]);
+    write(this.#size.pen, name, left, bottom, colour("--dim"), colour("--map"));
   }
 
   /** Where the name of a ring can be read: at its top, or else at another place of it that is seen; null if there is none. */
   #onRing(x, y, radius) {
     const { width, height } = this.#size;
-    for (const degrees of [0, 180, 90, 270, 45, 315, 135, 225]) {
+    for (const degrees of [0, 45, 315, 90, 270, 135, 225, 180]) {
       const angle = degrees * Math.PI / 180, left = x + radius * Math.sin(angle) + 4, bottom = y - radius * Math.cos(angle) - 3;
       if (left > 4 && left + 46 < width && bottom > 16 && bottom < height - 34) return [left, bottom];
     }
@@ -391,7 +406,7 @@ export class Plan {
   #drawBlocks(states, t) {
     const { pen, width, height } = this.#size;
     const taken = states.map(({ state }) => { const [x, y] = this.#pixel([state.east, state.north]); return [x - 9, y - 9, x + 9, y + 9]; });
-    taken.push(...this.#names);
+    taken.push(...this.#names, ...this.#ringNames);
     pen.textAlign = "left";
     for (const { track, state } of states) {
       const [x, y] = this.#pixel([state.east, state.north]);
@@ -442,7 +457,7 @@ export class Plan {
       }
     }
     const inside = boxes.filter(([left, top, right, bottom]) => left > 2 && top > 2 && right < width - 2 && bottom < height - 2);
-    return inside.find((box) => !taken.some((other) => box[0] < other[2] && box[2] > other[0] && box[1] < other[3] && box[3] > other[1])) ?? inside[0] ?? boxes[0];
+    return inside.find((box) => !taken.some((other) => overlap(box, other))) ?? inside[0] ?? boxes[0];
   }
 
   #drawScale() {

@@ -94,7 +94,7 @@ export class Profile {
       pen.moveTo(this.#x(t), top);
       pen.lineTo(this.#x(t), bottom);
       pen.stroke();
-      pen.fillText(`${whole(t)} s`, this.#x(t), height - 6);
+      pen.fillText(`${whole(t)} s`, Math.min(this.#x(t), width - 20), height - 6);
     }
     const named = [];
     for (const track of tracks) {
