@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from airhilt.messages import SpokenWords
+from airhilt.report.airport import ReportAirport
 from devtools import Page
 from stations import TOWER, PretendedRun, seat_page
 
@@ -322,3 +323,13 @@ def test_all_range_rings_are_drawn_alike_with_names_and_without(page: Page) -> N
         page.wait_for("window.rings.length > 2")
         assert page.evaluate("new Set(window.rings).size") == 1
         page.open("about:blank")
+
+
+@pytest.mark.parametrize(("seat", "view"), [("OPS1", "airport"), ("TOWER", "all")])
+def test_a_driver_begins_with_the_airport_and_a_controller_with_all_traffic(
+    page: Page, seat: str, view: str
+) -> None:
+    with seated(page, seat) as run:
+        run.changes.add("briefing", "TOWER", ReportAirport("kdca").as_json(), CATEGORIES)
+        page.wait_for("document.getElementById('plan-view').options[1]?.value === 'airport'")
+        assert page.evaluate("document.getElementById('plan-view').value") == view

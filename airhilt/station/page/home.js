@@ -1,14 +1,16 @@
 // The first page: choose a scenario, its seats and conditions, start the run, open what is there.
 
 import { byId, html } from "./dom.js";
+import { Rows } from "./rows.js";
 import { connectTheme } from "./theme.js";
 import { whole } from "./words.js";
 
 const PERIOD_MS = 1000;
+const NOTHING_STARTED = "Nothing was started yet. A run that is started on the left takes some seconds to get ready; then a link to its page is here.";
 const STATES = { starting: "is being started", running: "goes on", ended: "has ended" };
 
 let scenarios = [], recorded = [], told = "";
-const chosen = new Set();
+const chosen = new Set(), started = new Rows(byId("started"));
 
 /** Asks the server, and throws what it refuses in its words. */
 async function ask(path, wish) {
@@ -121,12 +123,10 @@ function showChosen() {
 async function showRuns() {
   const runs = await ask("api/runs"), text = JSON.stringify(runs);
   if (text === told) return;
-  const hasFocus = byId("recorded").contains(document.activeElement) || byId("started").contains(document.activeElement);
-  if (hasFocus && JSON.stringify(runs.started.map((run) => run.state)) === JSON.stringify(JSON.parse(told || '{"started":[]}').started.map((run) => run.state))) return;
+  started.show(runs.started, (run) => run.name, startedRow, NOTHING_STARTED);
+  if (byId("recorded").contains(document.activeElement)) return; // The list is renewed when the focus has left it.
   told = text;
   recorded = runs.recorded;
-  const started = runs.started.map(startedRow);
-  byId("started").replaceChildren(...(started.length ? started : [html("li", { class: "empty" }, "Nothing was started yet. A run that is started on the left takes some seconds to get ready; then a link to its page is here.")]));
   for (const name of chosen) if (!recorded.some((run) => run.name === name)) chosen.delete(name);
   showRecorded();
   showChosen();

@@ -164,10 +164,12 @@ export class Live {
   }
 
   #takeSeats(seats) {
-    const { seat, talk, advisories } = this.#panes, before = seat.own;
+    const { seat, talk, advisories, plan } = this.#panes, before = seat.own;
     seat.setSeats(seats);
     talk.setSeat(seat.own);
-    if (seat.own !== before) advisories.redraw();
+    if (seat.own === before) return;
+    advisories.redraw();
+    plan.fitFirst();
   }
 
   /** Draws what takes long: not with every message. */

@@ -60,7 +60,13 @@ export class Plan {
   /** Takes in that a live run has an airport now. */
   renew() {
     this.#views();
-    this.fit("all");
+    this.fitFirst();
+  }
+
+  /** Shows what one begins with: a driver the airport, all others all traffic. */
+  fitFirst() {
+    const { airport, categories, own } = this.#run;
+    this.fit(airport && own && categories?.[own] === "vehicle" ? "airport" : "all");
   }
 
   /** Keeps all traffic of a live run in view, unless somebody looks elsewhere. */

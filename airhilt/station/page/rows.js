@@ -41,7 +41,7 @@ export class Rows {
 
   /** Puts a row in the place of the one that it was, as far as that is open and has the focus. */
   #replace(row) {
-    const { old, item } = row, parts = (node) => [...node.querySelectorAll("button, summary")];
+    const { old, item } = row, parts = (node) => [...node.querySelectorAll("a, button, summary")];
     const focused = parts(old).indexOf(document.activeElement);
     item.querySelectorAll("details").forEach((one, i) => { one.open = old.querySelectorAll("details")[i]?.open ?? false; });
     old.replaceWith(item);
