@@ -1,11 +1,13 @@
-// The picture of a camera at the time shown, drawn again by the server, with the boxes of a detector.
+// The picture of a camera at the time shown, drawn again by the server, with the boxes of a
+// detector.
 
 import { keepNewest } from "./bounds.js";
 import { byId, html, svg } from "./dom.js";
 import { before } from "./series.js";
 import { counted, fixed, seconds } from "./words.js";
 
-const FOUND = "#ffdd33", THERE = "#5ce1ff";
+const FOUND = "#ffdd33",
+  THERE = "#5ce1ff";
 const MOST_WATCHED = 4; // cameras of a live run whose pictures are kept, those that began last
 const MOST_BOXES = 50; // that are drawn in a picture
 const MOST_RECORDS = 1000; // of pictures of a camera of a live run: about a minute
@@ -32,11 +34,15 @@ export class Cameras {
     this.#clock = clock;
     this.#plan = plan;
     this.#choice.addEventListener("change", () => this.#open());
-    for (const id of ["camera-found", "camera-there"]) byId(id).addEventListener("change", () => this.#drawBoxes());
+    for (const id of ["camera-found", "camera-there"])
+      byId(id).addEventListener("change", () => this.#drawBoxes());
     this.renew();
   }
 
-  /** Offers only the cameras that an actor carries, those of the ground with null, or all with undefined. */
+  /**
+   * Offers only the cameras that an actor carries, those of the ground with null, or all with
+   * undefined.
+   */
   offer(carrier) {
     if (carrier === this.#carrier) return;
     this.#carrier = carrier;
@@ -47,18 +53,29 @@ export class Cameras {
     this.renew();
   }
 
-  get #offered() { return this.#run.cameras.filter((camera) => this.#carrier === undefined || camera.carrier === this.#carrier); }
+  get #offered() {
+    return this.#run.cameras.filter(
+      (camera) => this.#carrier === undefined || camera.carrier === this.#carrier,
+    );
+  }
 
   /** Lists the cameras, and opens the first one if none is open. */
   renew() {
     const chosen = this.#choice.value;
     const offered = this.#offered;
-    this.#choice.replaceChildren(...offered.map((camera) => html("option", { value: camera.name }, camera.name)));
+    this.#choice.replaceChildren(
+      ...offered.map((camera) => html("option", { value: camera.name }, camera.name)),
+    );
     this.#choice.hidden = !offered.length;
     document.body.dataset.camera = offered.length ? "some" : "none";
     if (offered.some(({ name }) => name === chosen)) this.#choice.value = chosen;
     else if (offered.length) this.#open();
-    else byId("camera-none").textContent = this.#carrier ? "This aircraft has no camera." : this.#clock.live ? "No pictures so far." : "This run has no pictures.";
+    else
+      byId("camera-none").textContent = this.#carrier
+        ? "This aircraft has no camera."
+        : this.#clock.live
+          ? "No pictures so far."
+          : "This run has no pictures.";
   }
 
   /** Adds a picture of a live run. */
@@ -68,8 +85,10 @@ export class Cameras {
     keepNewest(this.#records, MOST_WATCHED);
     if (record.seq.length && seq <= record.seq.at(-1)) return;
     const seen = found && { ...found, boxes: found.boxes.slice(0, MOST_BOXES) };
-    for (const [part, value] of Object.entries({ seq, t, views: view, found: seen, there: [] })) record[part].push(value);
-    if (record.seq.length > 1.2 * MOST_RECORDS) for (const values of Object.values(record)) values.splice(0, values.length - MOST_RECORDS);
+    for (const [part, value] of Object.entries({ seq, t, views: view, found: seen, there: [] }))
+      record[part].push(value);
+    if (record.seq.length > 1.2 * MOST_RECORDS)
+      for (const values of Object.values(record)) values.splice(0, values.length - MOST_RECORDS);
   }
 
   /** Shows another camera. */
@@ -79,7 +98,9 @@ export class Cameras {
     this.#open();
   }
 
-  get #camera() { return this.#run.cameras.find((camera) => camera.name === this.#choice.value); }
+  get #camera() {
+    return this.#run.cameras.find((camera) => camera.name === this.#choice.value);
+  }
 
   async #open() {
     const { name, width_px: width, height_px: height } = this.#camera;
@@ -90,7 +111,10 @@ export class Cameras {
     if (this.#clock.live) this.#watch(name);
     else if (!this.#records.has(name)) {
       const answer = await fetch(`api/cameras/${encodeURIComponent(name)}`);
-      if (!answer.ok) { this.#fail((await answer.json()).error); return; }
+      if (!answer.ok) {
+        this.#fail((await answer.json()).error);
+        return;
+      }
       this.#records.set(name, await answer.json());
     }
     if (this.#camera?.name === name) this.draw();
@@ -108,16 +132,27 @@ export class Cameras {
   /** Shows on the plan where the camera looks. */
   #point(record, i) {
     const view = record.views[i];
-    const { width_px: width, horizontal_fov_deg: fov } = this.#camera, heading = view && view[2] * RADIANS;
-    const focal = width / 2 / Math.tan(fov * RADIANS / 2), bearing = ({ box }) => heading + Math.atan(((box[0] + box[2]) / 2 - width / 2) / focal);
-    this.#plan.setCamera(view && { place: [view[0], view[1]], heading, fov: fov * RADIANS, bearings: (record.found[i]?.boxes ?? []).map(bearing) });
+    const { width_px: width, horizontal_fov_deg: fov } = this.#camera,
+      heading = view && view[2] * RADIANS;
+    const focal = width / 2 / Math.tan((fov * RADIANS) / 2),
+      bearing = ({ box }) => heading + Math.atan(((box[0] + box[2]) / 2 - width / 2) / focal);
+    this.#plan.setCamera(
+      view && {
+        place: [view[0], view[1]],
+        heading,
+        fov: fov * RADIANS,
+        bearings: (record.found[i]?.boxes ?? []).map(bearing),
+      },
+    );
   }
 
   #load(record, i) {
-    const { name } = this.#camera, wanted = `${name}/${record.seq[i]}`;
+    const { name } = this.#camera,
+      wanted = `${name}/${record.seq[i]}`;
     if (this.#isLoading || wanted === this.#shown) return;
     this.#isLoading = true;
-    if (!this.#shown && !this.#clock.live) byId("camera-none").textContent = "Drawing the first picture. That takes some seconds.";
+    if (!this.#shown && !this.#clock.live)
+      byId("camera-none").textContent = "Drawing the first picture. That takes some seconds.";
     const arrived = new Image();
     arrived.onload = () => {
       this.#isLoading = false;
@@ -133,9 +168,15 @@ export class Cameras {
     };
     arrived.onerror = async () => {
       this.#isLoading = false;
-      if (this.#clock.live) { return; } // an old one, which is not kept
+      if (this.#clock.live) {
+        return;
+      } // an old one, which is not kept
       const answer = await fetch(arrived.src).catch(() => null);
-      this.#fail(answer && !answer.ok ? (await answer.json()).error : "The picture did not come: the server does not answer.");
+      this.#fail(
+        answer && !answer.ok
+          ? (await answer.json()).error
+          : "The picture did not come: the server does not answer.",
+      );
     };
     arrived.src = `api/cameras/${encodeURIComponent(name)}/${record.seq[i]}.jpg`;
   }
@@ -147,19 +188,48 @@ export class Cameras {
     byId("camera-none").textContent = text;
   }
 
-  #drawBoxes(record = this.#records.get(this.#camera?.name), i = record ? record.seq.indexOf(Number(this.#shown.split("/")[1])) : -1) {
+  #drawBoxes(
+    record = this.#records.get(this.#camera?.name),
+    i = record ? record.seq.indexOf(Number(this.#shown.split("/")[1])) : -1,
+  ) {
     this.#boxes.replaceChildren();
     if (!record || i < 0) return;
-    const found = record.found[i], there = record.there[i], wide = this.#camera.width_px / 640;
-    if (byId("camera-there").checked) for (const one of there) this.#box(one.box, THERE, `${one.actor}`, true, wide);
-    if (byId("camera-found").checked && found) for (const one of found.boxes) this.#box(one.box, FOUND, `${one.label} ${fixed(one.confidence, 2)}`, !one.confirmed, wide);
-    const seen = found ? `${counted(found.boxes.length, "detection")} after ${seconds(found.t - record.t[i], 2)}` : "no detector looked at it";
-    byId("camera-caption").textContent = `Picture ${record.seq[i]} at ${seconds(record.t[i], 2)}, ${this.#clock.live ? "" : "drawn again from the log; "}${seen}`;
+    const found = record.found[i],
+      there = record.there[i],
+      wide = this.#camera.width_px / 640;
+    if (byId("camera-there").checked)
+      for (const one of there) this.#box(one.box, THERE, `${one.actor}`, true, wide);
+    if (byId("camera-found").checked && found)
+      for (const one of found.boxes)
+        this.#box(one.box, FOUND, `${one.label} ${fixed(one.confidence, 2)}`, !one.confirmed, wide);
+    const seen = found
+      ? `${counted(found.boxes.length, "detection")} after ${seconds(found.t - record.t[i], 2)}`
+      : "no detector looked at it";
+    byId("camera-caption").textContent =
+      `Picture ${record.seq[i]} at ${seconds(record.t[i], 2)}, ${this.#clock.live ? "" : "drawn again from the log; "}${seen}`;
   }
 
   #box([left, top, right, bottom], ink, text, dashed, wide) {
     this.#boxes.append(
-      svg("rect", { x: left - 3, y: top - 3, width: right - left + 6, height: bottom - top + 6, stroke: ink, "stroke-width": 2, "stroke-dasharray": dashed ? "5 4" : null }),
-      svg("text", { x: left - 3, y: top > 24 * wide ? top - 8 * wide : bottom + 20 * wide, fill: ink, "font-size": 14 * wide }, text));
+      svg("rect", {
+        x: left - 3,
+        y: top - 3,
+        width: right - left + 6,
+        height: bottom - top + 6,
+        stroke: ink,
+        "stroke-width": 2,
+        "stroke-dasharray": dashed ? "5 4" : null,
+      }),
+      svg(
+        "text",
+        {
+          x: left - 3,
+          y: top > 24 * wide ? top - 8 * wide : bottom + 20 * wide,
+          fill: ink,
+          "font-size": 14 * wide,
+        },
+        text,
+      ),
+    );
   }
 }

@@ -16,7 +16,10 @@ export class Clock {
   #telling = null;
   #frame = 0;
 
-  /** A clock of a run that lasts `end` seconds; while it is live, the end moves on, and may be followed. */
+  /**
+   * A clock of a run that lasts `end` seconds; while it is live, the end moves on, and may be
+   * followed.
+   */
   constructor(end, live = false) {
     this.t = 0;
     this.end = end;
@@ -34,7 +37,10 @@ export class Clock {
     listener(this);
   }
 
-  /** Calls a function that draws what moves: after each change, and at each frame while a live run is followed. */
+  /**
+   * Calls a function that draws what moves: after each change, and at each frame while a live run
+   * is followed.
+   */
   animate(draw) {
     this.#animations.push(draw);
     draw(this);
@@ -58,8 +64,14 @@ export class Clock {
     const now = performance.now();
     this.end = Math.max(end, this.end);
     this.#run.arrived(this.end, now);
-    if (!this.live) { this.tell(); return; }
-    this.#telling ??= setTimeout(() => this.#tellSlowly(), Math.max(BETWEEN_TELLS_MS - (now - this.#told), 0));
+    if (!this.live) {
+      this.tell();
+      return;
+    }
+    this.#telling ??= setTimeout(
+      () => this.#tellSlowly(),
+      Math.max(BETWEEN_TELLS_MS - (now - this.#told), 0),
+    );
   }
 
   #tellSlowly() {
@@ -70,7 +82,9 @@ export class Clock {
   }
 
   /** Takes in that a live run has another pace from now on. */
-  paced() { this.#run.paced(); }
+  paced() {
+    this.#run.paced();
+  }
 
   #jump() {
     this.t = this.end;
@@ -132,7 +146,8 @@ export class Clock {
   /** Sets the begin or the end of the loop to the time shown; the loop is on once it has both. */
   mark(side) {
     const loop = { ...this.loop, [side]: this.t };
-    if (loop.from !== null && loop.to !== null && loop.from >= loop.to) loop[side === "from" ? "to" : "from"] = null;
+    if (loop.from !== null && loop.to !== null && loop.from >= loop.to)
+      loop[side === "from" ? "to" : "from"] = null;
     loop.on = loop.from !== null && loop.to !== null;
     this.loop = loop;
     this.tell();
@@ -162,7 +177,10 @@ export class Clock {
   }
 }
 
-/** The clock of a page that is shown within another: what somebody does to it, the other page's clock does. */
+/**
+ * The clock of a page that is shown within another: what somebody does to it, the other page's
+ * clock does.
+ */
 export class FollowingClock extends Clock {
   #leader;
 
@@ -179,15 +197,27 @@ export class FollowingClock extends Clock {
     this.tell();
   }
 
-  set(t) { this.#leader.set(t); }
+  set(t) {
+    this.#leader.set(t);
+  }
 
-  toggle() { this.#leader.toggle(); }
+  toggle() {
+    this.#leader.toggle();
+  }
 
-  setRate(rate) { this.#leader.setRate(rate); }
+  setRate(rate) {
+    this.#leader.setRate(rate);
+  }
 
-  stepRate(step) { this.#leader.stepRate(step); }
+  stepRate(step) {
+    this.#leader.stepRate(step);
+  }
 
-  mark(side) { this.#leader.mark(side); }
+  mark(side) {
+    this.#leader.mark(side);
+  }
 
-  toggleLoop() { this.#leader.toggleLoop(); }
+  toggleLoop() {
+    this.#leader.toggleLoop();
+  }
 }

@@ -1,4 +1,5 @@
-// The displays of a seat: a cockpit for the pilot of an aircraft, a scope with strips for a controller.
+// The displays of a seat: a cockpit for the pilot of an aircraft, a scope with strips for a
+// controller.
 
 import { byId } from "./dom.js";
 import { Instruments } from "./instruments.js";
@@ -33,8 +34,12 @@ export class Displays {
 
   /** Keys of the displays, each for the seats that have what it works. */
   get keys() {
-    const panel = this.#panel, nd = this.#nd;
-    const at = (...seats) => () => seats.includes(document.body.dataset.seat);
+    const panel = this.#panel,
+      nd = this.#nd;
+    const at =
+      (...seats) =>
+      () =>
+        seats.includes(document.body.dataset.seat);
     const inCockpit = [
       { names: ["s"], shown: ["S"], text: "cockpit: speed", act: () => panel.focus("speed") },
       { names: ["h"], shown: ["H"], text: "cockpit: track", act: () => panel.focus("track") },
@@ -43,7 +48,12 @@ export class Displays {
       { names: ["r"], shown: ["R"], text: "cockpit: longer range", act: () => nd.step(1) },
       { names: ["e"], shown: ["E"], text: "cockpit: shorter range", act: () => nd.step(-1) },
     ].map((key) => ({ ...key, isUsed: at("pilot") }));
-    const brake = { names: ["b"], shown: ["B"], text: "brake, hold position, reject take-off", act: () => panel.brake() };
+    const brake = {
+      names: ["b"],
+      shown: ["B"],
+      text: "brake, hold position, reject take-off",
+      act: () => panel.brake(),
+    };
     return [...inCockpit, { ...brake, isUsed: at("pilot", "driver") }];
   }
 
@@ -57,17 +67,24 @@ export class Displays {
     this.#arrange();
   }
 
-  /** Shows the displays of the seat; who sits where is known with the briefing, which may come later. */
+  /**
+   * Shows the displays of the seat; who sits where is known with the briefing, which may come
+   * later.
+   */
   #arrange() {
-    const seat = this.#seat, category = seat && this.#run.categories ? this.#run.categories[seat] ?? "unit" : "";
+    const seat = this.#seat,
+      category = seat && this.#run.categories ? (this.#run.categories[seat] ?? "unit") : "";
     this.#arranged = this.#run.categories;
-    document.body.dataset.seat = { aircraft: "pilot", vehicle: "driver", unit: "controller" }[category] ?? "";
+    document.body.dataset.seat =
+      { aircraft: "pilot", vehicle: "driver", unit: "controller" }[category] ?? "";
     this.#cameras.offer(!category ? undefined : category === "unit" ? null : seat);
     this.#panel.offer(category, this.#run.airport);
   }
 
   /** Shows on the strips only calls on the frequencies that a function returns. */
-  hearOnly(heard) { this.#strips.hearOnly(heard); }
+  hearOnly(heard) {
+    this.#strips.hearOnly(heard);
+  }
 
   /** Takes in what the instruments show. */
   take(shown) {
@@ -76,7 +93,8 @@ export class Displays {
   }
 
   #drawCockpit(shown) {
-    const told = tcasOf(this.#run, this.#clock.t), label = ["Primary flight display", spoken(told)].filter((text) => text).join(", ");
+    const told = tcasOf(this.#run, this.#clock.t),
+      label = ["Primary flight display", spoken(told)].filter((text) => text).join(", ");
     this.#pfd.draw(shown, told);
     this.#nd.draw(this.#seat, shown, told);
     if (byId("pfd").ariaLabel !== label) byId("pfd").ariaLabel = label;
@@ -84,7 +102,8 @@ export class Displays {
 
   #draw() {
     if (this.#arranged !== this.#run.categories) this.#arrange();
-    const shown = this.#instruments.now(), { seat } = document.body.dataset;
+    const shown = this.#instruments.now(),
+      { seat } = document.body.dataset;
     if (seat === "pilot") this.#drawCockpit(shown);
     if (seat === "controller") this.#strips.draw();
     requestAnimationFrame(() => this.#draw());

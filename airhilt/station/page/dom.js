@@ -6,21 +6,28 @@ export const byId = (id) => document.getElementById(id);
 
 function filled(node, attributes, children) {
   for (const [name, value] of Object.entries(attributes)) {
-    if (value !== null && value !== undefined && value !== false) node.setAttribute(name, value === true ? "" : value);
+    if (value !== null && value !== undefined && value !== false)
+      node.setAttribute(name, value === true ? "" : value);
   }
   node.append(...children.flat().filter((child) => child !== null && child !== undefined));
   return node;
 }
 
 /** Returns an HTML element. */
-export const html = (tag, attributes = {}, ...children) => filled(document.createElement(tag), attributes, children);
+export const html = (tag, attributes = {}, ...children) =>
+  filled(document.createElement(tag), attributes, children);
 
 /** Returns an SVG element. */
-export const svg = (tag, attributes = {}, ...children) => filled(document.createElementNS(SVG, tag), attributes, children);
+export const svg = (tag, attributes = {}, ...children) =>
+  filled(document.createElementNS(SVG, tag), attributes, children);
 
 /** Returns a button that sets the clock to a time. */
 export function timeButton(clock, t, text) {
-  const button = html("button", { type: "button", class: "time", "aria-label": `Go to ${text}` }, text);
+  const button = html(
+    "button",
+    { type: "button", class: "time", "aria-label": `Go to ${text}` },
+    text,
+  );
   button.addEventListener("click", () => clock.set(t));
   return button;
 }
@@ -42,10 +49,14 @@ export function colour(name) {
 /** Lets `colour` look again, because the page has other colours now. */
 export const forgetColours = () => known.clear();
 
-/** Calls a function with the drawing context, width and height of a canvas whenever its size changes. */
+/**
+ * Calls a function with the drawing context, width and height of a canvas whenever its size
+ * changes.
+ */
 export function onSize(canvas, call) {
   const resized = () => {
-    const factor = devicePixelRatio || 1, { width, height } = canvas.getBoundingClientRect();
+    const factor = devicePixelRatio || 1,
+      { width, height } = canvas.getBoundingClientRect();
     if (!width || !height) return;
     canvas.width = Math.round(width * factor);
     canvas.height = Math.round(height * factor);

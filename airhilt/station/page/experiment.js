@@ -8,8 +8,16 @@ const PERIOD_MS = 1000;
 const tlx = new Tlx();
 
 async function ask(path, wish) {
-  const how = wish === undefined ? {} : { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(wish) };
-  const answer = await fetch(path, how), content = await answer.json();
+  const how =
+    wish === undefined
+      ? {}
+      : {
+          method: "POST",
+          headers: { "Content-Type": "application/json" },
+          body: JSON.stringify(wish),
+        };
+  const answer = await fetch(path, how),
+    content = await answer.json();
   if (!answer.ok) throw new Error(content.error ?? `the server answers ${answer.status}`);
   return content;
 }
@@ -18,18 +26,30 @@ const note = (text) => byId("notes").replaceChildren(...(text ? [html("p", {}, t
 
 function textOf({ step, seat, said, rest_s: rest }) {
   switch (step) {
-    case "ready": return rest > 0 ? `Take a break. The next trial can begin in ${Math.ceil(rest / 60)} min.` : `${said} When you are ready, begin. A link to your seat, ${seat}, will appear here.`.trim();
-    case "starting": return "The trial is being prepared. That takes some seconds.";
-    case "running": return `Open the page of your seat, and take the seat ${seat}. When the trial is over, come back to this page.`;
-    case "questions": return "";
-    default: return "That was the last trial. Thank you.";
+    case "ready":
+      return rest > 0
+        ? `Take a break. The next trial can begin in ${Math.ceil(rest / 60)} min.`
+        : `${said} When you are ready, begin. A link to your seat, ${seat}, will appear here.`.trim();
+    case "starting":
+      return "The trial is being prepared. That takes some seconds.";
+    case "running":
+      return `Open the page of your seat, and take the seat ${seat}. When the trial is over, come back to this page.`;
+    case "questions":
+      return "";
+    default:
+      return "That was the last trial. Thank you.";
   }
 }
 
 function show(state) {
   const { step, trial, trials, url, rest_s: rest } = state;
   byId("title").textContent = `Experiment, ${state.participant}`;
-  byId("step").textContent = step === "done" ? "All trials are done" : step === "questions" ? `Questions after trial ${trial} of ${trials}` : `Trial ${trial} of ${trials}`;
+  byId("step").textContent =
+    step === "done"
+      ? "All trials are done"
+      : step === "questions"
+        ? `Questions after trial ${trial} of ${trials}`
+        : `Trial ${trial} of ${trials}`;
   byId("step-text").textContent = textOf(state);
   byId("begin").hidden = step !== "ready";
   byId("begin").disabled = rest > 0;
@@ -50,13 +70,17 @@ async function act(path, wish) {
 
 function answer() {
   const { missing } = tlx;
-  if (missing.length) note(`Please move or click every slider: ${missing.join(", ")}.`); else act("api/answers", tlx.answers);
+  if (missing.length) note(`Please move or click every slider: ${missing.join(", ")}.`);
+  else act("api/answers", tlx.answers);
 }
 
 async function follow() {
   try {
     show(await ask("api/experiment"));
-    if (byId("notes").dataset.lost) { delete byId("notes").dataset.lost; note(""); }
+    if (byId("notes").dataset.lost) {
+      delete byId("notes").dataset.lost;
+      note("");
+    }
   } catch {
     byId("notes").dataset.lost = "true";
     note("The experiment does not answer. Please tell the experimenter.");
@@ -67,5 +91,8 @@ async function follow() {
 
 connectTheme(() => {});
 byId("begin").addEventListener("click", () => act("api/begin", {}));
-byId("tlx").addEventListener("submit", (event) => { event.preventDefault(); answer(); });
+byId("tlx").addEventListener("submit", (event) => {
+  event.preventDefault();
+  answer();
+});
 follow();

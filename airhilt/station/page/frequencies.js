@@ -1,4 +1,5 @@
-// The frequency panel of a seat: which frequencies are heard, on which one is spoken, and which are busy.
+// The frequency panel of a seat: which frequencies are heard, on which one is spoken, and which are
+// busy.
 
 import { keepNewest } from "./bounds.js";
 import { byId, html } from "./dom.js";
@@ -12,11 +13,14 @@ export class Frequencies {
   #open = new Map(); // frequencies of the transmissions on the air
 
   /** `tune(frequencies)` tells the server which frequencies in kHz are heard. */
-  constructor(tune) { this.#tune = tune; }
+  constructor(tune) {
+    this.#tune = tune;
+  }
 
   /** Shows the frequencies of the seat, all of them heard; none without a seat. */
   show(frequencies) {
-    const isSame = frequencies.length === this.#rows.size && frequencies.every((khz) => this.#rows.has(khz));
+    const isSame =
+      frequencies.length === this.#rows.size && frequencies.every((khz) => this.#rows.has(khz));
     if (!isSame) {
       this.#rows = new Map(frequencies.map((khz, i) => [khz, this.#row(khz, !i)]));
       byId("frequencies").replaceChildren(...[...this.#rows.values()].map(({ item }) => item));
@@ -28,13 +32,19 @@ export class Frequencies {
   }
 
   /** Tells the server again what is heard: the connection is another one. */
-  tell() { if (this.#rows.size) this.#tune(this.heard); }
+  tell() {
+    if (this.#rows.size) this.#tune(this.heard);
+  }
 
   /** Frequencies that are heard, in kHz. */
-  get heard() { return [...this.#rows].filter(([, { listen }]) => listen.checked).map(([khz]) => khz); }
+  get heard() {
+    return [...this.#rows].filter(([, { listen }]) => listen.checked).map(([khz]) => khz);
+  }
 
   /** The frequency on which the person speaks, in kHz; null if there is none. */
-  get transmit() { return [...this.#rows].find(([, { speak }]) => speak.checked)?.[0] ?? null; }
+  get transmit() {
+    return [...this.#rows].find(([, { speak }]) => speak.checked)?.[0] ?? null;
+  }
 
   /** Takes in beginnings and ends of transmissions. */
   take(pieces) {
@@ -47,10 +57,30 @@ export class Frequencies {
   }
 
   #row(khz, isFirst) {
-    const listen = html("input", { type: "checkbox", checked: true }), speak = html("input", { type: "radio", name: "transmit", checked: isFirst }), lamp = html("span", { class: "lamp", role: "status" });
-    listen.addEventListener("change", () => { this.#open.clear(); this.#tune(this.heard); this.#draw(); });
-    speak.addEventListener("change", () => { if (!listen.checked) listen.click(); }); // as on a radio: who speaks there listens there
-    return { listen, speak, lamp, item: html("li", {}, html("strong", {}, megahertz(khz)), lamp, html("label", {}, listen, "Listen"), html("label", {}, speak, "Transmit")) };
+    const listen = html("input", { type: "checkbox", checked: true }),
+      speak = html("input", { type: "radio", name: "transmit", checked: isFirst }),
+      lamp = html("span", { class: "lamp", role: "status" });
+    listen.addEventListener("change", () => {
+      this.#open.clear();
+      this.#tune(this.heard);
+      this.#draw();
+    });
+    speak.addEventListener("change", () => {
+      if (!listen.checked) listen.click();
+    }); // as on a radio: who speaks there listens there
+    return {
+      listen,
+      speak,
+      lamp,
+      item: html(
+        "li",
+        {},
+        html("strong", {}, megahertz(khz)),
+        lamp,
+        html("label", {}, listen, "Listen"),
+        html("label", {}, speak, "Transmit"),
+      ),
+    };
   }
 
   #draw() {

@@ -14,25 +14,39 @@ export class GamepadButton {
   /** `act(event, isDown)` is called when the button goes down or up. */
   constructor(act) {
     this.#act = act;
-    byId("gamepad-choose").addEventListener("click", () => { this.#isChoosing = !this.#isChoosing; this.#draw(); });
+    byId("gamepad-choose").addEventListener("click", () => {
+      this.#isChoosing = !this.#isChoosing;
+      this.#draw();
+    });
     window.addEventListener("gamepadconnected", () => this.#begin());
     window.addEventListener("gamepaddisconnected", () => this.#draw());
     this.#draw();
   }
 
-  get #pads() { return [...navigator.getGamepads()].filter((pad) => pad?.connected); }
+  get #pads() {
+    return [...navigator.getGamepads()].filter((pad) => pad?.connected);
+  }
 
   #begin() {
     this.#draw();
-    if (!this.#isPolling) { this.#isPolling = true; this.#poll(); }
+    if (!this.#isPolling) {
+      this.#isPolling = true;
+      this.#poll();
+    }
   }
 
   /** Looks at the buttons with each picture, as browsers give no events of them. */
   #poll() {
     const pads = this.#pads;
-    if (!pads.length) { this.#isPolling = false; this.#set(false, performance.now()); return; }
+    if (!pads.length) {
+      this.#isPolling = false;
+      this.#set(false, performance.now());
+      return;
+    }
     if (this.#isChoosing) {
-      const pressed = pads.map((pad) => pad.buttons.findIndex((button) => button.pressed)).find((i) => i >= 0);
+      const pressed = pads
+        .map((pad) => pad.buttons.findIndex((button) => button.pressed))
+        .find((i) => i >= 0);
       if (pressed !== undefined) {
         this.#button = pressed;
         localStorage.setItem(NAME, pressed);
@@ -55,6 +69,8 @@ export class GamepadButton {
   #draw() {
     byId("gamepad").hidden = !this.#pads.length;
     byId("gamepad-choose").textContent = this.#isChoosing ? "Leave it" : "Choose another";
-    byId("gamepad-state").textContent = this.#isChoosing ? "Press the button that is to talk." : `Button ${this.#button + 1} of the gamepad talks.`;
+    byId("gamepad-state").textContent = this.#isChoosing
+      ? "Press the button that is to talk."
+      : `Button ${this.#button + 1} of the gamepad talks.`;
   }
 }

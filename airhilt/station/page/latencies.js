@@ -3,8 +3,15 @@
 import { BOLD, FONT, byId, colour, onSize, write } from "./dom.js";
 import { fixed, seconds } from "./words.js";
 
-const STAGES = [["asr", "ASR"], ["vision", "Vision"], ["adsb", "ADS-B"], ["decision", "Decision"], ["tts", "Voice"]];
-const WINDOW_S = 60, AHEAD_S = 10; // shown in all, and of that after the time shown where the run has ended
+const STAGES = [
+  ["asr", "ASR"],
+  ["vision", "Vision"],
+  ["adsb", "ADS-B"],
+  ["decision", "Decision"],
+  ["tts", "Voice"],
+];
+const WINDOW_S = 60,
+  AHEAD_S = 10; // shown in all, and of that after the time shown where the run has ended
 const LEFT = 128;
 
 /** Returns a latency in ms or s. */
@@ -19,8 +26,12 @@ export class Latencies {
   constructor(run, clock) {
     this.#run = run;
     this.#clock = clock;
-    onSize(this.#canvas, (pen, width, height) => { this.#size = { pen, width, height }; this.draw(); });
-    for (const name of ["profile", "latencies"]) byId(`show-${name}`).addEventListener("click", () => this.#show(name));
+    onSize(this.#canvas, (pen, width, height) => {
+      this.#size = { pen, width, height };
+      this.draw();
+    });
+    for (const name of ["profile", "latencies"])
+      byId(`show-${name}`).addEventListener("click", () => this.#show(name));
   }
 
   #show(shown) {
@@ -33,14 +44,22 @@ export class Latencies {
 
   draw() {
     if (!this.#size || this.#canvas.hidden) return;
-    const { pen, width, height } = this.#size, { t } = this.#clock, to = t + (this.#clock.live ? 0 : AHEAD_S), from = to - WINDOW_S;
-    const x = (time) => LEFT + (time - from) / WINDOW_S * (width - LEFT - 10), bottom = height - 20, tall = bottom / STAGES.length;
+    const { pen, width, height } = this.#size,
+      { t } = this.#clock,
+      to = t + (this.#clock.live ? 0 : AHEAD_S),
+      from = to - WINDOW_S;
+    const x = (time) => LEFT + ((time - from) / WINDOW_S) * (width - LEFT - 10),
+      bottom = height - 20,
+      tall = bottom / STAGES.length;
     pen.fillStyle = colour("--panel");
     pen.fillRect(0, 0, width, height);
     this.#drawGrid(x, from, to, bottom);
     const told = [];
     STAGES.forEach(([stage, name], i) => {
-      const bars = this.#run.latencies.filter((bar) => bar[0] === stage && bar[2] >= from && bar[1] <= Math.min(to, t)), middle = (i + 0.5) * tall;
+      const bars = this.#run.latencies.filter(
+          (bar) => bar[0] === stage && bar[2] >= from && bar[1] <= Math.min(to, t),
+        ),
+        middle = (i + 0.5) * tall;
       const last = this.#run.latencies.findLast((bar) => bar[0] === stage && bar[2] <= t);
       pen.fillStyle = colour(`--c${i}`);
       pen.save();
@@ -48,10 +67,22 @@ export class Latencies {
       pen.rect(LEFT, 0, width - LEFT - 10, height);
       pen.clip();
       for (const [, begin, end, , spoken] of bars) {
-        pen.globalAlpha = spoken === undefined ? 1 : 0.35; // While somebody speaks, nothing can be late.
-        pen.fillRect(x(begin), middle - tall * 0.28, Math.max(x(Math.min(spoken ?? end, t)) - x(begin), 2), tall * 0.56);
+        // While somebody speaks, nothing can be late.
+        pen.globalAlpha = spoken === undefined ? 1 : 0.35;
+        pen.fillRect(
+          x(begin),
+          middle - tall * 0.28,
+          Math.max(x(Math.min(spoken ?? end, t)) - x(begin), 2),
+          tall * 0.56,
+        );
         pen.globalAlpha = 1;
-        if (spoken !== undefined && spoken < t) pen.fillRect(x(spoken), middle - tall * 0.28, Math.max(x(Math.min(end, t)) - x(spoken), 2), tall * 0.56);
+        if (spoken !== undefined && spoken < t)
+          pen.fillRect(
+            x(spoken),
+            middle - tall * 0.28,
+            Math.max(x(Math.min(end, t)) - x(spoken), 2),
+            tall * 0.56,
+          );
       }
       pen.restore();
       pen.textAlign = "left";

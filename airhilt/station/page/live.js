@@ -6,14 +6,45 @@ import { seconds } from "./words.js";
 
 const RETRY_MS = 1000;
 const SILENT_MS = 4000; // an answer to an echo comes every two seconds
-const DEAD_MS = 8000; // without a message, after which another connection is tried: the server has given this one up
+// Without a message, after which another connection is tried: the server has given this one up.
+const DEAD_MS = 8000;
 const OLD_PAGE = 4426; // code with which the server closes: the page is of another version
-const PHASES = { waiting: "waiting for the run", finished: "finished", stopped: "stopped", gone: "the run is not there any more" };
+const PHASES = {
+  waiting: "waiting for the run",
+  finished: "finished",
+  stopped: "stopped",
+  gone: "the run is not there any more",
+};
 const SLOWLY_MS = 1000; // between two drawings of what takes long
 
-/** The name of this browser tab, which it keeps when its connection is lost or the page is loaded again. */
+const SILENT = "Nothing comes from the station. What is shown is old";
+const SILENT_AT_SEAT = "and nobody hears you. If it stays so, your seat is given back.";
+const DEBRIEF =
+  "Its debrief is on the first page of the station, or at “airhilt view” with its folder.";
+
+/** Returns how a run has ended, in words. */
+function ending({ title, phase }) {
+  if (/^Trial \d+$/.test(title)) {
+    return "The trial is over. Go back to the page of the experiment.";
+  }
+  if (phase === "gone") {
+    return "The run has ended without saying so. What is shown is how far it came.";
+  }
+  return `The run ${phase === "finished" ? "is over" : "was stopped"}. ${DEBRIEF}`;
+}
+
+/**
+ * The name of this browser tab, which it keeps when its connection is lost or the page is loaded
+ * again.
+ */
 function identity() {
-  if (!sessionStorage.getItem("browser")) sessionStorage.setItem("browser", Array.from(crypto.getRandomValues(new Uint8Array(12)), (byte) => byte.toString(16).padStart(2, "0")).join(""));
+  if (!sessionStorage.getItem("browser"))
+    sessionStorage.setItem(
+      "browser",
+      Array.from(crypto.getRandomValues(new Uint8Array(12)), (byte) =>
+        byte.toString(16).padStart(2, "0"),
+      ).join(""),
+    );
   return sessionStorage.getItem("browser");
 }
 
@@ -45,7 +76,8 @@ export class Live {
   /** Lets the pictures of a camera come. */
   watch(name) {
     this.#watched = name;
-    if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify({ watch: name }));
+    if (this.#socket?.readyState === WebSocket.OPEN)
+      this.#socket.send(JSON.stringify({ watch: name }));
   }
 
   #open() {
@@ -57,41 +89,68 @@ export class Live {
     url.searchParams.set("version", this.#run.version ?? "");
     this.#socket = new WebSocket(url);
     this.#heard = performance.now();
-    this.#socket.onopen = () => { this.#heard = performance.now(); this.#tell(); this.watch(this.#watched); };
+    this.#socket.onopen = () => {
+      this.#heard = performance.now();
+      this.#tell();
+      this.watch(this.#watched);
+    };
     this.#socket.onmessage = (event) => {
       this.#heard = performance.now();
-      if (this.#isSilent) { this.#isSilent = false; this.#tell(); }
+      if (this.#isSilent) {
+        this.#isSilent = false;
+        this.#tell();
+      }
       this.#take(JSON.parse(event.data));
     };
     this.#socket.onclose = (event) => {
       this.#panes.talk.lost();
-      if (this.#isOver) { this.#tell(); return; }
+      if (this.#isOver) {
+        this.#tell();
+        return;
+      }
       const isOld = event.code === OLD_PAGE;
-      this.#warn(event.reason || (this.#panes.seat.own ? "Connection lost, trying again. Your seat is kept for 5 s; then its script goes on." : "Connection lost, trying again."), isOld);
+      this.#warn(
+        event.reason ||
+          (this.#panes.seat.own
+            ? "Connection lost, trying again. Your seat is kept for 5 s; then its script goes on."
+            : "Connection lost, trying again."),
+        isOld,
+      );
       if (!isOld) setTimeout(() => this.#open(), RETRY_MS);
     };
     byId("link-reload").onclick = () => location.reload();
   }
 
-  /** Leaves a connection over which nothing comes; its end may come much later, and says nothing new. */
+  /**
+   * Leaves a connection over which nothing comes; its end may come much later, and says nothing
+   * new.
+   */
   #abandon() {
     if (!this.#socket) return;
     this.#socket.onopen = this.#socket.onmessage = this.#socket.onclose = null;
     this.#socket.close();
   }
 
-  /** Tells if nothing comes although the connection is there: the network is cut, or the station stands still. */
+  /**
+   * Tells if nothing comes although the connection is there: the network is cut, or the station
+   * stands still.
+   */
   #listen() {
-    const isOpen = this.#socket.readyState === WebSocket.OPEN, isOpening = this.#socket.readyState === WebSocket.CONNECTING, silentMs = performance.now() - this.#heard;
+    const isOpen = this.#socket.readyState === WebSocket.OPEN,
+      isOpening = this.#socket.readyState === WebSocket.CONNECTING,
+      silentMs = performance.now() - this.#heard;
     this.#isSilent = isOpen && !this.#isOver && silentMs > SILENT_MS;
     if (this.#isSilent) {
       this.#panes.talk.lost();
-      this.#warn(this.#panes.seat.own ? "Nothing comes from the station. What is shown is old, and nobody hears you. If it stays so, your seat is given back." : "Nothing comes from the station. What is shown is old.");
+      this.#warn(this.#panes.seat.own ? `${SILENT}, ${SILENT_AT_SEAT}` : `${SILENT}.`);
     }
-    if (!this.#isOver && ((isOpen && silentMs > DEAD_MS) || (isOpening && silentMs > SILENT_MS))) this.#open();
+    if (!this.#isOver && ((isOpen && silentMs > DEAD_MS) || (isOpening && silentMs > SILENT_MS)))
+      this.#open();
   }
 
-  get #isOver() { return ["finished", "stopped", "gone"].includes(this.#run.phase); }
+  get #isOver() {
+    return ["finished", "stopped", "gone"].includes(this.#run.phase);
+  }
 
   /** Shows large what keeps the page from following the run; nothing if it does. */
   #warn(text, isOld = false) {
@@ -104,15 +163,18 @@ export class Live {
   #tell() {
     const { phase, pace } = this.#run;
     this.#warn("");
-    byId("state").textContent = PHASES[phase] ?? (pace === "paused" ? "paused" : `running, ${PACES[pace] ?? pace}`);
+    byId("state").textContent =
+      PHASES[phase] ?? (pace === "paused" ? "paused" : `running, ${PACES[pace] ?? pace}`);
     if (!this.#isOver) return;
     byId("link").hidden = false;
     byId("pace").hidden = true;
-    byId("link-text").textContent = /^Trial \d+$/.test(this.#run.title) ? "The trial is over. Go back to the page of the experiment." : phase === "gone" ? "The run has ended without saying so. What is shown is how far it came." : `The run ${phase === "finished" ? "is over" : "was stopped"}. Its debrief is on the first page of the station, or at “airhilt view” with its folder.`;
+    byId("link-text").textContent = ending(this.#run);
   }
 
   /** True while the station can be reached. */
-  get isThere() { return this.#socket?.readyState === WebSocket.OPEN && !this.#isSilent; }
+  get isThere() {
+    return this.#socket?.readyState === WebSocket.OPEN && !this.#isSilent;
+  }
 
   /** Sends what somebody at a seat wishes. */
   send(wish) {
@@ -120,26 +182,36 @@ export class Live {
   }
 
   /** Sends sound of the microphone. */
-  sendSound(buffer) { if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(buffer); }
+  sendSound(buffer) {
+    if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(buffer);
+  }
 
   /** Number of bytes that wait to be sent. */
-  unsent() { return this.#socket?.bufferedAmount ?? 0; }
+  unsent() {
+    return this.#socket?.bufferedAmount ?? 0;
+  }
 
   #take(message) {
     const { next, changes, seats, own, refused } = message;
     if (seats) this.#takeSeats(seats);
     if (own) this.#panes.seat.take(own);
     if (refused) this.#refuse(refused);
-    if (!changes) { this.#panes.talk.take(message); return; }
+    if (!changes) {
+      this.#panes.talk.take(message);
+      return;
+    }
     const { plan, transcript, cameras, sounds } = this.#panes;
     this.#seen = next;
-    const { pace, phase } = this.#run, changed = this.#run.apply(changes), has = (...kinds) => kinds.some((kind) => changed.has(kind));
+    const { pace, phase } = this.#run,
+      changed = this.#run.apply(changes),
+      has = (...kinds) => kinds.some((kind) => changed.has(kind));
     this.#panes.talk.take(message);
     for (const [kind, ...rest] of changes) {
       if (kind === "picture") cameras.add(...rest);
       if (kind === "call" && this.#clock.following && !this.#panes.seat.own) sounds.add(rest[0]);
     }
-    if (has("call")) this.#panes.seat.heard(changes.filter(([kind]) => kind === "call").map(([, call]) => call));
+    if (has("call"))
+      this.#panes.seat.heard(changes.filter(([kind]) => kind === "call").map(([, call]) => call));
     if (has("briefing")) plan.renew();
     if (has("state")) plan.keepFitted();
     if (has("call")) transcript.redraw();
@@ -147,7 +219,10 @@ export class Live {
     if (has("clock")) this.#tell();
     if (this.#run.pace !== pace || this.#run.phase !== phase) this.#clock.paced();
     for (const kind of changed) this.#undrawn.add(kind);
-    this.#drawing ??= setTimeout(() => this.#drawLists(), Math.max(SLOWLY_MS - (performance.now() - this.#drawn), 0));
+    this.#drawing ??= setTimeout(
+      () => this.#drawLists(),
+      Math.max(SLOWLY_MS - (performance.now() - this.#drawn), 0),
+    );
     this.#clock.setEnd(this.#run.now ?? 0);
   }
 
@@ -159,12 +234,15 @@ export class Live {
 
   /** Shows who watches a run without seats what the run has refused last. */
   #tellRefused() {
-    const last = this.#run.seats?.length ? null : this.#run.events.findLast(({ kind }) => kind === "refused");
+    const last = this.#run.seats?.length
+      ? null
+      : this.#run.events.findLast(({ kind }) => kind === "refused");
     if (last) this.#refuse(`Refused at ${seconds(last.t)}: ${last.text}`);
   }
 
   #takeSeats(seats) {
-    const { seat, talk, advisories, plan } = this.#panes, before = seat.own;
+    const { seat, talk, advisories, plan } = this.#panes,
+      before = seat.own;
     seat.setSeats(seats);
     talk.setSeat(seat.own);
     if (seat.own === before) return;
@@ -177,7 +255,8 @@ export class Live {
     const { profile, marks, advisories, traffic, transport } = this.#panes;
     this.#drawing = null;
     this.#drawn = performance.now();
-    if (["advisory", "name", "briefing"].some((kind) => this.#undrawn.has(kind))) advisories.redraw();
+    if (["advisory", "name", "briefing"].some((kind) => this.#undrawn.has(kind)))
+      advisories.redraw();
     if (this.#undrawn.has("call") || this.#undrawn.has("event")) transport.renew();
     if (this.#undrawn.has("event")) this.#tellRefused();
     if (this.#undrawn.has("track")) traffic.redraw();

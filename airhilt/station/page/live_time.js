@@ -19,10 +19,14 @@ export class LiveTime {
   }
 
   /** Forgets the pace, because the run has another one now, and takes the time shown from there. */
-  paced() { this.#told.splice(0, this.#told.length - 1); }
+  paced() {
+    this.#told.splice(0, this.#told.length - 1);
+  }
 
   /** Shows a time at once. */
-  jump(t) { this.#t = t; }
+  jump(t) {
+    this.#t = t;
+  }
 
   /** Seconds of the run in a millisecond. */
   get #rate() {
@@ -33,12 +37,20 @@ export class LiveTime {
 
   /** The time of the run that is shown at a wall time: never earlier than before. */
   at(now) {
-    const passed = Math.min(now - (this.#shown ?? now), MOST_AHEAD_MS), last = this.#told.at(-1), rate = this.#rate;
+    const passed = Math.min(now - (this.#shown ?? now), MOST_AHEAD_MS),
+      last = this.#told.at(-1),
+      rate = this.#rate;
     this.#shown = now;
     if (!last) return this.#t;
-    const due = last[1] + rate * Math.min(Math.max(now - last[0], 0), MOST_AHEAD_MS), furthest = last[1] + rate * MOST_AHEAD_MS, moved = Math.min(this.#t + rate * passed, Math.max(furthest, this.#t));
-    const off = due - moved, most = Math.max(MOST_OFF_S, MOST_AHEAD_MS * rate);
-    this.#t = Math.abs(off) > most ? due : Math.max(moved + off * (1 - Math.exp(-passed / EVENING_MS)), this.#t);
+    const due = last[1] + rate * Math.min(Math.max(now - last[0], 0), MOST_AHEAD_MS),
+      furthest = last[1] + rate * MOST_AHEAD_MS,
+      moved = Math.min(this.#t + rate * passed, Math.max(furthest, this.#t));
+    const off = due - moved,
+      most = Math.max(MOST_OFF_S, MOST_AHEAD_MS * rate);
+    this.#t =
+      Math.abs(off) > most
+        ? due
+        : Math.max(moved + off * (1 - Math.exp(-passed / EVENING_MS)), this.#t);
     return this.#t;
   }
 }

@@ -5,18 +5,23 @@ import { byId, html } from "./dom.js";
 
 const RATE_HZ = 16000;
 const AHEAD_S = 0.15; // between the coming of a piece of sound and its playing, against gaps
-const MOST_BEHIND_S = 1.5; // by which sound is played later than it came: after a stall, old sound is left out
+// By which sound is played later than it came: after a stall, old sound is left out.
+const MOST_BEHIND_S = 1.5;
 const MOST_SOURCES = 10; // pieces of a transmission that may still have to be stopped
-const PIECE_S = 0.5; // in which pieces sound comes; a shorter first one says how late the microphone is
-const MOST_WAITING = 130; // pieces of a transmission in slow motion, the newest: a call lasts 60 s at most
+// In which pieces sound comes; a shorter first one says how late the microphone is.
+const PIECE_S = 0.5;
+// Pieces of a transmission in slow motion, the newest: a call lasts 60 s at most.
+const MOST_WAITING = 130;
 const MOST_OPEN = 20; // transmissions at a time
-const TONES = { CAUTION: [700, [0]], WARNING: [1100, [0, 0.18, 0.36]] }; // Hz, and when each pulse begins, in s
+// Frequency in Hz, and when each pulse begins, in s.
+const TONES = { CAUTION: [700, [0]], WARNING: [1100, [0, 0.18, 0.36]] };
 const PULSE_S = 0.12;
 
 export class Loudspeaker {
   #context = null;
   #gain = null;
-  #playing = new Map(); // of each transmission: when its next piece is due, and those that are played
+  // Of each transmission: when its next piece is due, and those that are played.
+  #playing = new Map();
   #waiting = new Map(); // pieces of the transmissions that are played when they have ended
   #volume = html("input", { type: "range", min: 0, max: 1, step: 0.05, value: 0.8 });
 
@@ -44,12 +49,16 @@ export class Loudspeaker {
     byId("hearing").hidden = true;
   }
 
-  /** Takes in pieces of transmissions. `isOwn(id)` says which are one's own; `isDeaf`, that one transmits; `isSlow`, that time passes slowly. */
+  /**
+   * Takes in pieces of transmissions. `isOwn(id)` says which are one's own; `isDeaf`, that one
+   * transmits; `isSlow`, that time passes slowly.
+   */
   take(pieces, { isOwn, isDeaf, isSlow }) {
     for (const [phase, { id, pcm }] of pieces) {
       if (phase === "closed") this.#close(id);
       if (pcm && !isOwn(id) && !isDeaf && this.#context) {
-        if (isSlow) this.#keep(id, pcm); else this.#play(id, pcm);
+        if (isSlow) this.#keep(id, pcm);
+        else this.#play(id, pcm);
       }
     }
   }
@@ -60,22 +69,33 @@ export class Loudspeaker {
     keepNewest(this.#waiting, MOST_OPEN);
   }
 
-  /** Plays the tone of a severity and then the voice, and returns when the first sample is audible, in s from now; null if nothing is played. */
+  /**
+   * Plays the tone of a severity and then the voice, and returns when the first sample is audible,
+   * in s from now; null if nothing is played.
+   */
   async warn(severity, url) {
     const context = this.#context;
     if (!context || context.state !== "running") return null;
-    const begin = context.currentTime, [hertz, pulses] = TONES[severity] ?? [0, []];
+    const begin = context.currentTime,
+      [hertz, pulses] = TONES[severity] ?? [0, []];
     for (const at of pulses) this.#pulse(hertz, begin + at);
     const latency = (context.outputLatency || 0) + (context.baseLatency || 0);
     if (url) this.#voice(url, begin + (pulses.length ? pulses.at(-1) + PULSE_S + 0.05 : 0));
     return pulses.length || url ? latency : null;
   }
 
-  /** Plays a piece after those of its transmission that came before; `isOld`: they have all been waiting. */
+  /**
+   * Plays a piece after those of its transmission that came before; `isOld`: they have all been
+   * waiting.
+   */
   #play(id, pcm, isOld = false) {
-    const bytes = Uint8Array.from(atob(pcm), (letter) => letter.charCodeAt(0)), samples = new Int16Array(bytes.buffer);
-    const buffer = this.#context.createBuffer(1, samples.length, RATE_HZ), channel = buffer.getChannelData(0);
-    samples.forEach((sample, i) => { channel[i] = sample / 32768; });
+    const bytes = Uint8Array.from(atob(pcm), (letter) => letter.charCodeAt(0)),
+      samples = new Int16Array(bytes.buffer);
+    const buffer = this.#context.createBuffer(1, samples.length, RATE_HZ),
+      channel = buffer.getChannelData(0);
+    samples.forEach((sample, i) => {
+      channel[i] = sample / 32768;
+    });
     const now = this.#context.currentTime;
     let line = this.#playing.get(id);
     if (line && !isOld && line.due - now > MOST_BEHIND_S) {
@@ -99,7 +119,8 @@ export class Loudspeaker {
   }
 
   #pulse(hertz, at) {
-    const oscillator = this.#context.createOscillator(), envelope = this.#context.createGain();
+    const oscillator = this.#context.createOscillator(),
+      envelope = this.#context.createGain();
     oscillator.frequency.value = hertz;
     envelope.gain.setValueAtTime(0, at);
     envelope.gain.linearRampToValueAtTime(0.35, at + 0.01);
@@ -113,7 +134,10 @@ export class Loudspeaker {
   async #voice(url, at) {
     const answer = await fetch(url);
     if (answer.status !== 200) return;
-    this.#start(await this.#context.decodeAudioData(await answer.arrayBuffer()), Math.max(at, this.#context.currentTime));
+    this.#start(
+      await this.#context.decodeAudioData(await answer.arrayBuffer()),
+      Math.max(at, this.#context.currentTime),
+    );
   }
 
   #close(id) {
@@ -122,5 +146,7 @@ export class Loudspeaker {
     this.#playing.delete(id);
   }
 
-  #setVolume() { if (this.#gain) this.#gain.gain.value = Number(this.#volume.value) ** 2; }
+  #setVolume() {
+    if (this.#gain) this.#gain.gain.value = Number(this.#volume.value) ** 2;
+  }
 }

@@ -25,32 +25,79 @@ const note = (text) => byId("notes").append(html("p", {}, text));
 async function begin() {
   const answer = await fetch("api/run");
   if (!answer.ok) throw new Error(`the server answers ${answer.status}`);
-  const run = new Run(await answer.json()), together = window.parent === window ? null : window.parent.together;
-  const clock = together ? new FollowingClock(run.end_s, together.clock) : new Clock(run.end_s, Boolean(run.live));
+  const run = new Run(await answer.json()),
+    together = window.parent === window ? null : window.parent.together;
+  const clock = together
+    ? new FollowingClock(run.end_s, together.clock)
+    : new Clock(run.end_s, Boolean(run.live));
   if (together) document.body.dataset.together = "true";
   if (run.live) run.title = run.run.replace(/^Trial-/, "Trial ");
   document.title = `${run.title || run.run} - AIRHILT`;
-  const folder = run.folder?.split(/[\\/]/).at(-1), assistant = run.summary?.assistant, named = [folder ?? run.run, assistant ? `assistant ${assistant}` : ""].filter((text) => text).join(", ");
+  const folder = run.folder?.split(/[\\/]/).at(-1),
+    assistant = run.summary?.assistant,
+    named = [folder ?? run.run, assistant ? `assistant ${assistant}` : ""]
+      .filter((text) => text)
+      .join(", ");
   byId("title").textContent = together ? named : run.title || run.run;
-  byId("subtitle").textContent = run.live ? "" : together ? run.title : [named, run.scenario.description].filter((text) => text).join(": ");
+  byId("subtitle").textContent = run.live
+    ? ""
+    : together
+      ? run.title
+      : [named, run.scenario.description].filter((text) => text).join(": ");
   byId("subtitle").title = run.scenario.description;
   byId("state").textContent = run.phase;
   run.notes.forEach(note);
 
-  const plan = new Plan(run, clock), profile = new Profile(run, clock), marks = new Marks(run, clock), latencies = new Latencies(run, clock);
-  const live = run.live ? new Live(run, clock) : null, sounds = live ? new LiveSounds() : new Sounds(run, clock);
-  const transcript = new Transcript(run, clock), cameras = new Cameras(run, clock, plan, (name) => live?.watch(name));
-  const advisories = new Advisories(run, clock, { call: (id) => transcript.goTo(id), camera: (name) => cameras.choose(name) });
-  const traffic = new Traffic(run, clock), transport = new Transport(run, clock);
-  const panes = [profile, latencies, marks, transcript, advisories, traffic, cameras, sounds, transport];
+  const plan = new Plan(run, clock),
+    profile = new Profile(run, clock),
+    marks = new Marks(run, clock),
+    latencies = new Latencies(run, clock);
+  const live = run.live ? new Live(run, clock) : null,
+    sounds = live ? new LiveSounds() : new Sounds(run, clock);
+  const transcript = new Transcript(run, clock),
+    cameras = new Cameras(run, clock, plan, (name) => live?.watch(name));
+  const advisories = new Advisories(run, clock, {
+    call: (id) => transcript.goTo(id),
+    camera: (name) => cameras.choose(name),
+  });
+  const traffic = new Traffic(run, clock),
+    transport = new Transport(run, clock);
+  const panes = [
+    profile,
+    latencies,
+    marks,
+    transcript,
+    advisories,
+    traffic,
+    cameras,
+    sounds,
+    transport,
+  ];
   noteReading(byId("calls"), byId("advisories"));
-  connectTheme(() => { profile.redraw(); latencies.draw(); plan.redraw(); marks.draw(); });
+  connectTheme(() => {
+    profile.redraw();
+    latencies.draw();
+    plan.redraw();
+    marks.draw();
+  });
   clock.listen(() => panes.forEach((pane) => pane.draw()));
   clock.animate(() => plan.draw());
   const seat = live ? new Seat(run, live, clock, cameras) : null;
   const talk = live ? new Talk(run, live) : null;
   if (live) for (const pane of [transcript, seat]) pane.hearOnly(() => talk.heard);
-  live?.connect({ plan, profile, marks, transcript, advisories, traffic, cameras, sounds, transport, seat, talk });
+  live?.connect({
+    plan,
+    profile,
+    marks,
+    transcript,
+    advisories,
+    traffic,
+    cameras,
+    sounds,
+    transport,
+    seat,
+    talk,
+  });
   connectKeys([
     ...timeKeys(clock, transport),
     { names: ["m"], shown: ["M"], text: "sound off or on", act: () => sounds.mute() },

@@ -1,6 +1,8 @@
-// Runs beside the audio of the browser: gives out 16 kHz samples of 16 bits while a call is made, and the level always.
+// Runs beside the audio of the browser: gives out 16 kHz samples of 16 bits while a call is made,
+// and the level always.
 
-const RATE_HZ = 16000, PIECE = RATE_HZ / 10;
+const RATE_HZ = 16000,
+  PIECE = RATE_HZ / 10;
 
 class Microphone extends AudioWorkletProcessor {
   #isOn = false;
@@ -15,7 +17,10 @@ class Microphone extends AudioWorkletProcessor {
     super();
     this.port.onmessage = ({ data }) => {
       this.#isOn = data.isOn;
-      if (!this.#isOn) { this.#give(); this.port.postMessage({ isOver: true }); }
+      if (!this.#isOn) {
+        this.#give();
+        this.port.postMessage({ isOver: true });
+      }
     };
   }
 
@@ -38,7 +43,10 @@ class Microphone extends AudioWorkletProcessor {
     this.#weight += RATE_HZ;
     if (this.#weight < sampleRate) return;
     const count = this.#weight / RATE_HZ;
-    this.#piece[this.#filled++] = Math.max(-32768, Math.min(32767, Math.round(this.#sum / Math.max(1, Math.round(count)) * 32768)));
+    this.#piece[this.#filled++] = Math.max(
+      -32768,
+      Math.min(32767, Math.round((this.#sum / Math.max(1, Math.round(count))) * 32768)),
+    );
     this.#sum = 0;
     this.#weight -= sampleRate;
     if (this.#filled === PIECE) this.#give();

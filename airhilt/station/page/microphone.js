@@ -1,16 +1,24 @@
-// The microphone of the person at a seat: opened after consent, transmitted while the button is held.
+// The microphone of the person at a seat: opened after consent, transmitted while the button is
+// held.
 
 import { byId } from "./dom.js";
 import { GamepadButton } from "./gamepad.js";
 
 const MOST_UNSENT_BYTES = 64000; // two seconds of sound
 const WHY = {
-  NotAllowedError: "The microphone was denied. Type what you want to say, or allow it in the browser and try again.",
+  NotAllowedError:
+    "The microphone was denied. Type what you want to say, or allow it in the browser and try again.",
   NotFoundError: "There is no microphone. Type what you want to say.",
   NotReadableError: "Another program has the microphone. Type what you want to say.",
 };
-const AUDIO = { channelCount: 1, echoCancellation: false, noiseSuppression: false, autoGainControl: true };
-const CONSENT = "What you say while you hold the button goes to this run. It is recognised, and everybody in the run hears it.";
+const AUDIO = {
+  channelCount: 1,
+  echoCancellation: false,
+  noiseSuppression: false,
+  autoGainControl: true,
+};
+const CONSENT =
+  "What you say while you hold the button goes to this run. It is recognised, and everybody in the run hears it.";
 const RECORDED = "It is recorded in the folder of the run, as sound and as text.";
 const NOT_RECORDED = "Its sound is not recorded. The words are, as they were recognised.";
 
@@ -22,23 +30,42 @@ export class Microphone {
   #isOpening = false;
   #held = false;
 
-  /** `link` has send(wish), sendSound(buffer), unsent(), isThere(), frequency(), and delay(event), the time since an event in s. */
+  /**
+   * `link` has send(wish), sendSound(buffer), unsent(), isThere(), frequency(), and delay(event),
+   * the time since an event in s.
+   */
   constructor(link) {
     this.#link = link;
     const button = byId("talk-button");
-    button.addEventListener("pointerdown", (event) => { if (event.button === 0) { button.setPointerCapture(event.pointerId); this.press(event); } });
-    for (const name of ["pointerup", "pointercancel"]) button.addEventListener(name, () => this.release());
-    button.addEventListener("click", () => { if (!this.#node) this.#ask(); });
+    button.addEventListener("pointerdown", (event) => {
+      if (event.button === 0) {
+        button.setPointerCapture(event.pointerId);
+        this.press(event);
+      }
+    });
+    for (const name of ["pointerup", "pointercancel"])
+      button.addEventListener(name, () => this.release());
+    button.addEventListener("click", () => {
+      if (!this.#node) this.#ask();
+    });
     window.addEventListener("blur", () => this.release());
     window.addEventListener("keydown", (event) => this.#key(event, true), { capture: true });
     window.addEventListener("keyup", (event) => this.#key(event, false), { capture: true });
     new GamepadButton((event, isDown) => this.#use(event, isDown));
-    byId("consent-open").addEventListener("click", () => { byId("consent").close(); this.#open(); });
-    byId("consent-type").addEventListener("click", () => { byId("consent").close(); this.#tell("The microphone is closed."); });
+    byId("consent-open").addEventListener("click", () => {
+      byId("consent").close();
+      this.#open();
+    });
+    byId("consent-type").addEventListener("click", () => {
+      byId("consent").close();
+      this.#tell("The microphone is closed.");
+    });
     this.#draw();
   }
 
-  get isHeld() { return this.#held; }
+  get isHeld() {
+    return this.#held;
+  }
 
   /** Takes in what the run says of the seat; null without a seat. */
   setInfo(info) {
@@ -47,16 +74,22 @@ export class Microphone {
     byId("talk").hidden = !info;
     byId("talk-button").disabled = !info?.has_sound;
     if (info && !info.has_sound) this.#tell("This run has no sound. Type what you want to say.");
-    else if (info && !info.is_recognised) this.#tell("No recogniser takes part: only people understand you.");
+    else if (info && !info.is_recognised)
+      this.#tell("No recogniser takes part: only people understand you.");
   }
 
   /** Begins to transmit. */
   press(event) {
     if (this.#held || !this.#node) return;
-    if (!this.#link.isThere()) { this.#tell("Nobody hears you: the connection is lost."); return; }
+    if (!this.#link.isThere()) {
+      this.#tell("Nobody hears you: the connection is lost.");
+      return;
+    }
     this.#tell("");
     this.#held = true;
-    this.#link.send({ press: { frequency_khz: this.#link.frequency(), delay_s: this.#link.delay(event) } });
+    this.#link.send({
+      press: { frequency_khz: this.#link.frequency(), delay_s: this.#link.delay(event) },
+    });
     this.#node.port.postMessage({ isOn: true });
     this.#draw();
   }
@@ -70,8 +103,16 @@ export class Microphone {
   }
 
   #key(event, isDown) {
-    const { tagName, type } = event.target, isTyping = tagName === "SELECT" || tagName === "SUMMARY" || (tagName === "INPUT" && type === "text");
-    if (event.key !== " " || !this.#info?.has_sound || isTyping || document.querySelector("dialog[open]")) return;
+    const { tagName, type } = event.target,
+      isTyping =
+        tagName === "SELECT" || tagName === "SUMMARY" || (tagName === "INPUT" && type === "text");
+    if (
+      event.key !== " " ||
+      !this.#info?.has_sound ||
+      isTyping ||
+      document.querySelector("dialog[open]")
+    )
+      return;
     event.preventDefault();
     event.stopPropagation();
     if (!event.repeat) this.#use(event, isDown);
@@ -80,11 +121,14 @@ export class Microphone {
   /** Takes in that the space bar, or the button of a gamepad, goes down or up. */
   #use(event, isDown) {
     if (!this.#info?.has_sound || (isDown && document.querySelector("dialog[open]"))) return;
-    if (!isDown) this.release(); else if (this.#node) this.press(event); else this.#ask();
+    if (!isDown) this.release();
+    else if (this.#node) this.press(event);
+    else this.#ask();
   }
 
   #ask() {
-    byId("consent-text").textContent = `${CONSENT} ${this.#info.voice_is_recorded ? RECORDED : NOT_RECORDED}`;
+    byId("consent-text").textContent =
+      `${CONSENT} ${this.#info.voice_is_recorded ? RECORDED : NOT_RECORDED}`;
     byId("consent").showModal();
   }
 
@@ -96,7 +140,10 @@ export class Microphone {
       await this.#connect();
       this.#tell("");
     } catch (error) {
-      this.#tell(WHY[error.name] ?? `The microphone cannot be opened: ${error.message}. Type what you want to say.`);
+      this.#tell(
+        WHY[error.name] ??
+          `The microphone cannot be opened: ${error.message}. Type what you want to say.`,
+      );
     }
     this.#isOpening = false;
     this.#draw();
@@ -105,19 +152,28 @@ export class Microphone {
   async #connect() {
     if (!navigator.mediaDevices) throw new DOMException("not secure", "SecurityError");
     const stream = await navigator.mediaDevices.getUserMedia({ audio: AUDIO });
-    const { context, source } = connected(stream), node = await listening(context);
-    if (!this.#info) { end(stream, context); return; } // The seat was left meanwhile.
+    const { context, source } = connected(stream),
+      node = await listening(context);
+    if (!this.#info) {
+      end(stream, context);
+      return;
+    } // The seat was left meanwhile.
     node.port.onmessage = ({ data }) => this.#take(data);
     source.connect(node);
-    stream.getTracks()[0].addEventListener("ended", () => { this.#close(); this.#tell("The microphone is gone. Type what you want to say."); });
+    stream.getTracks()[0].addEventListener("ended", () => {
+      this.#close();
+      this.#tell("The microphone is gone. Type what you want to say.");
+    });
     this.#node = node;
     this.#stream = stream;
   }
 
   #take({ pcm, level, isOver }) {
     if (level !== undefined) byId("talk-level").value = level;
-    if (pcm && this.#link.unsent() > MOST_UNSENT_BYTES) { this.release(); this.#tell("Your call was cut: the connection is too slow."); }
-    else if (pcm) this.#link.sendSound(pcm);
+    if (pcm && this.#link.unsent() > MOST_UNSENT_BYTES) {
+      this.release();
+      this.#tell("Your call was cut: the connection is too slow.");
+    } else if (pcm) this.#link.sendSound(pcm);
     if (isOver) this.#link.send({ release: true });
   }
 
@@ -132,11 +188,17 @@ export class Microphone {
   #draw() {
     const button = byId("talk-button");
     button.setAttribute("aria-pressed", this.#held);
-    button.textContent = this.#node ? (this.#held ? "On the air" : "Hold to talk") : "Open the microphone";
+    button.textContent = this.#node
+      ? this.#held
+        ? "On the air"
+        : "Hold to talk"
+      : "Open the microphone";
     byId("talk-level").hidden = !this.#node;
   }
 
-  #tell(text) { byId("talk-state").textContent = text; }
+  #tell(text) {
+    byId("talk-state").textContent = text;
+  }
 }
 
 /** Connects a stream at 16 kHz, or, where the browser cannot do that, at the rate of the device. */
@@ -155,7 +217,11 @@ function connected(stream) {
 async function listening(context) {
   await context.audioWorklet.addModule("page/microphone-worklet.js");
   await context.resume();
-  return new AudioWorkletNode(context, "microphone", { numberOfOutputs: 0, channelCount: 1, channelCountMode: "explicit" });
+  return new AudioWorkletNode(context, "microphone", {
+    numberOfOutputs: 0,
+    channelCount: 1,
+    channelCountMode: "explicit",
+  });
 }
 
 /** Ends a microphone, so that the browser does not show it as open any more. */

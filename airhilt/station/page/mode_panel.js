@@ -3,13 +3,45 @@
 import { byId, html } from "./dom.js";
 
 const FIELDS = [
-  { id: "speed", name: "Speed", unit: "kt", least: 1, most: 1000, command: (value) => ({ action: "speed", cas_kt: value }) },
-  { id: "track", name: "Track", unit: "\u00b0 true", least: 0, most: 360, command: (value) => ({ action: "track", track_deg: value % 360 }) },
-  { id: "altitude", name: "Altitude", unit: "ft", least: 0, most: 60_000, command: (value) => ({ action: "altitude", altitude_ft: value }) },
+  {
+    id: "speed",
+    name: "Speed",
+    unit: "kt",
+    least: 1,
+    most: 1000,
+    command: (value) => ({ action: "speed", cas_kt: value }),
+  },
+  {
+    id: "track",
+    name: "Track",
+    unit: "\u00b0 true",
+    least: 0,
+    most: 360,
+    command: (value) => ({ action: "track", track_deg: value % 360 }),
+  },
+  {
+    id: "altitude",
+    name: "Altitude",
+    unit: "ft",
+    least: 0,
+    most: 60_000,
+    command: (value) => ({ action: "altitude", altitude_ft: value }),
+  },
 ];
-const OF_RUNWAYS = [["Line up", "line_up"], ["Take off", "take_off"], ["Approach", "land"]];
-const URGENT = [["Go around", "go_around"], ["Reject take-off", "cancel_takeoff"]]; // one of them is shown
-const AT_ONCE = [["Hold position", "hold_position"], ["Continue", "continue"], ["Own route", "resume_route"]];
+const OF_RUNWAYS = [
+  ["Line up", "line_up"],
+  ["Take off", "take_off"],
+  ["Approach", "land"],
+];
+const URGENT = [
+  ["Go around", "go_around"],
+  ["Reject take-off", "cancel_takeoff"],
+]; // one of them is shown
+const AT_ONCE = [
+  ["Hold position", "hold_position"],
+  ["Continue", "continue"],
+  ["Own route", "resume_route"],
+];
 const NAMES_IN_VEHICLE = { hold_position: "Brake, hold position", continue: "Drive on" };
 const OF_VEHICLES = ["hold_position", "continue"];
 
@@ -24,14 +56,20 @@ export class ModePanel {
     this.#tell = tell;
     byId("panel-values").replaceChildren(...FIELDS.map((field) => this.#field(field)));
     const runway = html("select", { id: "panel-runway", "aria-label": "Runway" });
-    byId("panel-runways").replaceChildren(runway, ...OF_RUNWAYS.map(([name, action]) => this.#button(name, () => this.#atRunway(name, action))));
+    byId("panel-runways").replaceChildren(
+      runway,
+      ...OF_RUNWAYS.map(([name, action]) => this.#button(name, () => this.#atRunway(name, action))),
+    );
     const actions = [...URGENT, ...AT_ONCE].map(([name, action]) => this.#atOnce(name, action));
     byId("panel-actions").replaceChildren(...actions);
   }
 
   /** Offers what an aircraft or a vehicle can do, and the runways of the airport. */
   offer(category, airport) {
-    const idents = (airport?.runways ?? []).flatMap((runway) => runway.ends.map((end) => end.ident)), isVehicle = category === "vehicle";
+    const idents = (airport?.runways ?? []).flatMap((runway) =>
+        runway.ends.map((end) => end.ident),
+      ),
+      isVehicle = category === "vehicle";
     byId("panel-title").textContent = isVehicle ? "Vehicle" : "Mode panel";
     byId("panel-values").hidden = isVehicle;
     byId("panel-runways").hidden = isVehicle || !idents.length;
@@ -41,11 +79,20 @@ export class ModePanel {
       this.#action(action).textContent = (isVehicle && NAMES_IN_VEHICLE[action]) || name;
     }
     this.setMode("");
-    const select = byId("panel-runway"), chosen = select.value;
-    if (select.options.length !== idents.length) select.replaceChildren(...idents.map((ident) => html("option", { value: ident, selected: ident === chosen }, ident)));
+    const select = byId("panel-runway"),
+      chosen = select.value;
+    if (select.options.length !== idents.length)
+      select.replaceChildren(
+        ...idents.map((ident) =>
+          html("option", { value: ident, selected: ident === chosen }, ident),
+        ),
+      );
   }
 
-  /** Takes in what autopilot and guidance do: a take-off is rejected where there is no approach to break off. */
+  /**
+   * Takes in what autopilot and guidance do: a take-off is rejected where there is no approach to
+   * break off.
+   */
   setMode(mode) {
     const isRolling = mode === "takeoff_roll";
     this.#action("go_around").hidden = this.#isVehicle || isRolling;
@@ -53,17 +100,27 @@ export class ModePanel {
   }
 
   /** Puts the cursor into the field of speed, track or altitude. */
-  focus(id) { byId(`panel-${id}`).select(); }
+  focus(id) {
+    byId(`panel-${id}`).select();
+  }
 
   /** Rejects a take-off, or stops elsewhere on the ground. */
-  brake() { this.#press(this.#action("cancel_takeoff").hidden ? "hold_position" : "cancel_takeoff"); }
+  brake() {
+    this.#press(this.#action("cancel_takeoff").hidden ? "hold_position" : "cancel_takeoff");
+  }
 
-  goAround() { this.#press("go_around"); }
+  goAround() {
+    this.#press("go_around");
+  }
 
-  #action(name) { return byId(`panel-${name.replaceAll("_", "-")}`); }
+  #action(name) {
+    return byId(`panel-${name.replaceAll("_", "-")}`);
+  }
 
   /** Presses a button, if it is shown. */
-  #press(name) { if (!this.#action(name).hidden) this.#action(name).click(); }
+  #press(name) {
+    if (!this.#action(name).hidden) this.#action(name).click();
+  }
 
   #give(text, command) {
     this.#send(command);
@@ -88,12 +145,28 @@ export class ModePanel {
   }
 
   #field({ id, name, unit, least, most, command }) {
-    const input = html("input", { type: "text", inputmode: "decimal", autocomplete: "off", id: `panel-${id}`, size: 6, "aria-label": `${name} in ${unit}` });
-    const form = html("form", {}, html("span", { class: "dial-name" }, name), html("span", { class: "dial" }, input, html("span", { class: "dim" }, unit)), html("button", { "aria-label": `Set ${name.toLowerCase()}` }, "Set"));
+    const input = html("input", {
+      type: "text",
+      inputmode: "decimal",
+      autocomplete: "off",
+      id: `panel-${id}`,
+      size: 6,
+      "aria-label": `${name} in ${unit}`,
+    });
+    const form = html(
+      "form",
+      {},
+      html("span", { class: "dial-name" }, name),
+      html("span", { class: "dial" }, input, html("span", { class: "dim" }, unit)),
+      html("button", { "aria-label": `Set ${name.toLowerCase()}` }, "Set"),
+    );
     form.addEventListener("submit", (event) => {
       event.preventDefault();
       const value = Number(input.value);
-      if (input.value.trim() === "" || !(value >= least && value <= most)) { this.#tell(`${name}: expected ${least} to ${most} ${unit}.`); return; }
+      if (input.value.trim() === "" || !(value >= least && value <= most)) {
+        this.#tell(`${name}: expected ${least} to ${most} ${unit}.`);
+        return;
+      }
       this.#give(`${name.toLowerCase()} ${value} ${unit}`, command(value));
       input.value = "";
       input.blur();

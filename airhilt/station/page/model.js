@@ -1,4 +1,5 @@
-// What the server said of the run, prepared for drawing: tracks in metres, states at any time, events.
+// What the server said of the run, prepared for drawing: tracks in metres, states at any time,
+// events.
 
 import { keepNewest } from "./bounds.js";
 import { at, before } from "./series.js";
@@ -8,14 +9,18 @@ export const METRE_PER_NM = 1852;
 const COLOURS = 8;
 const MOST_LATENCIES = 4000; // bars of a live run that are kept: some ten minutes
 const LONGEST_INTERVAL_S = 12; // between two reports of an actor: a turn of a surveillance radar
-const AHEAD = 1.5; // intervals between reports for which an actor is shown further on after the last one
-const FULL_S = 300, OLD_STEP_S = 2; // of a live run, what is older than that is kept in steps of this at least
-const MOST_STATES = 2500; // of an actor of a live run that are kept: its old ones in longer steps the longer it is there
+// Intervals between reports for which an actor is shown further on after the last one.
+const AHEAD = 1.5;
+const FULL_S = 300,
+  OLD_STEP_S = 2; // of a live run, what is older than that is kept in steps of this at least
+// Of an actor of a live run that are kept: its old ones in longer steps the longer it is there.
+const MOST_STATES = 2500;
 const MOST_TRACKS = 200; // of a live run that are kept: those that were reported last
 const MOST_CAMERAS = 100; // of a live run that can be chosen
 const MOST_ADDRESSES = 2000; // of actors whose callsigns are kept
 const MOST_PHASES = 500; // of an actor of a live run, and of its times on the ground, the newest
-const MOST_ROWS = { calls: 1000, events: 2000, advisories: 1000, spoken: 200 }; // of a live run that are kept, the newest
+// Of a live run that are kept, the newest.
+const MOST_ROWS = { calls: 1000, events: 2000, advisories: 1000, spoken: 200 };
 const CONTROLLER = "ATC"; // as recipient of advisories
 export const SEVERITIES = ["INFO", "ADVISORY", "CAUTION", "WARNING"];
 
@@ -30,37 +35,60 @@ export class Track {
     this.colour = `--c${index % COLOURS}`;
   }
 
-  get first() { return this.t[0]; }
-  get last() { return this.t[this.t.length - 1]; }
+  get first() {
+    return this.t[0];
+  }
+  get last() {
+    return this.t[this.t.length - 1];
+  }
 
   /** Metres east and north of the centre at a time. */
-  place(t) { return [at(this.t, this.east, t), at(this.t, this.north, t)]; }
+  place(t) {
+    return [at(this.t, this.east, t), at(this.t, this.north, t)];
+  }
 
   /** The state at a time: the first one before it, the last one after it. */
   state(t, span) {
     const now = Math.min(Math.max(t, this.first), this.last);
-    const from = Math.max(now - span, this.first), to = Math.min(now + span, this.last), seconds = Math.max(to - from, 1e-9);
-    const [e1, n1] = this.place(from), [e2, n2] = this.place(to), [east, north] = this.place(t);
+    const from = Math.max(now - span, this.first),
+      to = Math.min(now + span, this.last),
+      seconds = Math.max(to - from, 1e-9);
+    const [e1, n1] = this.place(from),
+      [e2, n2] = this.place(to),
+      [east, north] = this.place(t);
     const moved = Math.hypot(e2 - e1, n2 - n1);
-    const { speed, course } = this.velocity(now) ?? { speed: moved / seconds, course: moved > 0.5 ? Math.atan2(e2 - e1, n2 - n1) : 0 };
+    const { speed, course } = this.velocity(now) ?? {
+      speed: moved / seconds,
+      course: moved > 0.5 ? Math.atan2(e2 - e1, n2 - n1) : 0,
+    };
     return {
-      east, north, speed, course,
+      east,
+      north,
+      speed,
+      course,
       heading: this.heading_deg ? this.#heading(now) : course,
       altitude: at(this.t, this.altitude_ft, now),
-      rate: (at(this.t, this.altitude_ft, to) - at(this.t, this.altitude_ft, from)) / seconds * 60,
+      rate:
+        ((at(this.t, this.altitude_ft, to) - at(this.t, this.altitude_ft, from)) / seconds) * 60,
       onGround: this.on_ground.some(([down, up]) => down <= now && now <= up),
       phase: words(this.phases.findLast((phase) => phase.from <= now)?.what ?? ""),
-      isThere: t >= this.first - 1, ended: t > this.last + this.patience,
+      isThere: t >= this.first - 1,
+      ended: t > this.last + this.patience,
     };
   }
 
   /** Speed and course as a sensor has them, null if they follow from the places. */
-  velocity() { return null; }
+  velocity() {
+    return null;
+  }
 
   #heading(t) {
-    const i = before(this.t, t), next = Math.min(i + 1, this.t.length - 1), from = this.heading_deg[i];
-    const turn = (this.heading_deg[next] - from + 540) % 360 - 180, span = this.t[next] - this.t[i];
-    return (from + (span > 0 ? turn * (t - this.t[i]) / span : 0)) * Math.PI / 180;
+    const i = before(this.t, t),
+      next = Math.min(i + 1, this.t.length - 1),
+      from = this.heading_deg[i];
+    const turn = ((this.heading_deg[next] - from + 540) % 360) - 180,
+      span = this.t[next] - this.t[i];
+    return ((from + (span > 0 ? (turn * (t - this.t[i])) / span : 0)) * Math.PI) / 180;
   }
 }
 
@@ -73,12 +101,27 @@ export class LiveTrack extends Track {
   #oldStep = OLD_STEP_S;
 
   constructor(callsign, category, type, index) {
-    super({ callsign, category, type, t: [], east_nm: [], north_nm: [], altitude_ft: [], heading_deg: [], on_ground: [], phases: [] }, index);
+    super(
+      {
+        callsign,
+        category,
+        type,
+        t: [],
+        east_nm: [],
+        north_nm: [],
+        altitude_ft: [],
+        heading_deg: [],
+        on_ground: [],
+        phases: [],
+      },
+      index,
+    );
   }
 
   add([t, east, north, altitude, velocity, heading, onGround, phase]) {
     if (this.t.length && t <= this.last) return;
-    if (this.t.length) this.#interval = Math.min(Math.max(t - this.last, 0.8 * this.#interval), LONGEST_INTERVAL_S);
+    if (this.t.length)
+      this.#interval = Math.min(Math.max(t - this.last, 0.8 * this.#interval), LONGEST_INTERVAL_S);
     const wasOnGround = this.on_ground.length && this.on_ground.at(-1)[1] === this.last;
     if (onGround && wasOnGround) this.on_ground.at(-1)[1] = t;
     else if (onGround) this.on_ground.push([t, t]);
@@ -96,23 +139,37 @@ export class LiveTrack extends Track {
   /** Keeps few states of what is long ago, so that a run of any length needs no more memory. */
   #thin() {
     let kept = this.#every(this.#oldStep);
-    while (kept.length > MOST_STATES && this.#oldStep < this.last) kept = this.#every(this.#oldStep *= 2);
-    for (const name of ["t", "east", "north", "altitude_ft", "heading_deg"]) this[name] = kept.map((i) => this[name][i]);
+    while (kept.length > MOST_STATES && this.#oldStep < this.last)
+      kept = this.#every((this.#oldStep *= 2));
+    for (const name of ["t", "east", "north", "altitude_ft", "heading_deg"])
+      this[name] = kept.map((i) => this[name][i]);
     this.#velocities = kept.map((i) => this.#velocities[i]);
     this.#thinAt = kept.length + 1000;
   }
 
-  /** Indices of the states of the last minutes, and of one in so many seconds of what was before. */
+  /**
+   * Indices of the states of the last minutes, and of one in so many seconds of what was before.
+   */
   #every(step) {
-    const kept = [], full = this.last - FULL_S;
+    const kept = [],
+      full = this.last - FULL_S;
     let last = -Infinity;
-    this.t.forEach((t, i) => { if (t >= full || t - last >= step) { kept.push(i); last = t; } });
+    this.t.forEach((t, i) => {
+      if (t >= full || t - last >= step) {
+        kept.push(i);
+        last = t;
+      }
+    });
     return kept;
   }
 
-  /** After its last report an actor goes on straight, for a little more than it takes until the next one. */
+  /**
+   * After its last report an actor goes on straight, for a little more than it takes until the next
+   * one.
+   */
   place(t) {
-    const [east, north] = super.place(t), ahead = Math.min(t - this.last, AHEAD * this.#interval);
+    const [east, north] = super.place(t),
+      ahead = Math.min(t - this.last, AHEAD * this.#interval);
     if (!(ahead > 0)) return [east, north];
     const [eastward, northward] = this.#velocities.at(-1);
     return [east + eastward * ahead, north + northward * ahead];
@@ -127,7 +184,8 @@ export class LiveTrack extends Track {
 /** Puts a row into a list in the place of the one with the same identity, or at its end. */
 function put(rows, row, same) {
   const i = rows.findLastIndex((one) => same(one, row));
-  if (i < 0) rows.push(row); else rows[i] = row;
+  if (i < 0) rows.push(row);
+  else rows[i] = row;
 }
 
 /** A run as the page shows it. */
@@ -141,13 +199,17 @@ export class Run {
   constructor(given) {
     Object.assign(this, { latencies: [] }, given);
     const pair = given.pair ?? [];
-    const order = [...given.tracks].sort((a, b) => pair.includes(b.callsign) - pair.includes(a.callsign));
+    const order = [...given.tracks].sort(
+      (a, b) => pair.includes(b.callsign) - pair.includes(a.callsign),
+    );
     this.tracks = order.map((track, index) => new Track(track, index));
     this.#actors = order.length;
-    this.span = given.airport ? 1 : 4; // s before and after an instant over which its speed is a mean
+    // Seconds before and after an instant over which its speed is a mean.
+    this.span = given.airport ? 1 : 4;
     this.title = given.scenario.title || given.scenario.name;
     this.bounds = { east: [Infinity, -Infinity], north: [Infinity, -Infinity] };
-    for (const track of this.tracks) track.east.forEach((east, i) => this.#widen(east, track.north[i]));
+    for (const track of this.tracks)
+      track.east.forEach((east, i) => this.#widen(east, track.north[i]));
   }
 
   #widen(east, north) {
@@ -157,7 +219,9 @@ export class Run {
   }
 
   /** The events that one may jump to, in the order of their times. */
-  get moments() { return this.#moments ??= momentsOf(this); }
+  get moments() {
+    return (this.#moments ??= momentsOf(this));
+  }
 
   /** Takes in the changes of a live run, and returns which parts of it are different now. */
   apply(changes) {
@@ -165,22 +229,52 @@ export class Run {
     for (const [kind, ...rest] of changes) {
       changed.add(kind);
       switch (kind) {
-        case "clock": this.now = Math.max(rest[0] ?? 0, this.now ?? 0); [, this.phase, this.pace] = rest; break;
-        case "briefing": [this.controller, this.airport, this.categories] = rest; this.span = this.airport ? 1 : 4; break;
-        case "state": if (this.#addState(rest)) changed.add("track"); break;
-        case "name": this.#rename(...rest); changed.add("track"); break;
-        case "call": put(this.calls, rest[0], (a, b) => a.id === b.id); break;
-        case "spoken": this.spoken.push(rest[0]); break;
-        case "advisory": put(this.advisories, rest[0], (a, b) => a.id === b.id && a.revision === b.revision && a.equipment === b.equipment); break;
-        case "event": this.events.push(rest[0]); break;
-        case "camera": if (this.cameras.length < MOST_CAMERAS) this.cameras.push(rest[0]); break;
-        case "latency": this.latencies.push(rest[0]); break;
-        default: break;
+        case "clock":
+          this.now = Math.max(rest[0] ?? 0, this.now ?? 0);
+          [, this.phase, this.pace] = rest;
+          break;
+        case "briefing":
+          [this.controller, this.airport, this.categories] = rest;
+          this.span = this.airport ? 1 : 4;
+          break;
+        case "state":
+          if (this.#addState(rest)) changed.add("track");
+          break;
+        case "name":
+          this.#rename(...rest);
+          changed.add("track");
+          break;
+        case "call":
+          put(this.calls, rest[0], (a, b) => a.id === b.id);
+          break;
+        case "spoken":
+          this.spoken.push(rest[0]);
+          break;
+        case "advisory":
+          put(
+            this.advisories,
+            rest[0],
+            (a, b) => a.id === b.id && a.revision === b.revision && a.equipment === b.equipment,
+          );
+          break;
+        case "event":
+          this.events.push(rest[0]);
+          break;
+        case "camera":
+          if (this.cameras.length < MOST_CAMERAS) this.cameras.push(rest[0]);
+          break;
+        case "latency":
+          this.latencies.push(rest[0]);
+          break;
+        default:
+          break;
       }
     }
-    if (this.latencies.length > 2 * MOST_LATENCIES) this.latencies.splice(0, this.latencies.length - MOST_LATENCIES);
+    if (this.latencies.length > 2 * MOST_LATENCIES)
+      this.latencies.splice(0, this.latencies.length - MOST_LATENCIES);
     if (changed.has("call")) this.calls.sort((a, b) => a.from - b.from);
-    for (const [name, most] of Object.entries(MOST_ROWS)) if (this[name].length > 1.2 * most) this[name].splice(0, this[name].length - most);
+    for (const [name, most] of Object.entries(MOST_ROWS))
+      if (this[name].length > 1.2 * most) this[name].splice(0, this[name].length - most);
     if (changed.has("call") || changed.has("event")) this.#moments = null;
     return changed;
   }
@@ -201,7 +295,7 @@ export class Run {
   #addState([name, category, type, ...state]) {
     let track = this.track(name);
     const isNew = !track || track.type !== type;
-    if (!track) this.#addTrack(track = new LiveTrack(name, category, type, this.#actors++));
+    if (!track) this.#addTrack((track = new LiveTrack(name, category, type, this.#actors++)));
     track.type = type;
     track.category = this.categories?.[name] ?? category;
     track.add(state);
@@ -210,7 +304,9 @@ export class Run {
     return isNew;
   }
 
-  /** Adds a track, in the place of the one whose last report is the oldest if there are too many. */
+  /**
+   * Adds a track, in the place of the one whose last report is the oldest if there are too many.
+   */
   #addTrack(track) {
     if (this.tracks.length >= MOST_TRACKS) {
       const oldest = this.tracks.reduce((a, b) => (b.last < a.last ? b : a));
@@ -219,13 +315,21 @@ export class Run {
     this.tracks.push(track);
   }
 
-  track(callsign) { return this.tracks.find((track) => track.callsign === callsign); }
+  track(callsign) {
+    return this.tracks.find((track) => track.callsign === callsign);
+  }
 
   /** The callsign of an actor that an advisory may know by its address alone. */
-  callsignOf(name) { return this.#callsigns.get(name) ?? name; }
+  callsignOf(name) {
+    return this.#callsigns.get(name) ?? name;
+  }
 
-  /** The seat of the person at this page, which sees the advisories to it alone; null: all are seen. */
-  get own() { return this.#own; }
+  /**
+   * The seat of the person at this page, which sees the advisories to it alone; null: all are seen.
+   */
+  get own() {
+    return this.#own;
+  }
 
   set own(seat) {
     this.#own = seat;
@@ -233,28 +337,51 @@ export class Run {
   }
 
   /** Texts of an advisory that are seen here. */
-  textsOf(row) { return this.#own === null ? row.texts : row.texts.filter(({ recipient }) => this.isTo(recipient)); }
+  textsOf(row) {
+    return this.#own === null
+      ? row.texts
+      : row.texts.filter(({ recipient }) => this.isTo(recipient));
+  }
 
   /** True if what is sent to a recipient is for the own seat. */
   isTo(recipient) {
-    return recipient === this.#own || (recipient === CONTROLLER && this.#own === this.controller) || this.callsignOf(recipient) === this.#own;
+    return (
+      recipient === this.#own ||
+      (recipient === CONTROLLER && this.#own === this.controller) ||
+      this.callsignOf(recipient) === this.#own
+    );
   }
 
-  states(t) { return this.tracks.map((track) => ({ track, state: track.state(t, this.span) })); }
+  states(t) {
+    return this.tracks.map((track) => ({ track, state: track.state(t, this.span) }));
+  }
 
   /** Highest severity of the advisories that are active for an actor at a time, or null. */
   severityOf(callsign, t) {
-    const ranks = this.activeAdvisories(t).filter((row) => row.traffic.some((name) => this.callsignOf(name) === callsign)).map((row) => SEVERITIES.indexOf(row.severity));
+    const ranks = this.activeAdvisories(t)
+      .filter((row) => row.traffic.some((name) => this.callsignOf(name) === callsign))
+      .map((row) => SEVERITIES.indexOf(row.severity));
     return ranks.length ? SEVERITIES[Math.max(...ranks)] : null;
   }
 
-  /** The newest revision of each advisory that is seen at a time, where its conflict is not over; found once for each time. */
+  /**
+   * The newest revision of each advisory that is seen at a time, where its conflict is not over;
+   * found once for each time.
+   */
   activeAdvisories(t) {
-    const { advisories } = this, known = this.#active;
-    if (known.t === t && known.of === advisories.at(-1) && known.count === advisories.length) return known.rows;
+    const { advisories } = this,
+      known = this.#active;
+    if (known.t === t && known.of === advisories.at(-1) && known.count === advisories.length)
+      return known.rows;
     const newest = new Map();
-    for (const row of advisories) if (row.t <= t && this.textsOf(row).length) newest.set(`${row.equipment}/${row.id}`, row);
-    this.#active = { t, of: advisories.at(-1), count: advisories.length, rows: [...newest.values()].filter((row) => row.active) };
+    for (const row of advisories)
+      if (row.t <= t && this.textsOf(row).length) newest.set(`${row.equipment}/${row.id}`, row);
+    this.#active = {
+      t,
+      of: advisories.at(-1),
+      count: advisories.length,
+      rows: [...newest.values()].filter((row) => row.active),
+    };
     return this.#active.rows;
   }
 
@@ -263,31 +390,86 @@ export class Run {
     const [first, second] = (this.pair ?? []).map((callsign) => this.track(callsign));
     if (!first || !second || t > Math.min(first.last, second.last) + 1) return null;
     const [a, b] = [first.state(t, 0), second.state(t, 0)];
-    return { horizontal: Math.hypot(a.east - b.east, a.north - b.north), vertical: Math.abs(a.altitude - b.altitude) };
+    return {
+      horizontal: Math.hypot(a.east - b.east, a.north - b.north),
+      vertical: Math.abs(a.altitude - b.altitude),
+    };
   }
 }
 
 const PHASES = {
-  begun: "conflict begins", opened: "conflict window opens", closed: "conflict window closes", loss_of_separation: "loss of separation", nmac: "near mid-air collision",
-  tcas_ta: "TCAS traffic advisory due", tcas_ra: "TCAS resolution advisory due", runway_incursion: "runway incursion", collision: "collision",
+  begun: "conflict begins",
+  opened: "conflict window opens",
+  closed: "conflict window closes",
+  loss_of_separation: "loss of separation",
+  nmac: "near mid-air collision",
+  tcas_ta: "TCAS traffic advisory due",
+  tcas_ra: "TCAS resolution advisory due",
+  runway_incursion: "runway incursion",
+  collision: "collision",
 };
-const TOLD = ["advisory", "equipment", "conflict", "pilot_reacts", "failure", "unable", "status", "actor_ended", "worker_lost", "radio_lost", "cameras_lost", "command", "refused", "finished", "stopped"];
+const TOLD = [
+  "advisory",
+  "equipment",
+  "conflict",
+  "pilot_reacts",
+  "failure",
+  "unable",
+  "status",
+  "actor_ended",
+  "worker_lost",
+  "radio_lost",
+  "cameras_lost",
+  "command",
+  "refused",
+  "finished",
+  "stopped",
+];
 
 /** The events that one may jump to, in the order of their times. */
 function momentsOf(run) {
-  const calls = run.calls.map((call) => ({ t: call.from, kind: "radio", text: `${call.speaker ?? "somebody"}: ${call.said ?? ""}` }));
-  const others = run.events.filter((event) => TOLD.includes(event.kind) && event.t > 0).map((event) => ({ t: event.t, kind: event.kind, severity: event.severity, text: textOf(event) }));
-  const seen = new Set(), all = [...calls, ...others].sort((a, b) => a.t - b.t);
-  return all.filter((one) => { const key = `${one.t.toFixed(1)} ${one.text}`; return !seen.has(key) && seen.add(key); });
+  const calls = run.calls.map((call) => ({
+    t: call.from,
+    kind: "radio",
+    text: `${call.speaker ?? "somebody"}: ${call.said ?? ""}`,
+  }));
+  const others = run.events
+    .filter((event) => TOLD.includes(event.kind) && event.t > 0)
+    .map((event) => ({
+      t: event.t,
+      kind: event.kind,
+      severity: event.severity,
+      text: textOf(event),
+    }));
+  const seen = new Set(),
+    all = [...calls, ...others].sort((a, b) => a.t - b.t);
+  return all.filter((one) => {
+    const key = `${one.t.toFixed(1)} ${one.text}`;
+    return !seen.has(key) && seen.add(key);
+  });
 }
 
 function textOf(event) {
   switch (event.kind) {
-    case "advisory": return event.active ? `${event.severity}: ${event.text}` : `over: ${event.text}`;
-    case "conflict": return `${PHASES[event.phase] ?? words(event.phase)}, ${event.who}`;
-    case "command": { try { return `${event.who}: ${instruction(JSON.parse(event.text))}`; } catch { return `${event.who}: ${event.text}`; } }
-    case "status": return `${words(event.who)} ${event.state}${event.text ? `: ${event.text}` : ""}`;
-    case "finished": case "stopped": return `run ${event.kind}`;
-    default: return [words(event.kind), event.who, event.text].filter((part) => known(part) && part !== "").join(", ");
+    case "advisory":
+      return event.active ? `${event.severity}: ${event.text}` : `over: ${event.text}`;
+    case "conflict":
+      return `${PHASES[event.phase] ?? words(event.phase)}, ${event.who}`;
+    case "command": {
+      try {
+        return `${event.who}: ${instruction(JSON.parse(event.text))}`;
+      } catch {
+        return `${event.who}: ${event.text}`;
+      }
+    }
+    case "status":
+      return `${words(event.who)} ${event.state}${event.text ? `: ${event.text}` : ""}`;
+    case "finished":
+    case "stopped":
+      return `run ${event.kind}`;
+    default:
+      return [words(event.kind), event.who, event.text]
+        .filter((part) => known(part) && part !== "")
+        .join(", ");
   }
 }

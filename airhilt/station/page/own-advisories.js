@@ -1,4 +1,5 @@
-// The advisories to the person at a seat: shown large, sounded, spoken; tells the run when that was.
+// The advisories to the person at a seat: shown large, sounded, spoken; tells the run when that
+// was.
 
 import { badge } from "./advisories.js";
 import { keepNewest } from "./bounds.js";
@@ -18,7 +19,10 @@ export class OwnAdvisories {
   #told = new Set();
   #rows = new Rows(byId("own-advisories"));
 
-  /** `tell(perceived)` reports to the run; `warn(severity, url)` sounds, and returns when it is audible, in s. */
+  /**
+   * `tell(perceived)` reports to the run; `warn(severity, url)` sounds, and returns when it is
+   * audible, in s.
+   */
   constructor(run, tell, warn) {
     this.#run = run;
     this.#tell = tell;
@@ -30,7 +34,8 @@ export class OwnAdvisories {
     const texts = this.#run.textsOf(row);
     if (!texts.length) return;
     const name = `${row.equipment}/${row.id}`;
-    if (row.active) this.#shown.set(name, { row, text: texts.at(-1) }); else this.#shown.delete(name);
+    if (row.active) this.#shown.set(name, { row, text: texts.at(-1) });
+    else this.#shown.delete(name);
     keepNewest(this.#shown, MOST_SHOWN);
     this.#draw();
     if (!row.active) return;
@@ -42,8 +47,14 @@ export class OwnAdvisories {
   /** Takes in that the assistant speaks an advisory to somebody. */
   takeSpoken({ id, revision, recipient, sound }) {
     if (!this.#run.isTo(recipient)) return;
-    const row = this.#run.advisories.find((one) => one.id === id && one.revision === revision && !one.equipment);
-    this.#sound(row ?? { id, revision, severity: "CAUTION" }, recipient, sound ? `api/calls/${encodeURIComponent(sound)}.wav` : null);
+    const row = this.#run.advisories.find(
+      (one) => one.id === id && one.revision === revision && !one.equipment,
+    );
+    this.#sound(
+      row ?? { id, revision, severity: "CAUTION" },
+      recipient,
+      sound ? `api/calls/${encodeURIComponent(sound)}.wav` : null,
+    );
   }
 
   clear() {
@@ -66,19 +77,39 @@ export class OwnAdvisories {
 
   #draw() {
     byId("own-advisories").hidden = !this.#shown.size;
-    const rank = ({ row }) => SEVERITIES.indexOf(row.severity), shown = [...this.#shown.values()];
+    const rank = ({ row }) => SEVERITIES.indexOf(row.severity),
+      shown = [...this.#shown.values()];
     shown.sort((a, b) => rank(b) - rank(a) || b.row.t - a.row.t);
     this.#rows.show(shown, ({ row }) => `${row.equipment}/${row.id}`, inWords);
   }
 }
 
-const inWords = ({ row, text }) => html("div", { class: `own-advisory ${row.severity}-fill` },
-  html("div", { class: "row-head" }, badge(row.severity), html("span", { class: "dim" }, seconds(row.t))),
-  html("div", { class: "own-text" }, text.message),
-  text.recommendation ? html("div", { class: "who" }, capital(instruction(text.recommendation))) : null,
-  html("div", { class: "dim" }, restsOn(row.evidence, text.message)));
+const inWords = ({ row, text }) =>
+  html(
+    "div",
+    { class: `own-advisory ${row.severity}-fill` },
+    html(
+      "div",
+      { class: "row-head" },
+      badge(row.severity),
+      html("span", { class: "dim" }, seconds(row.t)),
+    ),
+    html("div", { class: "own-text" }, text.message),
+    text.recommendation
+      ? html("div", { class: "who" }, capital(instruction(text.recommendation)))
+      : null,
+    html("div", { class: "dim" }, restsOn(row.evidence, text.message)),
+  );
 
 function restsOn({ sources, shares, time_to_go_s: toGo, note }, said) {
-  const basis = sources.map((name) => (known(shares[name]) ? `${words(name)} ${percent(shares[name])}` : words(name))).join(", ");
-  return [note === said ? "" : note, basis ? `rests on ${basis}` : "", known(toGo) ? `time to go ${seconds(toGo)}` : ""].filter((part) => part).join("; ");
+  const basis = sources
+    .map((name) => (known(shares[name]) ? `${words(name)} ${percent(shares[name])}` : words(name)))
+    .join(", ");
+  return [
+    note === said ? "" : note,
+    basis ? `rests on ${basis}` : "",
+    known(toGo) ? `time to go ${seconds(toGo)}` : "",
+  ]
+    .filter((part) => part)
+    .join("; ");
 }

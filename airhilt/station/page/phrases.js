@@ -37,61 +37,95 @@ export class Phrases {
   }
 
   /** Offers a readback at once when a call has come. */
-  heard() { this.#renew(); }
+  heard() {
+    this.#renew();
+  }
 
-  get #isUnit() { return !(this.#own in (this.#run.categories ?? {})); }
+  get #isUnit() {
+    return !(this.#own in (this.#run.categories ?? {}));
+  }
 
   /** Fills a choice, unless it has the same options already; keeps what is chosen. */
   #offer(id, values, first = values[0]) {
-    const select = byId(id), chosen = select.value;
+    const select = byId(id),
+      chosen = select.value;
     if ([...select.options].map(({ value }) => value).join() === values.join()) return;
     select.replaceChildren(...values.map((value) => html("option", { value }, value)));
     select.value = values.includes(chosen) ? chosen : first;
   }
 
   #situation() {
-    const { categories = {}, airport, now } = this.#run, callsign = this.#isUnit ? byId("phrase-to").value : this.#own;
-    const track = this.#run.track(callsign), state = track?.state(now ?? 0, this.#run.span), category = categories[callsign] ?? track?.category ?? "aircraft";
+    const { categories = {}, airport, now } = this.#run,
+      callsign = this.#isUnit ? byId("phrase-to").value : this.#own;
+    const track = this.#run.track(callsign),
+      state = track?.state(now ?? 0, this.#run.span),
+      category = categories[callsign] ?? track?.category ?? "aircraft";
     return {
-      speaker: this.#isUnit ? "unit" : category, callsign: callsign || null, style: this.#style, category, on_ground: Boolean(state?.onGround), runway: airport ? byId("phrase-runway").value || null : null,
-      altitude_ft: state && category === "aircraft" ? Math.round(state.altitude / 100) * 100 : null, heading_deg: state ? (Math.round(state.heading * 18 / Math.PI) * 10 + 360) % 360 : null,
-      heard: this.#isUnit ? "" : this.#lastCall()?.slice(0, 600) ?? "",
+      speaker: this.#isUnit ? "unit" : category,
+      callsign: callsign || null,
+      style: this.#style,
+      category,
+      on_ground: Boolean(state?.onGround),
+      runway: airport ? byId("phrase-runway").value || null : null,
+      altitude_ft: state && category === "aircraft" ? Math.round(state.altitude / 100) * 100 : null,
+      heading_deg: state ? (Math.round((state.heading * 18) / Math.PI) * 10 + 360) % 360 : null,
+      heard: this.#isUnit ? "" : (this.#lastCall()?.slice(0, 600) ?? ""),
     };
   }
 
   /** Words of the last call to the own crew, as they were recognised. */
   #lastCall() {
-    const call = this.#run.calls.findLast((one) => one.transcripts.some((heard) => heard.addressee === this.#own));
+    const call = this.#run.calls.findLast((one) =>
+      one.transcripts.some((heard) => heard.addressee === this.#own),
+    );
     return call?.transcripts.at(-1)?.text;
   }
 
   async #renew() {
     if (!this.#own || !this.#run.categories) return;
-    const idents = (this.#run.airport?.runways ?? []).flatMap((runway) => runway.ends.map((end) => end.ident));
+    const idents = (this.#run.airport?.runways ?? []).flatMap((runway) =>
+      runway.ends.map((end) => end.ident),
+    );
     const spoken = Object.keys(this.#run.categories).filter((name) => name !== this.#own);
     this.#offer("phrase-to", spoken);
     this.#offer("phrase-runway", idents);
     byId("phrase-to-label").hidden = !this.#isUnit;
-    byId("phrase-runway-label").hidden = !idents.length || (!this.#isUnit && this.#run.categories[this.#own] === "aircraft");
+    byId("phrase-runway-label").hidden =
+      !idents.length || (!this.#isUnit && this.#run.categories[this.#own] === "aircraft");
     const situation = JSON.stringify(this.#situation());
     if (situation === this.#told) return;
     this.#told = situation;
     const asked = ++this.#asked;
     try {
-      const answer = await fetch("api/phrases", { method: "POST", headers: { "Content-Type": "application/json" }, body: situation });
+      const answer = await fetch("api/phrases", {
+        method: "POST",
+        headers: { "Content-Type": "application/json" },
+        body: situation,
+      });
       if (answer.ok && asked === this.#asked) this.#show(await answer.json());
-    } catch { this.#told = ""; } // The server does not answer; the page tells that.
+    } catch {
+      this.#told = "";
+    } // The server does not answer; the page tells that.
   }
 
   #show(phrases) {
-    const list = byId("phrase-list"), old = [...list.children];
-    const fresh = phrases.map(({ label, text }) => old.find((node) => node.title === text && node.textContent === label) ?? this.#button(label, text));
-    if (fresh.length !== old.length || fresh.some((node, i) => node !== old[i])) list.replaceChildren(...fresh);
+    const list = byId("phrase-list"),
+      old = [...list.children];
+    const fresh = phrases.map(
+      ({ label, text }) =>
+        old.find((node) => node.title === text && node.textContent === label) ??
+        this.#button(label, text),
+    );
+    if (fresh.length !== old.length || fresh.some((node, i) => node !== old[i]))
+      list.replaceChildren(...fresh);
   }
 
   #button(label, text) {
     const button = html("button", { type: "button", title: text }, label);
-    button.addEventListener("click", () => { byId("words").value = text; byId("say-button").focus(); });
+    button.addEventListener("click", () => {
+      byId("words").value = text;
+      byId("say-button").focus();
+    });
     return button;
   }
 }

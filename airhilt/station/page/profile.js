@@ -5,7 +5,8 @@ import { whole } from "./words.js";
 
 /** Returns a round step that gives at most `most` ticks. */
 export function niceStep(range, most) {
-  const rough = Math.max(range, 1e-9) / most, power = 10 ** Math.floor(Math.log10(rough));
+  const rough = Math.max(range, 1e-9) / most,
+    power = 10 ** Math.floor(Math.log10(rough));
   return [1, 2, 5, 10].map((factor) => factor * power).find((step) => step >= rough);
 }
 
@@ -13,7 +14,8 @@ const MOST_POINTS = 400;
 
 /** Returns the indices of the points of a track that are drawn: not many, and the last one. */
 function thinned(track) {
-  const step = Math.ceil(track.t.length / MOST_POINTS) || 1, indices = [];
+  const step = Math.ceil(track.t.length / MOST_POINTS) || 1,
+    indices = [];
   for (let i = 0; i < track.t.length; i += step) indices.push(i);
   if (indices.length && indices.at(-1) !== track.t.length - 1) indices.push(track.t.length - 1);
   return indices;
@@ -29,15 +31,31 @@ export class Profile {
   constructor(run, clock) {
     this.#run = run;
     this.#clock = clock;
-    const seek = (event) => clock.set((event.offsetX - this.#area.left) / (this.#area.right - this.#area.left) * clock.end);
-    this.#canvas.addEventListener("pointerdown", (event) => { this.#canvas.setPointerCapture(event.pointerId); seek(event); });
-    this.#canvas.addEventListener("pointermove", (event) => { if (event.buttons & 1) seek(event); });
-    onSize(this.#canvas, (pen, width, height) => { this.#size = { pen, width, height }; this.redraw(); });
+    const seek = (event) =>
+      clock.set(
+        ((event.offsetX - this.#area.left) / (this.#area.right - this.#area.left)) * clock.end,
+      );
+    this.#canvas.addEventListener("pointerdown", (event) => {
+      this.#canvas.setPointerCapture(event.pointerId);
+      seek(event);
+    });
+    this.#canvas.addEventListener("pointermove", (event) => {
+      if (event.buttons & 1) seek(event);
+    });
+    onSize(this.#canvas, (pen, width, height) => {
+      this.#size = { pen, width, height };
+      this.redraw();
+    });
   }
 
-  get #area() { return { left: 58, right: this.#size.width - 12, top: 12, bottom: this.#size.height - 22 }; }
+  get #area() {
+    return { left: 58, right: this.#size.width - 12, top: 12, bottom: this.#size.height - 22 };
+  }
 
-  #x(t) { const { left, right } = this.#area; return left + t / Math.max(this.#clock.end, 1e-9) * (right - left); }
+  #x(t) {
+    const { left, right } = this.#area;
+    return left + (t / Math.max(this.#clock.end, 1e-9)) * (right - left);
+  }
 
   /** Draws everything again, because the size, the colours or the run have changed. */
   redraw() {
@@ -58,7 +76,8 @@ export class Profile {
       this.#picture = copy;
     }
     pen.drawImage(this.#picture, 0, 0, width, height);
-    const { top, bottom, right } = this.#area, x = Math.min(this.#x(this.#clock.t), right); // the lines are a little older than the time
+    const { top, bottom, right } = this.#area,
+      x = Math.min(this.#x(this.#clock.t), right); // the lines are a little older than the time
     pen.strokeStyle = colour("--ink");
     pen.lineWidth = 1.4;
     pen.beginPath();
@@ -68,12 +87,17 @@ export class Profile {
   }
 
   #drawLines() {
-    const { pen, width, height } = this.#size, { left, right, top, bottom } = this.#area, tracks = this.#run.tracks;
+    const { pen, width, height } = this.#size,
+      { left, right, top, bottom } = this.#area,
+      tracks = this.#run.tracks;
     pen.fillStyle = colour("--panel");
     pen.fillRect(0, 0, width, height);
-    const values = tracks.flatMap((track) => thinned(track).map((i) => track.altitude_ft[i])), first = values[0];
-    const low = values.reduce((a, b) => Math.min(a, b), first ?? 0), high = values.reduce((a, b) => Math.max(a, b), first ?? 1000), pad = Math.max((high - low) * 0.08, 50);
-    const y = (feet) => bottom - (feet - low + pad) / (high - low + 2 * pad) * (bottom - top);
+    const values = tracks.flatMap((track) => thinned(track).map((i) => track.altitude_ft[i])),
+      first = values[0];
+    const low = values.reduce((a, b) => Math.min(a, b), first ?? 0),
+      high = values.reduce((a, b) => Math.max(a, b), first ?? 1000),
+      pad = Math.max((high - low) * 0.08, 50);
+    const y = (feet) => bottom - ((feet - low + pad) / (high - low + 2 * pad)) * (bottom - top);
     pen.font = FONT.replace("12px", "11px");
     pen.lineWidth = 1;
     pen.strokeStyle = colour("--grid");
@@ -101,7 +125,10 @@ export class Profile {
       pen.strokeStyle = colour(track.colour);
       pen.lineWidth = 2;
       pen.beginPath();
-      thinned(track).forEach((i) => { if (i) pen.lineTo(this.#x(track.t[i]), y(track.altitude_ft[i])); else pen.moveTo(this.#x(track.t[i]), y(track.altitude_ft[i])); });
+      thinned(track).forEach((i) => {
+        if (i) pen.lineTo(this.#x(track.t[i]), y(track.altitude_ft[i]));
+        else pen.moveTo(this.#x(track.t[i]), y(track.altitude_ft[i]));
+      });
       pen.stroke();
     }
     pen.textAlign = "left";
@@ -110,7 +137,14 @@ export class Profile {
       while (named.some((other) => Math.abs(other - ty) < 12)) ty -= 12;
       if (ty < 10) continue;
       named.push(ty);
-      write(pen, track.callsign, this.#x(track.first) + 4, ty, colour(track.colour), colour("--panel"));
+      write(
+        pen,
+        track.callsign,
+        this.#x(track.first) + 4,
+        ty,
+        colour(track.colour),
+        colour("--panel"),
+      );
     }
   }
 }

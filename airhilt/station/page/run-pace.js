@@ -11,28 +11,40 @@ export class RunPace {
   constructor(run, set) {
     this.#run = run;
     byId("pace-pause").addEventListener("click", () => set(this.#isPaused ? this.#chosen : 0));
-    byId("pace-factor").addEventListener("change", () => { if (!this.#isPaused) set(this.#chosen); });
+    byId("pace-factor").addEventListener("change", () => {
+      if (!this.#isPaused) set(this.#chosen);
+    });
   }
 
-  get #isPaused() { return this.#run.pace === "paused"; }
+  get #isPaused() {
+    return this.#run.pace === "paused";
+  }
 
   /** The pace chosen, as a part of real time: nobody makes a run faster from here. */
-  get #chosen() { return Math.min(Number(byId("pace-factor").value) || 1, 1); }
+  get #chosen() {
+    return Math.min(Number(byId("pace-factor").value) || 1, 1);
+  }
 
-  show(isShown) { byId("pace").hidden = !isShown; }
+  show(isShown) {
+    byId("pace").hidden = !isShown;
+  }
 
   draw() {
     byId("pace-pause").setAttribute("aria-pressed", this.#isPaused);
     byId("pace-pause").textContent = this.#isPaused ? "Go on" : "Pause the run";
-    if (!this.#isPaused && document.activeElement !== byId("pace-factor")) this.#showPace(this.#run.pace);
+    if (!this.#isPaused && document.activeElement !== byId("pace-factor"))
+      this.#showPace(this.#run.pace);
   }
 
   /** Shows the pace of the run, also one that nobody can choose here, such as 4x. */
   #showPace(pace) {
-    const select = byId("pace-factor"), value = pace === "realtime" ? "1" : String(Number.parseFloat(pace));
+    const select = byId("pace-factor"),
+      value = pace === "realtime" ? "1" : String(Number.parseFloat(pace));
     select.querySelector("[data-other]")?.remove();
     if (![...select.options].some((option) => option.value === value)) {
-      select.prepend(html("option", { value, disabled: true, "data-other": true }, PACES[pace] ?? pace));
+      select.prepend(
+        html("option", { value, disabled: true, "data-other": true }, PACES[pace] ?? pace),
+      );
     }
     select.value = value;
   }

@@ -22,20 +22,37 @@ export class Seat {
     this.#clock = clock;
     this.#live = live;
     byId("seat").hidden = !run.seats?.length;
-    byId("seat-name").replaceChildren(...(run.seats ?? []).map((name) => html("option", { value: name }, name)));
-    this.#displays = new Displays(run, clock, cameras, (command) => live.send({ fly: command }), (text) => { byId("panel-state").textContent = text; });
+    byId("seat-name").replaceChildren(
+      ...(run.seats ?? []).map((name) => html("option", { value: name }, name)),
+    );
+    this.#displays = new Displays(
+      run,
+      clock,
+      cameras,
+      (command) => live.send({ fly: command }),
+      (text) => {
+        byId("panel-state").textContent = text;
+      },
+    );
     byId("seat-take").addEventListener("click", () => {
       this.#isLeaving = Boolean(this.#own);
       live.send(this.#own ? { leave: this.#own } : { take: byId("seat-name").value });
     });
-    byId("say").addEventListener("submit", (event) => { event.preventDefault(); this.#say(); });
+    byId("say").addEventListener("submit", (event) => {
+      event.preventDefault();
+      this.#say();
+    });
     this.setSeats({});
   }
 
-  get keys() { return this.#displays.keys; }
+  get keys() {
+    return this.#displays.keys;
+  }
 
   /** Shows on the displays only calls on the frequencies that a function returns. */
-  hearOnly(heard) { this.#displays.hearOnly(heard); }
+  hearOnly(heard) {
+    this.#displays.hearOnly(heard);
+  }
 
   /** Takes in which seats are free, taken or one's own. */
   setSeats(seats) {
@@ -46,19 +63,35 @@ export class Seat {
     byId("seat-take").textContent = this.#own ? "Leave the seat" : "Take the seat";
     byId("seat-name").disabled = Boolean(this.#own);
     if (this.#own) byId("seat-name").value = this.#own;
-    if (isLost) this.refuse(`The seat ${before} was given back while the connection was lost, and its script goes on. Take it again.`);
-    else byId("seat-state").textContent = this.#own ? "" : Object.keys(seats).filter((name) => seats[name] === "taken").map((name) => `${name} is taken.`).join(" ");
-    byId("seat-hint").textContent = this.#own ? "" : "Who takes a seat speaks and acts there, and sees what that seat sees. Until then its calls wait.";
+    if (isLost)
+      this.refuse(
+        `The seat ${before} was given back while the connection was lost, and its script goes on. Take it again.`,
+      );
+    else
+      byId("seat-state").textContent = this.#own
+        ? ""
+        : Object.keys(seats)
+            .filter((name) => seats[name] === "taken")
+            .map((name) => `${name} is taken.`)
+            .join(" ");
+    byId("seat-hint").textContent = this.#own
+      ? ""
+      : "Who takes a seat speaks and acts there, and sees what that seat sees. Until then its calls wait.";
     byId("say").hidden = !this.#own;
     this.#displays.setSeat(this.#own);
-    if (this.#own && !this.#clock.following) this.#clock.follow(); // Nobody at a seat goes back in time.
+    // Nobody at a seat goes back in time.
+    if (this.#own && !this.#clock.following) this.#clock.follow();
     this.#drawTasks();
   }
 
-  get own() { return this.#own; }
+  get own() {
+    return this.#own;
+  }
 
   /** Shows why something was not done. */
-  refuse(text) { byId("seat-state").textContent = text; }
+  refuse(text) {
+    byId("seat-state").textContent = text;
+  }
 
   /** Takes in what only the person at the own seat sees. */
   take(changes) {
@@ -69,12 +102,26 @@ export class Seat {
       this.#displays.take(instruments[1]);
       this.#showInstruments(instruments[1]);
     }
-    const isOpen = (card) => !card.done && !changes.some(([kind, other]) => kind === "task" && other.done && other.line === card.line) && !this.#run.calls.some((call) => call.id === card.line) && !this.#tasks.some((other) => other.line === card.line);
-    const done = changes.filter(([kind, card]) => kind === "task" && card.done).map(([, card]) => card.line);
+    const isOpen = (card) =>
+      !card.done &&
+      !changes.some(([kind, other]) => kind === "task" && other.done && other.line === card.line) &&
+      !this.#run.calls.some((call) => call.id === card.line) &&
+      !this.#tasks.some((other) => other.line === card.line);
+    const done = changes
+      .filter(([kind, card]) => kind === "task" && card.done)
+      .map(([, card]) => card.line);
     this.#tasks = this.#tasks.filter((card) => !done.includes(card.line));
     const notices = changes.filter(([kind]) => kind === "notice");
-    if (notices.length) { this.refuse(notices.at(-1)[2]); byId("panel-state").textContent = ""; }
-    this.#tasks.push(...changes.filter(([kind]) => kind === "task").map(([, card]) => card).filter(isOpen));
+    if (notices.length) {
+      this.refuse(notices.at(-1)[2]);
+      byId("panel-state").textContent = "";
+    }
+    this.#tasks.push(
+      ...changes
+        .filter(([kind]) => kind === "task")
+        .map(([, card]) => card)
+        .filter(isOpen),
+    );
     this.#tasks.splice(0, this.#tasks.length - MOST_TASKS);
     this.#drawTasks();
   }
@@ -87,22 +134,46 @@ export class Seat {
   }
 
   #showInstruments(shown) {
-    const parts = [`${whole(shown.airspeed_kt)} kt`, feet(shown.altitude_ft), `${whole(shown.vertical_speed_fpm)} ft/min`, `heading ${bearing(shown.heading_deg)} ${shown.north}`,
-      known(shown.radio_height_ft) ? `radio height ${feet(shown.radio_height_ft)}` : null, shown.gear === 1 ? "gear down" : shown.gear === 0 ? "gear up" : "gear moving",
-      `flaps ${percent(shown.flaps)}`, words(shown.mode), `selected ${feet(shown.selected_altitude_ft)}, ${whole(shown.selected_airspeed_kt)} kt`];
+    const parts = [
+      `${whole(shown.airspeed_kt)} kt`,
+      feet(shown.altitude_ft),
+      `${whole(shown.vertical_speed_fpm)} ft/min`,
+      `heading ${bearing(shown.heading_deg)} ${shown.north}`,
+      known(shown.radio_height_ft) ? `radio height ${feet(shown.radio_height_ft)}` : null,
+      shown.gear === 1 ? "gear down" : shown.gear === 0 ? "gear up" : "gear moving",
+      `flaps ${percent(shown.flaps)}`,
+      words(shown.mode),
+      `selected ${feet(shown.selected_altitude_ft)}, ${whole(shown.selected_airspeed_kt)} kt`,
+    ];
     byId("instruments").textContent = parts.filter((part) => part).join(", ");
     byId("instruments").hidden = false;
   }
 
   #drawTasks() {
-    this.#rows.show(this.#tasks.filter((card) => card.seat === this.#own), (card) => card.line, (card) => this.#row(card));
+    this.#rows.show(
+      this.#tasks.filter((card) => card.seat === this.#own),
+      (card) => card.line,
+      (card) => this.#row(card),
+    );
     if (!this.#own) byId("instruments").hidden = true;
   }
 
   #row(card) {
     const button = html("button", { type: "button" }, card.text);
-    button.addEventListener("click", () => { byId("words").value = card.text; byId("words").focus(); });
-    return html("li", {}, html("span", { class: "dim" }, `Due since ${seconds(card.t)}${card.addressed ? `, to ${card.addressed}` : ""}: `), button);
+    button.addEventListener("click", () => {
+      byId("words").value = card.text;
+      byId("words").focus();
+    });
+    return html(
+      "li",
+      {},
+      html(
+        "span",
+        { class: "dim" },
+        `Due since ${seconds(card.t)}${card.addressed ? `, to ${card.addressed}` : ""}: `,
+      ),
+      button,
+    );
   }
 
   #say() {

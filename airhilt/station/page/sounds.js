@@ -13,10 +13,15 @@ export class Sounds {
   constructor(run, clock) {
     this.#clock = clock;
     this.#channels = run.sounds.map((name) => {
-      const audio = new Audio(`api/sounds/${encodeURIComponent(name)}.wav`), box = html("input", { type: "checkbox", checked: true });
+      const audio = new Audio(`api/sounds/${encodeURIComponent(name)}.wav`),
+        box = html("input", { type: "checkbox", checked: true });
       audio.preload = "auto";
       box.addEventListener("change", () => this.draw());
-      return { audio, box, label: html("label", {}, box, name === "assistant" ? "Assistant" : megahertz(Number(name))) };
+      return {
+        audio,
+        box,
+        label: html("label", {}, box, name === "assistant" ? "Assistant" : megahertz(Number(name))),
+      };
     });
     byId("sounds").replaceChildren(...this.#channels.map(({ label }) => label));
     if (!run.sounds.length) byId("sounds").append(html("span", { class: "dim" }, "no sound"));
@@ -33,10 +38,17 @@ export class Sounds {
     const { t, rate, playing } = this.#clock;
     for (const { audio, box } of this.#channels) {
       const within = playing && box.checked && !audio.error && !(t >= audio.duration);
-      if (!within) { if (!audio.paused) audio.pause(); continue; }
+      if (!within) {
+        if (!audio.paused) audio.pause();
+        continue;
+      }
       if (audio.playbackRate !== rate) audio.playbackRate = rate;
-      if (!audio.seeking && Math.abs(audio.currentTime - t) > MOST_OFF_S * Math.max(rate, 1)) audio.currentTime = t;
-      if (audio.paused) audio.play().catch(() => { box.checked = false; });
+      if (!audio.seeking && Math.abs(audio.currentTime - t) > MOST_OFF_S * Math.max(rate, 1))
+        audio.currentTime = t;
+      if (audio.paused)
+        audio.play().catch(() => {
+          box.checked = false;
+        });
     }
   }
 }
@@ -44,7 +56,10 @@ export class Sounds {
 const MOST_BEHIND = 3;
 const MOST_HEARD = 1000; // calls that are not heard again
 
-/** The calls of a live run, each when it has ended; where they come faster than they are spoken, old ones are left out. */
+/**
+ * The calls of a live run, each when it has ended; where they come faster than they are spoken, old
+ * ones are left out.
+ */
 export class LiveSounds {
   #box = html("input", { type: "checkbox", checked: true });
   #audio = new Audio();
@@ -55,7 +70,12 @@ export class LiveSounds {
     byId("sounds").replaceChildren(html("label", {}, this.#box, "Listen"));
     this.#audio.addEventListener("ended", () => this.#next());
     this.#audio.addEventListener("error", () => this.#next());
-    this.#box.addEventListener("change", () => { if (!this.#box.checked) { this.#waiting = []; this.#audio.pause(); } });
+    this.#box.addEventListener("change", () => {
+      if (!this.#box.checked) {
+        this.#waiting = [];
+        this.#audio.pause();
+      }
+    });
   }
 
   /** Lets a call be heard, once, if somebody listens. */
@@ -68,13 +88,16 @@ export class LiveSounds {
     if (this.#audio.paused || this.#audio.ended) this.#next();
   }
 
-  mute() { this.#box.click(); }
+  mute() {
+    this.#box.click();
+  }
 
   #next() {
     const id = this.#waiting.shift();
     if (id === undefined) return;
     this.#audio.src = `api/calls/${encodeURIComponent(id)}.wav`;
-    this.#audio.play().catch(() => {}); // A browser plays nothing before the first click on the page.
+    // A browser plays nothing before the first click on the page.
+    this.#audio.play().catch(() => {});
   }
 
   draw() {}

@@ -1,4 +1,5 @@
-// Flight progress strips: one an aircraft or vehicle that the controller expects, in the order that the controller gives them.
+// Flight progress strips: one an aircraft or vehicle that the controller expects, in the order that
+// the controller gives them.
 
 import { byId, html } from "./dom.js";
 import { METRE_PER_NM } from "./model.js";
@@ -22,7 +23,9 @@ export class Strips {
   }
 
   /** Shows only calls on the frequencies in kHz that a function returns; null: of all. */
-  hearOnly(heard) { this.#heard = heard; }
+  hearOnly(heard) {
+    this.#heard = heard;
+  }
 
   /** Adds strips of those who are new, and shows what is known of all. */
   draw() {
@@ -30,21 +33,51 @@ export class Strips {
     this.#drawn = performance.now();
     const callsigns = this.#callsigns();
     for (const callsign of callsigns) if (!this.#strips.has(callsign)) this.#add(callsign);
-    for (const [callsign, strip] of this.#strips) if (callsigns.includes(callsign)) this.#fill(callsign, strip); else this.#remove(callsign);
+    for (const [callsign, strip] of this.#strips)
+      if (callsigns.includes(callsign)) this.#fill(callsign, strip);
+      else this.#remove(callsign);
   }
 
   #callsigns() {
-    const seen = this.#run.tracks.filter((track) => track.category !== "wildlife").map((track) => track.callsign);
+    const seen = this.#run.tracks
+      .filter((track) => track.category !== "wildlife")
+      .map((track) => track.callsign);
     return [...new Set([...Object.keys(this.#run.categories ?? {}), ...seen])];
   }
 
   #add(callsign) {
-    const note = html("input", { type: "text", class: "strip-note", maxlength: 40, autocomplete: "off", "aria-label": `Note on ${callsign}`, placeholder: "note" });
-    const parts = { type: html("span", { class: "strip-type" }), where: html("span", { class: "strip-where" }), said: html("span", { class: "strip-said" }) };
-    const cock = html("button", { type: "button", "aria-pressed": false, "aria-label": `Cock the strip of ${callsign}`, title: "Cock the strip: something is left to do (X)" }, "\u25b6");
+    const note = html("input", {
+      type: "text",
+      class: "strip-note",
+      maxlength: 40,
+      autocomplete: "off",
+      "aria-label": `Note on ${callsign}`,
+      placeholder: "note",
+    });
+    const parts = {
+      type: html("span", { class: "strip-type" }),
+      where: html("span", { class: "strip-where" }),
+      said: html("span", { class: "strip-said" }),
+    };
+    const cock = html(
+      "button",
+      {
+        type: "button",
+        "aria-pressed": false,
+        "aria-label": `Cock the strip of ${callsign}`,
+        title: "Cock the strip: something is left to do (X)",
+      },
+      "\u25b6",
+    );
     cock.addEventListener("click", () => this.#cock(item));
-    const item = html("li", { class: "flight-strip", tabindex: 0, "data-callsign": callsign },
-      html("span", { class: "strip-name" }, html("span", { class: "who" }, callsign), parts.type), html("span", { class: "strip-middle" }, parts.where, parts.said), note, cock);
+    const item = html(
+      "li",
+      { class: "flight-strip", tabindex: 0, "data-callsign": callsign },
+      html("span", { class: "strip-name" }, html("span", { class: "who" }, callsign), parts.type),
+      html("span", { class: "strip-middle" }, parts.where, parts.said),
+      note,
+      cock,
+    );
     this.#strips.set(callsign, { item, parts, cock });
     this.#list.append(item);
   }
@@ -56,14 +89,23 @@ export class Strips {
   }
 
   #fill(callsign, { item, parts }) {
-    const track = this.#run.track(callsign), state = track?.state(this.#clock.t, this.#run.span), isThere = state && !state.ended && state.isThere;
+    const track = this.#run.track(callsign),
+      state = track?.state(this.#clock.t, this.#run.span),
+      isThere = state && !state.ended && state.isThere;
     item.dataset.kind = this.#run.categories?.[callsign] ?? track?.category ?? "";
     const alert = this.#run.severityOf(callsign, this.#clock.t) ?? "";
     item.dataset.severity = alert;
-    parts.type.textContent = [words(track?.type || item.dataset.kind), alert].filter((text) => text).join(" ");
-    const knots = isThere ? whole(state.speed * 3600 / METRE_PER_NM) : "";
-    parts.where.textContent = !isThere ? "not seen" : state.onGround ? `ground ${knots} kt` : `${level(state.altitude)}  ${knots} kt`;
-    const call = this.#lastCall(callsign), said = call?.transcripts.at(-1)?.text ?? call?.said ?? "";
+    parts.type.textContent = [words(track?.type || item.dataset.kind), alert]
+      .filter((text) => text)
+      .join(" ");
+    const knots = isThere ? whole((state.speed * 3600) / METRE_PER_NM) : "";
+    parts.where.textContent = !isThere
+      ? "not seen"
+      : state.onGround
+        ? `ground ${knots} kt`
+        : `${level(state.altitude)}  ${knots} kt`;
+    const call = this.#lastCall(callsign),
+      said = call?.transcripts.at(-1)?.text ?? call?.said ?? "";
     parts.said.textContent = said;
     parts.said.title = said;
   }
@@ -71,7 +113,14 @@ export class Strips {
   /** The last call of this callsign that the recogniser has understood. */
   #lastCall(callsign) {
     const heard = this.#heard();
-    return this.#run.calls.findLast((call) => (!heard || heard.includes(call.frequency_khz)) && call.from <= this.#clock.t && (call.addressed === callsign || call.speaker === callsign || call.transcripts.some((one) => one.speaker === callsign)));
+    return this.#run.calls.findLast(
+      (call) =>
+        (!heard || heard.includes(call.frequency_khz)) &&
+        call.from <= this.#clock.t &&
+        (call.addressed === callsign ||
+          call.speaker === callsign ||
+          call.transcripts.some((one) => one.speaker === callsign)),
+    );
   }
 
   #cock(item) {
@@ -82,11 +131,16 @@ export class Strips {
   #key(event) {
     const item = event.target;
     if (!item.classList.contains("flight-strip")) return;
-    const other = { ArrowUp: item.previousElementSibling, ArrowDown: item.nextElementSibling }[event.key];
+    const other = { ArrowUp: item.previousElementSibling, ArrowDown: item.nextElementSibling }[
+      event.key
+    ];
     if (event.key === "x") this.#cock(item);
     else if (event.key === "Enter") item.querySelector(".strip-note").focus();
-    else if (other && event.altKey) { if (event.key === "ArrowUp") other.before(item); else other.after(item); item.focus(); }
-    else if (other) other.focus();
+    else if (other && event.altKey) {
+      if (event.key === "ArrowUp") other.before(item);
+      else other.after(item);
+      item.focus();
+    } else if (other) other.focus();
     else return;
     event.preventDefault();
     event.stopPropagation();

@@ -29,58 +29,106 @@ export class Talk {
     this.#run = run;
     this.#live = live;
     this.#microphone = new Microphone({
-      send: (wish) => live.send(wish), sendSound: (buffer) => live.sendSound(buffer), unsent: () => live.unsent(), isThere: () => live.isThere, frequency: () => this.#frequencies.transmit, delay: (event) => this.#delay(event),
+      send: (wish) => live.send(wish),
+      sendSound: (buffer) => live.sendSound(buffer),
+      unsent: () => live.unsent(),
+      isThere: () => live.isThere,
+      frequency: () => this.#frequencies.transmit,
+      delay: (event) => this.#delay(event),
     });
-    this.#advisories = new OwnAdvisories(run, (perceived) => live.send({ perceived: { ...perceived, after_s: Math.max(-10, Math.min(10, perceived.after_s - this.#roundTrip / 2)) } }), (severity, url) => this.#loudspeaker.warn(severity, url));
+    this.#advisories = new OwnAdvisories(
+      run,
+      (perceived) =>
+        live.send({
+          perceived: {
+            ...perceived,
+            after_s: Math.max(-10, Math.min(10, perceived.after_s - this.#roundTrip / 2)),
+          },
+        }),
+      (severity, url) => this.#loudspeaker.warn(severity, url),
+    );
     this.#pace = new RunPace(run, (factor) => live.send({ pace: { factor } }));
     this.#frequencies = new Frequencies((tune) => live.send({ tune }));
     this.#phrases = new Phrases(run);
     this.#workload = new Workload((answer) => live.send({ answer }));
     this.#microphone.setInfo(null);
-    byId("strips").addEventListener("focusin", ({ target }) => this.#phrases.address(target.closest(".flight-strip")?.dataset.callsign));
+    byId("strips").addEventListener("focusin", ({ target }) =>
+      this.#phrases.address(target.closest(".flight-strip")?.dataset.callsign),
+    );
     byId("seat-take").addEventListener("click", () => this.#loudspeaker.begin());
     setInterval(() => live.send({ echo: performance.now() }), ECHO_MS);
   }
 
   /** Keys of a seat, for the list of keys. */
   get keys() {
-    const isUsed = () => Boolean(this.#own), ratings = ["1", "2", "3", "4", "5"];
+    const isUsed = () => Boolean(this.#own),
+      ratings = ["1", "2", "3", "4", "5"];
     return [
       { names: [], shown: ["Space"], text: "hold to talk", isUsed }, // the microphone takes it
-      { names: ["Enter"], shown: ["Enter"], text: "press a button, tick a box or clear it", isUsed, act: ({ target }) => target.click() },
-      { names: ratings, shown: ratings, text: "workload, when it is asked", isUsed, act: ({ key }) => this.#workload.rate(Number(key)) },
+      {
+        names: ["Enter"],
+        shown: ["Enter"],
+        text: "press a button, tick a box or clear it",
+        isUsed,
+        act: ({ target }) => target.click(),
+      },
+      {
+        names: ratings,
+        shown: ratings,
+        text: "workload, when it is asked",
+        isUsed,
+        act: ({ key }) => this.#workload.rate(Number(key)),
+      },
     ];
   }
 
   /** Frequencies that the person at the seat listens to, in kHz; null without a seat. */
-  get heard() { return this.#own ? this.#frequencies.heard : null; }
+  get heard() {
+    return this.#own ? this.#frequencies.heard : null;
+  }
 
   /** Takes in that the connection is lost: nobody is on the air without it. */
-  lost() { this.#microphone.release(); }
+  lost() {
+    this.#microphone.release();
+  }
 
   /** Takes in one's own seat, null for none. */
   setSeat(own) {
     this.#pace.show(Boolean(own));
-    if (own === this.#own) { if (own) this.#frequencies.tell(); return; }
+    if (own === this.#own) {
+      if (own) this.#frequencies.tell();
+      return;
+    }
     this.#own = own;
     if (own) {
       this.#loudspeaker.begin();
       this.#takeActive();
-    } else { this.#microphone.setInfo(null); this.#loudspeaker.end(); this.#advisories.clear(); this.#frequencies.show([]); this.#workload.clear(); }
+    } else {
+      this.#microphone.setInfo(null);
+      this.#loudspeaker.end();
+      this.#advisories.clear();
+      this.#frequencies.show([]);
+      this.#workload.clear();
+    }
     this.#phrases.setSeat(own);
     this.#live.send({ echo: performance.now() });
   }
 
   #takeActive() {
-    for (const row of this.#run.activeAdvisories(this.#run.now ?? 0)) this.#advisories.takeAdvisory(row);
+    for (const row of this.#run.activeAdvisories(this.#run.now ?? 0))
+      this.#advisories.takeAdvisory(row);
   }
 
   /** Takes in a message of the server. */
   take({ own, changes, sounds, echo, refused }) {
-    const told = [refused ?? "", ...(own ?? []).filter(([kind]) => kind === "notice").map(([, , text]) => text)];
-    if (told.some((text) => text.startsWith(CUT))) this.#microphone.release(); // Nobody hears what is said from now on.
+    const told = [
+      refused ?? "",
+      ...(own ?? []).filter(([kind]) => kind === "notice").map(([, , text]) => text),
+    ];
+    // Nobody hears what is said from now on.
+    if (told.some((text) => text.startsWith(CUT))) this.#microphone.release();
     if (changes?.some(([kind]) => kind === "clock")) this.#pace.draw();
-    for (const [kind, row] of this.#own ? changes ?? [] : []) {
+    for (const [kind, row] of this.#own ? (changes ?? []) : []) {
       if (kind === "name") this.#takeActive(); // An advisory knew the aircraft by its address alone.
       if (kind === "advisory") this.#advisories.takeAdvisory(row);
       if (kind === "spoken") this.#advisories.takeSpoken(row);
@@ -91,9 +139,15 @@ export class Talk {
       if (kind === "answered") this.#workload.answered(rest[0]);
     }
     if (changes?.some(([kind]) => kind === "call")) this.#phrases.heard();
-    if (changes && ["finished", "stopped", "gone"].includes(this.#run.phase)) this.#workload.clear();
+    if (changes && ["finished", "stopped", "gone"].includes(this.#run.phase))
+      this.#workload.clear();
     if (sounds && this.#own) this.#frequencies.take(sounds);
-    if (sounds && this.#own) this.#loudspeaker.take(sounds, { isOwn: (id) => id.startsWith(`microphone.${this.#own.replace(/[^A-Za-z0-9]+/g, "_")}.`), isDeaf: this.#microphone.isHeld, isSlow: Number.parseFloat(this.#run.pace) < 1 });
+    if (sounds && this.#own)
+      this.#loudspeaker.take(sounds, {
+        isOwn: (id) => id.startsWith(`microphone.${this.#own.replace(/[^A-Za-z0-9]+/g, "_")}.`),
+        isDeaf: this.#microphone.isHeld,
+        isSlow: Number.parseFloat(this.#run.pace) < 1,
+      });
     if (echo !== undefined) this.#roundTrip = (performance.now() - echo) / 1000;
   }
 
@@ -102,9 +156,12 @@ export class Talk {
     this.#microphone.setInfo(info);
     this.#frequencies.show(info.frequencies_khz);
     this.#phrases.setSeat(this.#own, info.phraseology);
-    if (document.activeElement === byId("seat-take")) byId(info.has_sound ? "talk-button" : "words").focus();
+    if (document.activeElement === byId("seat-take"))
+      byId(info.has_sound ? "talk-button" : "words").focus();
   }
 
   /** Time from an event on the page until a message of now is with the server, in s. */
-  #delay(event) { return Math.max(0, (performance.now() - event.timeStamp) / 1000 + this.#roundTrip / 2); }
+  #delay(event) {
+    return Math.max(0, (performance.now() - event.timeStamp) / 1000 + this.#roundTrip / 2);
+  }
 }

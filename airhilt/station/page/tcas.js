@@ -13,16 +13,30 @@ const MOST_FPM = 6000; // end of the scale of a vertical speed indicator
  */
 export function tcasOf(run, t) {
   const isOwn = (row) => row.equipment === "tcas" && run.textsOf(row).length > 0;
-  const active = run.activeAdvisories(t).filter(isOwn), row = active.find(({ severity }) => severity === "WARNING") ?? active[0];
-  if (row) return { words: inWords(row), severity: row.severity, ...bands(run.textsOf(row).at(-1).recommendation) };
-  const over = run.advisories.some((one) => !one.active && one.t <= t && t - one.t < CLEAR_S && isOwn(one));
+  const active = run.activeAdvisories(t).filter(isOwn),
+    row = active.find(({ severity }) => severity === "WARNING") ?? active[0];
+  if (row)
+    return {
+      words: inWords(row),
+      severity: row.severity,
+      ...bands(run.textsOf(row).at(-1).recommendation),
+    };
+  const over = run.advisories.some(
+    (one) => !one.active && one.t <= t && t - one.t < CLEAR_S && isOwn(one),
+  );
   return over ? { words: "CLEAR OF CONFLICT", severity: "INFO", green: null, red: null } : null;
 }
 
 /** The announcement of an advisory without its repetition, as in "descend, descend". */
-const inWords = ({ severity, evidence }) => (evidence.note.split(",")[0] || (severity === "WARNING" ? "resolution advisory" : "traffic")).toUpperCase();
+const inWords = ({ severity, evidence }) =>
+  (
+    evidence.note.split(",")[0] || (severity === "WARNING" ? "resolution advisory" : "traffic")
+  ).toUpperCase();
 
-/** The bands of the vertical speed indicator. Which side of level flight is to be avoided, "maintain" does not tell. */
+/**
+ * The bands of the vertical speed indicator. Which side of level flight is to be avoided,
+ * "maintain" does not tell.
+ */
 function bands(advised) {
   if (advised?.action === "maintain") return { green: [-LEVEL_FPM, LEVEL_FPM], red: null };
   if (advised?.action !== "altitude") return { green: null, red: null };

@@ -8,7 +8,8 @@ const NAME = "airhilt-theme";
 export function connectTheme(changed) {
   const choice = byId("theme");
   const apply = () => {
-    if (choice.value) document.documentElement.dataset.theme = choice.value; else delete document.documentElement.dataset.theme;
+    if (choice.value) document.documentElement.dataset.theme = choice.value;
+    else delete document.documentElement.dataset.theme;
     forgetColours();
     changed();
   };
@@ -16,8 +17,13 @@ export function connectTheme(changed) {
     choice.value = localStorage.getItem(NAME) ?? "";
     apply();
   };
-  choice.addEventListener("change", () => { localStorage.setItem(NAME, choice.value); apply(); });
-  window.addEventListener("storage", ({ key }) => { if (key === NAME) show(); }); // another page, or the one around this
+  choice.addEventListener("change", () => {
+    localStorage.setItem(NAME, choice.value);
+    apply();
+  });
+  window.addEventListener("storage", ({ key }) => {
+    if (key === NAME) show();
+  }); // another page, or the one around this
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", apply);
   show();
 }

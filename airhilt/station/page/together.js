@@ -17,16 +17,24 @@ class TwoRuns {
   pair = null;
 
   add(run, place) {
-    this.moments = [...this.moments, ...run.moments.map((moment) => ({ ...moment, text: `${place}: ${moment.text}` }))].sort((a, b) => a.t - b.t);
+    this.moments = [
+      ...this.moments,
+      ...run.moments.map((moment) => ({ ...moment, text: `${place}: ${moment.text}` })),
+    ].sort((a, b) => a.t - b.t);
     this.calls = [...this.calls, ...run.calls];
     this.events = [...this.events, ...run.events];
   }
 
-  apart() { return null; }
+  apart() {
+    return null;
+  }
 }
 
-const runs = new TwoRuns(), clock = new Clock(0), frames = PLACES.map((place, i) => html("iframe", { title: `Run on the ${place}`, src: `${i}/` }));
-const transport = new Transport(runs, clock), marks = new Marks(runs, clock);
+const runs = new TwoRuns(),
+  clock = new Clock(0),
+  frames = PLACES.map((place, i) => html("iframe", { title: `Run on the ${place}`, src: `${i}/` }));
+const transport = new Transport(runs, clock),
+  marks = new Marks(runs, clock);
 window.together = {
   clock,
   /** Takes in the run of a part, and returns true if that part is the one to be heard. */
@@ -36,11 +44,15 @@ window.together = {
     transport.renew();
     clock.setEnd(run.end_s);
     marks.draw();
-    if (frames.every((frame) => frame.contentDocument.body.dataset.together)) document.body.dataset.ready = "true";
+    if (frames.every((frame) => frame.contentDocument.body.dataset.together))
+      document.body.dataset.ready = "true";
     return i === 0;
   },
 };
 connectTheme(() => marks.draw());
-clock.listen(() => { transport.draw(); marks.draw(); });
+clock.listen(() => {
+  transport.draw();
+  marks.draw();
+});
 connectKeys(timeKeys(clock, transport));
 byId("two").replaceChildren(...frames);

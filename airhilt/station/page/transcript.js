@@ -1,4 +1,5 @@
-// The calls on the radio: what was said, what was recognised with which confidence, who understood it.
+// The calls on the radio: what was said, what was recognised with which confidence, who understood
+// it.
 
 import { byId, html, timeButton } from "./dom.js";
 import { Rows, keepInView } from "./rows.js";
@@ -24,22 +25,38 @@ export class Transcript {
   }
 
   /** Shows only the calls on the frequencies in kHz that a function returns; null: all. */
-  hearOnly(tuned) { this.#tuned = tuned; }
+  hearOnly(tuned) {
+    this.#tuned = tuned;
+  }
 
   /** Shows the calls again, because there are new ones. */
   redraw() {
-    const heard = this.#tuned(), calls = this.#run.calls.filter((call) => !heard || heard.includes(call.frequency_khz)).slice(this.#clock.live ? -MOST_LIVE : 0);
+    const heard = this.#tuned(),
+      calls = this.#run.calls
+        .filter((call) => !heard || heard.includes(call.frequency_khz))
+        .slice(this.#clock.live ? -MOST_LIVE : 0);
     const several = new Set(calls.map((call) => call.frequency_khz)).size > 1;
-    const empty = this.#clock.live ? "Nobody has said anything so far." : "Nobody says anything in this run.";
-    const shown = calls.map((call) => ({ call, several })), items = this.#rows.show(shown, ({ call }) => call.id, (one) => this.#item(one), empty);
+    const empty = this.#clock.live
+      ? "Nobody has said anything so far."
+      : "Nobody says anything in this run.";
+    const shown = calls.map((call) => ({ call, several })),
+      items = this.#rows.show(
+        shown,
+        ({ call }) => call.id,
+        (one) => this.#item(one),
+        empty,
+      );
     this.#items = calls.map((call, i) => ({ call, item: items[i] }));
     this.#current = null;
     this.draw();
   }
 
   draw() {
-    const { t } = this.#clock, now = this.#items.filter(({ call }) => call.from <= t && t <= call.to), last = this.#items.findLast(({ call }) => call.from <= t);
-    const shown = now.length ? now : last && t - last.call.to < 3 ? [last] : [], names = shown.map(({ call }) => call.id).join(" ");
+    const { t } = this.#clock,
+      now = this.#items.filter(({ call }) => call.from <= t && t <= call.to),
+      last = this.#items.findLast(({ call }) => call.from <= t);
+    const shown = now.length ? now : last && t - last.call.to < 3 ? [last] : [],
+      names = shown.map(({ call }) => call.id).join(" ");
     if (names === this.#current) return;
     this.#current = names;
     for (const { item } of this.#items) item.removeAttribute("aria-current");
@@ -55,17 +72,54 @@ export class Transcript {
 
   #item({ call, several }) {
     const who = call.speaker ?? call.transcripts.find((one) => one.speaker)?.speaker ?? "somebody";
-    const facts = [several ? megahertz(call.frequency_khz) : null, known(call.snr_db) ? decibels(call.snr_db) : null, call.blocked_by.length ? "blocked" : null].filter((fact) => fact);
-    return html("li", {},
-      html("div", { class: "row-head" }, timeButton(this.#clock, call.from, seconds(call.from)), html("span", { class: "who" }, who),
-        call.addressed ? html("span", { class: "dim" }, `to ${call.addressed}`) : null, html("span", { class: "dim" }, facts.join(", "))),
+    const facts = [
+      several ? megahertz(call.frequency_khz) : null,
+      known(call.snr_db) ? decibels(call.snr_db) : null,
+      call.blocked_by.length ? "blocked" : null,
+    ].filter((fact) => fact);
+    return html(
+      "li",
+      {},
+      html(
+        "div",
+        { class: "row-head" },
+        timeButton(this.#clock, call.from, seconds(call.from)),
+        html("span", { class: "who" }, who),
+        call.addressed ? html("span", { class: "dim" }, `to ${call.addressed}`) : null,
+        html("span", { class: "dim" }, facts.join(", ")),
+      ),
       known(call.said) ? html("div", {}, call.said || "(carrier without words)") : null,
       call.transcripts.map((one) => this.#heard(one)),
-      call.hearings.length ? html("div", { class: "row-head" }, call.hearings.map((one) => html("span", { class: `badge ${one.outcome}` }, `${one.who}: ${words(one.outcome)}`))) : null);
+      call.hearings.length
+        ? html(
+            "div",
+            { class: "row-head" },
+            call.hearings.map((one) =>
+              html("span", { class: `badge ${one.outcome}` }, `${one.who}: ${words(one.outcome)}`),
+            ),
+          )
+        : null,
+    );
   }
 
   #heard(one) {
-    const marked = one.words.length ? one.words.flatMap((word, i) => [i ? " " : "", word.confidence < SURE ? html("span", { class: "low", title: `confidence ${fixed(word.confidence, 2)}` }, word.text) : word.text]) : [one.text || "(nothing)"];
-    return html("div", { class: "heard" }, `${capital(one.engine)}, ${percent(one.confidence)}: `, marked);
+    const marked = one.words.length
+      ? one.words.flatMap((word, i) => [
+          i ? " " : "",
+          word.confidence < SURE
+            ? html(
+                "span",
+                { class: "low", title: `confidence ${fixed(word.confidence, 2)}` },
+                word.text,
+              )
+            : word.text,
+        ])
+      : [one.text || "(nothing)"];
+    return html(
+      "div",
+      { class: "heard" },
+      `${capital(one.engine)}, ${percent(one.confidence)}: `,
+      marked,
+    );
   }
 }

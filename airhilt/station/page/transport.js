@@ -5,7 +5,8 @@ import { byId, html } from "./dom.js";
 import { feet, metres, miles, seconds } from "./words.js";
 import { METRE_PER_NM } from "./model.js";
 
-const PLAY = "M4 2l10 6-10 6z", PAUSE = "M3 2h4v12H3zM9 2h4v12H9z";
+const PLAY = "M4 2l10 6-10 6z",
+  PAUSE = "M3 2h4v12H3zM9 2h4v12H9z";
 
 const MOST_LISTED = 300; // events of a live run that can be chosen, the newest
 
@@ -19,7 +20,9 @@ export class Transport {
   constructor(run, clock) {
     this.#run = run;
     this.#clock = clock;
-    byId("rate").replaceChildren(...RATES.map((rate) => html("option", { value: rate }, `${rate} x`)));
+    byId("rate").replaceChildren(
+      ...RATES.map((rate) => html("option", { value: rate }, `${rate} x`)),
+    );
     byId("rate").addEventListener("change", (event) => clock.setRate(Number(event.target.value)));
     byId("play").addEventListener("click", () => clock.toggle());
     byId("previous").addEventListener("click", () => this.step(-1));
@@ -28,8 +31,12 @@ export class Transport {
     byId("loop-from").addEventListener("click", () => clock.mark("from"));
     byId("loop-to").addEventListener("click", () => clock.mark("to"));
     byId("loop").addEventListener("click", () => clock.toggleLoop());
-    byId("events").addEventListener("change", (event) => { if (event.target.value !== "") clock.set(this.#listed[Number(event.target.value)].t); });
-    byId("events").addEventListener("blur", () => { if (this.#isOld) this.renew(); });
+    byId("events").addEventListener("change", (event) => {
+      if (event.target.value !== "") clock.set(this.#listed[Number(event.target.value)].t);
+    });
+    byId("events").addEventListener("blur", () => {
+      if (this.#isOld) this.renew();
+    });
     byId("live").hidden = !clock.live;
     byId("live").addEventListener("click", () => clock.follow());
     this.renew();
@@ -39,21 +46,34 @@ export class Transport {
   renew() {
     this.#isOld = document.activeElement === byId("events");
     if (this.#isOld) return;
-    const { moments } = this.#run, first = this.#clock.live ? Math.max(moments.length - MOST_LISTED, 0) : 0;
+    const { moments } = this.#run,
+      first = this.#clock.live ? Math.max(moments.length - MOST_LISTED, 0) : 0;
     this.#first = first;
     this.#listed = moments;
-    byId("events").replaceChildren(html("option", { value: "" }, `an event (${moments.length})`), ...moments.slice(first).map((moment, i) => html("option", { value: first + i }, `${seconds(moment.t)}  ${moment.text}`)));
+    byId("events").replaceChildren(
+      html("option", { value: "" }, `an event (${moments.length})`),
+      ...moments
+        .slice(first)
+        .map((moment, i) =>
+          html("option", { value: first + i }, `${seconds(moment.t)}  ${moment.text}`),
+        ),
+    );
   }
 
   /** Goes to the next event, or to the one before with a step of -1. */
   step(step) {
-    const { t } = this.#clock, near = 0.05;
-    const found = step > 0 ? this.#run.moments.find((moment) => moment.t > t + near) : this.#run.moments.findLast((moment) => moment.t < t - (this.#clock.playing ? 1 : near));
+    const { t } = this.#clock,
+      near = 0.05;
+    const found =
+      step > 0
+        ? this.#run.moments.find((moment) => moment.t > t + near)
+        : this.#run.moments.findLast((moment) => moment.t < t - (this.#clock.playing ? 1 : near));
     if (found) this.#clock.set(found.t);
   }
 
   draw() {
-    const { t, end, rate, following, loop } = this.#clock, playing = this.#clock.playing || following;
+    const { t, end, rate, following, loop } = this.#clock,
+      playing = this.#clock.playing || following;
     byId("live").setAttribute("aria-pressed", following);
     byId("play").setAttribute("aria-label", playing ? "Pause" : "Play");
     byId("play-word").textContent = playing ? "Pause" : "Play";
@@ -64,16 +84,27 @@ export class Transport {
     byId("time").textContent = following ? seconds(t) : `${seconds(t)} of ${seconds(end)}`;
     byId("rate").value = rate;
     byId("loop").setAttribute("aria-pressed", loop.on);
-    byId("loop-text").textContent = loop.from === null && loop.to === null ? "" : `${loop.from === null ? "?" : seconds(loop.from)} to ${loop.to === null ? "?" : seconds(loop.to)}`;
+    byId("loop-text").textContent =
+      loop.from === null && loop.to === null
+        ? ""
+        : `${loop.from === null ? "?" : seconds(loop.from)} to ${loop.to === null ? "?" : seconds(loop.to)}`;
     const moment = this.#run.moments.findLastIndex((one) => Math.abs(one.t - t) < 0.05);
-    if (document.activeElement !== byId("events")) byId("events").value = moment < this.#first ? "" : moment;
+    if (document.activeElement !== byId("events"))
+      byId("events").value = moment < this.#first ? "" : moment;
     this.#drawApart(t);
   }
 
   #drawApart(t) {
     const apart = this.#run.apart(t);
-    if (!apart) { byId("apart").textContent = ""; return; }
-    const horizontal = apart.horizontal < METRE_PER_NM ? metres(apart.horizontal) : miles(apart.horizontal / METRE_PER_NM);
-    byId("apart").textContent = `${this.#run.pair.join(" and ")}: ${horizontal}, ${feet(apart.vertical)} apart`;
+    if (!apart) {
+      byId("apart").textContent = "";
+      return;
+    }
+    const horizontal =
+      apart.horizontal < METRE_PER_NM
+        ? metres(apart.horizontal)
+        : miles(apart.horizontal / METRE_PER_NM);
+    byId("apart").textContent =
+      `${this.#run.pair.join(" and ")}: ${horizontal}, ${feet(apart.vertical)} apart`;
   }
 }

@@ -16,17 +16,29 @@ export class Workload {
   /** `answer(answer)` gives an answer to the run. */
   constructor(answer) {
     this.#answer = answer;
-    byId("isa-ratings").replaceChildren(...RATINGS.map((name, i) => {
-      const button = html("button", { type: "button", title: `${name}: key ${i + 1}` }, `${i + 1} ${name}`);
-      button.addEventListener("click", () => this.rate(i + 1));
-      return button;
-    }));
-    byId("tlx").addEventListener("submit", (event) => { event.preventDefault(); this.#give(); });
+    byId("isa-ratings").replaceChildren(
+      ...RATINGS.map((name, i) => {
+        const button = html(
+          "button",
+          { type: "button", title: `${name}: key ${i + 1}` },
+          `${i + 1} ${name}`,
+        );
+        button.addEventListener("click", () => this.rate(i + 1));
+        return button;
+      }),
+    );
+    byId("tlx").addEventListener("submit", (event) => {
+      event.preventDefault();
+      this.#give();
+    });
     byId("tlx-skip").addEventListener("click", () => this.#close({}));
     byId("tlx-dialog").addEventListener("cancel", (event) => event.preventDefault());
   }
 
-  /** Takes in a question to the own seat, of a time in s; whoever has just taken the seat is not asked what is long ago. */
+  /**
+   * Takes in a question to the own seat, of a time in s; whoever has just taken the seat is not
+   * asked what is long ago.
+   */
   ask(number, scale, asked, now) {
     if (scale === "isa" && (now - asked) * 1000 > PATIENCE_MS) return;
     this.#question = number;
@@ -43,7 +55,9 @@ export class Workload {
   }
 
   /** Takes in that the run has an answer. */
-  answered(number) { if (number === this.#question) this.clear(); }
+  answered(number) {
+    if (number === this.#question) this.clear();
+  }
 
   /** Rates the workload from 1 to 5, if that is asked. */
   rate(rating) {
@@ -65,7 +79,8 @@ export class Workload {
 
   #give() {
     const { missing } = this.#tlx;
-    if (missing.length) byId("tlx-state").textContent = `Move or click these as well: ${missing.join(", ")}.`;
+    if (missing.length)
+      byId("tlx-state").textContent = `Move or click these as well: ${missing.join(", ")}.`;
     else this.#close({ nasa_tlx: this.#tlx.answers });
   }
 

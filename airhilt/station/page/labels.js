@@ -1,0 +1,32 @@
+// Places for texts on a display, where they cover nothing.
+
+/** True if two boxes, each left, top, right and bottom, cover each other. */
+export const overlap = (a, b) => a[0] < b[2] && a[2] > b[0] && a[1] < b[3] && a[3] > b[1];
+
+/**
+ * Returns a box for a text near a place, where it covers none of those that are taken, if there is
+ * one.
+ */
+export function freeBox({ width, height }, [x, y], [wide, high], taken) {
+  const boxes = [];
+  for (const far of [16, 34, 58, 90]) {
+    for (const [dx, dy] of [
+      [1, -1],
+      [1, 1],
+      [-1, -1],
+      [-1, 1],
+      [1, 0],
+      [-1, 0],
+      [0, -1],
+      [0, 1],
+    ]) {
+      const cx = x + dx * (far + wide / 2),
+        cy = y + dy * (far + high / 2);
+      boxes.push([cx - wide / 2, cy - high / 2, cx + wide / 2, cy + high / 2]);
+    }
+  }
+  const inside = boxes.filter(
+    ([left, top, right, bottom]) => left > 2 && top > 2 && right < width - 2 && bottom < height - 2,
+  );
+  return inside.find((box) => !taken.some((other) => overlap(box, other))) ?? inside[0] ?? boxes[0];
+}
