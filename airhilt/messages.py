@@ -1030,6 +1030,14 @@ class SeatInfo(Message):
     """``seat/<seat>/info``: what the person at a seat has to know, also answered to a query."""
 
     seat: str
+    category: Literal["unit", "aircraft", "vehicle"] = "unit"
+    icao24: str | None = Field(default=None, description="address of the actor; null for a unit")
+    has_adsb_in: bool = Field(
+        default=False, description="true if the actor shows its crew the ADS-B of others"
+    )
+    recipients: tuple[str, ...] = Field(
+        default=(), description="names under which advisories are for the person at the seat"
+    )
     frequencies_khz: tuple[int, ...]
     has_sound: bool = Field(description="false in a run without speech: nobody can be heard")
     is_recognised: bool = Field(

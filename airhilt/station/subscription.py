@@ -12,7 +12,7 @@ from base64 import b64encode
 from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import zenoh
 
@@ -33,6 +33,7 @@ from airhilt.messages import (
 )
 from airhilt.record import Logged
 from airhilt.sensors.radio.hearing import key_chunk
+from airhilt.station.audiences import Audience, audience_of_header
 from airhilt.station.changes import Changes
 from airhilt.station.pictures import Picture
 
@@ -69,6 +70,13 @@ MOST_SOUND_BYTES = 64_000_000
 """Largest size of these sounds, in bytes: half an hour."""
 MOST_PICTURES = 48
 """Largest number of pictures of a camera that are kept: about three seconds."""
+
+
+class Sound(NamedTuple):
+    """The PCM of a transmission or a spoken advisory, and who may hear it."""
+
+    pcm: bytes
+    audience: Audience | None
 
 
 class Subscription:
@@ -125,7 +133,7 @@ class Subscription:
         self.run = self._prefix.rpartition("/")[2]
         self._waiting: queue.Queue[Logged | None] = queue.Queue(MOST_WAITING)
         self._waiting_bytes = 0
-        self._sounds: OrderedDict[str, bytes] = OrderedDict()
+        self._sounds: OrderedDict[str, Sound] = OrderedDict()
         self._pictures: dict[str, OrderedDict[int, Picture]] = {}
         self._watched: dict[str, zenoh.Subscriber[None]] = {}
         self._tokens: dict[str, zenoh.LivelinessToken] = {}
@@ -152,8 +160,8 @@ class Subscription:
         self._thread = threading.Thread(target=self._work, name="station", daemon=True)
         self._thread.start()
 
-    def sound(self, name: str) -> bytes | None:
-        """Return the PCM of a transmission or a spoken advisory, None if it is not kept."""
+    def sound(self, name: str) -> Sound | None:
+        """Return the sound of a transmission or a spoken advisory, None if it is not kept."""
         with self._lock:
             return self._sounds.get(name)
 
@@ -274,14 +282,16 @@ class Subscription:
         if not pcm or key.partition("/")[0] not in ("radio", "tts"):
             return True
         try:
-            name = sound_name(json.loads(header))
+            about = json.loads(header)
+            name = sound_name(about)
+            audience = audience_of_header(key.partition("/")[0], about)
         except UNREADABLE:
             return False
         with self._lock:
-            self._sounds[name] = pcm
+            self._sounds[name] = Sound(pcm, audience)
             while (
                 len(self._sounds) > MOST_SOUNDS
-                or sum(map(len, self._sounds.values())) > MOST_SOUND_BYTES
+                or sum(len(sound.pcm) for sound in self._sounds.values()) > MOST_SOUND_BYTES
             ):
                 self._sounds.popitem(last=False)
         return True
@@ -303,7 +313,12 @@ class Subscription:
         if frame["encoding"] != "rgb8":
             return
         view = frame["view"]
-        picture = Picture(view["width_px"], view["height_px"], sample.payload.to_bytes())
+        picture = Picture(
+            view["width_px"],
+            view["height_px"],
+            sample.payload.to_bytes(),
+            Audience("camera", view["carrier"]),
+        )
         with self._lock:
             kept = self._pictures.setdefault(frame["camera"], OrderedDict())
             kept[frame["seq"]] = picture

@@ -56,6 +56,17 @@ def test_who_has_no_line_in_the_script_selects_from_all_its_frequencies(tmp_path
     assert contents(log, "seat/OPS2/info")[0]["frequencies_khz"] == [119_100]
 
 
+def test_a_seat_is_told_what_it_sees(tmp_path: Path) -> None:
+    log = logged(tower(2.0), tmp_path / "run", ["tower", "AAL123", "OPS2"])
+    shown = {one["seat"]: one for one in contents(log, "seat/") if "category" in one}
+    parts = ("category", "has_adsb_in", "recipients")
+    assert {seat: tuple(one[part] for part in parts) for seat, one in shown.items()} == {
+        "Washington Tower": ("unit", False, ["Washington Tower", "ATC"]),
+        "AAL123": ("aircraft", True, ["AAL123", shown["AAL123"]["icao24"]]),
+        "OPS2": ("vehicle", False, ["OPS2", shown["OPS2"]["icao24"]]),
+    }
+
+
 def test_a_person_flies_by_commands(tmp_path: Path) -> None:
     command = {"action": "go_around", "climb_to_ft": 3000.0}
     given = [message("command/AAL123", 5.0, command=command)]

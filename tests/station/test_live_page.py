@@ -181,6 +181,8 @@ def test_who_may_take_a_seat_sees_nothing_of_the_truth(
     options = ("--seat", "tower", "--share-truth")
     with running(encounter_file, tmp_path / "run", *options) as (_, url), listening(url) as socket:
         seen: set[str] = set()
+        (seat,) = answer(socket, "seats")
+        send(socket, take=seat)
         for _ in range(30):
             for kind, *rest in json.loads(socket.recv(timeout=PATIENCE_S)).get("changes", ()):
                 seen.add(kind)

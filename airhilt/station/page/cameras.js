@@ -1,6 +1,7 @@
 // The picture of a camera at the time shown, drawn again by the server, with the boxes of a detector.
 
 import { byId, html, svg } from "./dom.js";
+import { identity } from "./live.js";
 import { before } from "./series.js";
 import { counted, fixed, seconds } from "./words.js";
 
@@ -132,7 +133,7 @@ export class Cameras {
       const answer = await fetch(arrived.src).catch(() => null);
       this.#fail(answer && !answer.ok ? (await answer.json()).error : "The picture did not come: the server does not answer.");
     };
-    arrived.src = `api/cameras/${encodeURIComponent(name)}/${record.seq[i]}.jpg`;
+    arrived.src = `api/cameras/${encodeURIComponent(name)}/${record.seq[i]}.jpg?browser=${identity()}`;
   }
 
   #fail(text) {

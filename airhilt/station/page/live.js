@@ -11,7 +11,7 @@ const PACES = { realtime: "real time", virtual: "as fast as it can" };
 const SLOWLY_MS = 1000; // between two drawings of what takes long
 
 /** The name of this browser tab, which it keeps when its connection is lost or the page is loaded again. */
-function identity() {
+export function identity() {
   if (!sessionStorage.getItem("browser")) sessionStorage.setItem("browser", Array.from(crypto.getRandomValues(new Uint8Array(12)), (byte) => byte.toString(16).padStart(2, "0")).join(""));
   return sessionStorage.getItem("browser");
 }

@@ -2,6 +2,7 @@
 
 import { badge } from "./advisories.js";
 import { byId, html } from "./dom.js";
+import { identity } from "./live.js";
 import { capital, instruction, known, percent, seconds, words } from "./words.js";
 
 const CONTROLLER = "ATC";
@@ -37,7 +38,7 @@ export class OwnAdvisories {
   takeSpoken(own, { id, revision, recipient, sound }) {
     if (!this.#isFor(own, recipient)) return;
     const row = this.#run.advisories.find((one) => one.id === id && one.revision === revision && !one.equipment);
-    this.#sound(row ?? { id, revision, severity: "CAUTION" }, recipient, sound ? `api/calls/${encodeURIComponent(sound)}.wav` : null);
+    this.#sound(row ?? { id, revision, severity: "CAUTION" }, recipient, sound ? `api/calls/${encodeURIComponent(sound)}.wav?browser=${identity()}` : null);
   }
 
   clear() {
