@@ -311,6 +311,8 @@ class Simulation:
         """Take in that a person has taken a seat, a part of keys, or has left it."""
         self._radio.occupy(seat, is_taken)
         self._questions.occupy(seat, is_taken=is_taken)
+        if not self._questions.is_closing:
+            self._pace_control.occupy(seat, is_taken=is_taken)
 
     def _set_pace(self, factor: float) -> None:
         """Let the time pass as a person asks for; it stands still once the run is at its end."""

@@ -153,6 +153,21 @@ def test_nobody_is_on_the_air_in_a_pause(tmp_path: Path) -> None:
     assert "paused" in contents(log, "notice/Washington_Tower")[0]["text"]
 
 
+@pytest.mark.parametrize("factor", [0.0, 0.25])
+def test_time_passes_again_once_the_last_person_has_left(tmp_path: Path, factor: float) -> None:
+    given = [
+        message("seat/Washington_Tower", 1.0, is_taken=True),
+        message("seat/AAL123", 1.0, is_taken=True),
+        message("pace", 2.0, factor=factor),
+        message("seat/AAL123", 3.0, is_taken=False),
+        message("seat/Washington_Tower", 3.5, is_taken=False),
+    ]
+    log = logged(tower(5.0), tmp_path / "run", ["tower", "AAL123"], given)
+    events = [one for one in contents(log, "truth/event") if one["kind"] == "pace"]
+    assert [(one["t_ns"], one["text"]) for one in events][1:] == [(3_500_000_000, "realtime")]
+    assert replay(tmp_path / "run").identical
+
+
 @pytest.mark.parametrize("content", [{"factor": -1.0}, {"factor": 2.0}, {}])
 def test_a_pace_that_is_none_is_refused(tmp_path: Path, content: dict[str, Any]) -> None:
     log = logged(tower(3.0), tmp_path / "run", ["tower"], [message("pace", 2.0, **content)])
