@@ -111,6 +111,8 @@ class Browsers:
         self._held: dict[str, str] = {}
         """Seats whose browser is gone and may come back, and its identity."""
         self._expiring: set[asyncio.Task[None]] = set()
+        self._occupying = asyncio.Lock()
+        """Held while the run is told who has a seat: it learns of changes in their order."""
         self._run = run
         self._browsers: list[_Browser] = []
         self._empty_since_s: float | None = time.monotonic()
@@ -168,17 +170,17 @@ class Browsers:
         try:
             await asyncio.wait((sending, listening), return_when=asyncio.FIRST_COMPLETED)
         finally:
+            self._browsers.remove(browser)  # First of all: whatever fails now, the seat is free.
+            self._hold(browser)
+            self._tell_seats()
+            if not self._browsers:
+                self._empty_since_s = time.monotonic()
             for task in (sending, listening):
                 task.cancel()
                 with suppress(*ENDINGS):
                     await task
             await self._release(browser)
-            self._browsers.remove(browser)
-            self._hold(browser)
-            self._tell_seats()
             await self._watch()
-            if not self._browsers:
-                self._empty_since_s = time.monotonic()
 
     async def _listen(self, socket: WebSocket, browser: _Browser) -> None:
         """Do what a browser wishes until it leaves, or sends what is no wish."""
@@ -204,7 +206,6 @@ class Browsers:
         elif wish.echo is not None:
             await browser.socket.send_text(json.dumps({"echo": wish.echo}))  # At once: it is timed.
         elif wish.take is not None:
-            await self._leave(browser)
             await self._take(browser, wish.take)
         elif wish.leave is not None:
             await self._leave(browser)
@@ -289,18 +290,27 @@ class Browsers:
     # --- seats ------------------------------------------------------------------------------
 
     async def _take(self, browser: _Browser, seat: str) -> None:
-        if seat not in self.seats:
-            self._refuse(browser, f"{readable(seat)} is no seat of this run.")
-        elif any(other.seat == seat for other in self._browsers if other is not browser):
-            self._refuse(browser, f"Somebody has the seat {readable(seat)} already.")
-        elif self._held.get(seat, browser.identity) != browser.identity:
-            self._refuse(browser, f"{readable(seat)} is kept for {HOLD_S:g} s for who had it.")
-        else:
+        """Give a seat to a browser; who is refused it keeps the one that it has."""
+        why = self._why_not(browser, seat)
+        if why is not None:
+            self._refuse(browser, why)
+        elif browser.seat != seat:  # Who has it already has pressed the button twice.
+            await self._leave(browser)
             self._held.pop(seat, None)
             browser.seat, browser.seen_of_seat, browser.tuned = seat, 0, frozenset()
             browser.unseen_from = 0
             self._tell_seats()
-            await asyncio.to_thread(self._run.occupy, seat, is_taken=True)
+            await self._occupy(seat, is_taken=True)
+
+    def _why_not(self, browser: _Browser, seat: str) -> str | None:
+        """Return why a browser cannot have a seat, None if it can."""
+        if seat not in self.seats:
+            return f"{readable(seat)} is no seat of this run."
+        if any(other.seat == seat for other in self._browsers if other is not browser):
+            return f"Somebody has the seat {readable(seat)} already."
+        if seat in self._held and (not browser.identity or self._held[seat] != browser.identity):
+            return f"{readable(seat)} is kept for {HOLD_S:g} s for who had it."
+        return None
 
     async def _leave(self, browser: _Browser) -> None:
         """Give the seat of a browser back, if it has one."""
@@ -308,8 +318,13 @@ class Browsers:
         seat, browser.seat = browser.seat, None
         if seat is not None:
             browser.watched, browser.tuned, browser.unseen_from = None, frozenset(), None
+            await self._occupy(seat, is_taken=False)
             await self._watch()
-            await asyncio.to_thread(self._run.occupy, seat, is_taken=False)
+
+    async def _occupy(self, seat: str, *, is_taken: bool) -> None:
+        """Tell the run that a seat is taken or left, one after the other."""
+        async with self._occupying:
+            await asyncio.to_thread(self._run.occupy, seat, is_taken=is_taken)
 
     async def _give_back(self, browser: _Browser, begin: int) -> None:
         """Give a browser the seat that it had before its connection was lost.
@@ -344,7 +359,7 @@ class Browsers:
         if self._held.get(seat) == identity:
             del self._held[seat]
             self._tell_seats()
-            await asyncio.to_thread(self._run.occupy, seat, is_taken=False)
+            await self._occupy(seat, is_taken=False)
 
     def _tell_seats(self) -> None:
         """Tell each browser which seats are free, taken, or its own."""
