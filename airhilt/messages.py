@@ -1008,7 +1008,7 @@ LONGEST_REFUSAL = 400
 
 
 class PageRefusal(Message):
-    """``page``: what the page of a run with seats has refused a browser or a stranger, in words.
+    """``page``: what the page of a run has refused a browser or a stranger, in words.
 
     In the log it is an event of the kind ``refused``; it changes nothing of the run.
     """

@@ -1,4 +1,4 @@
-"""The subscription of a station to a run: it listens, and can change nothing of the run.
+"""The subscription of a station to a run: it listens, and passes on what people at seats do.
 
 What comes faster than the station can take is dropped and counted, so that the run never waits.
 """

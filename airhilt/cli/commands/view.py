@@ -121,8 +121,7 @@ def _show_live(
 
     def refused(text: str) -> None:
         tell(text)
-        if seats:  # The page of a run without seats publishes nothing.
-            subscription.log_refusal(text)
+        subscription.log_refusal(text)
 
     browsers = Browsers(changes, subscription, of_seats, sounds, refused, views)
     try:
