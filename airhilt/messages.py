@@ -1201,6 +1201,7 @@ EventKind = Literal[
     "unregistered",
     "refused",
     "pace",
+    "seat",
     "finished",
     "stopped",
 ]

@@ -121,6 +121,10 @@ def test_the_script_goes_on_once_the_person_has_left_until_somebody_comes(tmp_pa
         ("landing", False), ("landing", True), ("proceed", False),
     ]  # fmt: skip
     assert "goes on by itself" in contents(log, "notice/Washington_Tower")[0]["text"]
+    told = [one for one in contents(log, "truth/event") if one["kind"] == "seat"]
+    assert [(one["subject"], one["text"].split()[0]) for one in told] == [
+        ("Washington Tower", "a"), ("Washington Tower", "nobody"), ("Washington Tower", "a"),
+    ]  # fmt: skip
 
 
 def test_a_crew_flies_again_by_itself_once_its_person_has_left(tmp_path: Path) -> None:
