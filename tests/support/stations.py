@@ -37,8 +37,8 @@ from airhilt.station.subscription import Sound
 
 PATIENCE_S = 60.0
 TOWER = SeatInfo(
-    seat="TOWER", frequencies_khz=(119_100,), has_sound=True, is_recognised=True,
-    voice_is_recorded=True, longest_call_s=60.0,
+    seat="TOWER", recipients=("TOWER", "ATC"), frequencies_khz=(119_100,), has_sound=True,
+    is_recognised=True, voice_is_recorded=True, longest_call_s=60.0,
 )  # fmt: skip
 
 

@@ -54,7 +54,7 @@ export class Loudspeaker {
   /** Plays the tone of a severity and then the voice, and returns when the first sample is audible, in s from now; null if nothing is played. */
   async warn(severity, url) {
     const context = this.#context;
-    if (!context || context.state !== "running") return null;
+    if (!context || context.state !== "running" || !this.#isOn) return null;
     const begin = context.currentTime, [hertz, pulses] = TONES[severity] ?? [0, []];
     for (const at of pulses) this.#pulse(hertz, begin + at);
     const latency = (context.outputLatency || 0) + (context.baseLatency || 0);
@@ -111,6 +111,9 @@ export class Loudspeaker {
     this.#waiting.delete(id);
     this.#playing.delete(id);
   }
+
+  /** True unless the volume is down: then nobody hears anything. */
+  get #isOn() { return Number(this.#volume.value) > 0; }
 
   #setVolume() { if (this.#gain) this.#gain.gain.value = Number(this.#volume.value) ** 2; }
 }
