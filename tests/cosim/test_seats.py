@@ -44,6 +44,27 @@ def test_a_crew_reads_back_and_does_what_only_a_person_has_told_it(tmp_path: Pat
     assert states[-1]["altitude_m"] > states[0]["altitude_m"]
 
 
+@pytest.mark.parametrize(
+    ("words", "drives"),
+    [
+        ("Ops one, drive to delta, hold short of runway zero one.", True),
+        ("Ops one, Washington Tower, hold short of runway zero one, drive to delta.", False),
+        ("Ops one, drive to delta, hold short of runway one niner.", False),
+    ],
+)
+def test_words_that_mean_what_the_script_has_let_it_be_done(
+    tmp_path: Path, words: str, drives: bool
+) -> None:
+    given = [
+        said("Washington_Tower", 5.0, "American one two three, runway zero one, cleared to land."),
+        said("Washington_Tower", 35.0, words),
+    ]
+    log = logged(tower(60.0), tmp_path / "run", ["tower"], given)
+    commands = [one for one in contents(log, "truth/event") if one["kind"] == "command"]
+    by_driver = [json.loads(one["text"])["action"] for one in commands if one["subject"] == "OPS1"]
+    assert by_driver == (["taxi"] if drives else ["hold_position"])
+
+
 def test_nobody_speaks_or_acts_for_the_person_in_an_aircraft(tmp_path: Path) -> None:
     log = logged(tower(), tmp_path / "run", ["AAL123"])
     assert [call["speaker"] for call in calls(log)].count("AAL123") == 0
