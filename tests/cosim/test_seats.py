@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from airhilt import load
 from airhilt.cosim.replay import replay
 from airhilt.errors import ScenarioError
 from seats import SECOND, calls, contents, logged, message, said, tower
@@ -63,6 +64,26 @@ def test_words_that_mean_what_the_script_has_let_it_be_done(
     commands = [one for one in contents(log, "truth/event") if one["kind"] == "command"]
     by_driver = [json.loads(one["text"])["action"] for one in commands if one["subject"] == "OPS1"]
     assert by_driver == (["taxi"] if drives else ["hold_position"])
+
+
+def test_a_ground_controller_has_the_taxiways_and_nothing_of_the_tower(tmp_path: Path) -> None:
+    ground = load("s01b_ground_nominal").model_copy(update={"duration_s": 110.0, "cameras": ()})
+    cards = {line.id: line.text for line in ground.radio.lines}
+    given = [
+        said("Washington_Ground", 10.0, cards["hold"]),
+        said("Washington_Ground", 20.0, cards["taxi"]),
+        said("Washington_Ground", 85.0, cards["proceed"]),
+    ]
+    log = logged(ground, tmp_path / "run", ["ground"], given)
+    told = [one for one in contents(log, "task/Washington_Ground") if not one["is_done"]]
+    assert [one["line"] for one in told] == ["hold", "taxi", "proceed", "handover"]
+    commands = [one for one in contents(log, "truth/event") if one["kind"] == "command"]
+    assert [(one["subject"], json.loads(one["text"])["action"]) for one in commands] == [
+        ("AAL123", "land"), ("OPS1", "hold_position"), ("DAL456", "taxi"), ("OPS1", "taxi"),
+    ]  # fmt: skip
+    assert contents(log, "seat/Washington_Ground/info")[0]["frequencies_khz"] == [121_700]
+    by_crews = [one["speaker"] for one in calls(log) if one["frequency_khz"] == 121_700]
+    assert by_crews.count("DAL456") == 1
 
 
 def test_nobody_speaks_or_acts_for_the_person_in_an_aircraft(tmp_path: Path) -> None:
