@@ -66,6 +66,18 @@ def test_words_that_mean_what_the_script_has_let_it_be_done(
     assert by_driver == (["taxi"] if drives else ["hold_position"])
 
 
+@pytest.mark.parametrize("condition", ["behind the departing seven three seven, ", ""])
+def test_who_clears_on_a_condition_is_told_that_the_crew_waits(
+    tmp_path: Path, condition: str
+) -> None:
+    words = f"American one two three, {condition}line up and wait runway zero one"
+    log = logged(tower(20.0), tmp_path / "run", ["tower"], [said("Washington_Tower", 5.0, words)])
+    notices = [one["text"] for one in contents(log, "notice/")]
+    if condition:
+        assert notices == ["AAL123 reads a condition back and waits. Say it again when it is met."]
+    assert bool(notices) == bool(condition)
+
+
 def test_a_ground_controller_has_the_taxiways_and_nothing_of_the_tower(tmp_path: Path) -> None:
     ground = load("s01b_ground_nominal").model_copy(update={"duration_s": 110.0, "cameras": ()})
     cards = {line.id: line.text for line in ground.radio.lines}

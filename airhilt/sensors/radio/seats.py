@@ -148,7 +148,17 @@ class Seats:
         call.is_of_person = True
         call.commands = self._commands(call, meant)
         call.text = text
+        if not call.commands and any(one.is_conditional for one in meant.instructions):
+            self._tell_of_condition(call)
         return call
+
+    def _tell_of_condition(self, call: RadioCall) -> None:
+        """Tell the person at a unit that a conditional clearance alone makes nobody move."""
+        if call.addressed is not None and not self._stations.is_actor(call.speaker):
+            text = (
+                f"{call.addressed} reads a condition back and waits. Say it again when it is met."
+            )
+            self.notify(call.speaker, text)
 
     def addresses(self, speaker: str, meant: Call) -> bool:
         """Return whether it is known whom some words are for: a crew always calls its unit."""
