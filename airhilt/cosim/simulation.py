@@ -316,6 +316,8 @@ class Simulation:
         if not is_taken and not self._setup.recorded.is_replay:
             self._observer.notice(f"seat {name}: its person has left, and its script goes on")
         self._radio.occupy(seat, is_taken)
+        if not is_taken:
+            self._advisories.person_left(name)
         self._questions.occupy(seat, is_taken=is_taken)
         if not self._questions.is_closing:
             self._pace_control.occupy(seat, is_taken=is_taken)

@@ -190,21 +190,23 @@ def test_a_crew_flies_again_by_itself_once_its_person_has_left(tmp_path: Path) -
     assert "AAL123" in [call["speaker"] for call in calls(log)]
 
 
-@pytest.mark.parametrize("is_left", [False, True])
+@pytest.mark.parametrize("left_s", [None, 3.0, 95.0])
 def test_a_warning_at_empty_seats_helps_only_once_their_crews_fly_by_themselves(
-    tmp_path: Path, is_left: bool
+    tmp_path: Path, left_s: float | None
 ) -> None:
-    """Nobody has taken the two seats, or their persons have left before the warning."""
+    """Nobody takes the two seats, or their persons leave before the warning of 83 s, or after."""
     seats = ("AAL123", "DAL456")
     given = [
-        message(f"seat/{seat}", t_s, is_taken=t_s == 2.0) for t_s in (2.0, 3.0) for seat in seats
+        message(f"seat/{seat}", t_s, is_taken=t_s == 2.0)
+        for t_s in (2.0, left_s or 0.0)
+        for seat in seats
     ]
     scenario = load("s02a_headon").model_copy(update={"cameras": ()})
     out = tmp_path / "run"
-    logged(scenario, out, seats, given if is_left else (), assistant="reference")
+    logged(scenario, out, seats, () if left_s is None else given, assistant="reference")
     summary = json.loads((out / "summary.json").read_text())
     assert summary["t_first_warning_s"] is not None
-    assert summary["avoided"] is is_left
+    assert summary["avoided"] is (left_s is not None)
 
 
 def test_a_pause_and_slow_motion_are_events_and_replay(tmp_path: Path) -> None:
