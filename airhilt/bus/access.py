@@ -50,7 +50,7 @@ _RULES: Mapping[str, tuple[str, tuple[str, ...], tuple[str, ...]]] = {
     "ask": ("ingress", ("query",), ASKED),
     "be answered": ("egress", ("reply",), ASKED),
     "receive": ("egress", ("put", "declare_subscriber"), ("**",)),
-    "see who is there": ("egress", ("liveliness_token",), ("run", "worker/*")),
+    "see who is there": ("egress", ("liveliness_token",), ("run", "worker/*", "seat/*")),
     "attach": ("ingress", ("liveliness_token",), ("worker/*",)),
     "take a seat": ("ingress", ("liveliness_token",), ("seat/*",)),
     "be asked": ("egress", ("query",), ANSWERED),

@@ -292,6 +292,9 @@ class Browsers:
     async def _take(self, browser: _Browser, seat: str) -> None:
         """Give a seat to a browser; who is refused it keeps the one that it has."""
         why = self._why_not(browser, seat)
+        if why is None and await asyncio.to_thread(self._run.has_person, seat):
+            why = f"Somebody has the seat {readable(seat)} at another page of this run."
+        why = why or self._why_not(browser, seat)  # It may have been taken meanwhile.
         if why is not None:
             self._refuse(browser, why)
         elif browser.seat != seat:  # Who has it already has pressed the button twice.

@@ -54,6 +54,8 @@ ASKED = ("briefing", "clock")
 """Keys that the run answers, for who comes late."""
 ASKED_OF_SEATS = ("seat/{seat}/info",)
 """Keys that it answers for the person at a seat."""
+ASKED_S = 2.0
+"""Longest time that an answer may take, in s."""
 STREAMED = "radio/*/audio"
 """Keys of the sound of transmissions while they last."""
 HEARD: Mapping[str, type[Message]] = {"command": ActorCommand}
@@ -154,7 +156,7 @@ class Subscription:
             )
         )
         for key in (*ASKED, *_of(seats, ASKED_OF_SEATS)):
-            for reply in self._session.get(f"{self._prefix}/{key}", timeout=2.0):
+            for reply in self._session.get(f"{self._prefix}/{key}", timeout=ASKED_S):
                 if reply.ok is not None:
                     self._hear(reply.ok)
         self._thread = threading.Thread(target=self._work, name="station", daemon=True)
@@ -199,6 +201,16 @@ class Subscription:
     def answer(self, seat: str, answer: WorkloadAnswer) -> None:
         """Answer a question about workload."""
         self._session.put(f"{self._prefix}/workload/{key_chunk(seat)}", answer.model_dump_json())
+
+    def has_person(self, seat: str) -> bool:
+        """Return true if a person has a seat at another page of the run."""
+        chunk = key_chunk(seat)
+        with self._watching:
+            if chunk in self._tokens:
+                return False
+            key = f"{self._prefix}/seat/{chunk}"
+            replies = self._session.liveliness().get(key, timeout=ASKED_S)
+            return any(reply.ok is not None for reply in replies)
 
     def occupy(self, seat: str, *, is_taken: bool) -> None:
         """Tell that a person has taken a seat, or has left it; so does the end of this process."""

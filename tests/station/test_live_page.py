@@ -169,6 +169,8 @@ def test_a_seat_has_one_person_and_what_it_says_is_said(brief_file: Path, tmp_pa
     messages = list(open_run(out).messages())
     keys = [logged.key for logged in messages]
     assert keys.count("speech/AAL123") == keys.count("command/AAL123") == 1
+    presence = [json.loads(one.data)["is_taken"] for one in messages if one.key == "seat/AAL123"]
+    assert presence == [True, False]  # It is left with the page that is killed, at the latest.
     said = [json.loads(one.data) for one in messages if one.key.startswith("truth/radio/seat.")]
     assert said[0]["text"] == "Washington Center, American one two three, hello"
     refused = [

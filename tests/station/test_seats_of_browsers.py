@@ -91,6 +91,17 @@ def test_who_presses_twice_or_is_refused_another_seat_keeps_the_own_one() -> Non
         assert run.presence.empty()
 
 
+def test_a_seat_that_somebody_has_at_another_page_is_refused() -> None:
+    run = PretendedRun()
+    run.taken_elsewhere.add("TOWER")
+    with seat_page(run) as (_, url), browser(url, "a") as own:
+        take(own)
+        assert "at another page" in str(answer(own, "refused"))
+        run.taken_elsewhere.clear()
+        take(own)
+        assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", True)
+
+
 def test_who_moves_to_another_seat_leaves_the_first_one() -> None:
     with seat_page(PretendedRun(TWO)) as (run, url), browser(url, "a") as own:
         for seat in ("TOWER", "GROUND"):

@@ -145,6 +145,7 @@ class PretendedRun:
         """Cameras whose pictures were asked for, whenever there were any."""
         self.pictures: dict[tuple[str, int], Picture] = {}
         self.kept: dict[str, Sound] = {}
+        self.taken_elsewhere: set[str] = set()
         self.told: list[str] = []
         """Lines that the terminal was told."""
         self.changes.add("clock", 0.0, "running", "realtime")
@@ -172,6 +173,10 @@ class PretendedRun:
     def answer(self, seat: str, answer: WorkloadAnswer) -> None:
         """Note an answer to a question."""
         self.done.put(answer)
+
+    def has_person(self, seat: str) -> bool:
+        """Return true if somebody has a seat at another page."""
+        return seat in self.taken_elsewhere
 
     def occupy(self, seat: str, *, is_taken: bool) -> None:
         """Note if somebody has the seat."""
