@@ -204,10 +204,7 @@ class PeopleRecords:
         name, since_ns, first = one.name, one.since_ns, one.first
         advisory = self._advisories[name]
         heard_ns, voice_ns = person.heard_ns.get(name), self._voices_ns.get(name)
-        is_shared = first is not None and any(
-            other.first is first and (other.since_ns, other.name) < (since_ns, name)
-            for other in perceived
-        )
+        is_shared = first is not None and self._answered(first, perceived) is not one
         is_real_time = first is None or self._is_real_time(since_ns, first.t_ns)
         is_measured = first is not None and not is_shared and is_real_time
         return PersonReaction(
@@ -230,6 +227,18 @@ class PeopleRecords:
             ),
             followed=_is_followed(advisory, since_ns, person.actions),
         )
+
+    def _answered(self, action: _Action, perceived: list[_Perceived]) -> _Perceived:
+        """Return the advisory to which an action is the reaction.
+
+        The first advisory that advises the action comes before all others after which it is the
+        first action.
+        """
+
+        def order(one: _Perceived) -> tuple[bool, int, Advised]:
+            return action.what not in _advised(self._advisories[one.name]), one.since_ns, one.name
+
+        return min((one for one in perceived if one.first is action), key=order)
 
     def _is_real_time(self, begin_ns: int, end_ns: int) -> bool:
         """Return true if time passed as on the clock all the while."""
@@ -260,14 +269,21 @@ def _workload(person: _Person) -> WorkloadSummary:
 
 def _is_followed(advisory: Advisory, since_ns: int, actions: list[_Action]) -> bool | None:
     """Return whether a person did in time what was advised; None if nothing was."""
-    if advisory.recommendation is None:
+    wanted = _advised(advisory)
+    if not wanted:
         return None
-    advised = advisory.recommendation.action
-    wanted = {advised, SAME_ACTION.get(advised, advised)}
-    if advised == "confirm":
-        wanted = {"spoken call", "typed call"}
     until_ns = since_ns + round(FOLLOWED_WITHIN_S * SECOND_NS)
     return any(one.what in wanted and since_ns <= one.t_ns <= until_ns for one in actions)
+
+
+def _advised(advisory: Advisory) -> set[str]:
+    """Return the actions with which a person does what is advised; none if nothing is."""
+    if advisory.recommendation is None:
+        return set()
+    advised = advisory.recommendation.action
+    if advised == "confirm":
+        return {"spoken call", "typed call"}
+    return {advised, SAME_ACTION.get(advised, advised)}
 
 
 def _seconds(t_ns: int | None) -> float | None:

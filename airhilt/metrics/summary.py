@@ -131,14 +131,15 @@ class PersonReaction(BaseModel):
     )
     is_shared: bool = Field(
         default=False,
-        description="true: that action is also the first one after an advisory perceived earlier",
+        description="true: that action is the reaction to another advisory, the first one "
+        "perceived of those that advise it, or else of all before it",
     )
     is_real_time: bool = Field(
         default=True, description="false: the run was paused or slow before that action"
     )
     reaction_time_s: float | None = Field(
-        description="from t_heard_s or t_seen_s to that action; null if it is shared with an "
-        "earlier advisory, or if time did not pass as on the clock"
+        description="from t_heard_s or t_seen_s to that action; null if that is the reaction to "
+        "another advisory, or if time did not pass as on the clock"
     )
     followed: bool | None = Field(description="true: the person did what it recommends within 30 s")
 

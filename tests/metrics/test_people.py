@@ -134,6 +134,18 @@ def test_one_action_after_two_advisories_is_the_reaction_to_the_first_alone() ->
     assert found.reaction_time_s == 3.0
 
 
+def test_an_action_that_only_the_second_advisory_advises_is_the_reaction_to_that() -> None:
+    second = advisory(GoAround(runway="01")).model_copy(update={"revision": 2})
+    found = person(
+        (10.0, "advisory/AAL1", advisory()),
+        (10.0, "perceived/AAL1", perceived("seen")),
+        (11.0, "advisory/AAL1", second),
+        (11.0, "perceived/AAL1", perceived("seen").model_copy(update={"revision": 2})),
+        (13.0, "command/AAL1", GO_AROUND),
+    )
+    assert [one.reaction_time_s for one in found.reactions] == [None, 2.0]
+
+
 @pytest.mark.parametrize(
     ("paces", "reaction_time_s"),
     [
