@@ -1008,7 +1008,7 @@ LONGEST_REFUSAL = 400
 
 
 class PageRefusal(Message):
-    """``page``: what the page of a run with seats has refused a browser or a stranger, in words.
+    """``page``: what the page of a run has refused a browser or a stranger, in words.
 
     In the log it is an event of the kind ``refused``; it changes nothing of the run.
     """
@@ -1030,6 +1030,14 @@ class SeatInfo(Message):
     """``seat/<seat>/info``: what the person at a seat has to know, also answered to a query."""
 
     seat: str
+    category: Literal["unit", "aircraft", "vehicle"] = "unit"
+    icao24: str | None = Field(default=None, description="address of the actor; null for a unit")
+    has_adsb_in: bool = Field(
+        default=False, description="true if the actor shows its crew the ADS-B of others"
+    )
+    recipients: tuple[str, ...] = Field(
+        default=(), description="names under which advisories are for the person at the seat"
+    )
     frequencies_khz: tuple[int, ...]
     has_sound: bool = Field(description="false in a run without speech: nobody can be heard")
     is_recognised: bool = Field(
@@ -1193,6 +1201,7 @@ EventKind = Literal[
     "unregistered",
     "refused",
     "pace",
+    "seat",
     "finished",
     "stopped",
 ]

@@ -22,7 +22,7 @@ Subjects = Mapping[str | None, Collection[Role]]
 """Roles by the common name of a certificate; None stands for everybody."""
 BY_CERTIFICATE: Subjects = {CERTIFICATE_NAME.format(role): (role,) for role in ROLES}
 PUBLISHED: Mapping[Role, tuple[str, ...]] = {
-    "observer": (),
+    "observer": ("page",),
     "worker": ("advisory/*", "asr/*", "asr/*/partial", "vision/*", "tts/*"),
     "operator": (
         "command/*",
@@ -50,7 +50,7 @@ _RULES: Mapping[str, tuple[str, tuple[str, ...], tuple[str, ...]]] = {
     "ask": ("ingress", ("query",), ASKED),
     "be answered": ("egress", ("reply",), ASKED),
     "receive": ("egress", ("put", "declare_subscriber"), ("**",)),
-    "see who is there": ("egress", ("liveliness_token",), ("run", "worker/*")),
+    "see who is there": ("egress", ("liveliness_token",), ("run", "worker/*", "seat/*")),
     "attach": ("ingress", ("liveliness_token",), ("worker/*",)),
     "take a seat": ("ingress", ("liveliness_token",), ("seat/*",)),
     "be asked": ("egress", ("query",), ANSWERED),
@@ -64,7 +64,7 @@ _RULES: Mapping[str, tuple[str, tuple[str, ...], tuple[str, ...]]] = {
 """Direction, messages and keys below the run of each rule that allows something."""
 _EVERYBODY = ("subscribe", "ask", "be answered", "receive", "see who is there")
 _OF_ROLE: Mapping[Role, tuple[str, ...]] = {
-    "observer": (),
+    "observer": ("publish as observer",),
     "worker": ("attach", "be asked", "answer", "publish as worker"),
     "operator": ("publish as operator", "take a seat"),
     "recorder": (),

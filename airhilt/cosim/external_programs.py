@@ -255,7 +255,7 @@ class ExternalPrograms:
             It is none.
         """
         known = ", ".join(sorted(self._seats)) or "none: there is no --seat"
-        if isinstance(message, PaceCommand | PageRefusal) and not self._seats:
+        if isinstance(message, PaceCommand) and not self._seats:
             raise WorkerError(
                 f"a program published on {key!r}, which is for the page of people at seats alone; "
                 "expected a run with --seat"

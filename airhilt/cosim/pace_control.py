@@ -11,6 +11,9 @@ from airhilt.sim import Director, Paused, RealTime, Virtual
 class PaceControl:
     """Changes how fast the time of a run passes, and logs it.
 
+    Once everybody has left the seats, time passes in real time again: nobody else could let it go
+    on.
+
     A run in virtual time, such as a replay, logs the change and goes on as fast as before.
 
     Parameters
@@ -33,12 +36,24 @@ class PaceControl:
         self._event = event
         self._pausing = pausing
         self._changed = changed
+        self._factor = 1.0
+        self._present: set[str] = set()
 
     def set(self, factor: float) -> None:
         """Let the time pass at a part of real time; 0 lets it stand still."""
+        self._factor = factor
         pace = Paused() if factor == 0.0 else RealTime(factor)
         self._event("pace", "run", pace.name)
         self._pausing(factor == 0.0)
         if not isinstance(self._director.pace, Virtual):
             self._director.change_pace(pace)
         self._changed()
+
+    def occupy(self, seat: str, *, is_taken: bool) -> None:
+        """Take in that a person has taken a seat, or has left it."""
+        if is_taken:
+            self._present.add(seat)
+            return
+        self._present.discard(seat)
+        if not self._present and self._factor != 1.0:
+            self.set(1.0)

@@ -309,8 +309,18 @@ class Simulation:
 
     def _occupy(self, seat: str, is_taken: bool) -> None:
         """Take in that a person has taken a seat, a part of keys, or has left it."""
+        name = next(name for name in self._setup.seats if key_chunk(name) == seat)
+        self._event(
+            "seat", name, "a person has it" if is_taken else "nobody is there: its script goes on"
+        )
+        if not is_taken and not self._setup.recorded.is_replay:
+            self._observer.notice(f"seat {name}: its person has left, and its script goes on")
         self._radio.occupy(seat, is_taken)
+        if not is_taken:
+            self._advisories.person_left(name)
         self._questions.occupy(seat, is_taken=is_taken)
+        if not self._questions.is_closing:
+            self._pace_control.occupy(seat, is_taken=is_taken)
 
     def _set_pace(self, factor: float) -> None:
         """Let the time pass as a person asks for; it stands still once the run is at its end."""

@@ -5,15 +5,18 @@ from __future__ import annotations
 from collections.abc import Collection
 from dataclasses import dataclass, field
 from statistics import fmean, median
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from airhilt.messages import (
     ActorCommand,
     Advisory,
     AdvisoryAudio,
     AdvisoryPerceived,
+    Event,
     Message,
     MicrophoneAudio,
+    SeatInfo,
+    SeatPresence,
     SpokenTruth,
     SpokenWords,
     WorkloadAnswer,
@@ -33,9 +36,23 @@ Advised = tuple[str, int, str]
 """Id, revision and recipient of an advisory."""
 
 
+REAL_TIME = "realtime"
+"""Text of the event of a pace in which the time of the run passes as on the clock."""
+
+
 class _Action(NamedTuple):
     t_ns: int
     what: str
+
+
+class _Perceived(NamedTuple):
+    """An advisory as a person perceived it, and the first action after that."""
+
+    name: Advised
+    since_ns: int
+    """Time from which the reaction counts."""
+    way: Literal["heard", "seen"]
+    first: _Action | None
 
 
 @dataclass
@@ -46,6 +63,11 @@ class _Person:
     delays_s: list[float] = field(default_factory=list)
     seen_ns: dict[Advised, int] = field(default_factory=dict)
     heard_ns: dict[Advised, int] = field(default_factory=dict)
+    recipients: tuple[str, ...] = ()
+    """Names under which advisories are for the person."""
+    is_there: bool = False
+    told: set[Advised] = field(default_factory=set)
+    """Advisories that were published to the person, who was there."""
     asked_again: int = 0
     readback_errors: int = 0
     readback_errors_heard: int = 0
@@ -53,7 +75,22 @@ class _Person:
     answers: dict[int, WorkloadAnswer] = field(default_factory=dict)
 
     def first_action(self, since_ns: int) -> _Action | None:
-        return next((one for one in self.actions if one.t_ns >= since_ns), None)
+        later = (one for one in self.actions if one.t_ns >= since_ns)
+        return min(later, default=None, key=lambda one: one.t_ns)
+
+    def perceived(self, name: Advised) -> _Perceived:
+        """Return from when on the reaction to an advisory counts.
+
+        It counts from when the advisory was audible, and from when it was drawn if it was not
+        heard, or if the person acted before it was audible.
+        """
+        seen_ns, heard_ns = self.seen_ns.get(name), self.heard_ns.get(name)
+        if seen_ns is not None:
+            first = self.first_action(seen_ns)
+            if heard_ns is None or (first is not None and first.t_ns < heard_ns):
+                return _Perceived(name, seen_ns, "seen", first)
+        assert heard_ns is not None  # It was perceived.
+        return _Perceived(name, heard_ns, "heard", self.first_action(heard_ns))
 
     def count(self, what: str) -> int:
         return sum(one.what == what for one in self.actions)
@@ -76,6 +113,8 @@ class PeopleRecords:
         self._people = {seat: _Person() for seat in seats}
         self._advisories: dict[Advised, Advisory] = {}
         self._voices_ns: dict[Advised, int] = {}
+        self._paces: list[tuple[int, str]] = []
+        """Times at which the pace changed, and the pace."""
 
     def take(self, key: str, message: Message) -> None:
         """Receive a published message."""
@@ -88,6 +127,13 @@ class PeopleRecords:
             case Advisory():
                 name = message.id, message.revision, message.recipient
                 self._advisories[name] = message
+                for person in self._people.values():
+                    if message.active and person.is_there and name[2] in person.recipients:
+                        person.told.add(name)
+            case Event(kind="pace", text=pace, t_ns=t_ns):
+                self._paces.append((t_ns, pace))
+            case SeatInfo(seat=seat, recipients=recipients) if seat in self._people:
+                self._people[seat].recipients = recipients
             case AdvisoryAudio():
                 name = message.id, message.revision, message.recipient
                 self._voices_ns[name] = message.t_ns
@@ -100,6 +146,7 @@ class PeopleRecords:
                 | SpokenWords()
                 | MicrophoneAudio()
                 | AdvisoryPerceived()
+                | SeatPresence()
                 | WorkloadAnswer()
             ):
                 seat = self._names.get(key.split("/")[1])
@@ -114,8 +161,11 @@ class PeopleRecords:
             case SpokenWords(t_ns=t_ns):
                 person.actions.append(_Action(t_ns, "typed call"))
             case MicrophoneAudio(phase="pressed", t_ns=t_ns, delay_s=delay_s):
-                person.actions.append(_Action(t_ns, "spoken call"))
+                pressed_ns = t_ns - round(delay_s * SECOND_NS)
+                person.actions.append(_Action(pressed_ns, "spoken call"))
                 person.delays_s.append(delay_s)
+            case SeatPresence(is_taken=is_taken):
+                person.is_there = is_taken
             case WorkloadAnswer(question=number):
                 person.answers.setdefault(number, message)
             case AdvisoryPerceived(t_ns=t_ns):
@@ -129,8 +179,9 @@ class PeopleRecords:
 
     def _summary(self, seat: str, person: _Person) -> PersonSummary:
         spoken, typed = person.count("spoken call"), person.count("typed call")
-        perceived = sorted({*person.seen_ns, *person.heard_ns} & self._advisories.keys())
-        reactions = [self._reaction(name, person) for name in perceived]
+        names = {*person.seen_ns, *person.heard_ns} & self._advisories.keys()
+        perceived = sorted(person.perceived(name) for name in names)
+        reactions = [self._reaction(one, perceived, person) for one in perceived]
         times_s = [one.reaction_time_s for one in reactions if one.reaction_time_s is not None]
         return PersonSummary(
             seat=seat,
@@ -142,32 +193,58 @@ class PeopleRecords:
             readback_errors_heard=person.readback_errors_heard,
             press_to_transmit_s=median(person.delays_s) if person.delays_s else None,
             reaction_time_s=median(times_s) if times_s else None,
+            unperceived=len(person.told - names),
             reactions=reactions,
             workload=_workload(person) if person.questions else None,
         )
 
-    def _reaction(self, name: Advised, person: _Person) -> PersonReaction:
+    def _reaction(
+        self, one: _Perceived, perceived: list[_Perceived], person: _Person
+    ) -> PersonReaction:
+        name, since_ns, first = one.name, one.since_ns, one.first
         advisory = self._advisories[name]
-        seen_ns, heard_ns = person.seen_ns.get(name), person.heard_ns.get(name)
-        voice_ns = self._voices_ns.get(name)
-        since_ns = seen_ns if heard_ns is None else heard_ns
-        assert since_ns is not None  # It was perceived.
-        first = person.first_action(since_ns)
+        heard_ns, voice_ns = person.heard_ns.get(name), self._voices_ns.get(name)
+        is_shared = first is not None and self._answered(first, perceived) is not one
+        is_real_time = first is None or self._is_real_time(since_ns, first.t_ns)
+        is_measured = first is not None and not is_shared and is_real_time
         return PersonReaction(
             advisory=advisory.id,
             revision=advisory.revision,
             severity=advisory.severity,
             advised=None if advisory.recommendation is None else advisory.recommendation.action,
             t_advisory_s=advisory.t_ns / SECOND_NS,
-            t_seen_s=_seconds(seen_ns),
+            t_seen_s=_seconds(person.seen_ns.get(name)),
             t_heard_s=_seconds(heard_ns),
             voice_to_loudspeaker_s=(
                 None if heard_ns is None or voice_ns is None else (heard_ns - voice_ns) / SECOND_NS
             ),
+            counted_from=one.way,
             first_action=None if first is None else first.what,
-            reaction_time_s=None if first is None else (first.t_ns - since_ns) / SECOND_NS,
+            is_shared=is_shared,
+            is_real_time=is_real_time,
+            reaction_time_s=(
+                (first.t_ns - since_ns) / SECOND_NS if is_measured and first is not None else None
+            ),
             followed=_is_followed(advisory, since_ns, person.actions),
         )
+
+    def _answered(self, action: _Action, perceived: list[_Perceived]) -> _Perceived:
+        """Return the advisory to which an action is the reaction.
+
+        The first advisory that advises the action comes before all others after which it is the
+        first action.
+        """
+
+        def order(one: _Perceived) -> tuple[bool, int, Advised]:
+            return action.what not in _advised(self._advisories[one.name]), one.since_ns, one.name
+
+        return min((one for one in perceived if one.first is action), key=order)
+
+    def _is_real_time(self, begin_ns: int, end_ns: int) -> bool:
+        """Return true if time passed as on the clock all the while."""
+        before = [pace for t_ns, pace in self._paces if t_ns < begin_ns]
+        within = [pace for t_ns, pace in self._paces if begin_ns <= t_ns <= end_ns]
+        return all(pace == REAL_TIME for pace in (*before[-1:], *within))
 
 
 def _workload(person: _Person) -> WorkloadSummary:
@@ -192,14 +269,21 @@ def _workload(person: _Person) -> WorkloadSummary:
 
 def _is_followed(advisory: Advisory, since_ns: int, actions: list[_Action]) -> bool | None:
     """Return whether a person did in time what was advised; None if nothing was."""
-    if advisory.recommendation is None:
+    wanted = _advised(advisory)
+    if not wanted:
         return None
-    advised = advisory.recommendation.action
-    wanted = {advised, SAME_ACTION.get(advised, advised)}
-    if advised == "confirm":
-        wanted = {"spoken call", "typed call"}
     until_ns = since_ns + round(FOLLOWED_WITHIN_S * SECOND_NS)
     return any(one.what in wanted and since_ns <= one.t_ns <= until_ns for one in actions)
+
+
+def _advised(advisory: Advisory) -> set[str]:
+    """Return the actions with which a person does what is advised; none if nothing is."""
+    if advisory.recommendation is None:
+        return set()
+    advised = advisory.recommendation.action
+    if advised == "confirm":
+        return {"spoken call", "typed call"}
+    return {advised, SAME_ACTION.get(advised, advised)}
 
 
 def _seconds(t_ns: int | None) -> float | None:

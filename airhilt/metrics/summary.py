@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from typing import Literal
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, field_validator
@@ -120,11 +121,25 @@ class PersonReaction(BaseModel):
     t_seen_s: float | None = Field(description="the page of the seat drew it")
     t_heard_s: float | None = Field(description="its first sample was audible")
     voice_to_loudspeaker_s: float | None = Field(description="from t_tts to t_heard_s")
+    counted_from: Literal["heard", "seen"] = Field(
+        default="heard",
+        description="where the reaction begins: heard, or seen if it was not heard, or if the "
+        "person acted before it was audible",
+    )
     first_action: str | None = Field(
-        description="first action after it: spoken call, typed call, or the name of a command"
+        description="first action after that: spoken call, typed call, or the name of a command"
+    )
+    is_shared: bool = Field(
+        default=False,
+        description="true: that action is the reaction to another advisory, the first one "
+        "perceived of those that advise it, or else of all before it",
+    )
+    is_real_time: bool = Field(
+        default=True, description="false: the run was paused or slow before that action"
     )
     reaction_time_s: float | None = Field(
-        description="from t_heard_s, or t_seen_s if it was not heard, to that action"
+        description="from t_heard_s or t_seen_s to that action; null if that is the reaction to "
+        "another advisory, or if time did not pass as on the clock"
     )
     followed: bool | None = Field(description="true: the person did what it recommends within 30 s")
 
@@ -169,6 +184,10 @@ class PersonSummary(BaseModel):
         description="median time from pressing the button until the station had it"
     )
     reaction_time_s: float | None = Field(description="median over the advisories")
+    unperceived: int = Field(
+        default=0,
+        description="revisions of advisories to the person that no page has drawn or sounded",
+    )
     reactions: list[PersonReaction]
     workload: WorkloadSummary | None = Field(default=None, description="null: nothing was asked")
 

@@ -9,6 +9,8 @@ from airhilt.scenario.models import Scenario, WildlifeSpec
 
 TOWER = "tower"
 """Name by which the seat of the controller can be asked for in any scenario."""
+GROUND = "ground"
+"""Likewise of the first unit that is called ground, as in Washington Ground."""
 
 
 def possible_seats(scenario: Scenario) -> tuple[str, ...]:
@@ -34,7 +36,9 @@ def seats_of(names: Iterable[str], scenario: Scenario) -> tuple[str, ...]:
             "expected a scenario with radio/lines"
         )
     known = possible_seats(scenario)
-    found = [scenario.radio.controller if name == TOWER else name for name in asked]
+    grounds = (name for name in known if name.lower().endswith(f" {GROUND}"))
+    named = {TOWER: scenario.radio.controller, GROUND: next(grounds, GROUND)}
+    found = [named.get(name, name) for name in asked]
     for name in found:
         if name not in known:
             raise ScenarioError(

@@ -5,6 +5,7 @@ Importing this module brings in FastAPI, which the extra ``station`` installs.
 
 from __future__ import annotations
 
+import asyncio
 import json
 from collections.abc import Sequence
 from typing import Annotated, Any
@@ -23,6 +24,10 @@ from airhilt.station.phrases import Situation, offered
 from airhilt.station.pictures import jpeg
 from airhilt.station.subscription import Subscription
 from airhilt.text import LONGEST_LINE, readable
+
+Identity = Annotated[str, Query(max_length=64)]
+"""Name of a browser tab, which only it and the server know."""
+NOT_FOR_YOU = "airhilt: refused: this is not for the seat of your browser\n"
 
 
 def debrief_app(debrief: Debrief) -> FastAPI:
@@ -67,24 +72,28 @@ def live_app(subscription: Subscription, browsers: Browsers) -> FastAPI:
         return Response(_json(LIVE | own), media_type="application/json")
 
     @app.get("/api/cameras/{name}/{seq}.jpg")
-    def picture(name: str, seq: int) -> Response:
+    async def picture(name: str, seq: int, browser: Identity = "") -> Response:
         found = subscription.picture(name, seq)
         if found is None:  # It has gone already; nobody made a mistake.
             return Response(status_code=204)
-        return Response(jpeg(found), media_type="image/jpeg")
+        if not browsers.admits(browser, found.audience):
+            return Response(NOT_FOR_YOU, status_code=403, media_type="text/plain")
+        return Response(await asyncio.to_thread(jpeg, found), media_type="image/jpeg")
 
     @app.get("/api/calls/{name}.wav")
-    def sound(name: str) -> Response:
-        pcm = subscription.sound(name)
-        if pcm is None:
+    async def sound(name: str, browser: Identity = "") -> Response:
+        found = subscription.sound(name)
+        if found is None:
             return Response(status_code=204)
-        return Response(encode_wav(from_pcm(pcm)), media_type="audio/wav")
+        if not browsers.admits(browser, found.audience):
+            return Response(NOT_FOR_YOU, status_code=403, media_type="text/plain")
+        return Response(encode_wav(from_pcm(found.pcm)), media_type="audio/wav")
 
     @app.websocket("/api/live")
     async def live(
         socket: WebSocket,
         begin: Annotated[int, Query(alias="from", ge=0)] = 0,
-        browser: Annotated[str, Query(max_length=64)] = "",
+        browser: Identity = "",
         version: Annotated[str, Query(max_length=64)] = "",
     ) -> None:
         await browsers.serve(socket, begin, browser, version)

@@ -17,7 +17,8 @@ from pydantic import ValidationError
 
 from airhilt.errors import first_problem
 from airhilt.messages import MicrophoneAudio
-from airhilt.station.changes import Changes
+from airhilt.station.audiences import Audience, SeatViews
+from airhilt.station.changes import MOST_AT_ONCE, Admits, Changes
 from airhilt.station.held_button import HeldButton, what_is_wrong_with
 from airhilt.station.page_files import page_version
 from airhilt.station.wishes import Pressed, RunLink, Wish
@@ -57,6 +58,8 @@ class _Browser:
         self.seat: str | None = None
         self.seen_of_seat = 0
         """Number of the first change of the seat that it has not seen."""
+        self.unseen_from: int | None = None
+        """Number of the first change that it could not see before it took its seat."""
         self.tuned: frozenset[int] = frozenset()
         """Frequencies in kHz that are heard at its seat."""
         self.heard = 0
@@ -85,6 +88,8 @@ class Browsers:
         What is heard on the frequencies, piece by piece; None: nothing is heard.
     notice
         Is told of what is refused, the first `MOST_NOTICES`.
+    views
+        What may be seen at each seat; a browser without one sees only what everybody may.
     """
 
     def __init__(
@@ -94,8 +99,10 @@ class Browsers:
         seats: Mapping[str, Changes] = MappingProxyType({}),
         sounds: Changes | None = None,
         notice: Callable[[str], None] = lambda _: None,
+        views: SeatViews | None = None,
     ) -> None:
         self.seats = tuple(seats)
+        self._views = views or SeatViews()
         self._notice = notice
         self._notices = 0
         self._changes = changes
@@ -104,6 +111,8 @@ class Browsers:
         self._held: dict[str, str] = {}
         """Seats whose browser is gone and may come back, and its identity."""
         self._expiring: set[asyncio.Task[None]] = set()
+        self._occupying = asyncio.Lock()
+        """Held while the run is told who has a seat: it learns of changes in their order."""
         self._run = run
         self._browsers: list[_Browser] = []
         self._empty_since_s: float | None = time.monotonic()
@@ -112,6 +121,21 @@ class Browsers:
         """Return true if there has been no browser for some time."""
         since_s = self._empty_since_s
         return since_s is not None and time.monotonic() - since_s >= seconds
+
+    def admits(self, identity: str, audience: Audience | None) -> bool:
+        """Return true if the browser of an identity may see something; it tells what is refused.
+
+        In a run with seats, a browser sees what its own seat sees, in whichever tab.
+        """
+        seats = [one.seat for one in self._browsers if identity and one.identity == identity]
+        is_seen = not self.seats or any(self._sees(seat, audience) for seat in seats)
+        if not is_seen:
+            self._refused("a file that is not for the seat of the browser, or without a seat")
+        return is_seen
+
+    def _sees(self, seat: str | None, audience: Audience | None) -> bool:
+        """Return true if something with this audience is seen at a seat, or without one."""
+        return not self.seats or self._views.sees(seat, audience)
 
     async def serve(
         self, socket: WebSocket, begin: int = 0, identity: str = "", version: str = ""
@@ -139,24 +163,24 @@ class Browsers:
         browser.heard = self._sounds.next_number
         self._browsers.append(browser)
         self._empty_since_s = None
-        await self._give_back(browser)
+        await self._give_back(browser, begin)
         self._tell_seats()
         sending = asyncio.create_task(self._send(socket, browser, begin))
         listening = asyncio.create_task(self._listen(socket, browser))
         try:
             await asyncio.wait((sending, listening), return_when=asyncio.FIRST_COMPLETED)
         finally:
+            self._browsers.remove(browser)  # First of all: whatever fails now, the seat is free.
+            self._hold(browser)
+            self._tell_seats()
+            if not self._browsers:
+                self._empty_since_s = time.monotonic()
             for task in (sending, listening):
                 task.cancel()
                 with suppress(*ENDINGS):
                     await task
             await self._release(browser)
-            self._browsers.remove(browser)
-            self._hold(browser)
-            self._tell_seats()
             await self._watch()
-            if not self._browsers:
-                self._empty_since_s = time.monotonic()
 
     async def _listen(self, socket: WebSocket, browser: _Browser) -> None:
         """Do what a browser wishes until it leaves, or sends what is no wish."""
@@ -178,12 +202,10 @@ class Browsers:
 
     async def _do(self, browser: _Browser, wish: Wish) -> None:
         if "watch" in wish.model_fields_set:
-            browser.watched = wish.watch
-            await self._watch()
+            await self._show(browser, wish.watch)
         elif wish.echo is not None:
             await browser.socket.send_text(json.dumps({"echo": wish.echo}))  # At once: it is timed.
         elif wish.take is not None:
-            await self._leave(browser)
             await self._take(browser, wish.take)
         elif wish.leave is not None:
             await self._leave(browser)
@@ -207,9 +229,27 @@ class Browsers:
         elif wish.answer is not None:
             await asyncio.to_thread(self._run.answer, seat, wish.answer)
         elif wish.tune is not None:
-            browser.tuned = frozenset(wish.tune)
+            self._tune(browser, frozenset(wish.tune))
         elif wish.pace is not None:
             await asyncio.to_thread(self._run.set_pace, wish.pace)
+
+    async def _show(self, browser: _Browser, camera: str | None) -> None:
+        """Let the pictures of a camera come, if they are for the browser.
+
+        Who has lost the seat asks once more for the camera that was shown there, and gets nothing.
+        """
+        is_shown = not self.seats or self._views.shows_camera(browser.seat, camera or "")
+        if camera is not None and not is_shown and browser.seat is not None:
+            self._refuse(browser, f"The camera {readable(camera)} is not for your seat.")
+        browser.watched = camera if is_shown else None
+        await self._watch()
+
+    def _tune(self, browser: _Browser, frequencies_khz: frozenset[int]) -> None:
+        view = self._views.of(browser.seat)
+        own = frozenset() if view is None else view.frequencies_khz
+        if frequencies_khz - own:
+            self._refuse(browser, "You listen to a frequency that your seat does not have.")
+        browser.tuned = frequencies_khz & own
 
     def _refuse(self, browser: _Browser, why: str) -> None:
         browser.tell("refused", why)
@@ -250,26 +290,46 @@ class Browsers:
     # --- seats ------------------------------------------------------------------------------
 
     async def _take(self, browser: _Browser, seat: str) -> None:
-        if seat not in self.seats:
-            self._refuse(browser, f"{readable(seat)} is no seat of this run.")
-        elif any(other.seat == seat for other in self._browsers if other is not browser):
-            self._refuse(browser, f"Somebody has the seat {readable(seat)} already.")
-        elif self._held.get(seat, browser.identity) != browser.identity:
-            self._refuse(browser, f"{readable(seat)} is kept for {HOLD_S:g} s for who had it.")
-        else:
+        """Give a seat to a browser; who is refused it keeps the one that it has."""
+        why = self._why_not(browser, seat)
+        if why is None and await asyncio.to_thread(self._run.has_person, seat):
+            why = f"Somebody has the seat {readable(seat)} at another page of this run."
+        why = why or self._why_not(browser, seat)  # It may have been taken meanwhile.
+        if why is not None:
+            self._refuse(browser, why)
+        elif browser.seat != seat:  # Who has it already has pressed the button twice.
+            await self._leave(browser)
             self._held.pop(seat, None)
             browser.seat, browser.seen_of_seat, browser.tuned = seat, 0, frozenset()
+            browser.unseen_from = 0
             self._tell_seats()
-            await asyncio.to_thread(self._run.occupy, seat, is_taken=True)
+            await self._occupy(seat, is_taken=True)
+
+    def _why_not(self, browser: _Browser, seat: str) -> str | None:
+        """Return why a browser cannot have a seat, None if it can."""
+        if seat not in self.seats:
+            return f"{readable(seat)} is no seat of this run."
+        if any(other.seat == seat for other in self._browsers if other is not browser):
+            return f"Somebody has the seat {readable(seat)} already."
+        if seat in self._held and (not browser.identity or self._held[seat] != browser.identity):
+            return f"{readable(seat)} is kept for {HOLD_S:g} s for who had it."
+        return None
 
     async def _leave(self, browser: _Browser) -> None:
         """Give the seat of a browser back, if it has one."""
         await self._release(browser)
         seat, browser.seat = browser.seat, None
         if seat is not None:
-            await asyncio.to_thread(self._run.occupy, seat, is_taken=False)
+            browser.watched, browser.tuned, browser.unseen_from = None, frozenset(), None
+            await self._occupy(seat, is_taken=False)
+            await self._watch()
 
-    async def _give_back(self, browser: _Browser) -> None:
+    async def _occupy(self, seat: str, *, is_taken: bool) -> None:
+        """Tell the run that a seat is taken or left, one after the other."""
+        async with self._occupying:
+            await asyncio.to_thread(self._run.occupy, seat, is_taken=is_taken)
+
+    async def _give_back(self, browser: _Browser, begin: int) -> None:
         """Give a browser the seat that it had before its connection was lost.
 
         The old connection may not have ended yet, if the network is cut; it brings nothing then.
@@ -285,6 +345,8 @@ class Browsers:
             if other is not browser and other.identity == browser.identity and is_silent:
                 await self._release(other)
                 browser.seat, other.seat = other.seat or browser.seat, None
+        if browser.seat is not None and self._views.of(browser.seat) is None:
+            browser.unseen_from = begin
 
     def _hold(self, browser: _Browser) -> None:
         """Keep the seat of a browser that is gone, in case that it comes back."""
@@ -300,7 +362,7 @@ class Browsers:
         if self._held.get(seat) == identity:
             del self._held[seat]
             self._tell_seats()
-            await asyncio.to_thread(self._run.occupy, seat, is_taken=False)
+            await self._occupy(seat, is_taken=False)
 
     def _tell_seats(self) -> None:
         """Tell each browser which seats are free, taken, or its own."""
@@ -334,9 +396,31 @@ class Browsers:
             async with asyncio.timeout(STALLED_S):
                 await socket.send_text(text)
 
+        async def send_changes(first: int, end: int, admits: Admits) -> int:
+            """Send the changes before a number that the browser may see; return the next number."""
+            while first < end and (batch := self._changes.since(first, end, admits)) is not None:
+                first = batch.next_number
+                if batch.changes != "[]":
+                    await send(f'{{"next":{max(first, number)},"changes":{batch.changes}}}')
+            return first
+
+        def is_seen(audience: Audience | None) -> bool:
+            return audience is None or (
+                browser.unseen_from is None and self._sees(browser.seat, audience)
+            )
+
+        def was_unseen(audience: Audience | None) -> bool:
+            return audience is not None and self._sees(browser.seat, audience)
+
+        # What has been comes before the seat is told: nothing of it sounds at the seat once more.
+        number = await send_changes(number, self._changes.next_number, is_seen)
         while True:
-            while browser.unsent:
-                await send(browser.unsent.popleft())
+            while browser.unsent or self._has_unseen(browser):
+                if self._has_unseen(browser):
+                    first, browser.unseen_from = browser.unseen_from or 0, None
+                    await send_changes(first, number, was_unseen)
+                else:
+                    await send(browser.unsent.popleft())
             if browser.seat is not None:
                 own = self._of_seats[browser.seat].since(browser.seen_of_seat)
                 if own is not None:
@@ -347,13 +431,16 @@ class Browsers:
                 browser.heard = sounds.next_number
                 if heard := _on(browser.tuned, sounds.changes):
                     await send(json.dumps({"sounds": heard}))
-            batch = self._changes.since(number)
-            if batch is None:
+            end = min(self._changes.next_number, number + MOST_AT_ONCE)
+            if number >= end:
                 await asyncio.sleep(PERIOD_S)
                 continue
-            number = batch.next_number
-            await send(f'{{"next":{number},"changes":{batch.changes}}}')
+            number = await send_changes(number, end, is_seen)
             await asyncio.sleep(0)
+
+    def _has_unseen(self, browser: _Browser) -> bool:
+        """Return true if a browser has yet to get what its seat saw before it took it."""
+        return browser.unseen_from is not None and self._views.of(browser.seat) is not None
 
 
 def _on(tuned: Collection[int], changes: str) -> list[Any]:

@@ -6,6 +6,7 @@ import subprocess
 import sys
 import threading
 from collections import OrderedDict
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -20,10 +21,17 @@ MOST_RUNS = 200
 
 
 class Debriefs:
-    """Lists the run folders in a folder, and opens debriefs of them."""
+    """Lists the run folders in a folder, and opens debriefs of them.
 
-    def __init__(self, folder: Path) -> None:
+    Parameters
+    ----------
+    goes_on
+        Says of the name of a run if it has not ended.
+    """
+
+    def __init__(self, folder: Path, goes_on: Callable[[str], bool] = lambda _: False) -> None:
         self._folder = folder
+        self._goes_on = goes_on
         self._open: OrderedDict[tuple[str, ...], tuple[subprocess.Popen[str], str]] = OrderedDict()
         self._read: dict[tuple[Path, int], dict[str, Any]] = {}
         self._lock = threading.Lock()
@@ -63,12 +71,18 @@ class Debriefs:
         Raises
         ------
         StationError
-            There is no such run here, or it cannot be shown.
+            There is no such run here, it cannot be shown, or people have seats in it now: a debrief
+            shows the truth.
         """
-        known = {row["name"] for row in self.rows()}
+        known = {row["name"]: row for row in self.rows()}
         for name in names:
             if name not in known:
                 raise StationError(f"run {readable(name)!r}: not in {self._folder}")
+            if known[name]["seats"] and self._goes_on(name):
+                raise StationError(
+                    f"run {readable(name)!r}: goes on, with people at seats, who do not see the "
+                    "truth; open its debrief when it has ended"
+                )
         with self._lock:
             if names in self._open and self._open[names][0].poll() is None:
                 return self._open[names][1]

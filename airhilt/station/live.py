@@ -34,6 +34,7 @@ from airhilt.report.events import Events
 from airhilt.report.tracks import Locate, Projection
 from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.station.advisories import AdvisoryRows
+from airhilt.station.audiences import SURVEILLANCE, Audience, SeatViews, audience_of
 from airhilt.station.calls import call_as_json, spoken_as_json
 from airhilt.station.cameras import found_as_json, view_as_json
 from airhilt.station.changes import Changes
@@ -63,6 +64,8 @@ class LiveRun:
         ``notice``, ``question`` and ``answered``.
     notice
         Is told of the first message of a kind that cannot be read.
+    views
+        Gets to know what each seat may see.
 
     Attributes
     ----------
@@ -75,8 +78,10 @@ class LiveRun:
         changes: Changes,
         seats: Mapping[str, Changes] = MappingProxyType({}),
         notice: Callable[[str], None] = lambda _: None,
+        views: SeatViews | None = None,
     ) -> None:
         self.is_over = False
+        self._views = views or SeatViews()
         self._notice = notice
         self._unread: set[str] = set()
         """Kinds of messages of which some could not be read."""
@@ -114,15 +119,16 @@ class LiveRun:
         """Receive a message; one that is not as this version writes it is left out, and told."""
         family = logged.key.partition("/")[0]
         try:
+            audience = audience_of(logged) if self._seats else None
             if logged.key.startswith("truth/state/"):
                 self._truth(logged)
             elif (model := call_message(logged.key)) not in (None, AdvisoryAudio):
-                self._call(model.model_validate_json(logged.data))
+                self._call(model.model_validate_json(logged.data), audience)
             elif family in self._makers:
                 self._makers[family](logged)
-            self._event(logged)
+            self._event(logged, audience)
             if (bar := self._bars.bar(logged)) is not None:
-                self._changes.add("latency", bar)
+                self._changes.add("latency", bar, audience=audience)
         except (ValidationError, ValueError, LookupError, TypeError, RecursionError) as error:
             if family not in self._unread:
                 self._unread.add(family)
@@ -179,7 +185,9 @@ class LiveRun:
         report = AdsbReport.model_validate_json(logged.data)
         if report.callsign is not None and report.icao24 not in self._callsigns:
             self._callsigns[report.icao24] = report.callsign
-            self._changes.add("name", report.icao24, readable(report.callsign))
+            self._changes.add(
+                "name", report.icao24, readable(report.callsign), audience=_adsb_of(report)
+            )
         category = (report.emitter_category or "A0")[0]
         self._observed(
             self._callsigns.get(report.icao24, report.icao24),
@@ -187,6 +195,7 @@ class LiveRun:
             report,
             report.t_adsb_in_ns,
             report.on_ground,
+            _adsb_of(report),
         )
 
     def _surface(self, logged: Logged) -> None:
@@ -194,10 +203,17 @@ class LiveRun:
         known = track.icao24 in self._callsigns or track.callsign in self._types
         name = track.callsign or self._callsigns.get(track.icao24 or "") or f"track {track.track}"
         category = "aircraft" if known else "vehicle"
-        self._observed(name, category, track, track.t_track_ns, track.on_ground is not False)
+        on_ground = track.on_ground is not False
+        self._observed(name, category, track, track.t_track_ns, on_ground, SURVEILLANCE)
 
     def _observed(
-        self, name: str, category: str, seen: AdsbReport | SurfaceTrack, t_ns: int, on_ground: bool
+        self,
+        name: str,
+        category: str,
+        seen: AdsbReport | SurfaceTrack,
+        t_ns: int,
+        on_ground: bool,
+        audience: Audience,
     ) -> None:
         """Add a state as a sensor has it, unless the truth is known."""
         if self._has_truth:
@@ -216,6 +232,7 @@ class LiveRun:
                 on_ground,
                 "",
             ),
+            audience=audience,
         )
 
     def _state(
@@ -249,28 +266,33 @@ class LiveRun:
 
     # --- radio, advisories, events ----------------------------------------------------------
 
-    def _call(self, message: Any) -> None:
+    def _call(self, message: Any, audience: Audience | None) -> None:
         self._calls.take(message)
         record = self._calls.get(message.id)
         row = None if record is None else call_as_json(record)
         if row is not None:
             received = None if record is None else record.received
-            has_sound = received is not None and received.samples > 0
-            self._changes.add("call", row | {"has_sound": has_sound})
+            # At a seat a call is heard while it lasts, and nobody else hears it.
+            has_sound = received is not None and received.samples > 0 and not self._seats
+            self._changes.add("call", row | {"has_sound": has_sound}, audience=audience)
 
     def _spoken(self, logged: Logged) -> None:
         audio = AdvisoryAudio.model_validate_json(logged.data)
         sound = sound_name(audio.model_dump()) if audio.samples else None
-        self._changes.add("spoken", spoken_as_json(audio) | {"sound": sound})
+        row = spoken_as_json(audio) | {"sound": sound}
+        self._changes.add("spoken", row, audience=Audience("advisory", audio.recipient))
 
     def _advisory(self, logged: Logged) -> None:
-        self._changes.add("advisory", self._advisories.add(logged))
+        row = self._advisories.add(logged)
+        if self._seats:  # What others are told is not for who has a seat.
+            row = row | {"texts": row["texts"][-1:]}
+        self._changes.add("advisory", row, audience=audience_of(logged))
 
-    def _event(self, logged: Logged) -> None:
+    def _event(self, logged: Logged, audience: Audience | None) -> None:
         events = Events()
         events.take(logged)
         for row in events.rows:
-            self._changes.add("event", row)
+            self._changes.add("event", row, audience=audience)
 
     def _task(self, logged: Logged) -> None:
         card = TaskCard.model_validate_json(logged.data)
@@ -288,6 +310,7 @@ class LiveRun:
 
     def _seat_info(self, logged: Logged) -> None:
         info = SeatInfo.model_validate_json(logged.data)
+        self._views.learn(info)
         self._seats[info.seat].add("info", info.model_dump(mode="json", exclude={"t_ns"}))
 
     def _notice_of_seat(self, logged: Logged) -> None:
@@ -346,11 +369,14 @@ class LiveRun:
                 _seconds(seen.t_frame_ns),
                 view_as_json(seen.view, self._locate),
                 found_as_json(seen),
+                audience=Audience("camera", seen.view.carrier),
             )
 
     def _camera(self, name: str, view: CameraView) -> None:
         if name not in self._cameras:
             self._cameras.add(name)
+            audience = Audience("camera", view.carrier)
+            self._views.learn_camera(name, audience)
             self._changes.add(
                 "camera",
                 {
@@ -360,7 +386,12 @@ class LiveRun:
                     "height_px": view.height_px,
                     "horizontal_fov_deg": view.horizontal_fov_deg,
                 },
+                audience=audience,
             )
+
+
+def _adsb_of(report: AdsbReport) -> Audience:
+    return Audience("adsb", report.icao24)
 
 
 def _seconds(t_ns: int) -> float:

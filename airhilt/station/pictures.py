@@ -7,16 +7,19 @@ from typing import NamedTuple
 
 from PIL import Image
 
+from airhilt.station.audiences import Audience
+
 QUALITY = 85
 """Quality of the JPEG pictures, of at most 95 (Pillow)."""
 
 
 class Picture(NamedTuple):
-    """One picture of a camera, 8-bit RGB, row by row."""
+    """One picture of a camera, 8-bit RGB, row by row, and who may see it."""
 
     width_px: int
     height_px: int
     pixels: bytes
+    audience: Audience | None = None
 
 
 def jpeg(picture: Picture) -> bytes:

@@ -135,6 +135,10 @@ class StartedRuns:
             return "ended"
         return "running" if self.url(run) else "starting"
 
+    def goes_on(self, name: str) -> bool:
+        """Return true if a run that was started here has not ended."""
+        return any(run.name == name and self.state(run) != "ended" for run in self.runs())
+
     def url(self, run: StartedRun) -> str:
         """Return the address of a run's page, empty if it has none yet."""
         for line in self._lines(run):

@@ -1,4 +1,4 @@
-"""The subscription of a station to a run: it listens, and can change nothing of the run.
+"""The subscription of a station to a run: it listens, and passes on what people at seats do.
 
 What comes faster than the station can take is dropped and counted, so that the run never waits.
 """
@@ -12,7 +12,7 @@ from base64 import b64encode
 from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import zenoh
 
@@ -33,6 +33,7 @@ from airhilt.messages import (
 )
 from airhilt.record import Logged
 from airhilt.sensors.radio.hearing import key_chunk
+from airhilt.station.audiences import Audience, audience_of_header
 from airhilt.station.changes import Changes
 from airhilt.station.pictures import Picture
 
@@ -53,6 +54,8 @@ ASKED = ("briefing", "clock")
 """Keys that the run answers, for who comes late."""
 ASKED_OF_SEATS = ("seat/{seat}/info",)
 """Keys that it answers for the person at a seat."""
+ASKED_S = 2.0
+"""Longest time that an answer may take, in s."""
 STREAMED = "radio/*/audio"
 """Keys of the sound of transmissions while they last."""
 HEARD: Mapping[str, type[Message]] = {"command": ActorCommand}
@@ -69,6 +72,13 @@ MOST_SOUND_BYTES = 64_000_000
 """Largest size of these sounds, in bytes: half an hour."""
 MOST_PICTURES = 48
 """Largest number of pictures of a camera that are kept: about three seconds."""
+
+
+class Sound(NamedTuple):
+    """The PCM of a transmission or a spoken advisory, and who may hear it."""
+
+    pcm: bytes
+    audience: Audience | None
 
 
 class Subscription:
@@ -125,7 +135,7 @@ class Subscription:
         self.run = self._prefix.rpartition("/")[2]
         self._waiting: queue.Queue[Logged | None] = queue.Queue(MOST_WAITING)
         self._waiting_bytes = 0
-        self._sounds: OrderedDict[str, bytes] = OrderedDict()
+        self._sounds: OrderedDict[str, Sound] = OrderedDict()
         self._pictures: dict[str, OrderedDict[int, Picture]] = {}
         self._watched: dict[str, zenoh.Subscriber[None]] = {}
         self._tokens: dict[str, zenoh.LivelinessToken] = {}
@@ -146,14 +156,14 @@ class Subscription:
             )
         )
         for key in (*ASKED, *_of(seats, ASKED_OF_SEATS)):
-            for reply in self._session.get(f"{self._prefix}/{key}", timeout=2.0):
+            for reply in self._session.get(f"{self._prefix}/{key}", timeout=ASKED_S):
                 if reply.ok is not None:
                     self._hear(reply.ok)
         self._thread = threading.Thread(target=self._work, name="station", daemon=True)
         self._thread.start()
 
-    def sound(self, name: str) -> bytes | None:
-        """Return the PCM of a transmission or a spoken advisory, None if it is not kept."""
+    def sound(self, name: str) -> Sound | None:
+        """Return the sound of a transmission or a spoken advisory, None if it is not kept."""
         with self._lock:
             return self._sounds.get(name)
 
@@ -191,6 +201,16 @@ class Subscription:
     def answer(self, seat: str, answer: WorkloadAnswer) -> None:
         """Answer a question about workload."""
         self._session.put(f"{self._prefix}/workload/{key_chunk(seat)}", answer.model_dump_json())
+
+    def has_person(self, seat: str) -> bool:
+        """Return true if a person has a seat at another page of the run."""
+        chunk = key_chunk(seat)
+        with self._watching:
+            if chunk in self._tokens:
+                return False
+            key = f"{self._prefix}/seat/{chunk}"
+            replies = self._session.liveliness().get(key, timeout=ASKED_S)
+            return any(reply.ok is not None for reply in replies)
 
     def occupy(self, seat: str, *, is_taken: bool) -> None:
         """Tell that a person has taken a seat, or has left it; so does the end of this process."""
@@ -274,14 +294,16 @@ class Subscription:
         if not pcm or key.partition("/")[0] not in ("radio", "tts"):
             return True
         try:
-            name = sound_name(json.loads(header))
+            about = json.loads(header)
+            name = sound_name(about)
+            audience = audience_of_header(key.partition("/")[0], about)
         except UNREADABLE:
             return False
         with self._lock:
-            self._sounds[name] = pcm
+            self._sounds[name] = Sound(pcm, audience)
             while (
                 len(self._sounds) > MOST_SOUNDS
-                or sum(map(len, self._sounds.values())) > MOST_SOUND_BYTES
+                or sum(len(sound.pcm) for sound in self._sounds.values()) > MOST_SOUND_BYTES
             ):
                 self._sounds.popitem(last=False)
         return True
@@ -303,7 +325,12 @@ class Subscription:
         if frame["encoding"] != "rgb8":
             return
         view = frame["view"]
-        picture = Picture(view["width_px"], view["height_px"], sample.payload.to_bytes())
+        picture = Picture(
+            view["width_px"],
+            view["height_px"],
+            sample.payload.to_bytes(),
+            Audience("camera", view["carrier"]),
+        )
         with self._lock:
             kept = self._pictures.setdefault(frame["camera"], OrderedDict())
             kept[frame["seq"]] = picture

@@ -88,6 +88,9 @@ class RunLink(Protocol):
     def answer(self, seat: str, answer: WorkloadAnswer) -> None:
         """Answer a question about workload."""
 
+    def has_person(self, seat: str) -> bool:
+        """Return true if a person has a seat at another page of the run."""
+
     def occupy(self, seat: str, *, is_taken: bool) -> None:
         """Tell that a person has taken a seat, or has left it."""
 

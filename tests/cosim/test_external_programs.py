@@ -91,19 +91,14 @@ def test_the_terminal_tells_of_few_refusals_and_the_log_of_all() -> None:
         assert len(text) <= MOST_CHARACTERS
 
 
-def test_what_a_page_has_refused_is_logged_and_changes_nothing_else() -> None:
+@pytest.mark.parametrize("seats", [(), ("tower",)])
+def test_what_a_page_has_refused_is_logged_and_changes_nothing_else(seats: tuple[str, ...]) -> None:
     notices, events = Notices(), list[Any]()
-    heard = programs(notices, events, seats=("tower",))
+    heard = programs(notices, events, seats=seats)
     heard.take("page", b'{"text": "refused a page of another version\\u001b[0m"}')
     assert events == [("refused", "page", "refused a page of another version\ufffd[0m")]
     assert not heard.heard
     assert notices.texts == []
-
-
-def test_a_run_without_seats_has_no_page_that_refuses() -> None:
-    notices = Notices()
-    programs(notices, []).take("page", b'{"text": "x"}')
-    assert "expected a run with --seat" in notices.texts[0]
 
 
 def test_every_key_that_is_heard_has_a_limit() -> None:

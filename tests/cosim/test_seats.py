@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from airhilt import load
 from airhilt.cosim.replay import replay
 from airhilt.errors import ScenarioError
 from seats import SECOND, calls, contents, logged, message, said, tower
@@ -44,6 +45,59 @@ def test_a_crew_reads_back_and_does_what_only_a_person_has_told_it(tmp_path: Pat
     assert states[-1]["altitude_m"] > states[0]["altitude_m"]
 
 
+@pytest.mark.parametrize(
+    ("words", "drives"),
+    [
+        ("Ops one, drive to delta, hold short of runway zero one.", True),
+        ("Ops one, Washington Tower, hold short of runway zero one, drive to delta.", False),
+        ("Ops one, drive to delta, hold short of runway one niner.", False),
+    ],
+)
+def test_words_that_mean_what_the_script_has_let_it_be_done(
+    tmp_path: Path, words: str, drives: bool
+) -> None:
+    given = [
+        said("Washington_Tower", 5.0, "American one two three, runway zero one, cleared to land."),
+        said("Washington_Tower", 35.0, words),
+    ]
+    log = logged(tower(60.0), tmp_path / "run", ["tower"], given)
+    commands = [one for one in contents(log, "truth/event") if one["kind"] == "command"]
+    by_driver = [json.loads(one["text"])["action"] for one in commands if one["subject"] == "OPS1"]
+    assert by_driver == (["taxi"] if drives else ["hold_position"])
+
+
+@pytest.mark.parametrize("condition", ["behind the departing seven three seven, ", ""])
+def test_who_clears_on_a_condition_is_told_that_the_crew_waits(
+    tmp_path: Path, condition: str
+) -> None:
+    words = f"American one two three, {condition}line up and wait runway zero one"
+    log = logged(tower(20.0), tmp_path / "run", ["tower"], [said("Washington_Tower", 5.0, words)])
+    notices = [one["text"] for one in contents(log, "notice/")]
+    if condition:
+        assert notices == ["AAL123 reads a condition back and waits. Say it again when it is met."]
+    assert bool(notices) == bool(condition)
+
+
+def test_a_ground_controller_has_the_taxiways_and_nothing_of_the_tower(tmp_path: Path) -> None:
+    ground = load("s01b_ground_nominal").model_copy(update={"duration_s": 110.0, "cameras": ()})
+    cards = {line.id: line.text for line in ground.radio.lines}
+    given = [
+        said("Washington_Ground", 10.0, cards["hold"]),
+        said("Washington_Ground", 20.0, cards["taxi"]),
+        said("Washington_Ground", 85.0, cards["proceed"]),
+    ]
+    log = logged(ground, tmp_path / "run", ["ground"], given)
+    told = [one for one in contents(log, "task/Washington_Ground") if not one["is_done"]]
+    assert [one["line"] for one in told] == ["hold", "taxi", "proceed", "handover"]
+    commands = [one for one in contents(log, "truth/event") if one["kind"] == "command"]
+    assert [(one["subject"], json.loads(one["text"])["action"]) for one in commands] == [
+        ("AAL123", "land"), ("OPS1", "hold_position"), ("DAL456", "taxi"), ("OPS1", "taxi"),
+    ]  # fmt: skip
+    assert contents(log, "seat/Washington_Ground/info")[0]["frequencies_khz"] == [121_700]
+    by_crews = [one["speaker"] for one in calls(log) if one["frequency_khz"] == 121_700]
+    assert by_crews.count("DAL456") == 1
+
+
 def test_nobody_speaks_or_acts_for_the_person_in_an_aircraft(tmp_path: Path) -> None:
     log = logged(tower(), tmp_path / "run", ["AAL123"])
     assert [call["speaker"] for call in calls(log)].count("AAL123") == 0
@@ -54,6 +108,17 @@ def test_nobody_speaks_or_acts_for_the_person_in_an_aircraft(tmp_path: Path) -> 
 def test_who_has_no_line_in_the_script_selects_from_all_its_frequencies(tmp_path: Path) -> None:
     log = logged(tower(2.0), tmp_path / "run", ["OPS2"])
     assert contents(log, "seat/OPS2/info")[0]["frequencies_khz"] == [119_100]
+
+
+def test_a_seat_is_told_what_it_sees(tmp_path: Path) -> None:
+    log = logged(tower(2.0), tmp_path / "run", ["tower", "AAL123", "OPS2"])
+    shown = {one["seat"]: one for one in contents(log, "seat/") if "category" in one}
+    parts = ("category", "has_adsb_in", "recipients")
+    assert {seat: tuple(one[part] for part in parts) for seat, one in shown.items()} == {
+        "Washington Tower": ("unit", False, ["Washington Tower", "ATC"]),
+        "AAL123": ("aircraft", True, ["AAL123", shown["AAL123"]["icao24"]]),
+        "OPS2": ("vehicle", False, ["OPS2", shown["OPS2"]["icao24"]]),
+    }
 
 
 def test_a_person_flies_by_commands(tmp_path: Path) -> None:
@@ -110,6 +175,10 @@ def test_the_script_goes_on_once_the_person_has_left_until_somebody_comes(tmp_pa
         ("landing", False), ("landing", True), ("proceed", False),
     ]  # fmt: skip
     assert "goes on by itself" in contents(log, "notice/Washington_Tower")[0]["text"]
+    told = [one for one in contents(log, "truth/event") if one["kind"] == "seat"]
+    assert [(one["subject"], one["text"].split()[0]) for one in told] == [
+        ("Washington Tower", "a"), ("Washington Tower", "nobody"), ("Washington Tower", "a"),
+    ]  # fmt: skip
 
 
 def test_a_crew_flies_again_by_itself_once_its_person_has_left(tmp_path: Path) -> None:
@@ -119,6 +188,25 @@ def test_a_crew_flies_again_by_itself_once_its_person_has_left(tmp_path: Path) -
     ]
     log = logged(tower(), tmp_path / "run", ["AAL123"], given)
     assert "AAL123" in [call["speaker"] for call in calls(log)]
+
+
+@pytest.mark.parametrize("left_s", [None, 3.0, 95.0])
+def test_a_warning_at_empty_seats_helps_only_once_their_crews_fly_by_themselves(
+    tmp_path: Path, left_s: float | None
+) -> None:
+    """Nobody takes the two seats, or their persons leave before the warning of 83 s, or after."""
+    seats = ("AAL123", "DAL456")
+    given = [
+        message(f"seat/{seat}", t_s, is_taken=t_s == 2.0)
+        for t_s in (2.0, left_s or 0.0)
+        for seat in seats
+    ]
+    scenario = load("s02a_headon").model_copy(update={"cameras": ()})
+    out = tmp_path / "run"
+    logged(scenario, out, seats, () if left_s is None else given, assistant="reference")
+    summary = json.loads((out / "summary.json").read_text())
+    assert summary["t_first_warning_s"] is not None
+    assert summary["avoided"] is (left_s is not None)
 
 
 def test_a_pause_and_slow_motion_are_events_and_replay(tmp_path: Path) -> None:
@@ -140,6 +228,21 @@ def test_nobody_is_on_the_air_in_a_pause(tmp_path: Path) -> None:
     (call,) = [one for one in calls(log) if one["is_from_microphone"]]
     assert call["t_end_ns"] == 3 * SECOND
     assert "paused" in contents(log, "notice/Washington_Tower")[0]["text"]
+
+
+@pytest.mark.parametrize("factor", [0.0, 0.25])
+def test_time_passes_again_once_the_last_person_has_left(tmp_path: Path, factor: float) -> None:
+    given = [
+        message("seat/Washington_Tower", 1.0, is_taken=True),
+        message("seat/AAL123", 1.0, is_taken=True),
+        message("pace", 2.0, factor=factor),
+        message("seat/AAL123", 3.0, is_taken=False),
+        message("seat/Washington_Tower", 3.5, is_taken=False),
+    ]
+    log = logged(tower(5.0), tmp_path / "run", ["tower", "AAL123"], given)
+    events = [one for one in contents(log, "truth/event") if one["kind"] == "pace"]
+    assert [(one["t_ns"], one["text"]) for one in events][1:] == [(3_500_000_000, "realtime")]
+    assert replay(tmp_path / "run").identical
 
 
 @pytest.mark.parametrize("content", [{"factor": -1.0}, {"factor": 2.0}, {}])

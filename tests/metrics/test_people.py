@@ -15,11 +15,14 @@ from airhilt.messages import (
     Advisory,
     AdvisoryAudio,
     AdvisoryPerceived,
+    Event,
     Evidence,
     GoAround,
     Message,
     MicrophoneAudio,
     NasaTlx,
+    SeatInfo,
+    SeatPresence,
     Severity,
     SpokenTruth,
     Transcript,
@@ -87,9 +90,106 @@ def test_what_is_not_heard_is_reacted_to_from_its_display(is_voiced: bool) -> No
         *([(10.4, "tts/a-1", VOICE)] if is_voiced else []),
         (11.1, "microphone/AAL1", MicrophoneAudio(phase="pressed", delay_s=0.02)),
     )
-    assert found.reaction_time_s == pytest.approx(1.0)
+    assert found.reaction_time_s == pytest.approx(0.98)  # The press took 0.02 s to the station.
     assert (found.t_heard_s, found.voice_to_loudspeaker_s) == (None, None)
     assert (found.first_action, found.followed) == ("spoken call", None)
+
+
+def test_who_acts_on_what_is_drawn_before_it_is_audible_has_reacted_to_that() -> None:
+    found = reaction(
+        (10.0, "advisory/AAL1", advisory(GoAround(runway="01"))),
+        (10.1, "perceived/AAL1", perceived("seen")),
+        (11.1, "command/AAL1", GO_AROUND),
+        (11.5, "perceived/AAL1", perceived("heard")),
+        (40.0, "microphone/AAL1", MicrophoneAudio(phase="pressed")),
+    )
+    assert (found.counted_from, found.first_action) == ("seen", "go_around")
+    assert found.reaction_time_s == pytest.approx(1.0)
+    assert found.followed
+
+
+def test_a_button_pressed_before_the_sound_is_no_reaction_to_it() -> None:
+    """The message of the press comes after that of the sound, and says how late it is."""
+    found = reaction(
+        (10.0, "advisory/AAL1", advisory()),
+        (10.5, "perceived/AAL1", perceived("heard")),
+        (10.6, "microphone/AAL1", MicrophoneAudio(phase="pressed", delay_s=0.3)),
+    )
+    assert (found.first_action, found.reaction_time_s) == (None, None)
+
+
+def test_one_action_after_two_advisories_is_the_reaction_to_the_first_alone() -> None:
+    second = advisory().model_copy(update={"revision": 2})
+    seen_again = perceived("seen").model_copy(update={"revision": 2})
+    found = person(
+        (10.0, "advisory/AAL1", advisory()),
+        (10.0, "perceived/AAL1", perceived("seen")),
+        (12.9, "advisory/AAL1", second),
+        (12.9, "perceived/AAL1", seen_again),
+        (13.0, "command/AAL1", GO_AROUND),
+    )
+    assert [(one.reaction_time_s, one.is_shared) for one in found.reactions] == [
+        (3.0, False), (None, True),
+    ]  # fmt: skip
+    assert found.reaction_time_s == 3.0
+
+
+def test_an_action_that_only_the_second_advisory_advises_is_the_reaction_to_that() -> None:
+    second = advisory(GoAround(runway="01")).model_copy(update={"revision": 2})
+    found = person(
+        (10.0, "advisory/AAL1", advisory()),
+        (10.0, "perceived/AAL1", perceived("seen")),
+        (11.0, "advisory/AAL1", second),
+        (11.0, "perceived/AAL1", perceived("seen").model_copy(update={"revision": 2})),
+        (13.0, "command/AAL1", GO_AROUND),
+    )
+    assert [one.reaction_time_s for one in found.reactions] == [None, 2.0]
+
+
+@pytest.mark.parametrize(
+    ("paces", "reaction_time_s"),
+    [
+        ([(1.0, "paused"), (1.0, "realtime")], 2.0),
+        ([(1.0, "0.5x")], None),
+        ([(11.0, "paused"), (11.0, "realtime")], None),
+        ([(13.0, "paused")], 2.0),
+    ],
+)
+def test_no_reaction_is_measured_while_time_does_not_pass_as_on_the_clock(
+    paces: list[tuple[float, str]], reaction_time_s: float | None
+) -> None:
+    changes = [
+        (t_s, "truth/event", Event(kind="pace", subject="run", text=text)) for t_s, text in paces
+    ]
+    acting = [
+        (10.0, "advisory/AAL1", advisory()),
+        (10.0, "perceived/AAL1", perceived("seen")),
+        (12.0, "command/AAL1", GO_AROUND),
+    ]
+    found = reaction(*sorted([*changes, *acting], key=lambda one: one[0]))
+    assert found.reaction_time_s == reaction_time_s
+    assert found.is_real_time == (reaction_time_s is not None)
+
+
+def test_advisories_that_reach_nobody_at_the_seat_are_counted() -> None:
+    info = SeatInfo(
+        seat="AAL1", recipients=("AAL1", "a1b2c3"), frequencies_khz=(), has_sound=False,
+        is_recognised=False, voice_is_recorded=False, longest_call_s=60.0,
+    )  # fmt: skip
+    to_others = advisory().model_copy(update={"recipient": "DAL2", "id": "a-2"})
+    by_address = advisory().model_copy(update={"recipient": "a1b2c3", "id": "a-3"})
+    found = person(
+        (0.0, "seat/AAL1/info", info),
+        (1.0, "advisory/AAL1", advisory().model_copy(update={"id": "a-0"})),
+        (2.0, "seat/AAL1", SeatPresence(is_taken=True)),
+        (3.0, "advisory/AAL1", advisory()),
+        (3.1, "perceived/AAL1", perceived("seen")),
+        (4.0, "advisory/DAL2", to_others),
+        (5.0, "advisory/a1b2c3", by_address),
+        (6.0, "seat/AAL1", SeatPresence(is_taken=False)),
+        (7.0, "advisory/AAL1", advisory().model_copy(update={"id": "a-4"})),
+    )
+    assert found.unperceived == 1
 
 
 @pytest.mark.parametrize("late_s", [FOLLOWED_WITHIN_S + 1.0, None])

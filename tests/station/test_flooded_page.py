@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from devtools import Page
-from stations import TOWER, PretendedRun, seat_page
+from stations import PretendedRun, seat_page
 
 pytestmark = pytest.mark.browser
 FLOOD = 6_000
@@ -67,7 +67,7 @@ def flood(run: PretendedRun) -> None:
 
 
 def test_a_flooded_page_shows_the_newest_of_all_and_can_be_used(page: Page) -> None:
-    with seat_page(TOWER) as (run, url):
+    with seat_page() as (run, url):
         run.changes.add("briefing", "TOWER", None, {})
         page.open(url, width=1280, height=720)
         page.wait_for("document.getElementById('state').textContent.startsWith('running')")

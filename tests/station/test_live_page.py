@@ -73,15 +73,27 @@ def test_the_run_goes_on_when_its_page_is_killed(brief_file: Path, tmp_path: Pat
 def test_strangers_and_garbage_are_refused_and_the_page_stays(
     encounter_file: Path, tmp_path: Path
 ) -> None:
-    with running(encounter_file, tmp_path / "run") as (_, url):
+    out = tmp_path / "run"
+    with running(encounter_file, out) as (_, url):
         with pytest.raises(InvalidStatus, match="403"):
             listening(url, origin="http://evil.example")
+        with listening(url, version="0") as stale:
+            assert how_closed(stale) == 4426
         for garbage in ("", "{", '{"watch": "../*"}', '{"command": 1}', "[" * 100_000):
             with listening(url) as socket:
                 socket.send(garbage)
                 assert how_closed(socket) == 1008
         with listening(url) as socket:
             assert states(socket)
+    refused = [one["text"] for one in events(out) if one["kind"] == "refused"]
+    assert "evil.example" in refused[0]
+    assert "another version" in refused[1]
+    assert len(refused) == 7
+
+
+def events(out: Path) -> list[dict[str, Any]]:
+    messages = open_run(out).messages()
+    return [json.loads(one.data) for one in messages if one.key == "truth/event"]
 
 
 @pytest.mark.browser
@@ -157,11 +169,12 @@ def test_a_seat_has_one_person_and_what_it_says_is_said(brief_file: Path, tmp_pa
     messages = list(open_run(out).messages())
     keys = [logged.key for logged in messages]
     assert keys.count("speech/AAL123") == keys.count("command/AAL123") == 1
+    presence = [json.loads(one.data)["is_taken"] for one in messages if one.key == "seat/AAL123"]
+    assert presence == [True, False]  # It is left with the page that is killed, at the latest.
     said = [json.loads(one.data) for one in messages if one.key.startswith("truth/radio/seat.")]
     assert said[0]["text"] == "Washington Center, American one two three, hello"
-    events = [json.loads(one.data) for one in messages if one.key == "truth/event"]
     refused = [
-        one["text"] for one in events if (one["kind"], one["subject"]) == ("refused", "page")
+        one["text"] for one in events(out) if (one["kind"], one["subject"]) == ("refused", "page")
     ]
     words = [
         "no seat",
@@ -181,6 +194,8 @@ def test_who_may_take_a_seat_sees_nothing_of_the_truth(
     options = ("--seat", "tower", "--share-truth")
     with running(encounter_file, tmp_path / "run", *options) as (_, url), listening(url) as socket:
         seen: set[str] = set()
+        (seat,) = answer(socket, "seats")
+        send(socket, take=seat)
         for _ in range(30):
             for kind, *rest in json.loads(socket.recv(timeout=PATIENCE_S)).get("changes", ()):
                 seen.add(kind)

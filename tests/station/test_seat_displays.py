@@ -73,7 +73,7 @@ def advise(run: PretendedRun, recipient: str, message: str, **other: Any) -> Non
 @contextmanager
 def seated(page: Page, seat: str, pace: str = "realtime") -> Iterator[PretendedRun]:
     """Open the page of a run, take its seat, and yield the run."""
-    with seat_page(TOWER.model_copy(update={"seat": seat})) as (run, url):
+    with seat_page(PretendedRun([TOWER.model_copy(update={"seat": seat})])) as (run, url):
         run.changes.add("briefing", "TOWER", None, CATEGORIES)
         run.changes.add("clock", 1.0, "running", pace)
         page.open(url, width=1280, height=720)
@@ -257,7 +257,7 @@ def test_a_pace_that_nobody_can_choose_is_shown_and_goes_on_in_real_time(page: P
 
 
 def test_who_watches_a_run_without_seats_is_told_what_was_refused(page: Page) -> None:
-    with seat_page(None) as (run, url):
+    with seat_page(has_seats=False) as (run, url):
         page.open(url)
         refused = {"t": 1.0, "kind": "refused", "who": "page", "text": "a stranger's origin"}
         run.changes.add("event", refused)
@@ -269,7 +269,7 @@ def test_who_watches_a_run_without_seats_is_told_what_was_refused(page: Page) ->
 def test_a_screen_reader_is_told_of_an_advisory_to_others_while_nobody_has_a_seat(
     page: Page,
 ) -> None:
-    with seat_page(None) as (run, url):
+    with seat_page(has_seats=False) as (run, url):
         run.changes.add("clock", 1.0, "running", "realtime")
         page.open(url)
         page.wait_for("document.getElementById('state').textContent.startsWith('running')")
@@ -288,7 +288,7 @@ def test_a_range_ring_has_its_name_where_it_is_seen(page: Page) -> None:
             write.call(this, text, x, y);
         };
     })()"""
-    with seat_page(None) as (run, url):
+    with seat_page(has_seats=False) as (run, url):
         page.open(url, width=1280, height=720)
         fly(run)
         page.wait_for("document.getElementById('plan').ariaLabel.includes('DAL456')")
@@ -316,7 +316,7 @@ def test_all_range_rings_are_drawn_alike_with_names_and_without(page: Page) -> N
             stroke.call(this);
         };
     })()"""
-    with seat_page(None) as (run, url):
+    with seat_page(has_seats=False) as (run, url):
         page.open(url, width=1280, height=720)
         page.evaluate(drawn)
         fly(run)

@@ -12,8 +12,17 @@ import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
-from airhilt.messages import NasaTlx, SpokenWords
+from airhilt.messages import (
+    Advisory,
+    AdvisoryAudio,
+    Evidence,
+    NasaTlx,
+    Severity,
+    SpokenWords,
+)
+from airhilt.record import Logged
 from airhilt.station import browsers
+from airhilt.station.live import LiveRun
 from airhilt.station.page_files import page_version
 from microphone import (
     BUTTON,
@@ -131,6 +140,40 @@ def test_a_phrase_is_chosen_and_the_workload_is_rated(seat: tuple[PretendedRun, 
         page.wait_for("!document.getElementById('tlx-dialog').open")
         run.seat.add("answered", 2)
         wait_for_seat(run)
+
+
+@pytest.mark.browser
+def test_an_advisory_is_not_told_to_be_heard_where_the_loudspeaker_is_down(
+    seat: tuple[PretendedRun, str],
+) -> None:
+    run, url = seat
+    run.changes.add("briefing", "TOWER", None, ROSTER)
+    told: dict[str, list[str]] = {}
+    with page_with_microphone() as page:
+        sit_down(page, url)
+        for volume in ("0", "0.5"):
+            page.evaluate(f"document.querySelector('#hearing input[max]').value = '{volume}'")
+            warn(run, f"at-{volume}")
+            told[volume] = [run.next().way for _ in range(1 if volume == "0" else 2)]
+        wait_for_seat(run)
+    assert told["0"] == ["seen"]
+    assert sorted(told["0.5"]) == ["heard", "seen"]
+
+
+def warn(run: PretendedRun, name: str) -> None:
+    """Let the assistant warn the tower, with a tone and no voice."""
+    advised = Advisory(
+        id=name, revision=0, recipient="ATC", recipients=("ATC",), kind="runway_conflict",
+        severity=Severity.WARNING, traffic=("AAL123",), message="stop", t_ready_ns=0,
+        evidence=Evidence(sources=("adsb",)), t_ns=1,
+    )  # fmt: skip
+    audio = AdvisoryAudio(
+        id=name, revision=0, recipient="ATC", text="stop", t_dec_ns=0, engine="", samples=0,
+        sha256="", t_ns=1,
+    )  # fmt: skip
+    live = LiveRun(run.changes, run.of_seats, views=run.views)
+    for key, message in (("advisory/ATC", advised), (f"tts/{name}", audio)):
+        live.take(Logged(key, "", 1, message.model_dump_json().encode()))
 
 
 @pytest.mark.browser

@@ -4,14 +4,19 @@ from __future__ import annotations
 
 import asyncio
 import json
+import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 import pytest
+from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
+from airhilt.messages import SpokenWords
 from airhilt.station import browsers
-from stations import PATIENCE_S, PretendedRun, seat_page
+from stations import PATIENCE_S, TOWER, PretendedRun, seat_page
+
+TWO = (TOWER, TOWER.model_copy(update={"seat": "GROUND"}))
 
 
 @pytest.fixture(scope="module")
@@ -67,6 +72,100 @@ def test_the_seat_of_who_does_not_come_back_is_given_back_and_all_are_told(
         while answer(other, "seats") != {"TOWER": "free"}:
             pass
     assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", False)
+
+
+def test_who_presses_twice_or_is_refused_another_seat_keeps_the_own_one() -> None:
+    with (
+        seat_page(PretendedRun(TWO)) as (run, url),
+        browser(url, "a") as own,
+        browser(url, "b") as other,
+    ):
+        for socket, seat in ((own, "TOWER"), (other, "GROUND")):
+            socket.send(json.dumps({"take": seat}))
+            assert run.presence.get(timeout=PATIENCE_S) == (seat, True)
+        for seat in ("TOWER", "GROUND"):
+            own.send(json.dumps({"take": seat}))
+        assert "Somebody has" in str(answer(own, "refused"))
+        own.send(json.dumps({"pace": {"factor": 1.0}}))
+        assert run.next().factor == 1.0
+        assert run.presence.empty()
+
+
+def test_a_seat_that_somebody_has_at_another_page_is_refused() -> None:
+    run = PretendedRun()
+    run.taken_elsewhere.add("TOWER")
+    with seat_page(run) as (_, url), browser(url, "a") as own:
+        take(own)
+        assert "at another page" in str(answer(own, "refused"))
+        run.taken_elsewhere.clear()
+        take(own)
+        assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", True)
+
+
+def test_who_moves_to_another_seat_leaves_the_first_one() -> None:
+    with seat_page(PretendedRun(TWO)) as (run, url), browser(url, "a") as own:
+        for seat in ("TOWER", "GROUND"):
+            own.send(json.dumps({"take": seat}))
+        told = [run.presence.get(timeout=PATIENCE_S) for _ in range(3)]
+        assert told == [("TOWER", True), ("TOWER", False), ("GROUND", True)]
+
+
+class SlowRun(PretendedRun):
+    """A run that takes longer to learn that a seat was left than that it was taken."""
+
+    def occupy(self, seat: str, *, is_taken: bool) -> None:
+        """Note it after a while."""
+        if not is_taken:
+            time.sleep(0.3)
+        super().occupy(seat, is_taken=is_taken)
+
+
+def test_the_run_learns_who_has_a_seat_in_the_order_in_which_it_was_taken() -> None:
+    run = SlowRun()
+    with (
+        seat_page(run) as (_, url),
+        browser(url, "a") as own,
+        browser(url, "b") as other,
+    ):
+        take(own)
+        assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", True)
+        own.send(json.dumps({"leave": "TOWER"}))
+        while (wish := json.dumps({"take": "TOWER"})) and run.presence.empty():
+            other.send(wish)
+            time.sleep(0.02)
+        told = [run.presence.get(timeout=PATIENCE_S) for _ in range(2)]
+        assert told == [("TOWER", False), ("TOWER", True)]
+
+
+class BrokenRun(PretendedRun):
+    """A run that cannot be told anything any more."""
+
+    def say(self, seat: str, words: SpokenWords) -> None:
+        """Fail.
+
+        Raises
+        ------
+        OSError
+            Always.
+        """
+        raise OSError("gone")
+
+
+def test_a_seat_is_free_again_when_its_browser_could_not_be_served(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(browsers, "HOLD_S", 0.0)
+    with seat_page(BrokenRun()) as (run, url), browser(url, "b") as other:
+        with browser(url, "a") as own:
+            take(own)
+            assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", True)
+            own.send(json.dumps({"say": {"text": "hello"}}))
+            with suppress(ConnectionClosed):
+                for _ in own:
+                    pass
+        assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", False)
+        take(other)
+        assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", True)
 
 
 class StalledSocket:

@@ -62,6 +62,10 @@ def test_a_run_goes_on_without_the_station_and_another_station_stops_it(
         run = started(client, "running")
         assert run["name"] == name
         assert run["seats"] == ["Washington Centre"]
+        while not [one for one in answer(client, "api/runs")["recorded"] if one["name"] == name]:
+            time.sleep(0.2)
+        refused = client.post("api/debriefs", json={"runs": [name]})
+        assert "people at seats" in refused.json()["error"]
         with httpx.Client(trust_env=False) as other:
             assert "AIRHILT" in other.get(run["url"]).text
         client.post(f"api/runs/{name}/stop", json={})

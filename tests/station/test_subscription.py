@@ -113,3 +113,28 @@ def test_the_sounds_that_are_kept_have_a_limit(followed: Followed) -> None:
     followed.wait_until(lambda: followed.page.sound("call-11"))
     kept = [number for number in range(12) if followed.page.sound(f"call-{number}")]
     assert kept == list(range(12 - MOST_SOUND_BYTES // size, 12))
+
+
+def test_a_page_knows_which_seats_people_have_at_other_pages() -> None:
+    bus = Bus("run")
+    bus.keep("clock", b"{}")
+    pages = [
+        Subscription(bus.endpoint, lambda _: None, lambda: None, seats=["TOWER"]) for _ in range(2)
+    ]
+    own, other = pages
+    assert not other.has_person("TOWER")
+    own.occupy("TOWER", is_taken=True)
+    assert not own.has_person("TOWER")
+    assert within_patience(lambda: other.has_person("TOWER"))
+    own.occupy("TOWER", is_taken=False)
+    assert within_patience(lambda: not other.has_person("TOWER"))
+    for page in pages:
+        page.close()
+    bus.close()
+
+
+def within_patience(is_so: Callable[[], bool]) -> bool:
+    until = time.monotonic() + PATIENCE_S
+    while not (found := is_so()) and time.monotonic() < until:
+        time.sleep(0.01)
+    return found

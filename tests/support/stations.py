@@ -8,7 +8,7 @@ import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -28,14 +28,17 @@ from airhilt.messages import (
 )
 from airhilt.station.address import Address
 from airhilt.station.app import live_app
+from airhilt.station.audiences import SeatViews
 from airhilt.station.browsers import Browsers
 from airhilt.station.changes import Changes
+from airhilt.station.pictures import Picture
 from airhilt.station.server import serve
+from airhilt.station.subscription import Sound
 
 PATIENCE_S = 60.0
 TOWER = SeatInfo(
-    seat="TOWER", frequencies_khz=(119_100,), has_sound=True, is_recognised=True,
-    voice_is_recorded=True, longest_call_s=60.0,
+    seat="TOWER", recipients=("TOWER", "ATC"), frequencies_khz=(119_100,), has_sound=True,
+    is_recognised=True, voice_is_recorded=True, longest_call_s=60.0,
 )  # fmt: skip
 
 
@@ -128,21 +131,32 @@ def asked(
 
 
 class PretendedRun:
-    """A run of which there is only its page, with one seat; notes what browsers do."""
+    """A run of which there is only its page, with a seat or more; notes what browsers do."""
 
     run = "pretended"
 
-    def __init__(self, seat: SeatInfo = TOWER) -> None:
+    def __init__(self, seats: Sequence[SeatInfo] = (TOWER,)) -> None:
         self.done: queue.Queue[Message | Command] = queue.Queue()
         self.presence: queue.Queue[tuple[str, bool]] = queue.Queue()
-        self.changes, self.seat, self.sounds = Changes(), Changes(), Changes()
+        self.changes, self.sounds, self.views = Changes(), Changes(), SeatViews()
+        self.of_seats = {info.seat: Changes() for info in seats}
+        self.seat = self.of_seats[seats[0].seat]
+        self.watched: queue.Queue[set[str]] = queue.Queue()
+        """Cameras whose pictures were asked for, whenever there were any."""
+        self.pictures: dict[tuple[str, int], Picture] = {}
+        self.kept: dict[str, Sound] = {}
+        self.taken_elsewhere: set[str] = set()
         self.told: list[str] = []
         """Lines that the terminal was told."""
         self.changes.add("clock", 0.0, "running", "realtime")
-        self.seat.add("info", seat.model_dump(mode="json", exclude={"t_ns"}))
+        for info in seats:
+            self.views.learn(info)
+            self.of_seats[info.seat].add("info", info.model_dump(mode="json", exclude={"t_ns"}))
 
     def watch(self, cameras: set[str]) -> None:
-        """Draw nothing."""
+        """Note cameras whose pictures are to come."""
+        if cameras:
+            self.watched.put(cameras)
 
     def say(self, seat: str, words: SpokenWords) -> None:
         """Note words that were typed."""
@@ -160,6 +174,10 @@ class PretendedRun:
         """Note an answer to a question."""
         self.done.put(answer)
 
+    def has_person(self, seat: str) -> bool:
+        """Return true if somebody has a seat at another page."""
+        return seat in self.taken_elsewhere
+
     def occupy(self, seat: str, *, is_taken: bool) -> None:
         """Note if somebody has the seat."""
         self.presence.put((seat, is_taken))
@@ -172,11 +190,13 @@ class PretendedRun:
         """Note a command."""
         self.done.put(command)
 
-    def picture(self, camera: str, seq: int) -> None:
-        """Return no picture."""
+    def picture(self, camera: str, seq: int) -> Picture | None:
+        """Return a picture of a camera."""
+        return self.pictures.get((camera, seq))
 
-    def sound(self, name: str) -> None:
-        """Return no sound."""
+    def sound(self, name: str) -> Sound | None:
+        """Return the sound of a call."""
+        return self.kept.get(name)
 
     def next(self) -> Any:
         """Return what a browser does next."""
@@ -192,17 +212,13 @@ class PretendedRun:
 
 
 @contextmanager
-def seat_page(seat: SeatInfo | None = TOWER) -> Iterator[tuple[PretendedRun, str]]:
-    """Serve the page of a pretended run in this process; yield the run and the URL.
-
-    Parameters
-    ----------
-    seat
-        The only seat; None: the run has none.
-    """
-    run, urls, is_over = PretendedRun(seat or TOWER), queue.Queue[str](), threading.Event()
-    seats = {} if seat is None else {seat.seat: run.seat}
-    browsers = Browsers(run.changes, run, seats, run.sounds, run.told.append)
+def seat_page(
+    run: PretendedRun | None = None, *, has_seats: bool = True
+) -> Iterator[tuple[PretendedRun, str]]:
+    """Serve the page of a pretended run in this process; yield the run and the URL."""
+    run, urls, is_over = run or PretendedRun(), queue.Queue[str](), threading.Event()
+    seats = run.of_seats if has_seats else {}
+    browsers = Browsers(run.changes, run, seats, run.sounds, run.told.append, run.views)
     thread = threading.Thread(
         target=serve,
         args=(live_app(run, browsers), Address(port=0)),  # type: ignore[arg-type]

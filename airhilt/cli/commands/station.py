@@ -52,7 +52,8 @@ def station(port: int, no_browser: bool, runs: Path, scenarios: tuple[Path, ...]
     from airhilt.station.server import serve
     from airhilt.station.started_runs import StartedRuns
 
-    started, debriefs = StartedRuns(runs.resolve()), Debriefs(runs.resolve())
+    started = StartedRuns(runs.resolve())
+    debriefs = Debriefs(runs.resolve(), started.goes_on)
     app = home_app(ScenarioChoices(scenarios), started, debriefs, [*ASSISTANTS.names(), "none"])
     try:
         serve(app, address, opened=_opened, notice=tell, browser=not no_browser)

@@ -102,6 +102,7 @@ def _show_live(
     browser: bool,
 ) -> None:
     from airhilt.station.app import live_app
+    from airhilt.station.audiences import SeatViews
     from airhilt.station.browsers import Browsers
     from airhilt.station.changes import Changes
     from airhilt.station.live import LiveRun
@@ -111,7 +112,8 @@ def _show_live(
     changes = Changes()
     of_seats = {seat: Changes(MOST_CHANGES_OF_SEAT) for seat in seats}
     sounds = Changes(MOST_SOUNDS)
-    run = LiveRun(changes, of_seats, tell)
+    views = SeatViews()
+    run = LiveRun(changes, of_seats, tell, views)
     click.echo(f"{WAITING} {connect or tls}")
     subscription = Subscription(
         connect, run.take, run.lost, tls=tls, seats=seats, sounds=sounds if seats else None
@@ -119,10 +121,9 @@ def _show_live(
 
     def refused(text: str) -> None:
         tell(text)
-        if seats:  # The page of a run without seats publishes nothing.
-            subscription.log_refusal(text)
+        subscription.log_refusal(text)
 
-    browsers = Browsers(changes, subscription, of_seats, sounds, refused)
+    browsers = Browsers(changes, subscription, of_seats, sounds, refused, views)
     try:
         serve(
             live_app(subscription, browsers),

@@ -1,5 +1,5 @@
-const SEATS = [["Seat"], ["Calls spoken", "number"], ["Calls typed", "number"], ["Commands", "number"], ["Asked to say again", "number"], ["Readback errors", "number"], ["Readback errors heard", "number"], ["Button to air", "number"], ["Reaction time (median)", "number"]];
-const REACTIONS = [["Time (s)"], ["Seat"], ["Severity"], ["Advised", "text"], ["Seen", "number"], ["Heard", "number"], ["First action", "text"], ["Reaction time", "number"], ["Followed", "text"]];
+const SEATS = [["Seat"], ["Calls spoken", "number"], ["Calls typed", "number"], ["Commands", "number"], ["Asked to say again", "number"], ["Readback errors", "number"], ["Readback errors heard", "number"], ["Button to air", "number"], ["Reaction time (median)", "number"], ["Advisories not perceived", "number"]];
+const REACTIONS = [["Time (s)"], ["Seat"], ["Severity"], ["Advised", "text"], ["Seen", "number"], ["Heard", "number"], ["First action", "text"], ["Reaction time, from", "number"], ["Followed", "text"]];
 const WORKLOAD = [["Seat"], ["ISA (mean of 1 to 5)", "number"], ["ISA", "text"], ["Raw TLX (0 to 100)", "number"], ["NASA-TLX", "text"]];
 const since = (row, t) => (known(t) ? seconds(t - row.t_advisory_s, 2) : "no");
 
@@ -7,13 +7,13 @@ function drawPeople() {
   byId("people").hidden = !data.length;
   fillTable(byId("people-table"), SEATS, data.map((one) => ({ cells: [
     one.seat, one.spoken_calls, one.typed_calls, one.commands, one.asked_to_say_again, one.readback_errors, one.readback_errors_heard,
-    known(one.press_to_transmit_s) ? seconds(one.press_to_transmit_s, 3) : "", known(one.reaction_time_s) ? seconds(one.reaction_time_s, 2) : "",
+    known(one.press_to_transmit_s) ? seconds(one.press_to_transmit_s, 3) : "", known(one.reaction_time_s) ? seconds(one.reaction_time_s, 2) : "", one.unperceived ?? 0,
   ] })));
   const rows = data.flatMap((one) => one.reactions.map((row) => ({ seat: one.seat, ...row }))).sort((a, b) => a.t_advisory_s - b.t_advisory_s);
   fillTable(byId("reactions-table"), REACTIONS, rows.map((row) => ({ t: row.t_advisory_s, cells: [
     timeButton(row.t_advisory_s), row.seat, html("span", { class: `severity-${row.severity}` }, row.severity), words(row.advised ?? ""),
     since(row, row.t_seen_s), since(row, row.t_heard_s), words(row.first_action ?? "none"),
-    known(row.reaction_time_s) ? seconds(row.reaction_time_s, 2) : "", known(row.followed) ? (row.followed ? "yes" : "no") : "",
+    known(row.reaction_time_s) ? `${seconds(row.reaction_time_s, 2)}, ${row.counted_from}` : row.is_shared ? "shared" : row.is_real_time === false ? "not in real time" : "", known(row.followed) ? (row.followed ? "yes" : "no") : "",
   ] })));
   const asked = data.filter((one) => one.workload);
   byId("workload-panel").hidden = !asked.length;

@@ -120,6 +120,9 @@ class AircraftSpec(Model):
     )
     pilot: Reactions = Reactions()
     transponder: Transponder = Transponder()
+    adsb_in: Flag = Field(
+        default=True, description="a person at its controls is shown the ADS-B of others"
+    )
     on_roster: Flag = Field(
         default=True, description="false: no controller expects it, and it is on no frequency"
     )
@@ -140,6 +143,11 @@ class VehicleSpec(Model):
     )
     driver: Reactions = Reactions(reaction_median_s=2.5)
     transponder: Transponder = Transponder(equipped=False)
+    adsb_in: Flag = Field(
+        default=False,
+        description="the driver is shown the ADS-B of others on the moving map; a vehicle has no "
+        "receiver unless it is fitted with one",
+    )
 
 
 class PlannedAction(Model):

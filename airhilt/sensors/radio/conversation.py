@@ -9,10 +9,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
 from functools import partial
+from typing import Any
 
 from airhilt.commands import Command
 from airhilt.deferred import Payload
 from airhilt.messages import (
+    CONTROLLER,
     FROM_MICROPHONE,
     Advisory,
     Message,
@@ -22,7 +24,7 @@ from airhilt.messages import (
     Transcript,
 )
 from airhilt.scenario.failures import EffectiveLine
-from airhilt.scenario.models import Condition, Radio, RadioLine, Scenario
+from airhilt.scenario.models import Condition, Radio, RadioLine, Scenario, WildlifeSpec
 from airhilt.scenario.roster import callsigns_of, roster_of
 from airhilt.sensors.base import Publish
 from airhilt.sensors.radio.advisory_calls import AdvisoryCalls, AdvisoryChannel
@@ -268,6 +270,7 @@ class RadioConversation:
         return [
             SeatInfo(
                 seat=seat,
+                **self._equipment_of(seat),
                 frequencies_khz=self._stations.selectable(seat),
                 has_sound=self._backend.has_sound,
                 is_recognised=is_recognised,
@@ -277,6 +280,19 @@ class RadioConversation:
             )
             for seat in sorted(self._seats.names)
         ]
+
+    def _equipment_of(self, seat: str) -> dict[str, Any]:
+        """Return the fields of `SeatInfo` that say what a person at a seat is shown."""
+        for spec in self._scenario.actors:
+            if spec.callsign == seat and not isinstance(spec, WildlifeSpec):
+                return {
+                    "category": spec.type,
+                    "icao24": spec.icao24,
+                    "has_adsb_in": spec.adsb_in,
+                    "recipients": (seat, spec.icao24),
+                }
+        is_controller = seat == self._scenario.radio.controller
+        return {"recipients": (seat, CONTROLLER) if is_controller else (seat,)}
 
     def close(self) -> None:
         """Publish what is on the air as far as it has come; nobody acts upon it."""

@@ -12,7 +12,7 @@ from airhilt.sensors.base import Publish
 from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.sensors.radio.radio_call import RadioCall
 from airhilt.sensors.radio.stations import Stations
-from airhilt.world.actors.listening import Listener, commands_of
+from airhilt.world.actors.listening import Listener, commands_of, mean_the_same
 
 
 class Seats:
@@ -146,9 +146,19 @@ class Seats:
         elif call.addressed is None:
             self._finish(call)
         call.is_of_person = True
+        call.commands = self._commands(call, meant)
         call.text = text
-        call.commands = self._commands(speaker, call.addressed, meant)
+        if not call.commands and any(one.is_conditional for one in meant.instructions):
+            self._tell_of_condition(call)
         return call
+
+    def _tell_of_condition(self, call: RadioCall) -> None:
+        """Tell the person at a unit that a conditional clearance alone makes nobody move."""
+        if call.addressed is not None and not self._stations.is_actor(call.speaker):
+            text = (
+                f"{call.addressed} reads a condition back and waits. Say it again when it is met."
+            )
+            self.notify(call.speaker, text)
 
     def addresses(self, speaker: str, meant: Call) -> bool:
         """Return whether it is known whom some words are for: a crew always calls its unit."""
@@ -196,14 +206,21 @@ class Seats:
         on_frequency = self._stations.on(frequency_khz)
         return next((name for name in on_frequency if not self._stations.is_actor(name)), None)
 
-    def _commands(
-        self, speaker: str, addressed: str | None, meant: Call
-    ) -> tuple[ScriptedCommand, ...]:
-        """Return what the addressee of a unit does because of the words."""
-        if addressed is None or self._stations.is_actor(speaker):
+    def _commands(self, call: RadioCall, meant: Call) -> tuple[ScriptedCommand, ...]:
+        """Return what the addressee of a unit does because of the words.
+
+        Words that mean what the script has planned do what it has planned, such as to taxi along a
+        route. What crews say gives no commands: the person at the seat flies.
+        """
+        if call.addressed is None or self._stations.is_actor(call.speaker):
             return ()
-        runway = self._stations.bound_runway(addressed)
+        line = None if call.scripted is None else call.scripted.line
+        if line is not None:
+            planned = self.meant(call.frequency_khz, line.text)
+            if mean_the_same(meant.instructions, planned.instructions):
+                return line.commands
+        runway = self._stations.bound_runway(call.addressed)
         return tuple(
-            ScriptedCommand(actor=addressed, command=command)
+            ScriptedCommand(actor=call.addressed, command=command)
             for command in commands_of(meant.instructions, runway)
         )

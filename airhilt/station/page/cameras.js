@@ -3,6 +3,7 @@
 
 import { keepNewest } from "./bounds.js";
 import { byId, html, svg } from "./dom.js";
+import { identity } from "./live.js";
 import { before } from "./series.js";
 import { counted, fixed, seconds } from "./words.js";
 
@@ -178,7 +179,7 @@ export class Cameras {
           : "The picture did not come: the server does not answer.",
       );
     };
-    arrived.src = `api/cameras/${encodeURIComponent(name)}/${record.seq[i]}.jpg`;
+    arrived.src = `api/cameras/${encodeURIComponent(name)}/${record.seq[i]}.jpg?browser=${identity()}`;
   }
 
   #fail(text) {

@@ -37,7 +37,7 @@ function ending({ title, phase }) {
  * The name of this browser tab, which it keeps when its connection is lost or the page is loaded
  * again.
  */
-function identity() {
+export function identity() {
   if (!sessionStorage.getItem("browser"))
     sessionStorage.setItem(
       "browser",

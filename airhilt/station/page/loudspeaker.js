@@ -75,7 +75,7 @@ export class Loudspeaker {
    */
   async warn(severity, url) {
     const context = this.#context;
-    if (!context || context.state !== "running") return null;
+    if (!context || context.state !== "running" || !this.#isOn) return null;
     const begin = context.currentTime,
       [hertz, pulses] = TONES[severity] ?? [0, []];
     for (const at of pulses) this.#pulse(hertz, begin + at);
@@ -144,6 +144,11 @@ export class Loudspeaker {
     for (const pcm of this.#waiting.get(id) ?? []) this.#play(id, pcm, true);
     this.#waiting.delete(id);
     this.#playing.delete(id);
+  }
+
+  /** True unless the volume is down: then nobody hears anything. */
+  get #isOn() {
+    return Number(this.#volume.value) > 0;
   }
 
   #setVolume() {

@@ -4,6 +4,7 @@
 import { badge } from "./advisories.js";
 import { keepNewest } from "./bounds.js";
 import { byId, html } from "./dom.js";
+import { identity } from "./live.js";
 import { SEVERITIES } from "./model.js";
 import { Rows } from "./rows.js";
 import { capital, instruction, known, percent, seconds, words } from "./words.js";
@@ -53,7 +54,7 @@ export class OwnAdvisories {
     this.#sound(
       row ?? { id, revision, severity: "CAUTION" },
       recipient,
-      sound ? `api/calls/${encodeURIComponent(sound)}.wav` : null,
+      sound ? `api/calls/${encodeURIComponent(sound)}.wav?browser=${identity()}` : null,
     );
   }
 

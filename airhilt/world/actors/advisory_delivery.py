@@ -81,6 +81,9 @@ class AdvisoryDelivery:
         """Latest revision of each advisory that waits for its voice, by id and recipient."""
         self._in_force: dict[str, set[str]] = {}
         """Ids of the alerts of equipment that tell a recipient what to do."""
+        self._told_people: dict[tuple[str, str], tuple[Advisory, bool]] = {}
+        """Latest revision of each advisory in force that a person has got, by id and recipient,
+        and true if it is of equipment."""
 
     def take(self, key: str, message: Message, data: Payload) -> None:  # noqa: ARG002
         """Receive a message of the bus."""
@@ -113,6 +116,13 @@ class AdvisoryDelivery:
         for advisory in waiting:
             self._deliver(advisory)
 
+    def person_left(self, callsign: str) -> None:
+        """Let an automaton that acts for itself again know what is in force."""
+        for name, (advisory, is_equipment) in list(self._told_people.items()):
+            if self._by_address[advisory.recipient].spec.callsign == callsign:
+                del self._told_people[name]
+                self._deliver(advisory, is_equipment=is_equipment)
+
     def _is_spoken(self, advisory: Advisory) -> bool:
         is_urgent = advisory.severity.rank >= self._speak_min_level.rank
         return self._is_voiced and advisory.active and is_urgent
@@ -128,6 +138,10 @@ class AdvisoryDelivery:
     def _deliver(self, advisory: Advisory, *, is_equipment: bool = False) -> None:
         actor = self._by_address[advisory.recipient]
         if not self._is_automaton(actor.spec.callsign):
+            name = (advisory.id, advisory.recipient)
+            self._told_people.pop(name, None)
+            if advisory.active:
+                self._told_people[name] = (advisory, is_equipment)
             return
         reaction = actor.hear(advisory)
         if reaction is not None:
@@ -138,7 +152,7 @@ class AdvisoryDelivery:
     def _react(
         self, actor: Actor, advisory: Advisory, reaction: Reaction, is_equipment: bool
     ) -> None:
-        if actor.body.ended is not None:
+        if actor.body.ended is not None or not self._is_automaton(actor.spec.callsign):
             return
         if advisory.active and not is_equipment and self._in_force.get(advisory.recipient):
             return

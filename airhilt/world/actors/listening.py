@@ -77,7 +77,7 @@ class Listener:
         is_in_doubt = doubt == "unclear" or taken.confidence < TAU_ASR
         if is_in_doubt and (_wants_something(taken) or _wants_something(meant)):
             return Understanding("unclear", taken)
-        if is_the_same or _mean_the_same(taken.instructions, meant.instructions):
+        if is_the_same or mean_the_same(taken.instructions, meant.instructions):
             return Understanding("as_said", taken)
         if not taken.instructions:
             return Understanding("unclear", taken)
@@ -128,7 +128,7 @@ def _wants_something(call: Call) -> bool:
     return bool(call.instructions) or call.kind in ("request", "say_again", "disregard")
 
 
-def _mean_the_same(heard: Sequence[Instruction], said: Sequence[Instruction]) -> bool:
+def mean_the_same(heard: Sequence[Instruction], said: Sequence[Instruction]) -> bool:
     """Return whether instructions mean the same, however their conditions are worded."""
     return len(heard) == len(said) and all(
         agree(one, other) and _numbers(one) == _numbers(other)

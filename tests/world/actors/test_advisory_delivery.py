@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -169,3 +170,38 @@ def test_once_equipment_is_silent_the_assistant_is_followed_again() -> None:
 def test_the_end_of_an_advisory_is_heard_whatever_equipment_says() -> None:
     told = Told((1.0, equipment()), (2.0, advisory(1, active=False)), voiced=False)
     assert "follows turn (d-1)" in [event[2] for event in told.events]
+
+
+def told_with_person(*, taken_s: float, left_s: float, until_s: float | None = None) -> list[float]:
+    """Return when the crew reacts to an advisory of 1 s, which is over at a time.
+
+    A person has its seat between two times.
+    """
+    director, crew, reacted_s = Director(Virtual()), Crew(), list[float]()
+    delivery = AdvisoryDelivery(
+        director,
+        {"AAL123": cast(Any, crew)},
+        lambda *_: reacted_s.append(director.now_ns / SECOND_NS),
+        is_voiced=False,
+        is_automaton=lambda _: not taken_s <= director.now_ns / SECOND_NS < left_s,
+    )
+    messages = [(1.0, advisory())]
+    messages += [] if until_s is None else [(until_s, advisory(revision=1, active=False))]
+    for t_s, message in messages:
+        take = partial(delivery.take, "advisory/AAL123", message, b"")
+        director.at(seconds_to_ns(t_s), take, Priority.SCRIPT)
+    left = partial(delivery.person_left, "AAL123")
+    director.at(seconds_to_ns(left_s), left, Priority.SCRIPT)
+    director.at(seconds_to_ns(20.0), director.stop, Priority.OBSERVE)
+    director.run()
+    return reacted_s
+
+
+def test_a_crew_does_not_act_under_the_hands_of_who_has_just_taken_its_seat() -> None:
+    assert told_with_person(taken_s=5.0, left_s=9.0) == [3.0]
+    assert told_with_person(taken_s=2.0, left_s=9.0) == []
+
+
+def test_a_crew_whose_person_has_left_reacts_to_what_is_still_in_force() -> None:
+    assert told_with_person(taken_s=0.0, left_s=9.0) == [11.0]
+    assert told_with_person(taken_s=0.0, left_s=9.0, until_s=8.0) == []

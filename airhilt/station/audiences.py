@@ -1,0 +1,135 @@
+"""Audiences of what a run publishes, and what a person at a seat may see of it."""
+
+from __future__ import annotations
+
+import json
+from typing import Any, Literal, NamedTuple
+
+from airhilt.messages import SeatInfo
+from airhilt.record import Logged
+from airhilt.sensors.radio.hearing import key_chunk
+
+
+class Audience(NamedTuple):
+    """Persons at seats who may see something of a run.
+
+    Attributes
+    ----------
+    way
+        What shows it: ADS-B, radars and surface surveillance, a frequency, an advisory to somebody,
+        a camera, or the actor that got a command.
+    of
+        The icao24 of the sender, the frequency in kHz, the recipient, the carrier of the camera
+        (None: the ground), or the actor as a part of keys, each by its way.
+    """
+
+    way: Literal["adsb", "surveillance", "frequency", "advisory", "camera", "command"]
+    of: str | int | None = None
+
+
+SURVEILLANCE = Audience("surveillance")
+"""Audience of what radars and surface surveillance have found: units."""
+
+
+def audience_of(logged: Logged) -> Audience | None:
+    """Return the audience of a message; None: everybody may see it.
+
+    Raises
+    ------
+    ValueError, LookupError, TypeError
+        It is not as a run writes it.
+    """
+    family, _, rest = logged.key.partition("/")
+    match family:
+        case "adsb":
+            return Audience("adsb", rest)
+        case "surface" | "radar":
+            return SURVEILLANCE
+        case "radio" | "asr":
+            return Audience("frequency", int(rest.partition("/")[0]))
+        case "command":
+            return Audience("command", rest)
+        case "advisory" | "equipment" | "tts" | "vision" | "camera":
+            return audience_of_header(family, json.loads(logged.data))
+    return None
+
+
+def audience_of_header(family: str, header: dict[str, Any]) -> Audience | None:
+    """Return the audience of a message whose content is known; see `audience_of`."""
+    match family:
+        case "advisory" | "tts":
+            return Audience("advisory", header.get("recipient"))
+        case "equipment":
+            return Audience("advisory", header["advisory"]["recipient"])
+        case "vision" | "camera":
+            return Audience("camera", header["view"]["carrier"])
+        case "radio":
+            return Audience("frequency", header["frequency_khz"])
+    return None
+
+
+class SeatView:
+    """What a person sees at a seat.
+
+    A unit sees what receivers, radars and cameras of the ground give. A crew or a driver sees
+    ADS-B with a receiver of its own, else its own position alone, and the cameras that it carries.
+    Each hears its frequencies, and gets advisories to itself.
+    """
+
+    def __init__(self, info: SeatInfo) -> None:
+        self._info = info
+
+    @property
+    def frequencies_khz(self) -> frozenset[int]:
+        """Frequencies that are heard at the seat, as far as they are tuned to."""
+        return frozenset(self._info.frequencies_khz)
+
+    def sees(self, audience: Audience | None) -> bool:
+        """Return true if something with this audience is seen at the seat; None: all see it."""
+        info, of = self._info, None if audience is None else audience.of
+        is_unit = info.category == "unit"
+        match None if audience is None else audience.way:
+            case None:
+                return True
+            case "adsb":
+                return is_unit or info.has_adsb_in or of == info.icao24
+            case "surveillance":
+                return is_unit
+            case "frequency":
+                return of in info.frequencies_khz
+            case "advisory":
+                return of in info.recipients
+            case "camera":
+                return of == (None if is_unit else info.seat)
+            case "command":
+                return of == key_chunk(info.seat)
+
+
+class SeatViews:
+    """Views of the seats of a run, each known once the run has told of the seat."""
+
+    def __init__(self) -> None:
+        self._views: dict[str, SeatView] = {}
+        self._cameras: dict[str, Audience] = {}
+
+    def learn(self, info: SeatInfo) -> None:
+        """Take in what a run says of a seat."""
+        self._views[info.seat] = SeatView(info)
+
+    def of(self, seat: str | None) -> SeatView | None:
+        """Return the view of a seat; None without a seat, or if it is not known yet."""
+        return None if seat is None else self._views.get(seat)
+
+    def learn_camera(self, name: str, audience: Audience) -> None:
+        """Take in who may see the pictures of a camera."""
+        self._cameras[name] = audience
+
+    def sees(self, seat: str | None, audience: Audience | None) -> bool:
+        """Return true if something with this audience is seen at a seat; None: without one."""
+        view = self.of(seat)
+        return audience is None or (view is not None and view.sees(audience))
+
+    def shows_camera(self, seat: str | None, name: str) -> bool:
+        """Return true if the pictures of a camera are seen at a seat."""
+        audience = self._cameras.get(name)
+        return audience is not None and self.sees(seat, audience)

@@ -1,0 +1,271 @@
+"""A browser sees what its own seat would see, and without a seat nothing but the clock."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from typing import Any
+
+import httpx
+import pytest
+from websockets.sync.client import ClientConnection, connect
+
+from airhilt.messages import (
+    ActorCommand,
+    AdsbReport,
+    Advisory,
+    CameraView,
+    Detections,
+    Evidence,
+    Message,
+    SeatInfo,
+    SurfaceTrack,
+    Transcript,
+    Transmission,
+)
+from airhilt.record import Logged
+from airhilt.station.audiences import Audience
+from airhilt.station.live import LiveRun
+from airhilt.station.pictures import Picture
+from airhilt.station.subscription import Sound
+from stations import PATIENCE_S, PretendedRun, seat_page
+
+SECOND = 1_000_000_000
+TOWER_KHZ, GROUND_KHZ = 119_100, 121_700
+SEATS = (
+    SeatInfo(
+        seat="TOWER", recipients=("TOWER", "ATC"), frequencies_khz=(TOWER_KHZ,), has_sound=True,
+        is_recognised=True, voice_is_recorded=True, longest_call_s=60.0,
+    ),
+    SeatInfo(
+        seat="AAL123", category="aircraft", icao24="a1b2c3", has_adsb_in=False,
+        recipients=("AAL123", "a1b2c3"), frequencies_khz=(TOWER_KHZ,), has_sound=True,
+        is_recognised=True, voice_is_recorded=True, longest_call_s=60.0,
+    ),
+    SeatInfo(
+        seat="DAL456", category="aircraft", icao24="d4e5f6", has_adsb_in=True,
+        recipients=("DAL456", "d4e5f6"), frequencies_khz=(GROUND_KHZ,), has_sound=True,
+        is_recognised=True, voice_is_recorded=True, longest_call_s=60.0,
+    ),
+)  # fmt: skip
+
+
+def report(icao24: str, callsign: str) -> AdsbReport:
+    return AdsbReport(
+        icao24=icao24, callsign=callsign, latitude_deg=38.85, longitude_deg=-77.04,
+        altitude_ft=2_000.0, ground_speed_kt=140.0, track_deg=90.0, vertical_rate_fpm=0.0, nacp=9,
+        nacv=2, receiver="tower", t_adsb_in_ns=SECOND, t_adsb_out_ns=SECOND, t_ns=SECOND,
+    )  # fmt: skip
+
+
+def advisory(recipient: str) -> Advisory:
+    return Advisory(
+        id="a-1", revision=0, recipient=recipient, recipients=("ATC", "AAL123"),
+        kind="runway_conflict", severity="WARNING", traffic=("AAL123",),
+        message=f"for {recipient}", t_ready_ns=SECOND, evidence=Evidence(sources=()), t_ns=SECOND,
+    )  # fmt: skip
+
+
+def transmission(frequency_khz: int) -> Transmission:
+    return Transmission(
+        id=f"call-{frequency_khz}", frequency_khz=frequency_khz, t_tx_ns=SECOND, t_end_ns=SECOND,
+        samples=10,
+    )  # fmt: skip
+
+
+def picture_of(camera: str, carrier: str | None) -> Detections:
+    view = CameraView(
+        carrier=carrier, width_px=64, height_px=48, horizontal_fov_deg=60.0, latitude_deg=38.85,
+        longitude_deg=-77.04, height_m=20.0, heading_deg=0.0, pitch_deg=0.0, roll_deg=0.0,
+    )  # fmt: skip
+    return Detections(
+        camera=camera, seq=1, t_frame_ns=SECOND, view=view, engine="none", t_ns=SECOND
+    )
+
+
+TRACK = SurfaceTrack(
+    airport="KDCA", track=1, kind="primary", t_track_ns=SECOND, latitude_deg=38.85,
+    longitude_deg=-77.04, accuracy_m=5.0, ground_speed_kt=0.0, t_ns=SECOND,
+)  # fmt: skip
+COMMAND = ActorCommand.model_validate({"command": {"action": "go_around"}})
+HEARD = Transcript(
+    id=f"call-{GROUND_KHZ}", frequency_khz=GROUND_KHZ, text="hello", confidence=0.9, engine="ctc",
+    t_tx_ns=SECOND, t_end_ns=SECOND, t_ns=SECOND,
+)  # fmt: skip
+PUBLISHED: tuple[tuple[str, Message], ...] = (
+    ("adsb/a1b2c3", report("a1b2c3", "AAL123")),
+    ("adsb/d4e5f6", report("d4e5f6", "DAL456")),
+    ("surface/KDCA", TRACK),
+    (f"radio/{TOWER_KHZ}/tx", transmission(TOWER_KHZ)),
+    (f"radio/{GROUND_KHZ}/tx", transmission(GROUND_KHZ)),
+    (f"asr/{GROUND_KHZ}", HEARD),
+    ("advisory/ATC", advisory("ATC")),
+    ("advisory/AAL123", advisory("AAL123")),
+    ("vision/mast", picture_of("mast", None)),
+    ("vision/nose", picture_of("nose", "DAL456")),
+    ("command/AAL123", COMMAND),
+)
+SEEN = {
+    "TOWER": {
+        "state AAL123", "state DAL456", "state track 1", f"call call-{TOWER_KHZ}",
+        "advisory for ATC", "camera mast", "picture mast",
+    },
+    "AAL123": {
+        "state AAL123", f"call call-{TOWER_KHZ}", "advisory for AAL123", "event command",
+    },
+    "DAL456": {
+        "state AAL123", "state DAL456", f"call call-{GROUND_KHZ}", "camera nose", "picture nose",
+    },
+}  # fmt: skip
+"""What is seen at each seat of what the run publishes."""
+FILES = {
+    "api/cameras/mast/1.jpg": "of-tower",
+    "api/cameras/nose/1.jpg": "of-pilot",
+    "api/calls/a-1-0-ATC.wav": "of-tower",
+    "api/calls/a-1-0-DAL456.wav": "of-pilot",
+}
+"""Browsers that get each picture and sound."""
+
+
+@pytest.fixture
+def seats() -> Iterator[tuple[PretendedRun, str]]:
+    run = PretendedRun(SEATS)
+    live = LiveRun(run.changes, run.of_seats, print, run.views)
+    for key, message in PUBLISHED:
+        live.take(Logged(key, "", message.t_ns, message.model_dump_json().encode()))
+    pixels = bytes(64 * 48 * 3)
+    for name, carrier in (("mast", None), ("nose", "DAL456")):
+        run.pictures[name, 1] = Picture(64, 48, pixels, Audience("camera", carrier))
+    for recipient in ("ATC", "DAL456"):
+        run.kept[f"a-1-0-{recipient}"] = Sound(b"\0\0", Audience("advisory", recipient))
+    with seat_page(run) as (_, url):
+        yield run, url
+
+
+def opened(url: str, identity: str = "") -> ClientConnection:
+    place = f"{url.replace('http', 'ws')}api/live?browser={identity}"
+    return connect(place, proxy=None)
+
+
+def names(message: dict[str, Any]) -> set[str]:
+    """Return what a message shows, besides the clock."""
+    found = set()
+    for kind, first, *_ in message.get("changes", ()):
+        match kind:
+            case "call" | "camera":
+                found.add(f"{kind} {first.get('id') or first['name']}")
+            case "advisory":
+                found |= {f"advisory {one['message']}" for one in first["texts"]}
+            case "event" if first["kind"] == "command":
+                found.add("event command")
+            case "state" | "picture":
+                found.add(f"{kind} {first}")
+    return found
+
+
+def taken(socket: ClientConnection, seat: str) -> set[str]:
+    """Take a seat, and return what is shown before that is told."""
+    socket.send(json.dumps({"take": seat}))
+    shown: set[str] = set()
+    while (message := json.loads(socket.recv(timeout=PATIENCE_S))).get("seats", {}).get(
+        seat
+    ) != "yours":
+        shown |= names(message)
+    return shown
+
+
+@pytest.mark.parametrize("seat", SEEN)
+def test_who_takes_a_seat_is_shown_what_that_seat_sees(
+    seats: tuple[PretendedRun, str], seat: str
+) -> None:
+    with opened(seats[1]) as socket:
+        assert taken(socket, seat) == SEEN[seat]
+
+
+def test_who_has_no_seat_is_shown_the_clock_alone(seats: tuple[PretendedRun, str]) -> None:
+    run, url = seats
+    with opened(url) as socket:
+        run.changes.add("clock", 1.0, "stopped", "realtime")
+        shown: list[str] = []
+        while "stopped" not in json.dumps(message := json.loads(socket.recv(PATIENCE_S))):
+            shown += [kind for kind, *_ in message.get("changes", ())]
+        assert set(shown) <= {"clock"}
+
+
+def test_what_comes_later_is_shown_at_the_seats_that_see_it(
+    seats: tuple[PretendedRun, str],
+) -> None:
+    run, url = seats
+    with opened(url) as socket, opened(url, "tab") as second_tab:
+        taken(socket, "AAL123")
+        run.changes.add("state", "DAL456", audience=Audience("adsb", "d4e5f6"))
+        run.changes.add("state", "AAL123", audience=Audience("adsb", "a1b2c3"))
+        assert names(json.loads(next(one for one in socket if "state" in one))) == {"state AAL123"}
+        run.changes.add("state", "everybody")
+        assert names(json.loads(next(one for one in second_tab if "state" in one))) == {
+            "state everybody"
+        }
+
+
+def test_who_comes_back_is_shown_what_the_seat_saw_meanwhile(
+    seats: tuple[PretendedRun, str],
+) -> None:
+    run, url = seats
+    with opened(url, "one") as socket:
+        taken(socket, "AAL123")
+    begin = run.changes.next_number
+    for icao24, name in (("a1b2c3", "AAL123"), ("d4e5f6", "DAL456")):
+        run.changes.add("state", name, audience=Audience("adsb", icao24))
+    place = f"{url.replace('http', 'ws')}api/live?browser=one&from={begin}"
+    with connect(place, proxy=None) as socket:
+        shown: set[str] = set()
+        while (message := json.loads(socket.recv(timeout=PATIENCE_S))).get("seats", {}).get(
+            "AAL123"
+        ) != "yours":
+            shown |= names(message)
+        assert shown == {"state AAL123"}
+
+
+def test_files_are_for_the_browser_at_a_seat_that_sees_them(
+    seats: tuple[PretendedRun, str],
+) -> None:
+    run, url = seats
+    answers = {}
+    with opened(url, "of-tower") as tower, opened(url, "of-pilot") as pilot:
+        taken(tower, "TOWER")
+        taken(pilot, "DAL456")
+        with httpx.Client(base_url=url, trust_env=False) as client:
+            for file in FILES:
+                for browser in ("of-tower", "of-pilot", "without-a-seat", ""):
+                    found = client.get(file, params={"browser": browser})
+                    if found.status_code != 403:
+                        answers[file, browser] = found.status_code
+                        assert found.content
+                    else:
+                        assert "not for the seat" in found.text
+    assert answers == dict.fromkeys(FILES.items(), 200)
+    assert any("refused a file" in line for line in run.told)
+
+
+def test_pictures_of_a_camera_that_the_seat_does_not_see_are_not_drawn(
+    seats: tuple[PretendedRun, str],
+) -> None:
+    run, url = seats
+    with opened(url) as socket:
+        taken(socket, "DAL456")
+        for camera in ("mast", "unknown", "nose"):
+            socket.send(json.dumps({"watch": camera}))
+        assert run.watched.get(timeout=PATIENCE_S) == {"nose"}
+
+
+def test_a_seat_listens_to_its_own_frequencies_alone(seats: tuple[PretendedRun, str]) -> None:
+    run, url = seats
+    with opened(url) as socket:
+        taken(socket, "TOWER")
+        socket.send(json.dumps({"tune": [TOWER_KHZ, GROUND_KHZ]}))
+        shown_refused = next(one for one in socket if "refused" in one)
+        assert "frequency" in shown_refused
+        for khz in (GROUND_KHZ, TOWER_KHZ):
+            run.sounds.add("opened", {"id": "one", "frequency_khz": khz})
+        heard = json.loads(next(one for one in socket if "sounds" in one))["sounds"]
+        assert [piece[1]["frequency_khz"] for piece in heard] == [TOWER_KHZ]
