@@ -1,4 +1,8 @@
-"""Files: written all or nothing, read where they have an end, and their SHA-256."""
+"""Files: written all or nothing, read where they have an end, and their SHA-256.
+
+A folder that somebody else has filled may hold links and pipes. What is written replaces a link
+and never follows one; what is read is a regular file of that folder.
+"""
 
 from __future__ import annotations
 
@@ -16,6 +20,8 @@ PARTIAL = ".partial"
 def replace_file(path: Path, data: bytes) -> None:
     """Write a file, in the place of an earlier one only when all of it is there.
 
+    A link of that name is replaced, and what it leads to stays as it is.
+
     Raises
     ------
     OSError
@@ -23,7 +29,8 @@ def replace_file(path: Path, data: bytes) -> None:
     """
     partial = path.with_name(path.name + PARTIAL)
     try:
-        partial.write_bytes(data)
+        partial.unlink(missing_ok=True)
+        write_new(partial, data, 0o666)
         partial.replace(path)
     except OSError:
         with suppress(OSError):
@@ -42,6 +49,19 @@ def write_new(path: Path, data: bytes, mode: int) -> None:
     descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, mode)
     with open(descriptor, "wb") as stream:  # noqa: PTH123
         stream.write(data)
+
+
+def make_folder(path: Path) -> None:
+    """Make a folder, unless it is there already.
+
+    Raises
+    ------
+    OSError
+        It cannot be made, or is a link: what is written into it would be elsewhere.
+    """
+    if path.is_symlink():
+        raise OSError(errno.ELOOP, "a link, which may lead elsewhere", str(path))
+    path.mkdir(parents=True, exist_ok=True)
 
 
 def regular(path: Path) -> Path:

@@ -14,6 +14,7 @@ from airhilt.audio.pcm import from_pcm, to_pcm
 from airhilt.audio.wav import encode_wav, read_wav
 from airhilt.deferred import Payload
 from airhilt.errors import RunFolderError, SpeechError, disk_failed
+from airhilt.files import make_folder
 from airhilt.messages import (
     FROM_MICROPHONE,
     AdvisoryAudio,
@@ -79,7 +80,7 @@ class AudioRecorder:
             return
         path = audio_file(self._folder, message)
         try:
-            self._folder.mkdir(exist_ok=True)
+            make_folder(self._folder)
             path.write_bytes(encode_wav(from_pcm(pcm)))
         except OSError as error:
             with suppress(OSError):

@@ -158,9 +158,15 @@ class RunFolder:
         Raises
         ------
         RunFolderError
-            It holds something already, or cannot be written.
+            It holds something already, leads elsewhere by a link, or cannot be written.
         """
         path = self.path
+        for folder in (self.audio_path, self.pictures_path, self.video_path):
+            if folder.is_symlink():
+                raise RunFolderError(
+                    f"{folder}: a link, which may lead elsewhere; delete it, or choose another "
+                    "folder with --out"
+                )
         existing = next(parent for parent in (path, *path.absolute().parents) if parent.exists())
         if not existing.is_dir() or not os.access(existing, os.W_OK | os.X_OK):
             raise RunFolderError(

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import fcntl
 import json
+import os
 import uuid
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -16,7 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from airhilt.errors import AirhiltError
-from airhilt.files import PARTIAL, replace_file
+from airhilt.files import PARTIAL, make_folder, replace_file
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -90,8 +91,8 @@ class SweepFolder:
         """
         self.require_usable()
         with _told(self.path, has_runs=self.parts_path.is_dir()):
-            self.parts_path.mkdir(parents=True, exist_ok=True)
-            self._lock_path.touch()
+            make_folder(self.parts_path)
+            os.close(self._open_lock())
 
     def require_usable(self) -> None:
         """Complain about a folder that holds something else; nothing is written.
@@ -99,8 +100,14 @@ class SweepFolder:
         Raises
         ------
         SweepFolderError
-            It does.
+            It does, or leads elsewhere by a link.
         """
+        for folder in (self.parts_path, self.runs_path, self.figures_path):
+            if folder.is_symlink():
+                raise SweepFolderError(
+                    f"{folder}: a link, which may lead elsewhere; delete it, or choose another "
+                    "folder with --out"
+                )
         if self._holds_something_else():
             raise SweepFolderError(
                 f"{self.path}: holds files that are no sweep; choose another folder with --out"
@@ -129,7 +136,7 @@ class SweepFolder:
             Another process has it.
         """
         with _told(self.path):
-            stream = self._lock_path.open("w")
+            stream = os.fdopen(self._open_lock(), "w")
         with stream:
             try:
                 fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -141,6 +148,11 @@ class SweepFolder:
             for left in (*self.path.glob(UNFINISHED), *self.parts_path.glob(UNFINISHED)):
                 left.unlink(missing_ok=True)
             yield
+
+    def _open_lock(self) -> int:
+        """Return the descriptor of the lock, which is made if it is not there."""
+        flags = os.O_WRONLY | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK
+        return os.open(self._lock_path, flags, 0o666)
 
     # --- what is run ------------------------------------------------------------------------
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import csv
+import io
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 from airhilt.errors import RunFolderError, disk_failed
+from airhilt.files import replace_file
 from airhilt.messages import NasaTlx
 from airhilt.metrics.summary import IsaRating, PersonReaction, PersonSummary
 from airhilt.record import RunFolder
@@ -35,13 +37,14 @@ def write_people_csv(folder: RunFolder, path: Path) -> None:
     summary = folder.summary()
     if summary is None:
         raise RunFolderError(f"{folder.path}: no summary.json; expected a run that has ended")
+    table = io.StringIO(newline="")
+    writer = csv.DictWriter(table, COLUMNS, extrasaction="ignore")
+    writer.writeheader()
+    for person in summary.get("people", ()):
+        for row in _rows(person):
+            writer.writerow({"run": folder.path.name, "seat": person["seat"], **row})
     try:
-        with path.open("w", newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, COLUMNS, extrasaction="ignore")
-            writer.writeheader()
-            for person in summary.get("people", ()):
-                for row in _rows(person):
-                    writer.writerow({"run": folder.path.name, "seat": person["seat"], **row})
+        replace_file(path, table.getvalue().encode())
     except OSError as error:
         raise disk_failed(str(path), error) from None
 

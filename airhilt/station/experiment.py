@@ -33,6 +33,9 @@ MOST_ATTEMPTS = 100
 """Largest number of times that a trial is begun."""
 TYPES = {"string": pa.string(), "bool": pa.bool_(), "int64": pa.int64(), "float64": pa.float64()}
 
+WRITERS = {"parquet": pa.parquet.write_table, "csv": pa.csv.write_csv}
+"""Functions that write the table, by the end of its file's name."""
+
 
 class Progress:
     """Trials that a participant has done so far, as the folder says.
@@ -209,7 +212,8 @@ def write_tables(plan: Plan, folder: Path) -> int:
     Raises
     ------
     RunFolderError
-        The numbers of a trial are missing, or are not those that its run wrote.
+        The numbers of a trial are missing, or are not those that its run wrote. Or the table
+        cannot be written.
     """
     rows = [row for name in plan.participants for row in _rows(Progress(plan, folder, name))]
     ratings = [*NasaTlx.model_fields, "raw_tlx"]
@@ -219,9 +223,14 @@ def write_tables(plan: Plan, folder: Path) -> int:
     fields += [pa.field(f"nasa_tlx.{name}", pa.float64()) for name in ratings]
     fields += [pa.field(column.name, TYPES[column.type]) for column in metric_columns()]
     table = pa.Table.from_pylist(rows, schema=pa.schema(fields))
-    folder.mkdir(parents=True, exist_ok=True)
-    pa.parquet.write_table(table, folder / "experiment.parquet")
-    pa.csv.write_csv(table, folder / "experiment.csv")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for suffix, write in WRITERS.items():
+            sink = pa.BufferOutputStream()
+            write(table, sink)
+            replace_file(folder / f"experiment.{suffix}", sink.getvalue().to_pybytes())
+    except OSError as error:
+        raise RunFolderError(f"{folder}: cannot be written: {error.strerror}") from None
     return len(rows)
 
 

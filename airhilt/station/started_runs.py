@@ -19,7 +19,7 @@ import psutil
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from airhilt.errors import StationError
-from airhilt.files import replace_file
+from airhilt.files import make_folder, replace_file
 from airhilt.options import Options, arguments_of
 from airhilt.scenario.seats import seats_of
 from airhilt.text import LONGEST_LINE, readable
@@ -72,7 +72,8 @@ class StartedRuns:
         Raises
         ------
         AirhiltError
-            The scenario is wrong or has no such seat, or enough runs go on already.
+            The scenario is wrong or has no such seat, enough runs go on already, or the folder
+            cannot be written.
         """
         loaded = load(scenario)
         seats = seats_of(options.seat, loaded)
@@ -82,7 +83,11 @@ class StartedRuns:
         given = options.model_copy(update={"out": self.folder / name, "pace": "realtime"})
         command = [sys.executable, "-m", "airhilt", "cosim", f"--scenario={scenario}"]
         command += ["--view", "--no-browser", "--port=0", *arguments_of(given)]
-        (self.folder / KEPT).mkdir(parents=True, exist_ok=True)
+        try:
+            make_folder(self.folder / KEPT)
+            replace_file(self._output(name), b"")
+        except OSError as error:
+            raise StationError(f"{error.filename}: cannot be written: {error.strerror}") from None
         # A session of its own, and a file to write to: it needs nothing of this process.
         with self._output(name).open("wb") as output:
             child = subprocess.Popen(  # noqa: S603 - our own command

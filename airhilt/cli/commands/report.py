@@ -11,6 +11,7 @@ import click
 from airhilt.cli.notices import tell
 from airhilt.cli.words import counted
 from airhilt.errors import AirhiltError
+from airhilt.files import replace_file
 
 if TYPE_CHECKING:
     from airhilt.record.sweep_folder import SweepFolder
@@ -94,11 +95,13 @@ def _write_csv(sweep: SweepFolder, path: Path) -> None:
     AirhiltError
         The table is not there, or the file cannot be written.
     """
+    from pyarrow import BufferOutputStream
     from pyarrow.csv import write_csv
 
-    table = sweep.table()
+    sink = BufferOutputStream()
+    write_csv(sweep.table(), sink)
     try:
-        write_csv(table, path)
+        replace_file(path, sink.getvalue().to_pybytes())
     except OSError as error:
         raise AirhiltError(f"{path}: cannot be written: {error.strerror or error}") from None
 
