@@ -9,12 +9,16 @@ from __future__ import annotations
 import errno
 import hashlib
 import os
+import stat
 from contextlib import suppress
 from functools import cache
+from io import BufferedReader
 from pathlib import Path
 
 PARTIAL = ".partial"
 """End of the name of a file that is being written."""
+NOT_INSIDE = (errno.ELOOP, errno.ENOTDIR, errno.EMLINK, errno.ENXIO)
+"""Errors of the system for a link that is not followed, and for a socket."""
 
 
 def replace_file(path: Path, data: bytes) -> None:
@@ -62,6 +66,52 @@ def make_folder(path: Path) -> None:
     if path.is_symlink():
         raise OSError(errno.ELOOP, "a link, which may lead elsewhere", str(path))
     path.mkdir(parents=True, exist_ok=True)
+
+
+def open_inside(folder: Path, path: Path) -> BufferedReader:
+    """Open a file of a folder for reading.
+
+    Raises
+    ------
+    OSError
+        It is not there, or is not a regular file of that folder: a link, a pipe, a device, or
+        behind a link to another folder.
+    """
+    parts = path.relative_to(folder).parts
+    refused = OSError(errno.EINVAL, "no regular file of its folder", str(path))
+    if not parts or ".." in parts:
+        raise refused
+    *between, name = parts
+    reached = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        for part in between:
+            inner = os.open(part, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW, dir_fd=reached)
+            os.close(reached)
+            reached = inner
+        # Nonblocking: the other end of a pipe may never be opened.
+        opened = os.open(name, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK, dir_fd=reached)
+    except OSError as error:
+        raise (refused if error.errno in NOT_INSIDE else error) from None
+    except ValueError:  # No file can have such a name.
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(path)) from None
+    finally:
+        os.close(reached)
+    if not stat.S_ISREG(os.fstat(opened).st_mode):
+        os.close(opened)
+        raise refused
+    return os.fdopen(opened, "rb")
+
+
+def read_inside(folder: Path, path: Path) -> bytes:
+    """Return the content of a file of a folder.
+
+    Raises
+    ------
+    OSError
+        As `open_inside`, or it cannot be read.
+    """
+    with open_inside(folder, path) as stream:
+        return stream.read()
 
 
 def regular(path: Path) -> Path:

@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from airhilt.errors import AirhiltError
-from airhilt.files import PARTIAL, make_folder, replace_file
+from airhilt.files import PARTIAL, make_folder, read_inside, replace_file
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -169,7 +169,7 @@ class SweepFolder:
             It is damaged.
         """
         try:
-            loaded = json.loads(self.info_path.read_text(encoding="utf-8"))
+            loaded = json.loads(read_inside(self.path, self.info_path))
         except (OSError, UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
             raise SweepFolderError(f"{self.info_path}: cannot be read: {error}") from None
         if not isinstance(loaded, dict) or loaded.get("format") != FORMAT:
@@ -315,7 +315,7 @@ def _table_or_reason(part: Path) -> tuple[pa.Table | None, str]:
     import pyarrow.parquet as pq
 
     try:
-        table = pq.read_table(part)
+        table = pq.read_table(pa.BufferReader(read_inside(part.parents[1], part)))
     except (pa.ArrowException, OSError) as error:
         return None, str(error).splitlines()[0]
     reason = _misfit(table)
@@ -378,7 +378,7 @@ def _read_table(path: Path) -> pa.Table:
     import pyarrow.parquet as pq
 
     try:
-        return pq.read_table(path)
+        return pq.read_table(pa.BufferReader(read_inside(path.parent, path)))
     except FileNotFoundError:
         raise SweepFolderError(
             f"{path}: not there; give the command of the sweep again, it makes the tables from the "

@@ -18,7 +18,7 @@ import pyarrow.csv
 import pyarrow.parquet
 
 from airhilt.errors import RunFolderError, StationError
-from airhilt.files import replace_file
+from airhilt.files import read_inside, replace_file
 from airhilt.messages import NasaTlx
 from airhilt.metrics.columns import metric_columns, metrics_of
 from airhilt.options import options_of
@@ -87,16 +87,16 @@ class Progress:
     def answers(self, name: str) -> NasaTlx | None:
         """Return what was answered at the end of a run or after it, None if nothing was yet."""
         try:
-            return NasaTlx.model_validate_json(self._answers_path(name).read_bytes())
+            return NasaTlx.model_validate_json(read_inside(self.folder, self._answers_path(name)))
         except (OSError, ValueError):
             return self._answers_in_run(name)
 
     def _answers_in_run(self, name: str) -> NasaTlx | None:
         try:
-            summary = json.loads((self.folder / name / "summary.json").read_bytes())
+            summary = RunFolder(self.folder / name).summary() or {}
             (person,) = summary["people"]
             return NasaTlx.model_validate(person["workload"]["nasa_tlx"])
-        except (OSError, ValueError, LookupError, TypeError):
+        except (RunFolderError, ValueError, LookupError, TypeError):
             return None
 
     def answer(self, name: str, answers: NasaTlx) -> None:

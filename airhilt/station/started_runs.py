@@ -19,7 +19,7 @@ import psutil
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from airhilt.errors import StationError
-from airhilt.files import make_folder, replace_file
+from airhilt.files import make_folder, open_inside, read_inside, replace_file
 from airhilt.options import Options, arguments_of
 from airhilt.scenario.seats import seats_of
 from airhilt.text import LONGEST_LINE, readable
@@ -126,7 +126,7 @@ class StartedRuns:
         found = []
         for path in (self.folder / KEPT).glob("*.json"):
             with suppress(OSError, ValidationError):  # One that is being written, or is foreign.
-                found.append(StartedRun.model_validate_json(path.read_bytes()))
+                found.append(StartedRun.model_validate_json(read_inside(self.folder, path)))
         return sorted(found, key=lambda run: run.created_s, reverse=True)
 
     def state(self, run: StartedRun) -> State:
@@ -169,7 +169,7 @@ class StartedRuns:
 
     def _lines(self, run: StartedRun) -> list[str]:
         try:
-            with self._output(run.name).open("rb") as output:
+            with open_inside(self.folder, self._output(run.name)) as output:
                 text = output.read(END_BYTES)
                 output.seek(max(output.seek(0, os.SEEK_END) - END_BYTES, len(text)))
                 text += output.read()

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import os
+import shutil
 from pathlib import Path
 from typing import Any
 
 import pyarrow as pa
 import pytest
 
-from airhilt.files import make_folder, replace_file
+from airhilt.files import make_folder, read_inside, replace_file
 from airhilt.record.sweep_folder import SweepFolder
+from airhilt.station.started_runs import StartedRun, StartedRuns
 from radio_folder import busy_radio
 from sweep_tables import grid, write_sweep
 
@@ -150,3 +153,94 @@ def test_tables_of_a_sweep_are_written_in_the_place_of_links(tmp_path: Path, out
     folder.write_tables(table, table, {"format": 1, "grid_sha256": "a"})
     assert outside.read_text() == PRECIOUS
     assert folder.table().num_rows == 1
+
+
+# --- reading --------------------------------------------------------------------------------
+
+
+def test_a_file_inside_is_read_and_others_are_not(tmp_path: Path, outside: Path) -> None:
+    folder = tmp_path / "run"
+    (folder / "audio").mkdir(parents=True)
+    (folder / "audio" / "call.wav").write_bytes(b"sound")
+    (folder / "link").symlink_to(outside)
+    (folder / "home").symlink_to(outside.parent)
+    (folder / "inside").symlink_to(folder / "audio" / "call.wav")
+    os.mkfifo(folder / "pipe")
+    assert read_inside(folder, folder / "audio" / "call.wav") == b"sound"
+    for name in ("link", "home/.bashrc", "inside", "pipe", "audio", "audio/../../home/.bashrc"):
+        with pytest.raises(OSError, match="no regular file of its folder"):
+            read_inside(folder, folder / name)
+    with pytest.raises(FileNotFoundError):
+        read_inside(folder, folder / "nothing")
+
+
+def test_a_folder_that_the_user_names_by_a_link_is_read(tmp_path: Path, outside: Path) -> None:
+    (tmp_path / "latest").symlink_to(outside.parent)
+    assert read_inside(tmp_path / "latest", tmp_path / "latest" / ".bashrc") == PRECIOUS.encode()
+
+
+@pytest.mark.parametrize("name", ["log.mcap", "latency.jsonl", "summary.json", "run.json"])
+@pytest.mark.parametrize("command", ["report", "verify", "replay"])
+def test_a_link_in_the_place_of_a_file_of_a_run_is_named(
+    airhilt_command: Any, run_copy: Path, tmp_path: Path, name: str, command: str
+) -> None:
+    shutil.move(run_copy / name, tmp_path / name)
+    (run_copy / name).symlink_to(tmp_path / name)
+    done = airhilt_command(command, run_copy)
+    assert "Traceback" not in done.stderr
+    assert f"{name}: " in done.stdout + done.stderr
+    assert "no regular file of its folder" in done.stdout + done.stderr
+
+
+def test_verify_names_a_link_to_a_folder(
+    airhilt_command: Any, run_copy: Path, outside: Path
+) -> None:
+    (run_copy / "audio").symlink_to(outside.parent)
+    assert "not written by the run: audio" in airhilt_command("verify", run_copy).stdout
+
+
+@pytest.mark.parametrize("kind", ["link", "pipe"])
+def test_sound_that_is_no_file_of_the_run_is_named_and_not_read(
+    airhilt_command: Any, tmp_path: Path, kind: str
+) -> None:
+    folder = busy_radio(tmp_path / "radio")
+    sound = folder / "audio" / "clearance.wav"
+    shutil.move(sound, tmp_path / sound.name)
+    os.mkfifo(sound) if kind == "pipe" else sound.symlink_to(tmp_path / sound.name)
+    done = airhilt_command("listen", folder)
+    assert done.returncode == 2
+    assert "clearance.wav: cannot be read: no regular file of its folder" in done.stderr
+    assert airhilt_command("report", folder).returncode == 0
+    assert "The sound of 1 calls" in (folder / "report.html").read_text()
+
+
+@pytest.mark.parametrize("kind", ["link", "pipe", "folder"])
+def test_a_table_of_a_sweep_that_is_no_file_of_it_is_named(
+    airhilt_command: Any, tmp_path: Path, kind: str
+) -> None:
+    folder = write_sweep(tmp_path / "sweep", grid(["s01a_tight_timing"], ["reference"]))
+    table = folder / "sweep.parquet"
+    shutil.move(table, tmp_path / table.name)
+    match kind:
+        case "link":
+            table.symlink_to(tmp_path / table.name)
+        case "pipe":
+            os.mkfifo(table)
+        case "folder":
+            table.mkdir()
+            shutil.copy(tmp_path / table.name, table / "part.parquet")
+    done = airhilt_command("report", folder)
+    assert done.returncode == 2
+    assert "sweep.parquet: damaged (" in done.stderr
+    assert "no regular file of its folder" in done.stderr
+
+
+def test_a_station_passes_over_pipes_in_the_place_of_its_files(tmp_path: Path) -> None:
+    kept = tmp_path / ".station"
+    kept.mkdir()
+    os.mkfifo(kept / "pipe.json")
+    started = StartedRuns(tmp_path)
+    assert started.runs() == []
+    run = StartedRun(name="run", scenario="s", seats=(), process=1, created_s=0.0)
+    os.mkfifo(kept / "run.txt")
+    assert started.url(run) == ""
