@@ -50,7 +50,7 @@ def report(folder: Path, out: Path | None, csv: Path | None) -> None:
 
     The figures of a sweep are in its folder too, under figures, as SVG and as PDF.
     """
-    from airhilt.record import RunFolder
+    from airhilt.record import RunFolder, open_run
     from airhilt.record.sweep_folder import SweepFolder
     from airhilt.report.people_csv import write_people_csv
 
@@ -58,9 +58,8 @@ def report(folder: Path, out: Path | None, csv: Path | None) -> None:
     if csv is not None:
         if out is not None:
             raise click.UsageError("--out, --csv: expected one of them")
-        run = RunFolder(folder)
-        if run.info_path.is_file():
-            write_people_csv(run, csv)
+        if RunFolder(folder).info_path.is_file():
+            write_people_csv(open_run(folder, tell), csv)
         else:
             _write_csv(SweepFolder.open(folder), csv)
         click.echo(csv)
