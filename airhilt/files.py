@@ -1,20 +1,30 @@
-"""Files: written all or nothing, read where they have an end, and their SHA-256."""
+"""Files: written all or nothing, read where they have an end, and their SHA-256.
+
+A folder that somebody else has filled may hold links and pipes. What is written replaces a link
+and never follows one; what is read is a regular file of that folder.
+"""
 
 from __future__ import annotations
 
 import errno
 import hashlib
 import os
+import stat
 from contextlib import suppress
 from functools import cache
+from io import BufferedReader
 from pathlib import Path
 
 PARTIAL = ".partial"
 """End of the name of a file that is being written."""
+NOT_INSIDE = (errno.ELOOP, errno.ENOTDIR, errno.EMLINK, errno.ENXIO)
+"""Errors of the system for a link that is not followed, and for a socket."""
 
 
 def replace_file(path: Path, data: bytes) -> None:
     """Write a file, in the place of an earlier one only when all of it is there.
+
+    A link of that name is replaced, and what it leads to stays as it is.
 
     Raises
     ------
@@ -23,7 +33,8 @@ def replace_file(path: Path, data: bytes) -> None:
     """
     partial = path.with_name(path.name + PARTIAL)
     try:
-        partial.write_bytes(data)
+        partial.unlink(missing_ok=True)
+        write_new(partial, data, 0o666)
         partial.replace(path)
     except OSError:
         with suppress(OSError):
@@ -42,6 +53,65 @@ def write_new(path: Path, data: bytes, mode: int) -> None:
     descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, mode)
     with open(descriptor, "wb") as stream:  # noqa: PTH123
         stream.write(data)
+
+
+def make_folder(path: Path) -> None:
+    """Make a folder, unless it is there already.
+
+    Raises
+    ------
+    OSError
+        It cannot be made, or is a link: what is written into it would be elsewhere.
+    """
+    if path.is_symlink():
+        raise OSError(errno.ELOOP, "a link, which may lead elsewhere", str(path))
+    path.mkdir(parents=True, exist_ok=True)
+
+
+def open_inside(folder: Path, path: Path) -> BufferedReader:
+    """Open a file of a folder for reading.
+
+    Raises
+    ------
+    OSError
+        It is not there, or is not a regular file of that folder: a link, a pipe, a device, or
+        behind a link to another folder.
+    """
+    parts = path.relative_to(folder).parts
+    refused = OSError(errno.EINVAL, "no regular file of its folder", str(path))
+    if not parts or ".." in parts:
+        raise refused
+    *between, name = parts
+    reached = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    try:
+        for part in between:
+            inner = os.open(part, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW, dir_fd=reached)
+            os.close(reached)
+            reached = inner
+        # Nonblocking: the other end of a pipe may never be opened.
+        opened = os.open(name, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK, dir_fd=reached)
+    except OSError as error:
+        raise (refused if error.errno in NOT_INSIDE else error) from None
+    except ValueError:  # No file can have such a name.
+        raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(path)) from None
+    finally:
+        os.close(reached)
+    if not stat.S_ISREG(os.fstat(opened).st_mode):
+        os.close(opened)
+        raise refused
+    return os.fdopen(opened, "rb")
+
+
+def read_inside(folder: Path, path: Path) -> bytes:
+    """Return the content of a file of a folder.
+
+    Raises
+    ------
+    OSError
+        As `open_inside`, or it cannot be read.
+    """
+    with open_inside(folder, path) as stream:
+        return stream.read()
 
 
 def regular(path: Path) -> Path:

@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import ipaddress
 import re
+import socket
 
 from airhilt.bus.access import PUBLISHED
 from airhilt.errors import BusError, shown
 
-ENDPOINT = re.compile(r"(?P<protocol>[a-z-]+)/(?P<host>\[[^\]]*\]|[^:/?#]*):\d+([?#].*)?")
+ENDPOINT = re.compile(r"(?P<protocol>[a-z-]+)/(?P<host>\[[^\]]*\]|[^:/?#]*):(?P<port>\d+)([?#].*)?")
 """Protocol, host and port; Zenoh reads metadata and settings after ``?`` and ``#``."""
 AUTHENTICATED = ("tls", "quic")
 """Protocols that ask a program for its certificate."""
+CONNECTED = ("tcp", "tls", "ws")
+"""Protocols in which a connection is made before anything else."""
 LOCAL = ("unixsock-stream", "unixpipe")
 """Protocols that reach no other machine."""
 
@@ -20,6 +23,19 @@ def host_of(endpoint: str) -> str | None:
     """Return the host of an endpoint, None if it has none."""
     found = ENDPOINT.fullmatch(endpoint)
     return found["host"].strip("[]") if found and found["host"] else None
+
+
+def is_taken(endpoint: str, patience_s: float = 1.0) -> bool:
+    """Return true if something accepts connections there; false also for a protocol without any."""
+    found = ENDPOINT.fullmatch(endpoint)
+    if found is None or found["protocol"] not in CONNECTED:
+        return False
+    try:
+        address = found["host"].strip("[]"), int(found["port"])
+        socket.create_connection(address, patience_s).close()
+    except (OSError, ValueError, OverflowError):
+        return False
+    return True
 
 
 def is_loopback(endpoint: str) -> bool:

@@ -19,7 +19,7 @@ import zenoh
 
 from airhilt.bus.access import BY_CERTIFICATE, WITHOUT_KEYS, Role, Subjects, access_control
 from airhilt.bus.certificates import read_keys
-from airhilt.bus.endpoints import require_authenticated
+from airhilt.bus.endpoints import is_taken, require_authenticated
 from airhilt.bus.intake import Source, size_filter
 from airhilt.deferred import Payload
 from airhilt.errors import BusError, RendererError
@@ -101,7 +101,8 @@ def connect_client(
     Raises
     ------
     BusError
-        Nothing listens there in time, the keys are none, or Zenoh cannot make its shared memory.
+        Nothing listens there in time or lets this program in, the keys are none, or Zenoh cannot
+        make its shared memory.
     """
     keys = None if tls is None else read_keys(tls, role)
     if endpoint is None and keys is not None:
@@ -117,6 +118,14 @@ def connect_client(
         except zenoh.ZError as error:
             _require_shared_memory(error)
             if time.monotonic() > deadline:
+                if is_taken(endpoint):
+                    expected = (
+                        "the keys of the run" if keys else "the run's own keys with --tls, if any"
+                    )
+                    raise BusError(
+                        f"what listens on {endpoint} does not let this program in: it is no run, "
+                        f"or one with other keys; expected {expected} (Zenoh: {_reason(error)})"
+                    ) from None
                 raise BusError(
                     f"nothing listens on {endpoint} after {patience_s:g} s; start the run first: "
                     f"airhilt cosim --scenario NAME --endpoint {endpoint} (Zenoh: {_reason(error)})"

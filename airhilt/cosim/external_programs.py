@@ -61,7 +61,10 @@ AT_SEATS = (SpokenWords, MicrophoneAudio, AdvisoryPerceived, SeatPresence, Workl
 """Messages of people at seats."""
 ANSWERS = "worker/*/step"
 """Keys on which programs answer that were not asked."""
-ANSWERS_LIMIT = Limit(size_bytes=0, rate_hz=20)
+SEATS = "seat/*"
+"""Keys on which programs take seats."""
+EVENTS_LIMIT = Limit(size_bytes=0, rate_hz=20)
+"""Limit of answers that nobody asked for, and of taking or leaving a seat."""
 LIMITS = {keys: kind.limit for keys, kind in HEARD.items() if kind.limit is not None}
 MOST_NOTICES = 20
 """Number of refusals that are told on the terminal; the log has all."""
@@ -141,7 +144,9 @@ class ExternalPrograms:
         self._answer = answer
         self._workers = workers
         self._is_strict = is_strict
-        self._intake = Intake(LIMITS | {ANSWERS: ANSWERS_LIMIT}, self._dropping)
+        self._seat_keys = frozenset(f"seat/{seat}" for seat in seats)
+        bounded = dict.fromkeys((ANSWERS, SEATS, *self._seat_keys), EVENTS_LIMIT)
+        self._intake = Intake(LIMITS | bounded, self._dropping)
         self._dropped: dict[str, int] = {}
 
     def serve(self, bus: Bus) -> None:
@@ -153,8 +158,14 @@ class ExternalPrograms:
 
     def _note_presence(self, seat: str, is_taken: bool) -> None:
         """Take note that a person has taken a seat, or left it (any thread)."""
-        data = SeatPresence(is_taken=is_taken).model_dump_json().encode()
-        self._director.post(lambda: self.take(f"seat/{seat}", data))
+        key = f"seat/{seat}"
+        # Seats that nobody offers share one limit, so that they crowd out none that there is.
+        if self._intake.admit(key if key in self._seat_keys else SEATS, 0):
+            self._director.post(lambda: self._take_presence(key, is_taken))
+
+    def _take_presence(self, key: str, is_taken: bool) -> None:
+        self._intake.release(0)
+        self.take(key, SeatPresence(is_taken=is_taken).model_dump_json().encode())
 
     def _hear_refusal(self, refusal: Refusal) -> None:
         if self._intake.admit(ANSWERS, 0):
@@ -169,7 +180,7 @@ class ExternalPrograms:
 
     def _dropping(self, keys: str, cause: DropCause) -> None:
         """Tell of the first message of its kind that is dropped for this cause (any thread)."""
-        limit = LIMITS.get(keys, ANSWERS_LIMIT)
+        limit = LIMITS.get(keys, EVENTS_LIMIT)
         text = (
             f"messages on {keys} are dropped: {DROPPED[cause].format(limit=limit)}; summary.json "
             "will say how many"

@@ -11,9 +11,10 @@ from contextlib import suppress
 from pathlib import Path
 
 from airhilt.audio.pcm import from_pcm, to_pcm
-from airhilt.audio.wav import encode_wav, read_wav
+from airhilt.audio.wav import decode_wav, encode_wav
 from airhilt.deferred import Payload
 from airhilt.errors import RunFolderError, SpeechError, disk_failed
+from airhilt.files import make_folder, read_inside
 from airhilt.messages import (
     FROM_MICROPHONE,
     AdvisoryAudio,
@@ -79,7 +80,7 @@ class AudioRecorder:
             return
         path = audio_file(self._folder, message)
         try:
-            self._folder.mkdir(exist_ok=True)
+            make_folder(self._folder)
             path.write_bytes(encode_wav(from_pcm(pcm)))
         except OSError as error:
             with suppress(OSError):
@@ -97,7 +98,9 @@ def recorded_pcm(folder: Path, message: MessageWithSound) -> bytes:
     """
     path = audio_file(folder, message)
     try:
-        pcm = to_pcm(read_wav(path))
+        pcm = to_pcm(decode_wav(read_inside(folder.parent, path), str(path)))
+    except OSError as error:
+        raise RunFolderError(f"{path}: cannot be read: {error.strerror}") from None
     except SpeechError as error:
         raise RunFolderError(
             f"{error}; expected the sound of {message.id!r}, as the run wrote it"

@@ -8,6 +8,7 @@ import json
 import os
 import platform
 from contextlib import suppress
+from io import BufferedReader
 from pathlib import Path
 from typing import Any, Literal
 
@@ -15,7 +16,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 
 from airhilt._version import __version__
 from airhilt.errors import RunFolderError, first_line, first_problem, shown
-from airhilt.files import regular, replace_file
+from airhilt.files import open_inside, read_inside, replace_file
 from airhilt.messages import WorkerDescription
 from airhilt.options import Options
 from airhilt.record.manifest import FileRecord, digest, manifest
@@ -158,9 +159,15 @@ class RunFolder:
         Raises
         ------
         RunFolderError
-            It holds something already, or cannot be written.
+            It holds something already, leads elsewhere by a link, or cannot be written.
         """
         path = self.path
+        for folder in (self.audio_path, self.pictures_path, self.video_path):
+            if folder.is_symlink():
+                raise RunFolderError(
+                    f"{folder}: a link, which may lead elsewhere; delete it, or choose another "
+                    "folder with --out"
+                )
         existing = next(parent for parent in (path, *path.absolute().parents) if parent.exists())
         if not existing.is_dir() or not os.access(existing, os.W_OK | os.X_OK):
             raise RunFolderError(
@@ -236,6 +243,26 @@ class RunFolder:
             raise RunFolderError(f"{path}: no run here; expected a folder with a run.json")
         return folder
 
+    def open_file(self, path: Path) -> BufferedReader:
+        """Open a file of the run for reading.
+
+        Raises
+        ------
+        OSError
+            It is not there, or is no regular file of this folder.
+        """
+        return open_inside(self.path, path)
+
+    def read(self, path: Path) -> bytes:
+        """Return the content of a file of the run.
+
+        Raises
+        ------
+        OSError
+            It is not there, cannot be read, or is no regular file of this folder.
+        """
+        return read_inside(self.path, path)
+
     def write_info(self, info: RunInfo) -> None:
         """Write ``run.json`` with the hash of its content, all or nothing."""
         document = json.loads(info.model_dump_json())
@@ -265,7 +292,7 @@ class RunFolder:
             It is damaged or of another format.
         """
         try:
-            return RunInfo.model_validate_json(self.info_path.read_bytes())
+            return RunInfo.model_validate_json(self.read(self.info_path))
         except OSError as error:
             raise RunFolderError(f"{self.info_path}: cannot be read: {error.strerror}") from None
         except ValidationError as error:
@@ -282,7 +309,7 @@ class RunFolder:
             It cannot be read, or is no JSON object.
         """
         try:
-            loaded = json.loads(regular(self.summary_path).read_bytes())
+            loaded = json.loads(self.read(self.summary_path))
         except FileNotFoundError:
             return None
         except OSError as error:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
@@ -15,11 +15,15 @@ from airhilt.audio.wav import write_wav
 from airhilt.errors import RunFolderError, SpeechError, first_problem
 from airhilt.files import replace_file
 from airhilt.messages import SpokenTruth, Transcript, Transmission
+from airhilt.quantities import LONGEST_RUN_S
 from airhilt.record.audio import MessageWithSound, recorded_pcm
 from airhilt.record.folder import RunFolder
 from airhilt.record.run import Notice, Run, open_run, untold
 from airhilt.text import LONGEST_LINE, readable
 from airhilt.units import SECOND_NS
+
+LATEST_NS = round((LONGEST_RUN_S + 60.0) * SECOND_NS)
+"""Latest time of what was said in a run, in ns: a call may last beyond its end."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,6 +163,7 @@ def read_frequency(run: Run, frequency_khz: int | None = None) -> FrequencyRecor
         raise RunFolderError(
             f"{folder.log_path}: {first_problem(error)}; expected a log of this version of AIRHILT"
         ) from None
+    _require_times(folder, transmissions, transcripts)
     chosen = _choose(folder, transmissions, frequency_khz)
     tuned = sorted(
         (tx for tx in transmissions if tx.frequency_khz == chosen),
@@ -167,6 +172,27 @@ def read_frequency(run: Run, frequency_khz: int | None = None) -> FrequencyRecor
     calls = tuple(_call(tx, spoken.get(tx.id), transcripts.get(tx.id, ())) for tx in tuned)
     audio = splice(folder, ((tx.t_tx_ns, tx.t_end_ns, tx) for tx in tuned))
     return FrequencyRecording(run.info.run, chosen, calls, audio, run.damage)
+
+
+def _require_times(
+    folder: RunFolder,
+    transmissions: Sequence[Transmission],
+    transcripts: Mapping[str, Sequence[Transcript]],
+) -> None:
+    """Complain about calls at times that no run has."""
+    for tx in transmissions:
+        _require_in_run(folder, tx.id, tx.t_tx_ns, tx.t_end_ns)
+        for transcript in transcripts.get(tx.id, ()):
+            _require_in_run(folder, tx.id, tx.t_tx_ns, transcript.t_ns)
+
+
+def _require_in_run(folder: RunFolder, name: str, begin_ns: int, end_ns: int) -> None:
+    """Complain about a time before the run, or after the longest one that there can be."""
+    if not 0 <= begin_ns <= end_ns <= LATEST_NS:
+        raise RunFolderError(
+            f"{folder.log_path}: {readable(name)} has times that no run has; expected a beginning "
+            f"and an end within {LONGEST_RUN_S:.0f} s"
+        )
 
 
 def _choose(
@@ -237,6 +263,7 @@ def splice(folder: RunFolder, heard: Iterable[tuple[int, int, MessageWithSound]]
     for begin_ns, end_ns, message in heard:
         if message.samples == 0:
             continue
+        _require_in_run(folder, message.id, begin_ns, end_ns)
         begin = max(_sample(begin_ns), free_at)
         received = from_pcm(recorded_pcm(folder.audio_path, message))
         pieces.append((begin, received[begin - _sample(begin_ns) :]))

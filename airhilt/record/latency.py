@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from airhilt.errors import RunFolderError, disk_failed, first_line
-from airhilt.files import regular
+from airhilt.files import read_inside
 from airhilt.sim import StepRecord
 
 
@@ -102,7 +102,7 @@ def read_latencies(path: Path) -> RecordedLatencies:
     """
     recorded = RecordedLatencies()
     try:
-        lines = regular(path).read_bytes().splitlines(keepends=True)
+        lines = read_inside(path.parent, path).splitlines(keepends=True)
     except OSError as error:
         raise RunFolderError(f"{path}: cannot be read: {error.strerror}") from None
     for number, line in enumerate(lines, start=1):

@@ -22,7 +22,7 @@ from mcap.opcode import Opcode
 from mcap.records import Channel, Statistics
 
 from airhilt.errors import RunFolderError
-from airhilt.files import regular
+from airhilt.files import open_inside
 from airhilt.units import SECOND_NS
 
 BROKEN = (McapError, struct.error, zstandard.ZstdError, ValueError, LookupError, MemoryError)
@@ -128,7 +128,7 @@ class LogReader:
             The file cannot be opened or read, or holds no message that anybody could read.
         """
         try:
-            with regular(self.path).open("rb") as stream:
+            with open_inside(self.path.parent, self.path) as stream:
                 yield from self._messages(stream)
         except OSError as error:
             raise RunFolderError(f"{self.path}: cannot be read: {error.strerror}") from None

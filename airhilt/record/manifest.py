@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import hashlib
 import json
+import os
 from collections.abc import Iterable, Mapping
 from pathlib import Path, PurePosixPath
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict
 
-from airhilt.files import sha256
+from airhilt.files import open_inside, sha256
 
 
 class FileRecord(BaseModel):
@@ -53,11 +54,12 @@ def problem_of(folder: Path, name: str, record: FileRecord) -> str:
     place = PurePosixPath(name)
     if place.is_absolute() or ".." in place.parts:
         return f"{name}: outside of the run folder; the manifest was not written by AIRHILT"
-    path = folder / place
     try:
-        if not path.is_file():
-            return f"{name}: missing"
-        size_bytes, found = path.stat().st_size, sha256(path)
+        with open_inside(folder, folder / place) as stream:
+            size_bytes = os.fstat(stream.fileno()).st_size
+            found = hashlib.file_digest(stream, "sha256").hexdigest()
+    except FileNotFoundError:
+        return f"{name}: missing"
     except OSError as error:
         return f"{name}: cannot be read: {error.strerror}"
     if found == record.sha256:

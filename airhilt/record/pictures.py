@@ -16,6 +16,7 @@ from typing import Generic, Literal, NamedTuple, Protocol, TypeVar, get_args
 
 from airhilt.deferred import Payload
 from airhilt.errors import RendererError, disk_failed
+from airhilt.files import make_folder
 from airhilt.imaging.boxes import size_px
 from airhilt.imaging.matching import matches
 from airhilt.messages import (
@@ -244,7 +245,7 @@ class KeyPictures:
             image = image.resize((START_WIDTH_PX, max(START_WIDTH_PX * size[1] // size[0], 1)))
         path = PictureName(occasion, header.camera, header.seq).path(self._folder)
         try:
-            self._folder.mkdir(exist_ok=True)
+            make_folder(self._folder)
             image.save(path)
         except OSError as error:
             self._is_full = True

@@ -132,6 +132,20 @@ def open_run(path: str | Path, notice: Notice | None = None) -> Run:
     return run
 
 
+def result_problem(folder: RunFolder, info: RunInfo, path: Path) -> str:
+    """Return in words why a file is not one that the run wrote, empty if it is.
+
+    A run that goes on or was killed, and one of version 0.5, has no record of its pictures and
+    videos. Of those nothing is said.
+    """
+    name = path.relative_to(folder.path).as_posix()
+    record = info.files.get(name)
+    if record is not None:
+        return problem_of(folder.path, name, record)
+    has_manifest = info.phase != "running" and info.digest
+    return f"{name}: not written by the run" if has_manifest else ""
+
+
 def digest_problem(folder: RunFolder, info: RunInfo) -> str:
     """Return in words why ``run.json`` is not as the run wrote it, empty if it is.
 
@@ -140,7 +154,7 @@ def digest_problem(folder: RunFolder, info: RunInfo) -> str:
     if not info.digest:
         return ""
     try:
-        found = digest(json.loads(folder.info_path.read_bytes()))
+        found = digest(json.loads(folder.read(folder.info_path)))
     except (OSError, ValueError, RecursionError):
         found = ""
     return "" if found == info.digest else "run.json: damaged or changed: not what its digest says"

@@ -7,6 +7,7 @@ them. Keys are PEM files (PKCS #8, and SubjectPublicKeyInfo).
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Callable
 from pathlib import Path
 
 from cryptography.exceptions import InvalidSignature, UnsupportedAlgorithm
@@ -112,9 +113,9 @@ def public_key(path: Path) -> Ed25519PublicKey:
     return key
 
 
-def _content(path: Path) -> bytes:
+def _content(path: Path, read: Callable[[Path], bytes] = Path.read_bytes) -> bytes:
     try:
-        return path.read_bytes()
+        return read(path)
     except OSError as error:
         raise SignatureError(f"{path}: cannot be read: {error.strerror}") from None
 
@@ -131,7 +132,7 @@ def sign(folder: RunFolder, key: Ed25519PrivateKey) -> None:
     if path.exists():
         raise SignatureError(f"{path}: the run is signed already; delete it to sign the run anew")
     try:
-        replace_file(path, key.sign(_content(folder.info_path)))
+        replace_file(path, key.sign(_content(folder.info_path, folder.read)))
     except OSError as error:
         raise SignatureError(f"{path}: cannot be written: {error.strerror}") from None
 
@@ -139,7 +140,9 @@ def sign(folder: RunFolder, key: Ed25519PrivateKey) -> None:
 def is_signed_by(folder: RunFolder, key: Ed25519PublicKey) -> bool:
     """Return whether the signature of a run is of this key, and of ``run.json`` as it is now."""
     try:
-        key.verify(_content(folder.signature_path), _content(folder.info_path))
+        key.verify(
+            _content(folder.signature_path, folder.read), _content(folder.info_path, folder.read)
+        )
     except InvalidSignature:
         return False
     return True

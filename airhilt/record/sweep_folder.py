@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import fcntl
 import json
+import os
 import uuid
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -16,7 +17,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from airhilt.errors import AirhiltError
-from airhilt.files import PARTIAL, replace_file
+from airhilt.files import PARTIAL, make_folder, read_inside, replace_file
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -90,8 +91,8 @@ class SweepFolder:
         """
         self.require_usable()
         with _told(self.path, has_runs=self.parts_path.is_dir()):
-            self.parts_path.mkdir(parents=True, exist_ok=True)
-            self._lock_path.touch()
+            make_folder(self.parts_path)
+            os.close(self._open_lock())
 
     def require_usable(self) -> None:
         """Complain about a folder that holds something else; nothing is written.
@@ -99,8 +100,14 @@ class SweepFolder:
         Raises
         ------
         SweepFolderError
-            It does.
+            It does, or leads elsewhere by a link.
         """
+        for folder in (self.parts_path, self.runs_path, self.figures_path):
+            if folder.is_symlink():
+                raise SweepFolderError(
+                    f"{folder}: a link, which may lead elsewhere; delete it, or choose another "
+                    "folder with --out"
+                )
         if self._holds_something_else():
             raise SweepFolderError(
                 f"{self.path}: holds files that are no sweep; choose another folder with --out"
@@ -129,7 +136,7 @@ class SweepFolder:
             Another process has it.
         """
         with _told(self.path):
-            stream = self._lock_path.open("w")
+            stream = os.fdopen(self._open_lock(), "w")
         with stream:
             try:
                 fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -141,6 +148,11 @@ class SweepFolder:
             for left in (*self.path.glob(UNFINISHED), *self.parts_path.glob(UNFINISHED)):
                 left.unlink(missing_ok=True)
             yield
+
+    def _open_lock(self) -> int:
+        """Return the descriptor of the lock, which is made if it is not there."""
+        flags = os.O_WRONLY | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK
+        return os.open(self._lock_path, flags, 0o666)
 
     # --- what is run ------------------------------------------------------------------------
 
@@ -157,7 +169,7 @@ class SweepFolder:
             It is damaged.
         """
         try:
-            loaded = json.loads(self.info_path.read_text(encoding="utf-8"))
+            loaded = json.loads(read_inside(self.path, self.info_path))
         except (OSError, UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
             raise SweepFolderError(f"{self.info_path}: cannot be read: {error}") from None
         if not isinstance(loaded, dict) or loaded.get("format") != FORMAT:
@@ -303,7 +315,7 @@ def _table_or_reason(part: Path) -> tuple[pa.Table | None, str]:
     import pyarrow.parquet as pq
 
     try:
-        table = pq.read_table(part)
+        table = pq.read_table(pa.BufferReader(read_inside(part.parents[1], part)))
     except (pa.ArrowException, OSError) as error:
         return None, str(error).splitlines()[0]
     reason = _misfit(table)
@@ -366,7 +378,7 @@ def _read_table(path: Path) -> pa.Table:
     import pyarrow.parquet as pq
 
     try:
-        return pq.read_table(path)
+        return pq.read_table(pa.BufferReader(read_inside(path.parent, path)))
     except FileNotFoundError:
         raise SweepFolderError(
             f"{path}: not there; give the command of the sweep again, it makes the tables from the "

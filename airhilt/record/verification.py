@@ -203,7 +203,7 @@ def _others(folder: RunFolder, info: RunInfo) -> list[str]:
     names = (
         path.relative_to(folder.path).as_posix()
         for path in folder.path.rglob("*")
-        if not path.is_dir()
+        if path.is_symlink() or not path.is_dir()
     )
     return sorted(name for name in names if name not in known)
 

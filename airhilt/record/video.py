@@ -16,6 +16,7 @@ import numpy as np
 
 from airhilt.deferred import Payload
 from airhilt.errors import RendererError, RunFolderError, VideoError, disk_failed, first_line
+from airhilt.files import make_folder
 from airhilt.messages import (
     CONTROLLER,
     Advisory,
@@ -218,7 +219,7 @@ class _CameraVideo:
         self._overlay = Overlay(first.header.view.width_px, first.header.view.height_px)
         rate = Fraction(rate_hz).limit_denominator(1000)
         with _writing(path):
-            path.parent.mkdir(exist_ok=True)
+            make_folder(path.parent)
             self._container = av.open(str(path), "w", format="mp4", options=dict(MOVIE))
             stream = self._container.add_stream(_encoder(), rate=rate, options=dict(QUALITY))
             assert isinstance(stream, av.VideoStream)

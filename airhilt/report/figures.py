@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from airhilt.errors import AirhiltError
-from airhilt.files import replace_file
+from airhilt.files import make_folder, replace_file
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -124,7 +124,7 @@ class Figures:
         """
         try:
             for name, data in self._files.items():
-                folder.mkdir(parents=True, exist_ok=True)
+                make_folder(folder)
                 replace_file(folder / name, data)
         except OSError as error:
             raise AirhiltError(f"{folder}: cannot be written: {error.strerror}") from None

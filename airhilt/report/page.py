@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from airhilt.errors import RunFolderError
+from airhilt.files import replace_file
 from airhilt.record import Run, open_run
 from airhilt.record.run import Notice, untold
 from airhilt.report.assembly import Assembly
@@ -59,7 +60,7 @@ def write_report(run_folder: Path, out: Path | None = None, notice: Notice = unt
         folder.write_report(html)
         return folder.report_path
     try:
-        out.write_text(html + "\n", encoding="utf-8")
+        replace_file(out, f"{html}\n".encode())
     except OSError as error:
         raise RunFolderError(f"{out}: cannot be written: {error.strerror}") from None
     return out

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import csv
+import io
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from airhilt.errors import RunFolderError, disk_failed
+from airhilt.errors import RunFolderError, disk_failed, first_line
+from airhilt.files import replace_file
 from airhilt.messages import NasaTlx
 from airhilt.metrics.summary import IsaRating, PersonReaction, PersonSummary
-from airhilt.record import RunFolder
+from airhilt.record import Run
+from airhilt.report.unread import CANNOT_READ
 
 PARTS = ("seat", "reactions", "workload")
 """Fields of a person that are no totals: other rows, or columns of their own, have them."""
@@ -21,7 +24,7 @@ COLUMNS = (
 )  # fmt: skip
 
 
-def write_people_csv(folder: RunFolder, path: Path) -> None:
+def write_people_csv(run: Run, path: Path) -> None:
     """Write the people of a run; without any, the file has its head alone.
 
     Each seat has a row ``total``, a row ``reaction`` for each advisory, and a row ``isa`` for each
@@ -30,18 +33,23 @@ def write_people_csv(folder: RunFolder, path: Path) -> None:
     Raises
     ------
     RunFolderError
-        There is no summary, or the file cannot be written.
+        There is no summary, or not the one that the run wrote. Or the file cannot be written.
     """
-    summary = folder.summary()
-    if summary is None:
-        raise RunFolderError(f"{folder.path}: no summary.json; expected a run that has ended")
+    summary, folder = run.summary(), run.folder
+    table = io.StringIO(newline="")
+    writer = csv.DictWriter(table, COLUMNS, extrasaction="ignore")
+    writer.writeheader()
     try:
-        with path.open("w", newline="", encoding="utf-8") as file:
-            writer = csv.DictWriter(file, COLUMNS, extrasaction="ignore")
-            writer.writeheader()
-            for person in summary.get("people", ()):
-                for row in _rows(person):
-                    writer.writerow({"run": folder.path.name, "seat": person["seat"], **row})
+        for person in summary.get("people", ()):
+            for row in _rows(person):
+                writer.writerow({"run": folder.path.name, "seat": person["seat"], **row})
+    except CANNOT_READ as error:
+        raise RunFolderError(
+            f"{folder.summary_path}: its people cannot be read ({first_line(error)}); expected "
+            "them as a run writes them"
+        ) from None
+    try:
+        replace_file(path, table.getvalue().encode())
     except OSError as error:
         raise disk_failed(str(path), error) from None
 

@@ -11,7 +11,9 @@ from airhilt.record import Logged
 from airhilt.text import readable
 from airhilt.units import SECOND_NS
 
-CANNOT_READ = (ValueError, LookupError, TypeError, AttributeError, RecursionError)
+CANNOT_READ = (
+    ValueError, LookupError, TypeError, AttributeError, RecursionError, ArithmeticError,
+)  # fmt: skip
 """Exceptions of a reader whose message has other content than it expects."""
 
 

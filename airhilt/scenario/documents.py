@@ -48,6 +48,17 @@ def read_text(path: Path) -> str:
         raise ScenarioError(f"{path}: not UTF-8 text (byte {error.start})") from None
 
 
+def read(path: Path) -> Json:
+    """Return the document in a JSON file.
+
+    Raises
+    ------
+    ScenarioError
+        As `read_text` and `parse`.
+    """
+    return parse(read_text(path), str(path))
+
+
 def parse(text: str, origin: str) -> Json:
     """Return the document in a JSON text.
 

@@ -47,7 +47,7 @@ def read(path: Path, allowed: Sequence[Path] = ()) -> Scenario:
     ScenarioError
         A file cannot be read, or does not follow the schema.
     """
-    document = documents.parse(documents.read_text(path), str(path))
+    document = documents.read(path)
     return _validated(with_nearby_files(document, path, allowed), str(path))
 
 

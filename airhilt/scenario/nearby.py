@@ -41,7 +41,7 @@ def with_nearby_files(document: Json, path: Path, allowed: Sequence[Path] = ()) 
     for where, name in _named(document):
         if name not in read and isinstance(given, dict) and name not in given:
             file = _found(path, where, name, folders)
-            read[name] = documents.parse(documents.read_text(file), str(file))
+            read[name] = documents.read(file)
     if read and isinstance(given, dict):
         document = document | {"files": given | read}
     radio = document.get("radio")

@@ -19,6 +19,8 @@ LONGEST_PATH = 100
 """Number of characters that an error shows of a path."""
 LONGEST_TEXT = 300
 """Number of characters that an error shows of what is wrong there."""
+MOST_LINES = 10
+"""Number of mistakes that are told of a file beside a scenario."""
 
 
 @dataclass(frozen=True)
@@ -40,6 +42,24 @@ def error_for(origin: str, problems: Sequence[Problem]) -> ScenarioError:
     lines = tuple(f"{origin}: {problem}" for problem in problems)
     more = f" (and {len(lines) - 1} more: see airhilt validate)" if len(lines) > 1 else ""
     return ScenarioError(lines[0] + more, lines)
+
+
+def no_file_of(kind: str, origin: str, error: ValidationError) -> ScenarioError:
+    """Return one error for what pydantic found wrong in a file beside a scenario, a line each.
+
+    Parameters
+    ----------
+    kind
+        What the file should be, such as ``an airport``.
+    """
+    found = error.errors(include_url=False)
+    lines = [
+        str(Problem(".".join(map(str, one["loc"])) or "the file", one["msg"]))
+        for one in found[:MOST_LINES]
+    ]
+    if len(found) > MOST_LINES:
+        lines.append(f"and {len(found) - MOST_LINES} more")
+    return ScenarioError("\n".join([f"{origin} is not {kind}:", *(f"  {line}" for line in lines)]))
 
 
 def problems_of(error: ValidationError, model: type[BaseModel]) -> list[Problem]:

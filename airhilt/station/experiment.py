@@ -18,7 +18,7 @@ import pyarrow.csv
 import pyarrow.parquet
 
 from airhilt.errors import RunFolderError, StationError
-from airhilt.files import replace_file
+from airhilt.files import read_inside, replace_file
 from airhilt.messages import NasaTlx
 from airhilt.metrics.columns import metric_columns, metrics_of
 from airhilt.options import options_of
@@ -32,6 +32,9 @@ from airhilt.text import readable
 MOST_ATTEMPTS = 100
 """Largest number of times that a trial is begun."""
 TYPES = {"string": pa.string(), "bool": pa.bool_(), "int64": pa.int64(), "float64": pa.float64()}
+
+WRITERS = {"parquet": pa.parquet.write_table, "csv": pa.csv.write_csv}
+"""Functions that write the table, by the end of its file's name."""
 
 
 class Progress:
@@ -84,16 +87,16 @@ class Progress:
     def answers(self, name: str) -> NasaTlx | None:
         """Return what was answered at the end of a run or after it, None if nothing was yet."""
         try:
-            return NasaTlx.model_validate_json(self._answers_path(name).read_bytes())
+            return NasaTlx.model_validate_json(read_inside(self.folder, self._answers_path(name)))
         except (OSError, ValueError):
             return self._answers_in_run(name)
 
     def _answers_in_run(self, name: str) -> NasaTlx | None:
         try:
-            summary = json.loads((self.folder / name / "summary.json").read_bytes())
+            summary = RunFolder(self.folder / name).summary() or {}
             (person,) = summary["people"]
             return NasaTlx.model_validate(person["workload"]["nasa_tlx"])
-        except (OSError, ValueError, LookupError, TypeError):
+        except (RunFolderError, ValueError, LookupError, TypeError):
             return None
 
     def answer(self, name: str, answers: NasaTlx) -> None:
@@ -209,7 +212,8 @@ def write_tables(plan: Plan, folder: Path) -> int:
     Raises
     ------
     RunFolderError
-        The numbers of a trial are missing, or are not those that its run wrote.
+        The numbers of a trial are missing, or are not those that its run wrote. Or the table
+        cannot be written.
     """
     rows = [row for name in plan.participants for row in _rows(Progress(plan, folder, name))]
     ratings = [*NasaTlx.model_fields, "raw_tlx"]
@@ -219,9 +223,14 @@ def write_tables(plan: Plan, folder: Path) -> int:
     fields += [pa.field(f"nasa_tlx.{name}", pa.float64()) for name in ratings]
     fields += [pa.field(column.name, TYPES[column.type]) for column in metric_columns()]
     table = pa.Table.from_pylist(rows, schema=pa.schema(fields))
-    folder.mkdir(parents=True, exist_ok=True)
-    pa.parquet.write_table(table, folder / "experiment.parquet")
-    pa.csv.write_csv(table, folder / "experiment.csv")
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        for suffix, write in WRITERS.items():
+            sink = pa.BufferOutputStream()
+            write(table, sink)
+            replace_file(folder / f"experiment.{suffix}", sink.getvalue().to_pybytes())
+    except OSError as error:
+        raise RunFolderError(f"{folder}: cannot be written: {error.strerror}") from None
     return len(rows)
 
 

@@ -19,7 +19,7 @@ import psutil
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from airhilt.errors import StationError
-from airhilt.files import replace_file
+from airhilt.files import make_folder, open_inside, read_inside, replace_file
 from airhilt.options import Options, arguments_of
 from airhilt.scenario.seats import seats_of
 from airhilt.text import LONGEST_LINE, readable
@@ -72,7 +72,8 @@ class StartedRuns:
         Raises
         ------
         AirhiltError
-            The scenario is wrong or has no such seat, or enough runs go on already.
+            The scenario is wrong or has no such seat, enough runs go on already, or the folder
+            cannot be written.
         """
         loaded = load(scenario)
         seats = seats_of(options.seat, loaded)
@@ -82,7 +83,11 @@ class StartedRuns:
         given = options.model_copy(update={"out": self.folder / name, "pace": "realtime"})
         command = [sys.executable, "-m", "airhilt", "cosim", f"--scenario={scenario}"]
         command += ["--view", "--no-browser", "--port=0", *arguments_of(given)]
-        (self.folder / KEPT).mkdir(parents=True, exist_ok=True)
+        try:
+            make_folder(self.folder / KEPT)
+            replace_file(self._output(name), b"")
+        except OSError as error:
+            raise StationError(f"{error.filename}: cannot be written: {error.strerror}") from None
         # A session of its own, and a file to write to: it needs nothing of this process.
         with self._output(name).open("wb") as output:
             child = subprocess.Popen(  # noqa: S603 - our own command
@@ -121,7 +126,7 @@ class StartedRuns:
         found = []
         for path in (self.folder / KEPT).glob("*.json"):
             with suppress(OSError, ValidationError):  # One that is being written, or is foreign.
-                found.append(StartedRun.model_validate_json(path.read_bytes()))
+                found.append(StartedRun.model_validate_json(read_inside(self.folder, path)))
         return sorted(found, key=lambda run: run.created_s, reverse=True)
 
     def state(self, run: StartedRun) -> State:
@@ -168,7 +173,7 @@ class StartedRuns:
 
     def _lines(self, run: StartedRun) -> list[str]:
         try:
-            with self._output(run.name).open("rb") as output:
+            with open_inside(self.folder, self._output(run.name)) as output:
                 text = output.read(END_BYTES)
                 output.seek(max(output.seek(0, os.SEEK_END) - END_BYTES, len(text)))
                 text += output.read()

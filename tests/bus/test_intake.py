@@ -11,7 +11,14 @@ from typing import Any
 import pytest
 import zenoh
 
-from airhilt.bus.intake import MOST_WAITING, MOST_WAITING_BYTES, ROUTED_BYTES, Intake, Source
+from airhilt.bus.intake import (
+    MOST_SENDERS,
+    MOST_WAITING,
+    MOST_WAITING_BYTES,
+    ROUTED_BYTES,
+    Intake,
+    Source,
+)
 from airhilt.bus.session import Bus, connect_client
 from airhilt.messages import DropCause, Limit
 
@@ -75,6 +82,15 @@ def test_missing_numbers_of_a_sender_are_counted() -> None:
     assert taken.admit(KEYS, 1)
     assert told == [(KEYS, "transport")]
     assert taken.dropped == {(KEYS, "transport"): 3}
+
+
+def test_the_numbers_of_a_bounded_number_of_senders_are_followed() -> None:
+    taken, _ = intake(Limit(size_bytes=10, rate_hz=10 * MOST_SENDERS))
+    for sender in range(MOST_SENDERS + 1):
+        taken.admit(KEYS, 0, Source(str(sender), 1))
+    taken.admit(KEYS, 0, Source("0", 3))
+    taken.admit(KEYS, 0, Source(str(MOST_SENDERS), 9))
+    assert taken.dropped == {(KEYS, "transport"): 1}
 
 
 def test_a_bus_hears_what_is_admitted_and_learns_sizes_and_numbers() -> None:

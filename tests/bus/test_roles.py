@@ -16,7 +16,7 @@ import zenoh
 
 from airhilt import run
 from airhilt.bus.certificates import HOLDERS, key_file, make_keys
-from airhilt.bus.session import Bus, free_endpoint
+from airhilt.bus.session import Bus, connect_client, free_endpoint
 from airhilt.cosim.observer import Observer
 from airhilt.cosim.replay import replay
 from airhilt.errors import AirhiltError, BusError
@@ -191,3 +191,16 @@ def test_insecure_says_what_it_opens(encounter: Scenario, tmp_path: Path) -> Non
     assert f"whoever reaches {endpoint} can read all sensors" in notices.texts[0]
     with pytest.raises(AirhiltError, match="--insecure would do nothing without --endpoint"):
         run(short, out=tmp_path / "other", insecure=True)
+
+
+def test_a_program_with_keys_of_another_authority_is_told_that_it_is_not_let_in(
+    bus: Bus, tmp_path: Path
+) -> None:
+    make_keys(tmp_path / "others", bus.endpoint)
+    with pytest.raises(BusError, match=f"what listens on {bus.endpoint} does not let this"):
+        connect_client(bus.endpoint, 0.0, tmp_path / "others")
+
+
+def test_where_nothing_listens_is_told_as_such(bus: Bus, keys: Path) -> None:
+    with pytest.raises(BusError, match=r"nothing listens on tls/127\.0\.0\.1:9"):
+        connect_client("tls/127.0.0.1:9", 0.0, keys)

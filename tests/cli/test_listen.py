@@ -232,3 +232,19 @@ def test_a_disk_that_is_full_leaves_no_part_of_a_file_behind(
         resource.setrlimit(resource.RLIMIT_FSIZE, unlimited)
     assert wav.read_bytes() == b"an earlier recording"
     assert {path.name for path in tmp_path.iterdir()} == {"run", "tower.wav"}
+
+
+@pytest.mark.parametrize("begin_s", [90_000.0, 1e9])
+def test_a_call_at_a_time_that_no_run_has_is_refused(
+    recording: Recording, tmp_path: Path, begin_s: float
+) -> None:
+    recording.call("1", 1.0, 0.1)
+    recording.call("2", begin_s, 0.2)
+    with pytest.raises(RunFolderError, match="2 has times that no run has"):
+        write_frequency(recording.close(), out=tmp_path / "tower.wav")
+
+
+def test_a_time_too_long_for_a_number_is_refused(recording: Recording, tmp_path: Path) -> None:
+    recording.silent_call("1", 10**300)
+    with pytest.raises(RunFolderError, match="1 has times that no run has"):
+        write_frequency(recording.close(), out=tmp_path / "tower.wav")

@@ -131,7 +131,7 @@ def test_a_manifest_with_a_name_that_no_file_can_have_is_named(
 ) -> None:
     folder = RunFolder(run_copy)
     record = FileRecord(sha256="0" * 64)
-    files = folder.manifest() | {"x" * 5000: record, "a\0b": record}
+    files = folder.manifest() | {"x" * 5000: record, "a\0b": record, ".": record}
     folder.write_info(folder.info().model_copy(update={"files": files}))
     done = airhilt_command("verify", run_copy)
     assert done.returncode == 1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from typing import Any, cast
 
 import pytest
@@ -114,3 +115,32 @@ def test_an_advisory_in_the_name_of_a_worker_is_refused() -> None:
     notices = Notices()
     programs(notices, []).take("advisory/ATC", json.dumps(told).encode())
     assert "the id 'decision-1'; expected an id of its own" in notices.texts[0]
+
+
+class Bus:
+    """Keeps who is told of seats."""
+
+    def watch_seats(self, changed: Callable[[str, bool], None]) -> None:
+        self.changed = changed
+
+    def hear_refusals(self, heard: Callable[[Any], None]) -> None: ...
+
+    def hear(self, *_: Any) -> None: ...
+
+
+def test_a_flood_of_programs_at_seats_is_dropped_and_those_there_are_are_heard(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    posted = list[Any]()
+    monkeypatch.setattr(Director, "post", lambda _, call: posted.append(call))
+    bus = Bus()
+    programs(Notices(), [], seats=("tower",)).serve(cast(Any, bus))
+    for number in range(1000):
+        bus.changed(f"nobody{number}", True)
+    assert 20 <= len(posted) < 100
+    posted.clear()
+    bus.changed("tower", True)
+    assert len(posted) == 1
+    for _ in range(1000):
+        bus.changed("tower", True)
+    assert len(posted) < 100

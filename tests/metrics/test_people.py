@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import csv
 import json
+import shutil
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from airhilt.commands import GoAroundCommand
+from airhilt.errors import RunFolderError
 from airhilt.messages import (
     ActorCommand,
     Advisory,
@@ -31,7 +33,7 @@ from airhilt.messages import (
 )
 from airhilt.metrics.people import FOLLOWED_WITHIN_S, PeopleRecords
 from airhilt.metrics.summary import PersonReaction, PersonSummary
-from airhilt.record import RunFolder
+from airhilt.record import Run, RunFolder, open_run
 from airhilt.report.people_csv import write_people_csv
 
 SECOND = 1_000_000_000
@@ -287,17 +289,34 @@ def test_the_workload_is_what_was_answered_and_what_was_not() -> None:
     assert (found.isa_mean, found.raw_tlx) == (4.0, 50.0)
 
 
-def test_reactions_are_written_as_a_table(tmp_path: Path) -> None:
+def of_people(recorded_run: Path, folder: Path, people: Any) -> Run:
+    """Return a run with other people in its summary, in a folder of its own."""
+    paths = RunFolder(Path(shutil.copytree(recorded_run, folder)))
+    paths.summary_path.write_text(json.dumps({"people": people}))
+    paths.write_info(paths.info().model_copy(update={"files": paths.manifest()}))
+    return open_run(folder)
+
+
+def test_reactions_are_written_as_a_table(recorded_run: Path, tmp_path: Path) -> None:
     summary = person(
         (10.0, "advisory/AAL1", advisory()),
         (10.1, "perceived/AAL1", perceived("seen")),
     )
-    (tmp_path / "summary.json").write_text(
-        json.dumps({"people": [summary.model_dump(mode="json")]})
-    )
     table = tmp_path / "reactions.csv"
-    write_people_csv(RunFolder(tmp_path), table)
+    write_people_csv(
+        of_people(recorded_run, tmp_path / "run", [summary.model_dump(mode="json")]), table
+    )
     total, row = csv.DictReader(table.read_text().splitlines())
     assert (total["row"], total["commands"], row["row"]) == ("total", "0", "reaction")
     assert (row["seat"], row["severity"], row["t_seen_s"]) == ("AAL1", "WARNING", "10.1")
     assert row["reaction_time_s"] == ""
+
+
+@pytest.mark.parametrize("people", [[1], [{}], {"a": 1}, 5, [{"seat": "a", "reactions": [0]}]])
+def test_people_that_no_run_writes_are_named(
+    recorded_run: Path, tmp_path: Path, people: Any
+) -> None:
+    run = of_people(recorded_run, tmp_path / "run", people)
+    with pytest.raises(RunFolderError, match=r"summary\.json: its people cannot be read"):
+        write_people_csv(run, tmp_path / "people.csv")
+    assert not (tmp_path / "people.csv").exists()

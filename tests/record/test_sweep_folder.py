@@ -260,7 +260,7 @@ def test_a_full_disk_is_told_and_keeps_what_was_finished(
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("airhilt.files.Path.write_bytes", full)
+    monkeypatch.setattr("airhilt.files.write_new", full)
     with pytest.raises(AirhiltError, match="No space left on device"):
         folder.keep(run("b"))
     monkeypatch.undo()

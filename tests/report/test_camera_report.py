@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import json
+import os
 import re
 import shutil
 from contextlib import closing
@@ -93,9 +94,64 @@ def test_each_camera_has_a_timeline_of_what_was_in_view_and_found(folder: Path) 
 def test_a_video_is_linked_to(folder: Path, tmp_path: Path) -> None:
     (folder / "video").mkdir()
     (folder / "video" / "nose-AAL123.mp4").touch()
+    record_files(folder)
     assert shown(folder)["timelines"][0]["video"] == "video/nose-AAL123.mp4"
     elsewhere = data(write_report(folder, tmp_path / "page.html"))["sections"]["cameras"]
     assert elsewhere["timelines"][0]["video"] == "run/video/nose-AAL123.mp4"
+
+
+def record_files(folder: Path) -> None:
+    """Make the manifest as if the run had written all that is there."""
+    paths = RunFolder(folder)
+    paths.write_info(paths.info().model_copy(update={"files": paths.manifest()}))
+
+
+def test_a_picture_or_a_video_that_the_run_did_not_write_is_named_and_not_shown(
+    folder: Path,
+) -> None:
+    (folder / "video").mkdir()
+    (folder / "video" / "nose-AAL123.mp4").touch()
+    first, *_, last = sorted((folder / "pictures").iterdir())
+    first.write_bytes(first.read_bytes() + b"0")
+    foreign = last.with_name("first_warning-nose-AAL123-0.png")
+    foreign.write_bytes(last.read_bytes())
+    before = len(list((folder / "pictures").iterdir()))
+    page = data(write_report(folder))
+    cameras = page["sections"]["cameras"]
+    assert len(cameras["pictures"]) == before - 2
+    assert cameras["timelines"][0]["video"] is None
+    notes = "\n".join(page["notes"])
+    assert f"Damaged: pictures/{first.name}: damaged or changed" in notes
+    assert f"Damaged: pictures/{foreign.name}: not written by the run" in notes
+    assert "Damaged: video/nose-AAL123.mp4: not written by the run" in notes
+
+
+def test_pictures_of_a_run_that_was_killed_are_shown_without_a_manifest(folder: Path) -> None:
+    whole = len(shown(folder)["pictures"])
+    paths = RunFolder(folder)
+    paths.write_info(paths.info().model_copy(update={"phase": "running", "files": {}}))
+    assert len(shown(folder)["pictures"]) == whole
+
+
+@pytest.mark.parametrize("kind", ["link", "pipe", "folder"])
+def test_a_picture_that_is_no_file_of_the_run_is_named_and_not_read(
+    folder: Path, tmp_path: Path, kind: str
+) -> None:
+    paths = RunFolder(folder)
+    paths.write_info(paths.info().model_copy(update={"phase": "running", "files": {}}))
+    picture = next((folder / "pictures").glob("first_detection-*"))
+    secret = tmp_path / "passwd"
+    secret.write_text("root:x:0:0")
+    if kind == "folder":
+        shutil.move(folder / "pictures", tmp_path / "pictures")
+        (tmp_path / "pictures" / picture.name).write_text("root:x:0:0")
+        (folder / "pictures").symlink_to(tmp_path / "pictures")
+    else:
+        picture.unlink()
+        os.mkfifo(picture) if kind == "pipe" else picture.symlink_to(secret)
+    page = write_report(folder)
+    assert base64.b64encode(secret.read_bytes()).decode() not in page.read_text()
+    assert f"{picture.name}: no regular file of its folder" in page.read_text()
 
 
 def test_pictures_that_have_no_room_are_links_and_the_page_says_so(

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import asyncio
 from pathlib import Path
+from urllib.parse import urlencode
 
 import pytest
 from starlette.responses import PlainTextResponse
+from starlette.types import Message, Receive, Scope, Send
 
 from airhilt.station.address import Address
 from airhilt.station.guard import MOST_NOTICES, Guard
@@ -73,3 +76,27 @@ def test_a_flood_of_refusals_is_told_a_few_times_only() -> None:
     for _ in range(MOST_NOTICES + 10):
         asked(app, host="evil.example")
     assert len(told) == MOST_NOTICES
+
+
+@pytest.mark.parametrize(("token", "is_let_in"), [(TOKEN, True), ("wrong", False)])
+def test_a_socket_is_let_in_by_the_token_in_its_url(token: str, is_let_in: bool) -> None:
+    reached: list[Scope] = []
+    sent: list[Message] = []
+
+    async def app(scope: Scope, receive: Receive, send: Send) -> None:
+        reached.append(scope)
+
+    async def receive() -> Message:
+        return {"type": "websocket.connect"}
+
+    async def send(message: Message) -> None:
+        sent.append(message)
+
+    scope = {
+        "type": "websocket",
+        "headers": [(b"host", b"192.168.1.7:8420")],
+        "query_string": urlencode({"token": token}).encode(),
+    }
+    asyncio.run(Guard(app, FAR, lambda _: None)(scope, receive, send))
+    assert bool(reached) is is_let_in
+    assert [message["type"] for message in sent] == ([] if is_let_in else ["websocket.close"])

@@ -11,6 +11,7 @@ import click
 from airhilt.cli.notices import tell
 from airhilt.cli.words import counted
 from airhilt.errors import AirhiltError
+from airhilt.files import replace_file
 
 if TYPE_CHECKING:
     from airhilt.record.sweep_folder import SweepFolder
@@ -49,7 +50,7 @@ def report(folder: Path, out: Path | None, csv: Path | None) -> None:
 
     The figures of a sweep are in its folder too, under figures, as SVG and as PDF.
     """
-    from airhilt.record import RunFolder
+    from airhilt.record import RunFolder, open_run
     from airhilt.record.sweep_folder import SweepFolder
     from airhilt.report.people_csv import write_people_csv
 
@@ -57,9 +58,8 @@ def report(folder: Path, out: Path | None, csv: Path | None) -> None:
     if csv is not None:
         if out is not None:
             raise click.UsageError("--out, --csv: expected one of them")
-        run = RunFolder(folder)
-        if run.info_path.is_file():
-            write_people_csv(run, csv)
+        if RunFolder(folder).info_path.is_file():
+            write_people_csv(open_run(folder, tell), csv)
         else:
             _write_csv(SweepFolder.open(folder), csv)
         click.echo(csv)
@@ -94,11 +94,13 @@ def _write_csv(sweep: SweepFolder, path: Path) -> None:
     AirhiltError
         The table is not there, or the file cannot be written.
     """
+    from pyarrow import BufferOutputStream
     from pyarrow.csv import write_csv
 
-    table = sweep.table()
+    sink = BufferOutputStream()
+    write_csv(sweep.table(), sink)
     try:
-        write_csv(table, path)
+        replace_file(path, sink.getvalue().to_pybytes())
     except OSError as error:
         raise AirhiltError(f"{path}: cannot be written: {error.strerror or error}") from None
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,6 +13,7 @@ from airhilt.messages import CameraFrame, CameraInfo, CameraTruth, Detections, S
 from airhilt.metrics.detection_scores import MOST_PICTURES_BEHIND, must_be_found
 from airhilt.record import Logged, RunFolder
 from airhilt.record.pictures import OCCASIONS, PictureName
+from airhilt.record.run import result_problem
 from airhilt.report.intervals import BridgedIntervals
 from airhilt.report.sections import Content, Section
 from airhilt.text import readable
@@ -26,6 +28,8 @@ MOST_CHARACTERS = 4_000_000
 """Greatest length of all pictures in a page."""
 MOST_BOXES = 60
 """Largest number of detections in one picture, and of true boxes."""
+MOST_NAMED = 5
+"""Number of damaged pictures that are named; the others are counted."""
 MEDIA_TYPES = {".png": "image/png", ".jpg": "image/jpeg"}
 
 
@@ -64,7 +68,6 @@ class CameraTimeline:
     def as_json(self, run: RunData) -> Json:
         """Return the camera and its intervals."""
         info = self.info
-        video = run.folder.video_path / f"{info.camera}.mp4"
         return {
             "camera": info.camera,
             "carrier": info.carrier,
@@ -72,7 +75,7 @@ class CameraTimeline:
             "height_px": info.height_px,
             "rate_hz": info.rate_hz,
             "horizontal_fov_deg": info.horizontal_fov_deg,
-            "video": run.link(video) if video.is_file() else None,
+            "video": _video(run, info.camera),
             **{name: intervals.as_json() for name, intervals in self._intervals.items()},
         }
 
@@ -124,6 +127,10 @@ class Cameras(Content):
                 f"There was no room in this file for {sources.linked} pictures: they are links "
                 "to the pictures folder of the run."
             )
+        for problem in sources.refused[:MOST_NAMED]:
+            run.notes.append(f"Damaged: {readable(problem)}. It is not shown.")
+        if len(sources.refused) > MOST_NAMED:
+            run.notes.append(f"Damaged: {len(sources.refused) - MOST_NAMED} more pictures.")
         return {
             "state": self._state,
             "timelines": [timeline.as_json(run) for timeline in self._timelines.values()],
@@ -151,6 +158,22 @@ class Cameras(Content):
         }
 
 
+def _video(run: RunData, camera: str) -> str | None:
+    """Return a link to the video of a camera, None if it has none that the run wrote."""
+    path = run.folder.video_path / f"{camera}.mp4"
+    try:
+        with run.folder.open_file(path):
+            problem = result_problem(run.folder, run.info, path)
+    except FileNotFoundError:
+        return None
+    except OSError as error:
+        problem = f"video of camera {camera}: {error.strerror}"
+    if problem:
+        run.notes.append(f"Damaged: {readable(problem)}. It is not linked.")
+        return None
+    return run.link(path)
+
+
 class PictureSources:
     """Puts pictures into the page, or links to them once there is no room.
 
@@ -158,21 +181,38 @@ class PictureSources:
     ----------
     linked
         Number of pictures that are links.
+    refused
+        A line for each picture that the run did not write as it is now.
     """
 
     def __init__(self, run: RunData) -> None:
         self.linked = 0
+        self.refused: list[str] = []
         self._run = run
         self._room = MOST_CHARACTERS
 
     def of(self, name: PictureName) -> Json | None:
-        """Return ``src`` of a picture in the page or ``href`` of its file, None without a file."""
-        path = name.path(self._run.folder.pictures_path)
+        """Return ``src`` of a picture in the page or ``href`` of its file.
+
+        Returns
+        -------
+        dict
+            None without a file, or if it is not one that the run wrote.
+        """
+        folder = self._run.folder
+        path = name.path(folder.pictures_path)
         try:
-            data = path.read_bytes()
-        except OSError:
+            with folder.open_file(path) as stream:
+                problem = result_problem(folder, self._run.info, path)
+                size_bytes = os.fstat(stream.fileno()).st_size
+                has_room = 4 * -(-size_bytes // 3) <= self._room
+                data = stream.read() if has_room and not problem else b""
+        except OSError as error:
+            problem = f"{path.name}: {error.strerror}"
+        if problem:
+            self.refused.append(problem)
             return None
-        if 4 * -(-len(data) // 3) > self._room:
+        if not has_room:
             self.linked += 1
             return {"href": self._run.link(path)}
         source = f"data:{MEDIA_TYPES[path.suffix]};base64,{base64.b64encode(data).decode()}"

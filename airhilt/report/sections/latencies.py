@@ -8,7 +8,6 @@ from collections import Counter
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from airhilt.files import regular
 from airhilt.record import RunFolder
 from airhilt.report.sections import Content, Section
 from airhilt.units import SECOND_NS
@@ -48,7 +47,7 @@ class Latencies(Content):
 def finished_steps(folder: RunFolder, notes: list[str]) -> Iterable[tuple[str, float]]:
     """Yield worker and latency from input to result in s, up to where the file breaks off."""
     try:
-        text = regular(folder.latency_path).read_text(encoding="utf-8", errors="replace")
+        text = folder.read(folder.latency_path).decode(errors="replace")
     except OSError as error:
         notes.append(f"latency.jsonl cannot be read: {error.strerror}.")
         return

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Literal, Protocol
+from typing import Annotated, Literal, Protocol
 
 import pydantic
 from pydantic import Field
 
+from airhilt.quantities import Number
+
+OffsetM = Annotated[Number, Field(ge=-200.0, le=200.0)]
+"""Distance along one axis of an aircraft, in m."""
 AircraftCategory = Literal["jet", "heavy_jet", "piston_single", "piston_twin"]
 
 WING_ROOT_SHARE = 0.1
@@ -26,25 +30,25 @@ class _Section(pydantic.BaseModel):
 class AircraftDimensions(_Section):
     """Size of the real aircraft, and where the JSBSim model's wheels are."""
 
-    length_m: float = Field(gt=0)
-    span_m: float = Field(gt=0)
-    height_m: float = Field(gt=0)
-    wheel_height_offset_m: float = Field(ge=0)
+    length_m: Number = Field(gt=0, le=200)
+    span_m: Number = Field(gt=0, le=200)
+    height_m: Number = Field(gt=0, le=200)
+    wheel_height_offset_m: Number = Field(ge=0, le=200)
     """Height of JSBSim's reference point above the ground when the model stands on its wheels."""
 
 
 class AircraftMesh(_Section):
     """Free shape parameters for a lofted model; the rest follows from `AircraftDimensions`."""
 
-    fuselage_diameter_m: float = Field(gt=0)
-    wing_sweep_deg: float
+    fuselage_diameter_m: Number = Field(gt=0, le=200)
+    wing_sweep_deg: Number = Field(ge=-60, le=80)
     """Sweep of the quarter-chord line."""
-    wing_root_chord_m: float = Field(gt=0)
-    wing_tip_chord_m: float = Field(gt=0)
+    wing_root_chord_m: Number = Field(gt=0, le=200)
+    wing_tip_chord_m: Number = Field(gt=0, le=200)
     wing_position: Literal["low", "high"]
-    tail_span_m: float = Field(gt=0)
-    fin_height_m: float = Field(gt=0)
-    engines_m: tuple[tuple[float, float, float], ...]
+    tail_span_m: Number = Field(gt=0, le=200)
+    fin_height_m: Number = Field(gt=0, le=200)
+    engines_m: tuple[tuple[OffsetM, OffsetM, OffsetM], ...] = Field(max_length=8)
     """Front of each engine: aft of the nose, right of the centre line, above the fuselage axis."""
 
 

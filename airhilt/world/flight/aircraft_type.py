@@ -10,8 +10,13 @@ import pydantic
 from pydantic import Field
 
 from airhilt import library
-from airhilt.errors import ScenarioError
+from airhilt.quantities import Name, Number
+from airhilt.scenario import documents
+from airhilt.scenario.problems import no_file_of
 from airhilt.shapes.aircraft.spec import AircraftCategory, AircraftDimensions, AircraftMesh
+
+MOST_GAIN = 1000
+"""Greatest number of a gain or a time constant, far above that of any aircraft."""
 
 
 class _Section(pydantic.BaseModel):
@@ -21,22 +26,22 @@ class _Section(pydantic.BaseModel):
 class Speeds(_Section):
     """Calibrated airspeeds in knots, and the limits that guidance keeps."""
 
-    approach_kt: float = Field(gt=0)
-    rotate_kt: float = Field(gt=0)
-    climb_safety_kt: float = Field(gt=0)
+    approach_kt: Number = Field(gt=0, le=1000)
+    rotate_kt: Number = Field(gt=0, le=1000)
+    climb_safety_kt: Number = Field(gt=0, le=1000)
     """V2."""
-    drift_down_kt: float = Field(gt=0)
+    drift_down_kt: Number = Field(gt=0, le=1000)
     """Speed after an engine failure en route; best glide speed of an aircraft with one engine."""
-    cruise_kt: float = Field(gt=0)
-    minimum_clean_kt: float = Field(gt=0)
-    maximum_kt: float = Field(gt=0)
+    cruise_kt: Number = Field(gt=0, le=1000)
+    minimum_clean_kt: Number = Field(gt=0, le=1000)
+    maximum_kt: Number = Field(gt=0, le=1000)
     """Vmo, or Vno for a piston aircraft."""
-    maximum_mach: float = Field(gt=0)
-    service_ceiling_ft: float = Field(gt=0)
-    climb_rate_fpm: float = Field(gt=0)
+    maximum_mach: Number = Field(gt=0, le=5)
+    service_ceiling_ft: Number = Field(gt=0, le=100_000)
+    climb_rate_fpm: Number = Field(gt=0, le=20_000)
     """Rate of a climb or descent for which none was asked."""
-    maximum_climb_rate_fpm: float = Field(gt=0)
-    maximum_descent_rate_fpm: float = Field(gt=0)
+    maximum_climb_rate_fpm: Number = Field(gt=0, le=20_000)
+    maximum_descent_rate_fpm: Number = Field(gt=0, le=20_000)
 
 
 class PitchGains(_Section):
@@ -46,48 +51,48 @@ class PitchGains(_Section):
     ``reference_pressure_pa``.
     """
 
-    attitude_per_s: float = Field(gt=0)
-    rate_limit_deg_s: float = Field(gt=0)
-    rate_s: float = Field(ge=0)
-    rate_integral: float = Field(ge=0)
-    zero_lift_angle_deg: float
+    attitude_per_s: Number = Field(gt=0, le=MOST_GAIN)
+    rate_limit_deg_s: Number = Field(gt=0, le=180)
+    rate_s: Number = Field(ge=0, le=MOST_GAIN)
+    rate_integral: Number = Field(ge=0, le=MOST_GAIN)
+    zero_lift_angle_deg: Number = Field(ge=-90, le=90)
     """Angle of attack without lift, flaps up."""
-    reference_pressure_pa: float = Field(gt=0)
+    reference_pressure_pa: Number = Field(gt=0, le=100_000)
 
 
 class RollGains(_Section):
     """Bank to roll rate to aileron (normalised, -1..1)."""
 
-    bank_limit_deg: float = Field(gt=0, le=45)
-    bank_rate_limit_deg_s: float = Field(gt=0)
-    bank_per_s: float = Field(gt=0)
-    rate_s: float = Field(ge=0)
-    rate_integral: float = Field(ge=0)
+    bank_limit_deg: Number = Field(gt=0, le=45)
+    bank_rate_limit_deg_s: Number = Field(gt=0, le=180)
+    bank_per_s: Number = Field(gt=0, le=MOST_GAIN)
+    rate_s: Number = Field(ge=0, le=MOST_GAIN)
+    rate_integral: Number = Field(ge=0, le=MOST_GAIN)
 
 
 class YawGains(_Section):
     """Sideslip and yaw rate (against that of a coordinated turn) to rudder (normalised, -1..1)."""
 
-    sideslip: float = Field(ge=0)
-    sideslip_integral_per_s: float = Field(ge=0)
-    rate_s: float = Field(ge=0)
+    sideslip: Number = Field(ge=0, le=MOST_GAIN)
+    sideslip_integral_per_s: Number = Field(ge=0, le=MOST_GAIN)
+    rate_s: Number = Field(ge=0, le=MOST_GAIN)
 
 
 class ThrustGains(_Section):
     """Airspeed to throttle lever (0..1)."""
 
-    speed_s_m: float = Field(ge=0)
-    speed_integral_m: float = Field(ge=0)
-    acceleration_s2_m: float = Field(ge=0)
-    climb_angle: float = Field(ge=0)
-    lever_rate_per_s: float = Field(gt=0)
+    speed_s_m: Number = Field(ge=0, le=MOST_GAIN)
+    speed_integral_m: Number = Field(ge=0, le=MOST_GAIN)
+    acceleration_s2_m: Number = Field(ge=0, le=MOST_GAIN)
+    climb_angle: Number = Field(ge=0, le=MOST_GAIN)
+    lever_rate_per_s: Number = Field(gt=0, le=MOST_GAIN)
 
 
 class GuidanceGains(_Section):
     """Course error to turn rate, altitude error to vertical rate."""
 
-    course_per_s: float = Field(gt=0)
-    altitude_per_s: float = Field(gt=0)
+    course_per_s: Number = Field(gt=0, le=MOST_GAIN)
+    altitude_per_s: Number = Field(gt=0, le=MOST_GAIN)
 
 
 class Gains(_Section):
@@ -103,22 +108,22 @@ class Gains(_Section):
 class Ground(_Section):
     """Rolling and taxiing."""
 
-    model_nose_wheel_deg: float = Field(gt=0)
+    model_nose_wheel_deg: Number = Field(gt=0, le=90)
     """Angle of the JSBSim model's nose wheel at full command; the model obeys more than full."""
-    nose_wheel_limit_deg: float = Field(gt=0, lt=90)
+    nose_wheel_limit_deg: Number = Field(gt=0, lt=90)
     """Greatest angle of the real aircraft's nose wheel."""
-    yaw_rate_s: float = Field(gt=0)
+    yaw_rate_s: Number = Field(gt=0, le=MOST_GAIN)
     """Rudder per error of yaw rate, and of its integral."""
-    yaw_integral: float = Field(ge=0)
-    deceleration_m_s2: float = Field(gt=0)
+    yaw_integral: Number = Field(ge=0, le=MOST_GAIN)
+    deceleration_m_s2: Number = Field(gt=0, le=50)
     """Deceleration after touchdown."""
-    taxi_speed_kt: float = Field(gt=0)
-    look_ahead_m: float = Field(gt=0)
+    taxi_speed_kt: Number = Field(gt=0, le=1000)
+    look_ahead_m: Number = Field(gt=0, le=100_000)
     """Least distance of the point on a path that is steered to."""
-    tail_contact_deg: float = Field(gt=0)
+    tail_contact_deg: Number = Field(gt=0, le=90)
     """Pitch, on the main wheels, at which the tail touches the ground: of the Boeings as their
     flight crew training manuals have it, of the Cessnas from the JSBSim model's tail skid."""
-    wing_contact_deg: float = Field(gt=0)
+    wing_contact_deg: Number = Field(gt=0, le=90)
     """Bank, on one main wheel, at which a wing tip or an engine touches the ground: of the 747 as
     its flight manual warns (BFU Bulletin, October 2014), of the 737 about, of the Cessnas from the
     JSBSim model's wing tips."""
@@ -127,31 +132,31 @@ class Ground(_Section):
 class Flare(_Section):
     """The flare: sink rate ``height / time_constant_s + touchdown_rate_fpm``, and its pitch law."""
 
-    time_constant_s: float = Field(gt=0)
-    touchdown_rate_fpm: float = Field(gt=0)
-    decrab_height_m: float = Field(ge=0)
+    time_constant_s: Number = Field(gt=0, le=MOST_GAIN)
+    touchdown_rate_fpm: Number = Field(gt=0, le=20_000)
+    decrab_height_m: Number = Field(ge=0, le=1000)
     """Height of the main wheels below which the rudder points the nose along the runway."""
-    idle_height_part: float = Field(ge=0, lt=1)
+    idle_height_part: Number = Field(ge=0, lt=1)
     """Part of the flare's initial height at which the levers have come to idle."""
-    climb: float = Field(gt=0)
+    climb: Number = Field(gt=0, le=MOST_GAIN)
     """Pitch per error of climb angle; `airhilt.world.flight.autopilot.PitchLaw` says the rest."""
-    climb_integral_per_s: float = Field(ge=0)
-    climb_rate_s: float = Field(ge=0)
-    attitude_per_s: float = Field(gt=0)
+    climb_integral_per_s: Number = Field(ge=0, le=MOST_GAIN)
+    climb_rate_s: Number = Field(ge=0, le=MOST_GAIN)
+    attitude_per_s: Number = Field(gt=0, le=MOST_GAIN)
 
 
 class Landing(_Section):
     """Configuration and guidance of approach and landing."""
 
-    flaps: float = Field(ge=0, le=1)
+    flaps: Number = Field(ge=0, le=1)
     """Part of the model's full deflection."""
-    aim_m: float = Field(gt=0)
+    aim_m: Number = Field(gt=0, le=100_000)
     """Distance from the threshold to where the main wheels' glide path meets the runway."""
-    configure_m: float = Field(gt=0)
+    configure_m: Number = Field(gt=0, le=100_000)
     """Distance from the threshold at which gear and flaps are lowered."""
-    course_per_s: float = Field(gt=0)
+    course_per_s: Number = Field(gt=0, le=MOST_GAIN)
     """Turn rate per course error on the localizer."""
-    glide_per_s: float = Field(gt=0)
+    glide_per_s: Number = Field(gt=0, le=MOST_GAIN)
     """Vertical rate per height error on the glide path."""
     flare: Flare
 
@@ -159,26 +164,26 @@ class Landing(_Section):
 class Takeoff(_Section):
     """Configuration and rotation."""
 
-    flaps: float = Field(ge=0, le=1)
+    flaps: Number = Field(ge=0, le=1)
     """Part of the model's full deflection."""
-    pitch_deg: float = Field(gt=0)
+    pitch_deg: Number = Field(gt=0, le=90)
     """Pitch after the rotation, below the pitch at which the tail touches."""
-    pitch_rate_deg_s: float = Field(gt=0)
-    pull: float = Field(ge=0, lt=1)
+    pitch_rate_deg_s: Number = Field(gt=0, le=180)
+    pull: Number = Field(ge=0, lt=1)
     """Elevator at the beginning of the rotation; it lifts the nose wheel at rotation speed."""
-    rejected_deceleration_m_s2: float = Field(gt=0)
+    rejected_deceleration_m_s2: Number = Field(gt=0, le=50)
     """Deceleration of a rejected takeoff."""
 
 
 class AircraftType(_Section):
     """One ``aircraft/*.json``."""
 
-    name: str
+    name: Name
     jsbsim_model: str = Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]*$")
     """Folder of the model in the JSBSim wheel."""
     icao_designator: str = Field(pattern=r"^[A-Z][A-Z0-9]{1,3}$")
     """ICAO Doc 8643."""
-    description: str
+    description: str = Field(max_length=500)
     category: AircraftCategory
     dimensions: AircraftDimensions
     speeds: Speeds
@@ -209,10 +214,6 @@ def load_aircraft_type(name: str, files: Mapping[str, Any] = MappingProxyType({}
     try:
         if isinstance(path, str):
             return AircraftType.model_validate(files[path])
-        return AircraftType.model_validate_json(path.read_bytes())
+        return AircraftType.model_validate(documents.read(path))
     except pydantic.ValidationError as error:
-        problems = (
-            f"  {'.'.join(str(part) for part in problem['loc']) or 'the file'}: {problem['msg']}"
-            for problem in error.errors(include_url=False)
-        )
-        raise ScenarioError("\n".join([f"{path} is not an aircraft type:", *problems])) from error
+        raise no_file_of("an aircraft type", str(path), error) from error

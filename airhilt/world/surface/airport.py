@@ -12,15 +12,22 @@ import pydantic
 from pydantic import Field
 
 from airhilt import library
-from airhilt.errors import ScenarioError
 from airhilt.geodesy.positions import Bearing, Latitude, Longitude, RunwayIdent, TaxiwayName
-from airhilt.geodesy.wgs84 import Place
+from airhilt.geodesy.wgs84 import Place, are_within_m
 from airhilt.imaging.lenses import FieldOfView
+from airhilt.quantities import AltitudeFt, Count, Flag, Number
+from airhilt.scenario import documents
+from airhilt.scenario.problems import no_file_of
 from airhilt.units import DEGREE
 
+FARTHEST_M = 100_000.0
+"""Greatest distance of what an airport has from its reference point, in m."""
+MOST_PARTS = 20_000
+"""Greatest number of nodes, of corners and the like in one list."""
+Text = Annotated[str, Field(max_length=2000)]
 Point = tuple[Latitude, Longitude]
 """Latitude and longitude in degrees, as polygons have them."""
-Polygon = Annotated[tuple[Point, ...], Field(min_length=3)]
+Polygon = Annotated[tuple[Point, ...], Field(min_length=3, max_length=MOST_PARTS)]
 """The corners of an area, in order; the last joins the first."""
 Block = Literal[
     "reference",
@@ -55,11 +62,11 @@ class _Located(_Section):
 class Source(_Section):
     """Source of the numbers of a block."""
 
-    text: str = Field(min_length=1)
-    synthetic: bool = Field(
+    text: str = Field(min_length=1, max_length=2000)
+    synthetic: Flag = Field(
         default=False, description="true where the block is drawn or generated, not surveyed"
     )
-    note: str = ""
+    note: Text = ""
 
 
 class ReferencePoint(_Located):
@@ -69,16 +76,16 @@ class ReferencePoint(_Located):
 class MagneticVariation(_Section):
     """Angle from true north to magnetic north at the reference point."""
 
-    east_deg: float = Field(ge=-180.0, le=180.0, description="negative is west")
-    epoch: float = Field(description="the year for which it holds")
+    east_deg: Number = Field(ge=-180.0, le=180.0, description="negative is west")
+    epoch: Number = Field(ge=1900.0, le=2100.0, description="the year for which it holds")
 
 
 class RunwayThreshold(_Located):
     """One end of a runway: where its pavement begins on the centre line."""
 
     ident: RunwayIdent
-    elevation_ft: float
-    displaced_threshold_ft: float = Field(default=0.0, ge=0.0)
+    elevation_ft: AltitudeFt
+    displaced_threshold_ft: Number = Field(default=0.0, ge=0.0, le=20_000.0)
     heading_magnetic_deg: Bearing | None = None
 
 
@@ -86,10 +93,10 @@ class Runway(_Section):
     """A strip of pavement that is used in both directions."""
 
     ends: tuple[RunwayThreshold, RunwayThreshold]
-    width_ft: float = Field(gt=0.0)
-    surface: str = ""
-    hold_distance_m: float = Field(
-        gt=0.0, description="of the holding positions from the centre line"
+    width_ft: Number = Field(gt=0.0, le=1000.0)
+    surface: Text = ""
+    hold_distance_m: Number = Field(
+        gt=0.0, le=1000.0, description="of the holding positions from the centre line"
     )
 
     @property
@@ -110,14 +117,14 @@ class Edge(_Section):
 
     nodes: tuple[str, str]
     taxiway: TaxiwayName
-    width_m: float = Field(gt=0.0)
+    width_m: Number = Field(gt=0.0, le=500.0)
 
 
 class Taxiways(_Section):
     """The graph on which aircraft taxi and vehicles drive."""
 
-    nodes: tuple[Node, ...] = ()
-    edges: tuple[Edge, ...] = ()
+    nodes: tuple[Node, ...] = Field(default=(), max_length=MOST_PARTS)
+    edges: tuple[Edge, ...] = Field(default=(), max_length=MOST_PARTS)
 
 
 class HoldShort(_Section):
@@ -139,21 +146,21 @@ class HoldShort(_Section):
 class Tower(_Located):
     """The control tower."""
 
-    height_m: float = Field(gt=0.0, description="of the cab, above the ground")
+    height_m: Number = Field(gt=0.0, le=1000.0, description="of the cab, above the ground")
 
 
 class Building(_Section):
     """A block on the ground."""
 
-    name: str
+    name: Text
     footprint: Polygon
-    height_m: float = Field(gt=0.0)
+    height_m: Number = Field(gt=0.0, le=1000.0)
 
 
 class Water(_Section):
     """A river, a lake or the sea, as far as it can be seen."""
 
-    name: str
+    name: Text
     outline: Polygon
 
 
@@ -161,17 +168,17 @@ class Frequency(_Section):
     """A radio frequency and the unit that answers on it."""
 
     role: Role
-    frequency_khz: int = Field(ge=30_000, le=400_000)
-    name: str = ""
+    frequency_khz: Count = Field(ge=30_000, le=400_000)
+    name: Text = ""
 
 
 class Camera(_Located):
     """A fixed camera that watches the airport."""
 
     name: TaxiwayName
-    height_m: float = Field(gt=0.0, description="above the ground")
+    height_m: Number = Field(gt=0.0, le=1000.0, description="above the ground")
     azimuth_deg: Bearing
-    elevation_deg: float = Field(ge=-90.0, le=90.0, description="negative looks down")
+    elevation_deg: Number = Field(ge=-90.0, le=90.0, description="negative looks down")
     horizontal_fov_deg: FieldOfView
 
 
@@ -179,19 +186,37 @@ class Airport(_Section):
     """One ``airports/*.json``."""
 
     icao: str = Field(pattern=r"^[A-Z0-9-]{2,10}$")
-    name: str
+    name: Text
     reference: ReferencePoint
-    elevation_ft: float = Field(description="of the highest point of the runways")
+    elevation_ft: AltitudeFt = Field(description="of the highest point of the runways")
     magnetic_variation: MagneticVariation
-    runways: tuple[Runway, ...] = Field(min_length=1)
+    runways: tuple[Runway, ...] = Field(min_length=1, max_length=50)
     taxiways: Taxiways = Taxiways()
-    holds: tuple[HoldShort, ...] = ()
+    holds: tuple[HoldShort, ...] = Field(default=(), max_length=MOST_PARTS)
     tower: Tower | None = None
-    buildings: tuple[Building, ...] = ()
-    water: tuple[Water, ...] = ()
-    frequencies: tuple[Frequency, ...] = ()
-    cameras: tuple[Camera, ...] = ()
+    buildings: tuple[Building, ...] = Field(default=(), max_length=MOST_PARTS)
+    water: tuple[Water, ...] = Field(default=(), max_length=MOST_PARTS)
+    frequencies: tuple[Frequency, ...] = Field(default=(), max_length=500)
+    cameras: tuple[Camera, ...] = Field(default=(), max_length=500)
     sources: dict[Block, Source]
+
+    @pydantic.model_validator(mode="after")
+    def _is_in_one_place(self) -> Self:
+        located = [end for runway in self.runways for end in runway.ends]
+        points = [(one.lat_deg, one.lon_deg) for one in (*located, *self.taxiways.nodes)]
+        points += [(one.lat_deg, one.lon_deg) for one in self.cameras]
+        points += [point for building in self.buildings for point in building.footprint]
+        points += [point for water in self.water for point in water.outline]
+        if self.tower is not None:
+            points.append((self.tower.lat_deg, self.tower.lon_deg))
+        for lat_deg, lon_deg in points:
+            place = lat_deg * DEGREE, lon_deg * DEGREE
+            if not are_within_m(FARTHEST_M, self.reference.place, place):
+                raise ValueError(
+                    f"{lat_deg}, {lon_deg} is not near the reference point; expected at most "
+                    f"{FARTHEST_M / 1000.0:.0f} km"
+                )
+        return self
 
     @pydantic.model_validator(mode="after")
     def _is_consistent(self) -> Self:
@@ -249,7 +274,7 @@ def load_airport(name: str, files: Mapping[str, Any] = MappingProxyType({})) -> 
         try:
             return Airport.model_validate(files[name])
         except pydantic.ValidationError as error:
-            raise _wrong(name, error) from error
+            raise no_file_of("an airport", name, error) from error
     return read_airport(library.find("airports", name.lower()))
 
 
@@ -262,19 +287,9 @@ def read_airport(path: Path) -> Airport:
         The file is wrong.
     """
     try:
-        return Airport.model_validate_json(path.read_bytes())
-    except OSError as error:
-        raise ScenarioError(f"{path}: cannot be read: {error.strerror}") from error
+        return Airport.model_validate(documents.read(path))
     except pydantic.ValidationError as error:
-        raise _wrong(path, error) from error
-
-
-def _wrong(path: Path | str, error: pydantic.ValidationError) -> ScenarioError:
-    problems = (
-        f"  {'.'.join(str(part) for part in problem['loc']) or 'the file'}: {problem['msg']}"
-        for problem in error.errors(include_url=False)
-    )
-    return ScenarioError("\n".join([f"{path} is not an airport:", *problems]))
+        raise no_file_of("an airport", str(path), error) from error
 
 
 def _refuse_repeated(what: str, names: Iterable[str]) -> None:

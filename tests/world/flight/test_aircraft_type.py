@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -88,3 +88,43 @@ def test_a_number_that_must_be_positive_is_refused_at_zero(
     wrong(zero)
     with pytest.raises(ScenarioError, match=re.escape(place)):
         load_aircraft_type("wrong")
+
+
+def numbers(value: Any, *place: str | int) -> Iterator[tuple[str | int, ...]]:
+    """Yield the place of each number in a document."""
+    if isinstance(value, dict | list):
+        items = value.items() if isinstance(value, dict) else enumerate(value)
+        for name, inner in items:
+            yield from numbers(inner, *place, name)
+    elif isinstance(value, int | float) and not isinstance(value, bool):
+        yield place
+
+
+@pytest.mark.parametrize("given", [True, "190", 1e308, -1e308])
+def test_every_number_is_strict_and_has_bounds(given: Any) -> None:
+    whole = json.loads(library.find("aircraft", "737").read_text())
+    places = list(numbers(whole))
+    assert len(places) > 60
+    for place in places:
+        content = json.loads(json.dumps(whole))
+        inner = content
+        for name in place[:-1]:
+            inner = inner[name]
+        inner[place[-1]] = given
+        with pytest.raises(ScenarioError, match=re.escape(".".join(map(str, place)))):
+            load_aircraft_type("mine.json", {"mine.json": content})
+
+
+def test_a_file_that_is_nested_too_deeply_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "wrong.json").write_text("[" * 100_000)
+    monkeypatch.setattr(library, "folder", lambda kind: tmp_path)
+    with pytest.raises(ScenarioError, match="nested too deeply"):
+        load_aircraft_type("wrong")
+
+
+def test_of_many_mistakes_the_first_ten_are_told() -> None:
+    with pytest.raises(ScenarioError) as caught:
+        load_aircraft_type("mine.json", {"mine.json": {f"x{n}": n for n in range(1000)}})
+    assert len(str(caught.value).splitlines()) == 12

@@ -201,3 +201,46 @@ def test_numbers_without_a_source_are_refused(document: dict[str, Any], tmp_path
 def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
     with pytest.raises(ScenarioError, match=r"gone\.json: cannot be read: No such file"):
         read_airport(tmp_path / "gone.json")
+
+
+@pytest.mark.parametrize("given", [True, "19", 1e308, -1e308])
+@pytest.mark.parametrize(
+    "place",
+    [
+        "elevation_ft", "reference.lat_deg", "magnetic_variation.east_deg",
+        "magnetic_variation.epoch", "runways.0.width_ft", "runways.0.hold_distance_m",
+        "runways.0.ends.0.elevation_ft", "runways.0.ends.1.displaced_threshold_ft",
+        "taxiways.edges.0.width_m", "tower.height_m", "buildings.0.height_m",
+        "frequencies.0.frequency_khz", "cameras.0.height_m", "cameras.0.elevation_deg",
+    ],
+)  # fmt: skip
+def test_numbers_are_strict_and_have_bounds(
+    document: dict[str, Any], tmp_path: Path, place: str, given: Any
+) -> None:
+    *folders, name = place.split(".")
+    inner: Any = document
+    for part in folders:
+        inner = inner[int(part)] if part.isdecimal() else inner[part]
+    inner[name] = given
+    assert f"  {place}: " in refused(document, tmp_path)
+
+
+def test_an_airport_lies_around_its_reference_point(
+    document: dict[str, Any], tmp_path: Path
+) -> None:
+    for lat_deg, lon_deg in [(0.0, 0.0), (-38.85, 102.96)]:
+        document["runways"][0]["ends"][0] |= {"lat_deg": lat_deg, "lon_deg": lon_deg}
+        assert "is not near the reference point" in refused(document, tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [(b"[" * 100_000, "nested too deeply"), (b'{"icao": "\xff"}', "not UTF-8"), (b"{", "JSON")],
+)
+def test_a_file_that_is_no_json_within_limits_is_refused(
+    tmp_path: Path, content: bytes, said: str
+) -> None:
+    path = tmp_path / "mine.json"
+    path.write_bytes(content)
+    with pytest.raises(ScenarioError, match=said):
+        read_airport(path)
