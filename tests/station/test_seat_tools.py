@@ -143,13 +143,10 @@ def test_a_phrase_is_chosen_and_the_workload_is_rated(seat: tuple[PretendedRun, 
 
 
 @pytest.mark.browser
-def test_an_advisory_is_not_told_to_be_heard_where_the_loudspeaker_is_down(
-    seat: tuple[PretendedRun, str],
-) -> None:
-    run, url = seat
-    run.changes.add("briefing", "TOWER", None, ROSTER)
+def test_an_advisory_is_not_told_to_be_heard_where_the_loudspeaker_is_down() -> None:
     told: dict[str, list[str]] = {}
-    with page_with_microphone() as page:
+    with seat_page() as (run, url), page_with_microphone() as page:
+        run.changes.add("briefing", "TOWER", None, ROSTER)
         sit_down(page, url)
         for volume in ("0", "0.5"):
             page.evaluate(f"document.querySelector('#hearing input[max]').value = '{volume}'")

@@ -177,7 +177,7 @@ def test_a_still_for_which_there_is_no_room_leaves_the_last_one(
 ) -> None:
     write_png(blank(), tmp_path / "a.png")
     before = (tmp_path / "a.png").read_bytes()
-    monkeypatch.setattr(Path, "write_bytes", full_disk)
+    monkeypatch.setattr("airhilt.files.write_new", full_disk)
     with pytest.raises(CameraError, match=r"a\.png: .*No space left.*make room") as caught:
         write_png(blank(), tmp_path / "a.png", boxes=True)
     assert "\n" not in str(caught.value)
