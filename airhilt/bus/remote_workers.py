@@ -79,7 +79,10 @@ class RemoteWorker:
     def _ask(
         self, what: str, timeout_s: float, payload: bytes | None = None, header: bytes | None = None
     ) -> zenoh.Handler[zenoh.Reply]:
-        """Ask all who answer as this worker: Zenoh alone might choose another than it."""
+        """Ask all who answer as this worker: Zenoh alone might choose another than it.
+
+        The question waits for no data that somebody among them does not read.
+        """
         return self._bus.session.get(
             f"{self._key}/{what}",
             payload=payload,
@@ -87,6 +90,7 @@ class RemoteWorker:
             timeout=timeout_s,
             target=zenoh.QueryTarget.ALL,
             consolidation=zenoh.ConsolidationMode.NONE,
+            priority=zenoh.Priority.INTERACTIVE_HIGH,
         )
 
     def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> RemoteStep:

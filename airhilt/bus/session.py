@@ -34,6 +34,9 @@ LARGEST_BYTES = 128_000_000
 RECEIVED = 4
 """Number of messages that Zenoh keeps for one subscription; while there is no room for another, it
 lets the senders wait."""
+CLOSING_S = 1.0
+"""Wall time in s that a run waits for its session to close. Zenoh itself waits for 10 s for a
+connected program that does not read, and then fails."""
 
 IN_USE = "Address already in use"
 """Text in the error of Zenoh where another program has the port."""
@@ -332,6 +335,9 @@ class Bus:
         What was declared goes first, and the session itself last: Zenoh 1.10 keeps the shared
         memory and a file descriptor of a session whose publishers still exist when it is closed
         as long as the process lives, and those of any other as long as the object does.
+
+        A program that does not read does not hold up the end of the run: the session then goes on
+        closing by itself.
         """
         for publisher in self._publishers.values():
             publisher.undeclare()  # type: ignore[no-untyped-call]
@@ -341,8 +347,16 @@ class Bus:
         self._hearing.clear()
         self._publishers.clear()
         self._kept.clear()
-        self.session.close()  # type: ignore[no-untyped-call]
+        closing = threading.Thread(target=_close, args=(self.session,), daemon=True)
         del self.session
+        closing.start()
+        closing.join(CLOSING_S)
+
+
+def _close(session: zenoh.Session) -> None:
+    """Close a session; Zenoh fails to if a connected program never reads, which harms nobody."""
+    with suppress(zenoh.ZError):
+        session.close()  # type: ignore[no-untyped-call]
 
 
 def _size(sample: zenoh.Sample) -> int:
