@@ -137,3 +137,8 @@ def test_a_worker_is_not_called_with_a_picture_that_cannot_be_drawn() -> None:
         step = RemoteWorker(bus, "vision", 1.0).dispatch(0, 0, [picture])
         with pytest.raises(WorkerLost, match="it has ended"):
             step.result()
+
+
+def test_a_client_that_is_told_no_endpoint_asks_for_one_or_for_keys() -> None:
+    with pytest.raises(BusError, match="no endpoint of a run; expected one, such as tcp/127"):
+        connect_client(None, patience_s=0.0)
