@@ -260,3 +260,17 @@ def test_a_key_of_the_wrong_kind_is_a_named_mistake(
         assert (done.returncode, "no private key" in done.stderr) == (2, True)
     done = airhilt_command("sign", run_copy, "--key", tmp_path / "missing")
     assert (done.returncode, "cannot be read" in done.stderr) == (2, True)
+
+
+def test_a_run_that_has_no_hash_of_its_manifest_is_not_signed(
+    airhilt_command: Any, keys: Path, run_copy: Path
+) -> None:
+    """Earlier versions wrote none: a signature would say nothing about the other files."""
+    path = run_copy / "run.json"
+    document = json.loads(path.read_text())
+    del document["digest"]
+    path.write_text(json.dumps(document))
+    done = airhilt_command("sign", run_copy, "--key", keys)
+    assert done.returncode == 2
+    assert "recorded by an earlier version, whose manifest has its log alone" in done.stderr
+    assert not (run_copy / "run.json.sig").exists()
