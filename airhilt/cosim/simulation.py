@@ -261,6 +261,7 @@ class Simulation:
             ],
             setup.options.given_modalities,
             setup.seats,
+            self._director.pace.name,
         )
 
     def _connect_workers(self) -> WorkerPool:

@@ -32,7 +32,7 @@ from airhilt.metrics.first_warning import FirstWarning
 from airhilt.metrics.language_model import LanguageModelRecords
 from airhilt.metrics.latencies import StageLatencies
 from airhilt.metrics.outcome import Outcome
-from airhilt.metrics.people import PeopleRecords
+from airhilt.metrics.people import REAL_TIME, PeopleRecords
 from airhilt.metrics.plans import Plans
 from airhilt.metrics.summary import Summary, WarningParts
 from airhilt.metrics.warning_parts import parts_of, supporting_transcript
@@ -76,6 +76,8 @@ class Collector:
         Modalities that they are given.
     seats
         Units and callsigns that are left to people.
+    pace
+        Name of the pace with which the run begins.
 
     Attributes
     ----------
@@ -100,6 +102,7 @@ class Collector:
         deciders: Collection[str] = (),
         given: Collection[str] = MODALITIES,
         seats: Collection[str] = (),
+        pace: str = REAL_TIME,
     ) -> None:
         self.window = WindowTimes()
         self.modalities: dict[Modality, ModalityState] = {}
@@ -115,7 +118,7 @@ class Collector:
         self._evidence = EvidenceAges(deciders, given)
         self._detections = DetectionScores()
         self._language_model = LanguageModelRecords()
-        self._people = PeopleRecords(seats, [one.callsign for one in scenario.actors])
+        self._people = PeopleRecords(seats, [one.callsign for one in scenario.actors], pace)
         new_records = partial(
             AdvisoryRecords, callsigns_of(scenario), pair, monitor, self._detections.was_seen
         )

@@ -37,7 +37,9 @@ Advised = tuple[str, int, str]
 
 
 REAL_TIME = "realtime"
-"""Text of the event of a pace in which the time of the run passes as on the clock."""
+"""Name of the pace in which the time of the run passes as on the clock."""
+VIRTUAL = "virtual"
+"""Name of the pace of a run that goes on as fast as before when another pace is asked for."""
 
 
 class _Action(NamedTuple):
@@ -105,14 +107,19 @@ class PeopleRecords:
         Units and callsigns that are left to people.
     callsigns
         Callsigns of the run.
+    pace
+        Name of the pace with which the run begins.
     """
 
-    def __init__(self, seats: Collection[str], callsigns: Collection[str] = ()) -> None:
+    def __init__(
+        self, seats: Collection[str], callsigns: Collection[str] = (), pace: str = REAL_TIME
+    ) -> None:
         self._readbacks = Readbacks(callsigns)
         self._names = {key_chunk(seat): seat for seat in seats}
         self._people = {seat: _Person() for seat in seats}
         self._advisories: dict[Advised, Advisory] = {}
         self._voices_ns: dict[Advised, int] = {}
+        self._first_pace = pace
         self._paces: list[tuple[int, str]] = []
         """Times at which the pace changed, and the pace."""
 
@@ -130,7 +137,7 @@ class PeopleRecords:
                 for person in self._people.values():
                     if message.active and person.is_there and name[2] in person.recipients:
                         person.told.add(name)
-            case Event(kind="pace", text=pace, t_ns=t_ns):
+            case Event(kind="pace", text=pace, t_ns=t_ns) if self._first_pace != VIRTUAL:
                 self._paces.append((t_ns, pace))
             case SeatInfo(seat=seat, recipients=recipients) if seat in self._people:
                 self._people[seat].recipients = recipients
@@ -242,9 +249,9 @@ class PeopleRecords:
 
     def _is_real_time(self, begin_ns: int, end_ns: int) -> bool:
         """Return true if time passed as on the clock all the while."""
-        before = [pace for t_ns, pace in self._paces if t_ns < begin_ns]
+        before = [self._first_pace, *(pace for t_ns, pace in self._paces if t_ns < begin_ns)]
         within = [pace for t_ns, pace in self._paces if begin_ns <= t_ns <= end_ns]
-        return all(pace == REAL_TIME for pace in (*before[-1:], *within))
+        return all(pace == REAL_TIME for pace in (before[-1], *within))
 
 
 def _workload(person: _Person) -> WorkloadSummary:

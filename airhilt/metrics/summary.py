@@ -135,7 +135,7 @@ class PersonReaction(BaseModel):
         "perceived of those that advise it, or else of all before it",
     )
     is_real_time: bool = Field(
-        default=True, description="false: the run was paused or slow before that action"
+        default=True, description="false: the run was paused, slow or fast before that action"
     )
     reaction_time_s: float | None = Field(
         description="from t_heard_s or t_seen_s to that action; null if that is the reaction to "

@@ -279,3 +279,26 @@ def test_there_is_no_seat_where_nobody_has_a_radio(tmp_path: Path) -> None:
     silent = silent.model_copy(update={"radio": silent.radio.model_copy(update={"lines": ()})})
     with pytest.raises(ScenarioError, match=r"--seat 'AAL123'.*no radio line.*radio/lines"):
         logged(silent, tmp_path / "run", ["AAL123"])
+
+
+@pytest.mark.parametrize(("pace", "reaction_s"), [("realtime", 0.5), ("4x", None)])
+def test_a_reaction_is_measured_in_a_run_that_begins_in_real_time_alone(
+    tmp_path: Path, pace: str, reaction_s: float | None
+) -> None:
+    name = {"id": "a-1", "revision": 0, "recipient": "AAL123"}
+    advised = {
+        "kind": "runway_conflict", "severity": "WARNING", "traffic": ["AAL123"],
+        "recipients": ["AAL123"], "message": "stop", "t_ready_ns": 0,
+        "evidence": {"sources": ["adsb"]},
+    }  # fmt: skip
+    given = [
+        message("seat/AAL123", 0.5, is_taken=True),
+        message("advisory/AAL123", 1.0, **name, **advised),
+        message("perceived/AAL123", 1.0, **name, way="seen"),
+        message("speech/AAL123", 1.5, text="Say again."),
+    ]
+    out = tmp_path / "run"
+    logged(tower(2.0), out, ["AAL123"], given, pace=pace)
+    (of_crew,) = json.loads((out / "summary.json").read_text())["people"]
+    (found,) = of_crew["reactions"]
+    assert (found["reaction_time_s"], found["is_real_time"]) == (reaction_s, reaction_s is not None)

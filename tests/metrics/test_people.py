@@ -58,9 +58,9 @@ def perceived(way: str, after_s: float = 0.0) -> AdvisoryPerceived:
     )
 
 
-def person(*messages: tuple[float, str, Message]) -> PersonSummary:
+def person(*messages: tuple[float, str, Message], pace: str = "realtime") -> PersonSummary:
     """Return what is known of the person in AAL1 after messages at times in s, with keys."""
-    records = PeopleRecords(["AAL1"])
+    records = PeopleRecords(["AAL1"], pace=pace)
     for t_s, key, message in messages:
         records.take(key, message.model_copy(update={"t_ns": round(t_s * SECOND)}))
     return records.summaries()[0]
@@ -169,6 +169,33 @@ def test_no_reaction_is_measured_while_time_does_not_pass_as_on_the_clock(
         (12.0, "command/AAL1", GO_AROUND),
     ]
     found = reaction(*sorted([*changes, *acting], key=lambda one: one[0]))
+    assert found.reaction_time_s == reaction_time_s
+    assert found.is_real_time == (reaction_time_s is not None)
+
+
+@pytest.mark.parametrize(
+    ("pace", "changed_s", "reaction_time_s"),
+    [
+        ("realtime", None, 2.0),
+        ("0.5x", None, None),
+        ("4x", None, None),
+        ("4x", 5.0, 2.0),
+        ("4x", 11.0, None),
+        ("virtual", 5.0, None),
+    ],
+)
+def test_the_pace_with_which_the_run_begins_holds_until_it_is_changed(
+    pace: str, changed_s: float | None, reaction_time_s: float | None
+) -> None:
+    """Virtual time stays so: the run goes on as fast as it can, whatever people ask for."""
+    real = Event(kind="pace", subject="run", text="realtime")
+    messages = [
+        (10.0, "advisory/AAL1", advisory()),
+        (10.0, "perceived/AAL1", perceived("seen")),
+        *([] if changed_s is None else [(changed_s, "truth/event", real)]),
+        (12.0, "command/AAL1", GO_AROUND),
+    ]
+    found = person(*sorted(messages, key=lambda one: one[0]), pace=pace).reactions[0]
     assert found.reaction_time_s == reaction_time_s
     assert found.is_real_time == (reaction_time_s is not None)
 
