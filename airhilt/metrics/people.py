@@ -59,26 +59,23 @@ class _Perceived(NamedTuple):
 
 @dataclass
 class _Person:
-    """Record of the person at one seat."""
+    """Record of a person at a seat, from taking it until leaving it."""
 
     actions: list[_Action] = field(default_factory=list)
     delays_s: list[float] = field(default_factory=list)
     seen_ns: dict[Advised, int] = field(default_factory=dict)
     heard_ns: dict[Advised, int] = field(default_factory=dict)
-    recipients: tuple[str, ...] = ()
-    """Names under which advisories are for the person."""
-    is_there: bool = False
     told: set[Advised] = field(default_factory=set)
-    """Advisories that were published to the person, who was there."""
-    asked_again: int = 0
-    readback_errors: int = 0
-    readback_errors_heard: int = 0
-    questions: dict[int, WorkloadQuestion] = field(default_factory=dict)
-    answers: dict[int, WorkloadAnswer] = field(default_factory=dict)
+    """Advisories that were published to the person."""
 
     def first_action(self, since_ns: int) -> _Action | None:
         later = (one for one in self.actions if one.t_ns >= since_ns)
         return min(later, default=None, key=lambda one: one.t_ns)
+
+    @property
+    def perceived_names(self) -> set[Advised]:
+        """Advisories that the person saw or heard."""
+        return {*self.seen_ns, *self.heard_ns}
 
     def perceived(self, name: Advised) -> _Perceived:
         """Return from when on the reaction to an advisory counts.
@@ -94,8 +91,30 @@ class _Person:
         assert heard_ns is not None  # It was perceived.
         return _Perceived(name, heard_ns, "heard", self.first_action(heard_ns))
 
-    def count(self, what: str) -> int:
-        return sum(one.what == what for one in self.actions)
+
+@dataclass
+class _Seat:
+    """Record of a seat, and of those who had it."""
+
+    recipients: tuple[str, ...] = ()
+    """Names under which advisories are for the person."""
+    people: list[_Person] = field(default_factory=list)
+    is_taken: bool = False
+    asked_again: int = 0
+    readback_errors: int = 0
+    readback_errors_heard: int = 0
+    questions: dict[int, WorkloadQuestion] = field(default_factory=dict)
+    answers: dict[int, WorkloadAnswer] = field(default_factory=dict)
+
+    @property
+    def person(self) -> _Person | None:
+        """The person who has the seat now."""
+        return self.people[-1] if self.is_taken else None
+
+    def occupy(self, *, is_taken: bool) -> None:
+        if is_taken and not self.is_taken:
+            self.people.append(_Person())
+        self.is_taken = is_taken
 
 
 class PeopleRecords:
@@ -116,7 +135,7 @@ class PeopleRecords:
     ) -> None:
         self._readbacks = Readbacks(callsigns)
         self._names = {key_chunk(seat): seat for seat in seats}
-        self._people = {seat: _Person() for seat in seats}
+        self._seats = {seat: _Seat() for seat in seats}
         self._advisories: dict[Advised, Advisory] = {}
         self._voices_ns: dict[Advised, int] = {}
         self._first_pace = pace
@@ -125,29 +144,29 @@ class PeopleRecords:
 
     def take(self, key: str, message: Message) -> None:
         """Receive a published message."""
-        if self._people and (error := self._readbacks.take(message)) is not None:
-            if error.reader in self._people:
-                self._people[error.reader].readback_errors += 1
-            if error.giver in self._people:
-                self._people[error.giver].readback_errors_heard += 1
+        if self._seats and (error := self._readbacks.take(message)) is not None:
+            if error.reader in self._seats:
+                self._seats[error.reader].readback_errors += 1
+            if error.giver in self._seats:
+                self._seats[error.giver].readback_errors_heard += 1
         match message:
             case Advisory():
                 name = message.id, message.revision, message.recipient
                 self._advisories[name] = message
-                for person in self._people.values():
-                    if message.active and person.is_there and name[2] in person.recipients:
-                        person.told.add(name)
+                for seat in self._seats.values():
+                    if message.active and seat.person and message.recipient in seat.recipients:
+                        seat.person.told.add(name)
             case Event(kind="pace", text=pace, t_ns=t_ns) if self._first_pace != VIRTUAL:
                 self._paces.append((t_ns, pace))
-            case SeatInfo(seat=seat, recipients=recipients) if seat in self._people:
-                self._people[seat].recipients = recipients
+            case SeatInfo(seat=at, recipients=recipients) if at in self._seats:
+                self._seats[at].recipients = recipients
             case AdvisoryAudio():
                 name = message.id, message.revision, message.recipient
                 self._voices_ns[name] = message.t_ns
-            case SpokenTruth(addressed=seat, id=call) if seat in self._people:
-                self._people[seat].asked_again += ".say-again-" in call
-            case WorkloadQuestion(seat=seat, number=number) if seat in self._people:
-                self._people[seat].questions[number] = message
+            case SpokenTruth(addressed=at, id=call) if at in self._seats:
+                self._seats[at].asked_again += ".say-again-" in call
+            case WorkloadQuestion(seat=at, number=number) if at in self._seats:
+                self._seats[at].questions[number] = message
             case (
                 ActorCommand()
                 | SpokenWords()
@@ -156,9 +175,18 @@ class PeopleRecords:
                 | SeatPresence()
                 | WorkloadAnswer()
             ):
-                seat = self._names.get(key.split("/")[1])
-                if seat is not None:
-                    self._take_of(self._people[seat], message)
+                at = self._names.get(key.split("/")[1])
+                if at is not None:
+                    self._take_at(self._seats[at], message)
+
+    def _take_at(self, seat: _Seat, message: Message) -> None:
+        match message:
+            case SeatPresence(is_taken=is_taken):
+                seat.occupy(is_taken=is_taken)
+            case WorkloadAnswer(question=number):
+                seat.answers.setdefault(number, message)
+            case _ if seat.person is not None:
+                self._take_of(seat.person, message)
 
     @staticmethod
     def _take_of(person: _Person, message: Message) -> None:
@@ -171,39 +199,40 @@ class PeopleRecords:
                 pressed_ns = t_ns - round(delay_s * SECOND_NS)
                 person.actions.append(_Action(pressed_ns, "spoken call"))
                 person.delays_s.append(delay_s)
-            case SeatPresence(is_taken=is_taken):
-                person.is_there = is_taken
-            case WorkloadAnswer(question=number):
-                person.answers.setdefault(number, message)
             case AdvisoryPerceived(t_ns=t_ns):
                 times = person.heard_ns if message.way == "heard" else person.seen_ns
                 name = message.id, message.revision, message.recipient
                 times.setdefault(name, t_ns + round(message.after_s * SECOND_NS))
 
     def summaries(self) -> list[PersonSummary]:
-        """Return what each person did, by seat."""
-        return [self._summary(seat, person) for seat, person in self._people.items()]
+        """Return what people did, by seat."""
+        return [self._summary(name, seat) for name, seat in self._seats.items()]
 
-    def _summary(self, seat: str, person: _Person) -> PersonSummary:
-        spoken, typed = person.count("spoken call"), person.count("typed call")
-        names = {*person.seen_ns, *person.heard_ns} & self._advisories.keys()
-        perceived = sorted(person.perceived(name) for name in names)
-        reactions = [self._reaction(one, perceived, person) for one in perceived]
+    def _summary(self, name: str, seat: _Seat) -> PersonSummary:
+        done = [one.what for person in seat.people for one in person.actions]
+        spoken, typed = done.count("spoken call"), done.count("typed call")
+        delays_s = [delay_s for person in seat.people for delay_s in person.delays_s]
+        reactions = [one for person in seat.people for one in self._reactions(person)]
         times_s = [one.reaction_time_s for one in reactions if one.reaction_time_s is not None]
         return PersonSummary(
-            seat=seat,
+            seat=name,
             spoken_calls=spoken,
             typed_calls=typed,
-            commands=len(person.actions) - spoken - typed,
-            asked_to_say_again=person.asked_again,
-            readback_errors=person.readback_errors,
-            readback_errors_heard=person.readback_errors_heard,
-            press_to_transmit_s=median(person.delays_s) if person.delays_s else None,
+            commands=len(done) - spoken - typed,
+            asked_to_say_again=seat.asked_again,
+            readback_errors=seat.readback_errors,
+            readback_errors_heard=seat.readback_errors_heard,
+            press_to_transmit_s=median(delays_s) if delays_s else None,
             reaction_time_s=median(times_s) if times_s else None,
-            unperceived=len(person.told - names),
+            unperceived=sum(len(person.told - person.perceived_names) for person in seat.people),
             reactions=reactions,
-            workload=_workload(person) if person.questions else None,
+            workload=_workload(seat) if seat.questions else None,
         )
+
+    def _reactions(self, person: _Person) -> list[PersonReaction]:
+        names = person.perceived_names & self._advisories.keys()
+        perceived = sorted(person.perceived(name) for name in names)
+        return [self._reaction(one, perceived, person) for one in perceived]
 
     def _reaction(
         self, one: _Perceived, perceived: list[_Perceived], person: _Person
@@ -254,10 +283,10 @@ class PeopleRecords:
         return all(pace == REAL_TIME for pace in (before[-1], *within))
 
 
-def _workload(person: _Person) -> WorkloadSummary:
+def _workload(seat: _Seat) -> WorkloadSummary:
     ratings, tlx = [], None
-    for number, question in sorted(person.questions.items()):
-        answer = person.answers.get(number)
+    for number, question in sorted(seat.questions.items()):
+        answer = seat.answers.get(number)
         if question.scale == "nasa_tlx":
             tlx = None if answer is None else answer.nasa_tlx
             continue

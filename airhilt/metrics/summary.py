@@ -164,7 +164,7 @@ class WorkloadSummary(BaseModel):
 
 
 class PersonSummary(BaseModel):
-    """Words and actions of the person at one seat."""
+    """Words and actions of the person at one seat, or of those who had it one after another."""
 
     model_config = ConfigDict(frozen=True)
     seat: str

@@ -59,8 +59,13 @@ def perceived(way: str, after_s: float = 0.0) -> AdvisoryPerceived:
 
 
 def person(*messages: tuple[float, str, Message], pace: str = "realtime") -> PersonSummary:
-    """Return what is known of the person in AAL1 after messages at times in s, with keys."""
+    """Return what is known of people in AAL1 after messages at times in s, with keys.
+
+    A person is there all the while if no message tells who is.
+    """
     records = PeopleRecords(["AAL1"], pace=pace)
+    if not any(isinstance(message, SeatPresence) for _, _, message in messages):
+        records.take("seat/AAL1", SeatPresence(is_taken=True))
     for t_s, key, message in messages:
         records.take(key, message.model_copy(update={"t_ns": round(t_s * SECOND)}))
     return records.summaries()[0]
@@ -229,6 +234,49 @@ def test_advice_that_is_done_too_late_or_never_is_not_followed(late_s: float | N
     ]
     late = [] if late_s is None else [(10.0 + late_s, "command/AAL1", GO_AROUND)]
     assert reaction(*told, *late).followed is False
+
+
+def at_seat(t_s: float, *, is_taken: bool) -> tuple[float, str, Message]:
+    return t_s, "seat/AAL1", SeatPresence(is_taken=is_taken)
+
+
+def test_what_the_next_person_does_is_no_reaction_of_the_one_who_has_left() -> None:
+    """Each has a reaction to the advisory, which is in force when the second one comes."""
+    found = person(
+        at_seat(1.0, is_taken=True),
+        (10.0, "advisory/AAL1", advisory(GoAround(runway="01"))),
+        (10.0, "perceived/AAL1", perceived("seen")),
+        at_seat(11.0, is_taken=False),
+        at_seat(20.0, is_taken=True),
+        (20.5, "perceived/AAL1", perceived("seen")),
+        (22.0, "command/AAL1", GO_AROUND),
+    )
+    assert [(one.t_seen_s, one.reaction_time_s, one.followed) for one in found.reactions] == [
+        (10.0, None, False), (20.5, 1.5, True),
+    ]  # fmt: skip
+
+
+def test_who_has_not_perceived_an_advisory_does_not_react_to_it() -> None:
+    found = reaction(
+        at_seat(1.0, is_taken=True),
+        (10.0, "advisory/AAL1", advisory()),
+        (10.0, "perceived/AAL1", perceived("seen")),
+        at_seat(11.0, is_taken=False),
+        at_seat(78.0, is_taken=True),
+        (79.0, "microphone/AAL1", MicrophoneAudio(phase="pressed")),
+    )
+    assert (found.first_action, found.reaction_time_s) == (None, None)
+
+
+def test_what_is_done_while_nobody_has_the_seat_is_done_by_nobody() -> None:
+    found = person(
+        (1.0, "command/AAL1", GO_AROUND),
+        at_seat(2.0, is_taken=True),
+        (3.0, "command/AAL1", GO_AROUND),
+        at_seat(4.0, is_taken=False),
+        (5.0, "command/AAL1", GO_AROUND),
+    )
+    assert found.commands == 1
 
 
 def test_what_the_person_did_before_is_no_reaction() -> None:
