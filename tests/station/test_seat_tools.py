@@ -8,10 +8,12 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import httpx
+import numpy as np
 import pytest
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
+from airhilt.audio.pcm import SAMPLE_RATE_HZ, to_pcm
 from airhilt.messages import (
     Advisory,
     AdvisoryAudio,
@@ -24,6 +26,7 @@ from airhilt.record import Logged
 from airhilt.station import browsers
 from airhilt.station.live import LiveRun
 from airhilt.station.page_files import page_version
+from airhilt.station.subscription import Sound
 from microphone import (
     BUTTON,
     microphone_file,
@@ -157,15 +160,34 @@ def test_an_advisory_is_not_told_to_be_heard_where_the_loudspeaker_is_down() -> 
     assert sorted(told["0.5"]) == ["heard", "seen"]
 
 
-def warn(run: PretendedRun, name: str) -> None:
-    """Let the assistant warn the tower, with a tone and no voice."""
+@pytest.mark.browser
+def test_a_voice_without_a_tone_is_told_to_be_heard_only_if_it_sounds() -> None:
+    """A voice that cannot be had, of a run that has none for it, comes before one that sounds."""
+    voice = Sound(to_pcm(np.full(SAMPLE_RATE_HZ // 10, 0.1, np.float32)), None)
+    with seat_page() as (run, url), page_with_microphone() as page:
+        run.kept["there-0-ATC"] = voice
+        run.changes.add("briefing", "TOWER", None, ROSTER)
+        sit_down(page, url)
+        for name in ("missing", "there"):
+            warn(run, name, Severity.ADVISORY, samples=len(voice.pcm) // 2)
+        told = [run.next() for _ in range(3)]
+        wait_for_seat(run)
+    assert sorted((one.id, one.way) for one in told) == [
+        ("missing", "seen"), ("there", "heard"), ("there", "seen"),
+    ]  # fmt: skip
+
+
+def warn(
+    run: PretendedRun, name: str, severity: Severity = Severity.WARNING, samples: int = 0
+) -> None:
+    """Let the assistant warn the tower, with a tone for a warning, and a voice of some samples."""
     advised = Advisory(
         id=name, revision=0, recipient="ATC", recipients=("ATC",), kind="runway_conflict",
-        severity=Severity.WARNING, traffic=("AAL123",), message="stop", t_ready_ns=0,
+        severity=severity, traffic=("AAL123",), message="stop", t_ready_ns=0,
         evidence=Evidence(sources=("adsb",)), t_ns=1,
     )  # fmt: skip
     audio = AdvisoryAudio(
-        id=name, revision=0, recipient="ATC", text="stop", t_dec_ns=0, engine="", samples=0,
+        id=name, revision=0, recipient="ATC", text="stop", t_dec_ns=0, engine="", samples=samples,
         sha256="", t_ns=1,
     )  # fmt: skip
     live = LiveRun(run.changes, run.of_seats, views=run.views)

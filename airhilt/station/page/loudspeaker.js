@@ -70,8 +70,8 @@ export class Loudspeaker {
   }
 
   /**
-   * Plays the tone of a severity and then the voice, and returns when the first sample is audible,
-   * in s from now; null if nothing is played.
+   * Plays the tone of a severity and then the voice, and returns, once the first of them is
+   * played, when its first sample is audible, in s from then; null if nothing is played.
    */
   async warn(severity, url) {
     const context = this.#context;
@@ -79,9 +79,10 @@ export class Loudspeaker {
     const begin = context.currentTime,
       [hertz, pulses] = TONES[severity] ?? [0, []];
     for (const at of pulses) this.#pulse(hertz, begin + at);
-    const latency = (context.outputLatency || 0) + (context.baseLatency || 0);
-    if (url) this.#voice(url, begin + (pulses.length ? pulses.at(-1) + PULSE_S + 0.05 : 0));
-    return pulses.length || url ? latency : null;
+    const voice =
+      url && this.#voice(url, begin + (pulses.length ? pulses.at(-1) + PULSE_S + 0.05 : 0));
+    if (!pulses.length && !((await voice) && this.#isOn)) return null;
+    return (context.outputLatency || 0) + (context.baseLatency || 0);
   }
 
   /**
@@ -131,13 +132,19 @@ export class Loudspeaker {
     oscillator.stop(at + PULSE_S);
   }
 
+  /** Plays a voice from a time on, and returns true; false if there is none, or no seat any more. */
   async #voice(url, at) {
+    const sound = await this.#fetched(url).catch(() => null);
+    if (!sound || this.#context.state !== "running") return false;
+    this.#start(sound, Math.max(at, this.#context.currentTime));
+    return true;
+  }
+
+  async #fetched(url) {
     const answer = await fetch(url);
-    if (answer.status !== 200) return;
-    this.#start(
-      await this.#context.decodeAudioData(await answer.arrayBuffer()),
-      Math.max(at, this.#context.currentTime),
-    );
+    return answer.status === 200
+      ? this.#context.decodeAudioData(await answer.arrayBuffer())
+      : null;
   }
 
   #close(id) {
