@@ -66,6 +66,8 @@ class _Browser:
         """Number of the first piece of sound that it has not got."""
         self.button: HeldButton | None = None
         """Its transmit button, while it is held."""
+        self.pressed_at = ""
+        """Seat at which its button was pressed last."""
         self.unsent: deque[str] = deque()
 
     def tell(self, kind: str, what: Any) -> None:
@@ -208,8 +210,7 @@ class Browsers:
         elif wish.take is not None:
             await self._take(browser, wish.take)
         elif wish.leave is not None:
-            await self._leave(browser)
-            self._tell_seats()
+            await self._move(browser, None)
         elif browser.seat is None:
             self._refuse(browser, "You have no seat. Take one first.")
         else:
@@ -263,7 +264,7 @@ class Browsers:
     # --- the microphone ---------------------------------------------------------------------
 
     async def _press(self, browser: _Browser, seat: str, pressed: Pressed) -> None:
-        browser.button = HeldButton()
+        browser.button, browser.pressed_at = HeldButton(), seat
         audio = MicrophoneAudio(
             phase="pressed", frequency_khz=pressed.frequency_khz, delay_s=pressed.delay_s
         )
@@ -271,7 +272,7 @@ class Browsers:
 
     async def _hear(self, browser: _Browser, pcm: bytes) -> None:
         """Pass on the sound of a microphone; what comes after its release is left out."""
-        if browser.button is None or browser.seat is None:
+        if browser.button is None:
             return
         if not browser.button.admits(pcm):
             await self._release(browser)
@@ -279,13 +280,13 @@ class Browsers:
             return
         encoded = {"phase": "samples", "pcm": b64encode(pcm)}
         audio = MicrophoneAudio.model_validate(encoded)
-        await asyncio.to_thread(self._run.speak, browser.seat, audio)
+        await asyncio.to_thread(self._run.speak, browser.pressed_at, audio)
 
     async def _release(self, browser: _Browser) -> None:
-        if browser.button is not None and browser.seat is not None:
+        if browser.button is not None:
             browser.button = None
             released = MicrophoneAudio(phase="released")
-            await asyncio.to_thread(self._run.speak, browser.seat, released)
+            await asyncio.to_thread(self._run.speak, browser.pressed_at, released)
 
     # --- seats ------------------------------------------------------------------------------
 
@@ -298,11 +299,8 @@ class Browsers:
         if why is not None:
             self._refuse(browser, why)
         elif browser.seat != seat:  # Who has it already has pressed the button twice.
-            await self._leave(browser)
             self._held.pop(seat, None)
-            browser.seat, browser.seen_of_seat, browser.tuned = seat, 0, frozenset()
-            browser.unseen_from = 0
-            self._tell_seats()
+            await self._move(browser, seat)
             await self._occupy(seat, is_taken=True)
 
     def _why_not(self, browser: _Browser, seat: str) -> str | None:
@@ -315,18 +313,31 @@ class Browsers:
             return f"{readable(seat)} is kept for {HOLD_S:g} s for who had it."
         return None
 
-    async def _leave(self, browser: _Browser) -> None:
-        """Give the seat of a browser back, if it has one."""
-        await self._release(browser)
-        seat, browser.seat = browser.seat, None
-        if seat is not None:
-            browser.watched, browser.tuned, browser.unseen_from = None, frozenset(), None
-            await self._occupy(seat, is_taken=False)
+    async def _move(self, browser: _Browser, seat: str | None) -> None:
+        """Give a browser another seat, or none, and give back the one that it has.
+
+        It has the other one before anything is waited for, so that nobody else can take it.
+        """
+        left, browser.seat = browser.seat, seat
+        browser.tuned, browser.seen_of_seat = frozenset(), 0
+        browser.unseen_from = None if seat is None else 0
+        if left is not None:
+            browser.watched = None
+        self._tell_seats()
+        if left is not None:
+            await self._occupy(left, is_taken=False, browser=browser)
             await self._watch()
 
-    async def _occupy(self, seat: str, *, is_taken: bool) -> None:
-        """Tell the run that a seat is taken or left, one after the other."""
+    async def _occupy(
+        self, seat: str, *, is_taken: bool, browser: _Browser | None = None
+    ) -> None:
+        """Tell the run that a seat is taken or left, one after the other.
+
+        The transmit button of a browser that has left it is released before.
+        """
         async with self._occupying:
+            if browser is not None:
+                await self._release(browser)
             await asyncio.to_thread(self._run.occupy, seat, is_taken=is_taken)
 
     async def _give_back(self, browser: _Browser, begin: int) -> None:

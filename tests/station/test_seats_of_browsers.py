@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import threading
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -135,6 +136,43 @@ def test_the_run_learns_who_has_a_seat_in_the_order_in_which_it_was_taken() -> N
             time.sleep(0.02)
         told = [run.presence.get(timeout=PATIENCE_S) for _ in range(2)]
         assert told == [("TOWER", False), ("TOWER", True)]
+
+
+class WaitingRun(PretendedRun):
+    """A run that learns that a seat was left once it may."""
+
+    def __init__(self) -> None:
+        super().__init__(TWO)
+        self.is_learning, self.may_learn = threading.Event(), threading.Event()
+
+    def occupy(self, seat: str, *, is_taken: bool) -> None:
+        """Note it when it may be."""
+        if not is_taken:
+            self.is_learning.set()
+            self.may_learn.wait(PATIENCE_S)
+        super().occupy(seat, is_taken=is_taken)
+
+
+def test_nobody_gets_the_seat_to_which_somebody_moves() -> None:
+    run = WaitingRun()
+    with (
+        seat_page(run) as (_, url),
+        browser(url, "a") as own,
+        browser(url, "b") as other,
+    ):
+        try:
+            take(own)
+            own.send(json.dumps({"take": "GROUND"}))
+            assert run.is_learning.wait(PATIENCE_S)
+            answered = answer(other, "seats")
+            other.send(json.dumps({"take": "GROUND"}))
+            while isinstance(answered, dict):
+                assert answered["GROUND"] != "yours"
+                message = json.loads(other.recv(timeout=PATIENCE_S))
+                answered = message.get("refused", message.get("seats", {"GROUND": ""}))
+        finally:
+            run.may_learn.set()
+        assert "Somebody has the seat GROUND" in str(answered)
 
 
 class BrokenRun(PretendedRun):
