@@ -10,7 +10,7 @@ from collections import deque
 from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
 from fastapi import WebSocket, WebSocketDisconnect
 from pydantic import ValidationError
@@ -74,6 +74,13 @@ class _Browser:
         self.unsent.append(json.dumps({kind: what}))
 
 
+class _Hold(NamedTuple):
+    """A seat that is kept for the browser of an identity, until a task gives it back."""
+
+    identity: str
+    expiring: asyncio.Task[None]
+
+
 class Browsers:
     """Serves the browsers, gives them seats, and knows how many there are.
 
@@ -110,8 +117,8 @@ class Browsers:
         self._changes = changes
         self._of_seats = seats
         self._sounds = sounds or Changes()
-        self._held: dict[str, str] = {}
-        """Seats whose browser is gone and may come back, and its identity."""
+        self._held: dict[str, _Hold] = {}
+        """Seats whose browser is gone and may come back."""
         self._expiring: set[asyncio.Task[None]] = set()
         self._occupying = asyncio.Lock()
         """Held while the run is told who has a seat: it learns of changes in their order."""
@@ -299,7 +306,7 @@ class Browsers:
         if why is not None:
             self._refuse(browser, why)
         elif browser.seat != seat:  # Who has it already has pressed the button twice.
-            self._held.pop(seat, None)
+            self._end_hold(seat)
             await self._move(browser, seat)
             await self._occupy(seat, is_taken=True)
 
@@ -309,7 +316,8 @@ class Browsers:
             return f"{readable(seat)} is no seat of this run."
         if any(other.seat == seat for other in self._browsers if other is not browser):
             return f"Somebody has the seat {readable(seat)} already."
-        if seat in self._held and (not browser.identity or self._held[seat] != browser.identity):
+        hold = self._held.get(seat)
+        if hold is not None and (not browser.identity or hold.identity != browser.identity):
             return f"{readable(seat)} is kept for {HOLD_S:g} s for who had it."
         return None
 
@@ -347,9 +355,9 @@ class Browsers:
         """
         if not browser.identity:
             return
-        for seat, whose in list(self._held.items()):
-            if whose == browser.identity:
-                del self._held[seat]
+        for seat, hold in list(self._held.items()):
+            if hold.identity == browser.identity:
+                self._end_hold(seat)
                 browser.seat = seat
         for other in self._browsers:
             is_silent = time.monotonic() - other.last_heard_s > SILENT_S
@@ -362,18 +370,22 @@ class Browsers:
     def _hold(self, browser: _Browser) -> None:
         """Keep the seat of a browser that is gone, in case that it comes back."""
         if browser.seat is not None:
-            self._held[browser.seat] = browser.identity
-            expiring = asyncio.create_task(self._expire(browser.seat, browser.identity))
+            expiring = asyncio.create_task(self._expire(browser.seat))
+            self._held[browser.seat] = _Hold(browser.identity, expiring)
             self._expiring.add(expiring)
             expiring.add_done_callback(self._expiring.discard)
 
-    async def _expire(self, seat: str, identity: str) -> None:
+    def _end_hold(self, seat: str) -> None:
+        """Keep a seat no longer, if it is kept: somebody has it."""
+        if seat in self._held:
+            self._held.pop(seat).expiring.cancel()
+
+    async def _expire(self, seat: str) -> None:
         """Give a seat back whose browser has not come back."""
         await asyncio.sleep(HOLD_S)
-        if self._held.get(seat) == identity:
-            del self._held[seat]
-            self._tell_seats()
-            await self._occupy(seat, is_taken=False)
+        del self._held[seat]
+        self._tell_seats()
+        await self._occupy(seat, is_taken=False)
 
     def _tell_seats(self) -> None:
         """Tell each browser which seats are free, taken, or its own."""

@@ -7,7 +7,7 @@ import json
 import threading
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 
 import pytest
 from websockets.exceptions import ConnectionClosed
@@ -73,6 +73,26 @@ def test_the_seat_of_who_does_not_come_back_is_given_back_and_all_are_told(
         while answer(other, "seats") != {"TOWER": "free"}:
             pass
     assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", False)
+
+
+def test_a_seat_that_is_lost_again_is_kept_as_long_as_the_first_time(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    with seat_page(PretendedRun(TWO)) as (run, url), ExitStack() as connection:
+        other = connection.enter_context(browser(url, "b"))
+        with browser(url, "a") as own:
+            for socket, seat in ((own, "TOWER"), (other, "GROUND")):
+                socket.send(json.dumps({"take": seat}))
+                assert run.presence.get(timeout=PATIENCE_S) == (seat, True)
+            monkeypatch.setattr(browsers, "HOLD_S", 2.0)
+        with browser(url, "a") as back:
+            assert answer(back, "seats") == {"TOWER": "yours", "GROUND": "taken"}
+            connection.close()
+            answer(back, "seats")  # The seat of the other one is kept from now on.
+            monkeypatch.setattr(browsers, "HOLD_S", PATIENCE_S)
+        assert run.presence.get(timeout=PATIENCE_S) == ("GROUND", False)
+        with browser(url, "a") as own:
+            assert answer(own, "seats") == {"TOWER": "yours", "GROUND": "free"}
 
 
 def test_who_presses_twice_or_is_refused_another_seat_keeps_the_own_one() -> None:
