@@ -352,20 +352,25 @@ class Browsers:
         """Give a browser the seat that it had before its connection was lost.
 
         The old connection may not have ended yet, if the network is cut; it brings nothing then.
+        Of several seats it has one, and the others are kept until they expire.
         """
         if not browser.identity:
             return
-        for seat, hold in list(self._held.items()):
-            if hold.identity == browser.identity:
-                self._end_hold(seat)
-                browser.seat = seat
-        for other in self._browsers:
-            is_silent = time.monotonic() - other.last_heard_s > SILENT_S
-            if other is not browser and other.identity == browser.identity and is_silent:
-                await self._release(other)
-                browser.seat, other.seat = other.seat or browser.seat, None
+        silent = next((one for one in self._browsers if self._is_silent(one, browser)), None)
+        held = (seat for seat, hold in self._held.items() if hold.identity == browser.identity)
+        if silent is not None:
+            browser.seat, silent.seat = silent.seat, None
+            await self._release(silent)
+        elif (seat := next(held, None)) is not None:
+            self._end_hold(seat)
+            browser.seat = seat
         if browser.seat is not None and self._views.of(browser.seat) is None:
             browser.unseen_from = begin
+
+    def _is_silent(self, old: _Browser, new: _Browser) -> bool:
+        """Return true if an old connection has a seat of the browser of a new one, and is cut."""
+        is_same = old is not new and old.identity == new.identity
+        return is_same and old.seat is not None and time.monotonic() - old.last_heard_s > SILENT_S
 
     def _hold(self, browser: _Browser) -> None:
         """Keep the seat of a browser that is gone, in case that it comes back."""

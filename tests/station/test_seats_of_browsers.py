@@ -95,6 +95,24 @@ def test_a_seat_that_is_lost_again_is_kept_as_long_as_the_first_time(
             assert answer(own, "seats") == {"TOWER": "yours", "GROUND": "free"}
 
 
+def test_who_has_lost_two_seats_has_one_again_and_the_other_is_given_back(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    seats = {"TOWER", "GROUND"}
+    monkeypatch.setattr(browsers, "HOLD_S", 2.0)
+    with seat_page(PretendedRun(TWO)) as (run, url):
+        with browser(url, "a") as first, browser(url, "a") as second:
+            for socket, seat in ((first, "TOWER"), (second, "GROUND")):
+                socket.send(json.dumps({"take": seat}))
+                assert run.presence.get(timeout=PATIENCE_S) == (seat, True)
+        with browser(url, "a") as back:
+            shown = answer(back, "seats")
+            assert isinstance(shown, dict)
+            (given_back,) = [seat for seat in seats if shown[seat] == "yours"]
+            (expired,) = seats - {given_back}
+            assert run.presence.get(timeout=PATIENCE_S) == (expired, False)
+
+
 def test_who_presses_twice_or_is_refused_another_seat_keeps_the_own_one() -> None:
     with (
         seat_page(PretendedRun(TWO)) as (run, url),
