@@ -119,6 +119,8 @@ class Browsers:
         self._sounds = sounds or Changes()
         self._held: dict[str, _Hold] = {}
         """Seats whose browser is gone and may come back."""
+        self._taken_at: dict[str, int] = {}
+        """Number that the next change of a seat had when it was taken last, by seat."""
         self._expiring: set[asyncio.Task[None]] = set()
         self._occupying = asyncio.Lock()
         """Held while the run is told who has a seat: it learns of changes in their order."""
@@ -307,6 +309,7 @@ class Browsers:
             self._refuse(browser, why)
         elif browser.seat != seat:  # Who has it already has pressed the button twice.
             self._end_hold(seat)
+            self._taken_at[seat] = self._of_seats[seat].next_number
             await self._move(browser, seat)
             await self._occupy(seat, is_taken=True)
 
@@ -336,9 +339,7 @@ class Browsers:
             await self._occupy(left, is_taken=False, browser=browser)
             await self._watch()
 
-    async def _occupy(
-        self, seat: str, *, is_taken: bool, browser: _Browser | None = None
-    ) -> None:
+    async def _occupy(self, seat: str, *, is_taken: bool, browser: _Browser | None = None) -> None:
         """Tell the run that a seat is taken or left, one after the other.
 
         The transmit button of a browser that has left it is released before.
@@ -449,11 +450,8 @@ class Browsers:
                     await send_changes(first, number, was_unseen)
                 else:
                     await send(browser.unsent.popleft())
-            if browser.seat is not None:
-                own = self._of_seats[browser.seat].since(browser.seen_of_seat)
-                if own is not None:
-                    browser.seen_of_seat = own.next_number
-                    await send(f'{{"own":{own.changes}}}')
+            if (own := self._own(browser)) is not None:
+                await send(f'{{"own":{own}}}')
             sounds = self._sounds.since(browser.heard)
             if sounds is not None:
                 browser.heard = sounds.next_number
@@ -465,6 +463,24 @@ class Browsers:
                 continue
             number = await send_changes(number, end, is_seen)
             await asyncio.sleep(0)
+
+    def _own(self, browser: _Browser) -> str | None:
+        """Return what a browser has yet to get of its seat alone, as JSON, None if nothing.
+
+        A notice is for the person who was there when it came.
+        """
+        if browser.seat is None:
+            return None
+        batch = self._of_seats[browser.seat].since(browser.seen_of_seat)
+        if batch is None:
+            return None
+        seen, browser.seen_of_seat = browser.seen_of_seat, batch.next_number
+        taken_at = self._taken_at[browser.seat]
+        if seen >= taken_at:
+            return batch.changes
+        changes = json.loads(batch.changes)
+        numbered = enumerate(changes, batch.next_number - len(changes))
+        return json.dumps([one for n, one in numbered if n >= taken_at or one[0] != "notice"])
 
     def _has_unseen(self, browser: _Browser) -> bool:
         """Return true if a browser has yet to get what its seat saw before it took it."""

@@ -278,6 +278,26 @@ def test_who_takes_nothing_of_what_is_sent_is_gone(monkeypatch: pytest.MonkeyPat
     asyncio.run(serve())
 
 
+def test_who_sits_down_is_not_told_what_was_told_there_before() -> None:
+    run = PretendedRun()
+    run.seat.add("notice", 1.0, "Nobody is at the seat.")
+    run.seat.add("question", 2.0)
+    with seat_page(run) as (_, url):
+        with browser(url, "a") as own:
+            take(own)
+            told = answer(own, "own")
+            assert isinstance(told, list)
+            assert [kind for kind, *_ in told] == ["info", "question"]
+            run.seat.add("notice", 3.0, "Unable.")
+            assert answer(own, "own") == [["notice", 3.0, "Unable."]]
+        with browser(url, "a") as own:
+            told = answer(own, "own")
+            assert isinstance(told, list)
+            assert [change for change in told if change[0] == "notice"] == [
+                ["notice", 3.0, "Unable."]
+            ]
+
+
 def test_any_person_at_a_seat_may_pause_the_run(seat: tuple[PretendedRun, str]) -> None:
     run, url = seat
     with browser(url, "three") as own:
