@@ -10,7 +10,7 @@ from collections import deque
 from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 from types import MappingProxyType
-from typing import Any
+from typing import Any, NamedTuple
 
 from fastapi import WebSocket, WebSocketDisconnect
 from pydantic import ValidationError
@@ -66,10 +66,19 @@ class _Browser:
         """Number of the first piece of sound that it has not got."""
         self.button: HeldButton | None = None
         """Its transmit button, while it is held."""
+        self.pressed_at = ""
+        """Seat at which its button was pressed last."""
         self.unsent: deque[str] = deque()
 
     def tell(self, kind: str, what: Any) -> None:
         self.unsent.append(json.dumps({kind: what}))
+
+
+class _Hold(NamedTuple):
+    """A seat that is kept for the browser of an identity, until a task gives it back."""
+
+    identity: str
+    expiring: asyncio.Task[None]
 
 
 class Browsers:
@@ -108,8 +117,10 @@ class Browsers:
         self._changes = changes
         self._of_seats = seats
         self._sounds = sounds or Changes()
-        self._held: dict[str, str] = {}
-        """Seats whose browser is gone and may come back, and its identity."""
+        self._held: dict[str, _Hold] = {}
+        """Seats whose browser is gone and may come back."""
+        self._taken_at: dict[str, int] = {}
+        """Number that the next change of a seat had when it was taken last, by seat."""
         self._expiring: set[asyncio.Task[None]] = set()
         self._occupying = asyncio.Lock()
         """Held while the run is told who has a seat: it learns of changes in their order."""
@@ -208,8 +219,7 @@ class Browsers:
         elif wish.take is not None:
             await self._take(browser, wish.take)
         elif wish.leave is not None:
-            await self._leave(browser)
-            self._tell_seats()
+            await self._move(browser, None)
         elif browser.seat is None:
             self._refuse(browser, "You have no seat. Take one first.")
         else:
@@ -263,7 +273,7 @@ class Browsers:
     # --- the microphone ---------------------------------------------------------------------
 
     async def _press(self, browser: _Browser, seat: str, pressed: Pressed) -> None:
-        browser.button = HeldButton()
+        browser.button, browser.pressed_at = HeldButton(), seat
         audio = MicrophoneAudio(
             phase="pressed", frequency_khz=pressed.frequency_khz, delay_s=pressed.delay_s
         )
@@ -271,7 +281,7 @@ class Browsers:
 
     async def _hear(self, browser: _Browser, pcm: bytes) -> None:
         """Pass on the sound of a microphone; what comes after its release is left out."""
-        if browser.button is None or browser.seat is None:
+        if browser.button is None:
             return
         if not browser.button.admits(pcm):
             await self._release(browser)
@@ -279,13 +289,13 @@ class Browsers:
             return
         encoded = {"phase": "samples", "pcm": b64encode(pcm)}
         audio = MicrophoneAudio.model_validate(encoded)
-        await asyncio.to_thread(self._run.speak, browser.seat, audio)
+        await asyncio.to_thread(self._run.speak, browser.pressed_at, audio)
 
     async def _release(self, browser: _Browser) -> None:
-        if browser.button is not None and browser.seat is not None:
+        if browser.button is not None:
             browser.button = None
             released = MicrophoneAudio(phase="released")
-            await asyncio.to_thread(self._run.speak, browser.seat, released)
+            await asyncio.to_thread(self._run.speak, browser.pressed_at, released)
 
     # --- seats ------------------------------------------------------------------------------
 
@@ -298,11 +308,9 @@ class Browsers:
         if why is not None:
             self._refuse(browser, why)
         elif browser.seat != seat:  # Who has it already has pressed the button twice.
-            await self._leave(browser)
-            self._held.pop(seat, None)
-            browser.seat, browser.seen_of_seat, browser.tuned = seat, 0, frozenset()
-            browser.unseen_from = 0
-            self._tell_seats()
+            self._end_hold(seat)
+            self._taken_at[seat] = self._of_seats[seat].next_number
+            await self._move(browser, seat)
             await self._occupy(seat, is_taken=True)
 
     def _why_not(self, browser: _Browser, seat: str) -> str | None:
@@ -311,58 +319,79 @@ class Browsers:
             return f"{readable(seat)} is no seat of this run."
         if any(other.seat == seat for other in self._browsers if other is not browser):
             return f"Somebody has the seat {readable(seat)} already."
-        if seat in self._held and (not browser.identity or self._held[seat] != browser.identity):
+        hold = self._held.get(seat)
+        if hold is not None and (not browser.identity or hold.identity != browser.identity):
             return f"{readable(seat)} is kept for {HOLD_S:g} s for who had it."
         return None
 
-    async def _leave(self, browser: _Browser) -> None:
-        """Give the seat of a browser back, if it has one."""
-        await self._release(browser)
-        seat, browser.seat = browser.seat, None
-        if seat is not None:
-            browser.watched, browser.tuned, browser.unseen_from = None, frozenset(), None
-            await self._occupy(seat, is_taken=False)
+    async def _move(self, browser: _Browser, seat: str | None) -> None:
+        """Give a browser another seat, or none, and give back the one that it has.
+
+        It has the other one before anything is waited for, so that nobody else can take it.
+        """
+        left, browser.seat = browser.seat, seat
+        browser.tuned, browser.seen_of_seat = frozenset(), 0
+        browser.unseen_from = None if seat is None else 0
+        if left is not None:
+            browser.watched = None
+        self._tell_seats()
+        if left is not None:
+            await self._occupy(left, is_taken=False, browser=browser)
             await self._watch()
 
-    async def _occupy(self, seat: str, *, is_taken: bool) -> None:
-        """Tell the run that a seat is taken or left, one after the other."""
+    async def _occupy(self, seat: str, *, is_taken: bool, browser: _Browser | None = None) -> None:
+        """Tell the run that a seat is taken or left, one after the other.
+
+        The transmit button of a browser that has left it is released before.
+        """
         async with self._occupying:
+            if browser is not None:
+                await self._release(browser)
             await asyncio.to_thread(self._run.occupy, seat, is_taken=is_taken)
 
     async def _give_back(self, browser: _Browser, begin: int) -> None:
         """Give a browser the seat that it had before its connection was lost.
 
         The old connection may not have ended yet, if the network is cut; it brings nothing then.
+        Of several seats it has one, and the others are kept until they expire.
         """
         if not browser.identity:
             return
-        for seat, whose in list(self._held.items()):
-            if whose == browser.identity:
-                del self._held[seat]
-                browser.seat = seat
-        for other in self._browsers:
-            is_silent = time.monotonic() - other.last_heard_s > SILENT_S
-            if other is not browser and other.identity == browser.identity and is_silent:
-                await self._release(other)
-                browser.seat, other.seat = other.seat or browser.seat, None
+        silent = next((one for one in self._browsers if self._is_silent(one, browser)), None)
+        held = (seat for seat, hold in self._held.items() if hold.identity == browser.identity)
+        if silent is not None:
+            browser.seat, silent.seat = silent.seat, None
+            await self._release(silent)
+        elif (seat := next(held, None)) is not None:
+            self._end_hold(seat)
+            browser.seat = seat
         if browser.seat is not None and self._views.of(browser.seat) is None:
             browser.unseen_from = begin
+
+    def _is_silent(self, old: _Browser, new: _Browser) -> bool:
+        """Return true if an old connection has a seat of the browser of a new one, and is cut."""
+        is_same = old is not new and old.identity == new.identity
+        return is_same and old.seat is not None and time.monotonic() - old.last_heard_s > SILENT_S
 
     def _hold(self, browser: _Browser) -> None:
         """Keep the seat of a browser that is gone, in case that it comes back."""
         if browser.seat is not None:
-            self._held[browser.seat] = browser.identity
-            expiring = asyncio.create_task(self._expire(browser.seat, browser.identity))
+            expiring = asyncio.create_task(self._expire(browser.seat))
+            self._held[browser.seat] = _Hold(browser.identity, expiring)
             self._expiring.add(expiring)
             expiring.add_done_callback(self._expiring.discard)
 
-    async def _expire(self, seat: str, identity: str) -> None:
+    def _end_hold(self, seat: str) -> None:
+        """Keep a seat no longer, if it is kept: somebody has it."""
+        if seat in self._held:
+            self._held.pop(seat).expiring.cancel()
+
+    async def _expire(self, seat: str) -> None:
         """Give a seat back whose browser has not come back."""
         await asyncio.sleep(HOLD_S)
-        if self._held.get(seat) == identity:
-            del self._held[seat]
-            self._tell_seats()
-            await self._occupy(seat, is_taken=False)
+        del self._held[seat]
+        self._tell_seats()
+        await self._occupy(seat, is_taken=False)
 
     def _tell_seats(self) -> None:
         """Tell each browser which seats are free, taken, or its own."""
@@ -421,11 +450,8 @@ class Browsers:
                     await send_changes(first, number, was_unseen)
                 else:
                     await send(browser.unsent.popleft())
-            if browser.seat is not None:
-                own = self._of_seats[browser.seat].since(browser.seen_of_seat)
-                if own is not None:
-                    browser.seen_of_seat = own.next_number
-                    await send(f'{{"own":{own.changes}}}')
+            if (own := self._own(browser)) is not None:
+                await send(f'{{"own":{own}}}')
             sounds = self._sounds.since(browser.heard)
             if sounds is not None:
                 browser.heard = sounds.next_number
@@ -437,6 +463,24 @@ class Browsers:
                 continue
             number = await send_changes(number, end, is_seen)
             await asyncio.sleep(0)
+
+    def _own(self, browser: _Browser) -> str | None:
+        """Return what a browser has yet to get of its seat alone, as JSON, None if nothing.
+
+        A notice is for the person who was there when it came.
+        """
+        if browser.seat is None:
+            return None
+        batch = self._of_seats[browser.seat].since(browser.seen_of_seat)
+        if batch is None:
+            return None
+        seen, browser.seen_of_seat = browser.seen_of_seat, batch.next_number
+        taken_at = self._taken_at[browser.seat]
+        if seen >= taken_at:
+            return batch.changes
+        changes = json.loads(batch.changes)
+        numbered = enumerate(changes, batch.next_number - len(changes))
+        return json.dumps([one for n, one in numbered if n >= taken_at or one[0] != "notice"])
 
     def _has_unseen(self, browser: _Browser) -> bool:
         """Return true if a browser has yet to get what its seat saw before it took it."""

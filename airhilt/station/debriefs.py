@@ -12,6 +12,7 @@ from typing import Any
 
 from airhilt.errors import RunFolderError, StationError
 from airhilt.record import RunFolder
+from airhilt.station.started_runs import State
 from airhilt.text import LONGEST_LINE, readable
 
 MOST_OPEN = 4
@@ -25,13 +26,13 @@ class Debriefs:
 
     Parameters
     ----------
-    goes_on
-        Says of the name of a run if it has not ended.
+    state
+        Returns the state of the process of a run by its name, None if it is not known.
     """
 
-    def __init__(self, folder: Path, goes_on: Callable[[str], bool] = lambda _: False) -> None:
+    def __init__(self, folder: Path, state: Callable[[str], State | None] = lambda _: None) -> None:
         self._folder = folder
-        self._goes_on = goes_on
+        self._state = state
         self._open: OrderedDict[tuple[str, ...], tuple[subprocess.Popen[str], str]] = OrderedDict()
         self._read: dict[tuple[Path, int], dict[str, Any]] = {}
         self._lock = threading.Lock()
@@ -78,10 +79,11 @@ class Debriefs:
         for name in names:
             if name not in known:
                 raise StationError(f"run {readable(name)!r}: not in {self._folder}")
-            if known[name]["seats"] and self._goes_on(name):
+            if known[name]["seats"] and self._goes_on(known[name]):
                 raise StationError(
                     f"run {readable(name)!r}: goes on, with people at seats, who do not see the "
-                    "truth; open its debrief when it has ended"
+                    "truth; open its debrief when it has ended, or with airhilt view if it was "
+                    "killed"
                 )
         with self._lock:
             if names in self._open and self._open[names][0].poll() is None:
@@ -91,6 +93,11 @@ class Debriefs:
             while len(self._open) > MOST_OPEN:
                 _end(self._open.popitem(last=False)[1][0])
         return url
+
+    def _goes_on(self, row: dict[str, Any]) -> bool:
+        """Return true if a run has not ended; its folder tells where its process is not known."""
+        state = self._state(row["name"])
+        return row["phase"] == "running" if state is None else state != "ended"
 
     def _started(self, names: tuple[str, ...]) -> tuple[subprocess.Popen[str], str]:
         folders = [str(self._folder / name) for name in names]

@@ -140,9 +140,9 @@ class StartedRuns:
             return "ended"
         return "running" if self.url(run) else "starting"
 
-    def goes_on(self, name: str) -> bool:
-        """Return true if a run that was started here has not ended."""
-        return any(run.name == name and self.state(run) != "ended" for run in self.runs())
+    def state_of(self, name: str) -> State | None:
+        """Return how a run is doing by its name, None if it was not started here."""
+        return next((self.state(run) for run in self.runs() if run.name == name), None)
 
     def url(self, run: StartedRun) -> str:
         """Return the address of a run's page, empty if it has none yet."""

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import asyncio
 import json
+import threading
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 
 import pytest
 from websockets.exceptions import ConnectionClosed
@@ -74,6 +75,44 @@ def test_the_seat_of_who_does_not_come_back_is_given_back_and_all_are_told(
     assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", False)
 
 
+def test_a_seat_that_is_lost_again_is_kept_as_long_as_the_first_time(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    with seat_page(PretendedRun(TWO)) as (run, url), ExitStack() as connection:
+        other = connection.enter_context(browser(url, "b"))
+        with browser(url, "a") as own:
+            for socket, seat in ((own, "TOWER"), (other, "GROUND")):
+                socket.send(json.dumps({"take": seat}))
+                assert run.presence.get(timeout=PATIENCE_S) == (seat, True)
+            monkeypatch.setattr(browsers, "HOLD_S", 2.0)
+        with browser(url, "a") as back:
+            assert answer(back, "seats") == {"TOWER": "yours", "GROUND": "taken"}
+            connection.close()
+            answer(back, "seats")  # The seat of the other one is kept from now on.
+            monkeypatch.setattr(browsers, "HOLD_S", PATIENCE_S)
+        assert run.presence.get(timeout=PATIENCE_S) == ("GROUND", False)
+        with browser(url, "a") as own:
+            assert answer(own, "seats") == {"TOWER": "yours", "GROUND": "free"}
+
+
+def test_who_has_lost_two_seats_has_one_again_and_the_other_is_given_back(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    seats = {"TOWER", "GROUND"}
+    monkeypatch.setattr(browsers, "HOLD_S", 2.0)
+    with seat_page(PretendedRun(TWO)) as (run, url):
+        with browser(url, "a") as first, browser(url, "a") as second:
+            for socket, seat in ((first, "TOWER"), (second, "GROUND")):
+                socket.send(json.dumps({"take": seat}))
+                assert run.presence.get(timeout=PATIENCE_S) == (seat, True)
+        with browser(url, "a") as back:
+            shown = answer(back, "seats")
+            assert isinstance(shown, dict)
+            (given_back,) = [seat for seat in seats if shown[seat] == "yours"]
+            (expired,) = seats - {given_back}
+            assert run.presence.get(timeout=PATIENCE_S) == (expired, False)
+
+
 def test_who_presses_twice_or_is_refused_another_seat_keeps_the_own_one() -> None:
     with (
         seat_page(PretendedRun(TWO)) as (run, url),
@@ -135,6 +174,43 @@ def test_the_run_learns_who_has_a_seat_in_the_order_in_which_it_was_taken() -> N
             time.sleep(0.02)
         told = [run.presence.get(timeout=PATIENCE_S) for _ in range(2)]
         assert told == [("TOWER", False), ("TOWER", True)]
+
+
+class WaitingRun(PretendedRun):
+    """A run that learns that a seat was left once it may."""
+
+    def __init__(self) -> None:
+        super().__init__(TWO)
+        self.is_learning, self.may_learn = threading.Event(), threading.Event()
+
+    def occupy(self, seat: str, *, is_taken: bool) -> None:
+        """Note it when it may be."""
+        if not is_taken:
+            self.is_learning.set()
+            self.may_learn.wait(PATIENCE_S)
+        super().occupy(seat, is_taken=is_taken)
+
+
+def test_nobody_gets_the_seat_to_which_somebody_moves() -> None:
+    run = WaitingRun()
+    with (
+        seat_page(run) as (_, url),
+        browser(url, "a") as own,
+        browser(url, "b") as other,
+    ):
+        try:
+            take(own)
+            own.send(json.dumps({"take": "GROUND"}))
+            assert run.is_learning.wait(PATIENCE_S)
+            answered = answer(other, "seats")
+            other.send(json.dumps({"take": "GROUND"}))
+            while isinstance(answered, dict):
+                assert answered["GROUND"] != "yours"
+                message = json.loads(other.recv(timeout=PATIENCE_S))
+                answered = message.get("refused", message.get("seats", {"GROUND": ""}))
+        finally:
+            run.may_learn.set()
+        assert "Somebody has the seat GROUND" in str(answered)
 
 
 class BrokenRun(PretendedRun):
@@ -200,6 +276,26 @@ def test_who_takes_nothing_of_what_is_sent_is_gone(monkeypatch: pytest.MonkeyPat
         assert await asyncio.to_thread(run.presence.get, timeout=PATIENCE_S) == ("TOWER", False)
 
     asyncio.run(serve())
+
+
+def test_who_sits_down_is_not_told_what_was_told_there_before() -> None:
+    run = PretendedRun()
+    run.seat.add("notice", 1.0, "Nobody is at the seat.")
+    run.seat.add("question", 2.0)
+    with seat_page(run) as (_, url):
+        with browser(url, "a") as own:
+            take(own)
+            told = answer(own, "own")
+            assert isinstance(told, list)
+            assert [kind for kind, *_ in told] == ["info", "question"]
+            run.seat.add("notice", 3.0, "Unable.")
+            assert answer(own, "own") == [["notice", 3.0, "Unable."]]
+        with browser(url, "a") as own:
+            told = answer(own, "own")
+            assert isinstance(told, list)
+            assert [change for change in told if change[0] == "notice"] == [
+                ["notice", 3.0, "Unable."]
+            ]
 
 
 def test_any_person_at_a_seat_may_pause_the_run(seat: tuple[PretendedRun, str]) -> None:

@@ -53,7 +53,7 @@ def station(port: int, no_browser: bool, runs: Path, scenarios: tuple[Path, ...]
     from airhilt.station.started_runs import StartedRuns
 
     started = StartedRuns(runs.resolve())
-    debriefs = Debriefs(runs.resolve(), started.goes_on)
+    debriefs = Debriefs(runs.resolve(), started.state_of)
     app = home_app(ScenarioChoices(scenarios), started, debriefs, [*ASSISTANTS.names(), "none"])
     try:
         serve(app, address, opened=_opened, notice=tell, browser=not no_browser)
