@@ -333,3 +333,26 @@ def test_a_driver_begins_with_the_airport_and_a_controller_with_all_traffic(
         run.changes.add("briefing", "TOWER", ReportAirport("kdca").as_json(), CATEGORIES)
         page.wait_for("document.getElementById('plan-view').options[1]?.value === 'airport'")
         assert page.evaluate("document.getElementById('plan-view').value") == view
+
+
+def test_an_alert_of_the_equipment_sounds_once_while_aircraft_get_their_names(page: Page) -> None:
+    counted = """(() => {
+        const start = OscillatorNode.prototype.start;
+        window.pulses = 0;
+        OscillatorNode.prototype.start = function (at) {
+            window.pulses += 1;
+            start.call(this, at);
+        };
+    })()"""
+    listed = "document.getElementById('advisories').innerText"
+    with seated(page, "AAL123") as run:
+        page.evaluate(counted)
+        tcas(run, 0, "traffic, traffic", "CAUTION")
+        page.wait_for("window.pulses === 1")
+        for address, name in (("a1b2c3", "UAL789"), ("d4e5f6", "JBU321")):
+            run.changes.add("name", address, name)
+        advise(run, "AAL123", "Bird strike risk.", severity="CAUTION", traffic=["AAL123"])
+        page.wait_for(f"{listed}.includes('Bird strike risk.')")
+        assert page.evaluate("window.pulses") == 1
+        tcas(run, 1, "traffic, traffic", "CAUTION")
+        page.wait_for("window.pulses === 2")

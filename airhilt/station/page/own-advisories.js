@@ -10,7 +10,7 @@ import { Rows } from "./rows.js";
 import { capital, instruction, known, percent, seconds, words } from "./words.js";
 
 const MOST_SHOWN = 10; // at a time, those that began last
-const MOST_TOLD = 1000; // reports that are not made again
+const MOST_TOLD = 1000; // reports that are not made again, and alerts that do not sound again
 
 export class OwnAdvisories {
   #run;
@@ -18,6 +18,7 @@ export class OwnAdvisories {
   #warn;
   #shown = new Map(); // the newest text of each advisory in force
   #told = new Set();
+  #sounded = new Set(); // alerts of the equipment
   #rows = new Rows(byId("own-advisories"));
 
   /**
@@ -42,7 +43,7 @@ export class OwnAdvisories {
     if (!row.active) return;
     const { recipient } = texts.at(-1);
     requestAnimationFrame(() => setTimeout(() => this.#report(row, recipient, "seen", 0)));
-    if (row.equipment) this.#sound(row, recipient, null);
+    if (row.equipment) this.#alert(row, recipient);
   }
 
   /** Takes in that the assistant speaks an advisory to somebody. */
@@ -60,12 +61,23 @@ export class OwnAdvisories {
 
   clear() {
     this.#shown.clear();
+    this.#sounded.clear();
     this.#draw();
   }
 
+  /** Sounds an alert of the equipment, unless it was audible before. */
+  async #alert({ equipment, id, revision, severity }, recipient) {
+    const name = `${equipment} ${id} ${revision} ${recipient}`;
+    if (this.#sounded.has(name)) return;
+    this.#sounded.add(name);
+    keepNewest(this.#sounded, MOST_TOLD);
+    if ((await this.#warn(severity, null)) === null) this.#sounded.delete(name);
+  }
+
+  /** Sounds what the assistant speaks, and reports when that was heard. */
   async #sound(row, recipient, url) {
     const after = await this.#warn(row.severity, url);
-    if (after !== null && !row.equipment) this.#report(row, recipient, "heard", after);
+    if (after !== null) this.#report(row, recipient, "heard", after);
   }
 
   #report({ id, revision, equipment }, recipient, way, after) {
