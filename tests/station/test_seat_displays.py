@@ -129,7 +129,13 @@ def test_the_list_of_keys_has_those_that_act_at_the_seat(page: Page) -> None:
             "cockpit: go around",
             "brake, hold position, reject take-off",
             "1 s back",
+            "sound off or on",
         } & set(listed)
+        page.evaluate("document.getElementById('help').close()")
+        page.click("seat-take")
+        page.wait_for("document.getElementById('talk').hidden")
+        page.press("?", 191)
+        assert "sound off or on" in page.evaluate(KEYS)
 
 
 def test_enter_ticks_a_box_where_the_space_bar_is_to_talk(page: Page) -> None:

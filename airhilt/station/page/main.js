@@ -100,7 +100,13 @@ async function begin() {
   });
   connectKeys([
     ...timeKeys(clock, transport),
-    { names: ["m"], shown: ["M"], text: "sound off or on", act: () => sounds.mute() },
+    {
+      names: ["m"],
+      shown: ["M"],
+      text: "sound off or on",
+      isUsed: () => !seat?.own, // a seat has its volume
+      act: () => sounds.mute(),
+    },
     { names: ["f"], shown: ["F"], text: "all traffic in the plan", act: () => plan.fit("all") },
     { names: ["+", "="], shown: ["+"], text: "zoom in", repeats: true, act: () => plan.zoom(1.5) },
     { names: ["-"], shown: ["-"], text: "zoom out", repeats: true, act: () => plan.zoom(1 / 1.5) },
