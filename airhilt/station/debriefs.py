@@ -8,7 +8,7 @@ import threading
 from collections import OrderedDict
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import IO, Any
 
 from airhilt.errors import RunFolderError, StationError
 from airhilt.record import RunFolder
@@ -113,7 +113,7 @@ class Debriefs:
         said = ""
         for line in process.stdout:
             if line.startswith("http://"):
-                threading.Thread(target=process.stdout.read, daemon=True).start()
+                threading.Thread(target=_drain, args=(process.stdout,), daemon=True).start()
                 return process, line.split()[0]
             said = line.removeprefix("airhilt: ").strip() or said
         process.wait()
@@ -125,6 +125,12 @@ class Debriefs:
             for process, _ in self._open.values():
                 _end(process)
             self._open.clear()
+
+
+def _drain(printed: IO[str]) -> None:
+    """Read away what a process prints until its end, so that it never waits for that."""
+    with printed:
+        printed.read()
 
 
 def _end(process: subprocess.Popen[str]) -> None:
