@@ -69,7 +69,7 @@ def audience_of_header(family: str, header: dict[str, Any]) -> Audience | None:
 
 
 class SeatView:
-    """What a person sees at a seat.
+    """View of a run at a seat.
 
     A unit sees what receivers, radars and cameras of the ground give. A crew or a driver sees
     ADS-B with a receiver of its own, else its own position alone, and the cameras that it carries.

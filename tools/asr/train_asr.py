@@ -351,6 +351,9 @@ class Batches(Dataset[Batch]):
         self._all = sorted(utterances, key=lambda each: len(each.mel))
         short = [each for each in self._all if len(each.mel) < EASY_FRAMES and not each.real]
         self._easy = short or self._all
+        self._ends = [
+            np.cumsum([len(each.mel) for each in some]) for some in (self._all, self._easy)
+        ]
         self._frames, self._seed = frames, seed
         self._easy_steps, self._clear_steps = easy, clear
         self._bank = noise_bank()
@@ -363,8 +366,7 @@ class Batches(Dataset[Batch]):
         """
         rng = np.random.default_rng([self._seed, step])
         easy = step < self._easy_steps
-        drawn_from = self._easy if easy else self._all
-        ends = np.cumsum([len(each.mel) for each in drawn_from])
+        drawn_from, ends = (self._easy if easy else self._all), self._ends[easy]
         middle = int(np.searchsorted(ends, rng.integers(ends[-1]), side="right"))
         count = max(1, self._frames // len(drawn_from[middle].mel))
         around = max(count, round(NEIGHBOURS * len(drawn_from)))
