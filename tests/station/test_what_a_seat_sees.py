@@ -117,7 +117,7 @@ SEEN = {
         "state AAL123", "state DAL456", f"call call-{GROUND_KHZ}", "camera nose", "picture nose",
     },
 }  # fmt: skip
-"""What is seen at each seat of what the run publishes."""
+"""Changes of the run, by the seats that see them."""
 FILES = {
     "api/cameras/mast/1.jpg": "of-tower",
     "api/cameras/nose/1.jpg": "of-pilot",
