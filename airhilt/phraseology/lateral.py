@@ -121,6 +121,8 @@ _TURNS = (
     r"(?: [0-9]{1,2} (?:miles?|minutes?)(?: legs?)?)?"
     r"(?: (?P<turn>left|right)(?: hand)? (?:turns?|pattern|circuits?))?"
 )
+_NO_RUNWAY = r"(?<!runway )(?<!short of )(?<!short )(?<!cross )(?<!crossing )"
+"""Nothing before that makes a runway of a number and a side."""
 _DIRECT = r"(?:(?:proceed(?:ing)?|clear(?:ed)?(?: to proceed)?|then) )?direct(?: to)?"
 
 FORMS: Listed = (
@@ -142,7 +144,8 @@ FORMS: Listed = (
     ("turn turning", "turn_by", r"turn(?:ing)? (?P<degrees>[1-9][05]) (?P<turn>left|right)",
      turn_by),
     ("10 15 20 30", "turn_by",
-     r"(?P<degrees>[0-9]{2}) (?P<turn>left|right)(?= for (?:traffic|spacing|sequenc)\S*)", turn_by),
+     rf"{_NO_RUNWAY}(?P<degrees>[0-9]{{2}}) (?P<turn>left|right)"
+     r"(?= for (?:traffic|spacing|sequenc)\S*)", turn_by),
     ("turn turning", "turn_by",
      r"turn(?:ing)? (?P<turn>left|right) (?P<degrees>[0-9]{1,2}) degrees", turn_by),
     (" ".join(str(degrees) for degrees in range(5, 185, 5)), "turn_by",

@@ -13,6 +13,7 @@ onnx = pytest.importorskip("onnx", reason="no torch or onnx: pip install torch o
 import onnxruntime  # noqa: E402
 
 import train_asr  # noqa: E402
+from airhilt.assistant.asr.engines.embedded import CONTEXT_FRAMES  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("default")  # torch's own
 PIECES = ("_alfa", "_bravo", "_", "a", "b")
@@ -25,7 +26,7 @@ def trained(tmp_path: Path) -> Path:
     network = train_asr.Recogniser(len(PIECES))
     given = train_asr.Training(tmp_path, tmp_path, 0)
     (tmp_path / "pieces.txt").write_text("\n".join(PIECES))
-    train_asr._save(network, train_asr.optimisers_of(network, 1e-3), 0, given, 0)
+    train_asr._save(network, train_asr.optimisers_of(network, 1e-3, adamw=False), 0, given, 0)
     return tmp_path
 
 
@@ -96,12 +97,26 @@ def test_weights_of_another_network_are_refused(trained: Path) -> None:
         train_asr.begin_with(train_asr.Recogniser(len(PIECES) + 1), trained / "kept")
 
 
-def test_all_weights_have_one_optimiser() -> None:
+@pytest.mark.parametrize("adamw", [False, True])
+def test_all_weights_have_one_optimiser(adamw: bool) -> None:
     network = train_asr.Recogniser(len(PIECES))
     given = [
         id(weight)
-        for optimiser in train_asr.optimisers_of(network, 1e-3)
+        for optimiser in train_asr.optimisers_of(network, 1e-3, adamw=adamw)
         for group in optimiser.param_groups
         for weight in group["params"]
     ]
     assert sorted(given) == sorted(id(weight) for weight in network.parameters())
+
+
+def test_a_step_hears_nothing_that_is_farther_away_than_the_context_of_a_window() -> None:
+    torch.manual_seed(0)
+    network = train_asr.Recogniser(len(PIECES)).eval()
+    features = torch.randn(1, 2 * CONTEXT_FRAMES + 480, 64)
+    with torch.no_grad():
+        whole = network(features)
+        features[:, : -CONTEXT_FRAMES - 240] = 0.0
+        part = network(features)
+    last = slice(-80, None)
+    assert torch.allclose(whole[:, last], part[:, last], atol=1e-5)
+    assert not torch.allclose(whole, part, atol=1e-2)

@@ -45,6 +45,8 @@ OUTPUTS = 2
 """Steps of the output to one inside."""
 WIDTH, NARROW, SQUEEZED = 256, 128, 32
 DILATIONS = (1, 1, 2, 1, 2, 4, 1, 2)
+AROUND = 16
+"""Steps inside, on both sides of one, whose mean weighs its channels: a second."""
 HALFWAY, HALFWAY_WEIGHT = 4, 0.3
 """Block after which the pieces are asked for too, and the weight of that loss (intermediate CTC:
 Lee and Watanabe, ICASSP 2021)."""
@@ -83,9 +85,10 @@ class Convolution(nn.Module):
 
 
 class Residual(nn.Module):
-    """A convolution with a way round it, whose channels the whole call weighs.
+    """A convolution with a way round it, whose channels are weighed by what is around a step.
 
-    Squeeze and excitation: Hu et al., CVPR 2018; for speech: Han et al., Interspeech 2020.
+    Squeeze and excitation: Hu et al., CVPR 2018; for speech, with a window: Han et al.,
+    Interspeech 2020.
     """
 
     def __init__(self, width: int, dilation: int) -> None:
@@ -99,8 +102,11 @@ class Residual(nn.Module):
     def forward(self, x: Tensor) -> Tensor:
         """Return the same shape."""
         y = torch.relu(self.norm(self.convolve(x)))
-        weights = torch.sigmoid(self.excite(torch.relu(self.squeeze(y.mean(2)))))
-        return x + self.drop(y * weights[:, :, None])
+        around = nn.functional.avg_pool1d(
+            y, 2 * AROUND + 1, 1, AROUND, count_include_pad=False
+        ).transpose(1, 2)
+        weights = torch.sigmoid(self.excite(torch.relu(self.squeeze(around))))
+        return x + self.drop(y * weights.transpose(1, 2))
 
 
 class Recogniser(nn.Module):
@@ -422,6 +428,9 @@ class Training:
         differ a little from run to run, because it sums in another order each time.
     workers
         Processes that mix batches; 0: the training does it itself.
+    adamw
+        Whether AdamW trains all weights, instead of Muon the matrices inside. Muon computes in
+        bfloat16, with which a step takes 12 s on a processor that does not know it.
     """
 
     build: Path
@@ -435,6 +444,7 @@ class Training:
     bfloat16: bool = False
     device: str = "cpu"
     workers: int = 0
+    adamw: bool = False
 
 
 def train(given: Training) -> None:
@@ -448,7 +458,7 @@ def train(given: Training) -> None:
     if given.begin_with is not None:
         begin_with(network, given.begin_with)
     network.to(given.device)
-    optimisers = optimisers_of(network, given.rate)
+    optimisers = optimisers_of(network, given.rate, adamw=given.adamw)
     first = _resume(network, optimisers, given.into / "checkpoint.pt")
     parameters = sum(p.numel() for p in network.parameters())
     utterances = load(given.build / "train", pieces, given.without)
@@ -484,8 +494,12 @@ def train(given: Training) -> None:
     _save(network, optimisers, max(first, given.steps), given, len(utterances))
 
 
-def optimisers_of(network: Recogniser, rate: float) -> list[torch.optim.Optimizer]:
+def optimisers_of(
+    network: Recogniser, rate: float, *, adamw: bool
+) -> list[torch.optim.Optimizer]:
     """Return the optimisers: Muon (Jordan 2024) of the matrices inside, AdamW of all else."""
+    if adamw:
+        return [torch.optim.AdamW(network.parameters(), lr=rate, weight_decay=0.01)]
     matrices: list[nn.Parameter] = []
     others: list[nn.Parameter] = []
     for name, weight in network.named_parameters():
@@ -661,6 +675,7 @@ def add_options(parser: argparse.ArgumentParser, steps: int) -> None:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--batch-frames", type=int, default=12_000, help="frames of a batch")
     parser.add_argument("--bfloat16", action="store_true", help="faster on CUDA and AVX512-BF16")
+    parser.add_argument("--adamw", action="store_true", help="without Muon, which needs bfloat16")
     parser.add_argument("--device", default="cpu", help="device of torch, such as cuda")
     parser.add_argument("--workers", type=int, default=0, help="processes that mix batches")
 
