@@ -102,16 +102,35 @@ def open_inside(folder: Path, path: Path) -> BufferedReader:
     return os.fdopen(opened, "rb")
 
 
-def read_inside(folder: Path, path: Path) -> bytes:
+def read_inside(folder: Path, path: Path, most_bytes: int) -> bytes:
     """Return the content of a file of a folder.
 
     Raises
     ------
     OSError
-        As `open_inside`, or it cannot be read.
+        As `open_inside`, or it cannot be read, or is larger than that.
     """
     with open_inside(folder, path) as stream:
-        return stream.read()
+        return _content(stream, path, most_bytes)
+
+
+def read_file(path: Path, most_bytes: int) -> bytes:
+    """Return the content of a file that the user names.
+
+    Raises
+    ------
+    OSError
+        It cannot be read, or is larger than that.
+    """
+    with path.open("rb") as stream:
+        return _content(stream, path, most_bytes)
+
+
+def _content(stream: BufferedReader, path: Path, most_bytes: int) -> bytes:
+    data = stream.read(most_bytes + 1)
+    if len(data) > most_bytes:
+        raise OSError(errno.EFBIG, f"has over {most_bytes:,} bytes", str(path))
+    return data
 
 
 def regular(path: Path) -> Path:

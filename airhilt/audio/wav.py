@@ -12,7 +12,10 @@ from pathlib import Path
 
 from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ, Audio, from_pcm, to_pcm
 from airhilt.errors import SpeechError
-from airhilt.files import regular, replace_file
+from airhilt.files import read_file, regular, replace_file
+
+LARGEST_WAV_BYTES = 100_000_000
+"""Size of the largest file that is read: 52 minutes."""
 
 
 def encode_wav(audio: Audio) -> bytes:
@@ -84,7 +87,7 @@ def read_wav(path: Path) -> Audio:
         It cannot be read, or as `decode_wav`.
     """
     try:
-        data = regular(path).read_bytes()
+        data = read_file(regular(path), LARGEST_WAV_BYTES)
     except OSError as error:
         raise SpeechError(f"{path}: cannot be read: {error.strerror}") from None
     return decode_wav(data, str(path))

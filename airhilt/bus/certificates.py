@@ -21,10 +21,11 @@ from cryptography.hazmat.primitives.hashes import SHA256
 from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
 from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID
 
+from airhilt import bounded_json
 from airhilt.bus.access import CERTIFICATE_NAME, ROLES, Role
 from airhilt.bus.endpoints import AUTHENTICATED, host_of, protocol_of
 from airhilt.errors import BusError
-from airhilt.files import write_new
+from airhilt.files import read_file, write_new
 
 Holder = Role | Literal["router"]
 """Whose a file is: a program of a role, or the run, whose session is a router of Zenoh."""
@@ -115,7 +116,7 @@ def read_keys(folder: Path, holder: Holder) -> Keys:
     """
     path, side = key_file(folder, holder), _side(holder)
     try:
-        document = json.loads(path.read_bytes())
+        document = bounded_json.parse(read_file(path, bounded_json.MOST_BYTES))
         settings = document["transport"]["link"]["tls"]
         pem = base64.b64decode(settings[f"{side}_certificate_base64"])
         certificate = x509.load_pem_x509_certificate(pem)
@@ -125,7 +126,7 @@ def read_keys(folder: Path, holder: Holder) -> Keys:
             f"{path}: cannot be read: {error.strerror}; expected a folder that "
             "`airhilt keys init` has made, or one with this file of it"
         ) from None
-    except (ValueError, LookupError, TypeError, RecursionError):
+    except (ValueError, LookupError, TypeError):
         raise BusError(f"{path}: no keys; expected a file of `airhilt keys init`") from None
     if certificate.not_valid_after_utc < datetime.now(UTC):
         raise BusError(

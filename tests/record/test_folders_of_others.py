@@ -166,17 +166,18 @@ def test_a_file_inside_is_read_and_others_are_not(tmp_path: Path, outside: Path)
     (folder / "home").symlink_to(outside.parent)
     (folder / "inside").symlink_to(folder / "audio" / "call.wav")
     os.mkfifo(folder / "pipe")
-    assert read_inside(folder, folder / "audio" / "call.wav") == b"sound"
+    assert read_inside(folder, folder / "audio" / "call.wav", 5) == b"sound"
     for name in ("link", "home/.bashrc", "inside", "pipe", "audio", "audio/../../home/.bashrc"):
         with pytest.raises(OSError, match="no regular file of its folder"):
-            read_inside(folder, folder / name)
+            read_inside(folder, folder / name, 5)
     with pytest.raises(FileNotFoundError):
-        read_inside(folder, folder / "nothing")
+        read_inside(folder, folder / "nothing", 5)
 
 
 def test_a_folder_that_the_user_names_by_a_link_is_read(tmp_path: Path, outside: Path) -> None:
     (tmp_path / "latest").symlink_to(outside.parent)
-    assert read_inside(tmp_path / "latest", tmp_path / "latest" / ".bashrc") == PRECIOUS.encode()
+    read = read_inside(tmp_path / "latest", tmp_path / "latest" / ".bashrc", 100)
+    assert read == PRECIOUS.encode()
 
 
 @pytest.mark.parametrize("name", ["log.mcap", "latency.jsonl", "summary.json", "run.json"])
