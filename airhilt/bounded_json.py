@@ -7,7 +7,7 @@ from typing import Any
 
 MOST_BYTES = 32_000_000
 """Size of the largest document that is read."""
-MOST_VALUES = 1_000_000
+MOST_VALUES = 500_000
 """Greatest number of values in a document: each takes many times its size in memory."""
 BEFORE_A_VALUE = (b",", b"[", b"{")
 """Bytes of which one is before each value but the first."""
