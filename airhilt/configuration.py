@@ -15,7 +15,9 @@ from typing import Annotated, Any, TypeVar
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from pydantic.fields import FieldInfo
 
+from airhilt import bounded_json
 from airhilt.errors import AirhiltError, shown
+from airhilt.files import read_file
 from airhilt.library import nearest
 
 Seconds = Annotated[float, Field(ge=0.0, le=3600.0)]
@@ -42,7 +44,7 @@ def read_configuration(path: Path) -> dict[str, Any]:
         It cannot be read, or holds something else.
     """
     try:
-        document = json.loads(path.read_text(encoding="utf-8"))
+        document = bounded_json.parse(read_file(path, bounded_json.MOST_BYTES))
     except OSError as error:
         raise AirhiltError(f"{path}: cannot be read: {error.strerror}") from None
     except UnicodeDecodeError:
@@ -51,8 +53,8 @@ def read_configuration(path: Path) -> dict[str, Any]:
         raise AirhiltError(
             f"{path}: no JSON: {error.msg}, line {error.lineno}; expected a JSON object"
         ) from None
-    except RecursionError:
-        raise AirhiltError(f"{path}: nested too deeply; expected a JSON object") from None
+    except ValueError as error:
+        raise AirhiltError(f"{path}: {error}; expected a JSON object") from None
     if not isinstance(document, dict):
         raise AirhiltError(f"{path}: found {shown(document)}; expected a JSON object")
     return document

@@ -118,7 +118,7 @@ def is_of_machine(error: BaseException) -> bool:
 
 def first_problem(error: ValidationError) -> str:
     """Return the first thing that pydantic found wrong, in one line, after its place."""
-    first = error.errors()[0]
+    first = error.errors(include_url=False, include_context=False, include_input=False)[0]
     where = "/".join(str(part) for part in first["loc"])
     return f"{where}: {first['msg']}" if where else str(first["msg"])
 

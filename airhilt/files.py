@@ -10,13 +10,16 @@ import errno
 import hashlib
 import os
 import stat
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from functools import cache
-from io import BufferedReader
+from io import BufferedReader, BufferedWriter
 from pathlib import Path
 
 PARTIAL = ".partial"
 """End of the name of a file that is being written."""
+BLOCK_BYTES = 1 << 20
+"""Number of bytes that are read at a time."""
 NOT_INSIDE = (errno.ELOOP, errno.ENOTDIR, errno.EMLINK, errno.ENXIO)
 """Errors of the system for a link that is not followed, and for a socket."""
 
@@ -31,12 +34,32 @@ def replace_file(path: Path, data: bytes) -> None:
     OSError
         It cannot be written; nothing has changed.
     """
+    with _partial(path) as partial:
+        write_new(partial, data, 0o666)
+
+
+@contextmanager
+def replacing(path: Path) -> Iterator[BufferedWriter]:
+    """Open a file to be written by pieces, else as `replace_file`; an error leaves no part of it.
+
+    Raises
+    ------
+    OSError
+        It cannot be written; nothing has changed.
+    """
+    with _partial(path) as partial, _new(partial, 0o666) as stream:
+        yield stream
+
+
+@contextmanager
+def _partial(path: Path) -> Iterator[Path]:
+    """Give the path of a file that takes the place of another once it is written."""
     partial = path.with_name(path.name + PARTIAL)
     try:
         partial.unlink(missing_ok=True)
-        write_new(partial, data, 0o666)
+        yield partial
         partial.replace(path)
-    except OSError:
+    except BaseException:
         with suppress(OSError):
             partial.unlink()
         raise
@@ -50,9 +73,12 @@ def write_new(path: Path, data: bytes, mode: int) -> None:
     OSError
         It is there already, or cannot be written.
     """
-    descriptor = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, mode)
-    with open(descriptor, "wb") as stream:  # noqa: PTH123
+    with _new(path, mode) as stream:
         stream.write(data)
+
+
+def _new(path: Path, mode: int) -> BufferedWriter:
+    return os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, mode), "wb")
 
 
 def make_folder(path: Path) -> None:
@@ -102,16 +128,38 @@ def open_inside(folder: Path, path: Path) -> BufferedReader:
     return os.fdopen(opened, "rb")
 
 
-def read_inside(folder: Path, path: Path) -> bytes:
+def read_inside(folder: Path, path: Path, most_bytes: int) -> bytes:
     """Return the content of a file of a folder.
 
     Raises
     ------
     OSError
-        As `open_inside`, or it cannot be read.
+        As `open_inside`, or it cannot be read, or is larger than that.
     """
     with open_inside(folder, path) as stream:
-        return stream.read()
+        return _content(stream, path, most_bytes)
+
+
+def read_file(path: Path, most_bytes: int) -> bytes:
+    """Return the content of a file that the user names.
+
+    Raises
+    ------
+    OSError
+        It cannot be read, or is larger than that.
+    """
+    with path.open("rb") as stream:
+        return _content(stream, path, most_bytes)
+
+
+def _content(stream: BufferedReader, path: Path, most_bytes: int) -> bytes:
+    blocks, size_bytes = [], 0
+    while block := stream.read(BLOCK_BYTES):  # Room for most_bytes would be taken at once.
+        blocks.append(block)
+        size_bytes += len(block)
+        if size_bytes > most_bytes:
+            raise OSError(errno.EFBIG, f"has over {most_bytes:,} bytes", str(path))
+    return b"".join(blocks)
 
 
 def regular(path: Path) -> Path:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 from threading import Timer
 from typing import Any
@@ -11,6 +13,12 @@ import onnxruntime
 
 from airhilt.errors import AirhiltError, SpeechError, first_line
 
+LARGEST_FILE_BYTES = 500_000_000
+"""Size of the largest file that is loaded."""
+LARGEST_MEMORY_BYTES = 4_000_000_000
+"""Memory that all networks of a process may have at a time."""
+LONGEST_LOAD_S = 60.0
+"""Wall time after which a network is not loaded any more; it stops at its next step."""
 FIRST_LOOK_S = 20.0
 """Longest wall time of the first look of a network, in s; a loop in it may never end."""
 
@@ -42,13 +50,20 @@ def open_network(
     """
     if not path.is_file():
         raise error(f"{subject}: no such file; expected {expected}")
+    if path.stat().st_size > LARGEST_FILE_BYTES:
+        raise error(f"{subject}: has over {LARGEST_FILE_BYTES:,} bytes; expected {expected}")
+    _bound_memory()
     options = onnxruntime.SessionOptions()
     options.intra_op_num_threads = threads
     options.add_session_config_entry("session.intra_op.allow_spinning", "0")
     options.inter_op_num_threads = 1
     options.log_severity_level = 4
+    options.add_session_config_entry("session.use_env_allocators", "1")
     try:
-        return onnxruntime.InferenceSession(str(path), options, providers=["CPUExecutionProvider"])
+        with _after(LONGEST_LOAD_S, lambda: options.set_load_cancellation_flag(True)):
+            return onnxruntime.InferenceSession(
+                str(path), options, providers=["CPUExecutionProvider"]
+            )
     except Exception as cause:  # onnxruntime raises classes of its own that share no base
         raise error(
             f"{subject}: no ONNX model that can be run: {first_line(cause)}; expected {expected}"
@@ -73,18 +88,39 @@ def first_look(
     limit_s = FIRST_LOOK_S if limit_s is None else limit_s
     options = onnxruntime.RunOptions()
     options.log_severity_level = 4
-    timer = Timer(limit_s, setattr, (options, "terminate", True))
-    timer.daemon = True
-    timer.start()
     try:
-        found: list[Any] = network.run(None, dict(inputs), options)
+        with _after(limit_s, lambda: setattr(options, "terminate", True)):
+            found: list[Any] = network.run(None, dict(inputs), options)
     except Exception:
         if options.terminate:
             raise TimeoutError(f"does not end within {limit_s:g} s") from None
         raise
+    return found
+
+
+@cache
+def _bound_memory() -> None:
+    """Give all networks of this process one allocator, which has a limit."""
+    where = onnxruntime.OrtMemoryInfo(
+        "Cpu",
+        onnxruntime.OrtAllocatorType.ORT_ARENA_ALLOCATOR,
+        0,
+        onnxruntime.OrtMemType.DEFAULT,
+    )
+    limit = onnxruntime.OrtArenaCfg({"max_mem": LARGEST_MEMORY_BYTES})
+    onnxruntime.create_and_register_allocator(where, limit)
+
+
+@contextmanager
+def _after(limit_s: float, stop: Callable[[], None]) -> Iterator[None]:
+    """Stop what is done here if it has not ended after some wall time."""
+    timer = Timer(limit_s, stop)
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
     finally:
         timer.cancel()
-    return found
 
 
 def require_end(

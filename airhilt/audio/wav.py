@@ -8,11 +8,16 @@ from __future__ import annotations
 
 import io
 import wave
+from collections.abc import Iterable
 from pathlib import Path
+from typing import BinaryIO
 
 from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ, Audio, from_pcm, to_pcm
 from airhilt.errors import SpeechError
-from airhilt.files import regular, replace_file
+from airhilt.files import read_file, regular, replacing
+
+LARGEST_WAV_BYTES = 100_000_000
+"""Size of the largest file that is read: 52 minutes."""
 
 
 def encode_wav(audio: Audio) -> bytes:
@@ -23,14 +28,18 @@ def encode_wav(audio: Audio) -> bytes:
     SpeechError
         As `to_pcm`.
     """
-    pcm = to_pcm(audio)
     stream = io.BytesIO()
+    _write(stream, (audio,))
+    return stream.getvalue()
+
+
+def _write(stream: BinaryIO, pieces: Iterable[Audio]) -> None:
     with wave.open(stream, "wb") as file:
         file.setnchannels(1)
         file.setsampwidth(SAMPLE_BYTES)
         file.setframerate(SAMPLE_RATE_HZ)
-        file.writeframes(pcm)
-    return stream.getvalue()
+        for piece in pieces:
+            file.writeframes(to_pcm(piece))
 
 
 def decode_wav(data: bytes, source: str) -> Audio:
@@ -84,7 +93,7 @@ def read_wav(path: Path) -> Audio:
         It cannot be read, or as `decode_wav`.
     """
     try:
-        data = regular(path).read_bytes()
+        data = read_file(regular(path), LARGEST_WAV_BYTES)
     except OSError as error:
         raise SpeechError(f"{path}: cannot be read: {error.strerror}") from None
     return decode_wav(data, str(path))
@@ -98,8 +107,19 @@ def write_wav(path: Path, audio: Audio) -> None:
     SpeechError
         It cannot be written, or as `to_pcm`.
     """
-    data = encode_wav(audio)
+    write_wav_pieces(path, (audio,))
+
+
+def write_wav_pieces(path: Path, pieces: Iterable[Audio]) -> None:
+    """Write samples to a WAV file as they come, all or nothing.
+
+    Raises
+    ------
+    SpeechError
+        As `write_wav`.
+    """
     try:
-        replace_file(path, data)
+        with replacing(path) as stream:
+            _write(stream, pieces)
     except OSError as error:
         raise SpeechError(f"{path}: cannot be written: {error.strerror}") from None

@@ -21,10 +21,11 @@ from cryptography.hazmat.primitives.hashes import SHA256
 from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
 from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID
 
+from airhilt import bounded_json
 from airhilt.bus.access import CERTIFICATE_NAME, ROLES, Role
 from airhilt.bus.endpoints import AUTHENTICATED, host_of, protocol_of
 from airhilt.errors import BusError
-from airhilt.files import write_new
+from airhilt.files import read_file, write_new
 
 Holder = Role | Literal["router"]
 """Whose a file is: a program of a role, or the run, whose session is a router of Zenoh."""
@@ -111,11 +112,13 @@ def read_keys(folder: Path, holder: Holder) -> Keys:
     Raises
     ------
     BusError
-        There is no such file, it is none of `make_keys`, or its certificate has expired.
+        There is no such file, it is none of `make_keys`, or its certificate has expired or is of
+        another role.
     """
-    path, side = key_file(folder, holder), _side(holder)
+    path = key_file(folder, holder)
     try:
-        document = json.loads(path.read_bytes())
+        document = bounded_json.parse(read_file(path, bounded_json.MOST_BYTES))
+        side = "listen" if "listen" in document else "connect"
         settings = document["transport"]["link"]["tls"]
         pem = base64.b64decode(settings[f"{side}_certificate_base64"])
         certificate = x509.load_pem_x509_certificate(pem)
@@ -125,14 +128,29 @@ def read_keys(folder: Path, holder: Holder) -> Keys:
             f"{path}: cannot be read: {error.strerror}; expected a folder that "
             "`airhilt keys init` has made, or one with this file of it"
         ) from None
-    except (ValueError, LookupError, TypeError, RecursionError):
+    except (ValueError, LookupError, TypeError):
         raise BusError(f"{path}: no keys; expected a file of `airhilt keys init`") from None
+    _require_holder(certificate, holder, path)
     if certificate.not_valid_after_utc < datetime.now(UTC):
         raise BusError(
             f"{path}: its certificate has expired on {certificate.not_valid_after_utc:%Y-%m-%d}; "
             "make new keys with `airhilt keys init`"
         )
     return Keys(endpoint, {f"{SETTING}/{name}": value for name, value in settings.items()})
+
+
+def _require_holder(certificate: x509.Certificate, holder: Holder, path: Path) -> None:
+    """Complain about the certificate of another role, with which a run lets nothing through."""
+    names = certificate.subject.get_attributes_for_oid(NameOID.COMMON_NAME)
+    found = [str(name.value) for name in names]
+    if found == [CERTIFICATE_NAME.format(holder)]:
+        return
+    others = [other for other in HOLDERS if found == [CERTIFICATE_NAME.format(other)]]
+    whose = f"of {others[0]!r}" if others else "of no role"
+    raise BusError(
+        f"{path}: its certificate is {whose}; expected that of {holder!r}, as `airhilt keys init` "
+        "has made it"
+    )
 
 
 def _side(holder: Holder) -> Literal["listen", "connect"]:

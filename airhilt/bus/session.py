@@ -35,7 +35,7 @@ RECEIVED = 4
 """Number of messages that Zenoh keeps for one subscription; while there is no room for another, it
 lets the senders wait."""
 CLOSING_S = 1.0
-"""Wall time in s that a run waits for its session to close. Zenoh itself waits for 10 s for a
+"""Wall time in s that a program waits for its session to close. Zenoh itself waits for 10 s for a
 connected program that does not read, and then fails."""
 
 IN_USE = "Address already in use"
@@ -336,8 +336,7 @@ class Bus:
         memory and a file descriptor of a session whose publishers still exist when it is closed
         as long as the process lives, and those of any other as long as the object does.
 
-        A program that does not read does not hold up the end of the run: the session then goes on
-        closing by itself.
+        A program that does not read does not hold up the end of the run.
         """
         for publisher in self._publishers.values():
             publisher.undeclare()  # type: ignore[no-untyped-call]
@@ -347,10 +346,16 @@ class Bus:
         self._hearing.clear()
         self._publishers.clear()
         self._kept.clear()
-        closing = threading.Thread(target=_close, args=(self.session,), daemon=True)
+        session = self.session
         del self.session
-        closing.start()
-        closing.join(CLOSING_S)
+        close_session(session)
+
+
+def close_session(session: zenoh.Session) -> None:
+    """Close a session; if the other end does not read, it goes on closing by itself."""
+    closing = threading.Thread(target=_close, args=(session,), daemon=True)
+    closing.start()
+    closing.join(CLOSING_S)
 
 
 def _close(session: zenoh.Session) -> None:

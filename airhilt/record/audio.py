@@ -11,7 +11,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from airhilt.audio.pcm import from_pcm, to_pcm
-from airhilt.audio.wav import decode_wav, encode_wav
+from airhilt.audio.wav import LARGEST_WAV_BYTES, decode_wav, encode_wav
 from airhilt.deferred import Payload
 from airhilt.errors import RunFolderError, SpeechError, disk_failed
 from airhilt.files import make_folder, read_inside
@@ -98,7 +98,8 @@ def recorded_pcm(folder: Path, message: MessageWithSound) -> bytes:
     """
     path = audio_file(folder, message)
     try:
-        pcm = to_pcm(decode_wav(read_inside(folder.parent, path), str(path)))
+        data = read_inside(folder.parent, path, LARGEST_WAV_BYTES)
+        pcm = to_pcm(decode_wav(data, str(path)))
     except OSError as error:
         raise RunFolderError(f"{path}: cannot be read: {error.strerror}") from None
     except SpeechError as error:

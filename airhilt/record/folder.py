@@ -14,6 +14,7 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 
+from airhilt import bounded_json
 from airhilt._version import __version__
 from airhilt.errors import RunFolderError, first_line, first_problem, shown
 from airhilt.files import open_inside, read_inside, replace_file
@@ -254,14 +255,14 @@ class RunFolder:
         return open_inside(self.path, path)
 
     def read(self, path: Path) -> bytes:
-        """Return the content of a file of the run.
+        """Return the content of a small file of the run: ``run.json``, summary or signature.
 
         Raises
         ------
         OSError
-            It is not there, cannot be read, or is no regular file of this folder.
+            It is not there, cannot be read, is no regular file of this folder, or is too large.
         """
-        return read_inside(self.path, path)
+        return read_inside(self.path, path, bounded_json.MOST_BYTES)
 
     def write_info(self, info: RunInfo) -> None:
         """Write ``run.json`` with the hash of its content, all or nothing."""
@@ -292,13 +293,17 @@ class RunFolder:
             It is damaged or of another format.
         """
         try:
-            return RunInfo.model_validate_json(self.read(self.info_path))
+            data = self.read(self.info_path)
+            bounded_json.require_few_values(data)
+            return RunInfo.model_validate_json(data)
         except OSError as error:
             raise RunFolderError(f"{self.info_path}: cannot be read: {error.strerror}") from None
         except ValidationError as error:
             raise RunFolderError(
                 f"{self.info_path}: {first_problem(error)}; expected a run.json of format {FORMAT}"
             ) from None
+        except ValueError as error:
+            raise RunFolderError(f"{self.info_path}: {error}") from None
 
     def summary(self) -> dict[str, Any] | None:
         """Return ``summary.json``, or None if the run did not write it.
@@ -309,12 +314,12 @@ class RunFolder:
             It cannot be read, or is no JSON object.
         """
         try:
-            loaded = json.loads(self.read(self.summary_path))
+            loaded = bounded_json.parse(self.read(self.summary_path))
         except FileNotFoundError:
             return None
         except OSError as error:
             raise RunFolderError(f"{self.summary_path}: cannot be read: {error.strerror}") from None
-        except (ValueError, RecursionError) as error:
+        except ValueError as error:
             raise RunFolderError(
                 f"{self.summary_path}: no JSON: {first_line(error)}; expected the summary of a run"
             ) from None

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field, replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -11,17 +12,19 @@ import numpy as np
 from pydantic import ValidationError
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio, from_pcm
-from airhilt.audio.wav import write_wav
+from airhilt.audio.wav import write_wav_pieces
 from airhilt.errors import RunFolderError, SpeechError, first_problem
 from airhilt.files import replace_file
 from airhilt.messages import SpokenTruth, Transcript, Transmission
 from airhilt.quantities import LONGEST_RUN_S
-from airhilt.record.audio import MessageWithSound, recorded_pcm
+from airhilt.record.audio import MessageWithSound, audio_file, recorded_pcm
 from airhilt.record.folder import RunFolder
 from airhilt.record.run import Notice, Run, open_run, untold
 from airhilt.text import LONGEST_LINE, readable
 from airhilt.units import SECOND_NS
 
+SILENCE_SAMPLES = 10 * SAMPLE_RATE_HZ
+"""Greatest number of samples of silence in a piece of sound."""
 LATEST_NS = round((LONGEST_RUN_S + 60.0) * SECOND_NS)
 """Latest time of what was said in a run, in ns: a call may last beyond its end."""
 
@@ -52,6 +55,51 @@ class RecordedCall:
     heard: tuple[Recognition, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class _Placed:
+    """A message, and which samples of the run are of it."""
+
+    message: MessageWithSound
+    begin: int
+    end: int
+    skipped: int
+    """Number of its own samples that are left out at its beginning."""
+
+
+@dataclass(frozen=True)
+class SplicedSound:
+    """The sound of messages, each at its time in the run, with silence between them."""
+
+    folder: RunFolder
+    placed: tuple[_Placed, ...]
+
+    @property
+    def samples(self) -> int:
+        """Number of samples from the start of the run to the end of the last message."""
+        return self.placed[-1].end
+
+    def pieces(self) -> Iterator[Audio]:
+        """Yield the sound by pieces, so that no day of silence is ever in memory.
+
+        Raises
+        ------
+        RunFolderError
+            A sound file is missing, or not what was received.
+        """
+        at = 0
+        for one in self.placed:
+            for begin in range(at, one.begin, SILENCE_SAMPLES):
+                yield np.zeros(min(one.begin - begin, SILENCE_SAMPLES), np.float32)
+            received = from_pcm(recorded_pcm(self.folder.audio_path, one.message))
+            if len(received) != one.message.samples:
+                raise RunFolderError(
+                    f"{audio_file(self.folder.audio_path, one.message)}: {len(received)} samples; "
+                    f"expected {one.message.samples}, as the log says"
+                )
+            yield received[one.skipped : one.skipped + one.end - one.begin]
+            at = one.end
+
+
 @dataclass(frozen=True)
 class FrequencyRecording:
     """The calls and the sound of one frequency, from the start of the run to its last call."""
@@ -59,14 +107,14 @@ class FrequencyRecording:
     run: str
     frequency_khz: int
     calls: tuple[RecordedCall, ...]
-    audio: Audio = field(repr=False)
+    sound: SplicedSound = field(repr=False)
     notes: tuple[str, ...] = ()
     """Files of the run that are damaged."""
 
     @property
     def duration_s(self) -> float:
         """Length of the sound, in s."""
-        return len(self.audio) / SAMPLE_RATE_HZ
+        return self.sound.samples / SAMPLE_RATE_HZ
 
     def text(self) -> str:
         """Return the transcript for people to read."""
@@ -123,7 +171,7 @@ def write_frequency(
     if wav.suffix.lower() != ".wav":
         raise SpeechError(f"{wav}: cannot be written; expected a name that ends with .wav")
     text = wav.with_suffix(".txt")
-    write_wav(wav, recording.audio)
+    write_wav_pieces(wav, recording.sound.pieces())
     try:
         replace_file(text, recording.text().encode())
     except OSError as error:
@@ -170,8 +218,8 @@ def read_frequency(run: Run, frequency_khz: int | None = None) -> FrequencyRecor
         key=lambda tx: (tx.t_tx_ns, tx.id),
     )
     calls = tuple(_call(tx, spoken.get(tx.id), transcripts.get(tx.id, ())) for tx in tuned)
-    audio = splice(folder, ((tx.t_tx_ns, tx.t_end_ns, tx) for tx in tuned))
-    return FrequencyRecording(run.info.run, chosen, calls, audio, run.damage)
+    sound = splice(folder, ((tx.t_tx_ns, tx.t_end_ns, tx) for tx in tuned))
+    return FrequencyRecording(run.info.run, chosen, calls, sound, run.damage)
 
 
 def _require_times(
@@ -240,8 +288,10 @@ def _call(
     )
 
 
-def splice(folder: RunFolder, heard: Iterable[tuple[int, int, MessageWithSound]]) -> Audio:
+def splice(folder: RunFolder, heard: Iterable[tuple[int, int, MessageWithSound]]) -> SplicedSound:
     """Return the sound of messages from the start of the run, each at its time.
+
+    No file is read yet.
 
     Two transmissions that blocked each other were both received mixed: the second is taken from
     where the first ends. A call that begins during the squelch tail of the one before cuts it off.
@@ -254,29 +304,28 @@ def splice(folder: RunFolder, heard: Iterable[tuple[int, int, MessageWithSound]]
     Raises
     ------
     RunFolderError
-        A sound file is missing, or not what was received.
+        A message has a time that no run has.
     SpeechError
         None of them has sound.
     """
-    pieces: list[tuple[int, Audio]] = []
+    placed: list[_Placed] = []
     free_at = 0
     for begin_ns, end_ns, message in heard:
         if message.samples == 0:
             continue
         _require_in_run(folder, message.id, begin_ns, end_ns)
-        begin = max(_sample(begin_ns), free_at)
-        received = from_pcm(recorded_pcm(folder.audio_path, message))
-        pieces.append((begin, received[begin - _sample(begin_ns) :]))
+        first = _sample(begin_ns)
+        begin, end = max(first, free_at), first + message.samples
+        if end > begin:
+            placed.append(_Placed(message, begin, end, begin - first))
         free_at = max(_sample(end_ns), free_at)
-    if not pieces:
+    if not placed:
         raise SpeechError(
             f"{folder.path}: a run without sound on this frequency; expected one that was made "
             "without --no-speech"
         )
-    timeline = np.zeros(max(begin + len(piece) for begin, piece in pieces), np.float32)
-    for begin, piece in pieces:
-        timeline[begin : begin + len(piece)] = piece
-    return timeline
+    cut = (replace(one, end=min(one.end, after.begin)) for one, after in pairwise(placed))
+    return SplicedSound(folder, (*cut, placed[-1]))
 
 
 def _sample(t_ns: int) -> int:

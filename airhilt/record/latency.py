@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+import errno
 import json
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from airhilt.errors import RunFolderError, disk_failed, first_line
-from airhilt.files import read_inside
+from airhilt.files import open_inside
 from airhilt.sim import StepRecord
+
+LONGEST_STEP_BYTES = 1_000_000
+"""Greatest length of a line that is read."""
 
 
 class LatencyLog:
@@ -102,19 +107,34 @@ def read_latencies(path: Path) -> RecordedLatencies:
     """
     recorded = RecordedLatencies()
     try:
-        lines = read_inside(path.parent, path).splitlines(keepends=True)
+        for number, line in enumerate(latency_lines(path), start=1):
+            if not line.endswith(b"\n"):
+                break
+            try:
+                _take(json.loads(line), recorded)
+            except (ValueError, TypeError, LookupError, RecursionError) as error:
+                raise RunFolderError(
+                    f"{path}: line {number}: {first_line(error)}; expected a step of a worker"
+                ) from None
     except OSError as error:
         raise RunFolderError(f"{path}: cannot be read: {error.strerror}") from None
-    for number, line in enumerate(lines, start=1):
-        if not line.endswith(b"\n"):
-            break
-        try:
-            _take(json.loads(line), recorded)
-        except (ValueError, TypeError, LookupError, RecursionError) as error:
-            raise RunFolderError(
-                f"{path}: line {number}: {first_line(error)}; expected a step of a worker"
-            ) from None
     return recorded
+
+
+def latency_lines(path: Path) -> Iterator[bytes]:
+    """Yield the lines of a latency log one by one.
+
+    Raises
+    ------
+    OSError
+        The file cannot be read, is no regular file of its folder, or has a line that is too long.
+    """
+    with open_inside(path.parent, path) as stream:
+        while line := stream.readline(LONGEST_STEP_BYTES + 1):
+            if len(line) > LONGEST_STEP_BYTES:
+                what = f"has a line of over {LONGEST_STEP_BYTES:,} bytes"
+                raise OSError(errno.EFBIG, what, str(path))
+            yield line
 
 
 def _take(row: dict[str, Any], recorded: RecordedLatencies) -> None:

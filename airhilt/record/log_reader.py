@@ -45,6 +45,8 @@ COMPRESSION_AT = RECORD_HEAD.size + 28
 """Place of these bytes, from where a chunk begins."""
 LARGEST_CHUNK_BYTES = 1 << 28
 """Greatest size of the records of a chunk, in bytes: a larger one is damaged."""
+LARGEST_INDEX_BYTES = 1 << 28
+"""Greatest size of the end of a log that repeats what is in it, in bytes."""
 BLOCK_BYTES = 1 << 20
 """Number of bytes that are read at a time where the whole file is gone through."""
 MOST_GAPS = 3
@@ -254,7 +256,9 @@ class LogReader:
         )
         if opcode != Opcode.CHUNK or struct.pack("<I4s", name_size, name) != COMPRESSION:
             return None
-        if length != CHUNK_HEAD.size + compressed_size or size > LARGEST_CHUNK_BYTES:
+        if length != CHUNK_HEAD.size + compressed_size:
+            return None
+        if max(size, compressed_size) > LARGEST_CHUNK_BYTES:
             return None
         if begin + RECORD_HEAD.size + length > self._size:
             return None
@@ -275,6 +279,8 @@ class LogReader:
             return None
         _, _, begin, _, crc = FOOTER.unpack_from(tail)
         if not 0 < begin <= self._size - tail_size:
+            return None
+        if self._size - begin > LARGEST_INDEX_BYTES:
             return None
         summary = _read(stream, begin, self._size - tail_size - begin)
         if zlib.crc32(summary + tail[: FOOTER.size - 4]) != crc:

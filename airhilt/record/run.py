@@ -6,12 +6,12 @@ damaged, and from when to when. The rest of the run can be read.
 
 from __future__ import annotations
 
-import json
 import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+from airhilt import bounded_json
 from airhilt.errors import RunFolderError
 from airhilt.record.folder import RunFolder, RunInfo
 from airhilt.record.latency import RecordedLatencies, read_latencies
@@ -154,7 +154,7 @@ def digest_problem(folder: RunFolder, info: RunInfo) -> str:
     if not info.digest:
         return ""
     try:
-        found = digest(json.loads(folder.read(folder.info_path)))
+        found = digest(bounded_json.parse(folder.read(folder.info_path)))
     except (OSError, ValueError, RecursionError):
         found = ""
     return "" if found == info.digest else "run.json: damaged or changed: not what its digest says"

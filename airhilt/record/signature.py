@@ -22,9 +22,11 @@ from cryptography.hazmat.primitives.serialization import (
 )
 
 from airhilt.errors import SignatureError
-from airhilt.files import replace_file, write_new
+from airhilt.files import read_file, replace_file, write_new
 from airhilt.record.folder import RunFolder
 
+LARGEST_KEY_BYTES = 1_000_000
+"""Size of the largest file that is read as a key."""
 NO_KEY = (ValueError, TypeError, UnsupportedAlgorithm)
 """Exceptions of a file that holds no key, or one that needs a password."""
 
@@ -113,7 +115,11 @@ def public_key(path: Path) -> Ed25519PublicKey:
     return key
 
 
-def _content(path: Path, read: Callable[[Path], bytes] = Path.read_bytes) -> bytes:
+def _key_file(path: Path) -> bytes:
+    return read_file(path, LARGEST_KEY_BYTES)
+
+
+def _content(path: Path, read: Callable[[Path], bytes] = _key_file) -> bytes:
     try:
         return read(path)
     except OSError as error:

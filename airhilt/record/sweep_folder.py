@@ -16,8 +16,10 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from airhilt import bounded_json
 from airhilt.errors import AirhiltError
 from airhilt.files import PARTIAL, make_folder, read_inside, replace_file
+from airhilt.record.parquet import LARGEST_BYTES, parse_table
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -29,6 +31,8 @@ UNFINISHED = f"*{PARTIAL}"
 """Names of files that are being written."""
 SMALL_BYTES = 1_000_000
 """Size up to which a part is small."""
+UNREADABLE = (OSError, ValueError)
+"""Exceptions of a table that cannot be read."""
 REQUIRED = ("key", "status")
 """Columns of a part that say which run a row is, and whether it counts: texts, never null."""
 GRID = "grid_sha256"
@@ -169,8 +173,11 @@ class SweepFolder:
             It is damaged.
         """
         try:
-            loaded = json.loads(read_inside(self.path, self.info_path))
-        except (OSError, UnicodeDecodeError, json.JSONDecodeError, RecursionError) as error:
+            data = read_inside(self.path, self.info_path, bounded_json.MOST_BYTES)
+            loaded = bounded_json.parse(data)
+        except OSError as error:
+            raise SweepFolderError(f"{self.info_path}: cannot be read: {error.strerror}") from None
+        except ValueError as error:
             raise SweepFolderError(f"{self.info_path}: cannot be read: {error}") from None
         if not isinstance(loaded, dict) or loaded.get("format") != FORMAT:
             raise SweepFolderError(f"{self.info_path}: expected a sweep.json of format {FORMAT}")
@@ -311,12 +318,9 @@ def _fitting(part: Path, schema: pa.Schema) -> tuple[pa.Table | None, str]:
 
 def _table_or_reason(part: Path) -> tuple[pa.Table | None, str]:
     """Return the table of a part, or None and what is wrong with it."""
-    import pyarrow as pa
-    import pyarrow.parquet as pq
-
     try:
-        table = pq.read_table(pa.BufferReader(read_inside(part.parents[1], part)))
-    except (pa.ArrowException, OSError) as error:
+        table = parse_table(read_inside(part.parents[1], part, LARGEST_BYTES))
+    except UNREADABLE as error:
         return None, str(error).splitlines()[0]
     reason = _misfit(table)
     return (None, reason) if reason else (table, "")
@@ -374,17 +378,14 @@ def _write_table(table: pa.Table, path: Path) -> None:
 
 
 def _read_table(path: Path) -> pa.Table:
-    import pyarrow as pa
-    import pyarrow.parquet as pq
-
     try:
-        return pq.read_table(pa.BufferReader(read_inside(path.parent, path)))
+        return parse_table(read_inside(path.parent, path, LARGEST_BYTES))
     except FileNotFoundError:
         raise SweepFolderError(
             f"{path}: not there; give the command of the sweep again, it makes the tables from the "
             "runs that are finished"
         ) from None
-    except (pa.ArrowException, OSError) as error:
+    except UNREADABLE as error:
         reason = str(error).splitlines()[0]
         raise SweepFolderError(
             f"{path}: damaged ({reason}); give the command of the sweep again, it makes the tables "

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import bisect
+import itertools
 import json
 import types
 import typing
@@ -19,8 +21,8 @@ LONGEST_PATH = 100
 """Number of characters that an error shows of a path."""
 LONGEST_TEXT = 300
 """Number of characters that an error shows of what is wrong there."""
-MOST_LINES = 10
-"""Number of mistakes that are told of a file beside a scenario."""
+MOST_CHARACTERS = 400
+"""Number of characters of the mistakes that are told of a file beside a scenario."""
 
 
 @dataclass(frozen=True)
@@ -54,12 +56,13 @@ def no_file_of(kind: str, origin: str, error: ValidationError) -> ScenarioError:
     """
     found = error.errors(include_url=False)
     lines = [
-        str(Problem(".".join(map(str, one["loc"])) or "the file", one["msg"]))
-        for one in found[:MOST_LINES]
+        f"\n  {Problem('.'.join(map(str, one['loc'])) or 'the file', one['msg'])}"
+        for one in found[:MOST_CHARACTERS]  # A line has more than one character.
     ]
-    if len(found) > MOST_LINES:
-        lines.append(f"and {len(found) - MOST_LINES} more")
-    return ScenarioError("\n".join([f"{origin} is not {kind}:", *(f"  {line}" for line in lines)]))
+    ends = list(itertools.accumulate(map(len, lines)))
+    told = max(bisect.bisect(ends, MOST_CHARACTERS), 1)
+    more = f"\n  and {len(found) - told} more" if len(found) > told else ""
+    return ScenarioError(f"{origin} is not {kind}:{''.join(lines[:told])}{more}")
 
 
 def problems_of(error: ValidationError, model: type[BaseModel]) -> list[Problem]:

@@ -26,7 +26,7 @@ from airhilt.record import RunFolder, open_run
 from airhilt.record.run import untold
 from airhilt.scenario import loading
 from airhilt.station.plan import Plan, Trial
-from airhilt.station.started_runs import StartedRun, StartedRuns
+from airhilt.station.started_runs import LARGEST_RECORD_BYTES, StartedRun, StartedRuns
 from airhilt.text import readable
 
 MOST_ATTEMPTS = 100
@@ -87,7 +87,8 @@ class Progress:
     def answers(self, name: str) -> NasaTlx | None:
         """Return what was answered at the end of a run or after it, None if nothing was yet."""
         try:
-            return NasaTlx.model_validate_json(read_inside(self.folder, self._answers_path(name)))
+            data = read_inside(self.folder, self._answers_path(name), LARGEST_RECORD_BYTES)
+            return NasaTlx.model_validate_json(data)
         except (OSError, ValueError):
             return self._answers_in_run(name)
 

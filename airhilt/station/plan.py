@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import math
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -17,6 +18,10 @@ from airhilt.world.loading import load
 Identifier = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,19}$")]
 SETTLED = ("seat", "out", "overwrite", "pace", "run_name", "endpoint", "attach", "nasa_tlx")
 """Options that the experiment itself gives."""
+
+
+MOST_TRIALS = 1000
+"""Greatest number of trials of a participant."""
 
 
 class Trial(BaseModel):
@@ -62,6 +67,9 @@ class Plan(BaseModel):
         for name in (*self.conditions, *self.options):
             if name in SETTLED:
                 raise ValueError(f"{name}: the experiment gives it; expected another option")
+        trials = math.prod(map(len, (self.scenarios, *self.conditions.values())))
+        if trials > MOST_TRIALS:
+            raise ValueError(f"found {trials:,} trials; expected at most {MOST_TRIALS:,}")
         return self
 
     def trials(self) -> list[Trial]:

@@ -7,12 +7,12 @@ import threading
 from collections.abc import Sequence
 from pathlib import Path
 
-from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
-from airhilt.audio.wav import write_wav
+from airhilt.audio.pcm import SAMPLE_RATE_HZ
+from airhilt.audio.wav import write_wav_pieces
 from airhilt.errors import StationError
 from airhilt.messages import AdvisoryAudio
 from airhilt.record import Run
-from airhilt.record.frequency import read_frequency, splice
+from airhilt.record.frequency import SplicedSound, read_frequency, splice
 from airhilt.units import SECOND_NS
 
 ASSISTANT = "assistant"
@@ -61,12 +61,12 @@ class Sounds:
         path = Path(self._folder.name) / f"{name}.wav"
         with self._lock:
             if not path.is_file():
-                write_wav(path, self._audio(name))
+                write_wav_pieces(path, self._sound(name).pieces())
         return path
 
-    def _audio(self, name: str) -> Audio:
+    def _sound(self, name: str) -> SplicedSound:
         if name != ASSISTANT:
-            return read_frequency(self._run, int(name)).audio
+            return read_frequency(self._run, int(name)).sound
         heard = ((one.t_ns, _end_ns(one), one) for one in self._spoken)
         return splice(self._run.folder, heard)
 

@@ -29,6 +29,8 @@ KEPT = ".station"
 """Folder, among the run folders, of what is known of runs that were started."""
 MOST_AT_A_TIME = 4
 """Largest number of runs that go on at a time."""
+LARGEST_RECORD_BYTES = 100_000
+"""Size of the largest file about a run that is read."""
 MOST_ENDED = 5
 """Number of runs that have ended whose output is told."""
 END_BYTES = 4096
@@ -126,7 +128,8 @@ class StartedRuns:
         found = []
         for path in (self.folder / KEPT).glob("*.json"):
             with suppress(OSError, ValidationError):  # One that is being written, or is foreign.
-                found.append(StartedRun.model_validate_json(read_inside(self.folder, path)))
+                data = read_inside(self.folder, path, LARGEST_RECORD_BYTES)
+                found.append(StartedRun.model_validate_json(data))
         return sorted(found, key=lambda run: run.created_s, reverse=True)
 
     def state(self, run: StartedRun) -> State:

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 import zenoh
 
 from airhilt.bus.access import Role
-from airhilt.bus.session import connect_client, find_run
+from airhilt.bus.session import close_session, connect_client, find_run
 from airhilt.commands import Command
 from airhilt.messages import (
     LONGEST_REFUSAL,
@@ -245,7 +245,7 @@ class Subscription:
         self._kept.clear()
         self._waiting.put(None)
         self._thread.join()
-        self._session.close()  # type: ignore[no-untyped-call]
+        close_session(self._session)
 
     def _hear(self, sample: zenoh.Sample) -> None:
         """Receive a message on a thread of Zenoh."""

@@ -10,7 +10,7 @@ import zenoh
 from pydantic import ValidationError
 
 from airhilt.bus.multipart import pack, unpack
-from airhilt.bus.session import ROOT, connect_client, find_run
+from airhilt.bus.session import ROOT, close_session, connect_client, find_run
 from airhilt.errors import BusError
 from airhilt.messages import Grant, StepOutput, StepReply
 from airhilt.sim.worker import Input
@@ -26,7 +26,7 @@ def answer_grants(
         prefix = f"{ROOT}/{run}" if run else find_run(session, patience_s)
         _serve(session, worker, prefix)
     finally:
-        session.close()  # type: ignore[no-untyped-call]
+        close_session(session)
 
 
 def _serve(session: zenoh.Session, worker: Worker, prefix: str) -> None:

@@ -13,8 +13,9 @@ from contextlib import closing, contextmanager
 import zenoh
 
 from airhilt.bus.remote_workers import RemoteWorker
-from airhilt.bus.session import Bus, connect_client
-from airhilt.messages import InputSpec, StepReply, WorkerDescription
+from airhilt.bus.session import Bus, close_session, connect_client, find_run, free_endpoint
+from airhilt.messages import InputSpec, SpokenWords, StepReply, WorkerDescription
+from airhilt.station.subscription import Subscription
 from processes import process
 
 READER = """
@@ -29,6 +30,15 @@ kept = [
 time.sleep(600.0)
 """
 """A program that reads everything, and never answers the grants of worker ``own``."""
+RUN = """
+import sys, time
+from airhilt.bus.session import Bus
+bus = Bus("run", sys.argv[1])
+bus.keep("clock", b"{}")
+bus.hear("command/*", lambda key, payload: None)
+time.sleep(600.0)
+"""
+"""A run that hears commands."""
 READS_AGAIN_S = 4.0
 """Time after which a program goes on, in s; Zenoh would wait 5 s for it, at the end 10 s."""
 
@@ -63,6 +73,32 @@ def test_a_run_ends_before_a_program_reads_again() -> None:
     bus = Bus("run")
     with frozen_reader(bus) as program:
         assert is_done_before_it_reads(program, bus.close)
+
+
+def stop_and_fill(run: subprocess.Popen[bytes], send: Callable[[], None]) -> None:
+    """Stop a run, and send it more than it takes."""
+    run.send_signal(signal.SIGSTOP)
+    for _ in range(60):
+        for _ in range(300):
+            send()
+        time.sleep(0.02)
+
+
+def test_a_program_ends_before_its_run_reads_again() -> None:
+    endpoint = free_endpoint()
+    with process("-c", RUN, endpoint) as program:
+        session = connect_client(endpoint, 30.0)
+        find_run(session, 30.0)
+        stop_and_fill(program, lambda: session.put("airhilt/run/command/AAL123", bytes(3000)))
+        assert is_done_before_it_reads(program, lambda: close_session(session))
+
+
+def test_a_page_ends_before_its_run_reads_again() -> None:
+    endpoint = free_endpoint()
+    with process("-c", RUN, endpoint) as program:
+        page = Subscription(endpoint, lambda _: None, lambda: None, seats=["TOWER"])
+        stop_and_fill(program, lambda: page.say("TOWER", SpokenWords(text="a" * 600)))
+        assert is_done_before_it_reads(program, page.close)
 
 
 def test_another_run_may_listen_where_one_ended_that_was_not_read() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import stat
 import subprocess
 import sys
@@ -15,7 +16,8 @@ import pytest
 import zenoh
 
 from airhilt import run
-from airhilt.bus.certificates import HOLDERS, key_file, make_keys
+from airhilt.bus import certificates
+from airhilt.bus.certificates import HOLDERS, key_file, make_keys, read_keys
 from airhilt.bus.session import Bus, connect_client, free_endpoint
 from airhilt.cosim.observer import Observer
 from airhilt.cosim.replay import replay
@@ -94,6 +96,112 @@ def test_a_program_may_do_what_its_role_may(
     from_run = received & {"truth/state/AAL123", "adsb/d4e5f6", "clock"}
     assert from_run == {"adsb/d4e5f6", "clock"} | reads
     assert heard == publishes
+
+
+PLAYS = """
+import json, sys, zenoh
+session = zenoh.open(zenoh.Config.from_file(sys.argv[1]))
+prefix = "airhilt/run/"
+kept = [
+    session.declare_queryable(
+        prefix + "worker/own/describe",
+        lambda query: query.reply(prefix + "worker/own/describe", "{}"),
+    ),
+    *(session.liveliness().declare_token(prefix + key) for key in ("worker/own", "seat/TOWER")),
+]
+answers = [reply.ok for reply in session.get("airhilt/*/clock") if reply.ok]
+print(len(answers), flush=True)  # What was declared before the query has arrived before it.
+sys.stdin.read()
+for entity in kept:
+    entity.undeclare()
+session.close()
+"""
+"""Plays a worker and a person at a seat, as a program that does not know its role."""
+
+
+@pytest.mark.parametrize(
+    ("role", "there", "answers"),
+    [
+        ("observer", set(), False),
+        ("worker", {"worker/own"}, True),
+        ("operator", {"seat/TOWER"}, False),
+        ("recorder", set(), False),
+    ],
+)
+def test_a_program_is_a_worker_or_takes_a_seat_by_its_role_alone(
+    bus: Bus, keys: Path, role: Any, there: set[str], answers: bool
+) -> None:
+    command = [sys.executable, "-c", PLAYS, str(key_file(keys, role))]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as program:
+        assert program.stdout is not None
+        assert program.stdout.readline() == b"1\n"
+        tokens = bus.session.liveliness().get("airhilt/run/**", timeout=1.0)
+        found = {str(token.ok.key_expr) for token in tokens if token.ok is not None}
+        assert found == {"airhilt/run/run", *(f"airhilt/run/{key}" for key in there)}
+        replies = list(bus.session.get("airhilt/run/worker/own/describe", timeout=1.0))
+        assert any(reply.ok is not None for reply in replies) == answers
+        program.communicate()
+
+
+def with_files_exchanged(keys: Path, folder: Path, *, named: str, of: str) -> Path:
+    """Return a folder of keys in which the file of one role has what is of another."""
+    shutil.copytree(keys, folder)
+    shutil.copy(folder / f"{of}.json", folder / f"{named}.json")
+    return folder
+
+
+@pytest.mark.parametrize("of", ["observer", "operator", "recorder"])
+def test_a_worker_with_the_certificate_of_another_role_is_told_so(
+    bus: Bus, keys: Path, tmp_path: Path, of: str
+) -> None:
+    folder = with_files_exchanged(keys, tmp_path / "lab", named="worker", of=of)
+    with process("-m", "airhilt", "worker", "decision", "--tls", folder) as worker:
+        assert worker.wait(timeout=60.0) == 2
+        assert worker.stderr is not None
+        said = worker.stderr.read().decode()
+    assert said == (
+        f"airhilt: {folder}/worker.json: its certificate is of {of!r}; expected that of 'worker', "
+        "as `airhilt keys init` has made it\n"
+    )
+
+
+@pytest.mark.parametrize("of", ["observer", "worker", "recorder"])
+def test_a_person_with_the_certificate_of_another_role_is_told_so(
+    bus: Bus, keys: Path, tmp_path: Path, of: str
+) -> None:
+    folder = with_files_exchanged(keys, tmp_path / "lab", named="operator", of=of)
+    arguments = ("--connect", bus.endpoint, "--tls", folder, "--seat", "TOWER", "--no-browser")
+    with process("-m", "airhilt", "view", *arguments) as page:
+        assert page.wait(timeout=60.0) == 2
+        assert page.stderr is not None
+        assert f"its certificate is of {of!r}; expected that of 'operator'" in str(
+            page.stderr.read()
+        ).replace("\\'", "'")
+
+
+def test_a_worker_with_the_certificate_of_the_run_is_told_so(keys: Path, tmp_path: Path) -> None:
+    folder = with_files_exchanged(keys, tmp_path / "lab", named="worker", of="router")
+    with pytest.raises(BusError, match=r"worker\.json: its certificate is of 'router'; expected"):
+        read_keys(folder, "worker")
+
+
+@pytest.mark.parametrize("of", ["observer", "worker", "operator", "recorder"])
+def test_a_run_with_the_certificate_of_a_program_is_told_so(
+    keys: Path, tmp_path: Path, of: str
+) -> None:
+    folder = with_files_exchanged(keys, tmp_path / "lab", named="router", of=of)
+    with pytest.raises(BusError, match=rf"router\.json: its certificate is of '{of}'; expected"):
+        Bus("run", tls=folder)
+
+
+def test_a_certificate_of_no_role_is_told_as_such(
+    keys: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(certificates, "CERTIFICATE_NAME", "somebody-{}")
+    make_keys(tmp_path / "keys", "tls/127.0.0.1:7447")
+    monkeypatch.undo()
+    with pytest.raises(BusError, match=r"worker\.json: its certificate is of no role; expected"):
+        read_keys(tmp_path / "keys", "worker")
 
 
 def refused(file: Path, endpoint: str, *left_out: str) -> bool:

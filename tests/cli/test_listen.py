@@ -5,13 +5,15 @@ from __future__ import annotations
 import hashlib
 import json
 import resource
+import tracemalloc
+import wave
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from airhilt.audio.pcm import to_pcm
+from airhilt.audio.pcm import from_pcm, to_pcm
 from airhilt.audio.wav import read_wav, write_wav
 from airhilt.errors import RunFolderError, SpeechError
 from airhilt.messages import Message, SpokenTruth, Transcript, Transmission
@@ -34,6 +36,7 @@ class Recording:
     def call(
         self, name: str, begin_s: float, level: float, seconds: float = 1.0,
         frequency_khz: int = TOWER_KHZ, heard: str | None = None, tail_s: float = 0.0,
+        claimed_samples: int | None = None,
         **truth: Any,
     ) -> None:  # fmt: skip
         audio = np.full(round(16_000 * (seconds + tail_s)), level, np.float32)
@@ -46,7 +49,9 @@ class Recording:
         digest = hashlib.sha256(to_pcm(audio)).hexdigest()
         self._write(
             f"radio/{frequency_khz}/tx",
-            Transmission(**shared, snr_db=12.0, samples=len(audio), sha256=digest),
+            Transmission(
+                **shared, snr_db=12.0, samples=claimed_samples or len(audio), sha256=digest
+            ),
         )
         said = {"speaker": "AAL123", "addressed": "TOWER", "text": "Washington Tower, hello."}
         self._write(f"truth/radio/{name}", SpokenTruth(**shared, **(said | truth)))
@@ -232,6 +237,33 @@ def test_a_disk_that_is_full_leaves_no_part_of_a_file_behind(
         resource.setrlimit(resource.RLIMIT_FSIZE, unlimited)
     assert wav.read_bytes() == b"an earlier recording"
     assert {path.name for path in tmp_path.iterdir()} == {"run", "tower.wav"}
+
+
+def test_a_call_late_in_a_day_takes_no_memory_for_the_silence_before_it(
+    recording: Recording, tmp_path: Path
+) -> None:
+    recording.call("1", 1.0, 0.1)
+    recording.call("2", 3_600.0, 0.2)
+    folder = recording.close()
+    tracemalloc.start()
+    written, wav, _ = write_frequency(folder, out=tmp_path / "tower.wav")
+    _, peak_bytes = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert written.duration_s == 3_601.0
+    assert wav.stat().st_size == 44 + 2 * 16_000 * 3_601
+    with wave.open(str(wav)) as file:
+        file.setpos(3_600 * 16_000 + 8_000)
+        assert from_pcm(file.readframes(1))[0] == pytest.approx(0.2, abs=1e-4)
+    assert peak_bytes < 10_000_000
+
+
+def test_sound_of_another_length_than_the_log_says_is_refused(
+    recording: Recording, tmp_path: Path
+) -> None:
+    recording.call("1", 1.0, 0.1, claimed_samples=10**12)
+    with pytest.raises(RunFolderError, match=r"1\.wav: 16000 samples; expected 1000000000000"):
+        write_frequency(recording.close(), out=tmp_path / "tower.wav")
+    assert not (tmp_path / "tower.wav").exists()
 
 
 @pytest.mark.parametrize("begin_s", [90_000.0, 1e9])

@@ -10,9 +10,13 @@ from typing import Any
 import pyarrow as pa
 import pytest
 
+from airhilt.errors import RunFolderError
 from airhilt.files import make_folder, read_inside, replace_file
+from airhilt.record import RunFolder, open_run
+from airhilt.record.run import untold
 from airhilt.record.sweep_folder import SweepFolder
 from airhilt.station.started_runs import StartedRun, StartedRuns
+from damage import kill
 from radio_folder import busy_radio
 from sweep_tables import grid, write_sweep
 
@@ -166,17 +170,18 @@ def test_a_file_inside_is_read_and_others_are_not(tmp_path: Path, outside: Path)
     (folder / "home").symlink_to(outside.parent)
     (folder / "inside").symlink_to(folder / "audio" / "call.wav")
     os.mkfifo(folder / "pipe")
-    assert read_inside(folder, folder / "audio" / "call.wav") == b"sound"
+    assert read_inside(folder, folder / "audio" / "call.wav", 5) == b"sound"
     for name in ("link", "home/.bashrc", "inside", "pipe", "audio", "audio/../../home/.bashrc"):
         with pytest.raises(OSError, match="no regular file of its folder"):
-            read_inside(folder, folder / name)
+            read_inside(folder, folder / name, 5)
     with pytest.raises(FileNotFoundError):
-        read_inside(folder, folder / "nothing")
+        read_inside(folder, folder / "nothing", 5)
 
 
 def test_a_folder_that_the_user_names_by_a_link_is_read(tmp_path: Path, outside: Path) -> None:
     (tmp_path / "latest").symlink_to(outside.parent)
-    assert read_inside(tmp_path / "latest", tmp_path / "latest" / ".bashrc") == PRECIOUS.encode()
+    read = read_inside(tmp_path / "latest", tmp_path / "latest" / ".bashrc", 100)
+    assert read == PRECIOUS.encode()
 
 
 @pytest.mark.parametrize("name", ["log.mcap", "latency.jsonl", "summary.json", "run.json"])
@@ -244,3 +249,24 @@ def test_a_station_passes_over_pipes_in_the_place_of_its_files(tmp_path: Path) -
     run = StartedRun(name="run", scenario="s", seats=(), process=1, created_s=0.0)
     os.mkfifo(kept / "run.txt")
     assert started.url(run) == ""
+
+
+# --- folders that are none ---------------------------------------------------------------------
+
+
+def test_a_folder_below_a_file_is_refused_before_anything_is_made(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    with pytest.raises(RunFolderError, match="file is no folder that you may write in"):
+        RunFolder(tmp_path / "file" / "run").require_free()
+
+
+def test_a_folder_with_files_that_are_no_run_is_left_alone(tmp_path: Path) -> None:
+    (tmp_path / "letter.txt").touch()
+    with pytest.raises(RunFolderError, match="holds files that are no run"):
+        RunFolder(tmp_path).require_free(overwrite=True)
+
+
+def test_a_run_without_its_numbers_says_so(run_copy: Path) -> None:
+    kill(run_copy)
+    with pytest.raises(RunFolderError, match=r"summary\.json: missing; expected the numbers"):
+        open_run(run_copy, untold).summary()

@@ -57,6 +57,10 @@ def test_each_trial_is_equally_often_at_each_place_and_after_each_other(size: in
         ({"participants": ["P01", "P01"]}, "twice"),
         ({"conditions": {"seat": ["tower"]}}, "the experiment gives it"),
         ({"conditions": {"snr_db": [900]}}, "snr_db"),
+        (
+            {"conditions": {"snr_db": [*range(40)], "seed": [*range(26)]}},
+            "found 1,040 trials; expected at most 1,000",
+        ),
         ({"scenarios": ["nowhere"]}, "nowhere"),
         ({"seat": "nobody"}, "nobody of that name"),
     ],

@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from airhilt.record import RunFolder
+from airhilt.record.latency import latency_lines
 from airhilt.report.sections import Content, Section
 from airhilt.units import SECOND_NS
 
@@ -47,21 +48,18 @@ class Latencies(Content):
 def finished_steps(folder: RunFolder, notes: list[str]) -> Iterable[tuple[str, float]]:
     """Yield worker and latency from input to result in s, up to where the file breaks off."""
     try:
-        text = folder.read(folder.latency_path).decode(errors="replace")
+        for number, line in enumerate(latency_lines(folder.latency_path), start=1):
+            try:
+                row = json.loads(line)
+            except (ValueError, RecursionError):
+                if line.endswith(b"\n"):
+                    notes.append(f"latency.jsonl cannot be read from line {number} on.")
+                return
+            if row.get("finished"):
+                waited_ns = row["t_start_ns"] - row["t_in_ns"]
+                yield row["worker"], (waited_ns + row["latency_ns"]) / SECOND_NS
     except OSError as error:
         notes.append(f"latency.jsonl cannot be read: {error.strerror}.")
-        return
-    lines = text.splitlines()
-    for number, line in enumerate(lines, start=1):
-        try:
-            row = json.loads(line)
-        except (ValueError, RecursionError):
-            if number < len(lines):
-                notes.append(f"latency.jsonl cannot be read from line {number} on.")
-            return
-        if row.get("finished"):
-            waited_ns = row["t_start_ns"] - row["t_in_ns"]
-            yield row["worker"], (waited_ns + row["latency_ns"]) / SECOND_NS
 
 
 def _bin(latency_s: float) -> int:

@@ -7,16 +7,25 @@ The files are ``runways.csv`` and ``airport-frequencies.csv`` of https://ourairp
 from __future__ import annotations
 
 import csv
+import itertools
 import math
 from dataclasses import dataclass
 from pathlib import Path
 
 from airhilt import library
 from airhilt.errors import ScenarioError
+from airhilt.files import read_file
 from airhilt.geodesy.wgs84 import distance_and_azimuth
+from airhilt.text import readable
 from airhilt.units import FOOT
 from airhilt.world.surface.airport import Frequency, Role, Runway, RunwayThreshold
 
+LARGEST_BYTES = 50_000_000
+"""Size of the largest file that is read; those of all airports had 4 MB in 2026."""
+MOST_COLUMNS = 100
+"""Greatest number of columns; OurAirports has 20."""
+MOST_ROWS = 200_000
+"""Greatest number of rows; the runways of all airports were 48,000 in 2026."""
 CREDIT = "OurAirports (public domain)"
 RUNWAY_COLUMNS = (
     "airport_ident",
@@ -138,7 +147,7 @@ def read_frequencies(path: Path, ident: str) -> tuple[Frequency, ...]:
 
 def _rows(path: Path, columns: tuple[str, ...]) -> list[dict[str, str]]:
     try:
-        text = path.read_text(encoding="utf-8-sig")
+        text = read_file(path, LARGEST_BYTES).decode("utf-8-sig")
     except OSError as error:
         raise ScenarioError(f"{path}: cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
@@ -146,10 +155,22 @@ def _rows(path: Path, columns: tuple[str, ...]) -> list[dict[str, str]]:
     header, _, _ = text.partition("\n")
     separator = ";" if header.count(";") > header.count(",") else ","
     reader = csv.DictReader(text.splitlines(), delimiter=separator)
-    if missing := [name for name in columns if name not in (reader.fieldnames or ())]:
-        has = ", ".join(reader.fieldnames or ()) or "none"
-        raise ScenarioError(f"{path} has no column {', '.join(missing)}; it has {has}")
-    return [{name: (row[name] or "").strip() for name in columns} for row in reader]
+    try:
+        found = reader.fieldnames or ()
+        if len(found) > MOST_COLUMNS:
+            raise ScenarioError(f"{path}: found {len(found):,} columns; expected fewer")
+        if missing := [name for name in columns if name not in found]:
+            has = readable(", ".join(found) or "none")
+            raise ScenarioError(f"{path} has no column {', '.join(missing)}; it has {has}")
+        rows = [
+            {name: (row[name] or "").strip() for name in columns}
+            for row in itertools.islice(reader, MOST_ROWS + 1)
+        ]
+    except csv.Error as error:
+        raise ScenarioError(f"{path}:{reader.line_num + 1}: no CSV: {error}") from None
+    if len(rows) > MOST_ROWS:
+        raise ScenarioError(f"{path}: found over {MOST_ROWS:,} rows; expected fewer")
+    return rows
 
 
 def _unusable(row: dict[str, str]) -> str | None:

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from airhilt import onnx
 from airhilt.errors import SpeechError
 from airhilt.sensors.radio.channel import Other, active
 from airhilt.sensors.radio.learned_channel import LearnedChannel
+from large_networks import write_large, write_long
 from paths import DATA
 
 CHANNELS = DATA / "channels"
@@ -27,6 +30,29 @@ def echo() -> LearnedChannel:
 def test_a_model_that_never_ends_is_stopped() -> None:
     with pytest.raises(SpeechError, match=r"endless\.onnx: the model does not end within 0\.5 s"):
         LearnedChannel(CHANNELS / "endless.onnx", limit_s=0.5)
+
+
+def test_a_model_that_takes_too_much_memory_is_refused(tmp_path: Path) -> None:
+    write_large(tmp_path / "large.onnx", numbers=100_000_000_000)
+    with pytest.raises(SpeechError, match=r"large\.onnx: .*(no ONNX model|fails).*memory"):
+        LearnedChannel(tmp_path / "large.onnx")
+
+
+def test_a_model_that_takes_too_long_to_load_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(onnx, "LONGEST_LOAD_S", 0.05)
+    write_long(tmp_path / "long.onnx", nodes=20_000)
+    with pytest.raises(SpeechError, match=r"long\.onnx: no ONNX model .* canceled"):
+        LearnedChannel(tmp_path / "long.onnx")
+
+
+def test_a_model_in_a_file_that_is_too_large_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "large.onnx"
+    path.touch()
+    os.truncate(path, onnx.LARGEST_FILE_BYTES + 1)
+    with pytest.raises(SpeechError, match=r"large\.onnx: has over 500,000,000 bytes"):
+        LearnedChannel(path)
 
 
 def test_what_is_heard_went_through_the_model() -> None:

@@ -13,6 +13,7 @@ import pytest
 from airhilt import library
 from airhilt.errors import ScenarioError
 from airhilt.world.flight import load_aircraft_type
+from airhilt.world.flight.aircraft_type import AircraftType
 
 
 @pytest.fixture
@@ -124,7 +125,14 @@ def test_a_file_that_is_nested_too_deeply_is_refused(
         load_aircraft_type("wrong")
 
 
-def test_of_many_mistakes_the_first_ten_are_told() -> None:
+@pytest.mark.parametrize("name", ["x{}", "x{}" * 60])
+def test_of_many_mistakes_the_first_are_told_and_how_many_more_there_are(name: str) -> None:
+    document = {name.replace("{}", str(n)): n for n in range(1000)}
     with pytest.raises(ScenarioError) as caught:
-        load_aircraft_type("mine.json", {"mine.json": {f"x{n}": n for n in range(1000)}})
-    assert len(str(caught.value).splitlines()) == 12
+        load_aircraft_type("mine.json", {"mine.json": document})
+    first, *told, last = str(caught.value).splitlines()
+    assert first == "mine.json is not an aircraft type:"
+    assert told[0] == "  name: Field required"
+    missing = sum(field.is_required() for field in AircraftType.model_fields.values())
+    assert last == f"  and {missing + 1000 - len(told)} more"
+    assert len(str(caught.value)) <= 500

@@ -25,6 +25,7 @@ from airhilt.assistant.asr.spotting import Odds, Spotted, Spotter, is_same
 from airhilt.audio.pcm import Audio
 from airhilt.engines import Engine
 from airhilt.errors import SpeechError, first_line, first_problem
+from airhilt.files import read_file
 from airhilt.messages import Confidence
 from airhilt.onnx import first_look, open_network
 
@@ -32,6 +33,8 @@ MODEL = Path(__file__).parents[1] / "model"
 """The model that ships with AIRHILT."""
 FILES = ("ctc.onnx", "pieces.txt", "language.npz", "card.json")
 """Files of a model's folder."""
+LARGEST_TEXT_BYTES = 1_000_000
+"""Size of the largest file of words or numbers that is read."""
 EXPECTED = "a network of tools/asr/train_asr.py: features [1, n, 64] to logits [1, n/3, pieces + 1]"
 LEAST_SAMPLES = 1_600
 """Least number of samples that can hold a word: a tenth of a second."""
@@ -121,10 +124,14 @@ class Ctc:
                 f"recogniser {self.name}: {where} lacks {', '.join(missing)}; expected "
                 f"{', '.join(FILES)}, as tools/asr/train_asr.py writes them"
             )
-        written = (where / "pieces.txt").read_text(encoding="utf-8", errors="replace")
-        self._pieces = Pieces(written.split())
         try:
-            card = Card.model_validate_json((where / "card.json").read_bytes())
+            written = read_file(where / "pieces.txt", LARGEST_TEXT_BYTES)
+            self._pieces = Pieces(written.decode(errors="replace").split())
+            card = Card.model_validate_json(read_file(where / "card.json", LARGEST_TEXT_BYTES))
+        except OSError as error:
+            raise SpeechError(
+                f"recogniser {self.name}: {error.filename}: cannot be read: {error.strerror}"
+            ) from None
         except ValidationError as error:
             raise SpeechError(
                 f"recogniser {self.name}: {where / 'card.json'} is no model card: "

@@ -22,12 +22,14 @@ from airhilt.assistant.vision.refiner import Refiner, RefinerCard
 from airhilt.assistant.vision.tiling import Tile
 from airhilt.engines import Engine
 from airhilt.errors import VisionError, first_line, first_problem
-from airhilt.files import sha256
+from airhilt.files import read_file, sha256
 from airhilt.imaging.boxes import area, moved, size_px, within
 from airhilt.messages import Confidence, VisibleClass
 from airhilt.onnx import open_network, require_end
 
 MODEL = Path(__file__).parents[1] / "model" / "detector.onnx"
+LARGEST_CARD_BYTES = 1_000_000
+"""Size of the largest file of names and numbers that is read."""
 CARD = "card.json"
 EXPECTED = (
     "a network of tools/detector/train_detector.py: "
@@ -240,7 +242,7 @@ class EmbeddedDetector:
 
 def _card(path: Path) -> Card:
     try:
-        return Card.model_validate_json(path.read_bytes())
+        return Card.model_validate_json(read_file(path, LARGEST_CARD_BYTES))
     except OSError as error:
         raise VisionError(
             f"{path}: cannot be read: {error.strerror}; "

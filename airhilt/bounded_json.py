@@ -1,0 +1,42 @@
+"""JSON that anybody may have written: its size and its number of values are bounded first."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+MOST_BYTES = 32_000_000
+"""Size of the largest document that is read."""
+MOST_VALUES = 500_000
+"""Greatest number of values in a document: each takes many times its size in memory."""
+BEFORE_A_VALUE = (b",", b"[", b"{")
+"""Bytes of which one is before each value but the first."""
+
+
+def parse(data: bytes) -> Any:
+    """Return the document in a JSON text.
+
+    Raises
+    ------
+    ValueError
+        It is not JSON in UTF-8, is nested too deeply, or has too many values.
+    """
+    require_few_values(data)
+    try:
+        return json.loads(data.decode())
+    except RecursionError:
+        raise ValueError("nested too deeply") from None
+
+
+def require_few_values(data: bytes) -> None:
+    """Check the number of values of a JSON text before anything is made of it.
+
+    Commas and brackets inside its texts count too.
+
+    Raises
+    ------
+    ValueError
+        There are too many.
+    """
+    if sum(map(data.count, BEFORE_A_VALUE)) >= MOST_VALUES:
+        raise ValueError(f"found over {MOST_VALUES:,} values; expected fewer")

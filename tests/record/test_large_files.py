@@ -1,0 +1,172 @@
+"""Files that claim or take too much are refused before they are read."""
+
+from __future__ import annotations
+
+import os
+import re
+import tracemalloc
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+from mcap.opcode import Opcode
+
+from airhilt import bounded_json
+from airhilt.audio.wav import LARGEST_WAV_BYTES
+from airhilt.configuration import read_configuration
+from airhilt.errors import AirhiltError, RunFolderError
+from airhilt.messages import Transmission
+from airhilt.record import RunFolder
+from airhilt.record.audio import recorded_pcm
+from airhilt.record.latency import LONGEST_STEP_BYTES, read_latencies
+from airhilt.record.log_reader import FOOTER, LARGEST_INDEX_BYTES, MAGIC, LogReader
+from airhilt.record.sweep_folder import SweepFolder
+from sweep_tables import grid, write_sweep
+
+MANY_VALUES = b"[" + b"0," * bounded_json.MOST_VALUES + b"0]"
+ENDLESS = 1_000_000_000_000
+
+
+def make_endless(path: Path) -> None:
+    """Put a file of a terabyte, which takes no room, in the place of another."""
+    path.unlink(missing_ok=True)
+    path.touch()
+    os.truncate(path, ENDLESS)
+
+
+def make_many_values(path: Path) -> None:
+    path.write_bytes(b'{"a": ' + MANY_VALUES + b"}")
+
+
+TOO_MUCH = pytest.mark.parametrize(
+    ("make", "answer"),
+    [
+        (make_endless, "has over 32,000,000 bytes"),
+        (make_many_values, "found over 500,000 values"),
+    ],
+    ids=["bytes", "values"],
+)
+
+
+@TOO_MUCH
+@pytest.mark.parametrize("name", ["run.json", "summary.json"])
+def test_a_record_of_a_run_that_takes_too_much_is_refused(
+    run_copy: Path, name: str, make: Callable[[Path], None], answer: str
+) -> None:
+    make(run_copy / name)
+    folder = RunFolder.open(run_copy)
+    with pytest.raises(RunFolderError, match=f"{re.escape(name)}: .*{answer}"):
+        _ = folder.info(), folder.summary()
+
+
+def test_a_command_names_a_record_that_takes_too_much(airhilt_command: Any, run_copy: Path) -> None:
+    make_many_values(run_copy / "run.json")
+    done = airhilt_command("report", run_copy)
+    assert done.returncode == 2
+    (line,) = done.stderr.splitlines()
+    assert "run.json: found over 500,000 values; expected fewer" in line
+
+
+@TOO_MUCH
+def test_a_plan_or_configuration_that_takes_too_much_is_refused(
+    tmp_path: Path, make: Callable[[Path], None], answer: str
+) -> None:
+    make(tmp_path / "plan.json")
+    with pytest.raises(AirhiltError, match=rf"plan\.json: .*{answer}"):
+        read_configuration(tmp_path / "plan.json")
+
+
+@pytest.mark.parametrize("command", ["experiment", "sweep"])
+@pytest.mark.parametrize("text", [b"[" * 100_000, b'{"seeds": ' + b"1" * 5_000 + b"}"])
+def test_a_plan_that_python_cannot_hold_is_refused_in_one_line(
+    airhilt_command: Any, tmp_path: Path, command: str, text: bytes
+) -> None:
+    (tmp_path / "plan.json").write_bytes(text)
+    done = airhilt_command(command, *(["--file"] if command == "sweep" else []), "plan.json")
+    assert done.returncode == 2
+    (line,) = done.stderr.splitlines()
+    assert line.startswith("airhilt: plan.json: ")
+
+
+def test_latencies_with_a_line_without_end_are_refused(tmp_path: Path) -> None:
+    make_endless(tmp_path / "latency.jsonl")
+    with pytest.raises(RunFolderError, match=f"has a line of over {LONGEST_STEP_BYTES:,} bytes"):
+        read_latencies(tmp_path / "latency.jsonl")
+
+
+def test_sound_that_takes_too_much_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "audio").mkdir()
+    make_endless(tmp_path / "audio" / "call.wav")
+    call = Transmission.model_construct(id="call", frequency_khz=119_100, t_tx_ns=0, t_end_ns=0)
+    with pytest.raises(RunFolderError, match=f"has over {LARGEST_WAV_BYTES:,} bytes"):
+        recorded_pcm(tmp_path / "audio", call)
+
+
+def test_the_end_of_a_log_takes_no_more_memory_than_a_log_needs(tmp_path: Path) -> None:
+    path = tmp_path / "log.mcap"
+    path.write_bytes(MAGIC)
+    os.truncate(path, 2 * LARGEST_INDEX_BYTES)
+    with path.open("ab") as log:
+        log.write(FOOTER.pack(Opcode.FOOTER, 20, len(MAGIC), 0, 0) + MAGIC)
+    tracemalloc.start()
+    assert list(LogReader(path).messages()) == []
+    _, peak_bytes = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert peak_bytes < 10_000_000
+
+
+# --- tables of sweeps --------------------------------------------------------------------------
+
+
+def rows_beyond_number() -> pa.Table:
+    """Return a table that claims a billion rows, of which a file keeps one value."""
+    return pa.table({f"column{n}": pa.nulls(1_000_000) for n in range(300)})
+
+
+def long_text_in_each_row() -> pa.Table:
+    """Return a table of 20 GB of text, of which a file keeps 100 kB."""
+    texts = pa.array(["x" * 100_000])
+    return pa.table({"key": pa.DictionaryArray.from_arrays(np.zeros(200_000, np.int32), texts)})
+
+
+def lists() -> pa.Table:
+    return pa.table({"key": pa.array([["a"]])})
+
+
+@pytest.mark.parametrize(
+    ("make", "answer"),
+    [
+        (rows_beyond_number, "1,000,000 rows of 300 columns"),
+        (long_text_in_each_row, "its texts have over 1,000,000,000 bytes"),
+        (lists, "column key has the type list<element: string>"),
+    ],
+)
+def test_a_table_that_claims_too_much_is_refused(
+    tmp_path: Path, make: Callable[[], pa.Table], answer: str
+) -> None:
+    folder = write_sweep(tmp_path / "sweep", grid(["s01a_tight_timing"], ["reference"]))
+    pq.write_table(make(), folder / "sweep.parquet", compression="zstd")
+    with pytest.raises(AirhiltError, match=rf"sweep\.parquet: damaged \(.*{answer}"):
+        SweepFolder.open(folder).table()
+
+
+def test_a_report_names_a_table_that_claims_too_much(airhilt_command: Any, tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path / "sweep", grid(["s01a_tight_timing"], ["reference"]))
+    pq.write_table(long_text_in_each_row(), folder / "sweep.parquet", compression="zstd")
+    assert (folder / "sweep.parquet").stat().st_size < 200_000
+    done = airhilt_command("report", folder)
+    assert done.returncode == 2
+    (line,) = done.stderr.splitlines()
+    assert "sweep.parquet: damaged (its texts have over" in line
+
+
+def test_a_table_of_texts_is_read_as_it_was_written(tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path / "sweep", grid(["s01a_tight_timing"], ["reference"]))
+    written = pq.read_table(folder / "sweep.parquet")
+    read = SweepFolder.open(folder).table()
+    assert read.equals(written)
+    assert read.schema.equals(written.schema, check_metadata=True)
