@@ -95,8 +95,9 @@ def live_app(subscription: Subscription, browsers: Browsers) -> FastAPI:
         begin: Annotated[int, Query(alias="from", ge=0)] = 0,
         browser: Identity = "",
         version: Annotated[str, Query(max_length=64)] = "",
+        shown: Annotated[str | None, Query(max_length=80)] = None,
     ) -> None:
-        await browsers.serve(socket, begin, browser, version)
+        await browsers.serve(socket, begin, browser, version, shown)
 
     @app.post("/api/phrases")
     def phrases(situation: Situation) -> list[dict[str, str]]:

@@ -18,7 +18,7 @@ from pydantic import ValidationError
 from airhilt.errors import first_problem
 from airhilt.messages import MicrophoneAudio
 from airhilt.station.audiences import Audience, SeatViews
-from airhilt.station.changes import MOST_AT_ONCE, Admits, Changes
+from airhilt.station.changes import MOST_AT_ONCE, Changes
 from airhilt.station.held_button import HeldButton, what_is_wrong_with
 from airhilt.station.page_files import page_version
 from airhilt.station.wishes import Pressed, RunLink, Wish
@@ -58,8 +58,8 @@ class _Browser:
         self.seat: str | None = None
         self.seen_of_seat = 0
         """Number of the first change of the seat that it has not seen."""
-        self.unseen_from: int | None = None
-        """Number of the first change that it could not see before it took its seat."""
+        self.shown_seat: str | None = None
+        """Seat whose view its page shows; None: it shows what everybody sees."""
         self.tuned: frozenset[int] = frozenset()
         """Frequencies in kHz that are heard at its seat."""
         self.heard = 0
@@ -149,7 +149,12 @@ class Browsers:
         return not self.seats or self._views.sees(seat, audience)
 
     async def serve(
-        self, socket: WebSocket, begin: int = 0, identity: str = "", version: str = ""
+        self,
+        socket: WebSocket,
+        begin: int = 0,
+        identity: str = "",
+        version: str = "",
+        shown_seat: str | None = None,
     ) -> None:
         """Send the changes to a browser, and do what it wishes, until it leaves.
 
@@ -161,6 +166,8 @@ class Browsers:
             Name that it keeps: with it, it has its seat again after a short loss of connection.
         version
             Version of its page, empty if it is none.
+        shown_seat
+            Seat whose view the page shows already; None: it shows what everybody sees.
         """
         await socket.accept()
         if version not in ("", page_version()):
@@ -171,10 +178,10 @@ class Browsers:
             await socket.close(TRY_LATER, f"{MOST_BROWSERS} browsers look already")
             return
         browser = _Browser(socket, identity)
-        browser.heard = self._sounds.next_number
+        browser.heard, browser.shown_seat = self._sounds.next_number, shown_seat
         self._browsers.append(browser)
         self._empty_since_s = None
-        await self._give_back(browser, begin)
+        await self._give_back(browser)
         self._tell_seats()
         sending = asyncio.create_task(self._send(socket, browser, begin))
         listening = asyncio.create_task(self._listen(socket, browser))
@@ -331,7 +338,6 @@ class Browsers:
         """
         left, browser.seat = browser.seat, seat
         browser.tuned, browser.seen_of_seat = frozenset(), 0
-        browser.unseen_from = None if seat is None else 0
         if left is not None:
             browser.watched = None
         self._tell_seats()
@@ -349,7 +355,7 @@ class Browsers:
                 await self._release(browser)
             await asyncio.to_thread(self._run.occupy, seat, is_taken=is_taken)
 
-    async def _give_back(self, browser: _Browser, begin: int) -> None:
+    async def _give_back(self, browser: _Browser) -> None:
         """Give a browser the seat that it had before its connection was lost.
 
         The old connection may not have ended yet, if the network is cut; it brings nothing then.
@@ -365,8 +371,6 @@ class Browsers:
         elif (seat := next(held, None)) is not None:
             self._end_hold(seat)
             browser.seat = seat
-        if browser.seat is not None and self._views.of(browser.seat) is None:
-            browser.unseen_from = begin
 
     def _is_silent(self, old: _Browser, new: _Browser) -> bool:
         """Return true if an old connection has a seat of the browser of a new one, and is cut."""
@@ -425,29 +429,32 @@ class Browsers:
             async with asyncio.timeout(STALLED_S):
                 await socket.send_text(text)
 
-        async def send_changes(first: int, end: int, admits: Admits) -> int:
-            """Send the changes before a number that the browser may see; return the next number."""
-            while first < end and (batch := self._changes.since(first, end, admits)) is not None:
+        def is_seen(audience: Audience | None) -> bool:
+            return self._sees(browser.shown_seat, audience)
+
+        async def send_changes(first: int, end: int) -> int:
+            """Send the changes before a number, and return the next number.
+
+            It ends earlier when the browser is to see something else from then on.
+            """
+            while (
+                first < end
+                and not self._has_other_view(browser)
+                and (batch := self._changes.since(first, end, is_seen)) is not None
+            ):
                 first = batch.next_number
                 if batch.changes != "[]":
-                    await send(f'{{"next":{max(first, number)},"changes":{batch.changes}}}')
+                    await send(f'{{"next":{first},"changes":{batch.changes}}}')
             return first
 
-        def is_seen(audience: Audience | None) -> bool:
-            return audience is None or (
-                browser.unseen_from is None and self._sees(browser.seat, audience)
-            )
-
-        def was_unseen(audience: Audience | None) -> bool:
-            return audience is not None and self._sees(browser.seat, audience)
-
         # What has been comes before the seat is told: nothing of it sounds at the seat once more.
-        number = await send_changes(number, self._changes.next_number, is_seen)
+        number = await send_changes(number, self._changes.next_number)
         while True:
-            while browser.unsent or self._has_unseen(browser):
-                if self._has_unseen(browser):
-                    first, browser.unseen_from = browser.unseen_from or 0, None
-                    await send_changes(first, number, was_unseen)
+            while browser.unsent or self._has_other_view(browser):
+                if self._has_other_view(browser):
+                    browser.shown_seat = self._view_of(browser)
+                    await send(json.dumps({"forget": True, "shown": browser.shown_seat}))
+                    number = await send_changes(0, self._changes.next_number)
                 else:
                     await send(browser.unsent.popleft())
             if (own := self._own(browser)) is not None:
@@ -461,7 +468,7 @@ class Browsers:
             if number >= end:
                 await asyncio.sleep(PERIOD_S)
                 continue
-            number = await send_changes(number, end, is_seen)
+            number = await send_changes(number, end)
             await asyncio.sleep(0)
 
     def _own(self, browser: _Browser) -> str | None:
@@ -482,9 +489,13 @@ class Browsers:
         numbered = enumerate(changes, batch.next_number - len(changes))
         return json.dumps([one for n, one in numbered if n >= taken_at or one[0] != "notice"])
 
-    def _has_unseen(self, browser: _Browser) -> bool:
-        """Return true if a browser has yet to get what its seat saw before it took it."""
-        return browser.unseen_from is not None and self._views.of(browser.seat) is not None
+    def _view_of(self, browser: _Browser) -> str | None:
+        """Return the seat whose view a browser is shown; None: it is shown what everybody sees."""
+        return None if self._views.of(browser.seat) is None else browser.seat
+
+    def _has_other_view(self, browser: _Browser) -> bool:
+        """Return true if the page of a browser shows the view of another seat than it has now."""
+        return browser.shown_seat != self._view_of(browser)
 
 
 def _on(tuned: Collection[int], changes: str) -> list[Any]:

@@ -8,8 +8,9 @@ from typing import Any
 
 import pytest
 
-from airhilt.messages import SpokenWords
+from airhilt.messages import AdvisoryPerceived, SpokenWords
 from airhilt.report.airport import ReportAirport
+from airhilt.station.audiences import Audience
 from devtools import Page
 from stations import TOWER, PretendedRun, seat_page
 
@@ -362,3 +363,58 @@ def test_an_alert_of_the_equipment_sounds_once_while_aircraft_get_their_names(pa
         assert page.evaluate("window.pulses") == 1
         tcas(run, 1, "traffic, traffic", "CAUTION")
         page.wait_for("window.pulses === 2")
+
+
+LISTED = """JSON.stringify(['#traffic tbody th', '#calls .who', '#camera option'].map((rows) =>
+    [...document.querySelectorAll(rows)].map((one) => one.textContent)))"""
+"""Aircraft, speakers and cameras that the page lists."""
+MAST = {
+    "name": "mast", "carrier": None, "width_px": 64, "height_px": 48, "horizontal_fov_deg": 60.0,
+}  # fmt: skip
+
+
+def test_a_page_shows_once_what_its_seat_sees_and_nothing_of_a_former_seat(page: Page) -> None:
+    infos = [
+        TOWER.model_copy(update={"category": "unit"}),
+        TOWER.model_copy(
+            update={"seat": "OPS1", "category": "vehicle", "frequencies_khz": (121_700,)}
+        ),
+    ]
+    with seat_page(PretendedRun(infos)) as (run, url):
+        run.changes.add("briefing", "TOWER", None, CATEGORIES)
+        run.changes.add("clock", 1.0, "running", "realtime")
+        place = (1.0, 0.0, 0.0, 3_000, [70.0, 0.0], 90.0, False, "")
+        seen = Audience("adsb", "d4e5f6")
+        run.changes.add("state", "DAL456", "aircraft", "B737", *place, audience=seen)
+        for khz, speaker in ((119_100, "Delta 456"), (121_700, "Operations 1")):
+            call = CALL | {"id": f"c-{khz}", "frequency_khz": khz, "speaker": speaker}
+            run.changes.add("call", call, audience=Audience("frequency", khz))
+        run.changes.add("camera", MAST, audience=Audience("camera", None))
+        page.open(url, width=1280, height=720)
+        page.wait_for("document.getElementById('state').textContent.startsWith('running')")
+        of_tower = '[["DAL456"],["Delta 456"],["mast"]]'
+        of_driver = '[[],["Operations 1"],[]]'
+        for seat, listed in (("TOWER", of_tower), ("TOWER", of_tower), ("OPS1", of_driver)):
+            page.evaluate(f"document.getElementById('seat-name').value = '{seat}'")
+            page.click("seat-take")
+            page.wait_for(f"document.body.dataset.seat === '{KIND[seat]}'")
+            page.wait_for(f"{LISTED} === '{listed}'")
+            page.click("seat-take")
+            page.wait_for("document.getElementById('talk').hidden")
+            page.wait_for(f"{LISTED} === '[[],[],[]]'")
+        page.open("about:blank")
+
+
+def test_an_advisory_in_force_is_told_as_seen_for_each_person_who_takes_the_seat(
+    page: Page,
+) -> None:
+    with seated(page, "TOWER") as run:
+        advise(run, "ATC", "Both lose separation.")
+        seen = AdvisoryPerceived(
+            id="Both lose separation.", revision=1, recipient="ATC", way="seen", after_s=0.0
+        )
+        assert run.next().model_copy(update={"after_s": 0.0}) == seen
+        page.click("seat-take")
+        page.wait_for("document.getElementById('talk').hidden")
+        page.click("seat-take")
+        assert run.next().model_copy(update={"after_s": 0.0}) == seen

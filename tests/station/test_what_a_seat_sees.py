@@ -216,7 +216,7 @@ def test_who_comes_back_is_shown_what_the_seat_saw_meanwhile(
     begin = run.changes.next_number
     for icao24, name in (("a1b2c3", "AAL123"), ("d4e5f6", "DAL456")):
         run.changes.add("state", name, audience=Audience("adsb", icao24))
-    place = f"{url.replace('http', 'ws')}api/live?browser=one&from={begin}"
+    place = f"{url.replace('http', 'ws')}api/live?browser=one&shown=AAL123&from={begin}"
     with connect(place, proxy=None) as socket:
         shown: set[str] = set()
         while (message := json.loads(socket.recv(timeout=PATIENCE_S))).get("seats", {}).get(
@@ -224,6 +224,41 @@ def test_who_comes_back_is_shown_what_the_seat_saw_meanwhile(
         ) != "yours":
             shown |= names(message)
         assert shown == {"state AAL123"}
+
+
+def test_who_leaves_a_seat_forgets_it_before_what_everybody_sees_is_shown(
+    seats: tuple[PretendedRun, str],
+) -> None:
+    run, url = seats
+    run.changes.add("state", "everybody")
+    with opened(url) as socket:
+        assert taken(socket, "TOWER") == SEEN["TOWER"] | {"state everybody"}
+        socket.send(json.dumps({"leave": "TOWER"}))
+        assert shown_anew(socket) == {"state everybody"}
+
+
+@pytest.mark.parametrize("shown", ["TOWER", "DAL456"])
+def test_who_comes_back_without_the_seat_that_the_page_shows_forgets_it(
+    seats: tuple[PretendedRun, str], shown: str
+) -> None:
+    _, url = seats
+    with opened(url, "one") as socket:
+        taken(socket, "AAL123")
+    place = f"{url.replace('http', 'ws')}api/live?browser=one&shown={shown}&from=9"
+    with connect(place, proxy=None) as socket:
+        assert shown_anew(socket) == SEEN["AAL123"]
+    with connect(place.replace("one", "two"), proxy=None) as socket:
+        assert shown_anew(socket) == set()
+
+
+def shown_anew(socket: ClientConnection) -> set[str]:
+    """Return what is shown between the message to forget and that of the seats."""
+    while "forget" not in json.loads(socket.recv(timeout=PATIENCE_S)):
+        pass
+    shown: set[str] = set()
+    while "seats" not in (message := json.loads(socket.recv(timeout=PATIENCE_S))):
+        shown |= names(message)
+    return shown
 
 
 def test_files_are_for_the_browser_at_a_seat_that_sees_them(

@@ -86,6 +86,11 @@ export class Displays {
     this.#strips.hearOnly(heard);
   }
 
+  /** Forgets the strips of the former seat, with their notes. */
+  forget() {
+    this.#strips.clear();
+  }
+
   /** Takes in what the instruments show. */
   take(shown) {
     this.#instruments.take(shown);

@@ -58,6 +58,7 @@ export class Live {
   #drawing = null;
   #undrawn = new Set(); // kinds of changes that lists do not show yet
   #seen = 0;
+  #shown = null; // the seat whose view is shown; null: what everybody sees
   #heard = 0; // when the last message came
   #isSilent = false;
 
@@ -85,6 +86,7 @@ export class Live {
     const url = new URL("api/live", location.href);
     url.protocol = url.protocol.replace("http", "ws");
     url.searchParams.set("from", this.#seen);
+    if (this.#shown !== null) url.searchParams.set("shown", this.#shown);
     url.searchParams.set("browser", identity());
     url.searchParams.set("version", this.#run.version ?? "");
     this.#socket = new WebSocket(url);
@@ -192,7 +194,8 @@ export class Live {
   }
 
   #take(message) {
-    const { next, changes, seats, own, refused } = message;
+    const { next, changes, seats, own, refused, forget, shown } = message;
+    if (forget) this.#forget(shown);
     if (seats) this.#takeSeats(seats);
     if (own) this.#panes.seat.take(own);
     if (refused) this.#refuse(refused);
@@ -248,6 +251,20 @@ export class Live {
     if (seat.own === before) return;
     advisories.redraw();
     plan.fitFirst();
+  }
+
+  /** Forgets what was seen; all that the view of a seat, or nobody's (null), has comes next. */
+  #forget(shown) {
+    const { transcript, advisories, cameras, plan, seat, talk } = this.#panes;
+    this.#seen = 0;
+    this.#shown = shown;
+    this.#run.forget();
+    for (const pane of [advisories, cameras, seat, talk]) pane.forget();
+    transcript.redraw();
+    plan.redraw();
+    for (const kind of ["call", "event", "track"]) this.#undrawn.add(kind);
+    clearTimeout(this.#drawing);
+    this.#drawLists();
   }
 
   /** Draws what takes long: not with every message. */

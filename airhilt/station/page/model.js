@@ -188,6 +188,9 @@ function put(rows, row, same) {
   else rows[i] = row;
 }
 
+/** Bounds of no place at all. */
+const nowhere = () => ({ east: [Infinity, -Infinity], north: [Infinity, -Infinity] });
+
 /** A run as the page shows it. */
 export class Run {
   #callsigns = new Map(); // by the addresses under which actors were known first
@@ -207,7 +210,7 @@ export class Run {
     // Seconds before and after an instant over which its speed is a mean.
     this.span = given.airport ? 1 : 4;
     this.title = given.scenario.title || given.scenario.name;
-    this.bounds = { east: [Infinity, -Infinity], north: [Infinity, -Infinity] };
+    this.bounds = nowhere();
     for (const track of this.tracks)
       track.east.forEach((east, i) => this.#widen(east, track.north[i]));
   }
@@ -216,6 +219,17 @@ export class Run {
     const { bounds } = this;
     bounds.east = [Math.min(bounds.east[0], east), Math.max(bounds.east[1], east)];
     bounds.north = [Math.min(bounds.north[0], north), Math.max(bounds.north[1], north)];
+  }
+
+  /** Forgets what was seen of a live run: another seat sees something else. */
+  forget() {
+    for (const name of ["tracks", "cameras", "latencies", ...Object.keys(MOST_ROWS)])
+      this[name] = [];
+    this.bounds = nowhere();
+    this.#callsigns.clear();
+    this.#active = { t: null, rows: [] };
+    this.#moments = null;
+    this.#actors = 0;
   }
 
   /** The events that one may jump to, in the order of their times. */

@@ -59,9 +59,9 @@ export class OwnAdvisories {
     );
   }
 
+  /** Forgets everything: whoever has the seat next is another person. */
   clear() {
-    this.#shown.clear();
-    this.#sounded.clear();
+    for (const kept of [this.#shown, this.#told, this.#sounded]) kept.clear();
     this.#draw();
   }
 

@@ -93,6 +93,13 @@ export class Seat {
     byId("seat-state").textContent = text;
   }
 
+  /** Forgets the task cards and the strips of the former seat. */
+  forget() {
+    this.#tasks = [];
+    this.#displays.forget();
+    this.#drawTasks();
+  }
+
   /** Takes in what only the person at the own seat sees. */
   take(changes) {
     const own = changes.filter(([kind]) => kind === "state"); // where the own vehicle is

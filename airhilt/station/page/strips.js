@@ -82,6 +82,11 @@ export class Strips {
     this.#list.append(item);
   }
 
+  /** Takes all strips away. */
+  clear() {
+    for (const callsign of [...this.#strips.keys()]) this.#remove(callsign);
+  }
+
   /** Takes away a strip that was known by an address, because its callsign is known now. */
   #remove(callsign) {
     this.#strips.get(callsign).item.remove();
