@@ -309,7 +309,7 @@ class Browsers:
     async def _take(self, browser: _Browser, seat: str) -> None:
         """Give a seat to a browser; who is refused it keeps the one that it has."""
         why = self._why_not(browser, seat)
-        if why is None and await asyncio.to_thread(self._run.has_person, seat):
+        if why is None and not await self._claim(seat):
             why = f"Somebody has the seat {readable(seat)} at another page of this run."
         why = why or self._why_not(browser, seat)  # It may have been taken meanwhile.
         if why is not None:
@@ -319,6 +319,19 @@ class Browsers:
             self._taken_at[seat] = self._of_seats[seat].next_number
             await self._move(browser, seat)
             await self._occupy(seat, is_taken=True)
+
+    async def _claim(self, seat: str) -> bool:
+        """Return false if a person has a seat at another page of the run."""
+        try:
+            return await asyncio.to_thread(self._run.claim, seat)
+        except asyncio.CancelledError:  # The browser has gone meanwhile.
+            if seat not in self._taken():
+                await self._occupy(seat, is_taken=False)
+            raise
+
+    def _taken(self) -> set[str | None]:
+        """Return the seats that somebody has, or that are kept for somebody."""
+        return {*(one.seat for one in self._browsers), *self._held}
 
     def _why_not(self, browser: _Browser, seat: str) -> str | None:
         """Return why a browser cannot have a seat, None if it can."""
@@ -399,7 +412,7 @@ class Browsers:
 
     def _tell_seats(self) -> None:
         """Tell each browser which seats are free, taken, or its own."""
-        taken = {*(one.seat for one in self._browsers), *self._held}
+        taken = self._taken()
         for browser in self._browsers:
             browser.tell(
                 "seats",

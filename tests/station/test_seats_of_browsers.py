@@ -278,6 +278,31 @@ def test_who_takes_nothing_of_what_is_sent_is_gone(monkeypatch: pytest.MonkeyPat
     asyncio.run(serve())
 
 
+class ClaimedRun(PretendedRun):
+    """A run that looks for other pages with a seat until it may give it."""
+
+    may_give = threading.Event()
+
+    def claim(self, seat: str) -> bool:
+        """Give the seat when it may be given."""
+        return self.may_give.wait(PATIENCE_S)
+
+
+def test_a_claim_to_a_seat_is_withdrawn_when_its_browser_is_gone_meanwhile(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(browsers, "STALLED_S", 0.1)
+    run = ClaimedRun()
+    all_of_them = browsers.Browsers(run.changes, run, {"TOWER": run.seat})
+
+    async def serve() -> None:
+        await all_of_them.serve(StalledSocket())  # type: ignore[arg-type]
+        run.may_give.set()
+
+    asyncio.run(serve())
+    assert run.presence.get_nowait() == ("TOWER", False)
+
+
 def test_who_sits_down_is_not_told_what_was_told_there_before() -> None:
     run = PretendedRun()
     run.seat.add("notice", 1.0, "Nobody is at the seat.")

@@ -174,9 +174,9 @@ class PretendedRun:
         """Note an answer to a question."""
         self.done.put(answer)
 
-    def has_person(self, seat: str) -> bool:
-        """Return true if somebody has a seat at another page."""
-        return seat in self.taken_elsewhere
+    def claim(self, seat: str) -> bool:
+        """Return false if somebody has a seat at another page."""
+        return seat not in self.taken_elsewhere
 
     def occupy(self, seat: str, *, is_taken: bool) -> None:
         """Note if somebody has the seat."""
