@@ -26,7 +26,7 @@ from airhilt.station.subscription import Subscription
 from airhilt.text import LONGEST_LINE, readable
 
 Identity = Annotated[str, Query(max_length=64)]
-"""Name of a browser tab, which only it and the server know."""
+"""Name of an open page, which only it and the server know."""
 NOT_FOR_YOU = "airhilt: refused: this is not for the seat of your browser\n"
 
 

@@ -136,7 +136,7 @@ class Browsers:
     def admits(self, identity: str, audience: Audience | None) -> bool:
         """Return true if the browser of an identity may see something; it tells what is refused.
 
-        In a run with seats, a browser sees what its own seat sees, in whichever tab.
+        In a run with seats, a browser sees what its own seat sees.
         """
         seats = [one.seat for one in self._browsers if identity and one.identity == identity]
         is_seen = not self.seats or any(self._sees(seat, audience) for seat in seats)

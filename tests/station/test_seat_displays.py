@@ -6,11 +6,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+import httpx
 import pytest
 
 from airhilt.messages import AdvisoryPerceived, SpokenWords
 from airhilt.report.airport import ReportAirport
 from airhilt.station.audiences import Audience
+from airhilt.station.browsers import Browsers
+from airhilt.station.pictures import Picture
 from devtools import Page
 from stations import TOWER, PretendedRun, seat_page
 
@@ -418,3 +421,31 @@ def test_an_advisory_in_force_is_told_as_seen_for_each_person_who_takes_the_seat
         page.wait_for("document.getElementById('talk').hidden")
         page.click("seat-take")
         assert run.next().model_copy(update={"after_s": 0.0}) == seen
+
+
+def test_a_page_keeps_its_seat_when_it_is_loaded_again_and_a_duplicate_of_its_tab_has_none(
+    page: Page, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    identities: list[str] = []
+    serve = Browsers.serve
+
+    async def note(self: Browsers, socket: Any, begin: int, identity: str, *more: Any) -> None:
+        identities.append(identity)
+        await serve(self, socket, begin, identity, *more)
+
+    monkeypatch.setattr(Browsers, "serve", note)
+    with seated(page, "TOWER") as run:
+        run.pictures["mast", 1] = Picture(64, 48, bytes(64 * 48 * 3), Audience("camera", None))
+        place = f"{page.evaluate('location.href')}api/cameras/mast/1.jpg"
+        # As a tab that is duplicated, one that is opened from here has a copy of the storage.
+        duplicated = "window.duplicate = open(location.href); null"
+        page.call("Runtime.evaluate", expression=duplicated, userGesture=True)
+        page.wait_for("duplicate.document.getElementById('seat-state')?.textContent")
+        page.call("Page.reload")
+        page.wait_for("!window.duplicate && document.body?.dataset.seat === 'controller'")
+        own, *others = (
+            httpx.get(place, params={"browser": identity}, trust_env=False).status_code
+            for identity in identities
+        )
+        assert (own, others) == (200, [403, 200])
+    page.complaints.clear()  # A page that was loaded again has no sound before a click.

@@ -3,7 +3,7 @@
 
 import { keepNewest } from "./bounds.js";
 import { byId, html, svg } from "./dom.js";
-import { identity } from "./live.js";
+import { identity } from "./identity.js";
 import { before } from "./series.js";
 import { counted, fixed, seconds } from "./words.js";
 

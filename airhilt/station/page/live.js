@@ -1,6 +1,7 @@
 // A run that goes on: its changes come over a WebSocket, which is opened again when it is lost.
 
 import { byId } from "./dom.js";
+import { identity } from "./identity.js";
 import { PACES } from "./run-pace.js";
 import { seconds } from "./words.js";
 
@@ -31,21 +32,6 @@ function ending({ title, phase }) {
     return "The run has ended without saying so. What is shown is how far it came.";
   }
   return `The run ${phase === "finished" ? "is over" : "was stopped"}. ${DEBRIEF}`;
-}
-
-/**
- * The name of this browser tab, which it keeps when its connection is lost or the page is loaded
- * again.
- */
-export function identity() {
-  if (!sessionStorage.getItem("browser"))
-    sessionStorage.setItem(
-      "browser",
-      Array.from(crypto.getRandomValues(new Uint8Array(12)), (byte) =>
-        byte.toString(16).padStart(2, "0"),
-      ).join(""),
-    );
-  return sessionStorage.getItem("browser");
 }
 
 export class Live {

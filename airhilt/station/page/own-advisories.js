@@ -4,7 +4,7 @@
 import { badge } from "./advisories.js";
 import { keepNewest } from "./bounds.js";
 import { byId, html } from "./dom.js";
-import { identity } from "./live.js";
+import { identity } from "./identity.js";
 import { SEVERITIES } from "./model.js";
 import { Rows } from "./rows.js";
 import { capital, instruction, known, percent, seconds, words } from "./words.js";
