@@ -111,7 +111,7 @@ class Browsers:
         views: SeatViews | None = None,
     ) -> None:
         self.seats = tuple(seats)
-        self._views = views or SeatViews()
+        self._views = views or SeatViews(seats)
         self._notice = notice
         self._notices = 0
         self._changes = changes
@@ -133,20 +133,16 @@ class Browsers:
         since_s = self._empty_since_s
         return since_s is not None and time.monotonic() - since_s >= seconds
 
-    def admits(self, identity: str, audience: Audience | None) -> bool:
+    def admits(self, identity: str, audience: Audience) -> bool:
         """Return true if the browser of an identity may see something; it tells what is refused.
 
         In a run with seats, a browser sees what its own seat sees.
         """
-        seats = [one.seat for one in self._browsers if identity and one.identity == identity]
-        is_seen = not self.seats or any(self._sees(seat, audience) for seat in seats)
+        own = [one.seat for one in self._browsers if identity and one.identity == identity]
+        is_seen = any(self._views.sees(seat, audience) for seat in (None, *own))
         if not is_seen:
             self._refused("a file that is not for the seat of the browser, or without a seat")
         return is_seen
-
-    def _sees(self, seat: str | None, audience: Audience | None) -> bool:
-        """Return true if something with this audience is seen at a seat, or without one."""
-        return not self.seats or self._views.sees(seat, audience)
 
     async def serve(
         self,
@@ -255,7 +251,7 @@ class Browsers:
 
         Who has lost the seat asks once more for the camera that was shown there, and gets nothing.
         """
-        is_shown = not self.seats or self._views.shows_camera(browser.seat, camera or "")
+        is_shown = self._views.shows_camera(browser.seat, camera or "")
         if camera is not None and not is_shown and browser.seat is not None:
             self._refuse(browser, f"The camera {readable(camera)} is not for your seat.")
         browser.watched = camera if is_shown else None
@@ -442,8 +438,8 @@ class Browsers:
             async with asyncio.timeout(STALLED_S):
                 await socket.send_text(text)
 
-        def is_seen(audience: Audience | None) -> bool:
-            return self._sees(browser.shown_seat, audience)
+        def is_seen(audience: Audience) -> bool:
+            return self._views.sees(browser.shown_seat, audience)
 
         async def send_changes(first: int, end: int) -> int:
             """Send the changes before a number, and return the next number.

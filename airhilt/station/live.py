@@ -34,7 +34,7 @@ from airhilt.report.events import Events
 from airhilt.report.tracks import Locate, Projection
 from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.station.advisories import AdvisoryRows
-from airhilt.station.audiences import SURVEILLANCE, Audience, SeatViews, audience_of
+from airhilt.station.audiences import NOBODY, SURVEILLANCE, Audience, SeatViews, audience_of
 from airhilt.station.calls import call_as_json, spoken_as_json
 from airhilt.station.cameras import found_as_json, view_as_json
 from airhilt.station.changes import Changes
@@ -81,7 +81,7 @@ class LiveRun:
         views: SeatViews | None = None,
     ) -> None:
         self.is_over = False
-        self._views = views or SeatViews()
+        self._views = views or SeatViews(seats)
         self._notice = notice
         self._unread: set[str] = set()
         """Kinds of messages of which some could not be read."""
@@ -119,7 +119,7 @@ class LiveRun:
         """Receive a message; one that is not as this version writes it is left out, and told."""
         family = logged.key.partition("/")[0]
         try:
-            audience = audience_of(logged) if self._seats else None
+            audience = audience_of(logged)
             if logged.key.startswith("truth/state/"):
                 self._truth(logged)
             elif (model := call_message(logged.key)) not in (None, AdvisoryAudio):
@@ -179,6 +179,7 @@ class LiveRun:
                 truth.on_ground,
                 truth.phase,
             ),
+            audience=NOBODY,
         )
 
     def _adsb(self, logged: Logged) -> None:
@@ -266,7 +267,7 @@ class LiveRun:
 
     # --- radio, advisories, events ----------------------------------------------------------
 
-    def _call(self, message: Any, audience: Audience | None) -> None:
+    def _call(self, message: Any, audience: Audience) -> None:
         self._calls.take(message)
         record = self._calls.get(message.id)
         row = None if record is None else call_as_json(record)
@@ -288,7 +289,7 @@ class LiveRun:
             row = row | {"texts": row["texts"][-1:]}
         self._changes.add("advisory", row, audience=audience_of(logged))
 
-    def _event(self, logged: Logged, audience: Audience | None) -> None:
+    def _event(self, logged: Logged, audience: Audience) -> None:
         events = Events()
         events.take(logged)
         for row in events.rows:

@@ -81,7 +81,7 @@ class Sound(NamedTuple):
     """The PCM of a transmission or a spoken advisory, and who may hear it."""
 
     pcm: bytes
-    audience: Audience | None
+    audience: Audience
 
 
 class Subscription:

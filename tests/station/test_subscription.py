@@ -112,9 +112,10 @@ def test_a_message_above_its_limit_is_dropped_and_counted(followed: Followed) ->
 def test_the_sounds_that_are_kept_have_a_limit(followed: Followed) -> None:
     size = 7_000_000
     for number in range(12):
-        followed.publish("tts/a", bytes(size), json.dumps({"id": f"call-{number}"}).encode())
-    followed.wait_until(lambda: followed.page.sound("call-11"))
-    kept = [number for number in range(12) if followed.page.sound(f"call-{number}")]
+        about = {"id": f"call-{number}", "revision": 0, "recipient": "ATC"}
+        followed.publish("tts/a", bytes(size), json.dumps(about).encode())
+    followed.wait_until(lambda: followed.page.sound("call-11-0-ATC"))
+    kept = [number for number in range(12) if followed.page.sound(f"call-{number}-0-ATC")]
     assert kept == list(range(12 - MOST_SOUND_BYTES // size, 12))
 
 

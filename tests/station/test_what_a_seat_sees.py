@@ -12,6 +12,7 @@ from websockets.sync.client import ClientConnection, connect
 
 from airhilt.messages import (
     ActorCommand,
+    ActorTruth,
     AdsbReport,
     Advisory,
     CameraView,
@@ -19,6 +20,7 @@ from airhilt.messages import (
     Evidence,
     Message,
     SeatInfo,
+    Status,
     SurfaceTrack,
     Transcript,
     Transmission,
@@ -88,6 +90,7 @@ TRACK = SurfaceTrack(
     longitude_deg=-77.04, accuracy_m=5.0, ground_speed_kt=0.0, t_ns=SECOND,
 )  # fmt: skip
 COMMAND = ActorCommand.model_validate({"command": {"action": "go_around"}})
+OFF = Status(modality="decision", state="off", t_ns=SECOND)
 HEARD = Transcript(
     id=f"call-{GROUND_KHZ}", frequency_khz=GROUND_KHZ, text="hello", confidence=0.9, engine="ctc",
     t_tx_ns=SECOND, t_end_ns=SECOND, t_ns=SECOND,
@@ -104,6 +107,7 @@ PUBLISHED: tuple[tuple[str, Message], ...] = (
     ("vision/mast", picture_of("mast", None)),
     ("vision/nose", picture_of("nose", "DAL456")),
     ("command/AAL123", COMMAND),
+    ("status/decision", OFF),
 )
 SEEN = {
     "TOWER": {
@@ -156,8 +160,8 @@ def names(message: dict[str, Any]) -> set[str]:
                 found.add(f"{kind} {first.get('id') or first['name']}")
             case "advisory":
                 found |= {f"advisory {one['message']}" for one in first["texts"]}
-            case "event" if first["kind"] == "command":
-                found.add("event command")
+            case "event" if first["kind"] in ("command", "status"):
+                found.add(f"event {first['kind']}")
             case "state" | "picture":
                 found.add(f"{kind} {first}")
     return found
@@ -190,6 +194,22 @@ def test_who_has_no_seat_is_shown_the_clock_alone(seats: tuple[PretendedRun, str
         while "stopped" not in json.dumps(message := json.loads(socket.recv(PATIENCE_S))):
             shown += [kind for kind, *_ in message.get("changes", ())]
         assert set(shown) <= {"clock"}
+
+
+@pytest.mark.parametrize("seat", [None, *SEEN])
+def test_no_seat_sees_the_truth(seat: str | None) -> None:
+    run = PretendedRun(SEATS)
+    truth = ActorTruth(
+        actor="AAL123", category="aircraft", phase="cruise", on_ground=False, latitude_deg=38.85,
+        longitude_deg=-77.04, altitude_m=600.0, height_agl_m=590.0, velocity_east_m_s=0.0,
+        velocity_north_m_s=70.0, velocity_down_m_s=0.0, heading_deg=0.0, t_ns=SECOND,
+    )  # fmt: skip
+    LiveRun(run.changes, run.of_seats, print, run.views).take(
+        Logged("truth/state/AAL123", "", SECOND, truth.model_dump_json().encode())
+    )
+    seen = run.changes.since(0, admits=lambda audience: run.views.sees(seat, audience))
+    assert "clock" in str(seen)
+    assert "AAL123" not in str(seen)
 
 
 def test_what_comes_later_is_shown_at_the_seats_that_see_it(
