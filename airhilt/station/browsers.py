@@ -10,7 +10,7 @@ from collections import deque
 from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any
 
 from fastapi import WebSocket, WebSocketDisconnect
 from pydantic import ValidationError
@@ -21,6 +21,7 @@ from airhilt.station.audiences import Audience, SeatViews
 from airhilt.station.changes import MOST_AT_ONCE, Changes
 from airhilt.station.held_button import HeldButton, what_is_wrong_with
 from airhilt.station.page_files import page_version
+from airhilt.station.seat_book import Hold, SeatBook
 from airhilt.station.wishes import Pressed, RunLink, Wish
 from airhilt.text import readable
 
@@ -32,8 +33,6 @@ SILENT_S = 4.0
 """Time after which a browser that says nothing may be gone, in s: pages ask every 2 s."""
 STALLED_S = 5.0
 """Time after which a browser is gone that takes nothing of what is sent to it, in s."""
-HOLD_S = 5.0
-"""Time for which the seat of a browser that is gone is kept for it, in s."""
 ENDINGS = (asyncio.CancelledError, TimeoutError, WebSocketDisconnect, RuntimeError)
 """Exceptions with which a connection ends: Starlette raises the last one on a closed connection."""
 POLICY_VIOLATION, TRY_LATER = 1008, 1013
@@ -55,7 +54,6 @@ class _Browser:
         """Name that it keeps when its connection is lost; empty: it has none."""
         self.last_heard_s = time.monotonic()
         self.watched: str | None = None
-        self.seat: str | None = None
         self.seen_of_seat = 0
         """Number of the first change of the seat that it has not seen."""
         self.shown_seat: str | None = None
@@ -72,13 +70,6 @@ class _Browser:
 
     def tell(self, kind: str, what: Any) -> None:
         self.unsent.append(json.dumps({kind: what}))
-
-
-class _Hold(NamedTuple):
-    """A seat that is kept for the browser of an identity, until a task gives it back."""
-
-    identity: str
-    expiring: asyncio.Task[None]
 
 
 class Browsers:
@@ -110,15 +101,13 @@ class Browsers:
         notice: Callable[[str], None] = lambda _: None,
         views: SeatViews | None = None,
     ) -> None:
-        self.seats = tuple(seats)
+        self._book = SeatBook[_Browser](seats)
         self._views = views or SeatViews(seats)
         self._notice = notice
         self._notices = 0
         self._changes = changes
         self._of_seats = seats
         self._sounds = sounds or Changes()
-        self._held: dict[str, _Hold] = {}
-        """Seats whose browser is gone and may come back."""
         self._taken_at: dict[str, int] = {}
         """Number that the next change of a seat had when it was taken last, by seat."""
         self._expiring: set[asyncio.Task[None]] = set()
@@ -127,6 +116,11 @@ class Browsers:
         self._run = run
         self._browsers: list[_Browser] = []
         self._empty_since_s: float | None = time.monotonic()
+
+    @property
+    def seats(self) -> tuple[str, ...]:
+        """Names of the seats."""
+        return self._book.seats
 
     def has_been_empty(self, seconds: float) -> bool:
         """Return true if there has been no browser for some time."""
@@ -138,7 +132,8 @@ class Browsers:
 
         In a run with seats, a browser sees what its own seat sees.
         """
-        own = [one.seat for one in self._browsers if identity and one.identity == identity]
+        named = (one for one in self._browsers if identity and one.identity == identity)
+        own = map(self._book.of, named)
         is_seen = any(self._views.sees(seat, audience) for seat in (None, *own))
         if not is_seen:
             self._refused("a file that is not for the seat of the browser, or without a seat")
@@ -223,10 +218,10 @@ class Browsers:
             await self._take(browser, wish.take)
         elif wish.leave is not None:
             await self._move(browser, None)
-        elif browser.seat is None:
+        elif (seat := self._book.of(browser)) is None:
             self._refuse(browser, "You have no seat. Take one first.")
         else:
-            await self._do_at_seat(browser, browser.seat, wish)
+            await self._do_at_seat(browser, seat, wish)
 
     async def _do_at_seat(self, browser: _Browser, seat: str, wish: Wish) -> None:
         if wish.say is not None:
@@ -251,14 +246,15 @@ class Browsers:
 
         Who has lost the seat asks once more for the camera that was shown there, and gets nothing.
         """
-        is_shown = self._views.shows_camera(browser.seat, camera or "")
-        if camera is not None and not is_shown and browser.seat is not None:
+        seat = self._book.of(browser)
+        is_shown = self._views.shows_camera(seat, camera or "")
+        if camera is not None and not is_shown and seat is not None:
             self._refuse(browser, f"The camera {readable(camera)} is not for your seat.")
         browser.watched = camera if is_shown else None
         await self._watch()
 
     def _tune(self, browser: _Browser, frequencies_khz: frozenset[int]) -> None:
-        view = self._views.of(browser.seat)
+        view = self._views.of(self._book.of(browser))
         own = frozenset() if view is None else view.frequencies_khz
         if frequencies_khz - own:
             self._refuse(browser, "You listen to a frequency that your seat does not have.")
@@ -304,14 +300,13 @@ class Browsers:
 
     async def _take(self, browser: _Browser, seat: str) -> None:
         """Give a seat to a browser; who is refused it keeps the one that it has."""
-        why = self._why_not(browser, seat)
+        why = self._book.why_not(browser, seat)
         if why is None and not await self._claim(seat):
             why = f"Somebody has the seat {readable(seat)} at another page of this run."
-        why = why or self._why_not(browser, seat)  # It may have been taken meanwhile.
+        why = why or self._book.why_not(browser, seat)  # It may have been taken meanwhile.
         if why is not None:
             self._refuse(browser, why)
-        elif browser.seat != seat:  # Who has it already has pressed the button twice.
-            self._end_hold(seat)
+        elif self._book.of(browser) != seat:  # Who has it already has pressed the button twice.
             self._taken_at[seat] = self._of_seats[seat].next_number
             await self._move(browser, seat)
             await self._occupy(seat, is_taken=True)
@@ -321,31 +316,16 @@ class Browsers:
         try:
             return await asyncio.to_thread(self._run.claim, seat)
         except asyncio.CancelledError:  # The browser has gone meanwhile.
-            if seat not in self._taken():
+            if self._book.is_free(seat):
                 await self._occupy(seat, is_taken=False)
             raise
-
-    def _taken(self) -> set[str | None]:
-        """Return the seats that somebody has, or that are kept for somebody."""
-        return {*(one.seat for one in self._browsers), *self._held}
-
-    def _why_not(self, browser: _Browser, seat: str) -> str | None:
-        """Return why a browser cannot have a seat, None if it can."""
-        if seat not in self.seats:
-            return f"{readable(seat)} is no seat of this run."
-        if any(other.seat == seat for other in self._browsers if other is not browser):
-            return f"Somebody has the seat {readable(seat)} already."
-        hold = self._held.get(seat)
-        if hold is not None and (not browser.identity or hold.identity != browser.identity):
-            return f"{readable(seat)} is kept for {HOLD_S:g} s for who had it."
-        return None
 
     async def _move(self, browser: _Browser, seat: str | None) -> None:
         """Give a browser another seat, or none, and give back the one that it has.
 
         It has the other one before anything is waited for, so that nobody else can take it.
         """
-        left, browser.seat = browser.seat, seat
+        left = self._book.move(browser, seat)
         browser.tuned, browser.seen_of_seat = frozenset(), 0
         if left is not None:
             browser.watched = None
@@ -368,57 +348,41 @@ class Browsers:
         """Give a browser the seat that it had before its connection was lost.
 
         The old connection may not have ended yet, if the network is cut; it brings nothing then.
-        Of several seats it has one, and the others are kept until they expire.
         """
         if not browser.identity:
             return
         silent = next((one for one in self._browsers if self._is_silent(one, browser)), None)
-        held = (seat for seat, hold in self._held.items() if hold.identity == browser.identity)
-        if silent is not None:
-            browser.seat, silent.seat = silent.seat, None
+        if silent is None:
+            self._book.give_back(browser)
+        else:
+            self._book.move(browser, self._book.move(silent, None))
             await self._release(silent)
-        elif (seat := next(held, None)) is not None:
-            self._end_hold(seat)
-            browser.seat = seat
 
     def _is_silent(self, old: _Browser, new: _Browser) -> bool:
         """Return true if an old connection has a seat of the browser of a new one, and is cut."""
         is_same = old is not new and old.identity == new.identity
-        return is_same and old.seat is not None and time.monotonic() - old.last_heard_s > SILENT_S
+        has_seat = self._book.of(old) is not None
+        return is_same and has_seat and time.monotonic() - old.last_heard_s > SILENT_S
 
     def _hold(self, browser: _Browser) -> None:
         """Keep the seat of a browser that is gone, in case that it comes back."""
-        if browser.seat is not None:
-            expiring = asyncio.create_task(self._expire(browser.seat))
-            self._held[browser.seat] = _Hold(browser.identity, expiring)
+        hold = self._book.hold(browser)
+        if hold is not None:
+            expiring = asyncio.create_task(self._expire(hold))
             self._expiring.add(expiring)
             expiring.add_done_callback(self._expiring.discard)
 
-    def _end_hold(self, seat: str) -> None:
-        """Keep a seat no longer, if it is kept: somebody has it."""
-        if seat in self._held:
-            self._held.pop(seat).expiring.cancel()
-
-    async def _expire(self, seat: str) -> None:
+    async def _expire(self, hold: Hold) -> None:
         """Give a seat back whose browser has not come back."""
-        await asyncio.sleep(HOLD_S)
-        del self._held[seat]
-        self._tell_seats()
-        await self._occupy(seat, is_taken=False)
+        await asyncio.sleep(hold.seconds)
+        if self._book.expire(hold):
+            self._tell_seats()
+            await self._occupy(hold.seat, is_taken=False)
 
     def _tell_seats(self) -> None:
         """Tell each browser which seats are free, taken, or its own."""
-        taken = self._taken()
         for browser in self._browsers:
-            browser.tell(
-                "seats",
-                {
-                    seat: "yours"
-                    if seat == browser.seat
-                    else ("taken" if seat in taken else "free")
-                    for seat in self.seats
-                },
-            )
+            browser.tell("seats", self._book.shown_to(browser))
 
     async def _watch(self) -> None:
         watched = {one.watched for one in self._browsers if one.watched is not None}
@@ -485,13 +449,14 @@ class Browsers:
 
         A notice is for the person who was there when it came.
         """
-        if browser.seat is None:
+        seat = self._book.of(browser)
+        if seat is None:
             return None
-        batch = self._of_seats[browser.seat].since(browser.seen_of_seat)
+        batch = self._of_seats[seat].since(browser.seen_of_seat)
         if batch is None:
             return None
         seen, browser.seen_of_seat = browser.seen_of_seat, batch.next_number
-        taken_at = self._taken_at[browser.seat]
+        taken_at = self._taken_at[seat]
         if seen >= taken_at:
             return batch.changes
         changes = json.loads(batch.changes)
@@ -500,7 +465,8 @@ class Browsers:
 
     def _view_of(self, browser: _Browser) -> str | None:
         """Return the seat whose view a browser is shown; None: it is shown what everybody sees."""
-        return None if self._views.of(browser.seat) is None else browser.seat
+        seat = self._book.of(browser)
+        return None if self._views.of(seat) is None else seat
 
     def _has_other_view(self, browser: _Browser) -> bool:
         """Return true if the page of a browser shows the view of another seat than it has now."""

@@ -23,7 +23,7 @@ from airhilt.messages import (
     SpokenWords,
 )
 from airhilt.record import Logged
-from airhilt.station import browsers
+from airhilt.station import browsers, seat_book
 from airhilt.station.audiences import EVERYBODY
 from airhilt.station.live import LiveRun
 from airhilt.station.page_files import page_version
@@ -57,7 +57,7 @@ def served() -> Iterator[tuple[PretendedRun, str]]:
 def seat(
     served: tuple[PretendedRun, str], monkeypatch: pytest.MonkeyPatch
 ) -> tuple[PretendedRun, str]:
-    monkeypatch.setattr(browsers, "HOLD_S", 0.0)
+    monkeypatch.setattr(seat_book, "HOLD_S", 0.0)
     return served
 
 
