@@ -38,7 +38,7 @@ PUBLISHED: Mapping[Role, tuple[str, ...]] = {
 """Keys on which a role may publish without a grant; a voice is heard, but refused."""
 ANSWERED = ("worker/*/describe", "worker/*/step")
 """Keys on which workers answer the queries of the run."""
-ASKED = ("clock", "briefing", "seat/*/info")
+ASKED = ("clock", "briefing", "seat/*/info", "radar/*/info")
 """Keys on which the run answers queries."""
 SEATS = ("seat/*", "seat/*/claim/*")
 """Liveliness tokens of the pages that have a seat, or are about to take it."""

@@ -560,17 +560,13 @@ class Simulation:
     # --- what is told -----------------------------------------------------------------------
 
     def _brief(self) -> None:
-        briefing = briefing_of(self._setup.scenario, self._setup.site)
-        self._router.publish("briefing", briefing)
-        self._bus.keep("briefing", briefing.model_dump_json().encode())
+        self._router.publish("briefing", briefing_of(self._setup.scenario, self._setup.site))
         infos = self._radio.infos(
             is_recognised=self._participants.does("asr"),
             voice_is_recorded=self._setup.options.voice_recording,
         )
         for info in infos:
-            key = f"seat/{key_chunk(info.seat)}/info"
-            self._router.publish(key, info)
-            self._bus.keep(key, info.model_dump_json().encode())
+            self._router.publish(f"seat/{key_chunk(info.seat)}/info", info)
 
     def _set_modalities(self) -> None:
         scenario, does = self._setup.scenario, self._participants.does

@@ -160,6 +160,7 @@ LIVE = {
     "airport": None,
     "summary": None,
     "tracks": [],
+    "plots": [],
     "events": [],
     "calls": [],
     "spoken": [],

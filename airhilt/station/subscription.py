@@ -39,8 +39,8 @@ from airhilt.station.changes import Changes
 from airhilt.station.pictures import Picture
 
 SUBSCRIBED = (
-    "clock", "briefing", "status/*", "adsb/*", "surface/*", "radio/*/tx", "asr/*", "advisory/*",
-    "equipment/**", "tts/*", "vision/*", "command/*",
+    "clock", "briefing", "status/*", "adsb/*", "surface/*", "radar/**", "radio/*/tx", "asr/*",
+    "advisory/*", "equipment/**", "tts/*", "vision/*", "command/*",
 )  # fmt: skip
 """Keys below the run of what everybody may see."""
 TRUTH = ("truth/**",)
@@ -51,7 +51,7 @@ OF_SEATS = (
     "cockpit/{seat}/position",
 )  # fmt: skip
 """Keys of what only the person at a seat sees."""
-ASKED = ("briefing", "clock")
+ASKED = ("briefing", "clock", "radar/*/info")
 """Keys that the run answers, for who comes late."""
 ASKED_OF_SEATS = ("seat/{seat}/info",)
 """Keys that it answers for the person at a seat."""

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import json
+import queue
 import threading
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -117,6 +119,17 @@ def test_the_sounds_that_are_kept_have_a_limit(followed: Followed) -> None:
     followed.wait_until(lambda: followed.page.sound("call-11-0-ATC"))
     kept = [number for number in range(12) if followed.page.sound(f"call-{number}-0-ATC")]
     assert kept == list(range(12 - MOST_SOUND_BYTES // size, 12))
+
+
+def test_a_page_that_comes_late_asks_where_the_radars_are() -> None:
+    with closing(Bus("run")) as bus:
+        bus.keep("clock", b"{}")
+        bus.keep("radar/ASR/info", b'{"site": "ASR"}')
+        taken: queue.Queue[Logged] = queue.Queue()
+        with closing(Subscription(bus.endpoint, taken.put, lambda: None)):
+            while (logged := taken.get(timeout=PATIENCE_S)).key != "radar/ASR/info":
+                pass
+        assert logged.data == b'{"site": "ASR"}'
 
 
 @pytest.fixture(params=[False, True], ids=["plain", "tls"])

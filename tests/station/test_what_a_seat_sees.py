@@ -19,6 +19,8 @@ from airhilt.messages import (
     Detections,
     Evidence,
     Message,
+    RadarInfo,
+    RadarPlot,
     SeatInfo,
     Status,
     SurfaceTrack,
@@ -89,6 +91,14 @@ TRACK = SurfaceTrack(
     airport="KDCA", track=1, kind="primary", t_track_ns=SECOND, latitude_deg=38.85,
     longitude_deg=-77.04, accuracy_m=5.0, ground_speed_kt=0.0, t_ns=SECOND,
 )  # fmt: skip
+RADAR = RadarInfo(
+    site="ASR", kind="terminal", latitude_deg=38.85, longitude_deg=-77.04, altitude_m=20.0,
+    rotation_s=4.8, primary_range_m=100_000.0, secondary_range_m=200_000.0, t_ns=0,
+)  # fmt: skip
+PLOT = RadarPlot(
+    site="ASR", kind="secondary", t_plot_ns=SECOND, range_m=9_000.0, azimuth_deg=90.0,
+    mode_a="7000", mode_c_ft=4_500, t_ns=SECOND,
+)  # fmt: skip
 COMMAND = ActorCommand.model_validate({"command": {"action": "go_around"}})
 OFF = Status(modality="decision", state="off", t_ns=SECOND)
 HEARD = Transcript(
@@ -99,6 +109,8 @@ PUBLISHED: tuple[tuple[str, Message], ...] = (
     ("adsb/a1b2c3", report("a1b2c3", "AAL123")),
     ("adsb/d4e5f6", report("d4e5f6", "DAL456")),
     ("surface/KDCA", TRACK),
+    ("radar/ASR/info", RADAR),
+    ("radar/ASR", PLOT),
     (f"radio/{TOWER_KHZ}/tx", transmission(TOWER_KHZ)),
     (f"radio/{GROUND_KHZ}/tx", transmission(GROUND_KHZ)),
     (f"asr/{GROUND_KHZ}", HEARD),
@@ -112,7 +124,7 @@ PUBLISHED: tuple[tuple[str, Message], ...] = (
 SEEN = {
     "TOWER": {
         "state AAL123", "state DAL456", "state track 1", f"call call-{TOWER_KHZ}",
-        "advisory for ATC", "camera mast", "picture mast",
+        "advisory for ATC", "camera mast", "picture mast", "plot 7000",
     },
     "AAL123": {
         "state AAL123", f"call call-{TOWER_KHZ}", "advisory for AAL123", "event command",
@@ -162,6 +174,8 @@ def names(message: dict[str, Any]) -> set[str]:
                 found |= {f"advisory {one['message']}" for one in first["texts"]}
             case "event" if first["kind"] in ("command", "status"):
                 found.add(f"event {first['kind']}")
+            case "plot":
+                found.add(f"plot {first['code']}")
             case "state" | "picture":
                 found.add(f"{kind} {first}")
     return found

@@ -202,7 +202,7 @@ export class Live {
     if (has("call"))
       this.#panes.seat.heard(changes.filter(([kind]) => kind === "call").map(([, call]) => call));
     if (has("briefing")) plan.renew();
-    if (has("state")) plan.keepFitted();
+    if (has("state", "plot")) plan.keepFitted();
     if (has("call")) transcript.redraw();
     if (has("camera")) cameras.renew();
     if (has("clock")) this.#tell();

@@ -20,7 +20,7 @@ const MOST_CAMERAS = 100; // of a live run that can be chosen
 const MOST_ADDRESSES = 2000; // of actors whose callsigns are kept
 const MOST_PHASES = 500; // of an actor of a live run, and of its times on the ground, the newest
 // Of a live run that are kept, the newest.
-const MOST_ROWS = { calls: 1000, events: 2000, advisories: 1000, spoken: 200 };
+const MOST_ROWS = { calls: 1000, events: 2000, advisories: 1000, spoken: 200, plots: 2000 };
 const CONTROLLER = "ATC"; // as recipient of advisories
 export const SEVERITIES = ["INFO", "ADVISORY", "CAUTION", "WARNING"];
 
@@ -200,7 +200,7 @@ export class Run {
   #actors; // that have had a track so far
 
   constructor(given) {
-    Object.assign(this, { latencies: [] }, given);
+    Object.assign(this, { latencies: [], plots: [] }, given);
     const pair = given.pair ?? [];
     const order = [...given.tracks].sort(
       (a, b) => pair.includes(b.callsign) - pair.includes(a.callsign),
@@ -253,6 +253,10 @@ export class Run {
           break;
         case "state":
           if (this.#addState(rest)) changed.add("track");
+          break;
+        case "plot":
+          this.plots.push(rest[0]);
+          this.#widen(rest[0].east, rest[0].north);
           break;
         case "name":
           this.#rename(...rest);

@@ -2,8 +2,8 @@
 // the controller gives them.
 
 import { byId, html } from "./dom.js";
+import { level } from "./labels.js";
 import { METRE_PER_NM } from "./model.js";
-import { level } from "./plan.js";
 import { whole, words } from "./words.js";
 
 const PERIOD_MS = 500;
