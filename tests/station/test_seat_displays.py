@@ -75,10 +75,13 @@ def advise(run: PretendedRun, recipient: str, message: str, **other: Any) -> Non
 
 
 @contextmanager
-def seated(page: Page, seat: str, pace: str = "realtime") -> Iterator[PretendedRun]:
+def seated(
+    page: Page, seat: str, pace: str = "realtime", roster: dict[str, str] | None = None
+) -> Iterator[PretendedRun]:
     """Open the page of a run, take its seat, and yield the run."""
-    with seat_page(PretendedRun([TOWER.model_copy(update={"seat": seat})])) as (run, url):
-        run.changes.add("briefing", "TOWER", None, CATEGORIES)
+    info = TOWER.model_copy(update={"seat": seat, "category": CATEGORIES.get(seat, "unit")})
+    with seat_page(PretendedRun([info])) as (run, url):
+        run.changes.add("briefing", "TOWER", None, CATEGORIES if roster is None else roster)
         run.changes.add("clock", 1.0, "running", pace)
         page.open(url, width=1280, height=720)
         page.wait_for("document.getElementById('state').textContent.startsWith('running')")
@@ -112,6 +115,16 @@ def test_a_key_of_the_cockpit_does_nothing_at_another_seat(
             page.press(key, ord(key.upper()))
             page.evaluate("document.activeElement.blur()")
         assert commands(run, page) == actions
+
+
+def test_a_seat_has_the_displays_of_its_category_whoever_is_in_the_roster(page: Page) -> None:
+    phrases = "document.getElementById('phrase-list').innerText"
+    with seated(page, "AAL123", roster={"DAL456": "aircraft"}) as run:
+        fly(run)
+        page.wait_for(f"{INSTRUMENT}.startsWith('Primary flight display')")
+        page.wait_for(f"{phrases}.includes('Report level')")
+        page.press("g", 71)
+        assert commands(run, page) == ["go_around"]
 
 
 def test_a_key_that_is_held_gives_its_command_once(page: Page) -> None:

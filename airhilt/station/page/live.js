@@ -183,7 +183,7 @@ export class Live {
     const { next, changes, seats, own, refused, forget, shown } = message;
     if (forget) this.#forget(shown);
     if (seats) this.#takeSeats(seats);
-    if (own) this.#panes.seat.take(own);
+    if (own) this.#takeOwn(own);
     if (refused) this.#refuse(refused);
     if (!changes) {
       this.#panes.talk.take(message);
@@ -237,6 +237,14 @@ export class Live {
     if (seat.own === before) return;
     advisories.redraw();
     plan.fitFirst();
+  }
+
+  /** Takes in what only the person at the own seat sees. */
+  #takeOwn(changes) {
+    const { seat, plan } = this.#panes,
+      before = this.#run.ownCategory;
+    seat.take(changes);
+    if (this.#run.ownCategory !== before) plan.fitFirst();
   }
 
   /** Forgets what was seen; all that the view of a seat, or nobody's (null), has comes next. */

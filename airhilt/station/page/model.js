@@ -196,6 +196,7 @@ export class Run {
   #callsigns = new Map(); // by the addresses under which actors were known first
   #active = { t: null, rows: [] };
   #moments = null; // until somebody asks for them
+  ownCategory = null; // of the seat: "unit", "aircraft" or "vehicle"; null until it is known
   #own = null; // the seat of the person at this page
   #actors; // that have had a track so far
 
@@ -350,6 +351,7 @@ export class Run {
   }
 
   set own(seat) {
+    if (seat !== this.#own) this.ownCategory = null;
     this.#own = seat;
     this.#active = { t: null, rows: [] };
   }

@@ -64,8 +64,8 @@ export class Plan {
 
   /** Shows what one begins with: a driver the airport, all others all traffic. */
   fitFirst() {
-    const { airport, categories, own } = this.#run;
-    this.fit(airport && own && categories?.[own] === "vehicle" ? "airport" : "all");
+    const { airport, ownCategory } = this.#run;
+    this.fit(airport && ownCategory === "vehicle" ? "airport" : "all");
   }
 
   /** Keeps all traffic of a live run in view, unless somebody looks elsewhere. */

@@ -102,6 +102,11 @@ export class Seat {
 
   /** Takes in what only the person at the own seat sees. */
   take(changes) {
+    const info = changes.findLast(([kind]) => kind === "info");
+    if (info) {
+      this.#run.ownCategory = info[1].category;
+      this.#displays.arrange();
+    }
     const own = changes.filter(([kind]) => kind === "state"); // where the own vehicle is
     if (own.length) this.#run.apply(own);
     const instruments = changes.findLast(([kind]) => kind === "cockpit");
