@@ -150,7 +150,8 @@ class LiveRun:
     def _clock(self, logged: Logged) -> None:
         clock = Clock.model_validate_json(logged.data)
         self.is_over = clock.phase in ("finished", "stopped")
-        self._changes.add("clock", _seconds(clock.t_ns), clock.phase, readable(clock.pace))
+        shown = _seconds(clock.t_ns), clock.phase, readable(clock.pace), clock.behind_s
+        self._changes.add("clock", *shown)
 
     def _briefing(self, logged: Logged) -> None:
         briefing = Briefing.model_validate_json(logged.data)

@@ -279,6 +279,30 @@ def test_a_pace_that_nobody_can_choose_is_shown_and_goes_on_in_real_time(page: P
         page.wait_for(f"{chosen} === 'half as fast'")
 
 
+def test_a_person_is_told_by_how_much_the_run_is_behind_the_clock(page: Page) -> None:
+    told = "document.getElementById('behind').textContent"
+    with seated(page, "TOWER") as run:
+        for behind_s, pace, text in (
+            (3.2, "realtime", "3 s behind the clock"),
+            (0.4, "realtime", ""),
+            (5.0, "0.5x", "5 s behind the clock"),
+            (0.0, "paused", ""),
+        ):
+            run.changes.add("clock", 1.0, "running", pace, behind_s)
+            page.wait_for(
+                f"{told}.includes('{text}') && Boolean({told}) === {str(bool(text)).lower()}"
+            )
+
+
+def test_a_run_that_stands_still_without_a_pause_is_told_to_be_behind(page: Page) -> None:
+    told = "document.getElementById('behind').textContent"
+    with seated(page, "TOWER") as run:
+        run.changes.add("clock", 2.0, "running", "realtime", 0.0)
+        page.wait_for(f"{told}.includes('2 s behind the clock')")
+        run.changes.add("clock", 3.0, "paused", "paused", 0.0)
+        page.wait_for(f"!{told}")
+
+
 def test_who_watches_a_run_without_seats_is_told_what_was_refused(page: Page) -> None:
     with seat_page(has_seats=False) as (run, url):
         page.open(url)

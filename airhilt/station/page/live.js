@@ -2,6 +2,7 @@
 
 import { byId } from "./dom.js";
 import { identity } from "./identity.js";
+import { Lag } from "./lag.js";
 import { PACES } from "./run-pace.js";
 import { seconds } from "./words.js";
 
@@ -43,6 +44,7 @@ export class Live {
   #drawn = 0;
   #drawing = null;
   #undrawn = new Set(); // kinds of changes that lists do not show yet
+  #lag;
   #seen = 0;
   #shown = null; // the seat whose view is shown; null: what everybody sees
   #heard = 0; // when the last message came
@@ -51,6 +53,7 @@ export class Live {
   constructor(run, clock) {
     this.#run = run;
     this.#clock = clock;
+    this.#lag = new Lag(run);
   }
 
   /** Begins to follow the run. */
@@ -128,6 +131,7 @@ export class Live {
       isOpening = this.#socket.readyState === WebSocket.CONNECTING,
       silentMs = performance.now() - this.#heard;
     this.#isSilent = isOpen && !this.#isOver && silentMs > SILENT_MS;
+    this.#lag.draw(isOpen && !this.#isSilent);
     if (this.#isSilent) {
       this.#panes.talk.lost();
       this.#warn(this.#panes.seat.own ? `${SILENT}, ${SILENT_AT_SEAT}` : `${SILENT}.`);
@@ -206,6 +210,7 @@ export class Live {
     if (has("call")) transcript.redraw();
     if (has("camera")) cameras.renew();
     if (has("clock")) this.#tell();
+    if (has("clock")) this.#lag.told();
     if (this.#run.pace !== pace || this.#run.phase !== phase) this.#clock.paced();
     for (const kind of changed) this.#undrawn.add(kind);
     this.#drawing ??= setTimeout(

@@ -246,7 +246,7 @@ export class Run {
       switch (kind) {
         case "clock":
           this.now = Math.max(rest[0] ?? 0, this.now ?? 0);
-          [, this.phase, this.pace] = rest;
+          [, this.phase, this.pace, this.behind = 0] = rest;
           break;
         case "briefing":
           [this.controller, this.airport, this.categories] = rest;
