@@ -279,6 +279,20 @@ def test_a_pace_that_nobody_can_choose_is_shown_and_goes_on_in_real_time(page: P
         page.wait_for(f"{chosen} === 'half as fast'")
 
 
+def test_words_that_could_not_be_said_stay_in_the_field(page: Page) -> None:
+    closed = "Object.defineProperty(WebSocket.prototype, 'readyState', { get: () => 3 })"
+    words = "document.getElementById('words').value"
+    with seated(page, "TOWER") as run:
+        page.evaluate(f"{words} = 'American 123, hold.'")
+        page.evaluate(f"{closed}; null")
+        page.click("say-button")
+        page.wait_for(
+            "document.getElementById('seat-state').textContent.includes('Nothing was said')"
+        )
+        assert page.evaluate(words) == "American 123, hold."
+        assert run.done.empty()
+
+
 def test_a_person_is_told_by_how_much_the_run_is_behind_the_clock(page: Page) -> None:
     told = "document.getElementById('behind').textContent"
     with seated(page, "TOWER") as run:

@@ -168,9 +168,11 @@ export class Live {
     return this.#socket?.readyState === WebSocket.OPEN && !this.#isSilent;
   }
 
-  /** Sends what somebody at a seat wishes. */
+  /** Sends what somebody at a seat wishes; returns false if there is no connection. */
   send(wish) {
-    if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify(wish));
+    const isOpen = this.#socket?.readyState === WebSocket.OPEN;
+    if (isOpen) this.#socket.send(JSON.stringify(wish));
+    return isOpen;
   }
 
   /** Sends sound of the microphone. */

@@ -191,7 +191,7 @@ export class Seat {
   #say() {
     const text = byId("words").value.trim();
     if (!text) return;
-    this.#live.send({ say: { text } });
-    byId("words").value = "";
+    if (this.#live.send({ say: { text } })) byId("words").value = "";
+    else this.refuse("Nothing was said: the connection is lost. Say it when it is there again.");
   }
 }
