@@ -453,7 +453,7 @@ def test_a_page_shows_once_what_its_seat_sees_and_nothing_of_a_former_seat(page:
             page.click("seat-take")
             page.wait_for(f"document.body.dataset.seat === '{KIND[seat]}'")
             page.wait_for(f"{LISTED} === '{listed}'")
-            page.click("seat-take")
+            page.evaluate("document.getElementById('seat-take').click()")
             page.wait_for("document.getElementById('talk').hidden")
             page.wait_for(f"{LISTED} === '[[],[],[]]'")
         page.open("about:blank")
