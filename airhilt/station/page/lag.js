@@ -25,7 +25,7 @@ export class Lag {
     const behind = isHeard ? this.#behind : 0,
       text =
         behind > LEAST_S
-          ? `The run is ${seconds(behind, 0)} behind the clock: the machine does not keep up.`
+          ? `${seconds(behind, 0)} behind the clock: the machine does not keep up`
           : "";
     if (byId("behind").textContent !== text) byId("behind").textContent = text;
   }
