@@ -111,6 +111,11 @@ class Clock(Message):
     run: str
     phase: Phase
     pace: str
+    behind_s: float = Field(
+        default=0.0,
+        ge=0.0,
+        description="simulation time by which the run is later than its pace asks",
+    )
 
 
 FORMER_MODALITIES = {"speech": "asr", "voice": "tts"}

@@ -38,8 +38,10 @@ PUBLISHED: Mapping[Role, tuple[str, ...]] = {
 """Keys on which a role may publish without a grant; a voice is heard, but refused."""
 ANSWERED = ("worker/*/describe", "worker/*/step")
 """Keys on which workers answer the queries of the run."""
-ASKED = ("clock", "briefing", "seat/*/info")
+ASKED = ("clock", "briefing", "seat/*/info", "radar/*/info")
 """Keys on which the run answers queries."""
+SEATS = ("seat/*", "seat/*/claim/*")
+"""Liveliness tokens of the pages that have a seat, or are about to take it."""
 
 _RULES: Mapping[str, tuple[str, tuple[str, ...], tuple[str, ...]]] = {
     "subscribe": (
@@ -50,9 +52,9 @@ _RULES: Mapping[str, tuple[str, tuple[str, ...], tuple[str, ...]]] = {
     "ask": ("ingress", ("query",), ASKED),
     "be answered": ("egress", ("reply",), ASKED),
     "receive": ("egress", ("put", "declare_subscriber"), ("**",)),
-    "see who is there": ("egress", ("liveliness_token",), ("run", "worker/*", "seat/*")),
+    "see who is there": ("egress", ("liveliness_token",), ("run", "worker/*", *SEATS)),
     "attach": ("ingress", ("liveliness_token",), ("worker/*",)),
-    "take a seat": ("ingress", ("liveliness_token",), ("seat/*",)),
+    "take a seat": ("ingress", ("liveliness_token",), SEATS),
     "be asked": ("egress", ("query",), ANSWERED),
     "answer": ("ingress", ("declare_queryable", "reply"), ANSWERED),
     **{

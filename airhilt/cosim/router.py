@@ -6,13 +6,15 @@ from collections.abc import Callable
 
 from airhilt.bus.session import Bus
 from airhilt.deferred import Payload
-from airhilt.messages import RUN, Message
+from airhilt.messages import RUN, Briefing, Message, RadarInfo, SeatInfo
 from airhilt.record.log import LogWriter
 
 Listener = Callable[[str, Message, Payload], None]
 """Called with key, message and payload: its JSON, or the raw bytes that it is the header of."""
 Attributed = Callable[[str, Message], None]
 """Called with the name of the publisher and its message."""
+CONSTANT = (Briefing, SeatInfo, RadarInfo)
+"""Messages that are published once; who comes late asks for them."""
 
 
 class MessageRouter:
@@ -49,7 +51,9 @@ class MessageRouter:
         """
         data = message.model_dump_json().encode()
         self._log.write(key, publisher, type(message), message.t_ns, data)
-        if raw is None:
+        if isinstance(message, CONSTANT):
+            self._bus.keep(key, data)
+        elif raw is None:
             self._bus.put(key, data)
         else:
             self._bus.put(key, raw, data)

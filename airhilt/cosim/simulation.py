@@ -171,8 +171,9 @@ def _run_and_report(simulation: Simulation, info: RunInfo, folder: Path) -> Resu
         return result
 
 
-def _tell_clock(bus: Bus, t_ns: int, phase: Phase, pace: Pace) -> None:
-    clock = Clock(t_ns=t_ns, run=bus.run, phase=phase, pace=pace.name)
+def _tell_clock(bus: Bus, t_ns: int, phase: Phase, pace: Pace, behind_ns: int = 0) -> None:
+    behind_s = round(behind_ns / SECOND_NS, 1)
+    clock = Clock(t_ns=t_ns, run=bus.run, phase=phase, pace=pace.name, behind_s=behind_s)
     bus.keep("clock", clock.model_dump_json().encode())
 
 
@@ -560,17 +561,13 @@ class Simulation:
     # --- what is told -----------------------------------------------------------------------
 
     def _brief(self) -> None:
-        briefing = briefing_of(self._setup.scenario, self._setup.site)
-        self._router.publish("briefing", briefing)
-        self._bus.keep("briefing", briefing.model_dump_json().encode())
+        self._router.publish("briefing", briefing_of(self._setup.scenario, self._setup.site))
         infos = self._radio.infos(
             is_recognised=self._participants.does("asr"),
             voice_is_recorded=self._setup.options.voice_recording,
         )
         for info in infos:
-            key = f"seat/{key_chunk(info.seat)}/info"
-            self._router.publish(key, info)
-            self._bus.keep(key, info.model_dump_json().encode())
+            self._router.publish(f"seat/{key_chunk(info.seat)}/info", info)
 
     def _set_modalities(self) -> None:
         scenario, does = self._setup.scenario, self._participants.does
@@ -591,7 +588,8 @@ class Simulation:
             self._modalities.set("equipment", "on")
 
     def _publish_clock(self) -> None:
-        _tell_clock(self._bus, self._director.now_ns, self._phase, self._director.pace)
+        director = self._director
+        _tell_clock(self._bus, director.now_ns, self._phase, director.pace, director.behind_ns)
 
     def _tell_observer(self) -> None:
         horizontal_m, vertical_m = self._world.distances_m() or (None, None)

@@ -61,6 +61,11 @@ class Director:
         self._stopped = False
         self._interrupted = False
 
+    @property
+    def behind_ns(self) -> int:
+        """Simulation time by which the events are later than the pace asks."""
+        return self.pace.elapsed_ns(self.now_ns) - self.now_ns
+
     def at(self, t_ns: int, action: Action, priority: Priority) -> None:
         """Schedule ``action`` at ``t_ns``.
 

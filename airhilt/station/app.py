@@ -26,7 +26,7 @@ from airhilt.station.subscription import Subscription
 from airhilt.text import LONGEST_LINE, readable
 
 Identity = Annotated[str, Query(max_length=64)]
-"""Name of a browser tab, which only it and the server know."""
+"""Name of an open page, which only it and the server know."""
 NOT_FOR_YOU = "airhilt: refused: this is not for the seat of your browser\n"
 
 
@@ -95,8 +95,9 @@ def live_app(subscription: Subscription, browsers: Browsers) -> FastAPI:
         begin: Annotated[int, Query(alias="from", ge=0)] = 0,
         browser: Identity = "",
         version: Annotated[str, Query(max_length=64)] = "",
+        shown: Annotated[str | None, Query(max_length=80)] = None,
     ) -> None:
-        await browsers.serve(socket, begin, browser, version)
+        await browsers.serve(socket, begin, browser, version, shown)
 
     @app.post("/api/phrases")
     def phrases(situation: Situation) -> list[dict[str, str]]:
@@ -159,6 +160,7 @@ LIVE = {
     "airport": None,
     "summary": None,
     "tracks": [],
+    "plots": [],
     "events": [],
     "calls": [],
     "spoken": [],

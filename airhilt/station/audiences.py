@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Collection
 from typing import Any, Literal, NamedTuple
 
 from airhilt.messages import SeatInfo
@@ -11,28 +12,36 @@ from airhilt.sensors.radio.hearing import key_chunk
 
 
 class Audience(NamedTuple):
-    """Persons at seats who may see something of a run.
+    """Persons at seats who may see something of a run with seats.
 
     Attributes
     ----------
     way
         What shows it: ADS-B, radars and surface surveillance, a frequency, an advisory to somebody,
-        a camera, or the actor that got a command.
+        a camera, or the actor that got a command. Else everybody sees it, with a seat or without,
+        or nobody does.
     of
         The icao24 of the sender, the frequency in kHz, the recipient, the carrier of the camera
         (None: the ground), or the actor as a part of keys, each by its way.
     """
 
-    way: Literal["adsb", "surveillance", "frequency", "advisory", "camera", "command"]
+    way: Literal[
+        "everybody", "adsb", "surveillance", "frequency", "advisory", "camera", "command", "nobody"
+    ]
     of: str | int | None = None
 
 
+EVERYBODY = Audience("everybody")
+"""Audience of the clock and the airport."""
+NOBODY = Audience("nobody")
+"""Audience of the truth, and of how the assistant is: it tells a participant of an experiment which
+assistant there is."""
 SURVEILLANCE = Audience("surveillance")
 """Audience of what radars and surface surveillance have found: units."""
 
 
-def audience_of(logged: Logged) -> Audience | None:
-    """Return the audience of a message; None: everybody may see it.
+def audience_of(logged: Logged) -> Audience:
+    """Return the audience of a message.
 
     Raises
     ------
@@ -41,6 +50,8 @@ def audience_of(logged: Logged) -> Audience | None:
     """
     family, _, rest = logged.key.partition("/")
     match family:
+        case "clock" | "briefing":
+            return EVERYBODY
         case "adsb":
             return Audience("adsb", rest)
         case "surface" | "radar":
@@ -51,25 +62,25 @@ def audience_of(logged: Logged) -> Audience | None:
             return Audience("command", rest)
         case "advisory" | "equipment" | "tts" | "vision" | "camera":
             return audience_of_header(family, json.loads(logged.data))
-    return None
+    return NOBODY
 
 
-def audience_of_header(family: str, header: dict[str, Any]) -> Audience | None:
+def audience_of_header(family: str, header: dict[str, Any]) -> Audience:
     """Return the audience of a message whose content is known; see `audience_of`."""
     match family:
         case "advisory" | "tts":
-            return Audience("advisory", header.get("recipient"))
+            return Audience("advisory", header["recipient"])
         case "equipment":
             return Audience("advisory", header["advisory"]["recipient"])
         case "vision" | "camera":
             return Audience("camera", header["view"]["carrier"])
         case "radio":
             return Audience("frequency", header["frequency_khz"])
-    return None
+    return NOBODY
 
 
 class SeatView:
-    """View of a run at a seat.
+    """View of a run at a seat, besides what everybody sees.
 
     A unit sees what receivers, radars and cameras of the ground give. A crew or a driver sees
     ADS-B with a receiver of its own, else its own position alone, and the cameras that it carries.
@@ -84,13 +95,11 @@ class SeatView:
         """Frequencies that are heard at the seat, as far as they are tuned to."""
         return frozenset(self._info.frequencies_khz)
 
-    def sees(self, audience: Audience | None) -> bool:
-        """Return true if something with this audience is seen at the seat; None: all see it."""
-        info, of = self._info, None if audience is None else audience.of
+    def sees(self, audience: Audience) -> bool:
+        """Return true if something with this audience is seen at the seat."""
+        info, (way, of) = self._info, audience
         is_unit = info.category == "unit"
-        match None if audience is None else audience.way:
-            case None:
-                return True
+        match way:
             case "adsb":
                 return is_unit or info.has_adsb_in or of == info.icao24
             case "surveillance":
@@ -103,12 +112,20 @@ class SeatView:
                 return of == (None if is_unit else info.seat)
             case "command":
                 return of == key_chunk(info.seat)
+        return False
 
 
 class SeatViews:
-    """Views of the seats of a run, each known once the run has told of the seat."""
+    """Views of the seats of a run, each known once the run has told of the seat.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    seats
+        Names of the seats; without any, everything is seen.
+    """
+
+    def __init__(self, seats: Collection[str] = ()) -> None:
+        self._has_seats = bool(seats)
         self._views: dict[str, SeatView] = {}
         self._cameras: dict[str, Audience] = {}
 
@@ -124,12 +141,13 @@ class SeatViews:
         """Take in who may see the pictures of a camera."""
         self._cameras[name] = audience
 
-    def sees(self, seat: str | None, audience: Audience | None) -> bool:
+    def sees(self, seat: str | None, audience: Audience) -> bool:
         """Return true if something with this audience is seen at a seat; None: without one."""
+        if not self._has_seats or audience == EVERYBODY:
+            return True
         view = self.of(seat)
-        return audience is None or (view is not None and view.sees(audience))
+        return view is not None and view.sees(audience)
 
     def shows_camera(self, seat: str | None, name: str) -> bool:
         """Return true if the pictures of a camera are seen at a seat."""
-        audience = self._cameras.get(name)
-        return audience is not None and self.sees(seat, audience)
+        return self.sees(seat, self._cameras.get(name, NOBODY))

@@ -10,7 +10,7 @@ from collections import deque
 from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import Any
 
 from fastapi import WebSocket, WebSocketDisconnect
 from pydantic import ValidationError
@@ -18,9 +18,10 @@ from pydantic import ValidationError
 from airhilt.errors import first_problem
 from airhilt.messages import MicrophoneAudio
 from airhilt.station.audiences import Audience, SeatViews
-from airhilt.station.changes import MOST_AT_ONCE, Admits, Changes
+from airhilt.station.changes import MOST_AT_ONCE, Changes
 from airhilt.station.held_button import HeldButton, what_is_wrong_with
 from airhilt.station.page_files import page_version
+from airhilt.station.seat_book import Hold, SeatBook
 from airhilt.station.wishes import Pressed, RunLink, Wish
 from airhilt.text import readable
 
@@ -32,8 +33,6 @@ SILENT_S = 4.0
 """Time after which a browser that says nothing may be gone, in s: pages ask every 2 s."""
 STALLED_S = 5.0
 """Time after which a browser is gone that takes nothing of what is sent to it, in s."""
-HOLD_S = 5.0
-"""Time for which the seat of a browser that is gone is kept for it, in s."""
 ENDINGS = (asyncio.CancelledError, TimeoutError, WebSocketDisconnect, RuntimeError)
 """Exceptions with which a connection ends: Starlette raises the last one on a closed connection."""
 POLICY_VIOLATION, TRY_LATER = 1008, 1013
@@ -55,11 +54,10 @@ class _Browser:
         """Name that it keeps when its connection is lost; empty: it has none."""
         self.last_heard_s = time.monotonic()
         self.watched: str | None = None
-        self.seat: str | None = None
         self.seen_of_seat = 0
         """Number of the first change of the seat that it has not seen."""
-        self.unseen_from: int | None = None
-        """Number of the first change that it could not see before it took its seat."""
+        self.shown_seat: str | None = None
+        """Seat whose view its page shows; None: it shows what everybody sees."""
         self.tuned: frozenset[int] = frozenset()
         """Frequencies in kHz that are heard at its seat."""
         self.heard = 0
@@ -72,13 +70,6 @@ class _Browser:
 
     def tell(self, kind: str, what: Any) -> None:
         self.unsent.append(json.dumps({kind: what}))
-
-
-class _Hold(NamedTuple):
-    """A seat that is kept for the browser of an identity, until a task gives it back."""
-
-    identity: str
-    expiring: asyncio.Task[None]
 
 
 class Browsers:
@@ -110,15 +101,13 @@ class Browsers:
         notice: Callable[[str], None] = lambda _: None,
         views: SeatViews | None = None,
     ) -> None:
-        self.seats = tuple(seats)
-        self._views = views or SeatViews()
+        self._book = SeatBook[_Browser](seats)
+        self._views = views or SeatViews(seats)
         self._notice = notice
         self._notices = 0
         self._changes = changes
         self._of_seats = seats
         self._sounds = sounds or Changes()
-        self._held: dict[str, _Hold] = {}
-        """Seats whose browser is gone and may come back."""
         self._taken_at: dict[str, int] = {}
         """Number that the next change of a seat had when it was taken last, by seat."""
         self._expiring: set[asyncio.Task[None]] = set()
@@ -128,28 +117,35 @@ class Browsers:
         self._browsers: list[_Browser] = []
         self._empty_since_s: float | None = time.monotonic()
 
+    @property
+    def seats(self) -> tuple[str, ...]:
+        """Names of the seats."""
+        return self._book.seats
+
     def has_been_empty(self, seconds: float) -> bool:
         """Return true if there has been no browser for some time."""
         since_s = self._empty_since_s
         return since_s is not None and time.monotonic() - since_s >= seconds
 
-    def admits(self, identity: str, audience: Audience | None) -> bool:
+    def admits(self, identity: str, audience: Audience) -> bool:
         """Return true if the browser of an identity may see something; it tells what is refused.
 
-        In a run with seats, a browser sees what its own seat sees, in whichever tab.
+        In a run with seats, a browser sees what its own seat sees.
         """
-        seats = [one.seat for one in self._browsers if identity and one.identity == identity]
-        is_seen = not self.seats or any(self._sees(seat, audience) for seat in seats)
+        named = (one for one in self._browsers if identity and one.identity == identity)
+        own = map(self._book.of, named)
+        is_seen = any(self._views.sees(seat, audience) for seat in (None, *own))
         if not is_seen:
             self._refused("a file that is not for the seat of the browser, or without a seat")
         return is_seen
 
-    def _sees(self, seat: str | None, audience: Audience | None) -> bool:
-        """Return true if something with this audience is seen at a seat, or without one."""
-        return not self.seats or self._views.sees(seat, audience)
-
     async def serve(
-        self, socket: WebSocket, begin: int = 0, identity: str = "", version: str = ""
+        self,
+        socket: WebSocket,
+        begin: int = 0,
+        identity: str = "",
+        version: str = "",
+        shown_seat: str | None = None,
     ) -> None:
         """Send the changes to a browser, and do what it wishes, until it leaves.
 
@@ -161,6 +157,8 @@ class Browsers:
             Name that it keeps: with it, it has its seat again after a short loss of connection.
         version
             Version of its page, empty if it is none.
+        shown_seat
+            Seat whose view the page shows already; None: it shows what everybody sees.
         """
         await socket.accept()
         if version not in ("", page_version()):
@@ -171,10 +169,10 @@ class Browsers:
             await socket.close(TRY_LATER, f"{MOST_BROWSERS} browsers look already")
             return
         browser = _Browser(socket, identity)
-        browser.heard = self._sounds.next_number
+        browser.heard, browser.shown_seat = self._sounds.next_number, shown_seat
         self._browsers.append(browser)
         self._empty_since_s = None
-        await self._give_back(browser, begin)
+        await self._give_back(browser)
         self._tell_seats()
         sending = asyncio.create_task(self._send(socket, browser, begin))
         listening = asyncio.create_task(self._listen(socket, browser))
@@ -220,10 +218,10 @@ class Browsers:
             await self._take(browser, wish.take)
         elif wish.leave is not None:
             await self._move(browser, None)
-        elif browser.seat is None:
+        elif (seat := self._book.of(browser)) is None:
             self._refuse(browser, "You have no seat. Take one first.")
         else:
-            await self._do_at_seat(browser, browser.seat, wish)
+            await self._do_at_seat(browser, seat, wish)
 
     async def _do_at_seat(self, browser: _Browser, seat: str, wish: Wish) -> None:
         if wish.say is not None:
@@ -248,14 +246,15 @@ class Browsers:
 
         Who has lost the seat asks once more for the camera that was shown there, and gets nothing.
         """
-        is_shown = not self.seats or self._views.shows_camera(browser.seat, camera or "")
-        if camera is not None and not is_shown and browser.seat is not None:
+        seat = self._book.of(browser)
+        is_shown = self._views.shows_camera(seat, camera or "")
+        if camera is not None and not is_shown and seat is not None:
             self._refuse(browser, f"The camera {readable(camera)} is not for your seat.")
         browser.watched = camera if is_shown else None
         await self._watch()
 
     def _tune(self, browser: _Browser, frequencies_khz: frozenset[int]) -> None:
-        view = self._views.of(browser.seat)
+        view = self._views.of(self._book.of(browser))
         own = frozenset() if view is None else view.frequencies_khz
         if frequencies_khz - own:
             self._refuse(browser, "You listen to a frequency that your seat does not have.")
@@ -301,37 +300,33 @@ class Browsers:
 
     async def _take(self, browser: _Browser, seat: str) -> None:
         """Give a seat to a browser; who is refused it keeps the one that it has."""
-        why = self._why_not(browser, seat)
-        if why is None and await asyncio.to_thread(self._run.has_person, seat):
+        why = self._book.why_not(browser, seat)
+        if why is None and not await self._claim(seat):
             why = f"Somebody has the seat {readable(seat)} at another page of this run."
-        why = why or self._why_not(browser, seat)  # It may have been taken meanwhile.
+        why = why or self._book.why_not(browser, seat)  # It may have been taken meanwhile.
         if why is not None:
             self._refuse(browser, why)
-        elif browser.seat != seat:  # Who has it already has pressed the button twice.
-            self._end_hold(seat)
+        elif self._book.of(browser) != seat:  # Who has it already has pressed the button twice.
             self._taken_at[seat] = self._of_seats[seat].next_number
             await self._move(browser, seat)
             await self._occupy(seat, is_taken=True)
 
-    def _why_not(self, browser: _Browser, seat: str) -> str | None:
-        """Return why a browser cannot have a seat, None if it can."""
-        if seat not in self.seats:
-            return f"{readable(seat)} is no seat of this run."
-        if any(other.seat == seat for other in self._browsers if other is not browser):
-            return f"Somebody has the seat {readable(seat)} already."
-        hold = self._held.get(seat)
-        if hold is not None and (not browser.identity or hold.identity != browser.identity):
-            return f"{readable(seat)} is kept for {HOLD_S:g} s for who had it."
-        return None
+    async def _claim(self, seat: str) -> bool:
+        """Return false if a person has a seat at another page of the run."""
+        try:
+            return await asyncio.to_thread(self._run.claim, seat)
+        except asyncio.CancelledError:  # The browser has gone meanwhile.
+            if self._book.is_free(seat):
+                await self._occupy(seat, is_taken=False)
+            raise
 
     async def _move(self, browser: _Browser, seat: str | None) -> None:
         """Give a browser another seat, or none, and give back the one that it has.
 
         It has the other one before anything is waited for, so that nobody else can take it.
         """
-        left, browser.seat = browser.seat, seat
+        left = self._book.move(browser, seat)
         browser.tuned, browser.seen_of_seat = frozenset(), 0
-        browser.unseen_from = None if seat is None else 0
         if left is not None:
             browser.watched = None
         self._tell_seats()
@@ -349,63 +344,45 @@ class Browsers:
                 await self._release(browser)
             await asyncio.to_thread(self._run.occupy, seat, is_taken=is_taken)
 
-    async def _give_back(self, browser: _Browser, begin: int) -> None:
+    async def _give_back(self, browser: _Browser) -> None:
         """Give a browser the seat that it had before its connection was lost.
 
         The old connection may not have ended yet, if the network is cut; it brings nothing then.
-        Of several seats it has one, and the others are kept until they expire.
         """
         if not browser.identity:
             return
         silent = next((one for one in self._browsers if self._is_silent(one, browser)), None)
-        held = (seat for seat, hold in self._held.items() if hold.identity == browser.identity)
-        if silent is not None:
-            browser.seat, silent.seat = silent.seat, None
+        if silent is None:
+            self._book.give_back(browser)
+        else:
+            self._book.move(browser, self._book.move(silent, None))
             await self._release(silent)
-        elif (seat := next(held, None)) is not None:
-            self._end_hold(seat)
-            browser.seat = seat
-        if browser.seat is not None and self._views.of(browser.seat) is None:
-            browser.unseen_from = begin
 
     def _is_silent(self, old: _Browser, new: _Browser) -> bool:
         """Return true if an old connection has a seat of the browser of a new one, and is cut."""
         is_same = old is not new and old.identity == new.identity
-        return is_same and old.seat is not None and time.monotonic() - old.last_heard_s > SILENT_S
+        has_seat = self._book.of(old) is not None
+        return is_same and has_seat and time.monotonic() - old.last_heard_s > SILENT_S
 
     def _hold(self, browser: _Browser) -> None:
         """Keep the seat of a browser that is gone, in case that it comes back."""
-        if browser.seat is not None:
-            expiring = asyncio.create_task(self._expire(browser.seat))
-            self._held[browser.seat] = _Hold(browser.identity, expiring)
+        hold = self._book.hold(browser)
+        if hold is not None:
+            expiring = asyncio.create_task(self._expire(hold))
             self._expiring.add(expiring)
             expiring.add_done_callback(self._expiring.discard)
 
-    def _end_hold(self, seat: str) -> None:
-        """Keep a seat no longer, if it is kept: somebody has it."""
-        if seat in self._held:
-            self._held.pop(seat).expiring.cancel()
-
-    async def _expire(self, seat: str) -> None:
+    async def _expire(self, hold: Hold) -> None:
         """Give a seat back whose browser has not come back."""
-        await asyncio.sleep(HOLD_S)
-        del self._held[seat]
-        self._tell_seats()
-        await self._occupy(seat, is_taken=False)
+        await asyncio.sleep(hold.seconds)
+        if self._book.expire(hold):
+            self._tell_seats()
+            await self._occupy(hold.seat, is_taken=False)
 
     def _tell_seats(self) -> None:
         """Tell each browser which seats are free, taken, or its own."""
-        taken = {*(one.seat for one in self._browsers), *self._held}
         for browser in self._browsers:
-            browser.tell(
-                "seats",
-                {
-                    seat: "yours"
-                    if seat == browser.seat
-                    else ("taken" if seat in taken else "free")
-                    for seat in self.seats
-                },
-            )
+            browser.tell("seats", self._book.shown_to(browser))
 
     async def _watch(self) -> None:
         watched = {one.watched for one in self._browsers if one.watched is not None}
@@ -425,29 +402,32 @@ class Browsers:
             async with asyncio.timeout(STALLED_S):
                 await socket.send_text(text)
 
-        async def send_changes(first: int, end: int, admits: Admits) -> int:
-            """Send the changes before a number that the browser may see; return the next number."""
-            while first < end and (batch := self._changes.since(first, end, admits)) is not None:
+        def is_seen(audience: Audience) -> bool:
+            return self._views.sees(browser.shown_seat, audience)
+
+        async def send_changes(first: int, end: int) -> int:
+            """Send the changes before a number, and return the next number.
+
+            It ends earlier when the browser is to see something else from then on.
+            """
+            while (
+                first < end
+                and not self._has_other_view(browser)
+                and (batch := self._changes.since(first, end, is_seen)) is not None
+            ):
                 first = batch.next_number
                 if batch.changes != "[]":
-                    await send(f'{{"next":{max(first, number)},"changes":{batch.changes}}}')
+                    await send(f'{{"next":{first},"changes":{batch.changes}}}')
             return first
 
-        def is_seen(audience: Audience | None) -> bool:
-            return audience is None or (
-                browser.unseen_from is None and self._sees(browser.seat, audience)
-            )
-
-        def was_unseen(audience: Audience | None) -> bool:
-            return audience is not None and self._sees(browser.seat, audience)
-
         # What has been comes before the seat is told: nothing of it sounds at the seat once more.
-        number = await send_changes(number, self._changes.next_number, is_seen)
+        number = await send_changes(number, self._changes.next_number)
         while True:
-            while browser.unsent or self._has_unseen(browser):
-                if self._has_unseen(browser):
-                    first, browser.unseen_from = browser.unseen_from or 0, None
-                    await send_changes(first, number, was_unseen)
+            while browser.unsent or self._has_other_view(browser):
+                if self._has_other_view(browser):
+                    browser.shown_seat = self._view_of(browser)
+                    await send(json.dumps({"forget": True, "shown": browser.shown_seat}))
+                    number = await send_changes(0, self._changes.next_number)
                 else:
                     await send(browser.unsent.popleft())
             if (own := self._own(browser)) is not None:
@@ -461,7 +441,7 @@ class Browsers:
             if number >= end:
                 await asyncio.sleep(PERIOD_S)
                 continue
-            number = await send_changes(number, end, is_seen)
+            number = await send_changes(number, end)
             await asyncio.sleep(0)
 
     def _own(self, browser: _Browser) -> str | None:
@@ -469,22 +449,28 @@ class Browsers:
 
         A notice is for the person who was there when it came.
         """
-        if browser.seat is None:
+        seat = self._book.of(browser)
+        if seat is None:
             return None
-        batch = self._of_seats[browser.seat].since(browser.seen_of_seat)
+        batch = self._of_seats[seat].since(browser.seen_of_seat)
         if batch is None:
             return None
         seen, browser.seen_of_seat = browser.seen_of_seat, batch.next_number
-        taken_at = self._taken_at[browser.seat]
+        taken_at = self._taken_at[seat]
         if seen >= taken_at:
             return batch.changes
         changes = json.loads(batch.changes)
         numbered = enumerate(changes, batch.next_number - len(changes))
         return json.dumps([one for n, one in numbered if n >= taken_at or one[0] != "notice"])
 
-    def _has_unseen(self, browser: _Browser) -> bool:
-        """Return true if a browser has yet to get what its seat saw before it took it."""
-        return browser.unseen_from is not None and self._views.of(browser.seat) is not None
+    def _view_of(self, browser: _Browser) -> str | None:
+        """Return the seat whose view a browser is shown; None: it is shown what everybody sees."""
+        seat = self._book.of(browser)
+        return None if self._views.of(seat) is None else seat
+
+    def _has_other_view(self, browser: _Browser) -> bool:
+        """Return true if the page of a browser shows the view of another seat than it has now."""
+        return browser.shown_seat != self._view_of(browser)
 
 
 def _on(tuned: Collection[int], changes: str) -> list[Any]:

@@ -11,7 +11,7 @@ import threading
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from airhilt.station.audiences import Audience
+from airhilt.station.audiences import EVERYBODY, Audience
 
 MOST_CHANGES = 400_000
 """Largest number of changes that are kept: an hour of 20 aircraft, five states a second each."""
@@ -19,7 +19,7 @@ MOST_AT_ONCE = 5_000
 """Largest number of changes in one message to a browser."""
 
 
-Admits = Callable[[Audience | None], bool]
+Admits = Callable[[Audience], bool]
 """Says of an audience if its changes are wanted."""
 
 
@@ -41,7 +41,7 @@ class Changes:
 
     def __init__(self, most: int = MOST_CHANGES) -> None:
         self._most = most
-        self._kept: list[tuple[str, Audience | None]] = []
+        self._kept: list[tuple[str, Audience]] = []
         self._forgotten = 0
         self._lock = threading.Lock()
 
@@ -51,13 +51,13 @@ class Changes:
         with self._lock:
             return self._forgotten + len(self._kept)
 
-    def add(self, *change: Any, audience: Audience | None = None) -> None:
+    def add(self, *change: Any, audience: Audience = EVERYBODY) -> None:
         """Add a change (any thread): its kind, and what belongs to it.
 
         Parameters
         ----------
         audience
-            Persons at seats who may see it; None: everybody.
+            Persons at seats who may see it.
         """
         text = json.dumps(change, separators=(",", ":"), allow_nan=False)
         with self._lock:

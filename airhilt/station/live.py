@@ -10,6 +10,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from airhilt.errors import AirhiltError
+from airhilt.geodesy.wgs84 import Place
 from airhilt.messages import (
     ActorTruth,
     AdsbReport,
@@ -19,6 +20,8 @@ from airhilt.messages import (
     Clock,
     CockpitInstruments,
     Detections,
+    RadarInfo,
+    RadarPlot,
     SeatInfo,
     SeatNotice,
     SurfaceTrack,
@@ -34,12 +37,13 @@ from airhilt.report.events import Events
 from airhilt.report.tracks import Locate, Projection
 from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.station.advisories import AdvisoryRows
-from airhilt.station.audiences import SURVEILLANCE, Audience, SeatViews, audience_of
+from airhilt.station.audiences import NOBODY, SURVEILLANCE, Audience, SeatViews, audience_of
 from airhilt.station.calls import call_as_json, spoken_as_json
 from airhilt.station.cameras import found_as_json, view_as_json
 from airhilt.station.changes import Changes
 from airhilt.station.latencies import LatencyBars
 from airhilt.station.subscription import sound_name
+from airhilt.surveillance.radar import plot_place
 from airhilt.text import readable
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE, SECOND_NS
 
@@ -51,7 +55,7 @@ class LiveRun:
     """Makes changes of the messages of a run; called on one thread.
 
     The changes are ``[kind, ...]``: ``clock``, ``briefing``, ``state``, ``name`` (an actor has
-    another one from now on), ``call``, ``spoken``, ``advisory``, ``event``, ``camera``,
+    another one from now on), ``plot``, ``call``, ``spoken``, ``advisory``, ``event``, ``camera``,
     ``picture`` and ``latency``. Positions come from the truth where it is shared, else from ADS-B
     and surface surveillance.
 
@@ -81,7 +85,7 @@ class LiveRun:
         views: SeatViews | None = None,
     ) -> None:
         self.is_over = False
-        self._views = views or SeatViews()
+        self._views = views or SeatViews(seats)
         self._notice = notice
         self._unread: set[str] = set()
         """Kinds of messages of which some could not be read."""
@@ -97,12 +101,14 @@ class LiveRun:
         """Height of the airport, in m."""
         self._callsigns: dict[str, str] = {}
         """Callsigns by icao24, as far as ADS-B has told."""
+        self._radars: dict[str, RadarInfo] = {}
         self._cameras: set[str] = set()
         self._makers: dict[str, Maker] = {
             "clock": self._clock,
             "briefing": self._briefing,
             "adsb": self._adsb,
             "surface": self._surface,
+            "radar": self._radar,
             "advisory": self._advisory,
             "equipment": self._advisory,
             "tts": self._spoken,
@@ -119,7 +125,7 @@ class LiveRun:
         """Receive a message; one that is not as this version writes it is left out, and told."""
         family = logged.key.partition("/")[0]
         try:
-            audience = audience_of(logged) if self._seats else None
+            audience = audience_of(logged)
             if logged.key.startswith("truth/state/"):
                 self._truth(logged)
             elif (model := call_message(logged.key)) not in (None, AdvisoryAudio):
@@ -144,7 +150,8 @@ class LiveRun:
     def _clock(self, logged: Logged) -> None:
         clock = Clock.model_validate_json(logged.data)
         self.is_over = clock.phase in ("finished", "stopped")
-        self._changes.add("clock", _seconds(clock.t_ns), clock.phase, readable(clock.pace))
+        shown = _seconds(clock.t_ns), clock.phase, readable(clock.pace), clock.behind_s
+        self._changes.add("clock", *shown)
 
     def _briefing(self, logged: Logged) -> None:
         briefing = Briefing.model_validate_json(logged.data)
@@ -179,6 +186,7 @@ class LiveRun:
                 truth.on_ground,
                 truth.phase,
             ),
+            audience=NOBODY,
         )
 
     def _adsb(self, logged: Logged) -> None:
@@ -205,6 +213,36 @@ class LiveRun:
         category = "aircraft" if known else "vehicle"
         on_ground = track.on_ground is not False
         self._observed(name, category, track, track.t_track_ns, on_ground, SURVEILLANCE)
+
+    def _radar(self, logged: Logged) -> None:
+        """Add a plot of a radar whose place is known."""
+        match logged.key.split("/"):
+            case ["radar", site, "info"]:
+                self._radars[site] = RadarInfo.model_validate_json(logged.data)
+            case ["radar", site] if site in self._radars:
+                plot = RadarPlot.model_validate_json(logged.data)
+                self._changes.add(
+                    "plot", self._plot(self._radars[site], plot), audience=SURVEILLANCE
+                )
+
+    def _plot(self, info: RadarInfo, plot: RadarPlot) -> Json:
+        east_m, north_m = self._on_plan(*plot_place(info, plot))
+        return {
+            "t": _seconds(plot.t_plot_ns),
+            "kind": plot.kind,
+            "east": east_m,
+            "north": north_m,
+            "code": plot.mode_a,
+            "altitude_ft": plot.mode_c_ft,
+            "turn_s": info.rotation_s,
+        }
+
+    def _on_plan(self, place: Place, height_m: float) -> tuple[float, float]:
+        """Return how far east and north of the centre of the plan a place is, in m."""
+        if self._locate is None:
+            self._locate = Projection(*place).locate
+        east_nm, north_nm = self._locate(place, height_m)
+        return round(east_nm * NAUTICAL_MILE, 1), round(north_nm * NAUTICAL_MILE, 1)
 
     def _observed(
         self,
@@ -246,17 +284,14 @@ class LiveRun:
         on_ground: bool,
         phase: str,
     ) -> tuple[Any, ...]:
-        latitude_rad, longitude_rad = place[0] * DEGREE, place[1] * DEGREE
-        if self._locate is None:
-            self._locate = Projection(latitude_rad, longitude_rad).locate
-        east_nm, north_nm = self._locate((latitude_rad, longitude_rad), place[2])
+        east_m, north_m = self._on_plan((place[0] * DEGREE, place[1] * DEGREE), place[2])
         return (
             readable(name),
             category,
             readable(self._types.get(name, "")),
             _seconds(t_ns),
-            round(east_nm * NAUTICAL_MILE, 1),
-            round(north_nm * NAUTICAL_MILE, 1),
+            east_m,
+            north_m,
             round(place[2] / FOOT),
             [round(part, 1) for part in velocity_m_s],
             round(heading_deg, 1),
@@ -266,7 +301,7 @@ class LiveRun:
 
     # --- radio, advisories, events ----------------------------------------------------------
 
-    def _call(self, message: Any, audience: Audience | None) -> None:
+    def _call(self, message: Any, audience: Audience) -> None:
         self._calls.take(message)
         record = self._calls.get(message.id)
         row = None if record is None else call_as_json(record)
@@ -288,7 +323,7 @@ class LiveRun:
             row = row | {"texts": row["texts"][-1:]}
         self._changes.add("advisory", row, audience=audience_of(logged))
 
-    def _event(self, logged: Logged, audience: Audience | None) -> None:
+    def _event(self, logged: Logged, audience: Audience) -> None:
         events = Events()
         events.take(logged)
         for row in events.rows:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from PIL import Image
 
-from airhilt.station.audiences import Audience
+from airhilt.station.audiences import EVERYBODY, Audience
 
 QUALITY = 85
 """Quality of the JPEG pictures, of at most 95 (Pillow)."""
@@ -19,7 +19,7 @@ class Picture(NamedTuple):
     width_px: int
     height_px: int
     pixels: bytes
-    audience: Audience | None = None
+    audience: Audience = EVERYBODY
 
 
 def jpeg(picture: Picture) -> bytes:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import queue
 import threading
+import time
 from base64 import b64encode
 from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
@@ -38,8 +39,8 @@ from airhilt.station.changes import Changes
 from airhilt.station.pictures import Picture
 
 SUBSCRIBED = (
-    "clock", "briefing", "status/*", "adsb/*", "surface/*", "radio/*/tx", "asr/*", "advisory/*",
-    "equipment/**", "tts/*", "vision/*", "command/*",
+    "clock", "briefing", "status/*", "adsb/*", "surface/*", "radar/**", "radio/*/tx", "asr/*",
+    "advisory/*", "equipment/**", "tts/*", "vision/*", "command/*",
 )  # fmt: skip
 """Keys below the run of what everybody may see."""
 TRUTH = ("truth/**",)
@@ -50,12 +51,14 @@ OF_SEATS = (
     "cockpit/{seat}/position",
 )  # fmt: skip
 """Keys of what only the person at a seat sees."""
-ASKED = ("briefing", "clock")
+ASKED = ("briefing", "clock", "radar/*/info")
 """Keys that the run answers, for who comes late."""
 ASKED_OF_SEATS = ("seat/{seat}/info",)
 """Keys that it answers for the person at a seat."""
 ASKED_S = 2.0
 """Longest time that an answer may take, in s."""
+CLAIMS_PERIOD_S = 0.02
+"""Time between two looks at the claims of other pages to a seat, in s."""
 STREAMED = "radio/*/audio"
 """Keys of the sound of transmissions while they last."""
 HEARD: Mapping[str, type[Message]] = {"command": ActorCommand}
@@ -78,7 +81,7 @@ class Sound(NamedTuple):
     """The PCM of a transmission or a spoken advisory, and who may hear it."""
 
     pcm: bytes
-    audience: Audience | None
+    audience: Audience
 
 
 class Subscription:
@@ -140,8 +143,12 @@ class Subscription:
         self._watched: dict[str, zenoh.Subscriber[None]] = {}
         self._tokens: dict[str, zenoh.LivelinessToken] = {}
         """Tokens of the seats that somebody has."""
+        self._claims: dict[str, zenoh.LivelinessToken] = {}
+        """Tokens of the seats that somebody is about to take."""
         self._watching = threading.Lock()
-        """Held while it is changed which cameras are watched, or which seats are taken."""
+        """Held while it is changed which cameras are watched."""
+        self._seating = threading.Lock()
+        """Held while it is changed which seats are taken or claimed."""
         self._lock = threading.Lock()
         self._kept: list[Any] = [
             self._session.declare_subscriber(f"{self._prefix}/{key}", self._hear)
@@ -202,26 +209,50 @@ class Subscription:
         """Answer a question about workload."""
         self._session.put(f"{self._prefix}/workload/{key_chunk(seat)}", answer.model_dump_json())
 
-    def has_person(self, seat: str) -> bool:
-        """Return true if a person has a seat at another page of the run."""
+    def claim(self, seat: str) -> bool:
+        """Keep other pages of the run from taking a seat; return false if one of them has it.
+
+        Each page that takes a seat declares a claim first, and only then looks for others, so that
+        of two that do so at once one sees the other at least. The page whose key comes first goes
+        on; it waits until the other has withdrawn its claim, or has the seat. A key of a seat that
+        is taken comes before all claims to it.
+        """
         chunk = key_chunk(seat)
-        with self._watching:
-            if chunk in self._tokens:
-                return False
+        with self._seating:
+            if chunk in self._tokens or chunk in self._claims:
+                return True
             key = f"{self._prefix}/seat/{chunk}"
-            replies = self._session.liveliness().get(key, timeout=ASKED_S)
-            return any(reply.ok is not None for reply in replies)
+            own = f"{key}/claim/{self._session.zid()}"
+            claim = self._session.liveliness().declare_token(own)
+            until_s = time.monotonic() + ASKED_S
+            while others := self._declared(f"{key}/**") - {own}:
+                if min(others) < own or time.monotonic() > until_s:
+                    claim.undeclare()  # type: ignore[no-untyped-call]
+                    return False
+                time.sleep(CLAIMS_PERIOD_S)
+            self._claims[chunk] = claim
+            return True
+
+    def _declared(self, keys: str) -> set[str]:
+        """Return the keys of liveliness tokens that are declared."""
+        replies = self._session.liveliness().get(keys, timeout=ASKED_S)
+        return {str(reply.ok.key_expr) for reply in replies if reply.ok is not None}
 
     def occupy(self, seat: str, *, is_taken: bool) -> None:
-        """Tell that a person has taken a seat, or has left it; so does the end of this process."""
+        """Tell that a person has taken a seat, or has left it; so does the end of this process.
+
+        A claim to the seat is withdrawn after that.
+        """
         chunk = key_chunk(seat)
-        with self._watching:
-            token = self._tokens.pop(chunk, None)
+        with self._seating:
+            token, claim = self._tokens.pop(chunk, None), self._claims.pop(chunk, None)
             if is_taken:
                 key = f"{self._prefix}/seat/{chunk}"
                 self._tokens[chunk] = token or self._session.liveliness().declare_token(key)
             elif token is not None:
                 token.undeclare()  # type: ignore[no-untyped-call]
+            if claim is not None:
+                claim.undeclare()  # type: ignore[no-untyped-call]
 
     def set_pace(self, pace: PaceCommand) -> None:
         """Let the time of the run pass more slowly, stand still, or pass again."""

@@ -88,8 +88,11 @@ class RunLink(Protocol):
     def answer(self, seat: str, answer: WorkloadAnswer) -> None:
         """Answer a question about workload."""
 
-    def has_person(self, seat: str) -> bool:
-        """Return true if a person has a seat at another page of the run."""
+    def claim(self, seat: str) -> bool:
+        """Keep other pages of the run from taking a seat; return false if one of them has it.
+
+        It is so until the seat was taken and left, or left without having been taken.
+        """
 
     def occupy(self, seat: str, *, is_taken: bool) -> None:
         """Tell that a person has taken a seat, or has left it."""

@@ -47,8 +47,15 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 from airhilt.geodesy.relative_motion import Kinematics
-from airhilt.geodesy.wgs84 import Vector, earth_centred, vertical
-from airhilt.messages import EmitterCategory, RadarKind
+from airhilt.geodesy.wgs84 import (
+    MEAN_RADIUS_M,
+    Place,
+    Vector,
+    earth_centred,
+    onward,
+    vertical,
+)
+from airhilt.messages import EmitterCategory, RadarInfo, RadarKind, RadarPlot
 from airhilt.surveillance.squitters import quantise
 from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE
 
@@ -222,6 +229,24 @@ def _place(latitude_rad: float, longitude_rad: float, altitude_m: float) -> Vect
 
 def _dot(one: Vector, other: Vector) -> float:
     return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
+
+
+def plot_place(info: RadarInfo, plot: RadarPlot) -> tuple[Place, float]:
+    """Return the place of a plot, and its height in m.
+
+    Without an altitude in the reply it is taken to be as high as the antenna.
+    """
+    height_m = info.altitude_m if plot.mode_c_ft is None else plot.mode_c_ft * FOOT
+    antenna = info.latitude_deg * DEGREE, info.longitude_deg * DEGREE
+    ground_m = _ground_range_m(plot.range_m, info.altitude_m, height_m)
+    return onward(antenna, plot.azimuth_deg * DEGREE, ground_m), height_m
+
+
+def _ground_range_m(slant_m: float, antenna_m: float, height_m: float) -> float:
+    """Return the distance along the ground to a target at a slant range and a height, in m."""
+    first, second = MEAN_RADIUS_M + antenna_m, MEAN_RADIUS_M + height_m
+    cosine = (first**2 + second**2 - slant_m**2) / (2.0 * first * second)
+    return MEAN_RADIUS_M * math.acos(min(max(cosine, -1.0), 1.0))
 
 
 def mode_c_ft(altitude_m: float) -> int:

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.sim import Director, Paused, Priority, RealTime, Virtual
+from airhilt.sim import Director, Pace, Paused, Priority, RealTime, Virtual
 
 events = st.lists(st.tuples(st.integers(0, 20), st.sampled_from(Priority)), max_size=40)
 
@@ -190,3 +190,20 @@ def test_results_of_an_instant_arrive_before_workers_start_in_it() -> None:
         director.at(5, lambda name=priority.name: seen.append(name), priority)  # type: ignore[misc]
     director.run()
     assert seen == ["PHYSICS", "SCRIPT", "SENSOR", "RESULT", "START", "SETTLE", "OBSERVE"]
+
+
+class LatePace(Virtual):
+    """A pace whose clock is three seconds ahead of the events."""
+
+    def elapsed_ns(self, now_ns: int) -> int:
+        """Return the simulation time by the clock."""
+        return now_ns + 3_000_000_000
+
+
+@pytest.mark.parametrize(
+    ("pace", "behind_ns"), [(LatePace(), 3_000_000_000), (Virtual(), 0), (Paused(), 0)]
+)
+def test_a_director_knows_by_how_much_its_events_are_behind_the_clock(
+    pace: Pace, behind_ns: int
+) -> None:
+    assert Director(pace).behind_ns == behind_ns

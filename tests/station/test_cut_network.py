@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from airhilt.station import browsers, server
+from airhilt.station import seat_book, server
 from cut_network import Network, forgive, through_network
 from devtools import Page
 from microphone import (
@@ -83,7 +83,7 @@ def test_the_seat_of_who_stays_away_is_given_back_and_the_page_returns_by_itself
 ) -> None:
     monkeypatch.setattr(server, "PING_S", 0.5)
     monkeypatch.setattr(server, "PATIENCE_S", 1.0)
-    monkeypatch.setattr(browsers, "HOLD_S", 0.5)
+    monkeypatch.setattr(seat_book, "HOLD_S", 0.5)
     with seated(tmp_path / "said.wav") as (run, network, page):
         network.cut()
         assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", False)

@@ -5,12 +5,16 @@ from __future__ import annotations
 import json
 from typing import Any
 
+import pytest
+
 from airhilt.messages import (
     ActorTruth,
     AdsbReport,
     Briefing,
     Clock,
     Message,
+    RadarInfo,
+    RadarPlot,
     RosterEntry,
     SpokenTruth,
     TaskCard,
@@ -53,6 +57,26 @@ class Followed:
         batch = self._changes.since(0)
         found = [] if batch is None else json.loads(batch.changes)
         return [change[1:] for change in found if change[0] == kind]
+
+
+def test_a_plot_of_a_radar_is_where_range_azimuth_and_altitude_put_it() -> None:
+    followed = Followed()
+    info = RadarInfo(
+        site="ASR", kind="terminal", latitude_deg=38.85, longitude_deg=-77.04, altitude_m=0.0,
+        rotation_s=4.8, primary_range_m=100_000.0, secondary_range_m=200_000.0, t_ns=0,
+    )  # fmt: skip
+    plot = RadarPlot(
+        site="ASR", kind="secondary", t_plot_ns=2 * SECOND, range_m=5_000.0, azimuth_deg=90.0,
+        mode_a="7000", mode_c_ft=9_843, t_ns=2 * SECOND,
+    )  # fmt: skip
+    for key, message in (("radar/ASR", plot), ("radar/ASR/info", info), ("adsb/a1b2c3", REPORT)):
+        followed.hear(key, message)
+    assert followed.changes("plot") == []  # Where the radar stands was not known yet.
+    followed.hear("radar/ASR", plot)
+    ((shown,),) = followed.changes("plot")
+    assert shown["east"] == pytest.approx(4_000.0, abs=10.0)
+    assert shown["north"] == pytest.approx(0.0, abs=10.0)
+    assert (shown["t"], shown["code"], shown["turn_s"]) == (2.0, "7000", 4.8)
 
 
 def test_without_the_truth_the_traffic_is_that_of_adsb() -> None:

@@ -14,7 +14,7 @@ from websockets.sync.client import ClientConnection, connect
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, from_pcm
 from airhilt.messages import SpokenWords
-from airhilt.station import browsers
+from airhilt.station import seat_book
 from airhilt.station.held_button import AHEAD_S, LARGEST_PIECE_BYTES, HeldButton
 from microphone import (
     BUTTON,
@@ -70,7 +70,7 @@ def seat(
     served: tuple[PretendedRun, str], monkeypatch: pytest.MonkeyPatch
 ) -> Iterator[tuple[PretendedRun, str]]:
     """The page of a seat, which is free again when the next test begins."""
-    monkeypatch.setattr(browsers, "HOLD_S", 0.0)
+    monkeypatch.setattr(seat_book, "HOLD_S", 0.0)
     yield served
     presence, is_taken = served[0].presence, False
     while is_taken or not presence.empty():

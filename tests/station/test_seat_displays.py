@@ -6,10 +6,14 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
 
+import httpx
 import pytest
 
-from airhilt.messages import SpokenWords
+from airhilt.messages import AdvisoryPerceived, SpokenWords
 from airhilt.report.airport import ReportAirport
+from airhilt.station.audiences import Audience
+from airhilt.station.browsers import Browsers
+from airhilt.station.pictures import Picture
 from devtools import Page
 from stations import TOWER, PretendedRun, seat_page
 
@@ -71,10 +75,13 @@ def advise(run: PretendedRun, recipient: str, message: str, **other: Any) -> Non
 
 
 @contextmanager
-def seated(page: Page, seat: str, pace: str = "realtime") -> Iterator[PretendedRun]:
+def seated(
+    page: Page, seat: str, pace: str = "realtime", roster: dict[str, str] | None = None
+) -> Iterator[PretendedRun]:
     """Open the page of a run, take its seat, and yield the run."""
-    with seat_page(PretendedRun([TOWER.model_copy(update={"seat": seat})])) as (run, url):
-        run.changes.add("briefing", "TOWER", None, CATEGORIES)
+    info = TOWER.model_copy(update={"seat": seat, "category": CATEGORIES.get(seat, "unit")})
+    with seat_page(PretendedRun([info])) as (run, url):
+        run.changes.add("briefing", "TOWER", None, CATEGORIES if roster is None else roster)
         run.changes.add("clock", 1.0, "running", pace)
         page.open(url, width=1280, height=720)
         page.wait_for("document.getElementById('state').textContent.startsWith('running')")
@@ -108,6 +115,16 @@ def test_a_key_of_the_cockpit_does_nothing_at_another_seat(
             page.press(key, ord(key.upper()))
             page.evaluate("document.activeElement.blur()")
         assert commands(run, page) == actions
+
+
+def test_a_seat_has_the_displays_of_its_category_whoever_is_in_the_roster(page: Page) -> None:
+    phrases = "document.getElementById('phrase-list').innerText"
+    with seated(page, "AAL123", roster={"DAL456": "aircraft"}) as run:
+        fly(run)
+        page.wait_for(f"{INSTRUMENT}.startsWith('Primary flight display')")
+        page.wait_for(f"{phrases}.includes('Report level')")
+        page.press("g", 71)
+        assert commands(run, page) == ["go_around"]
 
 
 def test_a_key_that_is_held_gives_its_command_once(page: Page) -> None:
@@ -262,6 +279,44 @@ def test_a_pace_that_nobody_can_choose_is_shown_and_goes_on_in_real_time(page: P
         page.wait_for(f"{chosen} === 'half as fast'")
 
 
+def test_words_that_could_not_be_said_stay_in_the_field(page: Page) -> None:
+    closed = "Object.defineProperty(WebSocket.prototype, 'readyState', { get: () => 3 })"
+    words = "document.getElementById('words').value"
+    with seated(page, "TOWER") as run:
+        page.evaluate(f"{words} = 'American 123, hold.'")
+        page.evaluate(f"{closed}; null")
+        page.click("say-button")
+        page.wait_for(
+            "document.getElementById('seat-state').textContent.includes('Nothing was said')"
+        )
+        assert page.evaluate(words) == "American 123, hold."
+        assert run.done.empty()
+
+
+def test_a_person_is_told_by_how_much_the_run_is_behind_the_clock(page: Page) -> None:
+    told = "document.getElementById('behind').textContent"
+    with seated(page, "TOWER") as run:
+        for behind_s, pace, text in (
+            (3.2, "realtime", "3 s behind the clock"),
+            (0.4, "realtime", ""),
+            (5.0, "0.5x", "5 s behind the clock"),
+            (0.0, "paused", ""),
+        ):
+            run.changes.add("clock", 1.0, "running", pace, behind_s)
+            page.wait_for(
+                f"{told}.includes('{text}') && Boolean({told}) === {str(bool(text)).lower()}"
+            )
+
+
+def test_a_run_that_stands_still_without_a_pause_is_told_to_be_behind(page: Page) -> None:
+    told = "document.getElementById('behind').textContent"
+    with seated(page, "TOWER") as run:
+        run.changes.add("clock", 2.0, "running", "realtime", 0.0)
+        page.wait_for(f"{told}.includes('2 s behind the clock')")
+        run.changes.add("clock", 3.0, "paused", "paused", 0.0)
+        page.wait_for(f"!{told}")
+
+
 def test_who_watches_a_run_without_seats_is_told_what_was_refused(page: Page) -> None:
     with seat_page(has_seats=False) as (run, url):
         page.open(url)
@@ -362,3 +417,109 @@ def test_an_alert_of_the_equipment_sounds_once_while_aircraft_get_their_names(pa
         assert page.evaluate("window.pulses") == 1
         tcas(run, 1, "traffic, traffic", "CAUTION")
         page.wait_for("window.pulses === 2")
+
+
+LISTED = """JSON.stringify(['#traffic tbody th', '#calls .who', '#camera option'].map((rows) =>
+    [...document.querySelectorAll(rows)].map((one) => one.textContent)))"""
+"""Aircraft, speakers and cameras that the page lists."""
+MAST = {
+    "name": "mast", "carrier": None, "width_px": 64, "height_px": 48, "horizontal_fov_deg": 60.0,
+}  # fmt: skip
+
+
+def test_a_page_shows_once_what_its_seat_sees_and_nothing_of_a_former_seat(page: Page) -> None:
+    infos = [
+        TOWER.model_copy(update={"category": "unit"}),
+        TOWER.model_copy(
+            update={"seat": "OPS1", "category": "vehicle", "frequencies_khz": (121_700,)}
+        ),
+    ]
+    with seat_page(PretendedRun(infos)) as (run, url):
+        run.changes.add("briefing", "TOWER", None, CATEGORIES)
+        run.changes.add("clock", 1.0, "running", "realtime")
+        place = (1.0, 0.0, 0.0, 3_000, [70.0, 0.0], 90.0, False, "")
+        seen = Audience("adsb", "d4e5f6")
+        run.changes.add("state", "DAL456", "aircraft", "B737", *place, audience=seen)
+        for khz, speaker in ((119_100, "Delta 456"), (121_700, "Operations 1")):
+            call = CALL | {"id": f"c-{khz}", "frequency_khz": khz, "speaker": speaker}
+            run.changes.add("call", call, audience=Audience("frequency", khz))
+        run.changes.add("camera", MAST, audience=Audience("camera", None))
+        page.open(url, width=1280, height=720)
+        page.wait_for("document.getElementById('state').textContent.startsWith('running')")
+        of_tower = '[["DAL456"],["Delta 456"],["mast"]]'
+        of_driver = '[[],["Operations 1"],[]]'
+        for seat, listed in (("TOWER", of_tower), ("TOWER", of_tower), ("OPS1", of_driver)):
+            page.evaluate(f"document.getElementById('seat-name').value = '{seat}'")
+            page.click("seat-take")
+            page.wait_for(f"document.body.dataset.seat === '{KIND[seat]}'")
+            page.wait_for(f"{LISTED} === '{listed}'")
+            page.evaluate("document.getElementById('seat-take').click()")
+            page.wait_for("document.getElementById('talk').hidden")
+            page.wait_for(f"{LISTED} === '[[],[],[]]'")
+        page.open("about:blank")
+
+
+def test_an_advisory_in_force_is_told_as_seen_for_each_person_who_takes_the_seat(
+    page: Page,
+) -> None:
+    with seated(page, "TOWER") as run:
+        advise(run, "ATC", "Both lose separation.")
+        seen = AdvisoryPerceived(
+            id="Both lose separation.", revision=1, recipient="ATC", way="seen", after_s=0.0
+        )
+        assert run.next().model_copy(update={"after_s": 0.0}) == seen
+        page.click("seat-take")
+        page.wait_for("document.getElementById('talk').hidden")
+        page.click("seat-take")
+        assert run.next().model_copy(update={"after_s": 0.0}) == seen
+
+
+def test_a_page_keeps_its_seat_when_it_is_loaded_again_and_a_duplicate_of_its_tab_has_none(
+    page: Page, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    identities: list[str] = []
+    serve = Browsers.serve
+
+    async def note(self: Browsers, socket: Any, begin: int, identity: str, *more: Any) -> None:
+        identities.append(identity)
+        await serve(self, socket, begin, identity, *more)
+
+    monkeypatch.setattr(Browsers, "serve", note)
+    with seated(page, "TOWER") as run:
+        run.pictures["mast", 1] = Picture(64, 48, bytes(64 * 48 * 3), Audience("camera", None))
+        place = f"{page.evaluate('location.href')}api/cameras/mast/1.jpg"
+        # As a tab that is duplicated, one that is opened from here has a copy of the storage.
+        duplicated = "window.duplicate = open(location.href); null"
+        page.call("Runtime.evaluate", expression=duplicated, userGesture=True)
+        page.wait_for("duplicate.document.getElementById('seat-state')?.textContent")
+        page.call("Page.reload")
+        page.wait_for("!window.duplicate && document.body?.dataset.seat === 'controller'")
+        own, *others = (
+            httpx.get(place, params={"browser": identity}, trust_env=False).status_code
+            for identity in identities
+        )
+        assert (own, others) == (200, [403, 200])
+    page.complaints.clear()  # A page that was loaded again has no sound before a click.
+
+
+def test_a_controller_sees_what_a_radar_alone_has_found_on_the_plan(page: Page) -> None:
+    told = "document.getElementById('plan').ariaLabel"
+    with seated(page, "TOWER") as run:
+        fly(run)
+        plot = {"t": 0.9, "kind": "combined", "north": 0.0, "turn_s": 4.8}
+        for east_m, code in ((0.0, "4321"), (9_000.0, "7000")):
+            run.changes.add("plot", plot | {"east": east_m, "code": code, "altitude_ft": 4_500})
+        echo = {"kind": "primary", "east": 20_000.0, "code": None, "altitude_ft": None}
+        run.changes.add("plot", plot | echo)
+        pass_time(run, page, 1.5, 2.0)
+        page.wait_for(f"{told}.includes('radar reply 7000 4,500 feet, radar echo')")
+        assert "4321" not in page.evaluate(told)  # It is of AAL123.
+        pass_time(run, page, 9.0, 10.0)
+        page.wait_for(f"{told}.includes('AAL123') && !{told}.includes('radar')")
+
+
+def pass_time(run: PretendedRun, page: Page, *times_s: float) -> None:
+    """Let the clock come to some times; the plan is told in words once a second at most."""
+    for t_s in times_s:
+        run.changes.add("clock", t_s, "running", "realtime")
+        page.evaluate("new Promise((done) => setTimeout(done, 1100))")

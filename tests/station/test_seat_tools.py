@@ -23,7 +23,8 @@ from airhilt.messages import (
     SpokenWords,
 )
 from airhilt.record import Logged
-from airhilt.station import browsers
+from airhilt.station import browsers, seat_book
+from airhilt.station.audiences import EVERYBODY
 from airhilt.station.live import LiveRun
 from airhilt.station.page_files import page_version
 from airhilt.station.subscription import Sound
@@ -56,7 +57,7 @@ def served() -> Iterator[tuple[PretendedRun, str]]:
 def seat(
     served: tuple[PretendedRun, str], monkeypatch: pytest.MonkeyPatch
 ) -> tuple[PretendedRun, str]:
-    monkeypatch.setattr(browsers, "HOLD_S", 0.0)
+    monkeypatch.setattr(seat_book, "HOLD_S", 0.0)
     return served
 
 
@@ -163,7 +164,7 @@ def test_an_advisory_is_not_told_to_be_heard_where_the_loudspeaker_is_down() -> 
 @pytest.mark.browser
 def test_a_voice_without_a_tone_is_told_to_be_heard_only_if_it_sounds() -> None:
     """A voice that cannot be had, of a run that has none for it, comes before one that sounds."""
-    voice = Sound(to_pcm(np.full(SAMPLE_RATE_HZ // 10, 0.1, np.float32)), None)
+    voice = Sound(to_pcm(np.full(SAMPLE_RATE_HZ // 10, 0.1, np.float32)), EVERYBODY)
     with seat_page() as (run, url), page_with_microphone() as page:
         run.kept["there-0-ATC"] = voice
         run.changes.add("briefing", "TOWER", None, ROSTER)

@@ -14,7 +14,7 @@ from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import ClientConnection, connect
 
 from airhilt.messages import SpokenWords
-from airhilt.station import browsers
+from airhilt.station import browsers, seat_book
 from stations import PATIENCE_S, TOWER, PretendedRun, seat_page
 
 TWO = (TOWER, TOWER.model_copy(update={"seat": "GROUND"}))
@@ -63,7 +63,7 @@ def test_the_seat_of_who_does_not_come_back_is_given_back_and_all_are_told(
     seat: tuple[PretendedRun, str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     run, url = seat
-    monkeypatch.setattr(browsers, "HOLD_S", 0.1)
+    monkeypatch.setattr(seat_book, "HOLD_S", 0.1)
     with browser(url, "two") as other:
         with browser(url, "one") as own:
             take(own)
@@ -84,12 +84,12 @@ def test_a_seat_that_is_lost_again_is_kept_as_long_as_the_first_time(
             for socket, seat in ((own, "TOWER"), (other, "GROUND")):
                 socket.send(json.dumps({"take": seat}))
                 assert run.presence.get(timeout=PATIENCE_S) == (seat, True)
-            monkeypatch.setattr(browsers, "HOLD_S", 2.0)
+            monkeypatch.setattr(seat_book, "HOLD_S", 2.0)
         with browser(url, "a") as back:
             assert answer(back, "seats") == {"TOWER": "yours", "GROUND": "taken"}
             connection.close()
             answer(back, "seats")  # The seat of the other one is kept from now on.
-            monkeypatch.setattr(browsers, "HOLD_S", PATIENCE_S)
+            monkeypatch.setattr(seat_book, "HOLD_S", PATIENCE_S)
         assert run.presence.get(timeout=PATIENCE_S) == ("GROUND", False)
         with browser(url, "a") as own:
             assert answer(own, "seats") == {"TOWER": "yours", "GROUND": "free"}
@@ -99,7 +99,7 @@ def test_who_has_lost_two_seats_has_one_again_and_the_other_is_given_back(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     seats = {"TOWER", "GROUND"}
-    monkeypatch.setattr(browsers, "HOLD_S", 2.0)
+    monkeypatch.setattr(seat_book, "HOLD_S", 2.0)
     with seat_page(PretendedRun(TWO)) as (run, url):
         with browser(url, "a") as first, browser(url, "a") as second:
             for socket, seat in ((first, "TOWER"), (second, "GROUND")):
@@ -230,7 +230,7 @@ class BrokenRun(PretendedRun):
 def test_a_seat_is_free_again_when_its_browser_could_not_be_served(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(browsers, "HOLD_S", 0.0)
+    monkeypatch.setattr(seat_book, "HOLD_S", 0.0)
     with seat_page(BrokenRun()) as (run, url), browser(url, "b") as other:
         with browser(url, "a") as own:
             take(own)
@@ -266,7 +266,7 @@ class StalledSocket:
 
 def test_who_takes_nothing_of_what_is_sent_is_gone(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(browsers, "STALLED_S", 0.1)
-    monkeypatch.setattr(browsers, "HOLD_S", 0.0)
+    monkeypatch.setattr(seat_book, "HOLD_S", 0.0)
     run = PretendedRun()
     all_of_them = browsers.Browsers(run.changes, run, {"TOWER": run.seat})
 
@@ -276,6 +276,31 @@ def test_who_takes_nothing_of_what_is_sent_is_gone(monkeypatch: pytest.MonkeyPat
         assert await asyncio.to_thread(run.presence.get, timeout=PATIENCE_S) == ("TOWER", False)
 
     asyncio.run(serve())
+
+
+class ClaimedRun(PretendedRun):
+    """A run that looks for other pages with a seat until it may give it."""
+
+    may_give = threading.Event()
+
+    def claim(self, seat: str) -> bool:
+        """Give the seat when it may be given."""
+        return self.may_give.wait(PATIENCE_S)
+
+
+def test_a_claim_to_a_seat_is_withdrawn_when_its_browser_is_gone_meanwhile(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(browsers, "STALLED_S", 0.1)
+    run = ClaimedRun()
+    all_of_them = browsers.Browsers(run.changes, run, {"TOWER": run.seat})
+
+    async def serve() -> None:
+        await all_of_them.serve(StalledSocket())  # type: ignore[arg-type]
+        run.may_give.set()
+
+    asyncio.run(serve())
+    assert run.presence.get_nowait() == ("TOWER", False)
 
 
 def test_who_sits_down_is_not_told_what_was_told_there_before() -> None:

@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import json
+import queue
 import threading
 import time
 from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import closing
+from pathlib import Path
 
 import pytest
 import zenoh
 
-from airhilt.bus.session import Bus, configuration
+from airhilt.bus.certificates import make_keys
+from airhilt.bus.session import Bus, configuration, free_endpoint
 from airhilt.messages import Advisory
 from airhilt.record import Logged
 from airhilt.station.subscription import MOST_SOUND_BYTES, Subscription
@@ -109,28 +114,72 @@ def test_a_message_above_its_limit_is_dropped_and_counted(followed: Followed) ->
 def test_the_sounds_that_are_kept_have_a_limit(followed: Followed) -> None:
     size = 7_000_000
     for number in range(12):
-        followed.publish("tts/a", bytes(size), json.dumps({"id": f"call-{number}"}).encode())
-    followed.wait_until(lambda: followed.page.sound("call-11"))
-    kept = [number for number in range(12) if followed.page.sound(f"call-{number}")]
+        about = {"id": f"call-{number}", "revision": 0, "recipient": "ATC"}
+        followed.publish("tts/a", bytes(size), json.dumps(about).encode())
+    followed.wait_until(lambda: followed.page.sound("call-11-0-ATC"))
+    kept = [number for number in range(12) if followed.page.sound(f"call-{number}-0-ATC")]
     assert kept == list(range(12 - MOST_SOUND_BYTES // size, 12))
 
 
-def test_a_page_knows_which_seats_people_have_at_other_pages() -> None:
-    bus = Bus("run")
+def test_a_page_that_comes_late_asks_where_the_radars_are() -> None:
+    with closing(Bus("run")) as bus:
+        bus.keep("clock", b"{}")
+        bus.keep("radar/ASR/info", b'{"site": "ASR"}')
+        taken: queue.Queue[Logged] = queue.Queue()
+        with closing(Subscription(bus.endpoint, taken.put, lambda: None)):
+            while (logged := taken.get(timeout=PATIENCE_S)).key != "radar/ASR/info":
+                pass
+        assert logged.data == b'{"site": "ASR"}'
+
+
+@pytest.fixture(params=[False, True], ids=["plain", "tls"])
+def pages(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[list[Subscription]]:
+    """Two pages of one run with a seat; with keys, both have those of its operator."""
+    keys = tmp_path / "keys" if request.param else None
+    if keys is not None:
+        make_keys(keys, free_endpoint().replace("tcp/", "tls/"))
+    bus = Bus("run", tls=keys)
     bus.keep("clock", b"{}")
+    endpoint = bus.endpoint if keys is None else None
     pages = [
-        Subscription(bus.endpoint, lambda _: None, lambda: None, seats=["TOWER"]) for _ in range(2)
+        Subscription(endpoint, lambda _: None, lambda: None, tls=keys, seats=["TOWER"])
+        for _ in range(2)
     ]
-    own, other = pages
-    assert not other.has_person("TOWER")
-    own.occupy("TOWER", is_taken=True)
-    assert not own.has_person("TOWER")
-    assert within_patience(lambda: other.has_person("TOWER"))
-    own.occupy("TOWER", is_taken=False)
-    assert within_patience(lambda: not other.has_person("TOWER"))
+    yield pages
     for page in pages:
         page.close()
     bus.close()
+
+
+def test_a_page_cannot_claim_a_seat_that_a_person_has_at_another_page(
+    pages: list[Subscription],
+) -> None:
+    own, other = pages
+    assert own.claim("TOWER")
+    own.occupy("TOWER", is_taken=True)
+    assert own.claim("TOWER")
+    assert not other.claim("TOWER")
+    own.occupy("TOWER", is_taken=False)
+    assert within_patience(lambda: other.claim("TOWER"))
+
+
+def test_of_two_pages_that_take_a_seat_at_the_same_instant_one_gets_it(
+    pages: list[Subscription],
+) -> None:
+    at_once = threading.Barrier(len(pages))
+
+    def take(page: Subscription) -> bool:
+        at_once.wait(PATIENCE_S)
+        has_it = page.claim("TOWER")
+        if has_it:
+            page.occupy("TOWER", is_taken=True)
+        return has_it
+
+    with ThreadPoolExecutor() as pool:
+        for _ in range(20):
+            assert sum(pool.map(take, pages)) == 1
+            for page in pages:
+                page.occupy("TOWER", is_taken=False)
 
 
 def within_patience(is_so: Callable[[], bool]) -> bool:

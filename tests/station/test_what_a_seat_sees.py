@@ -12,13 +12,17 @@ from websockets.sync.client import ClientConnection, connect
 
 from airhilt.messages import (
     ActorCommand,
+    ActorTruth,
     AdsbReport,
     Advisory,
     CameraView,
     Detections,
     Evidence,
     Message,
+    RadarInfo,
+    RadarPlot,
     SeatInfo,
+    Status,
     SurfaceTrack,
     Transcript,
     Transmission,
@@ -87,7 +91,16 @@ TRACK = SurfaceTrack(
     airport="KDCA", track=1, kind="primary", t_track_ns=SECOND, latitude_deg=38.85,
     longitude_deg=-77.04, accuracy_m=5.0, ground_speed_kt=0.0, t_ns=SECOND,
 )  # fmt: skip
+RADAR = RadarInfo(
+    site="ASR", kind="terminal", latitude_deg=38.85, longitude_deg=-77.04, altitude_m=20.0,
+    rotation_s=4.8, primary_range_m=100_000.0, secondary_range_m=200_000.0, t_ns=0,
+)  # fmt: skip
+PLOT = RadarPlot(
+    site="ASR", kind="secondary", t_plot_ns=SECOND, range_m=9_000.0, azimuth_deg=90.0,
+    mode_a="7000", mode_c_ft=4_500, t_ns=SECOND,
+)  # fmt: skip
 COMMAND = ActorCommand.model_validate({"command": {"action": "go_around"}})
+OFF = Status(modality="decision", state="off", t_ns=SECOND)
 HEARD = Transcript(
     id=f"call-{GROUND_KHZ}", frequency_khz=GROUND_KHZ, text="hello", confidence=0.9, engine="ctc",
     t_tx_ns=SECOND, t_end_ns=SECOND, t_ns=SECOND,
@@ -96,6 +109,8 @@ PUBLISHED: tuple[tuple[str, Message], ...] = (
     ("adsb/a1b2c3", report("a1b2c3", "AAL123")),
     ("adsb/d4e5f6", report("d4e5f6", "DAL456")),
     ("surface/KDCA", TRACK),
+    ("radar/ASR/info", RADAR),
+    ("radar/ASR", PLOT),
     (f"radio/{TOWER_KHZ}/tx", transmission(TOWER_KHZ)),
     (f"radio/{GROUND_KHZ}/tx", transmission(GROUND_KHZ)),
     (f"asr/{GROUND_KHZ}", HEARD),
@@ -104,11 +119,12 @@ PUBLISHED: tuple[tuple[str, Message], ...] = (
     ("vision/mast", picture_of("mast", None)),
     ("vision/nose", picture_of("nose", "DAL456")),
     ("command/AAL123", COMMAND),
+    ("status/decision", OFF),
 )
 SEEN = {
     "TOWER": {
         "state AAL123", "state DAL456", "state track 1", f"call call-{TOWER_KHZ}",
-        "advisory for ATC", "camera mast", "picture mast",
+        "advisory for ATC", "camera mast", "picture mast", "plot 7000",
     },
     "AAL123": {
         "state AAL123", f"call call-{TOWER_KHZ}", "advisory for AAL123", "event command",
@@ -156,8 +172,10 @@ def names(message: dict[str, Any]) -> set[str]:
                 found.add(f"{kind} {first.get('id') or first['name']}")
             case "advisory":
                 found |= {f"advisory {one['message']}" for one in first["texts"]}
-            case "event" if first["kind"] == "command":
-                found.add("event command")
+            case "event" if first["kind"] in ("command", "status"):
+                found.add(f"event {first['kind']}")
+            case "plot":
+                found.add(f"plot {first['code']}")
             case "state" | "picture":
                 found.add(f"{kind} {first}")
     return found
@@ -192,6 +210,22 @@ def test_who_has_no_seat_is_shown_the_clock_alone(seats: tuple[PretendedRun, str
         assert set(shown) <= {"clock"}
 
 
+@pytest.mark.parametrize("seat", [None, *SEEN])
+def test_no_seat_sees_the_truth(seat: str | None) -> None:
+    run = PretendedRun(SEATS)
+    truth = ActorTruth(
+        actor="AAL123", category="aircraft", phase="cruise", on_ground=False, latitude_deg=38.85,
+        longitude_deg=-77.04, altitude_m=600.0, height_agl_m=590.0, velocity_east_m_s=0.0,
+        velocity_north_m_s=70.0, velocity_down_m_s=0.0, heading_deg=0.0, t_ns=SECOND,
+    )  # fmt: skip
+    LiveRun(run.changes, run.of_seats, print, run.views).take(
+        Logged("truth/state/AAL123", "", SECOND, truth.model_dump_json().encode())
+    )
+    seen = run.changes.since(0, admits=lambda audience: run.views.sees(seat, audience))
+    assert "clock" in str(seen)
+    assert "AAL123" not in str(seen)
+
+
 def test_what_comes_later_is_shown_at_the_seats_that_see_it(
     seats: tuple[PretendedRun, str],
 ) -> None:
@@ -216,7 +250,7 @@ def test_who_comes_back_is_shown_what_the_seat_saw_meanwhile(
     begin = run.changes.next_number
     for icao24, name in (("a1b2c3", "AAL123"), ("d4e5f6", "DAL456")):
         run.changes.add("state", name, audience=Audience("adsb", icao24))
-    place = f"{url.replace('http', 'ws')}api/live?browser=one&from={begin}"
+    place = f"{url.replace('http', 'ws')}api/live?browser=one&shown=AAL123&from={begin}"
     with connect(place, proxy=None) as socket:
         shown: set[str] = set()
         while (message := json.loads(socket.recv(timeout=PATIENCE_S))).get("seats", {}).get(
@@ -224,6 +258,41 @@ def test_who_comes_back_is_shown_what_the_seat_saw_meanwhile(
         ) != "yours":
             shown |= names(message)
         assert shown == {"state AAL123"}
+
+
+def test_who_leaves_a_seat_forgets_it_before_what_everybody_sees_is_shown(
+    seats: tuple[PretendedRun, str],
+) -> None:
+    run, url = seats
+    run.changes.add("state", "everybody")
+    with opened(url) as socket:
+        assert taken(socket, "TOWER") == SEEN["TOWER"] | {"state everybody"}
+        socket.send(json.dumps({"leave": "TOWER"}))
+        assert shown_anew(socket) == {"state everybody"}
+
+
+@pytest.mark.parametrize("shown", ["TOWER", "DAL456"])
+def test_who_comes_back_without_the_seat_that_the_page_shows_forgets_it(
+    seats: tuple[PretendedRun, str], shown: str
+) -> None:
+    _, url = seats
+    with opened(url, "one") as socket:
+        taken(socket, "AAL123")
+    place = f"{url.replace('http', 'ws')}api/live?browser=one&shown={shown}&from=9"
+    with connect(place, proxy=None) as socket:
+        assert shown_anew(socket) == SEEN["AAL123"]
+    with connect(place.replace("one", "two"), proxy=None) as socket:
+        assert shown_anew(socket) == set()
+
+
+def shown_anew(socket: ClientConnection) -> set[str]:
+    """Return what is shown between the message to forget and that of the seats."""
+    while "forget" not in json.loads(socket.recv(timeout=PATIENCE_S)):
+        pass
+    shown: set[str] = set()
+    while "seats" not in (message := json.loads(socket.recv(timeout=PATIENCE_S))):
+        shown |= names(message)
+    return shown
 
 
 def test_files_are_for_the_browser_at_a_seat_that_sees_them(

@@ -138,8 +138,9 @@ class PretendedRun:
     def __init__(self, seats: Sequence[SeatInfo] = (TOWER,)) -> None:
         self.done: queue.Queue[Message | Command] = queue.Queue()
         self.presence: queue.Queue[tuple[str, bool]] = queue.Queue()
-        self.changes, self.sounds, self.views = Changes(), Changes(), SeatViews()
+        self.changes, self.sounds = Changes(), Changes()
         self.of_seats = {info.seat: Changes() for info in seats}
+        self.views = SeatViews(self.of_seats)
         self.seat = self.of_seats[seats[0].seat]
         self.watched: queue.Queue[set[str]] = queue.Queue()
         """Cameras whose pictures were asked for, whenever there were any."""
@@ -174,9 +175,9 @@ class PretendedRun:
         """Note an answer to a question."""
         self.done.put(answer)
 
-    def has_person(self, seat: str) -> bool:
-        """Return true if somebody has a seat at another page."""
-        return seat in self.taken_elsewhere
+    def claim(self, seat: str) -> bool:
+        """Return false if somebody has a seat at another page."""
+        return seat not in self.taken_elsewhere
 
     def occupy(self, seat: str, *, is_taken: bool) -> None:
         """Note if somebody has the seat."""
@@ -217,8 +218,8 @@ def seat_page(
 ) -> Iterator[tuple[PretendedRun, str]]:
     """Serve the page of a pretended run in this process; yield the run and the URL."""
     run, urls, is_over = run or PretendedRun(), queue.Queue[str](), threading.Event()
-    seats = run.of_seats if has_seats else {}
-    browsers = Browsers(run.changes, run, seats, run.sounds, run.told.append, run.views)
+    seats, views = (run.of_seats, run.views) if has_seats else ({}, SeatViews())
+    browsers = Browsers(run.changes, run, seats, run.sounds, run.told.append, views)
     thread = threading.Thread(
         target=serve,
         args=(live_app(run, browsers), Address(port=0)),  # type: ignore[arg-type]

@@ -112,7 +112,7 @@ def _show_live(
     changes = Changes()
     of_seats = {seat: Changes(MOST_CHANGES_OF_SEAT) for seat in seats}
     sounds = Changes(MOST_SOUNDS)
-    views = SeatViews()
+    views = SeatViews(seats)
     run = LiveRun(changes, of_seats, tell, views)
     click.echo(f"{WAITING} {connect or tls}")
     subscription = Subscription(

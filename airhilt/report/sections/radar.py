@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from airhilt.geodesy.wgs84 import MEAN_RADIUS_M, onward
+from airhilt.geodesy.wgs84 import MEAN_RADIUS_M
 from airhilt.messages import PlotKind, RadarInfo, RadarPlot
 from airhilt.record import Logged, RunFolder
 from airhilt.report.sections import Content, Section
-from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, SECOND_NS
+from airhilt.surveillance.radar import plot_place
+from airhilt.units import DEGREE, NAUTICAL_MILE, SECOND_NS
 
 if TYPE_CHECKING:
     from airhilt.report.data import RunData
@@ -109,10 +110,7 @@ class Radar:
         }
 
     def _plot(self, plot: RadarPlot, actor: str | None, run: RunData) -> Json:
-        height_m = self._info.altitude_m if plot.mode_c_ft is None else plot.mode_c_ft * FOOT
-        ground_m = _ground_range_m(plot.range_m, self._info.altitude_m, height_m)
-        place = onward(_place(self._info), plot.azimuth_deg * DEGREE, ground_m)
-        east_nm, north_nm = run.locate(place, height_m)
+        east_nm, north_nm = run.locate(*plot_place(self._info, plot))
         return {
             "t": round(plot.t_plot_ns / SECOND_NS, 2),
             "kind": plot.kind,
@@ -203,13 +201,6 @@ class Radars(Content):
 
 def _place(info: RadarInfo) -> tuple[float, float]:
     return info.latitude_deg * DEGREE, info.longitude_deg * DEGREE
-
-
-def _ground_range_m(slant_m: float, antenna_m: float, height_m: float) -> float:
-    """Return the distance along the ground to a target at a slant range and a height, in m."""
-    first, second = MEAN_RADIUS_M + antenna_m, MEAN_RADIUS_M + height_m
-    cosine = (first**2 + second**2 - slant_m**2) / (2.0 * first * second)
-    return MEAN_RADIUS_M * math.acos(min(max(cosine, -1.0), 1.0))
 
 
 SECTION = Section("radar", order=60, module=__file__, content=Radars, keys=("radar/",))

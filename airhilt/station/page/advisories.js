@@ -65,6 +65,12 @@ export class Advisories {
     this.draw();
   }
 
+  /** Forgets the advisories; those that come next are no new ones. */
+  forget() {
+    this.redraw();
+    this.#names = null;
+  }
+
   draw() {
     const { t } = this.#clock,
       active = new Set(this.#run.activeAdvisories(t)),

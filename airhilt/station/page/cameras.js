@@ -3,7 +3,7 @@
 
 import { keepNewest } from "./bounds.js";
 import { byId, html, svg } from "./dom.js";
-import { identity } from "./live.js";
+import { identity } from "./identity.js";
 import { before } from "./series.js";
 import { counted, fixed, seconds } from "./words.js";
 
@@ -47,11 +47,24 @@ export class Cameras {
   offer(carrier) {
     if (carrier === this.#carrier) return;
     this.#carrier = carrier;
+    this.#close();
+    this.renew();
+  }
+
+  /** Forgets the pictures, as the run has forgotten the cameras. */
+  forget() {
+    this.#records.clear();
+    this.#close();
+    this.renew();
+  }
+
+  #close() {
     this.#choice.value = "";
+    this.#shown = "";
     this.#image.hidden = true;
     this.#boxes.replaceChildren();
+    byId("camera-caption").textContent = "";
     this.#plan.setCamera(null);
-    this.renew();
   }
 
   get #offered() {

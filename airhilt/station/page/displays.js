@@ -13,7 +13,7 @@ export class Displays {
   #run;
   #clock;
   #seat = null;
-  #arranged = undefined;
+  #arranged = null; // the airport for which the displays are arranged
   #instruments = new Instruments();
   #pfd = new PrimaryFlightDisplay();
   #nd;
@@ -64,26 +64,27 @@ export class Displays {
       this.#nd.reset();
     }
     this.#seat = seat;
-    this.#arrange();
+    this.arrange();
   }
 
-  /**
-   * Shows the displays of the seat; who sits where is known with the briefing, which may come
-   * later.
-   */
-  #arrange() {
-    const seat = this.#seat,
-      category = seat && this.#run.categories ? (this.#run.categories[seat] ?? "unit") : "";
-    this.#arranged = this.#run.categories;
+  /** Shows the displays of a seat of its category, once that is known. */
+  arrange() {
+    const category = this.#run.ownCategory ?? "";
+    this.#arranged = this.#run.airport;
     document.body.dataset.seat =
       { aircraft: "pilot", vehicle: "driver", unit: "controller" }[category] ?? "";
-    this.#cameras.offer(!category ? undefined : category === "unit" ? null : seat);
+    this.#cameras.offer(!category ? undefined : category === "unit" ? null : this.#seat);
     this.#panel.offer(category, this.#run.airport);
   }
 
   /** Shows on the strips only calls on the frequencies that a function returns. */
   hearOnly(heard) {
     this.#strips.hearOnly(heard);
+  }
+
+  /** Forgets the strips of the former seat, with their notes. */
+  forget() {
+    this.#strips.clear();
   }
 
   /** Takes in what the instruments show. */
@@ -101,7 +102,7 @@ export class Displays {
   }
 
   #draw() {
-    if (this.#arranged !== this.#run.categories) this.#arrange();
+    if (this.#arranged !== this.#run.airport) this.arrange(); // It comes with the briefing.
     const shown = this.#instruments.now(),
       { seat } = document.body.dataset;
     if (seat === "pilot") this.#drawCockpit(shown);

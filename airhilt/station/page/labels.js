@@ -1,4 +1,7 @@
-// Places for texts on a display, where they cover nothing.
+// Texts on a display, and places for them where they cover nothing.
+
+/** Altitude of a data block: hundreds of feet in three digits, as on a radar display. */
+export const level = (feet) => String(Math.max(Math.round(feet / 100), 0)).padStart(3, "0");
 
 /** True if two boxes, each left, top, right and bottom, cover each other. */
 export const overlap = (a, b) => a[0] < b[2] && a[2] > b[0] && a[1] < b[3] && a[3] > b[1];

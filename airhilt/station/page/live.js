@@ -1,6 +1,8 @@
 // A run that goes on: its changes come over a WebSocket, which is opened again when it is lost.
 
 import { byId } from "./dom.js";
+import { identity } from "./identity.js";
+import { Lag } from "./lag.js";
 import { PACES } from "./run-pace.js";
 import { seconds } from "./words.js";
 
@@ -33,21 +35,6 @@ function ending({ title, phase }) {
   return `The run ${phase === "finished" ? "is over" : "was stopped"}. ${DEBRIEF}`;
 }
 
-/**
- * The name of this browser tab, which it keeps when its connection is lost or the page is loaded
- * again.
- */
-export function identity() {
-  if (!sessionStorage.getItem("browser"))
-    sessionStorage.setItem(
-      "browser",
-      Array.from(crypto.getRandomValues(new Uint8Array(12)), (byte) =>
-        byte.toString(16).padStart(2, "0"),
-      ).join(""),
-    );
-  return sessionStorage.getItem("browser");
-}
-
 export class Live {
   #run;
   #clock;
@@ -57,13 +44,16 @@ export class Live {
   #drawn = 0;
   #drawing = null;
   #undrawn = new Set(); // kinds of changes that lists do not show yet
+  #lag;
   #seen = 0;
+  #shown = null; // the seat whose view is shown; null: what everybody sees
   #heard = 0; // when the last message came
   #isSilent = false;
 
   constructor(run, clock) {
     this.#run = run;
     this.#clock = clock;
+    this.#lag = new Lag(run);
   }
 
   /** Begins to follow the run. */
@@ -85,6 +75,7 @@ export class Live {
     const url = new URL("api/live", location.href);
     url.protocol = url.protocol.replace("http", "ws");
     url.searchParams.set("from", this.#seen);
+    if (this.#shown !== null) url.searchParams.set("shown", this.#shown);
     url.searchParams.set("browser", identity());
     url.searchParams.set("version", this.#run.version ?? "");
     this.#socket = new WebSocket(url);
@@ -140,6 +131,7 @@ export class Live {
       isOpening = this.#socket.readyState === WebSocket.CONNECTING,
       silentMs = performance.now() - this.#heard;
     this.#isSilent = isOpen && !this.#isOver && silentMs > SILENT_MS;
+    this.#lag.draw(isOpen && !this.#isSilent);
     if (this.#isSilent) {
       this.#panes.talk.lost();
       this.#warn(this.#panes.seat.own ? `${SILENT}, ${SILENT_AT_SEAT}` : `${SILENT}.`);
@@ -176,9 +168,11 @@ export class Live {
     return this.#socket?.readyState === WebSocket.OPEN && !this.#isSilent;
   }
 
-  /** Sends what somebody at a seat wishes. */
+  /** Sends what somebody at a seat wishes; returns false if there is no connection. */
   send(wish) {
-    if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(JSON.stringify(wish));
+    const isOpen = this.#socket?.readyState === WebSocket.OPEN;
+    if (isOpen) this.#socket.send(JSON.stringify(wish));
+    return isOpen;
   }
 
   /** Sends sound of the microphone. */
@@ -192,9 +186,10 @@ export class Live {
   }
 
   #take(message) {
-    const { next, changes, seats, own, refused } = message;
+    const { next, changes, seats, own, refused, forget, shown } = message;
+    if (forget) this.#forget(shown);
     if (seats) this.#takeSeats(seats);
-    if (own) this.#panes.seat.take(own);
+    if (own) this.#takeOwn(own);
     if (refused) this.#refuse(refused);
     if (!changes) {
       this.#panes.talk.take(message);
@@ -213,10 +208,11 @@ export class Live {
     if (has("call"))
       this.#panes.seat.heard(changes.filter(([kind]) => kind === "call").map(([, call]) => call));
     if (has("briefing")) plan.renew();
-    if (has("state")) plan.keepFitted();
+    if (has("state", "plot")) plan.keepFitted();
     if (has("call")) transcript.redraw();
     if (has("camera")) cameras.renew();
     if (has("clock")) this.#tell();
+    if (has("clock")) this.#lag.told();
     if (this.#run.pace !== pace || this.#run.phase !== phase) this.#clock.paced();
     for (const kind of changed) this.#undrawn.add(kind);
     this.#drawing ??= setTimeout(
@@ -248,6 +244,28 @@ export class Live {
     if (seat.own === before) return;
     advisories.redraw();
     plan.fitFirst();
+  }
+
+  /** Takes in what only the person at the own seat sees. */
+  #takeOwn(changes) {
+    const { seat, plan } = this.#panes,
+      before = this.#run.ownCategory;
+    seat.take(changes);
+    if (this.#run.ownCategory !== before) plan.fitFirst();
+  }
+
+  /** Forgets what was seen; all that the view of a seat, or nobody's (null), has comes next. */
+  #forget(shown) {
+    const { transcript, advisories, cameras, plan, seat, talk } = this.#panes;
+    this.#seen = 0;
+    this.#shown = shown;
+    this.#run.forget();
+    for (const pane of [advisories, cameras, seat, talk]) pane.forget();
+    transcript.redraw();
+    plan.redraw();
+    for (const kind of ["call", "event", "track"]) this.#undrawn.add(kind);
+    clearTimeout(this.#drawing);
+    this.#drawLists();
   }
 
   /** Draws what takes long: not with every message. */

@@ -20,7 +20,7 @@ const MOST_CAMERAS = 100; // of a live run that can be chosen
 const MOST_ADDRESSES = 2000; // of actors whose callsigns are kept
 const MOST_PHASES = 500; // of an actor of a live run, and of its times on the ground, the newest
 // Of a live run that are kept, the newest.
-const MOST_ROWS = { calls: 1000, events: 2000, advisories: 1000, spoken: 200 };
+const MOST_ROWS = { calls: 1000, events: 2000, advisories: 1000, spoken: 200, plots: 2000 };
 const CONTROLLER = "ATC"; // as recipient of advisories
 export const SEVERITIES = ["INFO", "ADVISORY", "CAUTION", "WARNING"];
 
@@ -188,16 +188,20 @@ function put(rows, row, same) {
   else rows[i] = row;
 }
 
+/** Bounds of no place at all. */
+const nowhere = () => ({ east: [Infinity, -Infinity], north: [Infinity, -Infinity] });
+
 /** A run as the page shows it. */
 export class Run {
   #callsigns = new Map(); // by the addresses under which actors were known first
   #active = { t: null, rows: [] };
   #moments = null; // until somebody asks for them
+  ownCategory = null; // of the seat: "unit", "aircraft" or "vehicle"; null until it is known
   #own = null; // the seat of the person at this page
   #actors; // that have had a track so far
 
   constructor(given) {
-    Object.assign(this, { latencies: [] }, given);
+    Object.assign(this, { latencies: [], plots: [] }, given);
     const pair = given.pair ?? [];
     const order = [...given.tracks].sort(
       (a, b) => pair.includes(b.callsign) - pair.includes(a.callsign),
@@ -207,7 +211,7 @@ export class Run {
     // Seconds before and after an instant over which its speed is a mean.
     this.span = given.airport ? 1 : 4;
     this.title = given.scenario.title || given.scenario.name;
-    this.bounds = { east: [Infinity, -Infinity], north: [Infinity, -Infinity] };
+    this.bounds = nowhere();
     for (const track of this.tracks)
       track.east.forEach((east, i) => this.#widen(east, track.north[i]));
   }
@@ -216,6 +220,17 @@ export class Run {
     const { bounds } = this;
     bounds.east = [Math.min(bounds.east[0], east), Math.max(bounds.east[1], east)];
     bounds.north = [Math.min(bounds.north[0], north), Math.max(bounds.north[1], north)];
+  }
+
+  /** Forgets what was seen of a live run: another seat sees something else. */
+  forget() {
+    for (const name of ["tracks", "cameras", "latencies", ...Object.keys(MOST_ROWS)])
+      this[name] = [];
+    this.bounds = nowhere();
+    this.#callsigns.clear();
+    this.#active = { t: null, rows: [] };
+    this.#moments = null;
+    this.#actors = 0;
   }
 
   /** The events that one may jump to, in the order of their times. */
@@ -231,7 +246,7 @@ export class Run {
       switch (kind) {
         case "clock":
           this.now = Math.max(rest[0] ?? 0, this.now ?? 0);
-          [, this.phase, this.pace] = rest;
+          [, this.phase, this.pace, this.behind = 0] = rest;
           break;
         case "briefing":
           [this.controller, this.airport, this.categories] = rest;
@@ -239,6 +254,10 @@ export class Run {
           break;
         case "state":
           if (this.#addState(rest)) changed.add("track");
+          break;
+        case "plot":
+          this.plots.push(rest[0]);
+          this.#widen(rest[0].east, rest[0].north);
           break;
         case "name":
           this.#rename(...rest);
@@ -332,6 +351,7 @@ export class Run {
   }
 
   set own(seat) {
+    if (seat !== this.#own) this.ownCategory = null;
     this.#own = seat;
     this.#active = { t: null, rows: [] };
   }

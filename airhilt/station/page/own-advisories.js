@@ -4,7 +4,7 @@
 import { badge } from "./advisories.js";
 import { keepNewest } from "./bounds.js";
 import { byId, html } from "./dom.js";
-import { identity } from "./live.js";
+import { identity } from "./identity.js";
 import { SEVERITIES } from "./model.js";
 import { Rows } from "./rows.js";
 import { capital, instruction, known, percent, seconds, words } from "./words.js";
@@ -59,9 +59,9 @@ export class OwnAdvisories {
     );
   }
 
+  /** Forgets everything: whoever has the seat next is another person. */
   clear() {
-    this.#shown.clear();
-    this.#sounded.clear();
+    for (const kept of [this.#shown, this.#told, this.#sounded]) kept.clear();
     this.#draw();
   }
 

@@ -42,7 +42,7 @@ export class Phrases {
   }
 
   get #isUnit() {
-    return !(this.#own in (this.#run.categories ?? {}));
+    return this.#run.ownCategory === "unit";
   }
 
   /** Fills a choice, unless it has the same options already; keeps what is chosen. */
@@ -55,13 +55,15 @@ export class Phrases {
   }
 
   #situation() {
-    const { categories = {}, airport, now } = this.#run,
+    const { categories, ownCategory, airport, now } = this.#run,
       callsign = this.#isUnit ? byId("phrase-to").value : this.#own;
     const track = this.#run.track(callsign),
       state = track?.state(now ?? 0, this.#run.span),
-      category = categories[callsign] ?? track?.category ?? "aircraft";
+      category = this.#isUnit
+        ? (categories[callsign] ?? track?.category ?? "aircraft")
+        : ownCategory;
     return {
-      speaker: this.#isUnit ? "unit" : category,
+      speaker: ownCategory,
       callsign: callsign || null,
       style: this.#style,
       category,
@@ -82,7 +84,7 @@ export class Phrases {
   }
 
   async #renew() {
-    if (!this.#own || !this.#run.categories) return;
+    if (!this.#run.ownCategory || !this.#run.categories) return;
     const idents = (this.#run.airport?.runways ?? []).flatMap((runway) =>
       runway.ends.map((end) => end.ident),
     );
@@ -91,7 +93,7 @@ export class Phrases {
     this.#offer("phrase-runway", idents);
     byId("phrase-to-label").hidden = !this.#isUnit;
     byId("phrase-runway-label").hidden =
-      !idents.length || (!this.#isUnit && this.#run.categories[this.#own] === "aircraft");
+      !idents.length || this.#run.ownCategory === "aircraft";
     const situation = JSON.stringify(this.#situation());
     if (situation === this.#told) return;
     this.#told = situation;

@@ -1,8 +1,9 @@
 // The plan: runways and taxiways, range rings, tracks, and each actor with its data block.
 
 import { BOLD, FONT, byId, colour, html, onSize, write } from "./dom.js";
-import { freeBox, overlap } from "./labels.js";
+import { freeBox, level, overlap } from "./labels.js";
 import { METRE_PER_NM } from "./model.js";
+import { drawPlots, inWords, plotsAt } from "./radar_plots.js";
 import { symbolOf } from "./symbols.js";
 import { fixed, metres, whole } from "./words.js";
 
@@ -16,9 +17,6 @@ const ROOM = 90; // pixels for the data blocks of who is at the edge
 // Of the width, by which more is shown than is needed, so that the view changes seldom.
 const SPARE = 0.08;
 const LONGEST_SHOWN_M = 900_000;
-
-/** Altitude of a data block: hundreds of feet in three digits, as on a radar display. */
-export const level = (feet) => String(Math.max(Math.round(feet / 100), 0)).padStart(3, "0");
 
 export class Plan {
   #canvas = byId("plan");
@@ -66,8 +64,8 @@ export class Plan {
 
   /** Shows what one begins with: a driver the airport, all others all traffic. */
   fitFirst() {
-    const { airport, categories, own } = this.#run;
-    this.fit(airport && own && categories?.[own] === "vehicle" ? "airport" : "all");
+    const { airport, ownCategory } = this.#run;
+    this.fit(airport && ownCategory === "vehicle" ? "airport" : "all");
   }
 
   /** Keeps all traffic of a live run in view, unless somebody looks elsewhere. */
@@ -267,13 +265,15 @@ export class Plan {
     if (!this.#run.airport && byId("plan-rings").checked) this.#drawRings();
     if (this.#camera) this.#drawCamera();
     const states = this.#run.states(t).filter(({ state }) => state.isThere);
+    const plots = plotsAt(this.#run, t);
+    drawPlots(pen, plots, (place) => this.#pixel(place));
     states.forEach(({ track, state }) => this.#drawActor(track, state, t));
     this.#drawBlocks(states, t);
     this.#drawScale();
     if (this.#clock.playing || (this.#clock.following && now - this.#described < RENEWED_MS))
       return;
     this.#described = now;
-    this.#describe(states);
+    this.#describe(states, plots);
   }
 
   /** Draws the airport, the rings about it, and the tracks, and keeps the picture of them. */
@@ -662,11 +662,12 @@ export class Plan {
     );
   }
 
-  #describe(states) {
-    const parts = states.map(
+  #describe(states, plots) {
+    const actors = states.map(
       ({ track, state }) =>
         `${track.callsign} ${state.ended ? "ended" : state.onGround ? state.phase || "on the ground" : `${whole(state.altitude)} feet`}`,
     );
+    const parts = [...actors, ...inWords(plots)];
     const more = parts.length > MOST_NAMED ? [`and ${parts.length - MOST_NAMED} more`] : [];
     this.#canvas.setAttribute(
       "aria-label",

@@ -93,8 +93,20 @@ export class Seat {
     byId("seat-state").textContent = text;
   }
 
+  /** Forgets the task cards and the strips of the former seat. */
+  forget() {
+    this.#tasks = [];
+    this.#displays.forget();
+    this.#drawTasks();
+  }
+
   /** Takes in what only the person at the own seat sees. */
   take(changes) {
+    const info = changes.findLast(([kind]) => kind === "info");
+    if (info) {
+      this.#run.ownCategory = info[1].category;
+      this.#displays.arrange();
+    }
     const own = changes.filter(([kind]) => kind === "state"); // where the own vehicle is
     if (own.length) this.#run.apply(own);
     const instruments = changes.findLast(([kind]) => kind === "cockpit");
@@ -179,7 +191,7 @@ export class Seat {
   #say() {
     const text = byId("words").value.trim();
     if (!text) return;
-    this.#live.send({ say: { text } });
-    byId("words").value = "";
+    if (this.#live.send({ say: { text } })) byId("words").value = "";
+    else this.refuse("Nothing was said: the connection is lost. Say it when it is there again.");
   }
 }

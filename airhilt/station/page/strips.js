@@ -2,8 +2,8 @@
 // the controller gives them.
 
 import { byId, html } from "./dom.js";
+import { level } from "./labels.js";
 import { METRE_PER_NM } from "./model.js";
-import { level } from "./plan.js";
 import { whole, words } from "./words.js";
 
 const PERIOD_MS = 500;
@@ -80,6 +80,11 @@ export class Strips {
     );
     this.#strips.set(callsign, { item, parts, cock });
     this.#list.append(item);
+  }
+
+  /** Takes all strips away. */
+  clear() {
+    for (const callsign of [...this.#strips.keys()]) this.#remove(callsign);
   }
 
   /** Takes away a strip that was known by an address, because its callsign is known now. */

@@ -119,6 +119,11 @@ export class Talk {
       this.#advisories.takeAdvisory(row);
   }
 
+  /** Forgets the advisories of the former seat. */
+  forget() {
+    this.#advisories.clear();
+  }
+
   /** Takes in a message of the server. */
   take({ own, changes, sounds, echo, refused }) {
     const told = [
