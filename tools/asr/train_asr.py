@@ -494,9 +494,7 @@ def train(given: Training) -> None:
     _save(network, optimisers, max(first, given.steps), given, len(utterances))
 
 
-def optimisers_of(
-    network: Recogniser, rate: float, *, adamw: bool
-) -> list[torch.optim.Optimizer]:
+def optimisers_of(network: Recogniser, rate: float, *, adamw: bool) -> list[torch.optim.Optimizer]:
     """Return the optimisers: Muon (Jordan 2024) of the matrices inside, AdamW of all else."""
     if adamw:
         return [torch.optim.AdamW(network.parameters(), lr=rate, weight_decay=0.01)]
