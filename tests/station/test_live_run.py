@@ -145,7 +145,7 @@ def test_the_end_of_a_run_is_known() -> None:
     followed.hear("clock", Clock(run="one", phase="finished", pace="virtual", t_ns=SECOND))
     assert followed.run.is_over
     followed.run.lost()
-    assert followed.changes("clock") == [[1.0, "finished", "virtual"]]
+    assert followed.changes("clock") == [[1.0, "finished", "virtual", 0.0]]
 
 
 def test_a_run_that_vanishes_is_told() -> None:

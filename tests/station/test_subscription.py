@@ -175,11 +175,15 @@ def test_of_two_pages_that_take_a_seat_at_the_same_instant_one_gets_it(
             page.occupy("TOWER", is_taken=True)
         return has_it
 
+    def is_free(page: Subscription) -> bool:
+        return not page._declared(f"{page._prefix}/seat/**")
+
     with ThreadPoolExecutor() as pool:
         for _ in range(20):
             assert sum(pool.map(take, pages)) == 1
             for page in pages:
                 page.occupy("TOWER", is_taken=False)
+            assert within_patience(lambda: all(map(is_free, pages)))
 
 
 def within_patience(is_so: Callable[[], bool]) -> bool:

@@ -33,6 +33,7 @@ export class Plan {
   #still = null; // picture of what does not move
   #stillSince = 0;
   #described = 0;
+  #describing = null; // a timer, after which the plan is told in words
 
   constructor(run, clock) {
     this.#run = run;
@@ -270,8 +271,12 @@ export class Plan {
     states.forEach(({ track, state }) => this.#drawActor(track, state, t));
     this.#drawBlocks(states, t);
     this.#drawScale();
-    if (this.#clock.playing || (this.#clock.following && now - this.#described < RENEWED_MS))
-      return;
+    if (this.#clock.playing) return;
+    const after = this.#clock.following ? this.#described + RENEWED_MS - now : 0;
+    clearTimeout(this.#describing);
+    // The last picture before the clock stands is told too.
+    if (after > 0) this.#describing = setTimeout(() => this.draw(), after);
+    if (after > 0) return;
     this.#described = now;
     this.#describe(states, plots);
   }
