@@ -33,7 +33,7 @@ import torch
 from torch import Tensor, nn
 from torch.utils.data import DataLoader, Dataset
 
-from airhilt.assistant.asr.features import BINS, FLOOR, mel_power
+from airhilt.assistant.asr.features import BINS, FLOOR, logarithm, mel_power
 from airhilt.assistant.asr.pieces import Pieces
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.channel import VhfChannel
@@ -285,7 +285,7 @@ class Mixer:
             level = np.convolve(level, kernel / kernel.sum())[: len(level)]
             power = power * (level / level.mean() + 1e-3)[:, None] ** -rng.uniform(0.2, 0.7)
         tilt = rng.uniform(-1.0, 1.0) * np.linspace(-0.5, 0.5, BINS, dtype=np.float32)
-        log = np.log(power + FLOOR) + tilt
+        log = logarithm(power) + tilt
         return self._masked(log - log.mean(axis=0), easy)
 
     def _warped(self, log: np.ndarray) -> np.ndarray:

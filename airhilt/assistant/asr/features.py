@@ -24,6 +24,9 @@ LOW_HZ, HIGH_HZ = 150.0, 3_900.0
 """Band of an aeronautical radio, in Hz."""
 FLOOR = 1e-7
 """Power added before the logarithm, far below the noise of any receiver."""
+QUIET = 1e-3
+"""Share of the mean power of a call that is added as white noise: 30 dB below it. Otherwise the
+pauses of a call without any noise would have by far the lowest logarithms, and shift the means."""
 _SIZE = 512
 
 
@@ -44,6 +47,8 @@ def filters() -> NDArray[np.float32]:
 _WINDOW = np.hanning(WINDOW).astype(np.float32)
 _FILTERS = csr_array(filters())
 """Mel filters as a sparse matrix, whose product stays on one core; NumPy's would use all."""
+_WHITE = filters().sum(axis=1) / filters().sum(axis=1).mean()
+"""Power of white noise in each band, 1 in the mean."""
 
 
 def mel_power(audio: Audio) -> NDArray[np.float32]:
@@ -59,7 +64,12 @@ def mel_power(audio: Audio) -> NDArray[np.float32]:
     return power
 
 
+def logarithm(power: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return the logarithm of mel power of a call with a little white noise."""
+    return np.asarray(np.log(power + FLOOR + QUIET * power.mean() * _WHITE), np.float32)
+
+
 def normalised(power: NDArray[np.float32]) -> NDArray[np.float32]:
     """Return the logarithm of mel power without the mean of each band over the call."""
-    logarithm = np.log(power + FLOOR)
-    return np.asarray(logarithm - logarithm.mean(axis=0), np.float32)
+    log = logarithm(power)
+    return np.asarray(log - log.mean(axis=0), np.float32)
