@@ -18,7 +18,7 @@ from pydantic import ValidationError
 from airhilt.errors import first_problem
 from airhilt.messages import MicrophoneAudio
 from airhilt.station.audiences import Audience, SeatViews
-from airhilt.station.changes import MOST_AT_ONCE, Changes
+from airhilt.station.changes import MOST_AT_ONCE, Changes, SeatChanges
 from airhilt.station.held_button import HeldButton, what_is_wrong_with
 from airhilt.station.page_files import page_version
 from airhilt.station.seat_book import Hold, SeatBook
@@ -96,7 +96,7 @@ class Browsers:
         self,
         changes: Changes,
         run: RunLink,
-        seats: Mapping[str, Changes] = MappingProxyType({}),
+        seats: Mapping[str, SeatChanges] = MappingProxyType({}),
         sounds: Changes | None = None,
         notice: Callable[[str], None] = lambda _: None,
         views: SeatViews | None = None,
@@ -108,8 +108,6 @@ class Browsers:
         self._changes = changes
         self._of_seats = seats
         self._sounds = sounds or Changes()
-        self._taken_at: dict[str, int] = {}
-        """Number that the next change of a seat had when it was taken last, by seat."""
         self._expiring: set[asyncio.Task[None]] = set()
         self._occupying = asyncio.Lock()
         """Held while the run is told who has a seat: it learns of changes in their order."""
@@ -307,7 +305,7 @@ class Browsers:
         if why is not None:
             self._refuse(browser, why)
         elif self._book.of(browser) != seat:  # Who has it already has pressed the button twice.
-            self._taken_at[seat] = self._of_seats[seat].next_number
+            self._of_seats[seat].forget_notices()
             await self._move(browser, seat)
             await self._occupy(seat, is_taken=True)
 
@@ -445,23 +443,13 @@ class Browsers:
             await asyncio.sleep(0)
 
     def _own(self, browser: _Browser) -> str | None:
-        """Return what a browser has yet to get of its seat alone, as JSON, None if nothing.
-
-        A notice is for the person who was there when it came.
-        """
+        """Return what a browser has yet to get of its seat alone, as JSON, None if nothing."""
         seat = self._book.of(browser)
-        if seat is None:
-            return None
-        batch = self._of_seats[seat].since(browser.seen_of_seat)
+        batch = None if seat is None else self._of_seats[seat].since(browser.seen_of_seat)
         if batch is None:
             return None
-        seen, browser.seen_of_seat = browser.seen_of_seat, batch.next_number
-        taken_at = self._taken_at[seat]
-        if seen >= taken_at:
-            return batch.changes
-        changes = json.loads(batch.changes)
-        numbered = enumerate(changes, batch.next_number - len(changes))
-        return json.dumps([one for n, one in numbered if n >= taken_at or one[0] != "notice"])
+        browser.seen_of_seat = batch.next_number
+        return batch.changes
 
     def _view_of(self, browser: _Browser) -> str | None:
         """Return the seat whose view a browser is shown; None: it is shown what everybody sees."""

@@ -323,6 +323,36 @@ def test_who_sits_down_is_not_told_what_was_told_there_before() -> None:
             ]
 
 
+def test_who_sits_down_late_is_told_of_the_seat_its_open_tasks_and_questions() -> None:
+    run = PretendedRun()
+
+    def card(line: str, *, done: bool) -> dict[str, object]:
+        return {"line": line, "seat": "TOWER", "t": 1.0, "text": "Hello.", "done": done}
+
+    run.seat.add("task", card("made", done=False))
+    run.seat.add("task", card("open", done=False))
+    run.seat.add("question", 1, "isa", 1.0)
+    run.seat.add("question", 2, "nasa_tlx", 1.0)
+    run.seat.add("task", card("made", done=True))
+    run.seat.add("answered", 1)
+    minutes = 10
+    for number in range(minutes * 60 * 5):
+        run.seat.add("cockpit", {"number": number})
+        run.seat.add("state", "TOWER", number)
+    for _ in range(2):  # The second time the page is loaded anew.
+        with seat_page(run) as (_, url), browser(url, "a") as own:
+            take(own)
+            told = answer(own, "own")
+            assert isinstance(told, list)
+            assert [kind for kind, *_ in told if kind not in ("cockpit", "state")] == [
+                "info", "task", "question", "task", "answered",
+            ]  # fmt: skip
+            assert [change[1] for change in told if change[0] == "cockpit"] == [
+                {"number": minutes * 60 * 5 - 1}
+            ]
+            own.send(json.dumps({"leave": "TOWER"}))
+
+
 def test_any_person_at_a_seat_may_pause_the_run(seat: tuple[PretendedRun, str]) -> None:
     run, url = seat
     with browser(url, "three") as own:

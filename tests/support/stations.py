@@ -30,7 +30,7 @@ from airhilt.station.address import Address
 from airhilt.station.app import live_app
 from airhilt.station.audiences import SeatViews
 from airhilt.station.browsers import Browsers
-from airhilt.station.changes import Changes
+from airhilt.station.changes import Changes, SeatChanges
 from airhilt.station.pictures import Picture
 from airhilt.station.server import serve
 from airhilt.station.subscription import Sound
@@ -139,7 +139,7 @@ class PretendedRun:
         self.done: queue.Queue[Message | Command] = queue.Queue()
         self.presence: queue.Queue[tuple[str, bool]] = queue.Queue()
         self.changes, self.sounds = Changes(), Changes()
-        self.of_seats = {info.seat: Changes() for info in seats}
+        self.of_seats = {info.seat: SeatChanges() for info in seats}
         self.views = SeatViews(self.of_seats)
         self.seat = self.of_seats[seats[0].seat]
         self.watched: queue.Queue[set[str]] = queue.Queue()
