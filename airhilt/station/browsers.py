@@ -7,7 +7,7 @@ import json
 import time
 from base64 import b64encode
 from collections import deque
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Coroutine, Mapping
 from contextlib import suppress
 from types import MappingProxyType
 from typing import Any
@@ -18,11 +18,11 @@ from pydantic import ValidationError
 from airhilt.errors import first_problem
 from airhilt.messages import MicrophoneAudio
 from airhilt.station.audiences import Audience, SeatViews
-from airhilt.station.changes import MOST_AT_ONCE, Changes
+from airhilt.station.changes import MOST_AT_ONCE, Changes, SeatChanges
 from airhilt.station.held_button import HeldButton, what_is_wrong_with
 from airhilt.station.page_files import page_version
 from airhilt.station.seat_book import Hold, SeatBook
-from airhilt.station.wishes import Pressed, RunLink, Wish
+from airhilt.station.wishes import Claimed, Pressed, RunLink, Wish
 from airhilt.text import readable
 
 PERIOD_S = 0.05
@@ -41,6 +41,12 @@ OLD_PAGE = 4426
 """Likewise, of those that applications choose: the page is of another version."""
 MOST_NOTICES = 50
 """Largest number of refusals that are told."""
+CLAIMED_ELSEWHERE: Mapping[Claimed, str] = {
+    "taken": "Somebody has the seat {seat} at another page of this run.",
+    "claimed": "Somebody else may be about to take the seat {seat} at another page of this run. "
+    "Try again.",
+}
+"""Reasons for which a seat cannot be claimed."""
 LONGEST_REASON = 100
 """Greatest length of a reason for closing, in characters; the protocol has 123 bytes."""
 
@@ -96,7 +102,7 @@ class Browsers:
         self,
         changes: Changes,
         run: RunLink,
-        seats: Mapping[str, Changes] = MappingProxyType({}),
+        seats: Mapping[str, SeatChanges] = MappingProxyType({}),
         sounds: Changes | None = None,
         notice: Callable[[str], None] = lambda _: None,
         views: SeatViews | None = None,
@@ -108,12 +114,15 @@ class Browsers:
         self._changes = changes
         self._of_seats = seats
         self._sounds = sounds or Changes()
-        self._taken_at: dict[str, int] = {}
-        """Number that the next change of a seat had when it was taken last, by seat."""
-        self._expiring: set[asyncio.Task[None]] = set()
-        self._occupying = asyncio.Lock()
-        """Held while the run is told who has a seat: it learns of changes in their order."""
         self._run = run
+        self._known: dict[str, bool | None] = dict.fromkeys(seats, False)
+        """By seat, True if the run knows that it is taken; None: it is to be told in any case."""
+        self._informing = asyncio.Lock()
+        """Held while the run is told who has a seat."""
+        self._taking = {seat: asyncio.Lock() for seat in seats}
+        """By seat, held while a browser takes it: the claims to it come one after the other."""
+        self._unended: set[asyncio.Task[None]] = set()
+        """What is done to its end, whatever becomes of the browser that wished it."""
         self._browsers: list[_Browser] = []
         self._empty_since_s: float | None = time.monotonic()
 
@@ -215,9 +224,9 @@ class Browsers:
         elif wish.echo is not None:
             await browser.socket.send_text(json.dumps({"echo": wish.echo}))  # At once: it is timed.
         elif wish.take is not None:
-            await self._take(browser, wish.take)
+            await asyncio.shield(self._to_the_end(self._take(browser, wish.take)))
         elif wish.leave is not None:
-            await self._move(browser, None)
+            await asyncio.shield(self._to_the_end(self._leave(browser)))
         elif (seat := self._book.of(browser)) is None:
             self._refuse(browser, "You have no seat. Take one first.")
         else:
@@ -298,27 +307,44 @@ class Browsers:
 
     # --- seats ------------------------------------------------------------------------------
 
+    def _to_the_end(self, doing: Coroutine[None, None, None]) -> asyncio.Task[None]:
+        """Do something that no browser ends by going away."""
+        task = asyncio.create_task(doing)
+        self._unended.add(task)
+        task.add_done_callback(self._unended.discard)
+        return task
+
     async def _take(self, browser: _Browser, seat: str) -> None:
         """Give a seat to a browser; who is refused it keeps the one that it has."""
         why = self._book.why_not(browser, seat)
-        if why is None and not await self._claim(seat):
-            why = f"Somebody has the seat {readable(seat)} at another page of this run."
-        why = why or self._book.why_not(browser, seat)  # It may have been taken meanwhile.
+        if why is None and self._book.of(browser) != seat:  # Else the button was pressed twice.
+            async with self._taking[seat]:
+                await self._release(browser)
+                why = self._book.why_not(browser, seat) or await self._claim(seat)
+                if why is None and browser in self._browsers:
+                    self._of_seats[seat].forget_notices()
+                    await self._move(browser, seat)
+                else:
+                    await self._inform()  # The claim is withdrawn.
         if why is not None:
             self._refuse(browser, why)
-        elif self._book.of(browser) != seat:  # Who has it already has pressed the button twice.
-            self._taken_at[seat] = self._of_seats[seat].next_number
-            await self._move(browser, seat)
-            await self._occupy(seat, is_taken=True)
 
-    async def _claim(self, seat: str) -> bool:
-        """Return false if a person has a seat at another page of the run."""
-        try:
-            return await asyncio.to_thread(self._run.claim, seat)
-        except asyncio.CancelledError:  # The browser has gone meanwhile.
-            if self._book.is_free(seat):
-                await self._occupy(seat, is_taken=False)
-            raise
+    async def _claim(self, seat: str) -> str | None:
+        """Claim a seat from the other pages of the run; return why that cannot be."""
+        if not self._book.is_free(seat):
+            return None  # It was kept for the browser: this page has it.
+        if self._known[seat] is not False:
+            await self._inform()  # Its last person has just left it.
+        claimed = await asyncio.to_thread(self._run.claim, seat)
+        if claimed == "ours":
+            self._known[seat] = None
+            return None
+        return CLAIMED_ELSEWHERE[claimed].format(seat=readable(seat))
+
+    async def _leave(self, browser: _Browser) -> None:
+        """Give back the seat of a browser."""
+        await self._release(browser)
+        await self._move(browser, None)
 
     async def _move(self, browser: _Browser, seat: str | None) -> None:
         """Give a browser another seat, or none, and give back the one that it has.
@@ -330,19 +356,26 @@ class Browsers:
         if left is not None:
             browser.watched = None
         self._tell_seats()
+        await self._inform()
         if left is not None:
-            await self._occupy(left, is_taken=False, browser=browser)
             await self._watch()
 
-    async def _occupy(self, seat: str, *, is_taken: bool, browser: _Browser | None = None) -> None:
-        """Tell the run that a seat is taken or left, one after the other.
+    async def _inform(self) -> None:
+        """Tell the run who has a seat, until it knows what the book says."""
+        async with self._informing:
+            while (seat := self._untold()) is not None:
+                is_taken = not self._book.is_free(seat)
+                await asyncio.to_thread(self._run.occupy, seat, is_taken=is_taken)
+                self._known[seat] = is_taken
 
-        The transmit button of a browser that has left it is released before.
+    def _untold(self) -> str | None:
+        """Return a seat of which the run does not know what the book says, None if there is none.
+
+        A seat that was left comes first, so that nobody is at two.
         """
-        async with self._occupying:
-            if browser is not None:
-                await self._release(browser)
-            await asyncio.to_thread(self._run.occupy, seat, is_taken=is_taken)
+        is_taken = {seat: not self._book.is_free(seat) for seat in self._known}
+        untold = (seat for seat, is_known in self._known.items() if is_known is not is_taken[seat])
+        return min(untold, key=is_taken.__getitem__, default=None)
 
     async def _give_back(self, browser: _Browser) -> None:
         """Give a browser the seat that it had before its connection was lost.
@@ -368,16 +401,14 @@ class Browsers:
         """Keep the seat of a browser that is gone, in case that it comes back."""
         hold = self._book.hold(browser)
         if hold is not None:
-            expiring = asyncio.create_task(self._expire(hold))
-            self._expiring.add(expiring)
-            expiring.add_done_callback(self._expiring.discard)
+            self._to_the_end(self._expire(hold))
 
     async def _expire(self, hold: Hold) -> None:
         """Give a seat back whose browser has not come back."""
         await asyncio.sleep(hold.seconds)
         if self._book.expire(hold):
             self._tell_seats()
-            await self._occupy(hold.seat, is_taken=False)
+            await self._inform()
 
     def _tell_seats(self) -> None:
         """Tell each browser which seats are free, taken, or its own."""
@@ -445,23 +476,13 @@ class Browsers:
             await asyncio.sleep(0)
 
     def _own(self, browser: _Browser) -> str | None:
-        """Return what a browser has yet to get of its seat alone, as JSON, None if nothing.
-
-        A notice is for the person who was there when it came.
-        """
+        """Return what a browser has yet to get of its seat alone, as JSON, None if nothing."""
         seat = self._book.of(browser)
-        if seat is None:
-            return None
-        batch = self._of_seats[seat].since(browser.seen_of_seat)
+        batch = None if seat is None else self._of_seats[seat].since(browser.seen_of_seat)
         if batch is None:
             return None
-        seen, browser.seen_of_seat = browser.seen_of_seat, batch.next_number
-        taken_at = self._taken_at[seat]
-        if seen >= taken_at:
-            return batch.changes
-        changes = json.loads(batch.changes)
-        numbered = enumerate(changes, batch.next_number - len(changes))
-        return json.dumps([one for n, one in numbered if n >= taken_at or one[0] != "notice"])
+        browser.seen_of_seat = batch.next_number
+        return batch.changes
 
     def _view_of(self, browser: _Browser) -> str | None:
         """Return the seat whose view a browser is shown; None: it is shown what everybody sees."""

@@ -40,7 +40,7 @@ from airhilt.station.advisories import AdvisoryRows
 from airhilt.station.audiences import NOBODY, SURVEILLANCE, Audience, SeatViews, audience_of
 from airhilt.station.calls import call_as_json, spoken_as_json
 from airhilt.station.cameras import found_as_json, view_as_json
-from airhilt.station.changes import Changes
+from airhilt.station.changes import Changes, SeatChanges
 from airhilt.station.latencies import LatencyBars
 from airhilt.station.subscription import sound_name
 from airhilt.surveillance.radar import plot_place
@@ -80,7 +80,7 @@ class LiveRun:
     def __init__(
         self,
         changes: Changes,
-        seats: Mapping[str, Changes] = MappingProxyType({}),
+        seats: Mapping[str, SeatChanges] = MappingProxyType({}),
         notice: Callable[[str], None] = lambda _: None,
         views: SeatViews | None = None,
     ) -> None:

@@ -37,6 +37,7 @@ from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.station.audiences import Audience, audience_of_header
 from airhilt.station.changes import Changes
 from airhilt.station.pictures import Picture
+from airhilt.station.wishes import Claimed
 
 SUBSCRIBED = (
     "clock", "briefing", "status/*", "adsb/*", "surface/*", "radar/**", "radio/*/tx", "asr/*",
@@ -209,34 +210,46 @@ class Subscription:
         """Answer a question about workload."""
         self._session.put(f"{self._prefix}/workload/{key_chunk(seat)}", answer.model_dump_json())
 
-    def claim(self, seat: str) -> bool:
-        """Keep other pages of the run from taking a seat; return false if one of them has it.
+    def claim(self, seat: str) -> Claimed:
+        """Keep other pages of the run from taking a seat, and return who has it.
 
         Each page that takes a seat declares a claim first, and only then looks for others, so that
         of two that do so at once one sees the other at least. The page whose key comes first goes
-        on; it waits until the other has withdrawn its claim, or has the seat. A key of a seat that
-        is taken comes before all claims to it.
+        on; it waits until the other has withdrawn its claim, or has the seat. Claims of this page
+        to one seat come one after the other.
         """
         chunk = key_chunk(seat)
+        key = f"{self._prefix}/seat/{chunk}"
+        own = f"{key}/claim/{self._session.zid()}"
         with self._seating:
             if chunk in self._tokens or chunk in self._claims:
-                return True
-            key = f"{self._prefix}/seat/{chunk}"
-            own = f"{key}/claim/{self._session.zid()}"
+                return "ours"
             claim = self._session.liveliness().declare_token(own)
-            until_s = time.monotonic() + ASKED_S
-            while others := self._declared(f"{key}/**") - {own}:
-                if min(others) < own or time.monotonic() > until_s:
-                    claim.undeclare()  # type: ignore[no-untyped-call]
-                    return False
-                time.sleep(CLAIMS_PERIOD_S)
-            self._claims[chunk] = claim
-            return True
+        claimed = self._claimed(key, own)
+        if claimed == "ours":
+            with self._seating:
+                self._claims[chunk] = claim
+        else:
+            claim.undeclare()  # type: ignore[no-untyped-call]
+        return claimed
 
-    def _declared(self, keys: str) -> set[str]:
-        """Return the keys of liveliness tokens that are declared."""
-        replies = self._session.liveliness().get(keys, timeout=ASKED_S)
-        return {str(reply.ok.key_expr) for reply in replies if reply.ok is not None}
+    def _claimed(self, key: str, own: str) -> Claimed:
+        """Return who has a seat, by its key and the own claim to it, once that is known."""
+        until_s = time.monotonic() + ASKED_S
+        while (declared := self._declared(f"{key}/**")) is None or (others := declared - {own}):
+            if declared is not None and key in others:
+                return "taken"
+            is_behind = declared is not None and min(others) < own
+            if is_behind or time.monotonic() > until_s:
+                return "claimed"
+            time.sleep(CLAIMS_PERIOD_S)
+        return "ours"
+
+    def _declared(self, keys: str) -> set[str] | None:
+        """Return the keys of liveliness tokens that are declared; None: it cannot be known now."""
+        replies = list(self._session.liveliness().get(keys, timeout=ASKED_S))
+        found = {str(reply.ok.key_expr) for reply in replies if reply.ok is not None}
+        return found if all(reply.ok is not None for reply in replies) else None
 
     def occupy(self, seat: str, *, is_taken: bool) -> None:
         """Tell that a person has taken a seat, or has left it; so does the end of this process.

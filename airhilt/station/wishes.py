@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Protocol
+from typing import Annotated, Literal, Protocol
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
@@ -70,6 +70,11 @@ class Wish(BaseModel):
         return self
 
 
+Claimed = Literal["ours", "taken", "claimed"]
+"""Result of a claim to a seat: it is ours, or a person has it at another page, or may be about to
+take it there."""
+
+
 class RunLink(Protocol):
     """Actions of browsers upon a run."""
 
@@ -88,10 +93,11 @@ class RunLink(Protocol):
     def answer(self, seat: str, answer: WorkloadAnswer) -> None:
         """Answer a question about workload."""
 
-    def claim(self, seat: str) -> bool:
-        """Keep other pages of the run from taking a seat; return false if one of them has it.
+    def claim(self, seat: str) -> Claimed:
+        """Keep other pages of the run from taking a seat, and return who has it.
 
-        It is so until the seat was taken and left, or left without having been taken.
+        It is so until the seat was taken and left, or left without having been taken. Claims to
+        one seat come one after the other.
         """
 
     def occupy(self, seat: str, *, is_taken: bool) -> None:

@@ -23,7 +23,7 @@ from airhilt.messages import (
     VehiclePosition,
 )
 from airhilt.record import Logged
-from airhilt.station.changes import Changes
+from airhilt.station.changes import Changes, SeatChanges
 from airhilt.station.live import LiveRun
 
 SECOND = 1_000_000_000
@@ -180,8 +180,45 @@ def test_the_oldest_changes_are_forgotten() -> None:
     assert batch.next_number == 1_000
 
 
+def test_of_what_a_seat_is_told_the_newest_of_each_subject_is_kept_in_its_order() -> None:
+    own = SeatChanges()
+    own.add("info", {"seat": "OPS1"})
+    own.add("state", "OPS1", 1.0)
+    own.add("question", 1, "isa", 1.0)
+    own.add("state", "OPS1", 2.0)
+    own.add("answered", 1)
+    first = own.since(0)
+    assert first is not None
+    assert json.loads(first.changes) == [
+        ["info", {"seat": "OPS1"}], ["state", "OPS1", 2.0], ["answered", 1],
+    ]  # fmt: skip
+    assert own.since(first.next_number) is None
+    own.add("state", "OPS1", 3.0)
+    second = own.since(first.next_number)
+    assert second is not None
+    assert json.loads(second.changes) == [["state", "OPS1", 3.0]]
+
+
+def test_what_a_seat_is_told_has_a_bound_and_what_is_open_is_forgotten_last() -> None:
+    own = SeatChanges(most=10)
+    for number in range(8):
+        own.add("task", {"line": number, "done": False})
+    for number in range(100):
+        own.add("notice", 1.0, str(number))
+    batch = own.since(0)
+    assert batch is not None
+    kept = json.loads(batch.changes)
+    assert [change[1]["line"] for change in kept if change[0] == "task"] == list(range(8))
+    assert [change[2] for change in kept if change[0] == "notice"] == ["98", "99"]
+    for number in range(8, 100):
+        own.add("task", {"line": number, "done": False})
+    batch = own.since(0)
+    assert batch is not None
+    assert [change[1]["line"] for change in json.loads(batch.changes)] == list(range(90, 100))
+
+
 def test_only_the_driver_learns_where_the_own_vehicle_is_from_its_map() -> None:
-    changes, own = Changes(), Changes()
+    changes, own = Changes(), SeatChanges()
     run = LiveRun(changes, {"OPS1": own})
     shown = VehiclePosition(
         callsign="OPS1", latitude_deg=38.85, longitude_deg=-77.04, heading_deg=90.0,
@@ -195,7 +232,7 @@ def test_only_the_driver_learns_where_the_own_vehicle_is_from_its_map() -> None:
 
 
 def test_task_cards_and_instruments_are_for_the_person_at_the_seat_alone() -> None:
-    changes, own, other = Changes(), Changes(), Changes()
+    changes, own, other = Changes(), SeatChanges(), SeatChanges()
     run = LiveRun(changes, {"TOWER": own, "AAL123": other})
     card = TaskCard(line="one", seat="TOWER", addressed=None, frequency_khz=119_100, text="Hello.")
     run.take(Logged("task/TOWER", "", 0, card.model_dump_json().encode()))

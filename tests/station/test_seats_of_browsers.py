@@ -15,6 +15,7 @@ from websockets.sync.client import ClientConnection, connect
 
 from airhilt.messages import SpokenWords
 from airhilt.station import browsers, seat_book
+from airhilt.station.wishes import Claimed
 from stations import PATIENCE_S, TOWER, PretendedRun, seat_page
 
 TWO = (TOWER, TOWER.model_copy(update={"seat": "GROUND"}))
@@ -132,13 +133,23 @@ def test_who_presses_twice_or_is_refused_another_seat_keeps_the_own_one() -> Non
 
 def test_a_seat_that_somebody_has_at_another_page_is_refused() -> None:
     run = PretendedRun()
-    run.taken_elsewhere.add("TOWER")
+    run.elsewhere["TOWER"] = "taken"
     with seat_page(run) as (_, url), browser(url, "a") as own:
         take(own)
         assert "at another page" in str(answer(own, "refused"))
-        run.taken_elsewhere.clear()
+        run.elsewhere.clear()
         take(own)
         assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", True)
+
+
+def test_who_cannot_have_a_seat_that_nobody_has_yet_is_told_to_try_again() -> None:
+    run = PretendedRun()
+    run.elsewhere["TOWER"] = "claimed"
+    with seat_page(run) as (_, url), browser(url, "a") as own:
+        take(own)
+        refused = str(answer(own, "refused"))
+        assert "Somebody has" not in refused
+        assert "Try again" in refused
 
 
 def test_who_moves_to_another_seat_leaves_the_first_one() -> None:
@@ -213,6 +224,54 @@ def test_nobody_gets_the_seat_to_which_somebody_moves() -> None:
         assert "Somebody has the seat GROUND" in str(answered)
 
 
+def go(run: PretendedRun, leaving: ClientConnection, other: ClientConnection) -> None:
+    """Close a page, and wait until its server knows: it does when it sends something."""
+    leaving.close()
+    run.changes.add("clock", 0.0, "running", "realtime")
+    while "seats" not in json.loads(other.recv(timeout=PATIENCE_S)):
+        run.changes.add("clock", 0.0, "running", "realtime")
+
+
+def test_the_run_learns_that_a_seat_was_left_though_the_page_is_closed_meanwhile() -> None:
+    run = WaitingRun()
+    with seat_page(run) as (_, url), browser(url, "a") as own, browser(url, "b") as other:
+        for socket, seat in ((own, "TOWER"), (other, "GROUND")):
+            socket.send(json.dumps({"take": seat}))
+            assert run.presence.get(timeout=PATIENCE_S) == (seat, True)
+        try:
+            other.send(json.dumps({"leave": "GROUND"}))
+            assert run.is_learning.wait(PATIENCE_S)
+            own.send(json.dumps({"leave": "TOWER"}))
+            while answer(other, "seats") != {"TOWER": "free", "GROUND": "free"}:
+                pass
+            go(run, own, other)
+        finally:
+            run.may_learn.set()
+        told = [run.presence.get(timeout=PATIENCE_S) for _ in range(2)]
+        assert told == [("GROUND", False), ("TOWER", False)]
+
+
+def test_the_run_learns_who_has_come_back_to_a_seat_that_was_lost_when_it_was_taken() -> None:
+    run = WaitingRun()
+    with seat_page(run) as (_, url), browser(url, "a") as own, browser(url, "b") as other:
+        other.send(json.dumps({"take": "GROUND"}))
+        assert run.presence.get(timeout=PATIENCE_S) == ("GROUND", True)
+        try:
+            other.send(json.dumps({"leave": "GROUND"}))
+            assert run.is_learning.wait(PATIENCE_S)
+            take(own)
+            while answer(other, "seats") != {"TOWER": "taken", "GROUND": "free"}:
+                pass
+            go(run, own, other)
+            with browser(url, "a") as back:
+                assert answer(back, "seats") == {"TOWER": "yours", "GROUND": "free"}
+                run.may_learn.set()
+                told = [run.presence.get(timeout=PATIENCE_S) for _ in range(2)]
+                assert told == [("GROUND", False), ("TOWER", True)]
+        finally:
+            run.may_learn.set()
+
+
 class BrokenRun(PretendedRun):
     """A run that cannot be told anything any more."""
 
@@ -281,11 +340,26 @@ def test_who_takes_nothing_of_what_is_sent_is_gone(monkeypatch: pytest.MonkeyPat
 class ClaimedRun(PretendedRun):
     """A run that looks for other pages with a seat until it may give it."""
 
-    may_give = threading.Event()
+    def __init__(self) -> None:
+        super().__init__()
+        self.may_give, self.is_asked_twice = threading.Event(), threading.Event()
+        self.waiting = 0
+        self.is_claimed = False
 
-    def claim(self, seat: str) -> bool:
+    def claim(self, seat: str) -> Claimed:
         """Give the seat when it may be given."""
-        return self.may_give.wait(PATIENCE_S)
+        self.waiting += 1
+        if self.waiting > 1:
+            self.is_asked_twice.set()
+        assert self.may_give.wait(PATIENCE_S)
+        self.waiting -= 1
+        self.is_claimed = True
+        return "ours"
+
+    def occupy(self, seat: str, *, is_taken: bool) -> None:
+        """Withdraw the claim."""
+        self.is_claimed = False
+        super().occupy(seat, is_taken=is_taken)
 
 
 def test_a_claim_to_a_seat_is_withdrawn_when_its_browser_is_gone_meanwhile(
@@ -298,9 +372,28 @@ def test_a_claim_to_a_seat_is_withdrawn_when_its_browser_is_gone_meanwhile(
     async def serve() -> None:
         await all_of_them.serve(StalledSocket())  # type: ignore[arg-type]
         run.may_give.set()
+        told = await asyncio.to_thread(run.presence.get, timeout=PATIENCE_S)
+        assert told == ("TOWER", False)
 
     asyncio.run(serve())
-    assert run.presence.get_nowait() == ("TOWER", False)
+    assert not run.is_claimed
+
+
+def test_who_waits_for_a_seat_gets_it_when_another_one_who_claimed_it_before_is_gone() -> None:
+    run = ClaimedRun()
+    with seat_page(run) as (_, url), browser(url, "a") as own, browser(url, "b") as other:
+        try:
+            take(own)
+            while not run.waiting:
+                time.sleep(0.01)
+            assert answer(other, "seats") == {"TOWER": "free"}
+            take(other)
+            assert not run.is_asked_twice.wait(0.5)
+            go(run, own, other)
+        finally:
+            run.may_give.set()
+        told = [run.presence.get(timeout=PATIENCE_S) for _ in range(2)]
+        assert told == [("TOWER", False), ("TOWER", True)]
 
 
 def test_who_sits_down_is_not_told_what_was_told_there_before() -> None:
@@ -321,6 +414,36 @@ def test_who_sits_down_is_not_told_what_was_told_there_before() -> None:
             assert [change for change in told if change[0] == "notice"] == [
                 ["notice", 3.0, "Unable."]
             ]
+
+
+def test_who_sits_down_late_is_told_of_the_seat_its_open_tasks_and_questions() -> None:
+    run = PretendedRun()
+
+    def card(line: str, *, done: bool) -> dict[str, object]:
+        return {"line": line, "seat": "TOWER", "t": 1.0, "text": "Hello.", "done": done}
+
+    run.seat.add("task", card("made", done=False))
+    run.seat.add("task", card("open", done=False))
+    run.seat.add("question", 1, "isa", 1.0)
+    run.seat.add("question", 2, "nasa_tlx", 1.0)
+    run.seat.add("task", card("made", done=True))
+    run.seat.add("answered", 1)
+    minutes = 10
+    for number in range(minutes * 60 * 5):
+        run.seat.add("cockpit", {"number": number})
+        run.seat.add("state", "TOWER", number)
+    for _ in range(2):  # The second time the page is loaded anew.
+        with seat_page(run) as (_, url), browser(url, "a") as own:
+            take(own)
+            told = answer(own, "own")
+            assert isinstance(told, list)
+            assert [kind for kind, *_ in told if kind not in ("cockpit", "state")] == [
+                "info", "task", "question", "task", "answered",
+            ]  # fmt: skip
+            assert [change[1] for change in told if change[0] == "cockpit"] == [
+                {"number": minutes * 60 * 5 - 1}
+            ]
+            own.send(json.dumps({"leave": "TOWER"}))
 
 
 def test_any_person_at_a_seat_may_pause_the_run(seat: tuple[PretendedRun, str]) -> None:

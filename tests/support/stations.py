@@ -30,10 +30,11 @@ from airhilt.station.address import Address
 from airhilt.station.app import live_app
 from airhilt.station.audiences import SeatViews
 from airhilt.station.browsers import Browsers
-from airhilt.station.changes import Changes
+from airhilt.station.changes import Changes, SeatChanges
 from airhilt.station.pictures import Picture
 from airhilt.station.server import serve
 from airhilt.station.subscription import Sound
+from airhilt.station.wishes import Claimed
 
 PATIENCE_S = 60.0
 TOWER = SeatInfo(
@@ -139,14 +140,15 @@ class PretendedRun:
         self.done: queue.Queue[Message | Command] = queue.Queue()
         self.presence: queue.Queue[tuple[str, bool]] = queue.Queue()
         self.changes, self.sounds = Changes(), Changes()
-        self.of_seats = {info.seat: Changes() for info in seats}
+        self.of_seats = {info.seat: SeatChanges() for info in seats}
         self.views = SeatViews(self.of_seats)
         self.seat = self.of_seats[seats[0].seat]
         self.watched: queue.Queue[set[str]] = queue.Queue()
         """Cameras whose pictures were asked for, whenever there were any."""
         self.pictures: dict[tuple[str, int], Picture] = {}
         self.kept: dict[str, Sound] = {}
-        self.taken_elsewhere: set[str] = set()
+        self.elsewhere: dict[str, Claimed] = {}
+        """Seats that somebody has at another page, or is about to take there."""
         self.told: list[str] = []
         """Lines that the terminal was told."""
         self.changes.add("clock", 0.0, "running", "realtime")
@@ -175,9 +177,9 @@ class PretendedRun:
         """Note an answer to a question."""
         self.done.put(answer)
 
-    def claim(self, seat: str) -> bool:
-        """Return false if somebody has a seat at another page."""
-        return seat not in self.taken_elsewhere
+    def claim(self, seat: str) -> Claimed:
+        """Return who has a seat: nobody at another page, unless that was set."""
+        return self.elsewhere.get(seat, "ours")
 
     def occupy(self, seat: str, *, is_taken: bool) -> None:
         """Note if somebody has the seat."""

@@ -17,8 +17,6 @@ if TYPE_CHECKING:
 
 WAITING = "waiting for the run at"
 """Beginning of the line that says that the run may begin: nothing of it will be missed."""
-MOST_CHANGES_OF_SEAT = 2_000
-"""Number of task cards and instruments of a seat that are kept."""
 MOST_SOUNDS = 100
 """Number of pieces of sound that wait for browsers: 50 s of one frequency."""
 LINGER_S = 10.0
@@ -104,13 +102,13 @@ def _show_live(
     from airhilt.station.app import live_app
     from airhilt.station.audiences import SeatViews
     from airhilt.station.browsers import Browsers
-    from airhilt.station.changes import Changes
+    from airhilt.station.changes import Changes, SeatChanges
     from airhilt.station.live import LiveRun
     from airhilt.station.server import serve
     from airhilt.station.subscription import Subscription
 
     changes = Changes()
-    of_seats = {seat: Changes(MOST_CHANGES_OF_SEAT) for seat in seats}
+    of_seats = {seat: SeatChanges() for seat in seats}
     sounds = Changes(MOST_SOUNDS)
     views = SeatViews(seats)
     run = LiveRun(changes, of_seats, tell, views)
