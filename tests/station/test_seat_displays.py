@@ -459,6 +459,48 @@ def test_a_page_shows_once_what_its_seat_sees_and_nothing_of_a_former_seat(page:
         page.open("about:blank")
 
 
+DOCUMENT = """[...document.querySelectorAll('*')].flatMap((one) => [
+    one.textContent, one.value ?? '', ...[...one.attributes].map(({ value }) => value),
+]).join()"""
+"""All texts, values and attributes of the page."""
+
+
+@pytest.mark.parametrize("seat", ["AAL123", "TOWER"])
+def test_who_leaves_a_seat_leaves_nothing_of_it_anywhere_in_the_document(
+    page: Page, seat: str
+) -> None:
+    with seated(page, seat) as run:
+        carrier = None if seat == "TOWER" else seat
+        of_camera, of_seat = Audience("camera", carrier), Audience("frequency", 119_100)
+        run.pictures["ZZZ99", 1] = Picture(64, 48, bytes(64 * 48 * 3), of_camera)
+        for name, east_m in ((seat, 0.0), ("ZZZ99", 9_000.0)):
+            place = (1.0, east_m, 0.0, 34_900, [70.0, 0.0], 90.0, False, "")
+            run.changes.add("state", name, "aircraft", "B737", *place, audience=of_seat)
+        run.changes.add("camera", MAST | {"name": "ZZZ99", "carrier": carrier}, audience=of_camera)
+        run.changes.add("picture", "ZZZ99", 1, 1.0, None, None, audience=of_camera)
+        text = {"recipient": seat, "message": "ZZZ99 is near.", "recommendation": None}
+        advisory = ADVISORY | {"traffic": [seat, "ZZZ99"], "texts": [text]}
+        run.changes.add("advisory", advisory, audience=of_seat)
+        run.changes.add("call", CALL | {"speaker": "ZZZ99"}, audience=of_seat)
+        run.seat.add("task", CARD | {"seat": seat, "text": "ZZZ99, hold."})
+        run.seat.add("cockpit", INSTRUMENTS)
+        shown = ["#calls", "#advisories", "#own-advisories", "#tasks", "#traffic"]
+        shown += ["#strips"] if seat == "TOWER" else []
+        for part in shown:
+            page.wait_for(f"document.querySelector('{part}').innerText.includes('ZZZ99')")
+        described = ["plan"] if seat == "TOWER" else ["nd"]
+        for display in described:
+            page.wait_for(f"document.getElementById('{display}').ariaLabel.includes('ZZZ99')")
+        page.wait_for("document.getElementById('camera-image').src.includes('ZZZ99')")
+        page.wait_for("document.getElementById('instruments').textContent.includes('35,000')")
+        for field in ("words", "panel-altitude"):
+            page.evaluate(f"document.getElementById('{field}').value = 'ZZZ99 34560'")
+        page.evaluate("document.getElementById('seat-take').click()")
+        page.wait_for("document.getElementById('talk').hidden")
+        for word in ("ZZZ99", "35,000"):
+            page.wait_for(f"!{DOCUMENT}.includes('{word}')")
+
+
 def test_an_advisory_in_force_is_told_as_seen_for_each_person_who_takes_the_seat(
     page: Page,
 ) -> None:
