@@ -131,7 +131,7 @@ export class Live {
       isOpening = this.#socket.readyState === WebSocket.CONNECTING,
       silentMs = performance.now() - this.#heard;
     this.#isSilent = isOpen && !this.#isOver && silentMs > SILENT_MS;
-    this.#lag.draw(isOpen && !this.#isSilent);
+    this.#lag.draw(isOpen && !this.#isSilent, this.#heard);
     if (this.#isSilent) {
       this.#panes.talk.lost();
       this.#warn(this.#panes.seat.own ? `${SILENT}, ${SILENT_AT_SEAT}` : `${SILENT}.`);
