@@ -34,8 +34,9 @@ class Audience(NamedTuple):
 EVERYBODY = Audience("everybody")
 """Audience of the clock and the airport."""
 NOBODY = Audience("nobody")
-"""Audience of the truth, and of how the assistant is: it tells a participant of an experiment which
-assistant there is."""
+"""Audience of the truth, of the states of workers, and of latencies, which name engines: they tell
+a participant of an experiment which assistant there is. Its advisories, transcripts, voice and
+boxes on pictures are seen where their own audiences see them."""
 SURVEILLANCE = Audience("surveillance")
 """Audience of what radars and surface surveillance have found: units."""
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -15,7 +16,7 @@ from airhilt.station.audiences import Audience
 from airhilt.station.browsers import Browsers
 from airhilt.station.pictures import Picture
 from devtools import Page
-from stations import TOWER, PretendedRun, seat_page
+from stations import PATIENCE_S, TOWER, PretendedRun, seat_page
 
 pytestmark = pytest.mark.browser
 CATEGORIES = {"AAL123": "aircraft", "DAL456": "aircraft", "OPS1": "vehicle"}
@@ -295,6 +296,7 @@ def test_words_that_could_not_be_said_stay_in_the_field(page: Page) -> None:
 
 def test_a_person_is_told_by_how_much_the_run_is_behind_the_clock(page: Page) -> None:
     told = "document.getElementById('behind').textContent"
+    announced = "document.getElementById('behind-told').textContent"
     with seated(page, "TOWER") as run:
         for behind_s, pace, text in (
             (3.2, "realtime", "3 s behind the clock"),
@@ -302,19 +304,28 @@ def test_a_person_is_told_by_how_much_the_run_is_behind_the_clock(page: Page) ->
             (5.0, "0.5x", "5 s behind the clock"),
             (0.0, "paused", ""),
         ):
-            run.changes.add("clock", 1.0, "running", pace, behind_s)
-            page.wait_for(
-                f"{told}.includes('{text}') && Boolean({told}) === {str(bool(text)).lower()}"
-            )
+            is_told = f"{told}.includes('{text}') && Boolean({told}) === {str(bool(text)).lower()}"
+            tell_clock_until(page, is_told, run, 1.0, "running", pace, behind_s)
+            if text:
+                assert page.evaluate(announced) == "The run is behind the clock."
+        assert page.evaluate(announced) == "The run is not behind the clock any more."
+
+
+def tell_clock_until(page: Page, expression: str, run: PretendedRun, *clock: Any) -> None:
+    """Tell the clock again until an expression in the page is true."""
+    due = time.monotonic() + PATIENCE_S
+    while not page.evaluate(expression):
+        assert time.monotonic() < due, f"never true: {expression}"
+        run.changes.add("clock", *clock)
+        page.evaluate("new Promise((done) => setTimeout(done, 100))")
 
 
 def test_a_run_that_stands_still_without_a_pause_is_told_to_be_behind(page: Page) -> None:
     told = "document.getElementById('behind').textContent"
     with seated(page, "TOWER") as run:
         run.changes.add("clock", 2.0, "running", "realtime", 0.0)
-        page.wait_for(f"{told}.includes('2 s behind the clock')")
-        run.changes.add("clock", 3.0, "paused", "paused", 0.0)
-        page.wait_for(f"!{told}")
+        page.wait_for(f"/^[0-9]+ s behind the clock/.test({told})")
+        tell_clock_until(page, f"!{told}", run, 3.0, "paused", "paused", 0.0)
 
 
 def test_who_watches_a_run_without_seats_is_told_what_was_refused(page: Page) -> None:
@@ -457,6 +468,48 @@ def test_a_page_shows_once_what_its_seat_sees_and_nothing_of_a_former_seat(page:
             page.wait_for("document.getElementById('talk').hidden")
             page.wait_for(f"{LISTED} === '[[],[],[]]'")
         page.open("about:blank")
+
+
+DOCUMENT = """[...document.querySelectorAll('*')].flatMap((one) => [
+    one.textContent, one.value ?? '', ...[...one.attributes].map(({ value }) => value),
+]).join()"""
+"""All texts, values and attributes of the page."""
+
+
+@pytest.mark.parametrize("seat", ["AAL123", "TOWER"])
+def test_who_leaves_a_seat_leaves_nothing_of_it_anywhere_in_the_document(
+    page: Page, seat: str
+) -> None:
+    with seated(page, seat) as run:
+        carrier = None if seat == "TOWER" else seat
+        of_camera, of_seat = Audience("camera", carrier), Audience("frequency", 119_100)
+        run.pictures["ZZZ99", 1] = Picture(64, 48, bytes(64 * 48 * 3), of_camera)
+        for name, east_m in ((seat, 0.0), ("ZZZ99", 9_000.0)):
+            place = (1.0, east_m, 0.0, 34_900, [70.0, 0.0], 90.0, False, "")
+            run.changes.add("state", name, "aircraft", "B737", *place, audience=of_seat)
+        run.changes.add("camera", MAST | {"name": "ZZZ99", "carrier": carrier}, audience=of_camera)
+        run.changes.add("picture", "ZZZ99", 1, 1.0, None, None, audience=of_camera)
+        text = {"recipient": seat, "message": "ZZZ99 is near.", "recommendation": None}
+        advisory = ADVISORY | {"traffic": [seat, "ZZZ99"], "texts": [text]}
+        run.changes.add("advisory", advisory, audience=of_seat)
+        run.changes.add("call", CALL | {"speaker": "ZZZ99"}, audience=of_seat)
+        run.seat.add("task", CARD | {"seat": seat, "text": "ZZZ99, hold."})
+        run.seat.add("cockpit", INSTRUMENTS)
+        shown = ["#calls", "#advisories", "#own-advisories", "#tasks", "#traffic"]
+        shown += ["#strips"] if seat == "TOWER" else []
+        for part in shown:
+            page.wait_for(f"document.querySelector('{part}').innerText.includes('ZZZ99')")
+        described = ["plan"] if seat == "TOWER" else ["nd"]
+        for display in described:
+            page.wait_for(f"document.getElementById('{display}').ariaLabel.includes('ZZZ99')")
+        page.wait_for("document.getElementById('camera-image').src.includes('ZZZ99')")
+        page.wait_for("document.getElementById('instruments').textContent.includes('35,000')")
+        for field in ("words", "panel-altitude"):
+            page.evaluate(f"document.getElementById('{field}').value = 'ZZZ99 34560'")
+        page.evaluate("document.getElementById('seat-take').click()")
+        page.wait_for("document.getElementById('talk').hidden")
+        for word in ("ZZZ99", "35,000"):
+            page.wait_for(f"!{DOCUMENT}.includes('{word}')")
 
 
 def test_an_advisory_in_force_is_told_as_seen_for_each_person_who_takes_the_seat(

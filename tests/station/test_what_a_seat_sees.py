@@ -226,6 +226,16 @@ def test_no_seat_sees_the_truth(seat: str | None) -> None:
     assert "AAL123" not in str(seen)
 
 
+@pytest.mark.parametrize("seat", SEEN)
+def test_no_seat_is_told_the_latencies_of_the_assistant(
+    seats: tuple[PretendedRun, str], seat: str
+) -> None:
+    run, _ = seats
+    seen = run.changes.since(0, admits=lambda audience: run.views.sees(seat, audience))
+    assert "latency" not in str(seen)
+    assert '"latency"' in str(run.changes.since(0))
+
+
 def test_what_comes_later_is_shown_at_the_seats_that_see_it(
     seats: tuple[PretendedRun, str],
 ) -> None:

@@ -62,6 +62,8 @@ export class Cameras {
     this.#choice.value = "";
     this.#shown = "";
     this.#image.hidden = true;
+    this.#image.removeAttribute("src");
+    this.#image.alt = "";
     this.#boxes.replaceChildren();
     byId("camera-caption").textContent = "";
     this.#plan.setCamera(null);

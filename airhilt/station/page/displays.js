@@ -82,9 +82,12 @@ export class Displays {
     this.#strips.hearOnly(heard);
   }
 
-  /** Forgets the strips of the former seat, with their notes. */
+  /** Forgets the former seat: strips with their notes, instruments, and what was not set yet. */
   forget() {
     this.#strips.clear();
+    this.#instruments.clear();
+    this.#panel.clear();
+    this.#drawCockpit(null);
   }
 
   /** Takes in what the instruments show. */

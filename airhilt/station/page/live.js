@@ -131,7 +131,7 @@ export class Live {
       isOpening = this.#socket.readyState === WebSocket.CONNECTING,
       silentMs = performance.now() - this.#heard;
     this.#isSilent = isOpen && !this.#isOver && silentMs > SILENT_MS;
-    this.#lag.draw(isOpen && !this.#isSilent);
+    this.#lag.draw(isOpen && !this.#isSilent, this.#heard);
     if (this.#isSilent) {
       this.#panes.talk.lost();
       this.#warn(this.#panes.seat.own ? `${SILENT}, ${SILENT_AT_SEAT}` : `${SILENT}.`);
@@ -211,8 +211,10 @@ export class Live {
     if (has("state", "plot")) plan.keepFitted();
     if (has("call")) transcript.redraw();
     if (has("camera")) cameras.renew();
-    if (has("clock")) this.#tell();
-    if (has("clock")) this.#lag.told();
+    if (has("clock")) {
+      this.#tell();
+      this.#lag.told();
+    }
     if (this.#run.pace !== pace || this.#run.phase !== phase) this.#clock.paced();
     for (const kind of changed) this.#undrawn.add(kind);
     this.#drawing ??= setTimeout(

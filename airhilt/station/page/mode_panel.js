@@ -99,6 +99,11 @@ export class ModePanel {
     this.#action("cancel_takeoff").hidden = this.#isVehicle || !isRolling;
   }
 
+  /** Empties the fields. */
+  clear() {
+    for (const { id } of FIELDS) byId(`panel-${id}`).value = "";
+  }
+
   /** Puts the cursor into the field of speed, track or altitude. */
   focus(id) {
     byId(`panel-${id}`).select();

@@ -59,6 +59,7 @@ export class NavigationDisplay {
     pen.fillRect(0, 0, width, height);
     if (!shown || !track) {
       this.#text("NO POSITION", width / 2, height / 2, INK.caution, 16, "center");
+      this.#canvas.setAttribute("aria-label", "Navigation display, no position");
       return;
     }
     const t = this.#clock.t,

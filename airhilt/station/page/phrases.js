@@ -24,7 +24,10 @@ export class Phrases {
     this.#own = own;
     this.#style = style;
     byId("phrases").hidden = !own;
-    if (isOther) byId("phrase-list").replaceChildren();
+    if (isOther) {
+      byId("phrase-list").replaceChildren();
+      this.#asked += 1; // What comes yet is for the former seat.
+    }
     this.#told = "";
     this.#renew();
   }

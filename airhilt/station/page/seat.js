@@ -93,10 +93,12 @@ export class Seat {
     byId("seat-state").textContent = text;
   }
 
-  /** Forgets the task cards and the strips of the former seat. */
+  /** Forgets what the former seat has shown, and what was typed there and not sent. */
   forget() {
     this.#tasks = [];
     this.#displays.forget();
+    byId("words").value = "";
+    for (const id of ["instruments", "panel-state"]) byId(id).textContent = "";
     this.#drawTasks();
   }
 

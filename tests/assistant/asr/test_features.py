@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from airhilt.assistant.asr.features import BINS, mel_power, normalised
@@ -18,6 +18,7 @@ def bursts(count: int) -> Audio:
     return np.tile(np.concatenate([burst, np.zeros(size)]), count).astype(np.float32)
 
 
+@settings(deadline=None)
 @given(st.integers(1, 8), st.floats(1e-6, 1e-3))
 def test_a_call_without_noise_looks_like_one_with_hardly_any(count: int, level: float) -> None:
     call = bursts(count)
@@ -26,6 +27,7 @@ def test_a_call_without_noise_looks_like_one_with_hardly_any(count: int, level: 
     assert np.abs(quiet - noisy).mean() < 0.2
 
 
+@settings(deadline=None)
 @given(st.floats(0.05, 1.0))
 def test_how_loud_a_call_is_makes_no_difference(gain: float) -> None:
     call = bursts(3)
