@@ -96,10 +96,9 @@ class Changes:
 class SeatChanges:
     """Keeps what the person at a seat is told, so that who comes late knows what is in force.
 
-    Of each subject only the newest is kept: of the seat itself, its instruments and its position,
-    of each task and of each question, which an answer ends. Of what is not in force any more,
-    which are tasks that are done, questions that are answered, and notices, the oldest are
-    forgotten first.
+    It keeps the newest of each subject alone: of the seat itself, its instruments and its position,
+    of each task and of each question, which an answer ends. It first forgets the oldest of what is
+    not in force any more: tasks that are done, questions that are answered, and notices.
 
     Parameters
     ----------

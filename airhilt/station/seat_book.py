@@ -85,7 +85,7 @@ class SeatBook(Generic[P]):
     def give_back(self, person: P) -> None:
         """Give a person who comes back the seat that is kept for it.
 
-        Of several seats it has one, and the others are kept until they expire.
+        It has one of several seats, and the others are kept until they expire.
         """
         held = (seat for seat, hold in self._held.items() if hold.identity == person.identity)
         if person.identity and (seat := next(held, None)) is not None:

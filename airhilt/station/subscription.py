@@ -11,7 +11,7 @@ import threading
 import time
 from base64 import b64encode
 from collections import OrderedDict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -163,12 +163,16 @@ class Subscription:
                 f"{self._prefix}/run", self._ended, history=True
             )
         )
-        for key in (*ASKED, *_of(seats, ASKED_OF_SEATS)):
+        self._ask((*ASKED, *_of(seats, ASKED_OF_SEATS)))
+        self._thread = threading.Thread(target=self._work, name="station", daemon=True)
+        self._thread.start()
+
+    def _ask(self, keys: Iterable[str]) -> None:
+        """Take in what the run has told before."""
+        for key in keys:
             for reply in self._session.get(f"{self._prefix}/{key}", timeout=ASKED_S):
                 if reply.ok is not None:
                     self._hear(reply.ok)
-        self._thread = threading.Thread(target=self._work, name="station", daemon=True)
-        self._thread.start()
 
     def sound(self, name: str) -> Sound | None:
         """Return the sound of a transmission or a spoken advisory, None if it is not kept."""
