@@ -122,7 +122,7 @@ class Browsers:
         self._taking = {seat: asyncio.Lock() for seat in seats}
         """By seat, held while a browser takes it: the claims to it come one after the other."""
         self._unended: set[asyncio.Task[None]] = set()
-        """What is done to its end, whatever becomes of the browser that wished it."""
+        """Tasks that go on to their end, whatever becomes of the browser that wished them."""
         self._browsers: list[_Browser] = []
         self._empty_since_s: float | None = time.monotonic()
 

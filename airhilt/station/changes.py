@@ -109,7 +109,7 @@ class SeatChanges:
     def __init__(self, most: int = MOST_OF_SEAT) -> None:
         self._most = most
         self._state: dict[Hashable, _Told] = {}
-        """What there is once at a seat, by kind, in the order of the numbers."""
+        """Changes of which there is one of each kind at a seat, in the order of the numbers."""
         self._open: dict[Hashable, _Told] = {}
         """Tasks and questions that are open, by subject, in the order of the numbers."""
         self._past: dict[Hashable, _Told] = {}

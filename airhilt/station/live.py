@@ -135,7 +135,7 @@ class LiveRun:
             self._event(logged, audience)
             if (bar := self._bars.bar(logged)) is not None:
                 # Bars name engines, and are thinned over all who send: no seat is told any.
-                self._changes.add("latency", bar, audience=NOBODY if self._seats else audience)
+                self._changes.add("latency", bar, audience=NOBODY)
         except (ValidationError, ValueError, LookupError, TypeError, RecursionError) as error:
             if family not in self._unread:
                 self._unread.add(family)

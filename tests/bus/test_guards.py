@@ -1,4 +1,4 @@
-"""What a run refuses before it asks anybody, and what it says of answers that are none."""
+"""Guards of the bus: refusals before anybody is asked, and answers that are none."""
 
 from __future__ import annotations
 

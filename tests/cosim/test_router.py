@@ -1,4 +1,4 @@
-"""What is published once is answered later, to who comes late."""
+"""Messages that are published once are answered later, to who comes late."""
 
 from __future__ import annotations
 

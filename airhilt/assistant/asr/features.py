@@ -47,7 +47,7 @@ def filters() -> NDArray[np.float32]:
 _WINDOW = np.hanning(WINDOW).astype(np.float32)
 _FILTERS = csr_array(filters())
 """Mel filters as a sparse matrix, whose product stays on one core; NumPy's would use all."""
-_WHITE = filters().sum(axis=1) / filters().sum(axis=1).mean()
+_WHITE = np.asarray(_FILTERS.sum(axis=1) / _FILTERS.sum(axis=1).mean(), np.float32)
 """Power of white noise in each band, 1 in the mean."""
 
 
