@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import queue
+import random
 import re
 import socket
 import threading
@@ -28,6 +29,9 @@ ROOT = "airhilt"
 """First chunk of every key; the second is the run."""
 RETRY_S = 0.2
 """Time between two attempts to connect, in s."""
+SERVER_PORTS = range(20_000, 32_000)
+"""Ports below those that systems give to outgoing connections: Linux from 32,768, others from
+49,152 (RFC 6335, section 6)."""
 
 LARGEST_BYTES = 128_000_000
 """Size in bytes above which Zenoh drops any message, such as the reply of a worker."""
@@ -49,10 +53,16 @@ SOURCE_POSITION = re.compile(r" at \S+\.rs:\d+\.?")
 
 
 def free_endpoint() -> str:
-    """Return a loopback endpoint on a port that is free at this moment."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return f"tcp/127.0.0.1:{probe.getsockname()[1]}"
+    """Return a loopback endpoint on a port that is free at this moment.
+
+    Outgoing connections get none of these ports, so that no other program is given it before the
+    run listens, and nothing that waits for the run connects to itself.
+    """
+    for port in random.sample(SERVER_PORTS, len(SERVER_PORTS)):
+        with socket.socket() as probe, suppress(OSError):
+            probe.bind(("127.0.0.1", port))
+            return f"tcp/127.0.0.1:{port}"
+    raise BusError(f"no port from {SERVER_PORTS.start} to {SERVER_PORTS.stop - 1} is free")
 
 
 def configuration(

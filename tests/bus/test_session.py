@@ -7,6 +7,7 @@ import queue
 import re
 import time
 from contextlib import closing
+from pathlib import Path
 from typing import Never
 from weakref import ReferenceType, ref
 
@@ -43,6 +44,16 @@ def test_a_port_in_use_is_named_with_the_words_of_zenoh() -> None:
     assert "Address already in use (os error 98)" in message
     assert "another program has the port" in message
     assert ".rs:" not in message
+
+
+def test_no_outgoing_connection_is_given_the_port_of_a_run_that_has_not_begun() -> None:
+    given = Path("/proc/sys/net/ipv4/ip_local_port_range")
+    if not given.exists():
+        pytest.skip("no Linux")
+    first = int(given.read_text().split()[0])
+    ports = {int(free_endpoint().rpartition(":")[2]) for _ in range(50)}
+    assert len(ports) > 45
+    assert max(ports) < first
 
 
 def test_an_address_of_another_machine_is_not_called_a_port_in_use() -> None:

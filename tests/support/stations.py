@@ -8,7 +8,7 @@ import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -86,8 +86,7 @@ def running(
     assert process.stderr is not None
     with process.stderr:
         try:
-            line = next(line for line in process.stderr if line.startswith("http"))
-            yield process, line.split()[0]
+            yield process, _url_of(process.stderr)
         finally:
             if process.poll() is None:
                 for child in psutil.Process(process.pid).children():
@@ -95,6 +94,16 @@ def running(
                 process.send_signal(signal.SIGINT)
             process.stderr.read()
             process.wait(timeout=PATIENCE_S)
+
+
+def _url_of(told: Iterable[str]) -> str:
+    """Return the URL among what a run tells; what it told instead is the error."""
+    before = []
+    for line in told:
+        if line.startswith("http"):
+            return line.split()[0]
+        before.append(line)
+    raise AssertionError("the run ended before it told the URL of its page: " + "".join(before))
 
 
 @contextmanager
