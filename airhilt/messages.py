@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from enum import StrEnum
+from functools import lru_cache
 from typing import Annotated, Any, ClassVar, Literal, NamedTuple
 
 from pydantic import (
@@ -1373,6 +1374,23 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "truth/dropped": DroppedMessages,
 }
 """The message of each key below ``airhilt/<run>/``."""
+
+
+@lru_cache(maxsize=4096)
+def bus_message(key: str) -> type[Message] | None:
+    """Return the class of the messages with a key below ``airhilt/<run>/``, None if it has none.
+
+    Pieces of a transmission have none: their key has three.
+    """
+    parts = key.split("/")
+    for template, model in BUS_MESSAGES.items():
+        wanted = template.split("/")
+        if len(wanted) == len(parts) and all(
+            one.startswith("{") or one == part for one, part in zip(wanted, parts, strict=True)
+        ):
+            return model
+    return None
+
 
 WORKER_MESSAGES: dict[str, type[BaseModel]] = {
     "worker/{name}/describe (reply)": WorkerDescription,

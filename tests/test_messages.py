@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from typing import Any
 
 import pytest
@@ -36,6 +37,7 @@ from airhilt.messages import (
     Turn,
     WorkerDescription,
     WorkloadAnswer,
+    bus_message,
     json_schemas,
 )
 
@@ -247,6 +249,16 @@ def test_every_message_on_the_bus_carries_its_time_which_is_never_negative(
     assert made(model).t_ns == 0
     with pytest.raises(ValidationError, match="greater than or equal to 0"):
         made(model, t_ns=-1)
+
+
+@pytest.mark.parametrize(("template", "model"), BUS_MESSAGES.items(), ids=BUS_MESSAGES)
+def test_a_key_tells_the_class_of_its_messages_unless_it_has_several(
+    template: str, model: type[Any]
+) -> None:
+    key, _, one_of_several = template.partition(" ")
+    key = re.sub(r"{\w+}", "A_1", key)
+    assert bus_message(key) is (None if one_of_several else model)
+    assert bus_message(f"{key}/more/of/it") is None
 
 
 @pytest.mark.parametrize("value", ["NaN", "Infinity", "-Infinity"])

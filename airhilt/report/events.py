@@ -39,7 +39,8 @@ class Events:
 
     def take(self, logged: Logged) -> None:
         """Add a message of the log, if it is an event."""
-        row = _row(logged)
+        make = _maker(logged.key)
+        row = None if make is None else _row(make, json.loads(logged.data), logged)
         if row is None:
             return
         is_end = row["kind"] in END
@@ -62,12 +63,14 @@ def _with_line(row: Json, lines: dict[str, Json]) -> Json:
     return row | {"speaker": line["speaker"], "line": readable(line["text"])}
 
 
-def _row(logged: Logged) -> Json | None:
-    """Return the row of a message, or None if it is no event."""
+def event_row(message: Json, logged: Logged) -> Json | None:
+    """Return the row of a message whose content is known, or None if it is no event."""
     make = _maker(logged.key)
-    if make is None:
-        return None
-    row = make(json.loads(logged.data), logged)
+    return None if make is None else _row(make, message, logged)
+
+
+def _row(make: Any, message: Json, logged: Logged) -> Json | None:
+    row = make(message, logged)
     if row is None:
         return None
     short = {

@@ -24,22 +24,14 @@ class AdvisoryRows:
     def __init__(self) -> None:
         self._rows: dict[tuple[str, str, int], Json] = {}
 
-    def add(self, logged: Logged) -> Json:
-        """Receive an advisory or an alert of equipment, and return its row as it is now.
-
-        Raises
-        ------
-        ValidationError
-            It is none.
-        """
-        source = ""
-        if logged.key.startswith("equipment/"):
-            alert = EquipmentAlert.model_validate_json(logged.data)
-            source, advisory = alert.equipment, alert.advisory
+    def add(self, message: Advisory | EquipmentAlert) -> Json:
+        """Receive an advisory or an alert of equipment, and return its row as it is now."""
+        if isinstance(message, EquipmentAlert):
+            source, advisory = message.equipment, message.advisory
         else:
-            advisory = Advisory.model_validate_json(logged.data)
+            source, advisory = "", message
         key = source, advisory.id, advisory.revision
-        row = self._rows.setdefault(key, _row(source, advisory, logged.t_ns))
+        row = self._rows.setdefault(key, _row(source, advisory, message.t_ns))
         row["texts"].append(
             {
                 "recipient": readable(advisory.recipient),
@@ -65,7 +57,8 @@ class Advisories(Content):
 
     def take(self, logged: Logged) -> None:
         """Receive an advisory, or an alert of equipment."""
-        self._rows.add(logged)
+        model = EquipmentAlert if logged.key.startswith("equipment/") else Advisory
+        self._rows.add(model.model_validate_json(logged.data))
 
     def as_json(self, run: RunData) -> list[Json]:  # noqa: ARG002
         """Return the rows in the order of their times."""

@@ -2,12 +2,26 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Collection
-from typing import Any, Literal, NamedTuple
+from typing import Literal, NamedTuple
 
-from airhilt.messages import SeatInfo
-from airhilt.record import Logged
+from airhilt.messages import (
+    ActorCommand,
+    AdsbReport,
+    Advisory,
+    AdvisoryAudio,
+    Briefing,
+    Clock,
+    Detections,
+    EquipmentAlert,
+    Message,
+    RadarInfo,
+    RadarPlot,
+    SeatInfo,
+    SurfaceTrack,
+    Transcript,
+    Transmission,
+)
 from airhilt.sensors.radio.hearing import key_chunk
 
 
@@ -41,42 +55,25 @@ SURVEILLANCE = Audience("surveillance")
 """Audience of what radars and surface surveillance have found: units."""
 
 
-def audience_of(logged: Logged) -> Audience:
-    """Return the audience of a message.
-
-    Raises
-    ------
-    ValueError, LookupError, TypeError
-        It is not as a run writes it.
-    """
-    family, _, rest = logged.key.partition("/")
-    match family:
-        case "clock" | "briefing":
+def audience_of(key: str, message: Message) -> Audience:
+    """Return the audience of a message with a key below that of the run."""
+    match message:
+        case Clock() | Briefing():
             return EVERYBODY
-        case "adsb":
-            return Audience("adsb", rest)
-        case "surface" | "radar":
+        case AdsbReport():
+            return Audience("adsb", message.icao24)
+        case SurfaceTrack() | RadarInfo() | RadarPlot():
             return SURVEILLANCE
-        case "radio" | "asr":
-            return Audience("frequency", int(rest.partition("/")[0]))
-        case "command":
-            return Audience("command", rest)
-        case "advisory" | "equipment" | "tts" | "vision" | "camera":
-            return audience_of_header(family, json.loads(logged.data))
-    return NOBODY
-
-
-def audience_of_header(family: str, header: dict[str, Any]) -> Audience:
-    """Return the audience of a message whose content is known; see `audience_of`."""
-    match family:
-        case "advisory" | "tts":
-            return Audience("advisory", header["recipient"])
-        case "equipment":
-            return Audience("advisory", header["advisory"]["recipient"])
-        case "vision" | "camera":
-            return Audience("camera", header["view"]["carrier"])
-        case "radio":
-            return Audience("frequency", header["frequency_khz"])
+        case Transmission() | Transcript():
+            return Audience("frequency", message.frequency_khz)
+        case ActorCommand():
+            return Audience("command", key.partition("/")[2])
+        case Advisory() | AdvisoryAudio():
+            return Audience("advisory", message.recipient)
+        case EquipmentAlert():
+            return Audience("advisory", message.advisory.recipient)
+        case Detections():
+            return Audience("camera", message.view.carrier)
     return NOBODY
 
 

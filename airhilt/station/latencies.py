@@ -5,7 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from airhilt.messages import AdsbReport, Advisory, AdvisoryAudio, Detections, Transcript
+from airhilt.messages import (
+    AdsbReport,
+    Advisory,
+    AdvisoryAudio,
+    Detections,
+    Message,
+    Transcript,
+    bus_message,
+)
 from airhilt.record import Logged, RunFolder
 from airhilt.report.sections import Content
 from airhilt.text import readable
@@ -23,39 +31,34 @@ OFTEN = ("vision", "adsb")
 """Stages of which not every step has a bar."""
 
 
-def _of_call(data: bytes) -> Json:
-    call = Transcript.model_validate_json(data)
+def _of_call(call: Transcript) -> Json:
     return [call.t_tx_ns, call.t_ns, readable(call.engine), call.t_end_ns]
 
 
-def _of_picture(data: bytes) -> Json | None:
-    seen = Detections.model_validate_json(data)
+def _of_picture(seen: Detections) -> Json | None:
     return None if seen.missed else [seen.t_frame_ns, seen.t_ns, readable(seen.camera)]
 
 
-def _of_report(data: bytes) -> Json:
-    report = AdsbReport.model_validate_json(data)
+def _of_report(report: AdsbReport) -> Json:
     return [report.t_adsb_in_ns, report.t_adsb_out_ns, readable(report.callsign or report.icao24)]
 
 
-def _of_advisory(data: bytes) -> Json:
-    advisory = Advisory.model_validate_json(data)
+def _of_advisory(advisory: Advisory) -> Json:
     return [advisory.t_ready_ns, advisory.t_ns, f"{advisory.severity} {readable(advisory.id)}"]
 
 
-def _of_voice(data: bytes) -> Json:
-    audio = AdvisoryAudio.model_validate_json(data)
+def _of_voice(audio: AdvisoryAudio) -> Json:
     return [audio.t_dec_ns, audio.t_ns, readable(audio.id)]
 
 
-STAGES: Mapping[str, tuple[str, Callable[[bytes], Json | None]]] = {
-    "asr": ("asr", _of_call),
-    "vision": ("vision", _of_picture),
-    "adsb": ("adsb", _of_report),
-    "advisory": ("decision", _of_advisory),
-    "tts": ("tts", _of_voice),
+STAGES: Mapping[type[Message], tuple[str, Callable[[Any], Json | None]]] = {
+    Transcript: ("asr", _of_call),
+    Detections: ("vision", _of_picture),
+    AdsbReport: ("adsb", _of_report),
+    Advisory: ("decision", _of_advisory),
+    AdvisoryAudio: ("tts", _of_voice),
 }
-"""Stage and bar of a message, by the first part of its key."""
+"""Stage and bar of a message, by its class."""
 
 
 class LatencyBars:
@@ -68,17 +71,14 @@ class LatencyBars:
         self._last_ns: dict[str, int] = {}
         self._told: set[tuple[str, int, str]] = set()
 
-    def bar(self, logged: Logged) -> Json | None:
-        """Return the bar of a message, None if it has none of its own."""
-        family, _, rest = logged.key.partition("/")
-        if family not in STAGES or "/" in rest:
-            return None
-        stage, make = STAGES[family]
+    def bar(self, message: Message) -> Json | None:
+        """Return the bar of a message of a stage, None if it has none of its own."""
+        stage, make = STAGES[type(message)]
         if stage in OFTEN:
-            if logged.t_ns - self._last_ns.get(stage, -LEAST_GAP_NS) < LEAST_GAP_NS:
+            if message.t_ns - self._last_ns.get(stage, -LEAST_GAP_NS) < LEAST_GAP_NS:
                 return None
-            self._last_ns[stage] = logged.t_ns
-        found = make(logged.data)
+            self._last_ns[stage] = message.t_ns
+        found = make(message)
         if found is None:
             return None
         begin_ns, end_ns, what, *more = found
@@ -101,7 +101,10 @@ class Latencies(Content):
 
     def take(self, logged: Logged) -> None:
         """Receive a message."""
-        if (bar := self._bars.bar(logged)) is not None:
+        model = bus_message(logged.key)
+        if model is None or model not in STAGES:
+            return
+        if (bar := self._bars.bar(model.model_validate_json(logged.data))) is not None:
             self._found.append(bar)
 
     def as_json(self, run: RunData) -> list[Json]:  # noqa: ARG002

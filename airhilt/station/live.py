@@ -5,39 +5,49 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from types import MappingProxyType
-from typing import Any
-
-from pydantic import ValidationError
+from typing import Any, NamedTuple
 
 from airhilt.errors import AirhiltError
 from airhilt.geodesy.wgs84 import Place
 from airhilt.messages import (
+    ActorCommand,
     ActorTruth,
     AdsbReport,
+    Advisory,
     AdvisoryAudio,
     Briefing,
     CameraView,
     Clock,
     CockpitInstruments,
+    ConflictTruth,
     Detections,
+    EquipmentAlert,
+    Event,
+    HearingTruth,
+    Message,
     RadarInfo,
     RadarPlot,
     SeatInfo,
     SeatNotice,
+    SpokenTruth,
+    Status,
     SurfaceTrack,
     TaskCard,
+    Transcript,
+    Transmission,
     VehiclePosition,
     WorkloadAnswer,
     WorkloadQuestion,
+    bus_message,
 )
-from airhilt.metrics.calls import CallRecords, call_message
+from airhilt.metrics.calls import CallRecords
 from airhilt.record import Logged
 from airhilt.report.airport import ReportAirport
-from airhilt.report.events import Events
+from airhilt.report.events import event_row
 from airhilt.report.tracks import Locate, Projection
 from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.station.advisories import AdvisoryRows
-from airhilt.station.audiences import NOBODY, SURVEILLANCE, Audience, SeatViews, audience_of
+from airhilt.station.audiences import NOBODY, Audience, SeatViews, audience_of
 from airhilt.station.calls import call_as_json, spoken_as_json
 from airhilt.station.cameras import found_as_json, view_as_json
 from airhilt.station.changes import Changes, SeatChanges
@@ -48,7 +58,17 @@ from airhilt.text import readable
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE, SECOND_NS
 
 Json = dict[str, Any]
-Maker = Callable[[Logged], None]
+
+
+class Received(NamedTuple):
+    """A message of the run, parsed, and who may see what it says."""
+
+    logged: Logged
+    message: Any
+    audience: Audience
+
+
+Maker = Callable[[Received], None]
 
 
 class LiveRun:
@@ -103,40 +123,49 @@ class LiveRun:
         """Callsigns by icao24, as far as ADS-B has told."""
         self._radars: dict[str, RadarInfo] = {}
         self._cameras: set[str] = set()
-        self._makers: dict[str, Maker] = {
-            "clock": self._clock,
-            "briefing": self._briefing,
-            "adsb": self._adsb,
-            "surface": self._surface,
-            "radar": self._radar,
-            "advisory": self._advisory,
-            "equipment": self._advisory,
-            "tts": self._spoken,
-            "vision": self._vision,
-            "task": self._task,
-            "seat": self._seat_info,
-            "notice": self._notice_of_seat,
-            "cockpit": self._cockpit,
-            "question": self._question,
-            "workload": self._answered,
+        self._makers: dict[type[Message], tuple[Maker, ...]] = {
+            Clock: (self._clock,),
+            Briefing: (self._briefing,),
+            ActorTruth: (self._truth,),
+            AdsbReport: (self._adsb, self._latency),
+            SurfaceTrack: (self._surface,),
+            RadarInfo: (self._radar,),
+            RadarPlot: (self._plot,),
+            SpokenTruth: (self._call, self._event),
+            Transmission: (self._call,),
+            HearingTruth: (self._call,),
+            Transcript: (self._call, self._event, self._latency),
+            Advisory: (self._advisory, self._event, self._latency),
+            EquipmentAlert: (self._advisory, self._event),
+            AdvisoryAudio: (self._spoken, self._latency),
+            Status: (self._event,),
+            ActorCommand: (self._event,),
+            ConflictTruth: (self._event,),
+            Event: (self._event,),
+            Detections: (self._vision, self._latency),
+            TaskCard: (self._task,),
+            SeatInfo: (self._seat_info,),
+            SeatNotice: (self._notice_of_seat,),
+            CockpitInstruments: (self._cockpit,),
+            VehiclePosition: (self._own_position,),
+            WorkloadQuestion: (self._question,),
+            WorkloadAnswer: (self._answered,),
         }
+        """Methods that make the changes of each kind of message, in their order."""
 
     def take(self, logged: Logged) -> None:
         """Receive a message; one that is not as this version writes it is left out, and told."""
-        family = logged.key.partition("/")[0]
+        model = bus_message(logged.key)
+        if model is None or (makers := self._makers.get(model)) is None:
+            return
         try:
-            audience = audience_of(logged)
-            if logged.key.startswith("truth/state/"):
-                self._truth(logged)
-            elif (model := call_message(logged.key)) not in (None, AdvisoryAudio):
-                self._call(model.model_validate_json(logged.data), audience)
-            elif family in self._makers:
-                self._makers[family](logged)
-            self._event(logged, audience)
-            if (bar := self._bars.bar(logged)) is not None:
-                # Bars name engines, and are thinned over all who send: no seat is told any.
-                self._changes.add("latency", bar, audience=NOBODY)
-        except (ValidationError, ValueError, LookupError, TypeError, RecursionError) as error:
+            message = model.model_validate_json(logged.data)
+            audience = audience_of(logged.key, message)
+            received = Received(logged._replace(t_ns=message.t_ns), message, audience)
+            for make in makers:
+                make(received)
+        except (ValueError, LookupError) as error:
+            family = logged.key.partition("/")[0]
             if family not in self._unread:
                 self._unread.add(family)
                 why = readable(f"{type(error).__name__}: {error}".partition("\n")[0])
@@ -148,14 +177,14 @@ class LiveRun:
             self.is_over = True
             self._changes.add("clock", None, "gone", "")
 
-    def _clock(self, logged: Logged) -> None:
-        clock = Clock.model_validate_json(logged.data)
+    def _clock(self, received: Received) -> None:
+        clock: Clock = received.message
         self.is_over = clock.phase in ("finished", "stopped")
         shown = _seconds(clock.t_ns), clock.phase, readable(clock.pace), clock.behind_s
         self._changes.add("clock", *shown)
 
-    def _briefing(self, logged: Logged) -> None:
-        briefing = Briefing.model_validate_json(logged.data)
+    def _briefing(self, received: Received) -> None:
+        briefing: Briefing = received.message
         self._types = {one.callsign: one.type for one in briefing.roster}
         airport = None
         if briefing.airport is not None:
@@ -172,8 +201,8 @@ class LiveRun:
 
     # --- positions --------------------------------------------------------------------------
 
-    def _truth(self, logged: Logged) -> None:
-        truth = ActorTruth.model_validate_json(logged.data)
+    def _truth(self, received: Received) -> None:
+        truth: ActorTruth = received.message
         self._has_truth = True
         self._changes.add(
             "state",
@@ -187,15 +216,15 @@ class LiveRun:
                 truth.on_ground,
                 truth.phase,
             ),
-            audience=NOBODY,
+            audience=received.audience,
         )
 
-    def _adsb(self, logged: Logged) -> None:
-        report = AdsbReport.model_validate_json(logged.data)
+    def _adsb(self, received: Received) -> None:
+        report: AdsbReport = received.message
         if report.callsign is not None and report.icao24 not in self._callsigns:
             self._callsigns[report.icao24] = report.callsign
             self._changes.add(
-                "name", report.icao24, readable(report.callsign), audience=_adsb_of(report)
+                "name", report.icao24, readable(report.callsign), audience=received.audience
             )
         category = (report.emitter_category or "A0")[0]
         self._observed(
@@ -204,31 +233,29 @@ class LiveRun:
             report,
             report.t_adsb_in_ns,
             report.on_ground,
-            _adsb_of(report),
+            received.audience,
         )
 
-    def _surface(self, logged: Logged) -> None:
-        track = SurfaceTrack.model_validate_json(logged.data)
+    def _surface(self, received: Received) -> None:
+        track: SurfaceTrack = received.message
         known = track.icao24 in self._callsigns or track.callsign in self._types
         name = track.callsign or self._callsigns.get(track.icao24 or "") or f"track {track.track}"
         category = "aircraft" if known else "vehicle"
         on_ground = track.on_ground is not False
-        self._observed(name, category, track, track.t_track_ns, on_ground, SURVEILLANCE)
+        self._observed(name, category, track, track.t_track_ns, on_ground, received.audience)
 
-    def _radar(self, logged: Logged) -> None:
+    def _radar(self, received: Received) -> None:
+        info: RadarInfo = received.message
+        self._radars[info.site] = info
+
+    def _plot(self, received: Received) -> None:
         """Add a plot of a radar whose place is known."""
-        match logged.key.split("/"):
-            case ["radar", site, "info"]:
-                self._radars[site] = RadarInfo.model_validate_json(logged.data)
-            case ["radar", site] if site in self._radars:
-                plot = RadarPlot.model_validate_json(logged.data)
-                self._changes.add(
-                    "plot", self._plot(self._radars[site], plot), audience=SURVEILLANCE
-                )
-
-    def _plot(self, info: RadarInfo, plot: RadarPlot) -> Json:
+        plot: RadarPlot = received.message
+        info = self._radars.get(plot.site)
+        if info is None:
+            return
         east_m, north_m = self._on_plan(*plot_place(info, plot))
-        return {
+        shown = {
             "t": _seconds(plot.t_plot_ns),
             "kind": plot.kind,
             "east": east_m,
@@ -237,6 +264,7 @@ class LiveRun:
             "altitude_ft": plot.mode_c_ft,
             "turn_s": info.rotation_s,
         }
+        self._changes.add("plot", shown, audience=received.audience)
 
     def _on_plan(self, place: Place, height_m: float) -> tuple[float, float]:
         """Return how far east and north of the centre of the plan a place is, in m."""
@@ -302,36 +330,40 @@ class LiveRun:
 
     # --- radio, advisories, events ----------------------------------------------------------
 
-    def _call(self, message: Any, audience: Audience) -> None:
+    def _call(self, received: Received) -> None:
+        message = received.message
         self._calls.take(message)
         record = self._calls.get(message.id)
         row = None if record is None else call_as_json(record)
-        if row is not None:
-            received = None if record is None else record.received
+        if record is not None and row is not None:
             # At a seat a call is heard while it lasts, and nobody else hears it.
-            has_sound = received is not None and received.samples > 0 and not self._seats
-            self._changes.add("call", row | {"has_sound": has_sound}, audience=audience)
+            has_sound = bool(record.received and record.received.samples) and not self._seats
+            self._changes.add("call", row | {"has_sound": has_sound}, audience=received.audience)
 
-    def _spoken(self, logged: Logged) -> None:
-        audio = AdvisoryAudio.model_validate_json(logged.data)
-        sound = sound_name(audio.model_dump()) if audio.samples else None
+    def _spoken(self, received: Received) -> None:
+        audio: AdvisoryAudio = received.message
+        sound = sound_name(audio) if audio.samples else None
         row = spoken_as_json(audio) | {"sound": sound}
-        self._changes.add("spoken", row, audience=Audience("advisory", audio.recipient))
+        self._changes.add("spoken", row, audience=received.audience)
 
-    def _advisory(self, logged: Logged) -> None:
-        row = self._advisories.add(logged)
+    def _advisory(self, received: Received) -> None:
+        row = self._advisories.add(received.message)
         if self._seats:  # What others are told is not for who has a seat.
             row = row | {"texts": row["texts"][-1:]}
-        self._changes.add("advisory", row, audience=audience_of(logged))
+        self._changes.add("advisory", row, audience=received.audience)
 
-    def _event(self, logged: Logged, audience: Audience) -> None:
-        events = Events()
-        events.take(logged)
-        for row in events.rows:
-            self._changes.add("event", row, audience=audience)
+    def _event(self, received: Received) -> None:
+        row = event_row(received.message.model_dump(mode="json"), received.logged)
+        if row is not None:
+            self._changes.add("event", row, audience=received.audience)
 
-    def _task(self, logged: Logged) -> None:
-        card = TaskCard.model_validate_json(logged.data)
+    def _latency(self, received: Received) -> None:
+        if (bar := self._bars.bar(received.message)) is not None:
+            # Bars name engines, and are thinned over all who send: no seat is told any.
+            self._changes.add("latency", bar, audience=NOBODY)
+
+    def _task(self, received: Received) -> None:
+        card: TaskCard = received.message
         self._seats[card.seat].add(
             "task",
             {
@@ -344,18 +376,18 @@ class LiveRun:
             },
         )
 
-    def _seat_info(self, logged: Logged) -> None:
-        info = SeatInfo.model_validate_json(logged.data)
+    def _seat_info(self, received: Received) -> None:
+        info: SeatInfo = received.message
         self._views.learn(info)
         self._seats[info.seat].add("info", info.model_dump(mode="json", exclude={"t_ns"}))
 
-    def _notice_of_seat(self, logged: Logged) -> None:
-        notice = SeatNotice.model_validate_json(logged.data)
+    def _notice_of_seat(self, received: Received) -> None:
+        notice: SeatNotice = received.message
         self._seats[notice.seat].add("notice", _seconds(notice.t_ns), readable(notice.text))
 
-    def _own_position(self, logged: Logged) -> None:
+    def _own_position(self, received: Received) -> None:
         """Tell a driver where the own vehicle is; nobody else learns it from this."""
-        shown = VehiclePosition.model_validate_json(logged.data)
+        shown: VehiclePosition = received.message
         heading_rad, speed_m_s = shown.heading_deg * DEGREE, shown.ground_speed_kt * KNOT
         self._seats[shown.callsign].add(
             "state",
@@ -371,32 +403,29 @@ class LiveRun:
             ),
         )
 
-    def _question(self, logged: Logged) -> None:
-        question = WorkloadQuestion.model_validate_json(logged.data)
+    def _question(self, received: Received) -> None:
+        question: WorkloadQuestion = received.message
         self._seats[question.seat].add(
             "question", question.number, question.scale, _seconds(question.t_ns)
         )
 
-    def _answered(self, logged: Logged) -> None:
-        answer = WorkloadAnswer.model_validate_json(logged.data)
+    def _answered(self, received: Received) -> None:
+        answer: WorkloadAnswer = received.message
         for seat, changes in self._seats.items():
-            if logged.key == f"workload/{key_chunk(seat)}":
+            if received.logged.key == f"workload/{key_chunk(seat)}":
                 changes.add("answered", answer.question)
 
-    def _cockpit(self, logged: Logged) -> None:
-        if logged.key.endswith("/position"):
-            self._own_position(logged)
-            return
-        shown = CockpitInstruments.model_validate_json(logged.data)
+    def _cockpit(self, received: Received) -> None:
+        shown: CockpitInstruments = received.message
         self._seats[shown.callsign].add(
             "cockpit", shown.model_dump(mode="json") | {"mode": readable(shown.mode)}
         )
 
     # --- cameras ----------------------------------------------------------------------------
 
-    def _vision(self, logged: Logged) -> None:
-        seen = Detections.model_validate_json(logged.data)
-        self._camera(seen.camera, seen.view)
+    def _vision(self, received: Received) -> None:
+        seen: Detections = received.message
+        self._camera(seen.camera, seen.view, received.audience)
         if not seen.missed and self._locate is not None:
             self._changes.add(
                 "picture",
@@ -405,13 +434,12 @@ class LiveRun:
                 _seconds(seen.t_frame_ns),
                 view_as_json(seen.view, self._locate),
                 found_as_json(seen),
-                audience=Audience("camera", seen.view.carrier),
+                audience=received.audience,
             )
 
-    def _camera(self, name: str, view: CameraView) -> None:
+    def _camera(self, name: str, view: CameraView, audience: Audience) -> None:
         if name not in self._cameras:
             self._cameras.add(name)
-            audience = Audience("camera", view.carrier)
             self._views.learn_camera(name, audience)
             self._changes.add(
                 "camera",
@@ -424,10 +452,6 @@ class LiveRun:
                 },
                 audience=audience,
             )
-
-
-def _adsb_of(report: AdsbReport) -> Audience:
-    return Audience("adsb", report.icao24)
 
 
 def _seconds(t_ns: int) -> float:

@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import zenoh
+from pydantic import ValidationError
 
 from airhilt.bus.access import Role
 from airhilt.bus.session import close_session, connect_client, find_run
@@ -23,18 +24,21 @@ from airhilt.commands import Command
 from airhilt.messages import (
     LONGEST_REFUSAL,
     ActorCommand,
+    AdvisoryAudio,
     AdvisoryPerceived,
     Message,
     MicrophoneAudio,
     PaceCommand,
     PageRefusal,
     SpokenWords,
+    Transmission,
     WorkloadAnswer,
+    bus_message,
     worker_output,
 )
 from airhilt.record import Logged
 from airhilt.sensors.radio.hearing import key_chunk
-from airhilt.station.audiences import Audience, audience_of_header
+from airhilt.station.audiences import Audience, audience_of
 from airhilt.station.changes import Changes
 from airhilt.station.pictures import Picture
 from airhilt.station.wishes import Claimed
@@ -64,8 +68,6 @@ STREAMED = "radio/*/audio"
 """Keys of the sound of transmissions while they last."""
 HEARD: Mapping[str, type[Message]] = {"command": ActorCommand}
 """Messages of programs besides what workers publish, by the first part of their key."""
-UNREADABLE = (ValueError, LookupError, TypeError, RecursionError)
-"""Exceptions of a message that somebody else than a run has written."""
 MOST_WAITING = 20_000
 """Largest number of messages that wait for the station."""
 MOST_WAITING_BYTES = 32_000_000
@@ -339,14 +341,14 @@ class Subscription:
 
     def _keep_sound(self, key: str, header: bytes, pcm: bytes) -> bool:
         """Keep the sound of a message, if it has one; return false if nobody can name it."""
-        if not pcm or key.partition("/")[0] not in ("radio", "tts"):
+        model = bus_message(key)
+        if not pcm or model not in (Transmission, AdvisoryAudio):
             return True
         try:
-            about = json.loads(header)
-            name = sound_name(about)
-            audience = audience_of_header(key.partition("/")[0], about)
-        except UNREADABLE:
+            message = model.model_validate_json(header)
+        except ValidationError:
             return False
+        name, audience = sound_name(message), audience_of(key, message)
         with self._lock:
             self._sounds[name] = Sound(pcm, audience)
             while (
@@ -393,16 +395,16 @@ class Subscription:
         while (logged := self._waiting.get()) is not None:
             self._taken(logged)
             if logged.key:
-                self._take(logged._replace(t_ns=_time_ns(logged.data)))
+                self._take(logged)
             else:
                 self._lost()
 
 
-def sound_name(header: Mapping[str, Any]) -> str:
+def sound_name(header: Transmission | AdvisoryAudio) -> str:
     """Return the name by which the sound of a transmission or a spoken advisory is asked for."""
-    if "recipient" in header:
-        return f"{header['id']}-{header['revision']}-{header['recipient']}"
-    return str(header["id"])
+    if isinstance(header, AdvisoryAudio):
+        return f"{header.id}-{header.revision}-{header.recipient}"
+    return header.id
 
 
 def _keys(seats: Sequence[str]) -> list[str]:
@@ -413,12 +415,3 @@ def _keys(seats: Sequence[str]) -> list[str]:
 def _of(seats: Sequence[str], keys: Sequence[str]) -> list[str]:
     """Return keys for each of some seats."""
     return [key.format(seat=key_chunk(seat)) for seat in seats for key in keys]
-
-
-def _time_ns(data: bytes) -> int:
-    """Return when a message was published, 0 if it does not say so."""
-    try:
-        t_ns = json.loads(data)["t_ns"]
-    except UNREADABLE:
-        return 0
-    return t_ns if isinstance(t_ns, int) else 0

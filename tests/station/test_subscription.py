@@ -17,7 +17,7 @@ import zenoh
 
 from airhilt.bus.certificates import make_keys
 from airhilt.bus.session import Bus, configuration, free_endpoint
-from airhilt.messages import Advisory
+from airhilt.messages import Advisory, AdvisoryAudio
 from airhilt.record import Logged
 from airhilt.station import subscription
 from airhilt.station.subscription import MOST_SOUND_BYTES, Subscription
@@ -117,8 +117,11 @@ def test_a_message_above_its_limit_is_dropped_and_counted(followed: Followed) ->
 def test_the_sounds_that_are_kept_have_a_limit(followed: Followed) -> None:
     size = 7_000_000
     for number in range(12):
-        about = {"id": f"call-{number}", "revision": 0, "recipient": "ATC"}
-        followed.publish("tts/a", bytes(size), json.dumps(about).encode())
+        header = AdvisoryAudio(
+            id=f"call-{number}", revision=0, recipient="ATC", text="stop", t_dec_ns=0, engine="",
+            samples=size // 2, sha256="",
+        )  # fmt: skip
+        followed.publish("tts/a", bytes(size), header.model_dump_json().encode())
     followed.wait_until(lambda: followed.page.sound("call-11-0-ATC"))
     kept = [number for number in range(12) if followed.page.sound(f"call-{number}-0-ATC")]
     assert kept == list(range(12 - MOST_SOUND_BYTES // size, 12))
