@@ -164,7 +164,7 @@ class LiveRun:
             received = Received(logged._replace(t_ns=message.t_ns), message, audience)
             for make in makers:
                 make(received)
-        except (ValueError, LookupError) as error:
+        except (ValueError, LookupError, OverflowError) as error:
             family = logged.key.partition("/")[0]
             if family not in self._unread:
                 self._unread.add(family)

@@ -139,6 +139,19 @@ def test_garbage_changes_nothing() -> None:
     assert followed.changes("state") == []
 
 
+def test_a_time_that_no_number_of_seconds_has_is_left_out_and_told() -> None:
+    told: list[str] = []
+    run = LiveRun(Changes(), notice=told.append)
+    data = REPORT.model_dump_json().replace(
+        f'"t_adsb_in_ns":{SECOND}', f'"t_adsb_in_ns":1{"0" * 400}'
+    )
+    run.take(Logged("adsb/a1b2c3", "", SECOND, data.encode()))
+    assert told == [
+        "adsb/a1b2c3: left out, for it cannot be read: OverflowError: integer division "
+        "result too large for a float"
+    ]
+
+
 def test_the_end_of_a_run_is_known() -> None:
     followed = Followed()
     assert not followed.run.is_over
