@@ -160,7 +160,6 @@ LIVE = {
     "airport": None,
     "summary": None,
     "tracks": [],
-    "plots": [],
     "events": [],
     "calls": [],
     "spoken": [],

@@ -576,3 +576,39 @@ def test_a_controller_sees_what_a_radar_alone_has_found_on_the_plan(page: Page) 
         assert "4321" not in page.evaluate(told)  # It is of AAL123.
         run.changes.add("clock", 10.0, "paused", "paused")
         page.wait_for(f"{told}.includes('AAL123') && !{told}.includes('radar')")
+
+
+PLOTS = """import(new URL('page/model.js', location)).then(({ Run }) => {
+    const none = { tracks: [], calls: [], events: [], advisories: [], spoken: [], cameras: [] },
+        plot = (t, east) => ['plot', { t, kind: 'secondary', east, north: 0, turn_s: 4 }],
+        state = (name, t, east) =>
+            ['state', name, 'aircraft', '', t, east, 0, 1000, [0, 0], 90, false, ''],
+        alone = (run, t) => run.plots.at(t).map(({ isAlone }) => isAlone);
+    return [null, 'TOWER'].map((own) => {
+        const run = new Run({ ...none, scenario: { name: '' } });
+        run.own = own;
+        run.apply([state('AAL123', 1, 0), plot(1, 100), plot(1, 9000)]);
+        const settled = alone(run, 2);
+        run.apply([state('DAL456', 3, 9100)]);
+        const explained = alone(run, 3);
+        run.apply([['clock', 100, 'running', 'realtime'], plot(100, 20000)]);
+        return { settled, explained, older: alone(run, 10), newest: alone(run, 100) };
+    });
+})"""
+"""Plots that are alone at some times, on a page without a seat, and at one."""
+
+
+def test_a_plot_is_alone_until_another_sensor_finds_its_actor_and_past_ones_go_at_a_seat(
+    page: Page,
+) -> None:
+    with seat_page() as (_, url):
+        page.open(url)
+        page.wait_for("document.body.dataset.ready")
+        free, seat = page.evaluate(PLOTS)
+        page.open("about:blank")
+    for shown in (free, seat):
+        assert shown["settled"] == [False, True]
+        assert shown["explained"] == [False, False]
+        assert shown["newest"] == [True]
+    assert free["older"] == [False, False]
+    assert seat["older"] == []

@@ -2,6 +2,7 @@
 // events.
 
 import { keepNewest } from "./bounds.js";
+import { RadarPlots } from "./radar_plots.js";
 import { at, before } from "./series.js";
 import { instruction, known, words } from "./words.js";
 
@@ -20,7 +21,7 @@ const MOST_CAMERAS = 100; // of a live run that can be chosen
 const MOST_ADDRESSES = 2000; // of actors whose callsigns are kept
 const MOST_PHASES = 500; // of an actor of a live run, and of its times on the ground, the newest
 // Of a live run that are kept, the newest.
-const MOST_ROWS = { calls: 1000, events: 2000, advisories: 1000, spoken: 200, plots: 2000 };
+const MOST_ROWS = { calls: 1000, events: 2000, advisories: 1000, spoken: 200 };
 const CONTROLLER = "ATC"; // as recipient of advisories
 export const SEVERITIES = ["INFO", "ADVISORY", "CAUTION", "WARNING"];
 
@@ -198,10 +199,11 @@ export class Run {
   #moments = null; // until somebody asks for them
   ownCategory = null; // of the seat: "unit", "aircraft" or "vehicle"; null until it is known
   #own = null; // the seat of the person at this page
+  plots = new RadarPlots();
   #actors; // that have had a track so far
 
   constructor(given) {
-    Object.assign(this, { latencies: [], plots: [] }, given);
+    Object.assign(this, { latencies: [] }, given);
     const pair = given.pair ?? [];
     const order = [...given.tracks].sort(
       (a, b) => pair.includes(b.callsign) - pair.includes(a.callsign),
@@ -226,6 +228,7 @@ export class Run {
   forget() {
     for (const name of ["tracks", "cameras", "latencies", ...Object.keys(MOST_ROWS)])
       this[name] = [];
+    this.plots = new RadarPlots();
     this.bounds = nowhere();
     this.#callsigns.clear();
     this.#active = { t: null, rows: [] };
@@ -256,7 +259,7 @@ export class Run {
           if (this.#addState(rest)) changed.add("track");
           break;
         case "plot":
-          this.plots.push(rest[0]);
+          this.plots.add(rest[0], this.tracks);
           this.#widen(rest[0].east, rest[0].north);
           break;
         case "name":
@@ -291,6 +294,8 @@ export class Run {
     }
     if (this.latencies.length > 2 * MOST_LATENCIES)
       this.latencies.splice(0, this.latencies.length - MOST_LATENCIES);
+    // Nobody at a seat goes back in time.
+    if (this.#own !== null && changed.has("plot")) this.plots.forgetPast(this.now ?? 0);
     if (changed.has("call")) this.calls.sort((a, b) => a.from - b.from);
     for (const [name, most] of Object.entries(MOST_ROWS))
       if (this[name].length > 1.2 * most) this[name].splice(0, this[name].length - most);
@@ -314,10 +319,12 @@ export class Run {
   #addState([name, category, type, ...state]) {
     let track = this.track(name);
     const isNew = !track || track.type !== type;
+    const isFirst = !track;
     if (!track) this.#addTrack((track = new LiveTrack(name, category, type, this.#actors++)));
     track.type = type;
     track.category = this.categories?.[name] ?? category;
     track.add(state);
+    if (isFirst) this.plots.explain(track);
     this.now = Math.max(this.now ?? 0, state[0]);
     this.#widen(state[1], state[2]);
     return isNew;

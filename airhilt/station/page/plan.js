@@ -3,7 +3,7 @@
 import { BOLD, FONT, byId, colour, html, onSize, write } from "./dom.js";
 import { freeBox, level, overlap } from "./labels.js";
 import { METRE_PER_NM } from "./model.js";
-import { drawPlots, inWords, plotsAt } from "./radar_plots.js";
+import { drawPlots, inWords } from "./plan_radar.js";
 import { symbolOf } from "./symbols.js";
 import { fixed, metres, whole } from "./words.js";
 
@@ -266,7 +266,7 @@ export class Plan {
     if (!this.#run.airport && byId("plan-rings").checked) this.#drawRings();
     if (this.#camera) this.#drawCamera();
     const states = this.#run.states(t).filter(({ state }) => state.isThere);
-    const plots = plotsAt(this.#run, t);
+    const plots = this.#run.plots.at(t);
     drawPlots(pen, plots, (place) => this.#pixel(place));
     states.forEach(({ track, state }) => this.#drawActor(track, state, t));
     this.#drawBlocks(states, t);

@@ -1,79 +1,56 @@
-// The plots of surveillance radars on the plan: what the last turns of the antennas have found.
+// The plots of surveillance radars in a live run: which are shown, and which no actor explains.
 
-import { FONT, colour, write } from "./dom.js";
-import { level } from "./labels.js";
-import { known, whole } from "./words.js";
-
-const TURNS = 5; // whose plots are shown, the older ones paler
 const NEAR_M = 2000; // of an actor whose data block says what the plot would
+const MOST_KEPT = 2000;
 const MOST_SHOWN = 500; // at a time, the newest
-const HALF = 4; // half the width of a plot, in pixels
+export const TURNS = 5; // of the antenna, whose plots are shown
+const PAST_TURNS = TURNS + 1; // after which none is shown, though the clock is a little behind
 
-/**
- * Returns the plots that are shown at a time, each with its age in turns. One of the last turn is
- * alone if no actor is near that another sensor has found.
- */
-export function plotsAt(run, t) {
-  const isNear = (plot, track) => {
-    const [east, north] = track.place(plot.t);
-    return Math.hypot(east - plot.east, north - plot.north) < NEAR_M;
-  };
-  return run.plots
-    .map((plot) => ({ plot, age: (t - plot.t) / plot.turn_s }))
-    .filter(({ age }) => age >= 0 && age < TURNS)
-    .slice(-MOST_SHOWN)
-    .map(({ plot, age }) => ({
-      plot,
-      age,
-      isAlone: age < 1 && !run.tracks.some((track) => isNear(plot, track)),
-    }));
-}
+const isNear = (plot, track) => {
+  const [east, north] = track.place(plot.t);
+  return Math.hypot(east - plot.east, north - plot.north) < NEAR_M;
+};
 
-/**
- * Draws plots: a cross for an echo, a circle for a reply, both for both. A reply that is alone has
- * its code and its level beside it. `pixel(place)` returns where a place is on the canvas.
- */
-export function drawPlots(pen, plots, pixel) {
-  pen.strokeStyle = colour("--ink");
-  pen.lineWidth = 1.2;
-  for (const { plot, age, isAlone } of plots) {
-    const [x, y] = pixel([plot.east, plot.north]);
-    pen.globalAlpha = 1 - age / TURNS;
-    pen.beginPath();
-    if (plot.kind !== "secondary") {
-      pen.moveTo(x - HALF, y);
-      pen.lineTo(x + HALF, y);
-      pen.moveTo(x, y - HALF);
-      pen.lineTo(x, y + HALF);
-    }
-    if (plot.kind !== "primary") {
-      pen.moveTo(x + HALF, y);
-      pen.arc(x, y, HALF, 0, 2 * Math.PI);
-    }
-    pen.stroke();
-    if (isAlone && plot.kind !== "primary") {
-      pen.font = FONT;
-      pen.textAlign = "left";
-      write(pen, blockOf(plot), x + 8, y - 6, colour("--ink"), colour("--map"));
+export class RadarPlots {
+  #kept = []; // each with true in `isAlone` if no actor is near that another sensor has found
+  #longestTurn = 0; // s
+
+  /** Takes in a plot, and finds out once if it is alone among the tracks there are. */
+  add(plot, tracks) {
+    this.#longestTurn = Math.max(this.#longestTurn, plot.turn_s);
+    this.#kept.push({ plot, isAlone: !tracks.some((track) => isNear(plot, track)) });
+    if (this.#kept.length > 1.2 * MOST_KEPT) this.#kept.splice(0, this.#kept.length - MOST_KEPT);
+  }
+
+  /** Takes in an actor that another sensor has found now: plots of the last turn may be of it. */
+  explain(track) {
+    for (let i = this.#kept.length - 1; i >= 0; i -= 1) {
+      const one = this.#kept[i];
+      if (track.last - one.plot.t > this.#longestTurn) break;
+      one.isAlone &&= !isNear(one.plot, track);
     }
   }
-  pen.globalAlpha = 1;
-}
 
-const blockOf = ({ code, altitude_ft: altitude }) =>
-  [code, known(altitude) ? level(altitude) : null].filter((part) => part).join(" ");
+  /** Forgets what is not shown any more at a time, where nobody goes back. */
+  forgetPast(t) {
+    const past = t - PAST_TURNS * this.#longestTurn,
+      first = this.#kept.findIndex(({ plot }) => plot.t > past);
+    this.#kept.splice(0, first < 0 ? this.#kept.length : first);
+  }
 
-/** Returns what the last turn has found besides the actors, in words. */
-export function inWords(plots) {
-  return plots
-    .filter(({ isAlone }) => isAlone)
-    .map(({ plot }) =>
-      [
-        plot.kind === "primary" ? "radar echo" : "radar reply",
-        plot.code,
-        known(plot.altitude_ft) ? `${whole(plot.altitude_ft)} feet` : null,
-      ]
-        .filter((part) => part)
-        .join(" "),
-    );
+  /**
+   * Returns the plots that are shown at a time, each with its age in turns. Only one of the last
+   * turn is alone.
+   */
+  at(t) {
+    const shown = [],
+      past = t - TURNS * this.#longestTurn;
+    for (let i = this.#kept.length - 1; i >= 0 && shown.length < MOST_SHOWN; i -= 1) {
+      const { plot, isAlone } = this.#kept[i],
+        age = (t - plot.t) / plot.turn_s;
+      if (plot.t <= past) break;
+      if (age >= 0 && age < TURNS) shown.push({ plot, age, isAlone: isAlone && age < 1 });
+    }
+    return shown.reverse();
+  }
 }
