@@ -69,6 +69,7 @@ export function onSize(canvas, call) {
 
 export const FONT = '12px system-ui, -apple-system, "Segoe UI", Roboto, "DejaVu Sans", sans-serif';
 export const BOLD = `600 ${FONT}`;
+export const FONT_SMALL = FONT.replace("12px", "11px");
 
 /** Writes a text with an edge in the colour of what is behind it. */
 export function write(pen, text, x, y, ink, behind) {

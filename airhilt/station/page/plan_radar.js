@@ -9,14 +9,14 @@ const HALF = 4; // half the width of a plot, in pixels
 
 /**
  * Draws plots, the older ones paler: a cross for an echo, a circle for a reply, both for both. A
- * reply that is alone has its code and its level beside it. `pixel(place)` returns where a place is
- * on the canvas.
+ * reply that is alone has its code and its level beside it.
  */
-export function drawPlots(pen, plots, pixel) {
+export function drawPlots(view, plots) {
+  const { pen } = view;
   pen.strokeStyle = colour("--ink");
   pen.lineWidth = 1.2;
   for (const { plot, age, isAlone } of plots) {
-    const [x, y] = pixel([plot.east, plot.north]);
+    const [x, y] = view.pixel([plot.east, plot.north]);
     pen.globalAlpha = 1 - age / TURNS;
     pen.beginPath();
     if (plot.kind !== "secondary") {
