@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import subprocess
+import time
 from pathlib import Path
 from typing import Any
 
@@ -13,10 +14,14 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin
 
+from airhilt.bus.session import free_endpoint
 from airhilt.cosim.replay import replay
+from airhilt.messages import SpokenWords
 from airhilt.record import open_run
+from airhilt.station.subscription import Subscription
+from airhilt.station.wishes import Claimed
 from devtools import Page
-from stations import running
+from stations import TOWER, PretendedRun, running, seat_page
 
 PATIENCE_S = 90.0
 
@@ -186,6 +191,63 @@ def test_a_seat_has_one_person_and_what_it_says_is_said(brief_file: Path, tmp_pa
     ]
     assert [word in text for word, text in zip(words, refused, strict=True)] == [True] * len(words)
     assert replay(out).identical
+
+
+class SlowPage(PretendedRun):
+    """A page of a run that learns late when somebody leaves a seat there."""
+
+    def __init__(self, endpoint: str) -> None:
+        super().__init__((TOWER.model_copy(update={"seat": "AAL123"}),))
+        self.subscription = Subscription(endpoint, lambda _: None, lambda: None, seats=["AAL123"])
+
+    def say(self, seat: str, words: SpokenWords) -> None:
+        """Let the seat speak."""
+        self.subscription.say(seat, words)
+
+    def claim(self, seat: str) -> Claimed:
+        """Claim the seat from other pages."""
+        return self.subscription.claim(seat)
+
+    def occupy(self, seat: str, *, is_taken: bool) -> None:
+        """Tell the run who has the seat, but of who leaves it after a while."""
+        if not is_taken:
+            time.sleep(0.3)
+        self.subscription.occupy(seat, is_taken=is_taken)
+
+
+def has_seat(socket: ClientConnection) -> bool:
+    """Take the seat of the pilot, and return true if it was given."""
+    send(socket, take="AAL123")
+    while not (message := json.loads(socket.recv(timeout=PATIENCE_S))).keys() & {"refused"}:
+        if message.get("seats") == {"AAL123": "yours"}:
+            return True
+    return False
+
+
+def test_who_sits_down_before_the_run_knows_that_the_seat_was_left_comes_after_that_in_its_log(
+    brief_file: Path, tmp_path: Path
+) -> None:
+    out, endpoint = tmp_path / "run", free_endpoint()
+    with running(brief_file, out, "--seat", "AAL123", "--endpoint", endpoint) as (process, _):
+        page = SlowPage(endpoint)
+        with seat_page(page) as (_, url), listening(url) as first, listening(url) as second:
+            assert has_seat(first)
+            send(first, say={"text": "first"})
+            send(first, leave="AAL123")
+            while not has_seat(second):
+                pass
+            send(second, say={"text": "second"})
+            send(second, leave="AAL123")
+        page.subscription.close()
+        page_process(process).kill()
+        assert process.stderr is not None
+        process.stderr.read()
+    told = [
+        json.loads(one.data).get("text", json.loads(one.data).get("is_taken"))
+        for one in open_run(out).messages()
+        if one.key in ("seat/AAL123", "speech/AAL123")
+    ]
+    assert told == [True, "first", False, True, "second", False]
 
 
 def test_who_may_take_a_seat_sees_nothing_of_the_truth(
