@@ -47,6 +47,8 @@ CLAIMED_ELSEWHERE: Mapping[Claimed, str] = {
     "Try again.",
 }
 """Reasons for which a seat cannot be claimed."""
+ON_THE_AIR = "You are on the air. End your call before you take another seat."
+"""Reason for which who transmits cannot take another seat."""
 LONGEST_REASON = 100
 """Greatest length of a reason for closing, in characters; the protocol has 123 bytes."""
 
@@ -316,10 +318,11 @@ class Browsers:
 
     async def _take(self, browser: _Browser, seat: str) -> None:
         """Give a seat to a browser; who is refused it keeps the one that it has."""
-        why = self._book.why_not(browser, seat)
-        if why is None and self._book.of(browser) != seat:  # Else the button was pressed twice.
+        if self._book.of(browser) == seat:
+            return  # The button was pressed twice.
+        why = self._book.why_not(browser, seat) or (ON_THE_AIR if browser.button else None)
+        if why is None:
             async with self._taking[seat]:
-                await self._release(browser)
                 why = self._book.why_not(browser, seat) or await self._claim(seat)
                 if why is None and browser in self._browsers:
                     self._of_seats[seat].forget_notices()

@@ -160,6 +160,37 @@ def test_who_moves_to_another_seat_leaves_the_first_one() -> None:
         assert told == [("TOWER", True), ("TOWER", False), ("GROUND", True)]
 
 
+PIECE = bytes(3_200)
+"""A piece of sound, of 0.1 s."""
+
+
+def test_who_is_on_the_air_is_refused_another_seat_and_the_call_goes_on() -> None:
+    with seat_page(PretendedRun(TWO)) as (run, url), browser(url, "a") as own:
+        take(own)
+        own.send(json.dumps({"press": {}}))
+        own.send(PIECE)
+        for seat in ("GROUND", "TOWER"):
+            own.send(json.dumps({"take": seat}))
+        assert "You are on the air" in str(answer(own, "refused"))
+        own.send(PIECE)
+        own.send(json.dumps({"release": True}))
+        assert run.call()[1] == 2 * PIECE
+        own.send(json.dumps({"take": "GROUND"}))
+        told = [run.presence.get(timeout=PATIENCE_S) for _ in range(3)]
+        assert told == [("TOWER", True), ("TOWER", False), ("GROUND", True)]
+
+
+def test_who_leaves_the_seat_while_on_the_air_ends_the_call() -> None:
+    with seat_page(PretendedRun(TWO)) as (run, url), browser(url, "a") as own:
+        take(own)
+        own.send(json.dumps({"press": {}}))
+        own.send(PIECE)
+        own.send(json.dumps({"leave": "TOWER"}))
+        assert run.call()[1] == PIECE
+        told = [run.presence.get(timeout=PATIENCE_S) for _ in range(2)]
+        assert told == [("TOWER", True), ("TOWER", False)]
+
+
 class SlowRun(PretendedRun):
     """A run that takes longer to learn that a seat was left than that it was taken."""
 
