@@ -294,6 +294,40 @@ def test_words_that_could_not_be_said_stay_in_the_field(page: Page) -> None:
         assert run.done.empty()
 
 
+def test_words_that_were_lost_with_the_connection_are_given_back_and_those_heard_are_not(
+    page: Page, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    told, words = (
+        "document.getElementById('seat-state').textContent",
+        "document.getElementById('words').value",
+    )
+    kinds: list[str] = []
+
+    async def do_until_it_ends(browsers: Browsers, browser: Any, wish: Any) -> None:
+        """End a connection when words come, and the next one at the second echo after words."""
+        (kind,) = wish.model_fields_set
+        kinds.append(kind)
+        _, *after = "".join(kinds).split("say")
+        if after == [""] or (len(after) == 2 and after[-1].count("echo") == 2):
+            raise RuntimeError("the connection has ended")
+        await do(browsers, browser, wish)
+
+    do = Browsers._do
+    with seated(page, "TOWER") as run:
+        monkeypatch.setattr(Browsers, "_do", do_until_it_ends)
+        page.evaluate(f"{words} = 'American 123, hold.'")
+        page.evaluate("document.getElementById('say-button').click()")
+        page.wait_for(f"{told}.includes('before the station had heard “American 123, hold.”')")
+        page.wait_for("document.getElementById('link').hidden")
+        assert page.evaluate(f"{told}.includes('say it again')")
+        assert page.evaluate(words) == "American 123, hold."
+        page.evaluate("document.getElementById('say-button').click()")
+        assert run.next().text == "American 123, hold."
+        page.wait_for("!document.getElementById('link').hidden")
+        page.wait_for("document.getElementById('link').hidden")
+        assert page.evaluate(f"[{words}, {told}]") == ["", ""]
+
+
 def test_a_person_is_told_by_how_much_the_run_is_behind_the_clock(page: Page) -> None:
     told = "document.getElementById('behind').textContent"
     announced = "document.getElementById('behind-told').textContent"
@@ -474,6 +508,11 @@ DOCUMENT = """[...document.querySelectorAll('*')].flatMap((one) => [
     one.textContent, one.value ?? '', ...[...one.attributes].map(({ value }) => value),
 ]).join()"""
 """All texts, values and attributes of the page."""
+NO_FRAMES = """new Promise((stopped) => {
+    window.requestAnimationFrame = () => 0;
+    setTimeout(stopped, 100);
+})"""
+"""Ends all that draws frame by frame."""
 
 
 @pytest.mark.parametrize("seat", ["AAL123", "TOWER"])
@@ -506,6 +545,7 @@ def test_who_leaves_a_seat_leaves_nothing_of_it_anywhere_in_the_document(
         page.wait_for("document.getElementById('instruments').textContent.includes('35,000')")
         for field in ("words", "panel-altitude"):
             page.evaluate(f"document.getElementById('{field}').value = 'ZZZ99 34560'")
+        page.evaluate(NO_FRAMES)  # Nothing is left to the next frame, which a hidden page has not.
         page.evaluate("document.getElementById('seat-take').click()")
         page.wait_for("document.getElementById('talk').hidden")
         for word in ("ZZZ99", "35,000"):

@@ -72,6 +72,7 @@ export class Live {
 
   #open() {
     this.#abandon();
+    this.#panes.seat.lost();
     const url = new URL("api/live", location.href);
     url.protocol = url.protocol.replace("http", "ws");
     url.searchParams.set("from", this.#seen);
@@ -186,7 +187,8 @@ export class Live {
   }
 
   #take(message) {
-    const { next, changes, seats, own, refused, forget, shown } = message;
+    const { next, changes, seats, own, refused, forget, shown, echo } = message;
+    if (echo !== undefined) this.#panes.seat.answered(echo);
     if (forget) this.#forget(shown);
     if (seats) this.#takeSeats(seats);
     if (own) this.#takeOwn(own);

@@ -12,6 +12,7 @@ export class Seat {
   #live;
   #own = null;
   #isLeaving = false; // somebody has asked for that
+  #unheard = []; // words that the station has not answered yet, and when they were sent
   #tasks = [];
   #rows = new Rows(byId("tasks"));
   #displays;
@@ -67,13 +68,12 @@ export class Seat {
       this.refuse(
         `The seat ${before} was given back while the connection was lost, and its script goes on. Take it again.`,
       );
-    else
-      byId("seat-state").textContent = this.#own
-        ? ""
-        : Object.keys(seats)
-            .filter((name) => seats[name] === "taken")
-            .map((name) => `${name} is taken.`)
-            .join(" ");
+    else if (this.#own && this.#own !== before) byId("seat-state").textContent = "";
+    else if (!this.#own)
+      byId("seat-state").textContent = Object.keys(seats)
+        .filter((name) => seats[name] === "taken")
+        .map((name) => `${name} is taken.`)
+        .join(" ");
     byId("seat-hint").textContent = this.#own
       ? ""
       : "Who takes a seat speaks and acts there, and sees what that seat sees. Until then its calls wait.";
@@ -96,6 +96,7 @@ export class Seat {
   /** Forgets what the former seat has shown, and what was typed there and not sent. */
   forget() {
     this.#tasks = [];
+    this.#unheard = [];
     this.#displays.forget();
     byId("words").value = "";
     for (const id of ["instruments", "panel-state"]) byId(id).textContent = "";
@@ -138,6 +139,22 @@ export class Seat {
     );
     this.#tasks.splice(0, this.#tasks.length - MOST_TASKS);
     this.#drawTasks();
+  }
+
+  /** Takes in that the station has answered all that was sent until a time of the page. */
+  answered(sent) {
+    this.#unheard = this.#unheard.filter((one) => one.sent > sent);
+  }
+
+  /** Takes in that nothing more comes over a connection: gives back words that it may have lost. */
+  lost() {
+    if (!this.#unheard.length) return;
+    const text = this.#unheard.map((one) => one.text).join(" ");
+    this.#unheard = [];
+    byId("words").value ||= text;
+    this.refuse(
+      `The connection was lost before the station had heard “${text}”. If nobody answers, say it again.`,
+    );
   }
 
   /** Takes cards away once somebody has made their calls. */
@@ -193,7 +210,14 @@ export class Seat {
   #say() {
     const text = byId("words").value.trim();
     if (!text) return;
-    if (this.#live.send({ say: { text } })) byId("words").value = "";
-    else this.refuse("Nothing was said: the connection is lost. Say it when it is there again.");
+    if (!this.#live.send({ say: { text } })) {
+      this.refuse("Nothing was said: the connection is lost. Say it when it is there again.");
+      return;
+    }
+    const sent = performance.now();
+    this.#unheard.push({ text, sent });
+    this.#live.send({ echo: sent });
+    byId("words").value = "";
+    this.refuse("");
   }
 }
