@@ -22,6 +22,8 @@ PING_S, PATIENCE_S = 2.0, 5.0
 """Time between two questions if a browser is there, and for which its answer may take, in s."""
 GRACE_S = 2
 """Time that open connections have to end with the server, in s."""
+CHECK_PERIOD_S = 0.1
+"""Time between two questions if nobody needs the server any more, in s."""
 
 
 def serve(
@@ -44,7 +46,7 @@ def serve(
     browser
         True opens the URL in the user's browser.
     is_over
-        Says, once a second, if nobody needs the server any more; None: it is always needed.
+        Says, ten times a second, if nobody needs the server any more; None: it always is.
 
     Raises
     ------
@@ -79,5 +81,5 @@ def serve(
 
 def _end_when(is_over: Callable[[], bool], server: uvicorn.Server) -> None:
     while not is_over():
-        time.sleep(1.0)
+        time.sleep(CHECK_PERIOD_S)
     server.should_exit = True
