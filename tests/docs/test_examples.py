@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from importlib.util import find_spec
 from pathlib import Path
 from typing import NamedTuple
@@ -15,15 +16,17 @@ from typing import NamedTuple
 import pytest
 from markdown_it import MarkdownIt
 
+from airhilt import library
 from airhilt.bus import free_endpoint
 from airhilt.scenario import Scenario
-from airhilt_short import shorten
+from airhilt_short import shorten, use_for
 from paths import DOCS, ROOT, SUPPORT
 
 PAGES = (ROOT / "README.md", *sorted(DOCS.glob("*.md")))
 RUN_PAGES = (ROOT / "README.md", DOCS / "getting-started.md")
 RUN_COMMANDS = ("airhilt", "for", "python examples/")
 LONGEST_S = 300.0
+Cli = Callable[..., subprocess.CompletedProcess[str]]
 
 
 class Example(NamedTuple):
@@ -111,7 +114,7 @@ def run(script: str, environment: dict[str, str]) -> str:
     return done.stdout
 
 
-def as_run(command: str, endpoint: str) -> str:
+def as_run(command: str, endpoint: str, work: Path) -> str:
     """Return a command as it is run here: its own run folders and port, and few pictures.
 
     An evaluation tries one run. The page of a run folder is served until Ctrl+C, and interrupted;
@@ -124,8 +127,8 @@ def as_run(command: str, endpoint: str) -> str:
         command = re.sub(r"--seeds \d+", "--seeds 1 --no-cameras --no-speech", command)
     if command.startswith("airhilt evaluate"):
         command += " --dry-run"
-    command = re.sub(r"runs/(\w+)-0-\.\.\.", r'"$(ls -dt runs/\1-0-* | head -1)"', command)
-    command = re.sub(r"\bRUN\b", '"$(ls -dt runs/*/ | head -1)"', command)
+    command = re.sub(r"runs/(\w+-0-)\.\.\.", lambda run: newest_run(work, run[1]), command)
+    command = re.sub(r"\bRUN\b", lambda _: newest_run(work), command)
     if re.search(r"airhilt view|airhilt station|--view|--seat", command):
         command += " --no-browser --port 0"
     if command.startswith(("airhilt view", "airhilt station")):
@@ -135,20 +138,38 @@ def as_run(command: str, endpoint: str) -> str:
     return f"{command} &" if "--attach" in command else command
 
 
-def script_of(page: Path) -> str:
-    """Return the commands of a page, one block after another, for the shell."""
-    lines: list[str] = []
-    for example in (each for each in EXAMPLES if each.page == page and commands(each)):
-        endpoint = free_endpoint()
-        lines += [as_run(each, endpoint) for each in commands(example) if is_possible(each)]
-        lines.append("wait")
-    return "\n".join(lines)
+def newest_run(work: Path, begin: str = "") -> str:
+    """Return the newest run folder whose name begins so."""
+    folders = work.glob(f"runs/{begin}*/")
+    return str(max(folders, key=lambda folder: folder.stat().st_mtime).relative_to(work))
 
 
 @pytest.mark.parametrize("page", RUN_PAGES, ids=lambda page: page.name)
-def test_the_commands_of_a_page_can_be_run(page: Path, environment: dict[str, str]) -> None:
-    assert "airhilt cosim" in script_of(page)
-    run(script_of(page), environment)
+def test_the_commands_of_a_page_can_be_run(
+    page: Path, environment: dict[str, str], short_scenarios: Path,
+    airhilt_command: Cli, monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    """A terminal does what needs one: programs beside a run, pages, Ctrl+C, loops."""
+    work, begun = Path(environment["PWD"]), list[str]()
+    monkeypatch.chdir(work)
+    blocks = [commands(example) for example in EXAMPLES if example.page == page]
+    assert any(command.startswith("airhilt cosim") for block in blocks for command in block)
+    for block in blocks:
+        endpoint = free_endpoint()
+        for command in filter(is_possible, block):
+            given = as_run(command, endpoint, work)
+            if given.endswith("&"):
+                begun.append(given)
+            elif begun or not given.startswith("airhilt") or "--no-browser" in given:
+                run("\n".join([*begun, given, "wait"]), environment)
+                begun.clear()
+            else:
+                arguments = shlex.split(given)[1:]
+                with monkeypatch.context() as patch:
+                    patch.setattr(library, "folder", library.folder)
+                    use_for(arguments, short_scenarios)
+                    done = airhilt_command(*arguments)
+                assert done.returncode == 0, f"{given}\n{done.stdout}\n{done.stderr}"
 
 
 @pytest.fixture(scope="session")

@@ -41,8 +41,13 @@ def use(scenarios: Path) -> None:
     library.folder = lambda kind: scenarios if kind == "scenarios" else shipped(kind)
 
 
+def use_for(arguments: list[str], folder: Path) -> None:
+    """Let a command that runs scenarios find those that `shorten` has written to a folder."""
+    if arguments[:1] in (["cosim"], ["sweep"], ["evaluate"]):
+        use(folder / ("seen" if "--video" in arguments else "unseen"))
+
+
 if __name__ == "__main__":
     chosen = Path(sys.argv.pop(1))
-    if sys.argv[1:2] in (["cosim"], ["sweep"], ["evaluate"]):
-        use(chosen / ("seen" if "--video" in sys.argv else "unseen"))
+    use_for(sys.argv[1:], chosen)
     main()
