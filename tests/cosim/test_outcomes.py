@@ -12,6 +12,7 @@ from airhilt.messages import ConflictTruth
 from airhilt.metrics.summary import Summary
 from airhilt.record import read_log
 from airhilt.units import SECOND_NS
+from breadth import mostly_slow
 
 CONFLICTS = ("s02a_headon", "s02a_in_trail", "s02a_vertical", "s02a_converging")
 TCAS_TOLERANCE_S = 1.0
@@ -20,15 +21,18 @@ TCAS_TOLERANCE_IN_CLIMB_S = 5.0
 """The projection keeps ground speed; an aircraft that climbs 4000 ft on the way gains 4 s."""
 
 
-@pytest.fixture(scope="module", params=CONFLICTS)
+@pytest.fixture(scope="module", params=mostly_slow(CONFLICTS, "s02a_headon", "s02a_vertical"))
 def pair_of_runs(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 ) -> tuple[Summary, Summary, Path]:
     """One scenario with the reference assistant, without one, and the latter's folder."""
     scenario = load(request.param)
     folder = tmp_path_factory.mktemp(request.param)
-    warned = run(scenario, out=folder / "warned", latency="fixed", cameras=False).summary
-    alone = run(scenario, out=folder / "alone", latency="fixed", cameras=False, assistant="none")
+    options: dict[str, Any] = {
+        "latency": "fixed", "cameras": False, "speech": False, "report": False,
+    }  # fmt: skip
+    warned = run(scenario, out=folder / "warned", **options).summary
+    alone = run(scenario, out=folder / "alone", assistant="none", **options)
     return warned, alone.summary, alone.folder
 
 
@@ -77,17 +81,20 @@ def test_the_margin_over_tcas_is_what_the_run_without_assistant_shows(
         assert margin == pytest.approx(expected, abs=tolerance)
 
 
-@pytest.mark.parametrize("seed", [0, *(pytest.param(s, marks=pytest.mark.slow) for s in (1, 2))])
-def test_nothing_is_said_about_nominal_traffic(tmp_path: Path, seed: int) -> None:
+@pytest.mark.parametrize(
+    ("seed", "speech"), mostly_slow([(0, False), (0, True), (1, True), (2, True)], (0, False))
+)
+def test_nothing_is_said_about_nominal_traffic(tmp_path: Path, seed: int, speech: bool) -> None:
     summary = run(
-        load("s02a_nominal"), out=tmp_path / "run", latency="fixed", cameras=False, seed=seed
-    ).summary
+        load("s02a_nominal"), out=tmp_path / "run", latency="fixed", cameras=False, seed=seed,
+        speech=speech, report=False,
+    ).summary  # fmt: skip
     assert summary.nuisance_alerts == 0
     assert summary.avoided is None
     assert not summary.loss_of_separation
 
 
-@pytest.mark.parametrize("seed", range(1, 4))
+@pytest.mark.parametrize("seed", mostly_slow(range(1, 4), 1))
 def test_a_wrong_readback_is_noticed_as_soon_as_it_was_said(tmp_path: Path, seed: int) -> None:
     scenario = load("s02a_vertical").model_copy(update={"duration_s": 40.0})
     summary = run(scenario, out=tmp_path / "run", latency="fixed", cameras=False, seed=seed).summary

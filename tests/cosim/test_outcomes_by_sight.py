@@ -17,6 +17,7 @@ from airhilt.messages import Advisory, Severity
 from airhilt.metrics.summary import Summary
 from airhilt.record import read_log
 from airhilt.units import SECOND_NS
+from breadth import mostly_slow
 from oracle import Follower, Oracle, watched
 
 IN_THE_AIR = ("s02c_intruder_headon", "s02c_intruder_overtaking", "s02c_intruder_crossing")
@@ -34,9 +35,7 @@ def warnings(folder: Path) -> list[Advisory]:
     return [a for a in told if a.severity is Severity.WARNING and a.evidence.sources[0] == "vision"]
 
 
-@pytest.mark.parametrize("name", [ON_THE_RUNWAY[1], *(
-    pytest.param(name, marks=pytest.mark.slow) for name in ON_THE_RUNWAY[::2]
-)])  # fmt: skip
+@pytest.mark.parametrize("name", mostly_slow(ON_THE_RUNWAY, "s01c_deer_undetected"))
 def test_what_is_seen_on_a_runway_or_before_it_sends_the_arrival_around(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -51,9 +50,8 @@ def test_what_is_seen_on_a_runway_or_before_it_sends_the_arrival_around(
     assert told[0].t_ns / SECOND_NS - summary.t_window_s < 10.0
 
 
-@pytest.mark.parametrize("name", [IN_THE_AIR[0], *(
-    pytest.param(name, marks=pytest.mark.slow) for name in IN_THE_AIR[1:]
-)])  # fmt: skip
+@pytest.mark.slow
+@pytest.mark.parametrize("name", IN_THE_AIR)
 def test_an_intruder_that_is_seen_is_missed(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -77,9 +75,8 @@ def test_one_that_is_seen_later_is_not(tmp_path: Path, monkeypatch: pytest.Monke
     assert summary.nmac
 
 
-@pytest.mark.parametrize(
-    "name", [*(pytest.param(name, marks=pytest.mark.slow) for name in NOMINAL[:2]), NOMINAL[2]]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize("name", NOMINAL)
 def test_in_normal_traffic_that_is_seen_nothing_is_told(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -95,9 +92,8 @@ def test_in_normal_traffic_that_is_seen_nothing_is_told(
 # --- with errors, through the tracker ---------------------------------------------------------
 
 
-@pytest.mark.parametrize("name", [ON_THE_RUNWAY[0], *(
-    pytest.param(name, marks=pytest.mark.slow) for name in ON_THE_RUNWAY[1:]
-)])  # fmt: skip
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ON_THE_RUNWAY)
 def test_what_is_followed_on_a_runway_with_errors_sends_the_arrival_around(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -113,9 +109,7 @@ def test_what_is_followed_on_a_runway_with_errors_sends_the_arrival_around(
     assert told[0].t_ns / SECOND_NS - summary.t_window_s < 12.0
 
 
-@pytest.mark.parametrize("name", [IN_THE_AIR[0], *(
-    pytest.param(name, marks=pytest.mark.slow) for name in IN_THE_AIR[1:]
-)])  # fmt: skip
+@pytest.mark.parametrize("name", mostly_slow(IN_THE_AIR, "s02c_intruder_headon"))
 def test_an_intruder_that_is_followed_with_errors_is_missed(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -127,9 +121,7 @@ def test_an_intruder_that_is_followed_with_errors_is_missed(
     assert {w.recipient for w in warnings(tmp_path / "run")} == {"AAL123", "ATC"}
 
 
-@pytest.mark.parametrize("name", [NOMINAL[2], *(
-    pytest.param(name, marks=pytest.mark.slow) for name in NOMINAL[:2]
-)])  # fmt: skip
+@pytest.mark.parametrize("name", mostly_slow(NOMINAL, "s02c_nominal"))
 def test_errors_make_no_alarm_in_normal_traffic(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
