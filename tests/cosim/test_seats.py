@@ -11,6 +11,7 @@ import pytest
 from airhilt import load
 from airhilt.cosim.replay import replay
 from airhilt.errors import ScenarioError
+from breadth import mostly_slow
 from seats import SECOND, calls, contents, logged, message, said, tower
 
 
@@ -190,7 +191,7 @@ def test_a_crew_flies_again_by_itself_once_its_person_has_left(tmp_path: Path) -
     assert "AAL123" in [call["speaker"] for call in calls(log)]
 
 
-@pytest.mark.parametrize("left_s", [None, 3.0, 95.0])
+@pytest.mark.parametrize("left_s", mostly_slow([None, 3.0, 95.0], None, 3.0))
 def test_a_warning_at_empty_seats_helps_only_once_their_crews_fly_by_themselves(
     tmp_path: Path, left_s: float | None
 ) -> None:
