@@ -47,6 +47,7 @@ def event_texts(result: Result, kind: str) -> Sequence[tuple[str, str]]:
     return [(event["subject"], event["text"]) for event in events if event["kind"] == kind]
 
 
+@pytest.mark.slow
 def test_without_an_assistant_separation_is_lost(tmp_path: Path) -> None:
     scenario = load("s02a_headon")
     options: Any = {"latency": "fixed", "speech": False, "cameras": False}

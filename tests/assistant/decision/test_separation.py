@@ -12,6 +12,7 @@ from airhilt.assistant.decision.engines import decision_engine
 from airhilt.assistant.decision.tracks import Track
 from airhilt.messages import AdsbReport, Advisory, Severity
 from airhilt.units import FOOT, KNOT, SECOND_NS
+from breadth import mostly_slow
 from encounters import Encounter, Flight, State, head_on
 from judge_encounters import judged
 from pairs.flying import fly
@@ -20,13 +21,16 @@ from pairs.geometry import draw
 CREWS = ("AAL123", "DAL456")
 
 
-def test_random_losses_are_warned_of_in_time_though_nobody_reacts() -> None:
+@pytest.mark.parametrize(("encounters", "losses"), mostly_slow([(10, 1), (40, 5)], (10, 1)))
+def test_random_losses_are_warned_of_in_time_though_nobody_reacts(
+    encounters: int, losses: int
+) -> None:
     outcomes = [
         fly(draw(np.random.default_rng((11, number))), decision_engine("reference"), number)
-        for number in range(40)
+        for number in range(encounters)
     ]
     numbers = judged(outcomes)
-    assert numbers["losses"] >= 5
+    assert numbers["losses"] >= losses
     assert numbers["losses_missed"] == []
     assert numbers["warning_late"] == []
     assert numbers["warning_late_for_the_manoeuvre"] == []
@@ -40,7 +44,7 @@ def climbs_through(target_ft: float, seed: int) -> Encounter:
     return encounter
 
 
-@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("seed", mostly_slow(range(3), 0))
 def test_a_level_that_was_recommended_is_not_taken_for_one_that_is_flown_to(seed: int) -> None:
     encounter = climbs_through(39_000.0, seed).fly()
     warned = [t_s for t_s, advisory in encounter.told if advisory.severity is Severity.WARNING]

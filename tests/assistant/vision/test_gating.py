@@ -62,7 +62,7 @@ BLOBS = st.lists(
 )
 
 
-@settings(max_examples=40, deadline=None)
+@settings(max_examples=20, deadline=None)
 @given(scenes=st.lists(BLOBS, min_size=2, max_size=4), still=BLOBS)
 def test_it_finds_what_a_look_at_everything_finds(
     scenes: list[list[Blob]], still: list[Blob]
@@ -239,8 +239,11 @@ def test_what_two_windows_take_for_the_same_is_told_once_by_the_surer() -> None:
     assert [one.confidence > 0.325 for one in found] == [True]
 
 
-@pytest.mark.parametrize("size", [(640, 360), (1400, 200), (645, 361)])
-@settings(max_examples=30, deadline=None)
+@pytest.mark.parametrize("size", [
+    pytest.param((640, 360), marks=pytest.mark.slow),
+    pytest.param((1400, 200), marks=pytest.mark.slow), (645, 361),
+])  # fmt: skip
+@settings(max_examples=20, deadline=None)
 @given(scenes=st.lists(BLOBS, min_size=2, max_size=5), still=BLOBS)
 def test_windows_find_what_a_look_at_everything_finds(
     size: tuple[int, int], scenes: list[list[Blob]], still: list[Blob]
