@@ -10,12 +10,13 @@ import flights
 from airhilt.geodesy.wgs84 import Place
 from airhilt.world.flight import Aircraft, AircraftState
 from airhilt.world.surface.runway import RunwayEnd
+from breadth import mostly_slow
 from flights import CRUISE, make_runway
 
 
-@pytest.fixture(params=sorted(CRUISE))
+@pytest.fixture(params=mostly_slow(sorted(CRUISE), "737", "c172p"))
 def name(request: pytest.FixtureRequest) -> str:
-    """Each type in turn."""
+    """Each type in turn: an airliner and a light aircraft, and the others if asked for."""
     return str(request.param)
 
 

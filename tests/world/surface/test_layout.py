@@ -15,13 +15,14 @@ from airhilt.world.surface.airport import Airport, load_airport
 from airhilt.world.surface.layout import CLEAR_OF_HOLD_M, Hold, Layout
 from airhilt.world.surface.path import length, turn
 from airhilt.world.surface.runway import RunwayEnd
+from breadth import mostly_slow
 
 SHIPPED = ("EHAM", "KDCA", "KSFO", "LSZH", "RJTT")
 NOSE_WHEEL_RADIUS_M = 25.0
 """Wider than the 21 m that a 737-800 needs (Boeing D6-58325-6, section 4.2)."""
 
 
-@pytest.fixture(scope="module", params=SHIPPED)
+@pytest.fixture(scope="module", params=mostly_slow(SHIPPED, "KDCA", "LSZH"))
 def layout(request: pytest.FixtureRequest) -> Layout:
     return Layout(load_airport(request.param))
 
