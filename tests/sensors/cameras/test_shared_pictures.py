@@ -18,6 +18,7 @@ from airhilt.sensors.cameras.scene.bodies import BodyState
 from airhilt.sensors.cameras.scene.builder import open_scene_renderer
 from airhilt.sensors.cameras.shared_pictures import SharedPictures
 from airhilt.world.site import ScenarioSite
+from breadth import mostly_slow
 
 CAMERAS = ("nose_aal123", "tail_aal123", "runway_01")
 WEATHER: dict[str, dict[str, Any]] = {
@@ -46,7 +47,7 @@ def field(**changes: Any) -> Scenario:
     return Scenario.model_validate(document | changes)
 
 
-@pytest.fixture(scope="module", params=WEATHER)
+@pytest.fixture(scope="module", params=mostly_slow(WEATHER, "day"))
 def scenario(request: pytest.FixtureRequest) -> Scenario:
     return field(**WEATHER[request.param])
 
