@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import signal
 import subprocess
@@ -20,6 +21,7 @@ from airhilt.cosim.replay import replay
 from airhilt.errors import AirhiltError, BusError, RunStopped, WorkerError
 from airhilt.record import RunFolder, read_log
 from airhilt.scenario import Scenario
+from breadth import mostly_slow
 from paths import EXAMPLES
 from processes import ActsAt, process
 
@@ -116,8 +118,10 @@ def test_external_without_anybody_is_no_assistant(encounter: Scenario, tmp_path:
     assert summary.modalities["decision"] == "off"
 
 
-@pytest.mark.parametrize("latency", ["measured", "fixed"])
-@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSTOP])
+@pytest.mark.parametrize(("number", "latency"), mostly_slow(
+    itertools.product([signal.SIGKILL, signal.SIGSTOP], ["measured", "fixed"]),
+    (signal.SIGKILL, "measured"), (signal.SIGSTOP, "fixed"),
+))  # fmt: skip
 def test_a_worker_that_dies_or_freezes_is_noticed_and_the_run_goes_on(
     encounter: Scenario, tmp_path: Path, latency: str, number: signal.Signals
 ) -> None:

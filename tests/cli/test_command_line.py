@@ -15,6 +15,7 @@ import pytest
 
 from airhilt import library
 from airhilt.record import RunFolder, read_log
+from breadth import mostly_slow
 
 SUMMARY_FIELDS = {
     "scenario", "seed", "assistant", "duration_s", "t_conflict_s", "t_first_warning_s",
@@ -231,7 +232,7 @@ def test_a_run_killed_outright_is_readable_up_to_the_last_second(
     assert "breaks off" in replayed.stdout
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+@pytest.mark.parametrize("number", mostly_slow([signal.SIGINT, signal.SIGTERM], signal.SIGINT))
 def test_an_interrupted_run_leaves_a_complete_folder(
     airhilt_command: Any, encounter_file: Path, number: signal.Signals
 ) -> None:
