@@ -18,7 +18,7 @@ from airhilt.record.sweep_folder import SweepFolder
 from airhilt.station.started_runs import StartedRun, StartedRuns
 from damage import kill
 from radio_folder import busy_radio
-from sweep_tables import grid, write_sweep
+from sweep_tables import grid, sweep_row, write_sweep
 
 PRECIOUS = "export PATH\n"
 
@@ -90,7 +90,7 @@ def test_the_sound_and_transcript_of_a_frequency_stay_in_the_run_folder(
 def test_what_is_written_into_a_sweep_folder_stays_in_it(
     airhilt_command: Any, tmp_path: Path, outside: Path
 ) -> None:
-    folder = write_sweep(tmp_path / "sweep", grid(["s01a_tight_timing"], ["reference"]))
+    folder = write_sweep(tmp_path / "sweep", [sweep_row("s01a_tight_timing", "reference", 0)])
     lead_out(folder, outside, "report.html", "runs.csv")
     assert airhilt_command("report", folder, "--csv", folder / "runs.csv").returncode == 0
     assert airhilt_command("report", folder).returncode == 0
@@ -101,7 +101,8 @@ def test_what_is_written_into_a_sweep_folder_stays_in_it(
 def test_figures_are_not_written_through_a_link(
     airhilt_command: Any, tmp_path: Path, outside: Path
 ) -> None:
-    folder = write_sweep(tmp_path / "sweep", grid(["s01a_tight_timing"], ["reference"]))
+    rows = [sweep_row("s01a_x", "reference", n, snr_db=9.0 * n, avoided=True) for n in range(2)]
+    folder = write_sweep(tmp_path / "sweep", rows)
     (folder / "figures").symlink_to(outside.parent)
     done = airhilt_command("report", folder)
     assert done.returncode == 2

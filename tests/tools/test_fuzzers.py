@@ -9,6 +9,7 @@ import pytest
 
 import fuzz_files
 import fuzz_scenarios
+from breadth import mostly_slow
 from mutants import Mutator, Read, judge, judge_many, shipped
 
 EN_ROUTE = ("s02a_headon", "s02a_vertical", "s02b_engine_out_driftdown", "s02c_nominal")
@@ -25,19 +26,30 @@ def require_accepted_or_refused(
 
 
 @pytest.mark.parametrize(
-    ("names", "count", "run_every"), [(EN_ROUTE, 440, 40), (AIRPORTS, 60, 0)], ids=["air", "ground"]
-)
+    ("names", "count", "run_every"),
+    mostly_slow(
+        [(EN_ROUTE, 440, 40), (EN_ROUTE, 120, 60), (AIRPORTS, 60, 0), (AIRPORTS, 20, 0)],
+        (EN_ROUTE, 120, 60), (AIRPORTS, 20, 0),
+    ),
+    ids=["air", "a little in the air", "ground", "a little on the ground"],
+)  # fmt: skip
 def test_a_mutated_scenario_is_accepted_or_refused_by_name(
     names: tuple[str, ...], count: int, run_every: int
 ) -> None:
     require_accepted_or_refused("scenarios", names, fuzz_scenarios.read, count, run_every)
 
 
-@pytest.mark.parametrize(("kind", "run_every"), [("airports", 0), ("aircraft", 20)])
+@pytest.mark.parametrize(
+    ("kind", "count", "run_every"),
+    mostly_slow(
+        [("airports", 200, 0), ("airports", 60, 0), ("aircraft", 200, 20), ("aircraft", 60, 30)],
+        ("airports", 60, 0), ("aircraft", 60, 30),
+    ),
+)  # fmt: skip
 def test_a_mutated_airport_or_aircraft_type_is_accepted_or_refused_by_name(
-    kind: str, run_every: int
+    kind: str, count: int, run_every: int
 ) -> None:
-    require_accepted_or_refused(kind, None, fuzz_files.READERS[kind], 200, run_every)
+    require_accepted_or_refused(kind, None, fuzz_files.READERS[kind], count, run_every)
 
 
 def test_a_seed_gives_the_same_mutants_again() -> None:
