@@ -18,9 +18,9 @@ from markdown_it import MarkdownIt
 
 from airhilt import library
 from airhilt.bus import free_endpoint
-from airhilt.scenario import Scenario
 from airhilt_short import shorten, use_for
 from paths import DOCS, ROOT, SUPPORT
+from sweep_tables import grid, write_sweep
 
 PAGES = (ROOT / "README.md", *sorted(DOCS.glob("*.md")))
 RUN_PAGES = (ROOT / "README.md", DOCS / "getting-started.md")
@@ -173,16 +173,10 @@ def test_the_commands_of_a_page_can_be_run(
 
 
 @pytest.fixture(scope="session")
-def sweep_folder(encounter: Scenario, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """A small sweep that the pages can read."""
+def sweep_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A sweep that the pages can read; it never ran."""
     out = tmp_path_factory.mktemp("sweeps") / "s01a"
-    scenario = out.with_name("encounter.json")
-    scenario.write_text(encounter.model_dump_json())
-    arguments = ["--scenario", str(scenario), "--snr", "5,10", "--out", str(out)]
-    arguments += ["--no-cameras", "--no-speech", "--assistant", "reference,none", "--workers", "1"]
-    command = [sys.executable, "-m", "airhilt", "sweep", *arguments]
-    subprocess.run(command, check=True, capture_output=True)
-    return out
+    return write_sweep(out, grid(["s01a_bad_readback"], ["reference", "none"], seeds=2))
 
 
 @pytest.mark.parametrize("example", PYTHON, ids=str)
