@@ -149,6 +149,7 @@ def test_a_measured_run_with_cameras_is_replayed_to_the_byte(
     assert replay(tmp_path / "run").identical
 
 
+@pytest.mark.slow
 def test_a_run_with_the_default_renderer_is_replayed_to_the_byte(
     short: Scenario, tmp_path: Path
 ) -> None:
