@@ -53,11 +53,11 @@ def test_an_attached_worker_knows_the_separation_of_the_scenario(
 ) -> None:
     narrow = encounter.separation.model_copy(update={"horizontal_nm": 3.0})
     scenario = encounter.model_copy(update={"separation": narrow})
-    inside = run(scenario, out=tmp_path / "inside", latency="fixed").folder
+    inside = run(scenario, out=tmp_path / "inside", speech=False, latency="fixed").folder
     endpoint = free_endpoint()
     with decision_worker(endpoint):
         outside = run(
-            scenario, out=tmp_path / "outside", latency="fixed", listen=endpoint,
+            scenario, out=tmp_path / "outside", speech=False, latency="fixed", listen=endpoint,
             attach=("decision",),
         ).folder  # fmt: skip
     assert (outside / "log.mcap").read_bytes() == (inside / "log.mcap").read_bytes()
@@ -74,7 +74,12 @@ def test_a_worker_that_wakes_by_itself_is_replayed(encounter: Scenario, tmp_path
     endpoint = free_endpoint()
     with decision_worker(endpoint):
         folder = run(
-            scenario, out=tmp_path / "run", latency="fixed", listen=endpoint, attach=("decision",)
+            scenario,
+            out=tmp_path / "run",
+            speech=False,
+            latency="fixed",
+            listen=endpoint,
+            attach=("decision",),
         ).folder
     steps = [json.loads(line) for line in (folder / "latency.jsonl").read_text().splitlines()]
     woken = [s for s in steps if s["worker"] == "decision" and 9e9 < s["t_start_ns"] < 20e9]
@@ -106,15 +111,15 @@ def test_a_program_without_grants_that_dies_is_noticed_too(
     with process(EXAMPLES / "plain_zenoh_worker.py", endpoint) as program:
         if strict:
             with pytest.raises(RunStopped, match="plain"):
-                run(short, out=tmp_path / "run", **options)
+                run(short, out=tmp_path / "run", speech=False, **options)
             return
-        result = run(short, out=tmp_path / "run", **options)
+        result = run(short, out=tmp_path / "run", speech=False, **options)
     assert result.summary.modalities["decision"] == "lost"
     assert replay(result.folder).identical
 
 
 def test_external_without_anybody_is_no_assistant(encounter: Scenario, tmp_path: Path) -> None:
-    summary = run(encounter, out=tmp_path / "run", assistant="external").summary
+    summary = run(encounter, out=tmp_path / "run", speech=False, assistant="external").summary
     assert summary.modalities["decision"] == "off"
 
 
@@ -128,7 +133,7 @@ def test_a_worker_that_dies_or_freezes_is_noticed_and_the_run_goes_on(
     endpoint = free_endpoint()
     with decision_worker(endpoint) as worker:
         result = run(
-            encounter, out=tmp_path / "run", latency=latency, listen=endpoint,
+            encounter, out=tmp_path / "run", speech=False, latency=latency, listen=endpoint,
             attach=("decision",), step_timeout_s=1.0, observer=ActsAt(10.0, worker, number),
         )  # fmt: skip
     assert result.summary.outcome == "finished"
@@ -152,8 +157,8 @@ def test_strict_stops_with_the_cause(encounter: Scenario, tmp_path: Path) -> Non
         pytest.raises(RunStopped, match=r"--strict asks: worker 'decision'"),
     ):
         run(
-            encounter, out=tmp_path / "run", listen=endpoint, attach=("decision",), strict=True,
-            observer=ActsAt(10.0, worker, signal.SIGKILL),
+            encounter, out=tmp_path / "run", speech=False, listen=endpoint, attach=("decision",),
+            strict=True, observer=ActsAt(10.0, worker, signal.SIGKILL),
         )  # fmt: skip
     info = RunFolder(tmp_path / "run").info()
     assert info.phase == "stopped"
@@ -163,7 +168,9 @@ def test_strict_stops_with_the_cause(encounter: Scenario, tmp_path: Path) -> Non
 def test_the_example_on_the_sdk_works(encounter: Scenario, tmp_path: Path) -> None:
     endpoint = free_endpoint()
     with process(EXAMPLES / "sdk_worker.py", endpoint) as worker:
-        result = run(encounter, out=tmp_path / "run", listen=endpoint, attach=("simple",))
+        result = run(
+            encounter, out=tmp_path / "run", speech=False, listen=endpoint, attach=("simple",)
+        )
         assert worker.wait(timeout=10.0) == 0
     assert result.summary.assistant == "external"
     assert [told.id for told in result.summary.advisories] == ["simple-a1b2c3-a4d5e6"]
@@ -176,7 +183,7 @@ def test_the_example_in_plain_zenoh_makes_the_run_real_time_and_counts(
     short = encounter.model_copy(update={"duration_s": 4.0})
     endpoint = free_endpoint()
     with process(EXAMPLES / "plain_zenoh_worker.py", endpoint):
-        result = run(short, out=tmp_path / "run", listen=endpoint, attach=("plain",))
+        result = run(short, out=tmp_path / "run", speech=False, listen=endpoint, attach=("plain",))
     assert RunFolder(result.folder).info().pace == "realtime"
     assert RunFolder(result.folder).info().unregistered_programs
     assert [told.id for told in result.summary.advisories] == ["plain-1"]
@@ -261,7 +268,7 @@ def test_a_worker_that_breaks_the_contract_ends_the_run_with_its_name(
 ) -> None:
     endpoint = free_endpoint()
     with process("-c", BAD_WORKER, endpoint, answer), pytest.raises(WorkerError) as caught:
-        run(encounter, out=tmp_path / "run", listen=endpoint, attach=("bad",))
+        run(encounter, out=tmp_path / "run", speech=False, listen=endpoint, attach=("bad",))
     assert "'bad'" in str(caught.value)
     assert said in str(caught.value)
     assert "\n" not in str(caught.value)
@@ -290,7 +297,7 @@ def test_a_worker_of_the_sdk_whose_step_has_a_part_of_another_type_is_lost(
     endpoint = free_endpoint()
     short = encounter.model_copy(update={"duration_s": 3.0})
     with process("-c", ODD_WORKER, endpoint):
-        result = run(short, out=tmp_path / "run", listen=endpoint, attach=("odd",))
+        result = run(short, out=tmp_path / "run", speech=False, listen=endpoint, attach=("odd",))
     assert result.summary.outcome == "finished"
     (lost,) = [
         json.loads(logged.data)["cause"]
@@ -316,7 +323,7 @@ def test_a_run_listens_on_loopback_only(encounter: Scenario, tmp_path: Path) -> 
         def snapshot(self, snapshot: Snapshot) -> None:
             seen.update(listening_addresses())
 
-    run(encounter, out=tmp_path / "run", latency="fixed", observer=Looks())
+    run(encounter, out=tmp_path / "run", speech=False, latency="fixed", observer=Looks())
     assert seen == {"127.0.0.1"}
 
 
@@ -361,7 +368,12 @@ def test_a_command_from_outside_moves_an_aircraft(encounter: Scenario, tmp_path:
     short = encounter.model_copy(update={"duration_s": 3.0})
     try:
         result = run(
-            short, out=tmp_path / "run", listen=endpoint, assistant="none", observer=commands
+            short,
+            out=tmp_path / "run",
+            speech=False,
+            listen=endpoint,
+            assistant="none",
+            observer=commands,
         )
     finally:
         if commands.session is not None:

@@ -23,6 +23,7 @@ from airhilt.cosim.observer import Observer
 from airhilt.cosim.replay import replay
 from airhilt.errors import AirhiltError, BusError
 from airhilt.scenario import Scenario
+from breadth import mostly_slow
 from processes import process
 
 TRIES = """
@@ -150,7 +151,7 @@ def with_files_exchanged(keys: Path, folder: Path, *, named: str, of: str) -> Pa
     return folder
 
 
-@pytest.mark.parametrize("of", ["observer", "operator", "recorder"])
+@pytest.mark.parametrize("of", mostly_slow(["observer", "operator", "recorder"], "operator"))
 def test_a_worker_with_the_certificate_of_another_role_is_told_so(
     bus: Bus, keys: Path, tmp_path: Path, of: str
 ) -> None:
@@ -165,7 +166,7 @@ def test_a_worker_with_the_certificate_of_another_role_is_told_so(
     )
 
 
-@pytest.mark.parametrize("of", ["observer", "worker", "recorder"])
+@pytest.mark.parametrize("of", mostly_slow(["observer", "worker", "recorder"], "worker"))
 def test_a_person_with_the_certificate_of_another_role_is_told_so(
     bus: Bus, keys: Path, tmp_path: Path, of: str
 ) -> None:
