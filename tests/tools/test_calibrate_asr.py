@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -18,8 +20,9 @@ def call(heard: str, posteriors: list[float], callsign: range) -> calibrate_asr.
         Emission(word, posterior, at, is_callsign=at in callsign)
         for at, (word, posterior) in enumerate(zip(heard.split(), posteriors, strict=True))
     ]
-    right = calibrate_asr.right_words(SAID, [each.word for each in path])
-    return calibrate_asr.HeardCall(SAID, path, right)
+    words = [each.word for each in path]
+    right = calibrate_asr.right_words(SAID, words)
+    return calibrate_asr.HeardCall(SAID, path, right, calibrate_asr.words_beside_lost(SAID, words))
 
 
 @pytest.mark.parametrize(
@@ -37,15 +40,45 @@ def test_a_word_is_right_where_it_was_said_in_whatever_spelling(
     assert calibrate_asr.right_words(SAID, heard.split()) == right
 
 
+@pytest.mark.parametrize(
+    ("heard", "beside"),
+    [
+        (SAID, []),
+        ("american one two three alfa", ["three", "alfa"]),
+        ("one two three climb alfa", ["one"]),
+        ("american one two three climb", ["climb"]),
+        ("american one two tree turn alpha", []),
+    ],
+)
+def test_a_word_that_is_lost_has_others_beside_it(heard: str, beside: list[str]) -> None:
+    words = heard.split()
+    lost = calibrate_asr.words_beside_lost(SAID, words)
+    assert [word for word, is_beside in zip(words, lost, strict=True) if is_beside] == beside
+
+
+def test_a_word_is_trusted_less_the_more_was_heard_beside_it_where_words_are_lost() -> None:
+    whole = call(SAID, [0.9] * 6, range(0))
+    lossy = call("american one two three alfa", [0.9] * 5, range(0))
+    lossy = lossy._replace(
+        path=[replace(each, unwritten=4.0 * (at > 2)) for at, each in enumerate(lossy.path)]
+    )
+    curves = calibrate_asr.curves_of([whole, lossy] * 4)
+    quiet, loud = calibrate_asr.confidences_of(
+        curves, [Emission("climb", 0.99, 0), Emission("climb", 0.99, 0, unwritten=4.0)]
+    )
+    assert quiet > 0.9
+    assert loud < 0.1
+
+
 def test_the_curve_of_words_leaves_callsigns_of_the_roster_out() -> None:
     """Words of callsigns are wrong whatever their confidence; others are right where likely."""
     calls = [
         call("delta four four four climb alfa", [0.99] * 4 + [0.9, 0.9], range(4)),
         call("american one two three turn alfa", [0.9] * 4 + [0.1, 0.9], range(0)),
     ] * 4
-    curve = calibrate_asr.curve_of(calls)
+    curves = calibrate_asr.curves_of(calls)
     of_callsign, of_word = calibrate_asr.confidences_of(
-        curve, [Emission("one", 0.7, 0, is_callsign=True), Emission("climb", 0.9, 1)]
+        curves, [Emission("one", 0.7, 0, is_callsign=True), Emission("climb", 0.9, 1)]
     )
     assert of_callsign == 0.7
     assert of_word > 0.9

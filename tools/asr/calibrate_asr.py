@@ -6,8 +6,9 @@
 The calls of the folder (not those of training, nor those that scores are given of) go through the
 channel at many ratios. First the weight of the language model and the reward of a piece are chosen
 with which the fewest words of some of the calls are wrong, and by maximum likelihood the odds that
-a callsign of the roster was said. Then two logistic curves are fitted (Platt, 1999) to how often
-something is right: from the posterior of a word, and from the product of a call's confidences.
+a callsign of the roster was said. Then logistic curves are fitted (Platt, 1999): to how often a
+word is right, from its posterior; to how often one is lost beside it, from what was heard there and
+not written; and to how often a call is right, from the product of its words' confidences.
 Words below the threshold that costs least errors are left out of transcripts, and transmissions
 whose best word is no better than in noise alone are empty.
 """
@@ -30,8 +31,9 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize
 
 from airhilt.assistant.asr.beam_search import BeamSearch
-from airhilt.assistant.asr.engines.embedded import Ctc, Emission
+from airhilt.assistant.asr.engines.embedded import Calibration, Ctc, Emission, confidence_of
 from airhilt.assistant.asr.language import Language
+from airhilt.assistant.asr.lost_words import LossCurve, log_heard
 from airhilt.assistant.asr.pieces import Pieces
 from airhilt.assistant.asr.spotting import Aligned, Odds, Spotter
 from airhilt.audio.pcm import Audio
@@ -70,37 +72,41 @@ class HeardCall(NamedTuple):
     path: list[Emission]
     right: list[bool]
     """True for each word of the path that was said there."""
+    beside_lost: list[bool]
+    """True for each one before or behind which a word was said that the path lacks."""
 
     def text(self, kept: NDArray[np.bool_]) -> str:
         """Return the words that are kept."""
         return " ".join(each.word for each, is_kept in zip(self.path, kept, strict=True) if is_kept)
 
 
-def confidences_of(curve: dict[str, float], path: Sequence[Emission]) -> NDArray[np.float64]:
-    """Return the confidence of each word, with the curve of those of no callsign."""
-    posteriors = np.array([each.posterior for each in path])
-    is_callsign = [each.is_callsign for each in path]
-    return np.where(is_callsign, posteriors, logistic(curve, posteriors))
+class Curves(NamedTuple):
+    """What the confidence of a word follows from."""
+
+    word: Calibration
+    lost: LossCurve
 
 
-def fit(posteriors: NDArray[np.float64], right: NDArray[np.bool_]) -> dict[str, float]:
-    """Return slope and offset of the logistic curve over log-odds."""
-    bounded = np.clip(posteriors, 1e-6, 1 - 1e-6)
-    log_odds = np.log(bounded / (1 - bounded))
+def confidences_of(curves: Curves, path: Sequence[Emission]) -> NDArray[np.float64]:
+    """Return the confidence of each word."""
+    return np.array([confidence_of(each, *curves) for each in path])
+
+
+def log_odds(probabilities: Sequence[float]) -> NDArray[np.float64]:
+    """Return the logarithms of odds, within those of one in a million."""
+    bounded = np.clip(probabilities, 1e-6, 1 - 1e-6)
+    return np.asarray(np.log(bounded / (1 - bounded)))
+
+
+def fit(x: NDArray[np.float64], happened: Sequence[bool]) -> dict[str, float]:
+    """Return slope and offset of the logistic curve of how often something happens at each x."""
 
     def loss(parameters: NDArray[np.float64]) -> float:
-        z = parameters[0] * log_odds + parameters[1]
-        return float(np.mean(np.logaddexp(0.0, np.where(right, -z, z))))
+        z = parameters[0] * x + parameters[1]
+        return float(np.mean(np.logaddexp(0.0, np.where(happened, -z, z))))
 
     slope, offset = minimize(loss, np.array([1.0, 0.0])).x
     return {"slope": round(float(slope), 4), "offset": round(float(offset), 4)}
-
-
-def logistic(curve: dict[str, float], posteriors: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the curve's values."""
-    bounded = np.clip(posteriors, 1e-6, 1 - 1e-6)
-    z = curve["slope"] * np.log(bounded / (1 - bounded)) + curve["offset"]
-    return np.asarray(1 / (1 + np.exp(-z)))
 
 
 def main() -> None:
@@ -135,15 +141,16 @@ def write_into_card(model: Path, fitted: dict[str, Any]) -> None:
 
 def thresholds(engine: Ctc, calls: Sequence[HeardCall], roster: Sequence[str]) -> dict[str, Any]:
     """Return the curves of words and calls for the card, and the thresholds that they give."""
-    curve = curve_of(calls)
+    curves = curves_of(calls)
     silent = [
         engine.path(engine.posteriors(audio), roster) for audio in noise_alone(SILENT_CALLS, seed=6)
     ]
-    threshold, talkative = quietest_threshold(curve, silent)
-    least, errors = best_threshold(curve, calls)
+    threshold, talkative = quietest_threshold(curves, silent)
+    least, errors = best_threshold(curves, calls)
     return {
-        "word_calibration": curve,
-        "call_calibration": call_calibration(curve, calls, least),
+        "word_calibration": asdict(curves.word),
+        "lost_words": asdict(curves.lost),
+        "call_calibration": call_calibration(curves, calls, least),
         "least_word_confidence": least,
         "best_word_threshold": threshold,
         "calibrated_on": {
@@ -245,7 +252,9 @@ def heard_calls(
     for index, each in enumerate(utterances):
         for audio in at_ratios(each, index):
             path = engine.path(engine.posteriors(audio), rosters[index])
-            yield HeardCall(each.text, path, right_words(each.text, [word.word for word in path]))
+            words = [word.word for word in path]
+            right, beside_lost = right_words(each.text, words), words_beside_lost(each.text, words)
+            yield HeardCall(each.text, path, right, beside_lost)
 
 
 def at_ratios(call: SpokenCall, seed: int) -> Iterator[Audio]:
@@ -274,13 +283,29 @@ def misleading(
 def right_words(reference: str, hypothesis: Sequence[str]) -> list[bool]:
     """Return for each recognised word whether it was said there, in this or another spelling."""
     right = [False] * len(hypothesis)
-    if hypothesis:
-        said, heard = (" ".join(map(_spelled, words)) for words in (reference.split(), hypothesis))
-        for chunk in jiwer.process_words(said, heard).alignments[0]:
-            if chunk.type == "equal":
-                for at in range(chunk.hyp_start_idx, chunk.hyp_end_idx):
-                    right[at] = True
+    for chunk in _chunks(reference, hypothesis):
+        if chunk.type == "equal":
+            for at in range(chunk.hyp_start_idx, chunk.hyp_end_idx):
+                right[at] = True
     return right
+
+
+def words_beside_lost(reference: str, hypothesis: Sequence[str]) -> list[bool]:
+    """Return for each recognised word whether one was said right before or behind it, and lost."""
+    beside = [False] * len(hypothesis)
+    for chunk in _chunks(reference, hypothesis):
+        if chunk.type == "delete":
+            behind = chunk.hyp_start_idx
+            for at in {max(behind - 1, 0), min(behind, len(beside) - 1)}:
+                beside[at] = True
+    return beside
+
+
+def _chunks(reference: str, hypothesis: Sequence[str]) -> list[jiwer.AlignmentChunk]:
+    if not hypothesis:
+        return []
+    said, heard = (" ".join(map(_spelled, words)) for words in (reference.split(), hypothesis))
+    return jiwer.process_words(said, heard).alignments[0]
 
 
 def _spelled(word: str) -> str:
@@ -288,48 +313,48 @@ def _spelled(word: str) -> str:
     return "_".join(in_words(word)) or word
 
 
-def curve_of(calls: Sequence[HeardCall]) -> dict[str, float]:
-    """Fit the curve of words, but those of callsigns of the roster."""
+def curves_of(calls: Sequence[HeardCall]) -> Curves:
+    """Fit the curves of words, but those of callsigns of the roster."""
     words = [
-        (each.posterior, right)
+        each
         for call in calls
-        for each, right in zip(call.path, call.right, strict=True)
-        if not each.is_callsign
+        for each in zip(call.path, call.right, call.beside_lost, strict=True)
+        if not each[0].is_callsign
     ]
-    return fit(*map(np.array, zip(*words, strict=True)))
+    path, right, beside_lost = zip(*words, strict=True)
+    return Curves(
+        Calibration(**fit(log_odds([each.posterior for each in path]), right)),
+        LossCurve(**fit(np.array([log_heard(each.unwritten) for each in path]), beside_lost)),
+    )
 
 
-def call_calibration(
-    curve: dict[str, float], calls: Sequence[HeardCall], least: float
-) -> dict[str, float]:
+def call_calibration(curves: Curves, calls: Sequence[HeardCall], least: float) -> dict[str, float]:
     """Return the curve of whole calls, of which words below the least confidence are left out."""
     confidences, whole = [], []
     for call in calls:
         if not call.path:
             continue
-        trust = confidences_of(curve, call.path)
+        trust = confidences_of(curves, call.path)
         confidences.append(float(np.prod(trust)))
         whole.append(in_words(call.text(trust >= least)) == in_words(call.reference))
-    return fit(np.array(confidences), np.array(whole))
+    return fit(log_odds(confidences), whole)
 
 
-def quietest_threshold(
-    curve: dict[str, float], silent: Sequence[Sequence[Emission]]
-) -> tuple[float, float]:
+def quietest_threshold(curves: Curves, silent: Sequence[Sequence[Emission]]) -> tuple[float, float]:
     """Return the confidence that the best word must have, and the share of silence that passes.
 
     The result is the least at which `MOST_TALKATIVE` of them do.
     """
-    best = np.array([confidences_of(curve, path).max(initial=0.0) for path in silent])
+    best = np.array([confidences_of(curves, path).max(initial=0.0) for path in silent])
     least = math.ceil(100.0 * float(np.quantile(best, 1.0 - MOST_TALKATIVE))) / 100.0
     has_words = np.array([bool(path) for path in silent])
     return least, float(np.mean(has_words & (best >= least)))
 
 
-def best_threshold(curve: dict[str, float], calls: Sequence[HeardCall]) -> tuple[float, float]:
+def best_threshold(curves: Curves, calls: Sequence[HeardCall]) -> tuple[float, float]:
     """Return the least confidence of a word that is kept, and the word error rate with it."""
     references = [call.reference for call in calls]
-    trusts = [confidences_of(curve, call.path) for call in calls]
+    trusts = [confidences_of(curves, call.path) for call in calls]
     rates = [
         (
             word_error_rate(

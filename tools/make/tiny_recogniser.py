@@ -88,6 +88,7 @@ def main() -> None:
     card = {
         "made_by": "tools/make/tiny_recogniser.py",
         "word_calibration": as_it_is,
+        "lost_words": {"slope": 1.0, "offset": -5.0},
         "callsign_odds": {"offset": 0.0, "name": 1.0, "sign": 1.0, "loss": 0.5},
         "call_calibration": as_it_is,
         "least_word_confidence": 0.5,

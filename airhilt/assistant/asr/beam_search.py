@@ -11,6 +11,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -123,8 +124,19 @@ class BeamSearch:
         return prior
 
 
-def aligned(posteriors: NDArray[np.float32], units: tuple[int, ...]) -> list[tuple[int, float]]:
-    """Return for each unit of a call the step at which it begins, and its highest posterior.
+class HeardUnit(NamedTuple):
+    """Unit of a call, where it was heard."""
+
+    begin: int
+    """Step at which it begins."""
+    end: int
+    """Step behind its last one."""
+    posterior: float
+    """Its highest posterior."""
+
+
+def aligned(posteriors: NDArray[np.float32], units: tuple[int, ...]) -> list[HeardUnit]:
+    """Return where each unit of a call was heard.
 
     The likeliest alignment (Viterbi) of the units to the steps; there are at least as many steps
     as units and blanks between equal ones.
@@ -146,11 +158,12 @@ def aligned(posteriors: NDArray[np.float32], units: tuple[int, ...]) -> list[tup
         came[at] = ways.argmax(axis=0)
         best = ways.max(axis=0) + log[at]
     state = len(states) - 1 if best[-1] >= best[-2] else len(states) - 2
-    begins, highest = [0] * len(units), [0.0] * len(units)
+    begins, ends, highest = [0] * len(units), [0] * len(units), [0.0] * len(units)
     for at in range(len(log) - 1, -1, -1):
         if state % 2:
             unit = state // 2
             begins[unit] = at
+            ends[unit] = max(ends[unit], at + 1)
             highest[unit] = max(highest[unit], float(posteriors[at, units[unit]]))
         state -= int(came[at, state])
-    return list(zip(begins, highest, strict=True))
+    return list(map(HeardUnit, begins, ends, highest))

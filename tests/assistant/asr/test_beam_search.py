@@ -98,6 +98,7 @@ def test_each_unit_is_found_where_it_was_said() -> None:
     for step, unit in ((1, 1), (2, 1), (4, 1), (5, 2)):
         said[step] = 0.1
         said[step, unit] = 0.8
-    assert [step for step, _ in aligned(said, (1, 1, 2))] == [1, 4, 5]
-    assert [float(best) for _, best in aligned(said, (1, 1, 2))] == pytest.approx([0.8] * 3)
+    found = aligned(said, (1, 1, 2))
+    assert [(each.begin, each.end) for each in found] == [(1, 3), (4, 5), (5, 6)]
+    assert [each.posterior for each in found] == pytest.approx([0.8] * 3)
     assert aligned(said, ()) == []

@@ -142,6 +142,21 @@ def test_a_callsign_of_the_roster_needs_no_calibration(
     assert alfa == pytest.approx(0.9)
 
 
+def test_words_are_unsure_where_something_was_heard_between_them_that_is_not_written(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    curve = {"slope": 2.0, "offset": 0.0}
+    engine = with_card(folder, lost_words=curve, least_word_confidence=0.0)
+    steps = np.zeros((12, 4), np.float32)
+    steps[[1, 9, 11], [2, 1, 3]] = 0.97
+    steps[3:7, 3] = 0.4
+    steps[:, 0] = 1.0 - steps[:, 1:].sum(axis=1)
+    monkeypatch.setattr(engine, "posteriors", lambda _: steps)
+    (_, bravo), (_, alfa), (_, charlie) = engine.recognise(call(BRAVO_HZ), ()).words
+    assert bravo == alfa == pytest.approx(1.0 / (1.0 + (4 * 0.4 + 0.1) ** 2), abs=0.01)
+    assert charlie == pytest.approx(0.97)
+
+
 def test_a_word_that_is_too_unsure_is_left_out_and_makes_the_call_unsure(folder: Path) -> None:
     doubtful = call(BRAVO_HZ, DOUBTFUL_ALFA_HZ)
     assert Ctc(folder).recognise(doubtful, ()).text == "bravo alfa"

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 from typing import Annotated
 
@@ -20,6 +21,7 @@ from airhilt.assistant.asr.beam_search import BeamSearch, aligned
 from airhilt.assistant.asr.engine import Recognised
 from airhilt.assistant.asr.features import BINS, mel_power, normalised
 from airhilt.assistant.asr.language import Language
+from airhilt.assistant.asr.lost_words import LossCurve, unwritten
 from airhilt.assistant.asr.pieces import Pieces
 from airhilt.assistant.asr.spotting import Odds, Spotted, Spotter, is_same
 from airhilt.audio.pcm import Audio
@@ -70,6 +72,8 @@ class Card(BaseModel):
     model_config = ConfigDict(extra="ignore", frozen=True, allow_inf_nan=False)
     word_calibration: Calibration
     """Calibration of the highest posterior of a word."""
+    lost_words: LossCurve
+    """Probability that a word was said where more was heard than is written."""
     callsign_odds: Odds
     """Odds of a callsign of the roster that may have been said in a call."""
     call_calibration: Calibration
@@ -98,6 +102,8 @@ class Emission:
     """Step at which it begins."""
     is_callsign: bool = False
     """True if it is of a callsign of the roster."""
+    unwritten: float = 0.0
+    """The more of what was heard right before and right behind it that no word has."""
 
 
 class Ctc:
@@ -138,6 +144,7 @@ class Ctc:
                 f"{first_problem(error)}; expected it as tools/asr/train_asr.py writes it"
             ) from None
         self._word, self._call = card.word_calibration, card.call_calibration
+        self._lost = card.lost_words
         self._odds = card.callsign_odds
         self._least = card.least_word_confidence
         self._best_word_threshold = card.best_word_threshold
@@ -161,7 +168,7 @@ class Ctc:
         if not np.isfinite(audio).all():
             raise SpeechError(f"recogniser {self.name}: the audio has samples that are no numbers")
         words = [
-            (each.word, each.posterior if each.is_callsign else self._word(each.posterior))
+            (each.word, confidence_of(each, self._word, self._lost))
             for each in self.path(self.posteriors(audio), callsigns)
         ]
         best = max((confidence for _, confidence in words), default=0.0)
@@ -180,13 +187,18 @@ class Ctc:
     def _likeliest(self, posteriors: NDArray[np.float32]) -> list[Emission]:
         units = self._search.units(posteriors)
         heard = aligned(posteriors, units)
+        places = self._pieces.words(units)
+        words = [heard[first:after] for first, after in places]
         return [
             Emission(
                 self._pieces.text(units[first:after]),
-                min(posterior for _, posterior in heard[first:after]),
-                heard[first][0],
+                min(unit.posterior for unit in word),
+                word[0].begin,
+                unwritten=max(gaps),
             )
-            for first, after in self._pieces.words(units)
+            for (first, after), word, gaps in zip(
+                places, words, pairwise(unwritten(posteriors, words)), strict=True
+            )
         ]
 
     def _spotter(self, callsigns: tuple[str, ...]) -> Spotter:
@@ -233,6 +245,16 @@ class Ctc:
         ]
         weights = np.exp(logits - logits.max(axis=1, keepdims=True))
         return np.asarray(weights / weights.sum(axis=1, keepdims=True), np.float32)
+
+
+def confidence_of(heard: Emission, word: Calibration, lost: LossCurve) -> float:
+    """Return the confidence that a word is right, or, if it is less, that none beside it is lost.
+
+    A callsign of the roster has its own.
+    """
+    if heard.is_callsign:
+        return heard.posterior
+    return min(word(heard.posterior), 1.0 - lost(heard.unwritten))
 
 
 def with_callsign(path: Sequence[Emission], spotted: Spotted) -> list[Emission]:
