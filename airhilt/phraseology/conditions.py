@@ -41,7 +41,7 @@ _AS_FILED = re.compile(
     r"|cleared to (?!land|cross|enter|the ils).* departure)(?!\S)"
 )
 """Words of a clearance before departure (FAA Order JO 7110.65, 4-3-2)."""
-_AFTER_DEPARTURE: frozenset[Action] = frozenset({"altitude", "contact", "climb_via"})
+_AFTER_DEPARTURE: frozenset[Action] = (SEQUENCED - {"direct"}) | {"contact"}
 """Actions of a clearance before departure that wait for it."""
 _PROCEDURE = re.compile(r"(?<!\S)(?:[0-9]|arrival|departure|via|star|sid)(?!\S)")
 """Words of a procedure between a climb or a descent and its level."""

@@ -44,6 +44,8 @@ _EVENT_WORDS = frozenset({"after", "once", "when", "behind", "as"})
 """First words of an event that a clearance waits for."""
 LEAST_CONDITION = 2
 """Least number of words of a whole condition."""
+IDLE = frozenset({"and", "the"})
+"""Words without which an action means the same, however surely they were heard."""
 CLEAR = (1.0, 1.0)
 """Confidences of a recogniser that has no doubt about the action and its details."""
 
@@ -85,12 +87,14 @@ def content_of(words: Words) -> Content:
     gaps = _gaps(reads, scan, plain, starts, words)
     _take_bare(content, gaps, reads, scan, text, is_called=texts[:1] == [NAME])
     taken = [(read.start, read.end) for read, _ in reads]
+    heard_as = zip(texts, words.confidences, strict=True)
+    sure = [1.0 if word in IDLE else confidence for word, confidence in heard_as]
     for read, each in reads:
         is_beside = bool(gaps) and _is_beside_unexplained(read, plain, taken)
         after_action = bisect_right(starts, each.match.end() - 1)
-        action = words.confidences[each.first : after_action]
-        before = words.confidences[bisect_right(starts, read.start) - 1 : each.first]
-        behind = words.confidences[after_action : bisect_right(starts, read.end - 1)]
+        action = sure[each.first : after_action]
+        before = sure[bisect_right(starts, read.start) - 1 : each.first]
+        behind = sure[after_action : bisect_right(starts, read.end - 1)]
         heard = min(action, default=1.0), min([*before, *behind], default=1.0)
         for told in (read.instruction, *read.more):
             if is_beside or _is_doubtful(told, plain, read, each):

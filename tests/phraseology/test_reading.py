@@ -385,6 +385,14 @@ def test_words_that_the_recogniser_is_not_sure_of_count_where_they_matter() -> N
     assert confidence == {"callsign": 0.4, "level": 0.5, "greeting": 1.0}
 
 
+def test_words_without_which_an_action_means_the_same_need_not_be_heard_surely() -> None:
+    words = "american one two three climb and maintain three thousand hold short of the runway"
+    idle = [0.3 if word in ("and", "the") else 1.0 for word in words.split()]
+    assert parse_call(words, KNOWN, idle) == parse_call(words, KNOWN)
+    without_and = [0.3 if word == "maintain" else 1.0 for word in words.split()]
+    assert parse_call(words, KNOWN, without_and).confidence == pytest.approx(0.3)
+
+
 def test_confidences_of_other_words_are_an_error() -> None:
     with pytest.raises(ValueError, match="2 word confidences for 3 words"):
         parse_call("one two three", KNOWN, [1.0, 1.0])
