@@ -33,7 +33,7 @@ import torch
 from torch import Tensor, nn
 from torch.utils.data import DataLoader, Dataset
 
-from airhilt.assistant.asr.features import BINS, FLOOR, logarithm, mel_power
+from airhilt.assistant.asr.features import BINS, FLOOR, mel_power, normalised
 from airhilt.assistant.asr.pieces import Pieces
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.channel import VhfChannel
@@ -264,7 +264,7 @@ class Mixer:
         rng = self._rng
         log = utterance.mel.astype(np.float32)
         if utterance.real:
-            return self._masked(log - log.mean(axis=0), easy)
+            return self._masked(normalised(np.exp(log)), easy)
         if not easy:
             log = self._warped(log)
         power = np.exp(log)
@@ -284,9 +284,7 @@ class Mixer:
             kernel = np.exp(-np.arange(50) / 16.0)
             level = np.convolve(level, kernel / kernel.sum())[: len(level)]
             power = power * (level / level.mean() + 1e-3)[:, None] ** -rng.uniform(0.2, 0.7)
-        tilt = rng.uniform(-1.0, 1.0) * np.linspace(-0.5, 0.5, BINS, dtype=np.float32)
-        log = logarithm(power) + tilt
-        return self._masked(log - log.mean(axis=0), easy)
+        return self._masked(normalised(power), easy)
 
     def _warped(self, log: np.ndarray) -> np.ndarray:
         rng = self._rng

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import rfft
+from scipy.ndimage import binary_dilation, binary_opening, uniform_filter1d
 from scipy.sparse import csr_array
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
@@ -27,6 +28,14 @@ FLOOR = 1e-7
 QUIET = 1e-3
 """Share of the mean power of a call that is added as white noise: 30 dB below it. Otherwise the
 pauses of a call without any noise would have by far the lowest logarithms, and shift the means."""
+LOUD_FRAMES = 50
+"""Frames of a call that are louder than what counts as loud: half a second, longer than a click."""
+LEAST_RANGE_DB = 6.0
+"""Difference between loud and quiet below which no frames are a pause, but noise."""
+LONGEST_CLICK_FRAMES = 10
+"""Longest loud sound that is none of speech: a tenth of a second."""
+NEAR_FRAMES = 25
+"""Frames on both sides of a loud one that are no pause: a quarter of a second."""
 _SIZE = 512
 
 
@@ -64,12 +73,34 @@ def mel_power(audio: Audio) -> NDArray[np.float32]:
     return power
 
 
-def logarithm(power: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Return the logarithm of mel power of a call with a little white noise."""
-    return np.asarray(np.log(power + FLOOR + QUIET * power.mean() * _WHITE), np.float32)
+def logarithm(power: NDArray[np.float32], mean: float) -> NDArray[np.float32]:
+    """Return the logarithm of mel power of a call of a mean power, with a little white noise."""
+    return np.asarray(np.log(power + FLOOR + QUIET * mean * _WHITE), np.float32)
+
+
+def is_near_speech(power: NDArray[np.float32]) -> NDArray[np.bool_]:
+    """Return which frames are none of a long pause, shape (frames,); all where no pause is found.
+
+    A frame is loud above the middle, in dB, between what half a second exceeds and the level of the
+    quietest tenth.
+    """
+    levels_db = 10.0 * np.log10(uniform_filter1d(power.mean(axis=1), 5) + FLOOR)
+    loud_db = float(np.sort(levels_db)[-LOUD_FRAMES:][0])
+    quiet_db = float(np.percentile(levels_db, 10.0))
+    if loud_db - quiet_db < LEAST_RANGE_DB:
+        return np.ones(len(power), np.bool_)
+    is_loud = levels_db >= (loud_db + quiet_db) / 2.0
+    is_speech = binary_opening(is_loud, np.ones(LONGEST_CLICK_FRAMES))
+    if not is_speech.any():
+        return np.ones(len(power), np.bool_)
+    return np.asarray(binary_dilation(is_speech, np.ones(2 * NEAR_FRAMES + 1)), np.bool_)
 
 
 def normalised(power: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Return the logarithm of mel power without the mean of each band over the call."""
-    log = logarithm(power)
-    return np.asarray(log - log.mean(axis=0), np.float32)
+    """Return the logarithm of mel power without the mean of each band over the call.
+
+    Long pauses, such as before somebody speaks who has pressed the button, do not count in means.
+    """
+    is_counted = is_near_speech(power)
+    log = logarithm(power, float(power[is_counted].mean()))
+    return np.asarray(log - log[is_counted].mean(axis=0), np.float32)

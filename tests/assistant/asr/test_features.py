@@ -35,6 +35,38 @@ def test_how_loud_a_call_is_makes_no_difference(gain: float) -> None:
     assert np.abs(loud - soft).max() < 0.1
 
 
+@settings(deadline=None)
+@given(st.floats(0.0, 20.0), st.floats(0.0, 20.0), st.sampled_from([0.0, 1e-3]))
+def test_pauses_before_and_behind_a_call_change_nothing_in_it(
+    before_s: float, behind_s: float, noise_level: float
+) -> None:
+    call = bursts(6)
+    before, behind = (round(s * 100) * SAMPLE_RATE_HZ // 100 for s in (before_s, behind_s))
+    alone, held = call, np.pad(call, (before, behind))
+    noise = np.random.default_rng(1).standard_normal(len(held), np.float32) * noise_level
+    of_call = slice(
+        round(before_s * 100), round(before_s * 100) + len(call) * 100 // SAMPLE_RATE_HZ
+    )
+    as_it_is = normalised(mel_power(alone + noise[: len(alone)]))[:-1]
+    with_pauses = normalised(mel_power(held + noise))[of_call]
+    assert np.abs(as_it_is - with_pauses).mean() < 0.5  # Of features from -5 to 5.
+
+
+def test_a_click_in_a_long_pause_is_no_call() -> None:
+    call = np.pad(bursts(6), (8 * SAMPLE_RATE_HZ, 0))
+    clicked = call.copy()
+    clicked[2 * SAMPLE_RATE_HZ : 2 * SAMPLE_RATE_HZ + 400] += 0.9
+    quiet, loud = (normalised(mel_power(each))[8 * 100 + 5 :] for each in (call, clicked))
+    assert np.abs(quiet - loud).mean() < 0.1
+
+
+def test_clicks_alone_have_features() -> None:
+    clicks = np.zeros(10 * SAMPLE_RATE_HZ, np.float32)
+    for second in range(10):
+        clicks[second * SAMPLE_RATE_HZ : second * SAMPLE_RATE_HZ + 800] = 0.5
+    assert np.isfinite(normalised(mel_power(clicks))).all()
+
+
 def test_silence_has_no_features() -> None:
     features = normalised(mel_power(np.zeros(SAMPLE_RATE_HZ, np.float32)))
     assert features.shape == (101, BINS)
