@@ -123,7 +123,11 @@ class LiveRun:
         """Callsigns by icao24, as far as ADS-B has told."""
         self._radars: dict[str, RadarInfo] = {}
         self._cameras: set[str] = set()
-        self._makers: dict[type[Message], tuple[Maker, ...]] = {
+        self._makers = self._makers_of_kinds()
+
+    def _makers_of_kinds(self) -> dict[type[Message], tuple[Maker, ...]]:
+        """Return the methods that make the changes of each kind of message, in their order."""
+        return {
             Clock: (self._clock,),
             Briefing: (self._briefing,),
             ActorTruth: (self._truth,),
@@ -151,7 +155,6 @@ class LiveRun:
             WorkloadQuestion: (self._question,),
             WorkloadAnswer: (self._answered,),
         }
-        """Methods that make the changes of each kind of message, in their order."""
 
     def take(self, logged: Logged) -> None:
         """Receive a message; one that is not as this version writes it is left out, and told."""
