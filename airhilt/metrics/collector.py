@@ -128,6 +128,7 @@ class Collector:
     def take(self, key: str, message: Message, data: Payload) -> None:  # noqa: ARG002
         """Receive a published message."""
         if isinstance(message, ActorTruth):
+            self._people.take_state(message)
             return  # The most frequent message: the monitors follow the actors themselves.
         match message:
             case ConflictTruth(phase="begun", t_ns=now_ns):

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection
 from dataclasses import dataclass, field
 from statistics import fmean, median
 from typing import Literal, NamedTuple
 
+from airhilt.commands import Command
 from airhilt.messages import (
     ActorCommand,
+    ActorTruth,
     Advisory,
     AdvisoryAudio,
     AdvisoryPerceived,
@@ -22,6 +25,7 @@ from airhilt.messages import (
     WorkloadAnswer,
     WorkloadQuestion,
 )
+from airhilt.metrics.compliance import complies
 from airhilt.metrics.readbacks import Readbacks
 from airhilt.metrics.summary import IsaRating, PersonReaction, PersonSummary, WorkloadSummary
 from airhilt.sensors.radio.hearing import key_chunk
@@ -30,8 +34,6 @@ from airhilt.units import SECOND_NS
 FOLLOWED_WITHIN_S = 30.0
 """Time from perceiving an advisory in which the advised action counts as following it, in s: an
 assumption. TCAS asks crews for 5 s (ICAO Doc 8168, volume III), controllers take longer."""
-SAME_ACTION = {"maintain": "altitude", "turn": "track"}
-"""Action by which a person does what another one advises, where the two have other names."""
 Advised = tuple[str, int, str]
 """Id, revision and recipient of an advisory."""
 
@@ -45,6 +47,12 @@ VIRTUAL = "virtual"
 class _Action(NamedTuple):
     t_ns: int
     what: str
+    command: Command | None = None
+    """None: it is a call."""
+    track_deg: float | None = None
+    """True track of the person's aircraft or vehicle when the command came."""
+    is_refused: bool = False
+    """True if the aircraft or vehicle was unable to carry it out."""
 
 
 class _Perceived(NamedTuple):
@@ -67,6 +75,11 @@ class _Person:
     heard_ns: dict[Advised, int] = field(default_factory=dict)
     told: set[Advised] = field(default_factory=set)
     """Advisories that were published to the person."""
+
+    def refuse(self, t_ns: int) -> None:
+        """Take in that the command that came at a time cannot be carried out."""
+        if self.actions and self.actions[-1].command and self.actions[-1].t_ns == t_ns:
+            self.actions[-1] = self.actions[-1]._replace(is_refused=True)
 
     def first_action(self, since_ns: int) -> _Action | None:
         later = (one for one in self.actions if one.t_ns >= since_ns)
@@ -100,6 +113,8 @@ class _Seat:
     """Names under which advisories are for the person."""
     people: list[_Person] = field(default_factory=list)
     is_taken: bool = False
+    track_deg: float | None = None
+    """True track of the aircraft or vehicle; None for a unit."""
     asked_again: int = 0
     readback_errors: int = 0
     readback_errors_heard: int = 0
@@ -142,6 +157,13 @@ class PeopleRecords:
         self._paces: list[tuple[int, str]] = []
         """Times at which the pace changed, and the pace."""
 
+    def take_state(self, state: ActorTruth) -> None:
+        """Receive the true state of an actor."""
+        seat = self._seats.get(state.actor)
+        if seat is not None:
+            track_rad = math.atan2(state.velocity_east_m_s, state.velocity_north_m_s)
+            seat.track_deg = math.degrees(track_rad)
+
     def take(self, key: str, message: Message) -> None:
         """Receive a published message."""
         if self._seats and (error := self._readbacks.take(message)) is not None:
@@ -158,6 +180,9 @@ class PeopleRecords:
                         seat.person.told.add(name)
             case Event(kind="pace", text=pace, t_ns=t_ns) if self._first_pace != VIRTUAL:
                 self._paces.append((t_ns, pace))
+            case Event(kind="unable", subject=at, t_ns=t_ns) if at in self._seats:
+                if (person := self._seats[at].person) is not None:
+                    person.refuse(t_ns)
             case SeatInfo(seat=at, recipients=recipients) if at in self._seats:
                 self._seats[at].recipients = recipients
             case AdvisoryAudio():
@@ -185,14 +210,15 @@ class PeopleRecords:
                 seat.occupy(is_taken=is_taken)
             case WorkloadAnswer(question=number):
                 seat.answers.setdefault(number, message)
+            case ActorCommand(command=command, t_ns=t_ns) if seat.person is not None:
+                action = _Action(t_ns, command.action, command, seat.track_deg)
+                seat.person.actions.append(action)
             case _ if seat.person is not None:
                 self._take_of(seat.person, message)
 
     @staticmethod
     def _take_of(person: _Person, message: Message) -> None:
         match message:
-            case ActorCommand(command=command, t_ns=t_ns):
-                person.actions.append(_Action(t_ns, command.action))
             case SpokenWords(t_ns=t_ns):
                 person.actions.append(_Action(t_ns, "typed call"))
             case MicrophoneAudio(phase="pressed", t_ns=t_ns, delay_s=delay_s):
@@ -267,12 +293,13 @@ class PeopleRecords:
     def _answered(self, action: _Action, perceived: list[_Perceived]) -> _Perceived:
         """Return the advisory to which an action is the reaction.
 
-        The first advisory that advises the action comes before all others after which it is the
-        first action.
+        The first advisory with which the action complies comes before all others after which it
+        is the first action.
         """
 
         def order(one: _Perceived) -> tuple[bool, int, Advised]:
-            return action.what not in _advised(self._advisories[one.name]), one.since_ns, one.name
+            is_other = not _complies(action, self._advisories[one.name])
+            return is_other, one.since_ns, one.name
 
         return min((one for one in perceived if one.first is action), key=order)
 
@@ -305,21 +332,18 @@ def _workload(seat: _Seat) -> WorkloadSummary:
 
 def _is_followed(advisory: Advisory, since_ns: int, actions: list[_Action]) -> bool | None:
     """Return whether a person did in time what was advised; None if nothing was."""
-    wanted = _advised(advisory)
-    if not wanted:
+    if advisory.recommendation is None:
         return None
     until_ns = since_ns + round(FOLLOWED_WITHIN_S * SECOND_NS)
-    return any(one.what in wanted and since_ns <= one.t_ns <= until_ns for one in actions)
+    return any(
+        since_ns <= one.t_ns <= until_ns and not one.is_refused and _complies(one, advisory)
+        for one in actions
+    )
 
 
-def _advised(advisory: Advisory) -> set[str]:
-    """Return the actions with which a person does what is advised; none if nothing is."""
-    if advisory.recommendation is None:
-        return set()
-    advised = advisory.recommendation.action
-    if advised == "confirm":
-        return {"spoken call", "typed call"}
-    return {advised, SAME_ACTION.get(advised, advised)}
+def _complies(action: _Action, advisory: Advisory) -> bool:
+    advised = advisory.recommendation
+    return advised is not None and complies(advised, action.command, action.track_deg)
 
 
 def _seconds(t_ns: int | None) -> float | None:

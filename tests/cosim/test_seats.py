@@ -282,6 +282,46 @@ def test_there_is_no_seat_where_nobody_has_a_radio(tmp_path: Path) -> None:
         logged(silent, tmp_path / "run", ["AAL123"])
 
 
+def is_followed(out: Path, advised: dict[str, Any], command: dict[str, Any]) -> bool:
+    """Return whether the person in AAL123, who lands to the north, follows by a command."""
+    name = {"id": "a-1", "revision": 0, "recipient": "AAL123"}
+    advisory = {
+        "kind": "loss_of_separation", "severity": "WARNING", "traffic": ["AAL123"],
+        "recipients": ["AAL123"], "message": "", "t_ready_ns": 0,
+        "evidence": {"sources": ["adsb"]}, "recommendation": advised,
+    }  # fmt: skip
+    given = [
+        message("seat/AAL123", 0.5, is_taken=True),
+        message("advisory/AAL123", 1.0, **name, **advisory),
+        message("perceived/AAL123", 1.0, **name, way="seen"),
+        message("command/AAL123", 1.5, command=command),
+    ]
+    logged(tower(2.0), out, ["AAL123"], given)
+    (of_crew,) = json.loads((out / "summary.json").read_text())["people"]
+    return bool(of_crew["reactions"][0]["followed"])
+
+
+@pytest.mark.parametrize(
+    ("altitude_ft", "followed"), [(3000, True), (60_000, False), (1000, False)]
+)
+def test_advice_to_climb_is_followed_by_who_climbs_and_can(
+    tmp_path: Path, altitude_ft: float, followed: bool
+) -> None:
+    """60,000 ft is above the ceiling of its type: its crew is unable."""
+    climb = {"sense": "climb", "altitude_ft": 3000, "vertical_rate_fpm": 1500}
+    command = {"action": "altitude", "altitude_ft": altitude_ft}
+    found = is_followed(tmp_path / "run", {"action": "altitude", **climb}, command)
+    assert found is followed
+
+
+@pytest.mark.parametrize(("track_deg", "followed"), [(300.0, False), (60.0, True)])
+def test_the_side_of_a_selected_track_is_that_from_the_present_one(
+    tmp_path: Path, track_deg: float, followed: bool
+) -> None:
+    right, track = {"action": "turn", "degrees": 30.0}, {"action": "track", "track_deg": track_deg}
+    assert is_followed(tmp_path / "run", right, track) is followed
+
+
 @pytest.mark.parametrize(("pace", "reaction_s"), [("realtime", 0.5), ("4x", None)])
 def test_a_reaction_is_measured_in_a_run_that_begins_in_real_time_alone(
     tmp_path: Path, pace: str, reaction_s: float | None

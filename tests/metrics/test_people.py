@@ -236,6 +236,20 @@ def test_advice_that_is_done_too_late_or_never_is_not_followed(late_s: float | N
     assert reaction(*told, *late).followed is False
 
 
+@pytest.mark.parametrize("is_unable", [False, True])
+def test_advice_that_the_aircraft_is_unable_to_do_is_not_followed(is_unable: bool) -> None:
+    unable = Event(kind="unable", subject="AAL1", text="unable to go around")
+    found = reaction(
+        (10.0, "advisory/AAL1", advisory(GoAround(runway="01"))),
+        (10.0, "perceived/AAL1", perceived("seen")),
+        (12.0, "command/AAL1", GO_AROUND),
+        *([(12.0, "truth/event", unable)] if is_unable else []),
+        (13.0, "truth/event", unable),  # What it cannot do later is no answer to the command.
+    )
+    assert found.followed is not is_unable
+    assert found.reaction_time_s == 2.0
+
+
 def at_seat(t_s: float, *, is_taken: bool) -> tuple[float, str, Message]:
     return t_s, "seat/AAL1", SeatPresence(is_taken=is_taken)
 

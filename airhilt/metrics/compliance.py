@@ -1,0 +1,87 @@
+"""Commands of people compared with what an advisory recommends."""
+
+from __future__ import annotations
+
+import math
+
+from airhilt.commands import (
+    AltitudeCommand,
+    CancelTakeoffCommand,
+    Command,
+    EmergencyDescentCommand,
+    GoAroundCommand,
+    HoldPositionCommand,
+    TrackCommand,
+    TurnCommand,
+)
+from airhilt.messages import (
+    CancelTakeoff,
+    Climb,
+    Confirm,
+    GoAround,
+    HoldPosition,
+    MaintainLevel,
+    Recommendation,
+    Turn,
+)
+
+LEVEL_TOLERANCE_FT = 50.0
+"""Difference from the recommended level that still complies: selectors have steps of 100 ft."""
+
+
+def complies(
+    recommendation: Recommendation, command: Command | None, track_deg: float | None
+) -> bool:
+    """Return whether an action does what is recommended, in its sense.
+
+    Parameters
+    ----------
+    command
+        The command to the aircraft or vehicle; None: the action is a call.
+    track_deg
+        True track when the command came; None if it is not known, so that no side is either.
+    """
+    match recommendation:
+        case Confirm():
+            return command is None
+        case GoAround():
+            return isinstance(command, GoAroundCommand)
+        case HoldPosition() | CancelTakeoff():
+            return isinstance(command, HoldPositionCommand | CancelTakeoffCommand)
+        case Turn(degrees=degrees):
+            turned_deg = _turn_deg(command, track_deg)
+            return turned_deg is not None and degrees * turned_deg > 0.0
+        case Climb() | MaintainLevel():
+            selected_ft = _selected_ft(command)
+            return selected_ft is not None and _is_level(recommendation, selected_ft)
+
+
+def _is_level(recommendation: Climb | MaintainLevel, selected_ft: float) -> bool:
+    """Return whether a level is the recommended one, or lies beyond it in the sense given."""
+    above_ft = selected_ft - recommendation.altitude_ft
+    if isinstance(recommendation, MaintainLevel):
+        return abs(above_ft) <= LEVEL_TOLERANCE_FT
+    beyond_ft = above_ft if recommendation.sense == "climb" else -above_ft
+    return beyond_ft >= -LEVEL_TOLERANCE_FT
+
+
+def _selected_ft(command: Command | None) -> float | None:
+    match command:
+        case (
+            AltitudeCommand(altitude_ft=altitude_ft)
+            | EmergencyDescentCommand(altitude_ft=altitude_ft)
+        ):
+            return altitude_ft
+        case _:
+            return None
+
+
+def _turn_deg(command: Command | None, track_deg: float | None) -> float | None:
+    """Return by how much a command turns to the right; None if that is not known."""
+    match command:
+        case TurnCommand(degrees=degrees):
+            return degrees
+        case TrackCommand(track_deg=new_deg) if track_deg is not None:
+            return math.remainder(new_deg - track_deg, 360.0)
+        case _:
+            return None
