@@ -1232,6 +1232,13 @@ class DroppedMessages(Message):
     messages: int = Field(ge=1)
 
 
+STALLED = "stalled"
+"""Text of the event ``pace`` when a run with seats was late and has taken the clock anew."""
+AFTER_STALL_S = 5.0
+"""Time of the run after a stall that is not real time yet, in s, because what people did in the
+stall comes then: an assumption."""
+
+
 class Event(Message):
     """``truth/event``: event in the world or in the run."""
 

@@ -5,7 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from airhilt.cosim.events import EventPublisher
+from airhilt.messages import AFTER_STALL_S, STALLED
 from airhilt.sim import Director, Paused, RealTime, Virtual
+from airhilt.units import SECOND_NS, seconds_to_ns
+
+MOST_BEHIND_NS = SECOND_NS
+"""Simulation time by which a run with people may be late, in ns, before it is a stall."""
 
 
 class PaceControl:
@@ -13,6 +18,9 @@ class PaceControl:
 
     Once everybody has left the seats, time passes in real time again: nobody else could let it go
     on.
+
+    A run with people that was stopped for a while, or that the machine does not keep up with, does
+    not make up for it: time never passes faster for them than the pace says.
 
     A run in virtual time, such as a replay, logs the change and goes on as fast as before.
 
@@ -38,6 +46,26 @@ class PaceControl:
         self._changed = changed
         self._factor = 1.0
         self._present: set[str] = set()
+        self._lost_ns = 0
+        self._lost_until_ns = 0
+
+    @property
+    def behind_ns(self) -> int:
+        """Simulation time by which the run is late, or was in a stall a moment ago."""
+        lost_ns = self._lost_ns if self._director.now_ns < self._lost_until_ns else 0
+        return self._director.behind_ns + lost_ns
+
+    def keep_time(self) -> None:
+        """Lose the time of stalls from now on."""
+        self._director.lose_time(MOST_BEHIND_NS, self.stall)
+
+    def stall(self, lost_ns: int = 0) -> None:
+        """Log that time was lost; a replay does not know how much."""
+        now_ns = self._director.now_ns
+        self._lost_ns = lost_ns + (self._lost_ns if now_ns < self._lost_until_ns else 0)
+        self._lost_until_ns = now_ns + seconds_to_ns(AFTER_STALL_S)
+        self._event("pace", "run", STALLED)
+        self._changed()
 
     def set(self, factor: float) -> None:
         """Let the time pass at a part of real time; 0 lets it stand still."""

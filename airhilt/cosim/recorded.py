@@ -43,6 +43,8 @@ class Recorded:
         Messages of unregistered programs.
     refused
         Events of messages that the earlier run refused: they have key and cause of each.
+    stalls
+        Events of stalls, in which the earlier run lost time.
     dropped
         Numbers of messages that the earlier run dropped.
     unavailable_reason
@@ -61,6 +63,7 @@ class Recorded:
     losses: Mapping[str, Loss] = field(default_factory=dict)
     unregistered: tuple[UnregisteredMessage, ...] = ()
     refused: tuple[Event, ...] = ()
+    stalls: tuple[Event, ...] = ()
     dropped: tuple[DroppedMessages, ...] = ()
     unavailable_reason: str = ""
     cameras_lost: tuple[int, str] | None = None

@@ -15,6 +15,7 @@ from airhilt.audio.pcm import SAMPLE_BYTES
 from airhilt.cosim.recorded import Recorded, UnregisteredMessage
 from airhilt.errors import SpeechError
 from airhilt.messages import (
+    STALLED,
     UNREGISTERED,
     AdvisoryAudio,
     DroppedMessages,
@@ -101,7 +102,12 @@ def read_recorded(
             if logged.key == "truth/dropped"
         ),
         refused=tuple(event for event in _events(log) if event.kind == "refused"),
+        stalls=tuple(event for event in _events(log) if _is_stall(event)),
     )
+
+
+def _is_stall(event: Event) -> bool:
+    return event.kind == "pace" and event.text == STALLED
 
 
 def depends_on_log(info: RunInfo) -> bool:

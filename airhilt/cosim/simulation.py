@@ -218,6 +218,8 @@ class Simulation:
         self._pace_control = PaceControl(
             self._director, self._event, pausing=self._radio.pause, changed=self._publish_clock
         )
+        if setup.seats:
+            self._pace_control.keep_time()
         self._questions = self._make_questions()
         self._router.listen(self._advisories.take)
         self._connect_notices()
@@ -423,6 +425,8 @@ class Simulation:
         for event in recorded.refused:
             refuse = partial(self._programs.take_refused, event.subject, event.text)
             self._director.at(event.t_ns, refuse, Priority.SCRIPT)
+        for stall in recorded.stalls:
+            self._director.at(stall.t_ns, self._pace_control.stall, Priority.SCRIPT)
         self._programs.count_dropped(recorded.dropped)
         for name, loss in recorded.losses.items():
             self._director.at(loss.t_ns, partial(self._gone, name), Priority.SETTLE)
@@ -589,7 +593,8 @@ class Simulation:
 
     def _publish_clock(self) -> None:
         director = self._director
-        _tell_clock(self._bus, director.now_ns, self._phase, director.pace, director.behind_ns)
+        behind_ns = self._pace_control.behind_ns
+        _tell_clock(self._bus, director.now_ns, self._phase, director.pace, behind_ns)
 
     def _tell_observer(self) -> None:
         horizontal_m, vertical_m = self._world.distances_m() or (None, None)

@@ -10,6 +10,8 @@ from typing import Literal, NamedTuple
 
 from airhilt.commands import Command
 from airhilt.messages import (
+    AFTER_STALL_S,
+    STALLED,
     ActorCommand,
     ActorTruth,
     Advisory,
@@ -29,7 +31,7 @@ from airhilt.metrics.compliance import complies
 from airhilt.metrics.readbacks import Readbacks
 from airhilt.metrics.summary import IsaRating, PersonReaction, PersonSummary, WorkloadSummary
 from airhilt.sensors.radio.hearing import key_chunk
-from airhilt.units import SECOND_NS
+from airhilt.units import SECOND_NS, seconds_to_ns
 
 FOLLOWED_WITHIN_S = 30.0
 """Time from perceiving an advisory in which the advised action counts as following it, in s: an
@@ -40,6 +42,8 @@ Advised = tuple[str, int, str]
 
 REAL_TIME = "realtime"
 """Name of the pace in which the time of the run passes as on the clock."""
+AFTER_STALL_NS = seconds_to_ns(AFTER_STALL_S)
+"""Time after a stall that is not real time yet, in ns."""
 VIRTUAL = "virtual"
 """Name of the pace of a run that goes on as fast as before when another pace is asked for."""
 
@@ -156,6 +160,7 @@ class PeopleRecords:
         self._first_pace = pace
         self._paces: list[tuple[int, str]] = []
         """Times at which the pace changed, and the pace."""
+        self._stalls_ns: list[int] = []
 
     def take_state(self, state: ActorTruth) -> None:
         """Receive the true state of an actor."""
@@ -178,6 +183,8 @@ class PeopleRecords:
                 for seat in self._seats.values():
                     if message.active and seat.person and message.recipient in seat.recipients:
                         seat.person.told.add(name)
+            case Event(kind="pace", text=text, t_ns=t_ns) if text == STALLED:
+                self._stalls_ns.append(t_ns)
             case Event(kind="pace", text=pace, t_ns=t_ns) if self._first_pace != VIRTUAL:
                 self._paces.append((t_ns, pace))
             case Event(kind="unable", subject=at, t_ns=t_ns) if at in self._seats:
@@ -307,7 +314,8 @@ class PeopleRecords:
         """Return true if time passed as on the clock all the while."""
         before = [self._first_pace, *(pace for t_ns, pace in self._paces if t_ns < begin_ns)]
         within = [pace for t_ns, pace in self._paces if begin_ns <= t_ns <= end_ns]
-        return all(pace == REAL_TIME for pace in (before[-1], *within))
+        stalls = [t_ns for t_ns in self._stalls_ns if begin_ns - AFTER_STALL_NS <= t_ns <= end_ns]
+        return not stalls and all(pace == REAL_TIME for pace in (before[-1], *within))
 
 
 def _workload(seat: _Seat) -> WorkloadSummary:

@@ -6,6 +6,7 @@ import heapq
 from collections import deque
 from collections.abc import Callable
 from enum import IntEnum
+from functools import partial
 from threading import Event
 from typing import Protocol
 
@@ -60,6 +61,8 @@ class Director:
         self._wake = Event()
         self._stopped = False
         self._interrupted = False
+        self._most_behind_ns: int | None = None
+        self._stalled: Callable[[int], None] = lambda _: None
 
     @property
     def behind_ns(self) -> int:
@@ -118,6 +121,18 @@ class Director:
         """End `run` after the event in hand."""
         self._stopped = True
 
+    def lose_time(self, most_behind_ns: int, stalled: Callable[[int], None]) -> None:
+        """Lose the time by which events are late, rather than make up for it faster.
+
+        Parameters
+        ----------
+        most_behind_ns
+            Simulation time by which an event may be late; beyond it the clock is taken anew.
+        stalled
+            Called after that, with the time that was lost in ns, as something that was posted.
+        """
+        self._most_behind_ns, self._stalled = most_behind_ns, stalled
+
     def change_pace(self, pace: Pace) -> None:
         """Go on at another pace from now."""
         pace.start(self.now_ns)
@@ -141,6 +156,8 @@ class Director:
             if self._interrupted:
                 raise KeyboardInterrupt
             t_ns = heap[0][0]
+            if self._most_behind_ns is not None:
+                self._lose_time(t_ns, self._most_behind_ns)
             if posted and t_ns > self.now_ns + 1:
                 elapsed_ns = self.pace.elapsed_ns(self.now_ns)
                 self.now_ns = min(max(elapsed_ns, self.now_ns + 1), t_ns - 1)
@@ -150,3 +167,9 @@ class Director:
                 action()
             else:
                 self._wake.clear()
+
+    def _lose_time(self, t_ns: int, most_behind_ns: int) -> None:
+        """Take the clock anew if the next event, at ``t_ns``, is too late."""
+        if self.pace.elapsed_ns(t_ns) - t_ns > most_behind_ns:
+            self._posted.appendleft(partial(self._stalled, self.behind_ns))
+            self.pace.start(self.now_ns)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import time
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -11,6 +13,7 @@ import pytest
 from airhilt import load
 from airhilt.cosim.replay import replay
 from airhilt.errors import ScenarioError
+from airhilt.sim import pace
 from breadth import mostly_slow
 from seats import SECOND, calls, contents, logged, message, said, tower
 
@@ -215,6 +218,24 @@ def test_a_pause_and_slow_motion_are_events_and_replay(tmp_path: Path) -> None:
     log = logged(tower(5.0), tmp_path / "run", ["tower"], given)
     events = [one["text"] for one in contents(log, "truth/event") if one["kind"] == "pace"]
     assert events == ["paused", "0.5x"]
+    assert replay(tmp_path / "run").identical
+
+
+@pytest.mark.parametrize("seats", [("tower",), ()])
+def test_a_run_with_people_that_was_stopped_loses_the_time_and_replays(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, seats: tuple[str, ...]
+) -> None:
+    """Where nobody takes part, the log knows of no wall time."""
+    begun_s = time.perf_counter()
+
+    def clock_s() -> float:
+        now_s = time.perf_counter()
+        return now_s + (5.0 if now_s - begun_s > 1.0 else 0.0)
+
+    monkeypatch.setattr(pace, "time", SimpleNamespace(perf_counter=clock_s))
+    log = logged(tower(3.0), tmp_path / "run", seats, pace="realtime")
+    events = {one["text"] for one in contents(log, "truth/event") if one["kind"] == "pace"}
+    assert events == ({"stalled"} if seats else set())
     assert replay(tmp_path / "run").identical
 
 

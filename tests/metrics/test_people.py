@@ -160,6 +160,10 @@ def test_an_action_that_only_the_second_advisory_advises_is_the_reaction_to_that
         ([(1.0, "0.5x")], None),
         ([(11.0, "paused"), (11.0, "realtime")], None),
         ([(13.0, "paused")], 2.0),
+        ([(11.0, "stalled")], None),
+        ([(9.0, "stalled")], None),  # What was perceived in the stall may be told after it.
+        ([(1.0, "stalled")], 2.0),
+        ([(12.5, "stalled")], 2.0),
     ],
 )
 def test_no_reaction_is_measured_while_time_does_not_pass_as_on_the_clock(

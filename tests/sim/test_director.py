@@ -192,6 +192,42 @@ def test_results_of_an_instant_arrive_before_workers_start_in_it() -> None:
     assert seen == ["PHYSICS", "SCRIPT", "SENSOR", "RESULT", "START", "SETTLE", "OBSERVE"]
 
 
+class ClockedPace(Virtual):
+    """A pace whose clock goes on only where the test says so."""
+
+    def __init__(self) -> None:
+        self.clock_ns = 0
+        self._origin_ns = 0
+
+    def start(self, t_ns: int) -> None:
+        """Take the present instant as a simulation time."""
+        self._origin_ns = t_ns - self.clock_ns
+
+    def elapsed_ns(self, now_ns: int) -> int:
+        """Return the simulation time by the clock."""
+        return max(now_ns, self._origin_ns + self.clock_ns)
+
+
+@pytest.mark.parametrize(("stall_ns", "lost_ns"), [(1000, []), (5000, [4990])])
+def test_a_director_that_loses_time_does_not_make_up_for_a_stall(
+    stall_ns: int, lost_ns: list[int]
+) -> None:
+    """What waits when the stall is over comes after the stall, and before the next event."""
+    director, told = Director(pace := ClockedPace()), list[Any]()
+
+    def stall() -> None:
+        pace.clock_ns += stall_ns
+        director.post(lambda: told.append(("posted", director.now_ns)))
+
+    director.lose_time(1000, lambda ns: told.append(("lost", ns)))
+    director.at(10, stall, Priority.SCRIPT)
+    director.at(20, lambda: told.append(("behind", director.behind_ns)), Priority.SCRIPT)
+    director.run()
+    behind = ("behind", 0 if lost_ns else stall_ns - 20)
+    posted_ns = 12 if lost_ns else 19
+    assert told == [*(("lost", ns) for ns in lost_ns), ("posted", posted_ns), behind]
+
+
 class LatePace(Virtual):
     """A pace whose clock is three seconds ahead of the events."""
 
