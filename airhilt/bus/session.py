@@ -55,8 +55,9 @@ SOURCE_POSITION = re.compile(r" at \S+\.rs:\d+\.?")
 def free_endpoint() -> str:
     """Return a loopback endpoint on a port that is free at this moment.
 
-    Outgoing connections get none of these ports, so that no other program is given it before the
-    run listens, and nothing that waits for the run connects to itself.
+    Outgoing connections get none of these ports, where the system keeps to these ranges: so no
+    other program is given it before the run listens, and nothing that waits for the run connects
+    to itself.
     """
     for port in random.sample(SERVER_PORTS, len(SERVER_PORTS)):
         with socket.socket() as probe, suppress(OSError):

@@ -102,6 +102,8 @@ class ExternalPrograms:
         Lets the time pass at a part of real time.
     answer
         Takes what the person at a seat, a part of keys, answers to a question about workload.
+    is_asked
+        Says of a seat, a part of keys, and a number that this question waits for an answer.
     workers
         Names of the workers that take grants: their advisories are not those of a program.
     is_strict
@@ -123,6 +125,7 @@ class ExternalPrograms:
         occupy: Callable[[str, bool], None],
         set_pace: Callable[[float], None],
         answer: Callable[[str, WorkloadAnswer], None],
+        is_asked: Callable[[str, int], bool],
         workers: Collection[str],
         has_decision: bool,
         is_strict: bool,
@@ -142,6 +145,7 @@ class ExternalPrograms:
         self._occupy = occupy
         self._set_pace = set_pace
         self._answer = answer
+        self._is_asked = is_asked
         self._workers = workers
         self._is_strict = is_strict
         self._seat_keys = frozenset(f"seat/{seat}" for seat in seats)
@@ -210,6 +214,7 @@ class ExternalPrograms:
             message = _parse(key, data, self._director.now_ns)
             self._require_own(message)
             self._require_seat(key, message)
+            self._require_asked(key, message)
         except WorkerError as error:
             self._refuse(key, str(error))
             if self._is_strict:
@@ -275,6 +280,22 @@ class ExternalPrograms:
             raise WorkerError(
                 f"a program published on {key!r}, no seat of this run; expected {known}"
             )
+
+    def _require_asked(self, key: str, message: Message) -> None:
+        """Complain about an answer to what was not asked, or has an answer already.
+
+        Raises
+        ------
+        WorkerError
+            It is one.
+        """
+        if isinstance(message, WorkloadAnswer):
+            number = message.question
+            if not self._is_asked(key.split("/")[1], number):
+                raise WorkerError(
+                    f"a program published on {key!r} an answer to question {number}; expected the "
+                    "number of a question that was asked there and has no answer yet"
+                )
 
     def take_refused(self, key: str, cause: str) -> None:
         """Refuse what only a cause is known of, such as what an earlier run refused."""

@@ -293,6 +293,7 @@ class Simulation:
             occupy=self._occupy,
             set_pace=self._set_pace,
             answer=lambda seat, answer: self._questions.answer(seat, answer),
+            is_asked=lambda seat, number: self._questions.is_open(seat, number),
             workers=[worker.description.name for worker in participants.workers],
             has_decision=bool(participants.programs) or participants.does("decision"),
             is_strict=self._setup.options.strict,

@@ -67,6 +67,8 @@ class WorkloadQuestions:
         self._present: dict[str, None] = {}
         """Seats at which somebody is, as parts of keys."""
         self._asked: Counter[str] = Counter()
+        self._unanswered: set[tuple[str, int]] = set()
+        """Questions that have no answer yet: seat and number."""
         self._open: dict[str, int] = {}
         """Questions for which the end waits, by seat."""
         if isa_minutes is not None:
@@ -83,8 +85,13 @@ class WorkloadQuestions:
 
     def answer(self, seat: str, answer: WorkloadAnswer) -> None:
         """Take in an answer."""
+        self._unanswered.discard((seat, answer.question))
         if self._open.get(seat) == answer.question:
             self._settle(seat)
+
+    def is_open(self, seat: str, number: int) -> bool:
+        """Return whether a question was asked and has no answer yet."""
+        return (seat, number) in self._unanswered
 
     def end(self) -> None:
         """End the run, after the answers of those who are asked at the end."""
@@ -111,6 +118,7 @@ class WorkloadQuestions:
         for seat in self._present:
             self._asked[seat] += 1
             asked[seat] = self._asked[seat]
+            self._unanswered.add((seat, asked[seat]))
             question = WorkloadQuestion(
                 t_ns=self._director.now_ns,
                 seat=self._names[seat],

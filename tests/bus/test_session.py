@@ -51,6 +51,8 @@ def test_no_outgoing_connection_is_given_the_port_of_a_run_that_has_not_begun() 
     if not given.exists():
         pytest.skip("no Linux")
     first = int(given.read_text().split()[0])
+    if first < 32_768:  # which it is, if nobody changes it
+        pytest.skip(f"outgoing connections of this system have ports from {first} on")
     ports = {int(free_endpoint().rpartition(":")[2]) for _ in range(50)}
     assert len(ports) > 45
     assert max(ports) < first

@@ -41,6 +41,7 @@ def programs(
         occupy=lambda *_: None,
         set_pace=lambda _: None,
         answer=lambda *_: None,
+        is_asked=lambda _seat, _number: True,
         seats=seats,
         workers=("decision",),
         has_decision=False,

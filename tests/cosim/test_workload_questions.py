@@ -122,3 +122,17 @@ def test_nobody_is_asked_where_nobody_sits(tmp_path: Path) -> None:
 def test_questions_without_a_seat_are_refused(tmp_path: Path) -> None:
     with pytest.raises(AirhiltError, match=r"--nasa-tlx would do nothing without --seat"):
         logged(tower(2.0), tmp_path / "run", [], nasa_tlx=True)
+
+
+def test_an_answer_before_its_question_or_after_another_one_is_refused(tmp_path: Path) -> None:
+    out = tmp_path / "run"
+    answers = [
+        message(f"workload/{SEAT}", t_s, question=1, isa=isa)
+        for t_s, isa in ((2.0, 5), (8.0, 3), (9.0, 4))
+    ]
+    log = logged(tower(11.0), out, ["tower"], [sat_down(), *answers], isa_minutes=0.1)
+    refused = [one for one in contents(log, "truth/event") if one["kind"] == "refused"]
+    assert [one["t_ns"] for one in refused] == [2 * SECOND, 9 * SECOND]
+    (of_tower,) = json.loads((out / "summary.json").read_text())["people"]
+    assert [one["rating"] for one in of_tower["workload"]["isa"]] == [3]
+    assert replay(out).identical
