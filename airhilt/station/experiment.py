@@ -119,8 +119,8 @@ class Conductor:
     def __init__(self, progress: Progress) -> None:
         self._progress = progress
         self._started = StartedRuns(progress.folder)
-        self._rested_since_s: float | None = None
         self._done = sum(map(progress.is_done, progress.trials))
+        self._rested_since_s = time.monotonic() if self._done else None
         self._lock = threading.Lock()
 
     def state(self) -> dict[str, Any]:

@@ -103,6 +103,10 @@ class Plan(BaseModel):
         row = rows[self.participants.index(participant) % len(rows)]
         return [trials[index] for index in row]
 
+    def balance(self) -> int:
+        """Return the number of participants of which any multiple makes the order balanced."""
+        return len(balanced_latin_square(len(self.trials())))
+
     def check(self) -> None:
         """Complain about a trial that cannot be run.
 

@@ -183,6 +183,28 @@ def test_a_break_has_to_be_taken(recorded_run: Path, tmp_path: Path) -> None:
         conductor.begin()
 
 
+def test_who_starts_the_page_again_does_not_leave_the_break_out(
+    recorded_run: Path, tmp_path: Path
+) -> None:
+    progress = Progress(plan(break_after=1), tmp_path, "P01")
+    assert Conductor(progress).state()["rest_s"] == 0.0
+    name = f"01-{progress.trials[0].name}"
+    shutil.copytree(recorded_run, progress.folder / name)
+    progress.answer(name, ANSWERS)
+    assert Conductor(progress).state()["rest_s"] > 100.0
+
+
+@pytest.mark.parametrize(("participants", "is_told"), [(2, False), (3, True), (4, False)])
+def test_a_number_of_participants_that_makes_no_balanced_order_is_told(
+    airhilt_command: Cli, tmp_path: Path, participants: int, is_told: bool
+) -> None:
+    names = [f"P{number}" for number in range(participants)]
+    path = tmp_path / "plan.json"
+    path.write_text(plan(participants=names).model_dump_json())
+    done = airhilt_command("experiment", path)
+    assert ("not balanced with 3 participants; expected 2," in done.stderr) is is_told
+
+
 def test_the_command_tells_the_order_of_each_participant(
     airhilt_command: Cli, tmp_path: Path
 ) -> None:

@@ -62,6 +62,11 @@ def experiment(
     for name in plan.participants if participant is None else (participant,):
         progress = Progress(plan, folder, name)
         click.echo(f"{name}: " + ", ".join(_shown(progress, trial) for trial in progress.trials))
+    if participant is None and len(plan.participants) % plan.balance():
+        tell(
+            f"the order is not balanced with {len(plan.participants)} participants; expected "
+            f"{plan.balance()}, or a multiple"
+        )
     rows = write_tables(plan, folder)
     click.echo(f"{rows} finished trials: {folder / 'experiment.csv'}, experiment.parquet")
 
