@@ -11,9 +11,10 @@ import threading
 import time
 from base64 import b64encode
 from collections import OrderedDict
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 import zenoh
 from pydantic import ValidationError
@@ -21,15 +22,18 @@ from pydantic import ValidationError
 from airhilt.bus.access import Role
 from airhilt.bus.session import close_session, connect_client, find_run
 from airhilt.commands import Command
+from airhilt.errors import StationError
 from airhilt.messages import (
     LONGEST_REFUSAL,
     ActorCommand,
     AdvisoryAudio,
     AdvisoryPerceived,
+    Clock,
     Message,
     MicrophoneAudio,
     PaceCommand,
     PageRefusal,
+    SeatInfo,
     SpokenWords,
     Transmission,
     WorkloadAnswer,
@@ -42,6 +46,9 @@ from airhilt.station.audiences import Audience, audience_of
 from airhilt.station.changes import Changes
 from airhilt.station.pictures import Picture
 from airhilt.station.wishes import Claimed
+from airhilt.text import readable
+
+T = TypeVar("T", bound=Message)
 
 SUBSCRIBED = (
     "clock", "briefing", "status/*", "adsb/*", "surface/*", "radar/**", "radio/*/tx", "asr/*",
@@ -118,6 +125,8 @@ class Subscription:
     ------
     BusError
         No run answers there in time, or the keys are none.
+    StationError
+        The run goes on, and has no such seat.
     """
 
     def __init__(
@@ -138,6 +147,7 @@ class Subscription:
         role: Role = "operator" if seats else "observer"
         self._session = connect_client(endpoint, patience_s, tls, role)
         self._prefix = find_run(self._session, patience_s)
+        self._require_seats(seats)
         self.run = self._prefix.rpartition("/")[2]
         self._waiting: queue.Queue[Logged | None] = queue.Queue(MOST_WAITING)
         self._waiting_bytes = 0
@@ -169,12 +179,41 @@ class Subscription:
         self._thread = threading.Thread(target=self._work, name="station", daemon=True)
         self._thread.start()
 
+    def _require_seats(self, seats: Sequence[str]) -> None:
+        """Complain about a seat that the run does not have; before it begins, nobody knows them.
+
+        Raises
+        ------
+        StationError
+            It has no such seat.
+        """
+        if not seats or not any(clock.phase == "running" for clock in self._told("clock", Clock)):
+            return
+        known = sorted({info.seat for info in self._told("seat/*/info", SeatInfo)})
+        for seat in seats:
+            if seat not in known:
+                close_session(self._session)
+                raise StationError(
+                    f"--seat {readable(seat)!r}: not a seat of the run; expected "
+                    + (readable(", ".join(map(repr, known))) or "none: it has no seats")
+                )
+
+    def _told(self, key: str, kind: type[T]) -> Iterator[T]:
+        """Yield the messages of a kind that the run has told before."""
+        for sample in self._answers(key):
+            with suppress(ValidationError):
+                yield kind.model_validate_json(sample.payload.to_bytes())
+
+    def _answers(self, key: str) -> Iterator[zenoh.Sample]:
+        for reply in self._session.get(f"{self._prefix}/{key}", timeout=ASKED_S):
+            if reply.ok is not None:
+                yield reply.ok
+
     def _ask(self, keys: Iterable[str]) -> None:
         """Take in what the run has told before."""
         for key in keys:
-            for reply in self._session.get(f"{self._prefix}/{key}", timeout=ASKED_S):
-                if reply.ok is not None:
-                    self._hear(reply.ok)
+            for sample in self._answers(key):
+                self._hear(sample)
 
     def sound(self, name: str) -> Sound | None:
         """Return the sound of a transmission or a spoken advisory, None if it is not kept."""

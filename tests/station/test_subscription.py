@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import queue
+import subprocess
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -17,13 +18,14 @@ import zenoh
 
 from airhilt.bus.certificates import make_keys
 from airhilt.bus.session import Bus, configuration, free_endpoint
-from airhilt.messages import Advisory, AdvisoryAudio
+from airhilt.messages import Advisory, AdvisoryAudio, Clock, Phase, SeatInfo
 from airhilt.record import Logged
 from airhilt.station import subscription
 from airhilt.station.subscription import MOST_SOUND_BYTES, Subscription
 
 NESTED = b"[" * 30_000
 PATIENCE_S = 10.0
+Cli = Callable[..., subprocess.CompletedProcess[str]]
 T = TypeVar("T")
 
 
@@ -136,6 +138,35 @@ def test_a_page_that_comes_late_asks_where_the_radars_are() -> None:
             while (logged := taken.get(timeout=PATIENCE_S)).key != "radar/ASR/info":
                 pass
         assert logged.data == b'{"site": "ASR"}'
+
+
+@pytest.mark.parametrize(
+    ("phase", "seat", "is_refused"),
+    [
+        ("running", "Washington Tower", False),
+        ("running", "tower", True),
+        ("waiting", "tower", False),  # Nobody knows the seats of a run that has not begun.
+    ],
+)
+def test_a_seat_that_a_run_does_not_have_is_refused_with_the_names_of_its_seats(
+    airhilt_command: Cli, phase: Phase, seat: str, is_refused: bool
+) -> None:
+    info = SeatInfo(
+        seat="Washington Tower", frequencies_khz=(), has_sound=False, is_recognised=False,
+        voice_is_recorded=False, longest_call_s=60.0,
+    )  # fmt: skip
+    with closing(Bus("run")) as bus:
+        clock = Clock(t_ns=0, run="run", phase=phase, pace="realtime")
+        bus.keep("clock", clock.model_dump_json().encode())
+        bus.keep("seat/Washington_Tower/info", info.model_dump_json().encode())
+        if is_refused:
+            done = airhilt_command("view", "--connect", bus.endpoint, "--seat", seat)
+            assert done.returncode == 2
+            assert "--seat 'tower': not a seat of the run; expected 'Washington Tower'" in (
+                done.stderr
+            )
+        else:
+            Subscription(bus.endpoint, lambda _: None, lambda: None, seats=[seat]).close()
 
 
 @pytest.fixture(params=[False, True], ids=["plain", "tls"])
