@@ -15,6 +15,9 @@ import click
 
 from airhilt.cli.notices import tell
 
+FORWARDING_S = 1.0
+"""Longest wait for the last lines of the page, in s: a browser that it opened may hold the pipe."""
+
 
 @contextmanager
 def live_page(
@@ -47,7 +50,8 @@ def live_page(
     )
     assert page.stdout is not None
     page.stdout.readline()  # It waits for the run now, and will miss nothing of it.
-    threading.Thread(target=_forward, args=(page.stdout,), daemon=True).start()
+    forwarding = threading.Thread(target=_forward, args=(page.stdout,), daemon=True)
+    forwarding.start()
     try:
         yield
         if page.poll() is None:
@@ -57,8 +61,10 @@ def live_page(
         if page.poll() is None:
             page.send_signal(signal.SIGINT)
             page.wait()
+        forwarding.join(FORWARDING_S)
 
 
 def _forward(lines: TextIO) -> None:
-    for line in lines:
-        click.echo(line, err=True, nl=False)
+    with lines:
+        for line in lines:
+            click.echo(line, err=True, nl=False)

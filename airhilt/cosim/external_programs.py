@@ -94,6 +94,8 @@ class ExternalPrograms:
         Takes what the person at a seat says, typed or spoken.
     seats
         Seats that are left to people, as parts of keys.
+    units
+        Seats that fly and drive nothing, as parts of keys.
     keeps_voices
         False leaves the voices of people out of the log.
     occupy
@@ -121,6 +123,7 @@ class ExternalPrograms:
         obey: Callable[[str, Command], None],
         take_from_seat: Callable[[str, FromSeat], None],
         seats: Collection[str],
+        units: Collection[str],
         keeps_voices: bool,
         occupy: Callable[[str, bool], None],
         set_pace: Callable[[float], None],
@@ -141,6 +144,7 @@ class ExternalPrograms:
         self._obey = obey
         self._take_from_seat = take_from_seat
         self._seats = frozenset(seats)
+        self._units = units
         self._keeps_voices = keeps_voices
         self._occupy = occupy
         self._set_pace = set_pace
@@ -263,7 +267,7 @@ class ExternalPrograms:
                 )
 
     def _require_seat(self, key: str, message: Message) -> None:
-        """Complain about what happens at a seat that is not left to a person.
+        """Complain about what happens at a seat that is not a person's, or cannot be there.
 
         Raises
         ------
@@ -275,6 +279,11 @@ class ExternalPrograms:
             raise WorkerError(
                 f"a program published on {key!r}, which is for the page of people at seats alone; "
                 "expected a run with --seat"
+            )
+        if isinstance(message, ActorCommand) and key.split("/")[1] in self._units:
+            raise WorkerError(
+                f"a program published on {key!r}, the seat of a unit, which flies and drives "
+                "nothing; expected the callsign of an aircraft or a vehicle"
             )
         if isinstance(message, AT_SEATS) and key.split("/")[1] not in self._seats:
             raise WorkerError(

@@ -289,6 +289,7 @@ class Simulation:
             obey=self._world.obey,
             take_from_seat=lambda seat, said: self._radio.take_from_seat(seat, said),
             seats=[key_chunk(name) for name in self._setup.seats],
+            units=[key_chunk(name) for name in self._setup.seats if name not in self._setup.actors],
             keeps_voices=self._setup.options.voice_recording,
             occupy=self._occupy,
             set_pace=self._set_pace,

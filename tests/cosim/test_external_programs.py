@@ -43,6 +43,7 @@ def programs(
         answer=lambda *_: None,
         is_asked=lambda _seat, _number: True,
         seats=seats,
+        units=(),
         workers=("decision",),
         has_decision=False,
         is_strict=is_strict,

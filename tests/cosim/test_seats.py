@@ -291,6 +291,14 @@ def test_a_person_is_told_what_the_aircraft_cannot_do_and_what_is_refused(tmp_pa
     assert refused.startswith("Refused: ")
 
 
+def test_a_person_at_a_unit_is_told_that_it_flies_nothing(tmp_path: Path) -> None:
+    given = [message("command/Washington_Tower", 2.0, command={"action": "go_around"})]
+    log = logged(tower(3.0), tmp_path / "run", ["tower"], given)
+    (refused,) = [one["text"] for one in contents(log, "notice/Washington_Tower")]
+    assert "the seat of a unit, which flies and drives nothing" in refused
+    assert not contents(log, "command/")
+
+
 def test_a_seat_that_is_not_there_is_named(tmp_path: Path) -> None:
     with pytest.raises(ScenarioError, match=r"--seat 'UAL9'.*expected tower, or one of .*AAL123"):
         logged(tower(5.0), tmp_path / "run", ["UAL9"])
