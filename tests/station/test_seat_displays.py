@@ -317,15 +317,94 @@ def test_words_that_were_lost_with_the_connection_are_given_back_and_those_heard
         monkeypatch.setattr(Browsers, "_do", do_until_it_ends)
         page.evaluate(f"{words} = 'American 123, hold.'")
         page.evaluate("document.getElementById('say-button').click()")
-        page.wait_for(f"{told}.includes('before the station had heard “American 123, hold.”')")
+        page.wait_for(f"{told}.includes('before the station had heard your last words')")
         page.wait_for("document.getElementById('link').hidden")
-        assert page.evaluate(f"{told}.includes('say it again')")
+        assert page.evaluate(f"{told}.includes('say them again')")
         assert page.evaluate(words) == "American 123, hold."
         page.evaluate("document.getElementById('say-button').click()")
         assert run.next().text == "American 123, hold."
         page.wait_for("!document.getElementById('link').hidden")
         page.wait_for("document.getElementById('link').hidden")
         assert page.evaluate(f"[{words}, {told}]") == ["", ""]
+
+
+@contextmanager
+def lost_at(kind: str, monkeypatch: pytest.MonkeyPatch, *, is_done: bool = False) -> Iterator[None]:
+    """Let each connection end when a wish of a kind comes, before it is done or after that."""
+    do = Browsers._do
+
+    async def do_until_it_ends(browsers: Browsers, browser: Any, wish: Any) -> None:
+        is_last = kind in wish.model_fields_set
+        if is_done or not is_last:
+            await do(browsers, browser, wish)
+        if is_last:
+            raise RuntimeError("the connection has ended")
+
+    with monkeypatch.context() as patched:
+        patched.setattr(Browsers, "_do", do_until_it_ends)
+        yield
+
+
+NO_CONNECTION = """(() => {
+    const there = Object.getOwnPropertyDescriptor(WebSocket.prototype, 'readyState');
+    const set = (one) => Object.defineProperty(WebSocket.prototype, 'readyState', one);
+    set({ get: () => 3, configurable: true });
+    window.connect = () => { set(there); };
+})()"""
+"""Closes the connection for the page, until it calls `connect`."""
+IS_BACK = "document.getElementById('link').hidden"
+
+
+@pytest.mark.parametrize("is_done", [False, True], ids=["unheard", "heard"])
+def test_a_command_that_was_lost_with_the_connection_is_not_told_to_be_set_nor_given_again(
+    page: Page, monkeypatch: pytest.MonkeyPatch, is_done: bool
+) -> None:
+    told = "document.getElementById('panel-state').textContent"
+    with seated(page, "AAL123") as run:
+        with lost_at("fly", monkeypatch, is_done=is_done):
+            page.press("g", 71)
+            page.wait_for(f"{told}.startsWith('Not set: the connection is lost.')")
+            assert page.evaluate(f"{told}.includes('may have heard it: Go around')")
+            page.wait_for(IS_BACK)
+        assert commands(run, page) == ["go_around"] * is_done
+        page.press("g", 71)
+        page.wait_for(f"{told} === 'Set: Go around.'")
+        assert commands(run, page) == ["go_around"]
+
+
+@pytest.mark.parametrize(
+    ("wish", "where", "said"),
+    [
+        ("panel-go-around", "panel-state", "Not set: the connection is lost."),
+        ("pace-pause", "seat-state", "Not set: the connection is lost."),
+        ("seat-take", "seat-state", "Not done: the connection is lost."),
+    ],
+)
+def test_what_is_wished_without_a_connection_is_told_not_to_be_done_and_not_done_later(
+    page: Page, wish: str, where: str, said: str
+) -> None:
+    with seated(page, "AAL123") as run:
+        page.evaluate(f"{NO_CONNECTION}; null")
+        page.evaluate(f"document.getElementById('{wish}').click()")
+        assert page.evaluate(f"document.getElementById('{where}').textContent") == said
+        page.evaluate("connect()")
+        assert commands(run, page) == []
+        assert page.evaluate("document.body.dataset.seat") == "pilot"
+
+
+def test_words_that_were_lost_come_before_those_that_are_typed_meanwhile(
+    page: Page, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    words = "document.getElementById('words').value"
+    with seated(page, "TOWER") as run, lost_at("say", monkeypatch):
+        page.evaluate(f"""(() => {{
+            {words} = 'American 123, hold.';
+            document.getElementById('say-button').click();
+            {words} = 'Delta 45';
+        }})()""")
+        page.wait_for(f"{words} !== 'Delta 45'")
+        assert page.evaluate(words) == "American 123, hold. Delta 45"
+        assert run.done.empty()
 
 
 def test_a_person_is_told_by_how_much_the_run_is_behind_the_clock(page: Page) -> None:

@@ -21,7 +21,7 @@ export class Displays {
   #panel;
   #cameras;
 
-  /** `send(command)` gives a command to the own aircraft; `tell(text)` says what came of it. */
+  /** `send(command, answers)` and `tell(text)` are those of the mode panel. */
   constructor(run, clock, cameras, send, tell) {
     this.#run = run;
     this.#clock = clock;

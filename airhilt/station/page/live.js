@@ -4,6 +4,7 @@ import { byId } from "./dom.js";
 import { identity } from "./identity.js";
 import { Lag } from "./lag.js";
 import { PACES } from "./run-pace.js";
+import { Wishes } from "./wishes.js";
 import { seconds } from "./words.js";
 
 const RETRY_MS = 1000;
@@ -49,6 +50,7 @@ export class Live {
   #shown = null; // the seat whose view is shown; null: what everybody sees
   #heard = 0; // when the last message came
   #isSilent = false;
+  #wishes = new Wishes((message) => this.send(message));
 
   constructor(run, clock) {
     this.#run = run;
@@ -72,7 +74,7 @@ export class Live {
 
   #open() {
     this.#abandon();
-    this.#panes.seat.lost();
+    this.#wishes.lost();
     const url = new URL("api/live", location.href);
     url.protocol = url.protocol.replace("http", "ws");
     url.searchParams.set("from", this.#seen);
@@ -96,6 +98,7 @@ export class Live {
     };
     this.#socket.onclose = (event) => {
       this.#panes.talk.lost();
+      this.#wishes.lost();
       if (this.#isOver) {
         this.#tell();
         return;
@@ -169,10 +172,18 @@ export class Live {
     return this.#socket?.readyState === WebSocket.OPEN && !this.#isSilent;
   }
 
-  /** Sends what somebody at a seat wishes; returns false if there is no connection. */
-  send(wish) {
+  /**
+   * Sends what a person wishes, once: `heard()` is called when the station has heard it, or
+   * `lost(wasSent)` when the connection is lost before that.
+   */
+  wish(wish, answers) {
+    this.#wishes.send(wish, answers);
+  }
+
+  /** Sends a message; returns false if there is no connection. */
+  send(message) {
     const isOpen = this.#socket?.readyState === WebSocket.OPEN;
-    if (isOpen) this.#socket.send(JSON.stringify(wish));
+    if (isOpen) this.#socket.send(JSON.stringify(message));
     return isOpen;
   }
 
@@ -188,11 +199,11 @@ export class Live {
 
   #take(message) {
     const { next, changes, seats, own, refused, forget, shown, echo } = message;
-    if (echo !== undefined) this.#panes.seat.answered(echo);
+    if (echo !== undefined) this.#wishes.answered(echo);
     if (forget) this.#forget(shown);
     if (seats) this.#takeSeats(seats);
     if (own) this.#takeOwn(own);
-    if (refused) this.#refuse(refused);
+    if (refused) this.refuse(refused);
     if (!changes) {
       this.#panes.talk.take(message);
       return;
@@ -227,7 +238,7 @@ export class Live {
   }
 
   /** Shows why something was not done: at the seats, or where the run has none, below the title. */
-  #refuse(text) {
+  refuse(text) {
     if (this.#run.seats?.length) this.#panes.seat.refuse(text);
     else byId("refused").textContent = text;
   }
@@ -237,7 +248,7 @@ export class Live {
     const last = this.#run.seats?.length
       ? null
       : this.#run.events.findLast(({ kind }) => kind === "refused");
-    if (last) this.#refuse(`Refused at ${seconds(last.t)}: ${last.text}`);
+    if (last) this.refuse(`Refused at ${seconds(last.t)}: ${last.text}`);
   }
 
   #takeSeats(seats) {
@@ -264,6 +275,7 @@ export class Live {
     this.#seen = 0;
     this.#shown = shown;
     this.#run.forget();
+    this.#wishes.forget();
     for (const pane of [advisories, cameras, seat, talk]) pane.forget();
     transcript.redraw();
     plan.redraw();

@@ -50,7 +50,10 @@ export class ModePanel {
   #tell;
   #isVehicle = false;
 
-  /** `send(command)` gives a command to the own aircraft; `tell(text)` says what came of it. */
+  /**
+   * `send(command, { heard, lost })` gives a command to the own aircraft, and calls one of the two
+   * once it is known whether the station has heard it; `tell(text)` says what came of it.
+   */
   constructor(send, tell) {
     this.#send = send;
     this.#tell = tell;
@@ -128,8 +131,14 @@ export class ModePanel {
   }
 
   #give(text, command) {
-    this.#send(command);
-    this.#tell(`Set: ${text}.`);
+    this.#tell("");
+    this.#send(command, {
+      heard: () => this.#tell(`Set: ${text}.`),
+      lost: (wasSent) =>
+        this.#tell(
+          `Not set: the connection is lost.${wasSent ? ` The station may have heard it: ${text}.` : ""}`,
+        ),
+    });
   }
 
   #button(name, act) {

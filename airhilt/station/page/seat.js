@@ -12,7 +12,6 @@ export class Seat {
   #live;
   #own = null;
   #isLeaving = false; // somebody has asked for that
-  #unheard = []; // words that the station has not answered yet, and when they were sent
   #tasks = [];
   #rows = new Rows(byId("tasks"));
   #displays;
@@ -30,14 +29,19 @@ export class Seat {
       run,
       clock,
       cameras,
-      (command) => live.send({ fly: command }),
+      (command, answers) => live.wish({ fly: command }, answers),
       (text) => {
         byId("panel-state").textContent = text;
       },
     );
     byId("seat-take").addEventListener("click", () => {
       this.#isLeaving = Boolean(this.#own);
-      live.send(this.#own ? { leave: this.#own } : { take: byId("seat-name").value });
+      live.wish(this.#own ? { leave: this.#own } : { take: byId("seat-name").value }, {
+        lost: () => {
+          this.#isLeaving = false;
+          this.refuse("Not done: the connection is lost.");
+        },
+      });
     });
     byId("say").addEventListener("submit", (event) => {
       event.preventDefault();
@@ -96,7 +100,6 @@ export class Seat {
   /** Forgets what the former seat has shown, and what was typed there and not sent. */
   forget() {
     this.#tasks = [];
-    this.#unheard = [];
     this.#displays.forget();
     byId("words").value = "";
     for (const id of ["instruments", "panel-state"]) byId(id).textContent = "";
@@ -139,22 +142,6 @@ export class Seat {
     );
     this.#tasks.splice(0, this.#tasks.length - MOST_TASKS);
     this.#drawTasks();
-  }
-
-  /** Takes in that the station has answered all that was sent until a time of the page. */
-  answered(sent) {
-    this.#unheard = this.#unheard.filter((one) => one.sent > sent);
-  }
-
-  /** Takes in that nothing more comes over a connection: gives back words that it may have lost. */
-  lost() {
-    if (!this.#unheard.length) return;
-    const text = this.#unheard.map((one) => one.text).join(" ");
-    this.#unheard = [];
-    byId("words").value ||= text;
-    this.refuse(
-      `The connection was lost before the station had heard “${text}”. If nobody answers, say it again.`,
-    );
   }
 
   /** Takes cards away once somebody has made their calls. */
@@ -210,14 +197,19 @@ export class Seat {
   #say() {
     const text = byId("words").value.trim();
     if (!text) return;
-    if (!this.#live.send({ say: { text } })) {
-      this.refuse("Nothing was said: the connection is lost. Say it when it is there again.");
-      return;
-    }
-    const sent = performance.now();
-    this.#unheard.push({ text, sent });
-    this.#live.send({ echo: sent });
     byId("words").value = "";
     this.refuse("");
+    this.#live.wish({ say: { text } }, { lost: (wasSent) => this.#takeBack(text, wasSent) });
+  }
+
+  /** Gives words back that the station may not have heard, before what was typed meanwhile. */
+  #takeBack(text, wasSent) {
+    const field = byId("words");
+    field.value = [text, field.value].filter((part) => part).join(" ");
+    this.refuse(
+      wasSent
+        ? "The connection was lost before the station had heard your last words. They are in the field: if nobody answers, say them again."
+        : "Nothing was said: the connection is lost. Say it when it is there again.",
+    );
   }
 }

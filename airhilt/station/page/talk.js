@@ -47,10 +47,14 @@ export class Talk {
         }),
       (severity, url) => this.#loudspeaker.warn(severity, url),
     );
-    this.#pace = new RunPace(run, (factor) => live.send({ pace: { factor } }));
+    this.#pace = new RunPace(run, (factor) =>
+      live.wish({ pace: { factor } }, { lost: () => live.refuse("Not set: the connection is lost.") }),
+    );
     this.#frequencies = new Frequencies((tune) => live.send({ tune }));
     this.#phrases = new Phrases(run);
-    this.#workload = new Workload((answer) => live.send({ answer }));
+    this.#workload = new Workload((answer) =>
+      live.wish({ answer }, { lost: () => live.refuse("Not answered: the connection is lost.") }),
+    );
     this.#microphone.setInfo(null);
     byId("strips").addEventListener("focusin", ({ target }) =>
       this.#phrases.address(target.closest(".flight-strip")?.dataset.callsign),
