@@ -229,6 +229,8 @@ class Browsers:
             await asyncio.shield(self._to_the_end(self._take(browser, wish.take)))
         elif wish.leave is not None:
             await asyncio.shield(self._to_the_end(self._leave(browser)))
+        elif wish.release is not None:
+            await self._release(browser)  # It was let go, perhaps by a page that has left the seat.
         elif (seat := self._book.of(browser)) is None:
             self._refuse(browser, "You have no seat. Take one first.")
         else:
@@ -243,8 +245,6 @@ class Browsers:
             await asyncio.to_thread(self._run.perceive, seat, wish.perceived)
         elif wish.press is not None:
             await self._press(browser, seat, wish.press)
-        elif wish.release is not None:
-            await self._release(browser)
         elif wish.answer is not None:
             await asyncio.to_thread(self._run.answer, seat, wish.answer)
         elif wish.tune is not None:
@@ -401,10 +401,16 @@ class Browsers:
         return is_same and has_seat and time.monotonic() - old.last_heard_s > SILENT_S
 
     def _hold(self, browser: _Browser) -> None:
-        """Keep the seat of a browser that is gone, in case that it comes back."""
+        """Keep the seat of a browser that is gone, in case that it comes back, or has already."""
         hold = self._book.hold(browser)
-        if hold is not None:
+        if hold is None:
+            return
+        named = (one for one in self._browsers if one.identity and one.identity == hold.identity)
+        back = next((one for one in named if self._book.of(one) is None), None)
+        if back is None:
             self._to_the_end(self._expire(hold))
+        else:
+            self._book.move(back, hold.seat)
 
     async def _expire(self, hold: Hold) -> None:
         """Give a seat back whose browser has not come back."""

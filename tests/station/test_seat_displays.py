@@ -648,6 +648,24 @@ def test_an_advisory_in_force_is_told_as_seen_for_each_person_who_takes_the_seat
         assert run.next().model_copy(update={"after_s": 0.0}) == seen
 
 
+def test_a_seat_that_the_own_old_connection_still_has_is_not_said_to_be_given_back(
+    page: Page,
+) -> None:
+    told = "document.getElementById('seat-state').textContent"
+    with seated(page, "TOWER"):
+        for state in ("taken", "free"):
+            said = page.evaluate(f"""import(new URL('page/seat.js', location)).then((module) => {{
+                const clock = {{ following: true, live: true, t: 0, listen: () => {{}} }};
+                const cameras = {{ offer: () => {{}} }};
+                const run = {{ seats: ['TOWER'], calls: [], tracks: [], apply: () => {{}} }};
+                const seat = new module.Seat(run, {{}}, clock, cameras);
+                seat.setSeats({{ TOWER: 'yours' }});
+                seat.setSeats({{ TOWER: '{state}' }});
+                return {told};
+            }})""")
+            assert ("given back" in said) == (state == "free"), said
+
+
 def test_a_page_keeps_its_seat_when_it_is_loaded_again_and_a_duplicate_of_its_tab_has_none(
     page: Page, monkeypatch: pytest.MonkeyPatch
 ) -> None:

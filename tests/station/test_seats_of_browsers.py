@@ -60,6 +60,34 @@ def test_who_comes_back_at_once_has_the_seat_again_and_nobody_else_gets_it(
         assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", False)
 
 
+def test_who_comes_back_before_the_old_connection_has_ended_has_the_seat_when_it_ends() -> None:
+    with seat_page() as (run, url), ExitStack() as connection:
+        old = connection.enter_context(browser(url, "one"))
+        take(old)
+        assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", True)
+        with browser(url, "one") as back, browser(url, "two") as other:
+            assert answer(back, "seats") == {"TOWER": "taken"}
+            connection.close()
+            while answer(back, "seats") != {"TOWER": "yours"}:
+                pass
+            take(other)
+            assert "Somebody has the seat" in str(answer(other, "refused"))
+            assert run.presence.empty()
+
+
+def test_a_button_that_is_let_go_after_the_seat_was_left_is_not_refused() -> None:
+    with seat_page() as (run, url), browser(url, "a") as own:
+        take(own)
+        own.send(json.dumps({"press": {}}))
+        own.send(PIECE)
+        own.send(json.dumps({"leave": "TOWER"}))
+        own.send(json.dumps({"release": True}))
+        own.send(json.dumps({"say": {"text": "hello"}}))
+        assert "no seat" in str(answer(own, "refused"))
+        assert run.call()[1] == PIECE
+        assert len(run.told) == 1
+
+
 def test_the_seat_of_who_does_not_come_back_is_given_back_and_all_are_told(
     seat: tuple[PretendedRun, str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

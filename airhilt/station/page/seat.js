@@ -70,7 +70,9 @@ export class Seat {
     if (this.#own) byId("seat-name").value = this.#own;
     if (isLost)
       this.refuse(
-        `The seat ${before} was given back while the connection was lost, and its script goes on. Take it again.`,
+        seats[before] === "taken"
+          ? `The connection was lost, and the seat ${before} is taken: by your old connection, which ends soon and gives it back to you, or by somebody else.`
+          : `The seat ${before} was given back while the connection was lost, and its script goes on. Take it again.`,
       );
     else if (this.#own && this.#own !== before) byId("seat-state").textContent = "";
     else if (!this.#own)
