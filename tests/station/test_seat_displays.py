@@ -735,6 +735,24 @@ PLOTS = """import(new URL('page/model.js', location)).then(({ Run }) => {
 """Plots that are alone at some times, on a page without a seat, and at one."""
 
 
+LATE_PLOT = """import(new URL('page/radar_plots.js', location)).then(({ RadarPlots }) => {
+    const plots = new RadarPlots();
+    for (const t of [100, 20]) plots.add({ t, east: 0, north: 0, turn_s: 5 }, []);
+    const before = plots.at(101).map(({ plot, isAlone }) => [plot.t, isAlone]);
+    plots.explain({ last: 100, place: () => [0, 0] });
+    return [before, plots.at(101).map(({ plot, isAlone }) => [plot.t, isAlone])];
+})"""
+"""The plots that are shown after an old one has come late, and once their actor is found."""
+
+
+def test_an_old_plot_that_comes_late_hides_no_other(page: Page) -> None:
+    with seat_page() as (_, url):
+        page.open(url)
+        page.wait_for("document.body.dataset.ready")
+        assert page.evaluate(LATE_PLOT) == [[[100, True]], [[100, False]]]
+        page.open("about:blank")
+
+
 def test_a_plot_is_alone_until_another_sensor_finds_its_actor_and_past_ones_go_at_a_seat(
     page: Page,
 ) -> None:

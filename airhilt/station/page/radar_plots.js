@@ -26,7 +26,7 @@ export class RadarPlots {
   explain(track) {
     for (let i = this.#kept.length - 1; i >= 0; i -= 1) {
       const one = this.#kept[i];
-      if (track.last - one.plot.t > this.#longestTurn) break;
+      if (track.last - one.plot.t > this.#longestTurn) continue;
       one.isAlone &&= !isNear(one.plot, track);
     }
   }
@@ -48,7 +48,7 @@ export class RadarPlots {
     for (let i = this.#kept.length - 1; i >= 0 && shown.length < MOST_SHOWN; i -= 1) {
       const { plot, isAlone } = this.#kept[i],
         age = (t - plot.t) / plot.turn_s;
-      if (plot.t <= past) break;
+      if (plot.t <= past) continue; // One that came late hides no other.
       if (age >= 0 && age < TURNS) shown.push({ plot, age, isAlone: isAlone && age < 1 });
     }
     return shown.reverse();
