@@ -58,9 +58,10 @@ class Calls(Content):
         }
 
 
-def call_as_json(call: CallRecord) -> Json | None:
+def call_as_json(call: CallRecord, *, names_engines: bool = True) -> Json | None:
     """Return a call, None if only its recognition is known.
 
+    The engine of a transcript is null unless engines are named.
     What was really said, and by whom, is null where the truth is not known.
     """
     on_air = call.said or call.received
@@ -77,7 +78,7 @@ def call_as_json(call: CallRecord) -> Json | None:
         "addressed": None if said is None or said.addressed is None else readable(said.addressed),
         "said": None if said is None else readable(said.text),
         "blocked_by": [] if said is None else [readable(name) for name in said.blocked_by],
-        "transcripts": [_transcript(transcript) for transcript in call.transcripts],
+        "transcripts": [_transcript(one, names_engine=names_engines) for one in call.transcripts],
         "hearings": [
             {"who": readable(one.actor), "outcome": one.outcome, "text": readable(one.text)}
             for one in call.hearings
@@ -85,10 +86,10 @@ def call_as_json(call: CallRecord) -> Json | None:
     }
 
 
-def _transcript(transcript: Transcript) -> Json:
+def _transcript(transcript: Transcript, *, names_engine: bool) -> Json:
     return {
         "t": round(transcript.t_ns / SECOND_NS, 3),
-        "engine": readable(transcript.engine),
+        "engine": readable(transcript.engine) if names_engine else None,
         "speaker": None if transcript.speaker is None else readable(transcript.speaker),
         "addressee": None if transcript.addressee is None else readable(transcript.addressee),
         "confidence": transcript.confidence,

@@ -337,7 +337,7 @@ class LiveRun:
         message = received.message
         self._calls.take(message)
         record = self._calls.get(message.id)
-        row = None if record is None else call_as_json(record)
+        row = None if record is None else call_as_json(record, names_engines=not self._seats)
         if record is not None and row is not None:
             # At a seat a call is heard while it lasts, and nobody else hears it.
             has_sound = bool(record.received and record.received.samples) and not self._seats
@@ -357,8 +357,11 @@ class LiveRun:
 
     def _event(self, received: Received) -> None:
         row = event_row(received.message.model_dump(mode="json"), received.logged)
-        if row is not None:
-            self._changes.add("event", row, audience=received.audience)
+        if row is None:
+            return
+        if self._seats and "engine" in row:  # It would tell participants which condition they have.
+            row = row | {"engine": None}
+        self._changes.add("event", row, audience=received.audience)
 
     def _latency(self, received: Received) -> None:
         if (bar := self._bars.bar(received.message)) is not None:

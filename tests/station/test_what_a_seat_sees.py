@@ -236,6 +236,15 @@ def test_no_seat_is_told_the_latencies_of_the_assistant(
     assert '"latency"' in str(run.changes.since(0))
 
 
+def test_no_seat_is_told_the_engine_that_has_recognised_a_call(
+    seats: tuple[PretendedRun, str],
+) -> None:
+    run, _ = seats
+    seen = run.changes.since(0, admits=lambda audience: run.views.sees("DAL456", audience))
+    assert '"text":"hello"' in str(seen).replace(": ", ":")
+    assert "ctc" not in str(seen)
+
+
 def test_what_comes_later_is_shown_at_the_seats_that_see_it(
     seats: tuple[PretendedRun, str],
 ) -> None:

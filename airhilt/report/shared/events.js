@@ -11,7 +11,7 @@ const kindOf = (event) => (event.kind === "advisory" ? event.severity : event.ki
 function textOf(event) {
   switch (event.kind) {
     case "radio": return event.text;
-    case "transcript": return `${event.text} (${event.engine}, confidence ${fixed(event.confidence, 2)})`;
+    case "transcript": return `${event.text} (${event.engine ? `${event.engine}, ` : ""}confidence ${fixed(event.confidence, 2)})`;
     case "command": return command(event);
     case "failure": return event.line ? `${event.speaker}’s call “${event.line}”: ${event.text}` : event.text;
     case "status": return event.text ? `${event.state}: ${event.text}` : event.state;

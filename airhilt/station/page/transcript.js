@@ -118,7 +118,7 @@ export class Transcript {
     return html(
       "div",
       { class: "heard" },
-      `${capital(one.engine)}, ${percent(one.confidence)}: `,
+      `${capital(one.engine ?? "recognised")}, ${percent(one.confidence)}: `,
       marked,
     );
   }
