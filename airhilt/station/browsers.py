@@ -21,6 +21,7 @@ from airhilt.station.audiences import Audience, SeatViews
 from airhilt.station.changes import MOST_AT_ONCE, Changes, SeatChanges
 from airhilt.station.held_button import HeldButton, what_is_wrong_with
 from airhilt.station.page_files import page_version
+from airhilt.station.refusals import Refusals
 from airhilt.station.seat_book import Hold, SeatBook
 from airhilt.station.wishes import Claimed, Pressed, RunLink, Wish
 from airhilt.text import readable
@@ -39,8 +40,6 @@ POLICY_VIOLATION, TRY_LATER = 1008, 1013
 """Codes with which a WebSocket is closed (RFC 6455, 7.4.1, and IANA's registry)."""
 OLD_PAGE = 4426
 """Likewise, of those that applications choose: the page is of another version."""
-MOST_NOTICES = 50
-"""Largest number of refusals that are told."""
 CLAIMED_ELSEWHERE: Mapping[Claimed, str] = {
     "taken": "Somebody has the seat {seat} at another page of this run.",
     "claimed": "Somebody else may be about to take the seat {seat} at another page of this run. "
@@ -95,7 +94,7 @@ class Browsers:
     sounds
         What is heard on the frequencies, piece by piece; None: nothing is heard.
     notice
-        Is told of what is refused, the first `MOST_NOTICES`.
+        Is told of what is refused: some of each seat, and some of all browsers without one.
     views
         What may be seen at each seat; a browser without one sees only what everybody may.
     """
@@ -111,8 +110,7 @@ class Browsers:
     ) -> None:
         self._book = SeatBook[_Browser](seats)
         self._views = views or SeatViews(seats)
-        self._notice = notice
-        self._notices = 0
+        self._refusals = Refusals(notice)
         self._changes = changes
         self._of_seats = seats
         self._sounds = sounds or Changes()
@@ -216,7 +214,8 @@ class Browsers:
             except ValidationError as error:
                 wrong = first_problem(error)
             if wrong is not None:
-                self._refused(f"a message of a browser: {readable(wrong, LONGEST_REASON)}")
+                what = f"a message of a browser: {readable(wrong, LONGEST_REASON)}"
+                self._refused(what, self._book.of(browser))
                 await socket.close(POLICY_VIOLATION, readable(wrong, LONGEST_REASON))
                 return
 
@@ -273,12 +272,12 @@ class Browsers:
 
     def _refuse(self, browser: _Browser, why: str) -> None:
         browser.tell("refused", why)
-        self._refused(f"a wish of a browser: {why}")
+        self._refused(f"a wish of a browser: {why}", self._book.of(browser))
 
-    def _refused(self, what: str) -> None:
-        self._notices += 1
-        if self._notices <= MOST_NOTICES:
-            self._notice(f"refused {what}")
+    def _refused(self, what: str, seat: str | None = None) -> None:
+        """Tell what is refused; who has no seat does not use up what is told of a seat."""
+        source = "of browsers without a seat" if seat is None else f"at the seat {readable(seat)}"
+        self._refusals.tell(what, source)
 
     # --- the microphone ---------------------------------------------------------------------
 

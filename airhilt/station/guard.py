@@ -12,6 +12,7 @@ from starlette.responses import PlainTextResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from airhilt.station.address import Address
+from airhilt.station.refusals import Refusals
 from airhilt.text import readable
 
 COOKIE = "airhilt_token"
@@ -38,8 +39,6 @@ HEADERS = {
     "X-Content-Type-Options": "nosniff",
     "Cache-Control": "no-store",
 }
-MOST_NOTICES = 20
-"""Largest number of refusals that are told."""
 
 
 class Guard:
@@ -52,14 +51,13 @@ class Guard:
     address
         Where it listens, and the token that it asks for.
     notice
-        Is told of refusals, the first `MOST_NOTICES`.
+        Is told of refusals, the first ones.
     """
 
     def __init__(self, app: ASGIApp, address: Address, notice: Callable[[str], None]) -> None:
         self._app = app
         self._address = address
-        self._notice = notice
-        self._refused = 0
+        self._refusals = Refusals(notice)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Answer a request, or let the application do it."""
@@ -110,9 +108,7 @@ class Guard:
         return answer
 
     def _refuse(self, reason: str) -> Response:
-        self._refused += 1
-        if self._refused <= MOST_NOTICES:
-            self._notice(f"refused a request: {readable(reason)}")
+        self._refusals.tell(f"a request: {readable(reason)}", "of this kind")
         return PlainTextResponse(f"airhilt: refused: {readable(reason)}\n", status_code=403)
 
 

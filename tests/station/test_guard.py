@@ -11,7 +11,8 @@ from starlette.responses import PlainTextResponse
 from starlette.types import Message, Receive, Scope, Send
 
 from airhilt.station.address import Address
-from airhilt.station.guard import MOST_NOTICES, Guard
+from airhilt.station.guard import Guard
+from airhilt.station.refusals import MOST_NOTICES
 from stations import asked
 
 TOKEN = "correct horse battery"
@@ -76,6 +77,7 @@ def test_a_flood_of_refusals_is_told_a_few_times_only() -> None:
     for _ in range(MOST_NOTICES + 10):
         asked(app, host="evil.example")
     assert len(told) == MOST_NOTICES
+    assert "further ones" in told[-1]
 
 
 @pytest.mark.parametrize(("token", "is_let_in"), [(TOKEN, True), ("wrong", False)])

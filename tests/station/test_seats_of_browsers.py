@@ -75,6 +75,20 @@ def test_who_comes_back_before_the_old_connection_has_ended_has_the_seat_when_it
             assert run.presence.empty()
 
 
+def test_who_has_no_seat_does_not_use_up_what_is_told_of_a_seat() -> None:
+    with seat_page() as (run, url), browser(url, "a") as own, browser(url, "b") as other:
+        take(own)
+        assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", True)
+        for _ in range(60):
+            other.send(json.dumps({"say": {"text": "hello"}}))
+            answer(other, "refused")
+        own.send(json.dumps({"tune": [120_000]}))
+        answer(own, "refused")
+    assert "a frequency" in run.told[-1]
+    assert "further ones of browsers without a seat are not told" in run.told[-2]
+    assert len(run.told) < 30
+
+
 def test_a_button_that_is_let_go_after_the_seat_was_left_is_not_refused() -> None:
     with seat_page() as (run, url), browser(url, "a") as own:
         take(own)
