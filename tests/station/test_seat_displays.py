@@ -735,6 +735,17 @@ PLOTS = """import(new URL('page/model.js', location)).then(({ Run }) => {
 """Plots that are alone at some times, on a page without a seat, and at one."""
 
 
+def test_who_has_no_seat_is_not_told_that_nobody_has_said_anything(page: Page) -> None:
+    calls = "document.getElementById('calls').textContent"
+    with seat_page() as (_, url):
+        page.open(url)
+        page.wait_for("document.body.dataset.ready")
+        assert page.evaluate(calls) == "Take a seat to see what is said there."
+        page.click("seat-take")
+        page.wait_for(f"{calls} === 'Nobody has said anything so far.'")
+        page.open("about:blank")
+
+
 LATE_PLOT = """import(new URL('page/radar_plots.js', location)).then(({ RadarPlots }) => {
     const plots = new RadarPlots();
     for (const t of [100, 20]) plots.add({ t, east: 0, north: 0, turn_s: 5 }, []);

@@ -252,11 +252,12 @@ export class Live {
   }
 
   #takeSeats(seats) {
-    const { seat, talk, advisories, plan } = this.#panes,
+    const { seat, talk, transcript, advisories, plan } = this.#panes,
       before = seat.own;
     seat.setSeats(seats);
     talk.setSeat(seat.own);
     if (seat.own === before) return;
+    transcript.redraw();
     advisories.redraw();
     plan.fitFirst();
   }

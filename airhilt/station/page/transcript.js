@@ -36,9 +36,11 @@ export class Transcript {
         .filter((call) => !heard || heard.includes(call.frequency_khz))
         .slice(this.#clock.live ? -MOST_LIVE : 0);
     const several = new Set(calls.map((call) => call.frequency_khz)).size > 1;
-    const empty = this.#clock.live
-      ? "Nobody has said anything so far."
-      : "Nobody says anything in this run.";
+    const empty = !this.#clock.live
+      ? "Nobody says anything in this run."
+      : this.#run.seats?.length && !this.#run.own
+        ? "Take a seat to see what is said there."
+        : "Nobody has said anything so far.";
     const shown = calls.map((call) => ({ call, several })),
       items = this.#rows.show(
         shown,
