@@ -120,7 +120,8 @@ def first_problem(error: ValidationError) -> str:
     """Return the first thing that pydantic found wrong, in one line, after its place."""
     first = error.errors(include_url=False, include_context=False, include_input=False)[0]
     where = "/".join(str(part) for part in first["loc"])
-    return f"{where}: {first['msg']}" if where else str(first["msg"])
+    what = first["msg"].removeprefix("Value error, ")
+    return f"{where}: {what}" if where else what
 
 
 def shown(value: object) -> str:

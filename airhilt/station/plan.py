@@ -144,5 +144,4 @@ def plan_of(document: Any, origin: str) -> Plan:
     try:
         return Plan.model_validate(document)
     except ValidationError as error:
-        problem = first_problem(error).replace("Value error, ", "")
-        raise AirhiltError(f"{origin}: {problem}") from None
+        raise AirhiltError(f"{origin}: {first_problem(error)}") from None

@@ -159,8 +159,7 @@ def _read_range(text: str) -> Range | Interval | None:
         last = {"count": parts[2]} if is_log else {"step": numbers[2]}
         return Range.model_validate(ends | last)
     except ValidationError as error:
-        reason = first_problem(error).replace("Value error, ", "")
-        raise AirhiltError(f"values {text}: {reason}") from None
+        raise AirhiltError(f"values {text}: {first_problem(error)}") from None
 
 
 def _rounded(value: float) -> float:

@@ -268,6 +268,27 @@ def test_a_list_keeps_the_focus_and_open_evidence_when_something_new_comes(page:
         assert page.evaluate("document.querySelector('#advisories details').open")
 
 
+def test_the_newest_call_is_still_seen_when_a_warning_takes_room_from_the_list(page: Page) -> None:
+    is_seen = """(() => {
+        const list = document.getElementById('calls').getBoundingClientRect(),
+            row = document.querySelector('#calls > li:last-child').getBoundingClientRect();
+        return row.bottom <= list.bottom + 1;
+    })()"""
+    with seated(page, "TOWER") as run:
+        for second in range(20):
+            run.changes.add(
+                "call", CALL | {"id": f"call-{second}", "from": second, "to": second + 1}
+            )
+        run.changes.add("clock", 20.0, "running", "realtime", 0.0)
+        page.wait_for("document.querySelectorAll('#calls > li').length === 20")
+        page.wait_for(is_seen)
+        advise(run, "TOWER", "Runway occupied. " * 20)
+        page.wait_for("document.getElementById('own-advisories').innerText.includes('occupied')")
+        page.wait_for(is_seen)
+        page.evaluate("document.getElementById('calls').style.height = '60px'")
+        page.wait_for(is_seen)
+
+
 def test_a_pace_that_nobody_can_choose_is_shown_and_goes_on_in_real_time(page: Page) -> None:
     chosen = "document.getElementById('pace-factor').selectedOptions[0]?.textContent"
     with seated(page, "TOWER", pace="4x") as run:

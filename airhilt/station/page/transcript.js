@@ -16,11 +16,14 @@ export class Transcript {
   #clock;
   #items = [];
   #current = "";
+  #shown = null; // the row that is kept in view
   #tuned = () => null;
 
   constructor(run, clock) {
     this.#run = run;
     this.#clock = clock;
+    // An advisory or a question above the list takes room from it.
+    new ResizeObserver(() => this.#keepInView()).observe(this.#list);
     this.redraw();
   }
 
@@ -63,7 +66,12 @@ export class Transcript {
     this.#current = names;
     for (const { item } of this.#items) item.removeAttribute("aria-current");
     for (const { item } of shown) item.setAttribute("aria-current", "true");
-    if (shown.length) keepInView(this.#list, shown.at(-1).item);
+    this.#shown = shown.at(-1)?.item ?? null;
+    this.#keepInView();
+  }
+
+  #keepInView() {
+    if (this.#shown) keepInView(this.#list, this.#shown);
   }
 
   /** Shows the row of a call and sets the clock to its beginning. */
