@@ -325,7 +325,7 @@ def test_a_pilot_flies_by_the_mode_panel_and_sees_instruments_and_traffic(
         assert "expected 0 to 60000 ft" in page.evaluate(said)
         page.evaluate("document.activeElement.value = '36000'")
         page.evaluate("document.activeElement.form.requestSubmit()")
-        assert page.evaluate(said) == "Set: altitude 36000 ft."
+        page.wait_for(f"{said} === 'Set: altitude 36000 ft.'")
         page.wait_for("document.getElementById('instruments').textContent.includes('36,000 ft')")
         page.open("about:blank")
     commands = [one.data for one in open_run(out).messages() if one.key.startswith("command/")]

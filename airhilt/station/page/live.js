@@ -205,7 +205,7 @@ export class Live {
     if (own) this.#takeOwn(own);
     if (refused) this.refuse(refused);
     if (!changes) {
-      this.#panes.talk.take(message);
+      this.#takeTalk(message);
       return;
     }
     const { plan, transcript, cameras, sounds } = this.#panes;
@@ -213,7 +213,7 @@ export class Live {
     const { pace, phase } = this.#run,
       changed = this.#run.apply(changes),
       has = (...kinds) => kinds.some((kind) => changed.has(kind));
-    this.#panes.talk.take(message);
+    this.#takeTalk(message);
     for (const [kind, ...rest] of changes) {
       if (kind === "picture") cameras.add(...rest);
       if (kind === "call" && this.#clock.following && !this.#panes.seat.own) sounds.add(rest[0]);
@@ -249,6 +249,13 @@ export class Live {
       ? null
       : this.#run.events.findLast(({ kind }) => kind === "refused");
     if (last) this.refuse(`Refused at ${seconds(last.t)}: ${last.text}`);
+  }
+
+  #takeTalk(message) {
+    const { talk, transcript } = this.#panes;
+    talk.take(message);
+    const hasInfo = message.own?.some(([kind]) => kind === "info");
+    if (hasInfo) transcript.redraw(); // The frequencies of the seat are known from now on.
   }
 
   #takeSeats(seats) {
