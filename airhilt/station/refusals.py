@@ -1,4 +1,4 @@
-"""What is refused, told of each source a few times."""
+"""Refusals, of which a few of each source are told."""
 
 from __future__ import annotations
 

@@ -212,7 +212,7 @@ class ClockedPace(Virtual):
 def test_a_director_that_loses_time_does_not_make_up_for_a_stall(
     stall_ns: int, lost_ns: list[int]
 ) -> None:
-    """What waits when the stall is over comes after the stall, and before the next event."""
+    """Posted actions that wait when the stall is over come after it, and before the next event."""
     director, told = Director(pace := ClockedPace()), list[Any]()
 
     def stall() -> None:

@@ -38,6 +38,7 @@ from microphone import (
     sit_down,
     talk,
 )
+from stations import url_of
 
 pytestmark = [pytest.mark.slow, pytest.mark.browser]
 PATIENCE_S = 300.0
@@ -69,8 +70,7 @@ def running(out: Path, scenario: str, duration_s: float, *options: str) -> Itera
     assert process.stderr is not None
     with process.stderr:
         try:
-            line = next(line for line in process.stderr if line.startswith("http"))
-            yield line.split()[0]
+            yield url_of(process.stderr)
             end_page(process)
             process.stderr.read()
             assert process.wait(timeout=PATIENCE_S) == 0

@@ -86,7 +86,7 @@ def running(
     assert process.stderr is not None
     with process.stderr:
         try:
-            yield process, _url_of(process.stderr)
+            yield process, url_of(process.stderr)
         finally:
             if process.poll() is None:
                 for child in psutil.Process(process.pid).children():
@@ -96,7 +96,7 @@ def running(
             process.wait(timeout=PATIENCE_S)
 
 
-def _url_of(told: Iterable[str]) -> str:
+def url_of(told: Iterable[str]) -> str:
     """Return the URL among what a run tells; what it told instead is the error."""
     before = []
     for line in told:

@@ -81,7 +81,7 @@ class HeardCall(NamedTuple):
 
 
 class Curves(NamedTuple):
-    """What the confidence of a word follows from."""
+    """Curves that the confidence of a word follows from."""
 
     word: Calibration
     lost: LossCurve

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from airhilt.assistant.asr.beam_search import BLANK, HeardUnit
+from airhilt.assistant.asr.logistic import Logistic
 
 LEAST_HEARD = 0.05
 """Posterior of all pieces together below which a step is silence or noise; there may be many."""
@@ -21,15 +22,12 @@ MINUTE_HEARD = 0.1
 
 
 @dataclass(frozen=True)
-class LossCurve:
+class LossCurve(Logistic):
     """Probability that a word was lost: a logistic curve over the logarithm of what was heard."""
-
-    slope: float
-    offset: float
 
     def __call__(self, heard: float) -> float:
         """Return the probability that a word is lost where this much was heard and not written."""
-        return float(1.0 / (1.0 + np.exp(-(self.slope * log_heard(heard) + self.offset))))
+        return self.at(log_heard(heard))
 
 
 def log_heard(heard: float) -> float:

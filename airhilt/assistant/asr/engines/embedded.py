@@ -21,6 +21,7 @@ from airhilt.assistant.asr.beam_search import BeamSearch, aligned
 from airhilt.assistant.asr.engine import Recognised
 from airhilt.assistant.asr.features import BINS, mel_power, normalised
 from airhilt.assistant.asr.language import Language
+from airhilt.assistant.asr.logistic import Logistic
 from airhilt.assistant.asr.lost_words import LossCurve, unwritten
 from airhilt.assistant.asr.pieces import Pieces
 from airhilt.assistant.asr.spotting import Odds, Spotted, Spotter, is_same
@@ -53,17 +54,13 @@ TRIAL_FRAMES = 12
 
 
 @dataclass(frozen=True)
-class Calibration:
+class Calibration(Logistic):
     """Share of right guesses by posterior: a logistic curve over its log-odds."""
-
-    slope: float
-    offset: float
 
     def __call__(self, posterior: float) -> float:
         """Return the share of guesses with this posterior that are right."""
         bounded = min(max(posterior, 1e-6), 1.0 - 1e-6)
-        log_odds = float(np.log(bounded / (1.0 - bounded)))
-        return float(1.0 / (1.0 + np.exp(-(self.slope * log_odds + self.offset))))
+        return self.at(float(np.log(bounded / (1.0 - bounded))))
 
 
 class Card(BaseModel):
