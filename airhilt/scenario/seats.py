@@ -11,6 +11,23 @@ TOWER = "tower"
 """Name by which the seat of the controller can be asked for in any scenario."""
 GROUND = "ground"
 """Likewise of the first unit that is called ground, as in Washington Ground."""
+ROLES = frozenset((TOWER, GROUND))
+"""Names by which seats can be asked for that are not their own."""
+
+
+def without_roles(names: Iterable[str], controller: str, known: Iterable[str]) -> tuple[str, ...]:
+    """Return names of seats in which the name of a unit stands for its role, each once.
+
+    Parameters
+    ----------
+    controller
+        Name of the unit that is the controller.
+    known
+        Names of all seats.
+    """
+    grounds = (name for name in known if name.lower().endswith(f" {GROUND}"))
+    units = {TOWER: controller, GROUND: next(grounds, GROUND)}
+    return tuple(dict.fromkeys(units.get(name, name) for name in names))
 
 
 def possible_seats(scenario: Scenario) -> tuple[str, ...]:
@@ -36,13 +53,11 @@ def seats_of(names: Iterable[str], scenario: Scenario) -> tuple[str, ...]:
             "expected a scenario with radio/lines"
         )
     known = possible_seats(scenario)
-    grounds = (name for name in known if name.lower().endswith(f" {GROUND}"))
-    named = {TOWER: scenario.radio.controller, GROUND: next(grounds, GROUND)}
-    found = [named.get(name, name) for name in asked]
+    found = without_roles(asked, scenario.radio.controller, known)
     for name in found:
         if name not in known:
             raise ScenarioError(
                 f"--seat {shown(name)}: nobody of that name speaks in {scenario.name!r}; expected "
                 f"{TOWER}, or one of {', '.join(known)}"
             )
-    return tuple(dict.fromkeys(found))
+    return found

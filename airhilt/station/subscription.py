@@ -11,29 +11,22 @@ import threading
 import time
 from base64 import b64encode
 from collections import OrderedDict
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import suppress
-from pathlib import Path
-from typing import Any, NamedTuple, TypeVar
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from typing import Any, NamedTuple
 
 import zenoh
 from pydantic import ValidationError
 
-from airhilt.bus.access import Role
-from airhilt.bus.session import close_session, connect_client, find_run
 from airhilt.commands import Command
-from airhilt.errors import StationError
 from airhilt.messages import (
     LONGEST_REFUSAL,
     ActorCommand,
     AdvisoryAudio,
     AdvisoryPerceived,
-    Clock,
     Message,
     MicrophoneAudio,
     PaceCommand,
     PageRefusal,
-    SeatInfo,
     SpokenWords,
     Transmission,
     WorkloadAnswer,
@@ -44,11 +37,9 @@ from airhilt.record import Logged
 from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.station.audiences import Audience, audience_of
 from airhilt.station.changes import Changes
+from airhilt.station.connection import ASKED_S, RunConnection
 from airhilt.station.pictures import Picture
 from airhilt.station.wishes import Claimed
-from airhilt.text import readable
-
-T = TypeVar("T", bound=Message)
 
 SUBSCRIBED = (
     "clock", "briefing", "status/*", "adsb/*", "surface/*", "radar/**", "radio/*/tx", "asr/*",
@@ -67,8 +58,6 @@ ASKED = ("briefing", "clock", "radar/*/info")
 """Keys that the run answers, for who comes late."""
 ASKED_OF_SEATS = ("seat/{seat}/info",)
 """Keys that it answers for the person at a seat."""
-ASKED_S = 2.0
-"""Longest time that an answer may take, in s."""
 CLAIMS_PERIOD_S = 0.02
 """Time between two looks at the claims of other pages to a seat, in s."""
 STREAMED = "radio/*/audio"
@@ -95,19 +84,16 @@ class Sound(NamedTuple):
 
 
 class Subscription:
-    """Listens to the run at an endpoint until it is closed.
+    """Listens to a run until it is closed; the connection stays open.
 
     Parameters
     ----------
-    endpoint
-        Endpoint of the run; None: the one of the keys.
+    connection
+        Connection to the run, as the operator where there are seats.
     take
         Called with each message, on one thread.
     lost
         Called on that thread once the run is not there any more.
-    tls
-        Folder with the keys of the observer, or of the operator where there are seats; None: the
-        run asks for none.
     seats
         Seats of people, who see nothing of the truth.
     sounds
@@ -120,23 +106,14 @@ class Subscription:
     dropped
         Number of messages for which there was no room, or that are larger than their limit or not
         as a run writes them.
-
-    Raises
-    ------
-    BusError
-        No run answers there in time, or the keys are none.
-    StationError
-        The run goes on, and has no such seat.
     """
 
     def __init__(
         self,
-        endpoint: str | None,
+        connection: RunConnection,
         take: Callable[[Logged], None],
         lost: Callable[[], None],
         *,
-        patience_s: float = 30.0,
-        tls: Path | None = None,
         seats: Sequence[str] = (),
         sounds: Changes | None = None,
     ) -> None:
@@ -144,11 +121,9 @@ class Subscription:
         self._streamed = sounds
         self._take = take
         self._lost = lost
-        role: Role = "operator" if seats else "observer"
-        self._session = connect_client(endpoint, patience_s, tls, role)
-        self._prefix = find_run(self._session, patience_s)
-        self._require_seats(seats)
-        self.run = self._prefix.rpartition("/")[2]
+        self._connection = connection
+        self._session, self._prefix = connection.session, connection.prefix
+        self.run = connection.run
         self._waiting: queue.Queue[Logged | None] = queue.Queue(MOST_WAITING)
         self._waiting_bytes = 0
         self._sounds: OrderedDict[str, Sound] = OrderedDict()
@@ -179,40 +154,10 @@ class Subscription:
         self._thread = threading.Thread(target=self._work, name="station", daemon=True)
         self._thread.start()
 
-    def _require_seats(self, seats: Sequence[str]) -> None:
-        """Complain about a seat that the run does not have; before it begins, nobody knows them.
-
-        Raises
-        ------
-        StationError
-            It has no such seat.
-        """
-        if not seats or not any(clock.phase == "running" for clock in self._told("clock", Clock)):
-            return
-        known = sorted({info.seat for info in self._told("seat/*/info", SeatInfo)})
-        for seat in seats:
-            if seat not in known:
-                close_session(self._session)
-                raise StationError(
-                    f"--seat {readable(seat)!r}: not a seat of the run; expected "
-                    + (readable(", ".join(map(repr, known))) or "none: it has no seats")
-                )
-
-    def _told(self, key: str, kind: type[T]) -> Iterator[T]:
-        """Yield the messages of a kind that the run has told before."""
-        for sample in self._answers(key):
-            with suppress(ValidationError):
-                yield kind.model_validate_json(sample.payload.to_bytes())
-
-    def _answers(self, key: str) -> Iterator[zenoh.Sample]:
-        for reply in self._session.get(f"{self._prefix}/{key}", timeout=ASKED_S):
-            if reply.ok is not None:
-                yield reply.ok
-
     def _ask(self, keys: Iterable[str]) -> None:
         """Take in what the run has told before."""
         for key in keys:
-            for sample in self._answers(key):
+            for sample in self._connection.answers(key):
                 self._hear(sample)
 
     def sound(self, name: str) -> Sound | None:
@@ -327,14 +272,13 @@ class Subscription:
         self._session.put(f"{self._prefix}/command/{key_chunk(seat)}", message.model_dump_json())
 
     def close(self) -> None:
-        """Leave the run."""
+        """Listen no more."""
         self.watch(set())
         for entity in self._kept:
             entity.undeclare()
         self._kept.clear()
         self._waiting.put(None)
         self._thread.join()
-        close_session(self._session)
 
     def _hear(self, sample: zenoh.Sample) -> None:
         """Receive a message on a thread of Zenoh."""

@@ -8,13 +8,14 @@ import subprocess
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import closing, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 
 import zenoh
 
 from airhilt.bus.remote_workers import RemoteWorker
 from airhilt.bus.session import Bus, close_session, connect_client, find_run, free_endpoint
 from airhilt.messages import InputSpec, SpokenWords, StepReply, WorkerDescription
+from airhilt.station.connection import RunConnection
 from airhilt.station.subscription import Subscription
 from processes import process
 
@@ -96,9 +97,13 @@ def test_a_program_ends_before_its_run_reads_again() -> None:
 def test_a_page_ends_before_its_run_reads_again() -> None:
     endpoint = free_endpoint()
     with process("-c", RUN, endpoint) as program:
-        page = Subscription(endpoint, lambda _: None, lambda: None, seats=["TOWER"])
+        connection = RunConnection(endpoint, "operator")
+        page = Subscription(connection, lambda _: None, lambda: None, seats=["TOWER"])
         stop_and_fill(program, lambda: page.say("TOWER", SpokenWords(text="a" * 600)))
-        assert is_done_before_it_reads(program, page.close)
+        with ExitStack() as stack:
+            stack.callback(connection.close)
+            stack.callback(page.close)
+            assert is_done_before_it_reads(program, stack.pop_all().close)
 
 
 def test_another_run_may_listen_where_one_ended_that_was_not_read() -> None:

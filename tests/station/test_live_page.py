@@ -18,6 +18,7 @@ from airhilt.bus.session import free_endpoint
 from airhilt.cosim.replay import replay
 from airhilt.messages import SpokenWords
 from airhilt.record import open_run
+from airhilt.station.connection import RunConnection
 from airhilt.station.subscription import Subscription
 from airhilt.station.wishes import Claimed
 from devtools import Page
@@ -198,7 +199,10 @@ class SlowPage(PretendedRun):
 
     def __init__(self, endpoint: str) -> None:
         super().__init__((TOWER.model_copy(update={"seat": "AAL123"}),))
-        self.subscription = Subscription(endpoint, lambda _: None, lambda: None, seats=["AAL123"])
+        self._connection = RunConnection(endpoint, "operator")
+        self.subscription = Subscription(
+            self._connection, lambda _: None, lambda: None, seats=["AAL123"]
+        )
 
     def say(self, seat: str, words: SpokenWords) -> None:
         """Let the seat speak."""
@@ -213,6 +217,11 @@ class SlowPage(PretendedRun):
         if not is_taken:
             time.sleep(0.3)
         self.subscription.occupy(seat, is_taken=is_taken)
+
+    def close(self) -> None:
+        """Leave the run."""
+        self.subscription.close()
+        self._connection.close()
 
 
 def has_seat(socket: ClientConnection) -> bool:
@@ -238,7 +247,7 @@ def test_who_sits_down_before_the_run_knows_that_the_seat_was_left_comes_after_t
                 pass
             send(second, say={"text": "second"})
             send(second, leave="AAL123")
-        page.subscription.close()
+        page.close()
         page_process(process).kill()
         assert process.stderr is not None
         process.stderr.read()

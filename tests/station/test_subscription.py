@@ -9,7 +9,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import closing
+from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import TypeVar
 
@@ -18,9 +18,11 @@ import zenoh
 
 from airhilt.bus.certificates import make_keys
 from airhilt.bus.session import Bus, configuration, free_endpoint
-from airhilt.messages import Advisory, AdvisoryAudio, Clock, Phase, SeatInfo
+from airhilt.messages import Advisory, AdvisoryAudio, Briefing, Clock, Phase, SeatInfo
 from airhilt.record import Logged
+from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.station import subscription
+from airhilt.station.connection import RunConnection
 from airhilt.station.subscription import MOST_SOUND_BYTES, Subscription
 
 NESTED = b"[" * 30_000
@@ -38,7 +40,8 @@ class Followed:
         self.taken: list[Logged] = []
         self.is_lost = threading.Event()
         self._has_come = threading.Event()
-        self.page = Subscription(self.bus.endpoint, self._take, self.is_lost.set)
+        self._connection = RunConnection(self.bus.endpoint)
+        self.page = Subscription(self._connection, self._take, self.is_lost.set)
         self._program = zenoh.open(configuration("client", "connect", self.bus.endpoint))
 
     def _take(self, logged: Logged) -> None:
@@ -69,6 +72,7 @@ class Followed:
     def close(self) -> None:
         self._program.close()  # type: ignore[no-untyped-call]
         self.page.close()
+        self._connection.close()
 
 
 @pytest.fixture
@@ -134,39 +138,63 @@ def test_a_page_that_comes_late_asks_where_the_radars_are() -> None:
         bus.keep("clock", b"{}")
         bus.keep("radar/ASR/info", b'{"site": "ASR"}')
         taken: queue.Queue[Logged] = queue.Queue()
-        with closing(Subscription(bus.endpoint, taken.put, lambda: None)):
+        with (
+            closing(RunConnection(bus.endpoint)) as connection,
+            closing(Subscription(connection, taken.put, lambda: None)),
+        ):
             while (logged := taken.get(timeout=PATIENCE_S)).key != "radar/ASR/info":
                 pass
         assert logged.data == b'{"site": "ASR"}'
 
 
-@pytest.mark.parametrize(
-    ("phase", "seat", "is_refused"),
-    [
-        ("running", "Washington Tower", False),
-        ("running", "tower", True),
-        ("waiting", "tower", False),  # Nobody knows the seats of a run that has not begun.
-    ],
-)
-def test_a_seat_that_a_run_does_not_have_is_refused_with_the_names_of_its_seats(
-    airhilt_command: Cli, phase: Phase, seat: str, is_refused: bool
-) -> None:
-    info = SeatInfo(
-        seat="Washington Tower", frequencies_khz=(), has_sound=False, is_recognised=False,
-        voice_is_recorded=False, longest_call_s=60.0,
-    )  # fmt: skip
+@contextmanager
+def begun(phase: Phase = "running") -> Iterator[Bus]:
+    """A run with seats of two units."""
     with closing(Bus("run")) as bus:
-        clock = Clock(t_ns=0, run="run", phase=phase, pace="realtime")
-        bus.keep("clock", clock.model_dump_json().encode())
-        bus.keep("seat/Washington_Tower/info", info.model_dump_json().encode())
-        if is_refused:
-            done = airhilt_command("view", "--connect", bus.endpoint, "--seat", seat)
-            assert done.returncode == 2
-            assert "--seat 'tower': not a seat of the run; expected 'Washington Tower'" in (
-                done.stderr
-            )
-        else:
-            Subscription(bus.endpoint, lambda _: None, lambda: None, seats=[seat]).close()
+        tell_phase(bus, phase)
+        for seat in ("Washington Ground", "Washington Tower"):
+            info = SeatInfo(
+                seat=seat, frequencies_khz=(), has_sound=False, is_recognised=False,
+                voice_is_recorded=False, longest_call_s=60.0,
+            )  # fmt: skip
+            bus.keep(f"seat/{key_chunk(seat)}/info", info.model_dump_json().encode())
+        briefing = Briefing(
+            controller="Washington Tower", horizontal_separation_nm=3.0,
+            vertical_separation_ft=1000.0,
+        )  # fmt: skip
+        bus.keep("briefing", briefing.model_dump_json().encode())
+        yield bus
+
+
+def tell_phase(bus: Bus, phase: Phase) -> None:
+    clock = Clock(t_ns=0, run="run", phase=phase, pace="realtime")
+    bus.keep("clock", clock.model_dump_json().encode())
+
+
+def test_a_seat_that_a_run_does_not_have_is_refused_with_the_names_of_its_seats(
+    airhilt_command: Cli,
+) -> None:
+    with begun() as bus:
+        done = airhilt_command("view", "--connect", bus.endpoint, "--seat", "Tower")
+    assert done.returncode == 2
+    assert (
+        "--seat 'Tower': not a seat of the run; expected 'Washington Ground', 'Washington Tower'"
+    ) in done.stderr
+
+
+@pytest.mark.parametrize("names", [["tower", "ground"], ["Washington Tower", "ground", "tower"]])
+def test_a_seat_may_be_asked_for_by_the_role_of_its_unit(names: list[str]) -> None:
+    with begun() as bus, closing(RunConnection(bus.endpoint)) as connection:
+        assert sorted(connection.seats(names)) == ["Washington Ground", "Washington Tower"]
+
+
+def test_a_role_is_known_once_the_run_has_begun_and_a_name_is_taken_before_that() -> None:
+    with begun("waiting") as bus, closing(RunConnection(bus.endpoint)) as connection:
+        assert connection.seats(["Tower"]) == ("Tower",)
+        beginning = threading.Timer(0.3, tell_phase, (bus, "running"))
+        beginning.start()
+        assert connection.seats(["tower"]) == ("Washington Tower",)
+        beginning.join()
 
 
 @pytest.fixture(params=[False, True], ids=["plain", "tls"])
@@ -178,13 +206,16 @@ def pages(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[list[Subsc
     bus = Bus("run", tls=keys)
     bus.keep("clock", b"{}")
     endpoint = bus.endpoint if keys is None else None
+    connections = [RunConnection(endpoint, "operator", tls=keys) for _ in range(2)]
     pages = [
-        Subscription(endpoint, lambda _: None, lambda: None, tls=keys, seats=["TOWER"])
-        for _ in range(2)
+        Subscription(connection, lambda _: None, lambda: None, seats=["TOWER"])
+        for connection in connections
     ]
     yield pages
     for page in pages:
         page.close()
+    for connection in connections:
+        connection.close()
     bus.close()
 
 
@@ -243,9 +274,10 @@ def test_a_claim_that_waits_for_another_page_lets_other_seats_be_taken_meanwhile
             replies = program.liveliness().get(f"{bus.prefix}/seat/TOWER/claim/*", timeout=1.0)
             return {str(reply.ok.key_expr) for reply in replies if reply.ok is not None}
 
+        connections = [RunConnection(bus.endpoint, "operator") for _ in range(2)]
         pages = [
-            Subscription(bus.endpoint, lambda _: None, lambda: None, seats=["TOWER", "GROUND"])
-            for _ in range(2)
+            Subscription(connection, lambda _: None, lambda: None, seats=["TOWER", "GROUND"])
+            for connection in connections
         ]
         found = []
         for own, other in (pages, pages[::-1]):
@@ -262,6 +294,8 @@ def test_a_claim_that_waits_for_another_page_lets_other_seats_be_taken_meanwhile
         program.close()  # type: ignore[no-untyped-call]
         for page in pages:
             page.close()
+        for connection in connections:
+            connection.close()
 
 
 def claimed(page: Subscription) -> bool:

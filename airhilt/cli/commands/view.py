@@ -46,8 +46,8 @@ Examples:
     "seats",
     multiple=True,
     metavar="NAME",
-    help="A seat of the run that a browser may take; may be given again. The truth is not shown "
-    "then.",
+    help="A seat of the run that a browser may take: tower, ground, the name of another unit, or a "
+    "callsign; may be given again. The truth is not shown then.",
 )
 @station_options
 def view(
@@ -95,7 +95,7 @@ def _show_recorded(run_folders: Sequence[Path], address: Address, browser: bool)
 def _show_live(
     connect: str | None,
     tls: Path | None,
-    seats: tuple[str, ...],
+    asked: tuple[str, ...],
     address: Address,
     browser: bool,
 ) -> None:
@@ -103,26 +103,30 @@ def _show_live(
     from airhilt.station.audiences import SeatViews
     from airhilt.station.browsers import Browsers
     from airhilt.station.changes import Changes, SeatChanges
+    from airhilt.station.connection import RunConnection
     from airhilt.station.live import LiveRun
     from airhilt.station.server import serve
     from airhilt.station.subscription import Subscription
 
-    changes = Changes()
-    of_seats = {seat: SeatChanges() for seat in seats}
-    sounds = Changes(MOST_SOUNDS)
-    views = SeatViews(seats)
-    run = LiveRun(changes, of_seats, tell, views)
     click.echo(f"{WAITING} {connect or tls}")
-    subscription = Subscription(
-        connect, run.take, run.lost, tls=tls, seats=seats, sounds=sounds if seats else None
-    )
+    with ExitStack() as stack:
+        connection = RunConnection(connect, "operator" if asked else "observer", tls=tls)
+        stack.callback(connection.close)
+        seats = connection.seats(asked)
+        changes, sounds = Changes(), Changes(MOST_SOUNDS)
+        of_seats = {seat: SeatChanges() for seat in seats}
+        views = SeatViews(seats)
+        run = LiveRun(changes, of_seats, tell, views)
+        subscription = Subscription(
+            connection, run.take, run.lost, seats=seats, sounds=sounds if seats else None
+        )
+        stack.callback(subscription.close)
 
-    def refused(text: str) -> None:
-        tell(text)
-        subscription.log_refusal(text)
+        def refused(text: str) -> None:
+            tell(text)
+            subscription.log_refusal(text)
 
-    browsers = Browsers(changes, subscription, of_seats, sounds, refused, views)
-    try:
+        browsers = Browsers(changes, subscription, of_seats, sounds, refused, views)
         serve(
             live_app(subscription, browsers),
             address,
@@ -131,8 +135,6 @@ def _show_live(
             browser=browser,
             is_over=lambda: run.is_over and browsers.has_been_empty(LINGER_S),
         )
-    finally:
-        subscription.close()
 
 
 def _opened(url: str) -> None:

@@ -1,0 +1,116 @@
+"""The connection of a station to a run that goes on: its name, its seats, what it has told."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import TypeVar
+
+import zenoh
+from pydantic import ValidationError
+
+from airhilt.bus.access import Role
+from airhilt.bus.session import close_session, connect_client, find_run
+from airhilt.errors import StationError
+from airhilt.messages import Briefing, Clock, Message, Phase, SeatInfo
+from airhilt.scenario.seats import ROLES, without_roles
+from airhilt.text import readable
+
+T = TypeVar("T", bound=Message)
+
+ASKED_S = 2.0
+"""Longest time that an answer of the run may take, in s."""
+PHASE_PERIOD_S = 0.1
+"""Time between two questions if a run has begun, in s."""
+
+
+class RunConnection:
+    """Connects a station to the run at an endpoint.
+
+    Parameters
+    ----------
+    endpoint
+        Endpoint of the run; None: the one of the keys.
+    role
+        Role of the station: the operator where people may take seats.
+    patience_s
+        Longest wait for the run, in s.
+    tls
+        Folder with the keys of the role; None: the run asks for none.
+
+    Attributes
+    ----------
+    session
+        Session with the run.
+    prefix
+        Beginning of the keys of the run.
+    run
+        Name of the run.
+
+    Raises
+    ------
+    BusError
+        No run answers there in time, or the keys are none.
+    """
+
+    def __init__(
+        self,
+        endpoint: str | None,
+        role: Role = "observer",
+        *,
+        patience_s: float = 30.0,
+        tls: Path | None = None,
+    ) -> None:
+        self.session = connect_client(endpoint, patience_s, tls, role)
+        self.prefix = find_run(self.session, patience_s)
+        self.run = self.prefix.rpartition("/")[2]
+
+    def seats(self, names: Sequence[str]) -> tuple[str, ...]:
+        """Return the seats of the run that are asked for by names and roles, each once.
+
+        Nobody knows the seats of a run that has not begun. A role waits until it has; without one,
+        the names are returned as they are.
+
+        Raises
+        ------
+        StationError
+            The run goes on, and has no such seat.
+        """
+        phase = self._phase() if names else None
+        while phase == "waiting" and not ROLES.isdisjoint(names):
+            time.sleep(PHASE_PERIOD_S)
+            phase = self._phase()
+        if phase != "running":
+            return tuple(names)
+        known = sorted({info.seat for info in self._told("seat/*/info", SeatInfo)})
+        controller = next((one.controller for one in self._told("briefing", Briefing)), "")
+        found = without_roles(names, controller, known)
+        for seat in found:
+            if seat not in known:
+                raise StationError(
+                    f"--seat {readable(seat)!r}: not a seat of the run; expected "
+                    + (readable(", ".join(map(repr, known))) or "none: it has no seats")
+                )
+        return found
+
+    def answers(self, key: str) -> Iterator[zenoh.Sample]:
+        """Yield what the run answers to a query on a key below its own."""
+        for reply in self.session.get(f"{self.prefix}/{key}", timeout=ASKED_S):
+            if reply.ok is not None:
+                yield reply.ok
+
+    def close(self) -> None:
+        """Leave the run."""
+        close_session(self.session)
+
+    def _phase(self) -> Phase | None:
+        """Return the phase of the run; None: it does not say."""
+        return next((clock.phase for clock in self._told("clock", Clock)), None)
+
+    def _told(self, key: str, kind: type[T]) -> Iterator[T]:
+        """Yield the messages of a kind that the run has told before."""
+        for sample in self.answers(key):
+            with suppress(ValidationError):
+                yield kind.model_validate_json(sample.payload.to_bytes())
