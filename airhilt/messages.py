@@ -27,7 +27,11 @@ from pydantic import (
 
 from airhilt.commands import Command
 
-Nanoseconds = Annotated[int, Field(ge=0, description="nanoseconds since the start of the run")]
+LAST_NS = 2**63 - 1
+"""Latest time that a message may name, in ns: the greatest integer of 64 bits, 292 years."""
+Nanoseconds = Annotated[
+    int, Field(ge=0, le=LAST_NS, description="nanoseconds since the start of the run")
+]
 Confidence = Annotated[float, Field(ge=0.0, le=1.0)]
 VisibleClass = Annotated[
     str,

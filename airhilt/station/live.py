@@ -7,7 +7,9 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
-from airhilt.errors import AirhiltError
+from pydantic import ValidationError
+
+from airhilt.errors import AirhiltError, first_line, first_problem
 from airhilt.geodesy.wgs84 import Place
 from airhilt.messages import (
     ActorCommand,
@@ -167,12 +169,17 @@ class LiveRun:
             received = Received(logged._replace(t_ns=message.t_ns), message, audience)
             for make in makers:
                 make(received)
+        except ValidationError as error:
+            self._leave_out(logged.key, first_problem(error))
         except (ValueError, LookupError, OverflowError) as error:
-            family = logged.key.partition("/")[0]
-            if family not in self._unread:
-                self._unread.add(family)
-                why = readable(f"{type(error).__name__}: {error}".partition("\n")[0])
-                self._notice(f"{readable(logged.key)}: left out, for it cannot be read: {why}")
+            self._leave_out(logged.key, first_line(error))
+
+    def _leave_out(self, key: str, why: str) -> None:
+        """Tell of the first message of a kind that cannot be read."""
+        family = key.partition("/")[0]
+        if family not in self._unread:
+            self._unread.add(family)
+            self._notice(f"{readable(key)}: left out, for it cannot be read: {readable(why)}")
 
     def lost(self) -> None:
         """Tell that the run is not there any more."""

@@ -139,16 +139,15 @@ def test_garbage_changes_nothing() -> None:
     assert followed.changes("state") == []
 
 
-def test_a_time_that_no_number_of_seconds_has_is_left_out_and_told() -> None:
+@pytest.mark.parametrize("t_ns", ["9223372036854775808", f"1{'0' * 400}"])
+def test_a_time_that_no_run_reaches_is_left_out_and_told_in_words(t_ns: str) -> None:
     told: list[str] = []
     run = LiveRun(Changes(), notice=told.append)
-    data = REPORT.model_dump_json().replace(
-        f'"t_adsb_in_ns":{SECOND}', f'"t_adsb_in_ns":1{"0" * 400}'
-    )
+    data = REPORT.model_dump_json().replace(f'"t_adsb_in_ns":{SECOND}', f'"t_adsb_in_ns":{t_ns}')
     run.take(Logged("adsb/a1b2c3", "", SECOND, data.encode()))
     assert told == [
-        "adsb/a1b2c3: left out, for it cannot be read: OverflowError: integer division "
-        "result too large for a float"
+        "adsb/a1b2c3: left out, for it cannot be read: t_adsb_in_ns: Input should be less than or "
+        "equal to 9223372036854775807"
     ]
 
 
