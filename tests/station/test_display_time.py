@@ -27,6 +27,8 @@ TRACK = """import(new URL('page/model.js', location)).then(({ LiveTrack }) => {
     return [0.75, 1, 1.5, 60].map((t) => track.state(t, 1).east);
 })"""
 
+TICKS = """import(new URL('page/profile.js', location)).then(({ timeTicks }) =>
+    [0, 0.7, 2, 3, 3000].map((end) => timeTicks(end, 5).map(({ label }) => label)))"""
 
 LONG = """import(new URL('page/model.js', location)).then(({ LiveTrack, Run }) => {
     const none = { tracks: [], calls: [], events: [], advisories: [], spoken: [] };
@@ -95,3 +97,13 @@ def test_what_is_kept_of_a_long_run_has_a_bound(station: Page) -> None:
     assert max(found["kept"]) <= 2400
     assert found["early"] == pytest.approx(10000)
     assert found["newest"] == "8999"
+
+
+def test_no_two_ticks_of_the_time_axis_have_the_same_label(station: Page) -> None:
+    assert station.evaluate(TICKS) == [
+        ["0.0 s"],
+        ["0.0 s", "0.2 s", "0.4 s", "0.6 s"],
+        ["0.0 s", "0.5 s", "1.0 s", "1.5 s", "2.0 s"],
+        ["0 s", "1 s", "2 s", "3 s"],
+        ["0 s", "1,000 s", "2,000 s", "3,000 s"],
+    ]

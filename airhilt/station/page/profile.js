@@ -1,13 +1,25 @@
 // Altitude over time, with the time shown; a click sets it.
 
 import { FONT, byId, colour, onSize, write } from "./dom.js";
-import { whole } from "./words.js";
+import { seconds, whole } from "./words.js";
 
 /** Returns a round step that gives at most `most` ticks. */
 export function niceStep(range, most) {
   const rough = Math.max(range, 1e-9) / most,
     power = 10 ** Math.floor(Math.log10(rough));
   return [1, 2, 5, 10].map((factor) => factor * power).find((step) => step >= rough);
+}
+
+const LEAST_TICK_S = 0.1;
+
+/** Returns times from 0 s to an end and their labels, at most `most` steps apart. */
+export function timeTicks(end, most) {
+  const step = Math.max(niceStep(end, most), LEAST_TICK_S),
+    label = step < 1 ? seconds : (t) => `${whole(t)} s`;
+  return Array.from({ length: Math.floor(end / step) + 1 }, (_, i) => ({
+    t: i * step,
+    label: label(i * step),
+  }));
 }
 
 const MOST_POINTS = 400;
@@ -112,13 +124,13 @@ export class Profile {
       pen.fillText(`${whole(feet)}${feet + step > high + pad ? " ft" : ""}`, left - 5, y(feet) + 4);
     }
     pen.textAlign = "center";
-    const stepS = niceStep(this.#clock.end, Math.max(Math.floor((right - left) / 80), 2));
-    for (let t = 0; t <= this.#clock.end; t += stepS) {
+    const mostTicks = Math.max(Math.floor((right - left) / 80), 2);
+    for (const { t, label } of timeTicks(this.#clock.end, mostTicks)) {
       pen.beginPath();
       pen.moveTo(this.#x(t), top);
       pen.lineTo(this.#x(t), bottom);
       pen.stroke();
-      pen.fillText(`${whole(t)} s`, Math.min(this.#x(t), width - 20), height - 6);
+      pen.fillText(label, Math.min(this.#x(t), width - 20), height - 6);
     }
     const named = [];
     for (const track of tracks) {
