@@ -3,7 +3,7 @@
 import { byId } from "./dom.js";
 import { identity } from "./identity.js";
 import { Lag } from "./lag.js";
-import { PACES } from "./run-pace.js";
+import { PACES } from "./run_pace.js";
 import { Wishes } from "./wishes.js";
 import { seconds } from "./words.js";
 

@@ -215,7 +215,7 @@ function connected(stream) {
 
 /** Returns the node that gives out what the microphone hears. */
 async function listening(context) {
-  await context.audioWorklet.addModule("page/microphone-worklet.js");
+  await context.audioWorklet.addModule("page/microphone_worklet.js");
   await context.resume();
   return new AudioWorkletNode(context, "microphone", {
     numberOfOutputs: 0,

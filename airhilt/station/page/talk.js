@@ -4,8 +4,8 @@ import { byId } from "./dom.js";
 import { Frequencies } from "./frequencies.js";
 import { Loudspeaker } from "./loudspeaker.js";
 import { Microphone } from "./microphone.js";
-import { RunPace } from "./run-pace.js";
-import { OwnAdvisories } from "./own-advisories.js";
+import { RunPace } from "./run_pace.js";
+import { OwnAdvisories } from "./own_advisories.js";
 import { Phrases } from "./phrases.js";
 import { Workload } from "./workload.js";
 
