@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
@@ -17,6 +18,7 @@ from airhilt.phraseology.say import (
     speak_runway,
     speak_say_again,
 )
+from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE
 
 Name = Annotated[str, Field(max_length=40, pattern=r"^[A-Za-z0-9][A-Za-z0-9 _-]*$")]
 STEP_FT = 1000.0
@@ -25,6 +27,11 @@ TURN_DEG = 30.0
 """Angle of the turns that are offered, in degrees."""
 TRANSITION_FT = 18_000.0
 """Altitude from which a label is a flight level, in ft (United States)."""
+FINAL_NM = 15.0
+"""Distance from the airport, in NM, within which an aircraft may be on its approach."""
+FINAL_FT = FINAL_NM * NAUTICAL_MILE * math.tan(3.0 * DEGREE) / FOOT
+"""Height above the airport, in ft, below which it may be: that of a glide path of 3 degrees at
+`FINAL_NM` the usual one."""
 Phrase = tuple[str, str]
 """Label and words."""
 
@@ -40,8 +47,19 @@ class Situation(BaseModel):
     on_ground: bool = False
     runway: Annotated[str, Field(pattern=r"^[0-9]{2}[LCR]?$")] | None = None
     altitude_ft: float | None = Field(default=None, ge=-2000.0, le=60_000.0)
+    height_ft: float | None = Field(
+        default=None, ge=-20_000.0, le=60_000.0, description="above the airport"
+    )
+    distance_nm: float | None = Field(default=None, ge=0.0, description="from the airport")
     heading_deg: float | None = Field(default=None, ge=0.0, le=360.0, description="magnetic")
     heard: str = Field(default="", max_length=600, description="last call to the own crew")
+
+    @property
+    def may_be_landing(self) -> bool:
+        """True if the aircraft is low and near enough to be on its approach, as far as is known."""
+        if self.on_ground or self.height_ft is None or self.distance_nm is None:
+            return False
+        return self.height_ft <= FINAL_FT and self.distance_nm <= FINAL_NM
 
 
 def offered(situation: Situation) -> list[dict[str, str]]:
@@ -86,7 +104,7 @@ def _airborne(situation: Situation) -> Iterator[tuple[str, Instruction]]:
     runway, altitude_ft, heading_deg = (
         situation.runway, situation.altitude_ft, situation.heading_deg,
     )  # fmt: skip
-    if runway is not None:
+    if runway is not None and situation.may_be_landing:
         yield f"Cleared to land {runway}", Instruction("cleared_to_land", runway=runway)
         yield "Go around", Instruction("go_around")
         yield "Continue approach", Instruction("continue_approach", runway=runway)
@@ -124,7 +142,8 @@ def _of_crew(situation: Situation, callsign: str) -> Iterator[Phrase]:
         yield "Roger", speak_readback(callsign, [], style)
     yield "Say again", speak_say_again(callsign, style)
     if situation.speaker == "aircraft" and not situation.on_ground:
-        yield "Going around", f"{own}, going around."
+        if situation.may_be_landing:
+            yield "Going around", f"{own}, going around."
         if situation.altitude_ft is not None:
             level_ft = round(situation.altitude_ft / 100.0) * 100.0
             yield "Report level", f"{own}, {speak_altitude(level_ft, style)}."

@@ -10,6 +10,8 @@ from pydantic import ValidationError
 from airhilt.phraseology import parse_call
 from airhilt.station.phrases import Situation, offered
 
+ON_FINAL = {"altitude_ft": 2_000.0, "height_ft": 1_700.0, "distance_nm": 6.0}
+
 
 def phrases(**given: Any) -> dict[str, str]:
     """Return words by label."""
@@ -19,8 +21,8 @@ def phrases(**given: Any) -> dict[str, str]:
 @pytest.mark.parametrize(
     ("given", "label", "action"),
     [
-        ({"runway": "01"}, "Cleared to land 01", "cleared_to_land"),
-        ({"runway": "01"}, "Go around", "go_around"),
+        ({"runway": "01", **ON_FINAL}, "Cleared to land 01", "cleared_to_land"),
+        ({"runway": "01", **ON_FINAL}, "Go around", "go_around"),
         ({"altitude_ft": 33_000.0}, "Climb FL340", "altitude"),
         ({"altitude_ft": 2_300.0}, "Descend 1,000 ft", "altitude"),
         ({"heading_deg": 10.0}, "Turn left 340", "heading"),
@@ -41,6 +43,29 @@ def test_a_controller_is_offered_instructions_that_crews_understand(
 def test_who_is_on_the_ground_is_not_cleared_to_land() -> None:
     found = phrases(speaker="unit", callsign="AAL123", on_ground=True, runway="01")
     assert "Cleared to land 01" not in found
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        pytest.param({"altitude_ft": 33_000.0, "height_ft": 32_700.0}, id="high above the airport"),
+        pytest.param({"distance_nm": 40.0}, id="low, but far from it"),
+        pytest.param({"height_ft": None, "distance_nm": None}, id="no airport is known"),
+    ],
+)
+def test_nobody_goes_around_where_no_aircraft_lands(given: dict[str, Any]) -> None:
+    elsewhere = {"callsign": "AAL123", "runway": "01", **ON_FINAL, **given}
+    to_crew = phrases(speaker="unit", **elsewhere)
+    assert not {"Go around", "Continue approach", "Cleared to land 01"} & set(to_crew)
+    assert "Going around" not in phrases(speaker="aircraft", **elsewhere)
+
+
+def test_a_crew_on_its_approach_can_say_that_it_goes_around() -> None:
+    found = phrases(speaker="aircraft", callsign="AAL123", **ON_FINAL)
+    assert found["Going around"].endswith(", going around.")
+    assert "Going around" not in phrases(
+        speaker="aircraft", callsign="AAL123", on_ground=True, **ON_FINAL
+    )
 
 
 def test_a_crew_is_offered_the_readback_of_what_it_has_heard() -> None:

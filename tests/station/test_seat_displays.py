@@ -118,6 +118,19 @@ def test_a_key_of_the_cockpit_does_nothing_at_another_seat(
         assert commands(run, page) == actions
 
 
+@pytest.mark.parametrize(("altitude_ft", "is_offered"), [(2_000, True), (35_000, False)])
+def test_a_crew_is_offered_to_go_around_near_the_airport_alone(
+    page: Page, altitude_ft: int, is_offered: bool
+) -> None:
+    phrases = "document.getElementById('phrase-list').innerText"
+    with seated(page, "AAL123") as run:
+        run.changes.add("briefing", "TOWER", ReportAirport("kdca").as_json(), CATEGORIES)
+        place = (1.0, 9_000.0, 0.0, altitude_ft, [0.0, 80.0], 10.0, False, "")
+        run.changes.add("state", "AAL123", "aircraft", "B738", *place)
+        page.wait_for(f"{phrases}.includes('Report level')")
+        assert page.evaluate(f"{phrases}.includes('Going around')") == is_offered
+
+
 def test_a_seat_has_the_displays_of_its_category_whoever_is_in_the_roster(page: Page) -> None:
     phrases = "document.getElementById('phrase-list').innerText"
     with seated(page, "AAL123", roster={"DAL456": "aircraft"}) as run:

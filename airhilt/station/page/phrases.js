@@ -1,7 +1,9 @@
 // Phrases for the situation, that can be chosen instead of typed.
 
 import { byId, html } from "./dom.js";
+import { METRE_PER_NM } from "./model.js";
 
+const METRE_PER_FOOT = 0.3048;
 const PERIOD_MS = 3000;
 
 export class Phrases {
@@ -73,8 +75,17 @@ export class Phrases {
       on_ground: Boolean(state?.onGround),
       runway: airport ? byId("phrase-runway").value || null : null,
       altitude_ft: state && category === "aircraft" ? Math.round(state.altitude / 100) * 100 : null,
+      ...(state && airport ? this.#fromAirport(state, airport) : {}),
       heading_deg: state ? (Math.round((state.heading * 18) / Math.PI) * 10 + 360) % 360 : null,
       heard: this.#isUnit ? "" : (this.#lastCall()?.slice(0, 600) ?? ""),
+    };
+  }
+
+  /** Where an actor is seen from the airport: its reference point is the centre of the plan. */
+  #fromAirport({ altitude, east, north }, { elevation_m }) {
+    return {
+      height_ft: Math.round((altitude - elevation_m / METRE_PER_FOOT) / 100) * 100,
+      distance_nm: Math.round(Math.hypot(east, north) / METRE_PER_NM),
     };
   }
 
