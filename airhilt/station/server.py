@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import threading
 import time
 import webbrowser
@@ -9,7 +10,8 @@ from collections.abc import Callable
 from contextlib import suppress
 
 import uvicorn
-from starlette.types import ASGIApp
+from starlette.responses import PlainTextResponse
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from airhilt.station.address import Address
 from airhilt.station.guard import Guard
@@ -24,6 +26,28 @@ GRACE_S = 2
 """Time that open connections have to end with the server, in s."""
 CHECK_PERIOD_S = 0.1
 """Time between two questions if nobody needs the server any more, in s."""
+
+
+class _Interruptible:
+    """Application that ends quietly when the server gives up what it still does."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self._app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        has_begun = False
+
+        async def note_and_send(message: Message) -> None:
+            nonlocal has_begun
+            has_begun = True
+            await send(message)
+
+        try:
+            await self._app(scope, receive, note_and_send)
+        except asyncio.CancelledError:
+            # Nobody waits for this task but uvicorn, which would print a traceback.
+            if scope["type"] == "http" and not has_begun:
+                await PlainTextResponse("the station has ended", 503)(scope, receive, send)
 
 
 def serve(
@@ -56,7 +80,7 @@ def serve(
     listening = address.bound()
     url = address.url(listening.getsockname()[1])
     config = uvicorn.Config(
-        Guard(app, address, notice),
+        _Interruptible(Guard(app, address, notice)),
         log_level="warning",
         access_log=False,
         lifespan="off",
