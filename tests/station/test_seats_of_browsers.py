@@ -233,6 +233,26 @@ def test_who_leaves_the_seat_while_on_the_air_ends_the_call() -> None:
         assert told == [("TOWER", True), ("TOWER", False)]
 
 
+def test_who_is_on_the_air_keeps_seat_and_call_when_somebody_else_claims_the_seat() -> None:
+    with (
+        seat_page(PretendedRun(TWO)) as (run, url),
+        browser(url, "a") as own,
+        browser(url, "b") as other,
+    ):
+        take(own)
+        own.send(json.dumps({"press": {}}))
+        own.send(PIECE)
+        while run.done.qsize() < 2:
+            time.sleep(0.01)
+        take(other)
+        assert "Somebody has the seat" in str(answer(other, "refused"))
+        own.send(PIECE)
+        own.send(json.dumps({"release": True}))
+        assert run.call()[1] == 2 * PIECE
+        assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", True)
+        assert run.presence.empty()
+
+
 class SlowRun(PretendedRun):
     """A run that takes longer to learn that a seat was left than that it was taken."""
 
