@@ -116,6 +116,26 @@ def test_a_network_that_is_cut_is_not_taken_for_a_run_that_does_not_keep_up(
         forgive(page)
 
 
+def test_a_page_whose_scripts_are_busy_for_longer_than_the_patience_keeps_its_seat(
+    page: Page, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(server, "PING_S", 0.2)
+    monkeypatch.setattr(server, "PATIENCE_S", 0.6)
+    monkeypatch.setattr(seat_book, "HOLD_S", 0.1)
+    busy = "for (const from = performance.now(); performance.now() - from < 3000;);"
+    with seat_page() as (run, url):
+        page.open(url)
+        page.wait_for("document.getElementById('state').textContent.startsWith('running')")
+        page.click("seat-take")
+        assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", True)
+        page.evaluate(busy)
+        run.changes.add("clock", 2.0, "running", "4x")
+        page.wait_for("document.getElementById('state').textContent === 'running, 4x'")
+        assert page.evaluate(HAS_SEAT)
+        assert run.presence.empty()
+        page.open("about:blank")
+
+
 @pytest.mark.slow
 def test_a_connection_that_does_not_end_keeps_the_seat_from_nobody_who_had_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
