@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ
-from airhilt.messages import AdvisoryAudio, Transcript
+from airhilt.messages import AdvisoryAudio, Transcript, Word
 from airhilt.metrics.calls import CallRecord, CallRecords, call_message
 from airhilt.record import Logged, RunFolder
 from airhilt.report.sections import Content
@@ -18,6 +19,10 @@ if TYPE_CHECKING:
 Json = dict[str, Any]
 KEYS = ("radio/", "asr/", "tts/", "truth/radio/", "truth/hearing/")
 """Beginnings of the keys of the messages about calls."""
+MOST_TRANSCRIPTS = 8
+"""Number of transcripts of a call that are shown, the newest: each recogniser makes one."""
+MOST_LETTERS = 1_500
+"""Number of characters of the words of a transcript that are shown: a minute of quick speech."""
 
 
 class Calls(Content):
@@ -78,7 +83,10 @@ def call_as_json(call: CallRecord, *, names_engines: bool = True) -> Json | None
         "addressed": None if said is None or said.addressed is None else readable(said.addressed),
         "said": None if said is None else readable(said.text),
         "blocked_by": [] if said is None else [readable(name) for name in said.blocked_by],
-        "transcripts": [_transcript(one, names_engine=names_engines) for one in call.transcripts],
+        "transcripts": [
+            _transcript(one, names_engine=names_engines)
+            for one in call.transcripts[-MOST_TRANSCRIPTS:]
+        ],
         "hearings": [
             {"who": readable(one.actor), "outcome": one.outcome, "text": readable(one.text)}
             for one in call.hearings
@@ -95,10 +103,20 @@ def _transcript(transcript: Transcript, *, names_engine: bool) -> Json:
         "confidence": transcript.confidence,
         "text": readable(transcript.text),
         "words": [
-            {"text": readable(word.text), "confidence": word.confidence}
-            for word in transcript.words
+            {"text": text, "confidence": word.confidence} for word, text in _first_words(transcript)
         ],
     }
+
+
+def _first_words(transcript: Transcript) -> Iterator[tuple[Word, str]]:
+    """Yield the words of a transcript for which there is room, each with its text as shown."""
+    letters = 0
+    for word in transcript.words:
+        text = readable(word.text)
+        letters += len(text) + 1
+        if letters > MOST_LETTERS:
+            return
+        yield word, text
 
 
 def spoken_as_json(audio: AdvisoryAudio) -> Json:

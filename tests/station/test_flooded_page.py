@@ -7,13 +7,18 @@ from typing import Any
 
 import pytest
 
-from airhilt.messages import SpokenWords
+from airhilt.messages import SpokenWords, Transcript, Transmission, Word
+from airhilt.record import Logged
+from airhilt.station.calls import MOST_LETTERS, MOST_TRANSCRIPTS
+from airhilt.station.live import LiveRun
 from devtools import Page
 from stations import PATIENCE_S, PretendedRun, seat_page
 
 pytestmark = pytest.mark.browser
 FLOOD = 6_000
 """Messages of each kind, all with other names."""
+CALLS = 200
+"""Number of calls that are listed."""
 SHOWN = """({
     actors: document.querySelectorAll('#traffic tbody tr').length,
     strips: document.querySelectorAll('.flight-strip').length,
@@ -84,7 +89,7 @@ def test_a_flooded_page_shows_the_newest_of_all_and_can_be_used(page: Page) -> N
         page.wait_for(f"{newest} && document.getElementById('calls').childElementCount > 1")
         shown = page.evaluate(SHOWN)
         most = {
-            "actors": 200, "strips": 200, "calls": 200, "advisories": 200, "own": 10,
+            "actors": 200, "strips": 200, "calls": CALLS, "advisories": 200, "own": 10,
             "cameras": 100, "cards": 50, "events": 301,
         }  # fmt: skip
         assert {kind: number for kind, number in shown.items() if number > most[kind]} == {}
@@ -112,4 +117,26 @@ def test_the_actors_and_cameras_that_are_kept_of_a_run_have_a_bound(page: Page) 
         assert cameras <= 100
         assert has_newest
         assert phase == "phase 19999"
+        page.open("about:blank")
+
+
+def test_the_words_that_are_listed_of_calls_have_a_bound(page: Page) -> None:
+    with seat_page(has_seats=False) as (run, url):
+        page.open(url)
+        page.wait_for("document.getElementById('state').textContent.startsWith('running')")
+        live = LiveRun(run.changes)
+        words = tuple(Word(text="word", confidence=1.0) for _ in range(700))
+        for i in range(CALLS + 20):
+            call = {"id": f"{i}", "frequency_khz": 119_100, "t_tx_ns": i, "t_end_ns": i + 1}
+            sent = Transmission(**call)
+            heard = Transcript(text="word " * 700, words=words, confidence=1.0, engine="", **call)
+            live.take(Logged("radio/119100/tx", "", 0, sent.model_dump_json().encode()))
+            for _ in range(30 if i == CALLS else 1):
+                live.take(Logged("asr/119100", "", 0, heard.model_dump_json().encode()))
+        run.changes.add("clock", 2.0, "paused", "paused")
+        page.wait_for("document.getElementById('state').textContent === 'paused'")
+        listed = "document.getElementById('calls')"
+        assert page.evaluate(f"{listed}.childElementCount") == CALLS
+        letters = page.evaluate(f"{listed}.textContent.length")
+        assert letters <= (CALLS + MOST_TRANSCRIPTS) * (MOST_LETTERS + 100)
         page.open("about:blank")

@@ -128,7 +128,7 @@ export class Transcript {
     return html(
       "div",
       { class: "heard" },
-      `${capital(one.engine ?? "recognised")}, ${percent(one.confidence)}: `,
+      `${capital(one.engine || "recognised")}, ${percent(one.confidence)}: `,
       marked,
     );
   }
