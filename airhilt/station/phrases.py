@@ -30,8 +30,8 @@ TRANSITION_FT = 18_000.0
 FINAL_NM = 15.0
 """Distance from the airport, in NM, within which an aircraft may be on its approach."""
 FINAL_FT = FINAL_NM * NAUTICAL_MILE * math.tan(3.0 * DEGREE) / FOOT
-"""Height above the airport, in ft, below which it may be: that of a glide path of 3 degrees at
-`FINAL_NM` the usual one."""
+"""Height above the airport, in ft, below which it may be: that of the usual glide path of 3 degrees
+at `FINAL_NM`."""
 Phrase = tuple[str, str]
 """Label and words."""
 

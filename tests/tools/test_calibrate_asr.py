@@ -84,6 +84,29 @@ def test_the_curve_of_words_leaves_callsigns_of_the_roster_out() -> None:
     assert of_word > 0.9
 
 
+def test_a_word_that_makes_sense_is_trusted_more_where_those_that_make_none_are_wrong() -> None:
+    """All were heard alike; what else may have been said tells them apart."""
+    calls = [
+        call(SAID, [0.9] * 6, range(0)),
+        call("american one two three turn bravo", [0.9] * 6, range(0)),
+    ] * 4
+    calls = [
+        each._replace(
+            path=[
+                replace(word, against=4.0 if right else -1.0)
+                for word, right in zip(each.path, each.right, strict=True)
+            ]
+        )
+        for each in calls
+    ]
+    curves = calibrate_asr.curves_of(calls)
+    sense, nonsense = calibrate_asr.confidences_of(
+        curves, [Emission("climb", 0.9, 0, against=4.0), Emission("climb", 0.9, 0, against=-1.0)]
+    )
+    assert sense > 0.9
+    assert nonsense < 0.1
+
+
 def aligned(callsign: str, loss: float) -> Aligned:
     form = SpokenForm(("american",), ("one", "two", "three"))
     return Aligned(callsign, form, 0, 20, loss)

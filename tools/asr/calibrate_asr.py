@@ -7,8 +7,9 @@ The calls of the folder (not those of training, nor those that scores are given 
 channel at many ratios. First the weight of the language model and the reward of a piece are chosen
 with which the fewest words of some of the calls are wrong, and by maximum likelihood the odds that
 a callsign of the roster was said. Then logistic curves are fitted (Platt, 1999): to how often a
-word is right, from its posterior; to how often one is lost beside it, from what was heard there and
-not written; and to how often a call is right, from the product of its words' confidences.
+word is right, from its posterior and from what else may have been said there; to how often one is
+lost beside it, from what was heard there and not written; and to how often a call is right, from
+the product of its words' confidences.
 Words below the threshold that costs least errors are left out of transcripts, and transmissions
 whose best word is no better than in noise alone are empty.
 """
@@ -30,8 +31,9 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
+from airhilt.assistant.asr.alternatives import WordCurve
 from airhilt.assistant.asr.beam_search import BeamSearch
-from airhilt.assistant.asr.engines.embedded import Calibration, Ctc, Emission, confidence_of
+from airhilt.assistant.asr.engines.embedded import Ctc, Emission, confidence_of
 from airhilt.assistant.asr.language import Language
 from airhilt.assistant.asr.lost_words import LossCurve, log_heard
 from airhilt.assistant.asr.pieces import Pieces
@@ -83,7 +85,7 @@ class HeardCall(NamedTuple):
 class Curves(NamedTuple):
     """Curves that the confidence of a word follows from."""
 
-    word: Calibration
+    word: WordCurve
     lost: LossCurve
 
 
@@ -98,15 +100,22 @@ def log_odds(probabilities: Sequence[float]) -> NDArray[np.float64]:
     return np.asarray(np.log(bounded / (1 - bounded)))
 
 
-def fit(x: NDArray[np.float64], happened: Sequence[bool]) -> dict[str, float]:
-    """Return slope and offset of the logistic curve of how often something happens at each x."""
+def fit(x: NDArray[np.float64], happened: Sequence[bool]) -> NDArray[np.float64]:
+    """Return the slopes, and the offset, of the logistic curve of how often something happens.
+
+    Parameters
+    ----------
+    x
+        Numbers that it depends on, shape (trials, numbers).
+    """
+    inputs = np.column_stack([x, np.ones(len(x))])
 
     def loss(parameters: NDArray[np.float64]) -> float:
-        z = parameters[0] * x + parameters[1]
+        z = inputs @ parameters
         return float(np.mean(np.logaddexp(0.0, np.where(happened, -z, z))))
 
-    slope, offset = minimize(loss, np.array([1.0, 0.0])).x
-    return {"slope": round(float(slope), 4), "offset": round(float(offset), 4)}
+    begin = np.array([*np.ones(inputs.shape[1] - 1), 0.0])
+    return np.asarray(np.round(minimize(loss, begin).x, 4))
 
 
 def main() -> None:
@@ -148,7 +157,7 @@ def thresholds(engine: Ctc, calls: Sequence[HeardCall], roster: Sequence[str]) -
     threshold, talkative = quietest_threshold(curves, silent)
     least, errors = best_threshold(curves, calls)
     return {
-        "word_calibration": asdict(curves.word),
+        "word_curve": asdict(curves.word),
         "lost_words": asdict(curves.lost),
         "call_calibration": call_calibration(curves, calls, least),
         "least_word_confidence": least,
@@ -322,9 +331,12 @@ def curves_of(calls: Sequence[HeardCall]) -> Curves:
         if not each[0].is_callsign
     ]
     path, right, beside_lost = zip(*words, strict=True)
+    heard = log_odds([each.posterior for each in path])
+    against = [each.against for each in path]
+    unwritten = [log_heard(each.unwritten) for each in path]
     return Curves(
-        Calibration(**fit(log_odds([each.posterior for each in path]), right)),
-        LossCurve(**fit(np.array([log_heard(each.unwritten) for each in path]), beside_lost)),
+        WordCurve(*map(float, fit(np.column_stack([heard, against]), right))),
+        LossCurve(*map(float, fit(np.array(unwritten), beside_lost))),
     )
 
 
@@ -337,7 +349,8 @@ def call_calibration(curves: Curves, calls: Sequence[HeardCall], least: float) -
         trust = confidences_of(curves, call.path)
         confidences.append(float(np.prod(trust)))
         whole.append(in_words(call.text(trust >= least)) == in_words(call.reference))
-    return fit(log_odds(confidences), whole)
+    slope, offset = map(float, fit(log_odds(confidences), whole))
+    return {"slope": slope, "offset": offset}
 
 
 def quietest_threshold(curves: Curves, silent: Sequence[Sequence[Emission]]) -> tuple[float, float]:

@@ -66,7 +66,7 @@ class BeamSearch:
 
     def units(self, posteriors: NDArray[np.float32]) -> tuple[int, ...]:
         """Return the likeliest units of posteriors, shape (steps, units)."""
-        prior = self._prior()
+        prior = self.prior()
         beam: dict[tuple[int, ...], _Prefix] = {(): _Prefix(0.0, blank=0.0)}
         is_tried = posteriors >= LEAST_POSTERIOR
         is_tried[np.arange(len(posteriors)), posteriors.argmax(axis=1)] = True
@@ -110,7 +110,7 @@ class BeamSearch:
         best = sorted(grown.items(), key=lambda each: (-each[1].total(), each[0]))
         return dict(best[: self.width])
 
-    def _prior(self) -> Prior:
+    def prior(self) -> Prior:
         """Return the prior of units, which remembers what the language model said in a call."""
         if self.weight == 0.0:  # The language model has no say, and is not asked.
             return lambda _, unit: 0.0 if unit == END else self.reward
@@ -127,10 +127,13 @@ class BeamSearch:
 class HeardUnit(NamedTuple):
     """Unit of a call, where it was heard."""
 
+    unit: int
     begin: int
     """Step at which it begins."""
     end: int
     """Step behind its last one."""
+    surest: int
+    """Step of its highest posterior."""
     posterior: float
     """Its highest posterior."""
 
@@ -158,12 +161,14 @@ def aligned(posteriors: NDArray[np.float32], units: tuple[int, ...]) -> list[Hea
         came[at] = ways.argmax(axis=0)
         best = ways.max(axis=0) + log[at]
     state = len(states) - 1 if best[-1] >= best[-2] else len(states) - 2
-    begins, ends, highest = [0] * len(units), [0] * len(units), [0.0] * len(units)
+    begins, ends, surest = [0] * len(units), [0] * len(units), [0] * len(units)
     for at in range(len(log) - 1, -1, -1):
         if state % 2:
             unit = state // 2
             begins[unit] = at
             ends[unit] = max(ends[unit], at + 1)
-            highest[unit] = max(highest[unit], float(posteriors[at, units[unit]]))
         state -= int(came[at, state])
-    return list(map(HeardUnit, begins, ends, highest))
+    for unit, (begin, end) in enumerate(zip(begins, ends, strict=True)):
+        surest[unit] = begin + int(posteriors[begin:end, units[unit]].argmax())
+    highest = map(float, posteriors[surest, units])
+    return list(map(HeardUnit, units, begins, ends, surest, highest))

@@ -6,6 +6,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
+LEAST_PROBABILITY = 1e-6
+"""Probability below which log-odds grow no more; likewise above the rest to one."""
+
+
+def probability(log_odds: float) -> float:
+    """Return the probability of log-odds."""
+    return float(1.0 / (1.0 + np.exp(-log_odds)))
+
+
+def log_odds_of(probability: float) -> float:
+    """Return the log-odds of a probability, within those of `LEAST_PROBABILITY`."""
+    bounded = min(max(probability, LEAST_PROBABILITY), 1.0 - LEAST_PROBABILITY)
+    return float(np.log(bounded / (1.0 - bounded)))
+
 
 @dataclass(frozen=True)
 class Logistic:
@@ -16,4 +30,4 @@ class Logistic:
 
     def at(self, x: float) -> float:
         """Return the probability at a number."""
-        return float(1.0 / (1.0 + np.exp(-(self.slope * x + self.offset))))
+        return probability(self.slope * x + self.offset)

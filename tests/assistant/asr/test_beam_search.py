@@ -95,10 +95,12 @@ def test_without_audio_there_is_nothing(tmp_path: Path) -> None:
 def test_each_unit_is_found_where_it_was_said() -> None:
     said = np.full((7, 3), 0.02, np.float32)
     said[:, 0] = 0.96
-    for step, unit in ((1, 1), (2, 1), (4, 1), (5, 2)):
+    for step, unit, posterior in ((1, 1, 0.7), (2, 1, 0.8), (4, 1, 0.8), (5, 2, 0.8)):
         said[step] = 0.1
-        said[step, unit] = 0.8
+        said[step, unit] = posterior
     found = aligned(said, (1, 1, 2))
+    assert [each.unit for each in found] == [1, 1, 2]
+    assert [each.surest for each in found] == [2, 4, 5]
     assert [(each.begin, each.end) for each in found] == [(1, 3), (4, 5), (5, 6)]
     assert [each.posterior for each in found] == pytest.approx([0.8] * 3)
     assert aligned(said, ()) == []

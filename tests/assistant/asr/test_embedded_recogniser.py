@@ -19,6 +19,7 @@ import numpy as np
 import pytest
 
 import airhilt.assistant.asr.engines.embedded
+from airhilt.assistant.asr.alternatives import WordCurve
 from airhilt.assistant.asr.engines import asr_engine
 from airhilt.assistant.asr.engines.embedded import FILES, Calibration, Ctc, Emission
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
@@ -122,10 +123,11 @@ def test_windows_of_short_steps_fit_together(monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_confidences_go_through_the_calibrations_of_the_card(folder: Path) -> None:
-    sharp, offset = {"slope": 2.0, "offset": 0.0}, {"slope": 1.0, "offset": -1.0}
-    engine = with_card(folder, word_calibration=sharp, call_calibration=offset)
+    sharp = {"heard": 2.0, "likely": 0.0, "offset": 0.0}
+    offset = {"slope": 1.0, "offset": -1.0}
+    engine = with_card(folder, word_curve=sharp, call_calibration=offset)
     heard = engine.recognise(call(BRAVO_HZ), ())
-    word = Calibration(**sharp)(0.8)
+    word = WordCurve(**sharp)(0.8, 0.0)
     assert heard.words == (("bravo", pytest.approx(word, abs=1e-4)),)
     assert heard.confidence == pytest.approx(Calibration(**offset)(word), abs=1e-3)
 
@@ -133,12 +135,12 @@ def test_confidences_go_through_the_calibrations_of_the_card(folder: Path) -> No
 def test_a_callsign_of_the_roster_needs_no_calibration(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    shy = {"slope": 1.0, "offset": -1.0}
-    engine = with_card(folder, word_calibration=shy)
+    shy = {"heard": 1.0, "likely": 0.0, "offset": -1.0}
+    engine = with_card(folder, word_curve=shy)
     path = [Emission("climb", 0.9, 0), Emission("alfa", 0.9, 1, is_callsign=True)]
     monkeypatch.setattr(engine, "path", lambda *_: path)
     (_, climb), (_, alfa) = engine.recognise(call(BRAVO_HZ), ()).words
-    assert climb == pytest.approx(Calibration(**shy)(0.9))
+    assert climb == pytest.approx(WordCurve(**shy)(0.9, 0.0))
     assert alfa == pytest.approx(0.9)
 
 
@@ -240,10 +242,10 @@ def test_pieces_that_do_not_fit_the_network_are_refused(pieces: str, folder: Pat
     [
         ("", "Invalid JSON"),
         ("[]", "object"),
-        ("{}", "word_calibration"),
-        ('{"word_calibration": {"slope": "steep", "offset": 0}}', "word_calibration/slope"),
-        ('{"word_calibration": {"slope": NaN, "offset": 0}}', "word_calibration/slope"),
-        ('{"word_calibration": {"slope": 1}}', "word_calibration/offset"),
+        ("{}", "word_curve"),
+        ('{"word_curve": {"heard": "steep", "likely": 1, "offset": 0}}', "word_curve/heard"),
+        ('{"word_curve": {"heard": NaN, "likely": 1, "offset": 0}}', "word_curve/heard"),
+        ('{"word_curve": {"heard": 1, "likely": 1}}', "word_curve/offset"),
         ("\udcff", "Invalid JSON"),
     ],
 )

@@ -20,7 +20,7 @@ def posteriors(*heard: float) -> np.ndarray:
 
 
 def words(*places: tuple[int, int]) -> list[list[HeardUnit]]:
-    return [[HeardUnit(begin, end, 0.9)] for begin, end in places]
+    return [[HeardUnit(2, begin, end, begin, 0.9)] for begin, end in places]
 
 
 def test_what_no_word_has_is_counted_before_each_word_and_behind_the_last() -> None:

@@ -17,11 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field, ValidationError
 
+from airhilt.assistant.asr.alternatives import LARGEST_LOG_ODDS, WordCurve, log_odds
 from airhilt.assistant.asr.beam_search import BeamSearch, aligned
 from airhilt.assistant.asr.engine import Recognised
 from airhilt.assistant.asr.features import BINS, mel_power, normalised
 from airhilt.assistant.asr.language import Language
-from airhilt.assistant.asr.logistic import Logistic
+from airhilt.assistant.asr.logistic import Logistic, log_odds_of
 from airhilt.assistant.asr.lost_words import LossCurve, unwritten
 from airhilt.assistant.asr.pieces import Pieces
 from airhilt.assistant.asr.spotting import Odds, Spotted, Spotter, is_same
@@ -55,20 +56,19 @@ TRIAL_FRAMES = 12
 
 @dataclass(frozen=True)
 class Calibration(Logistic):
-    """Share of right guesses by posterior: a logistic curve over its log-odds."""
+    """Probability that a guess is right: a logistic curve over the log-odds of another one."""
 
-    def __call__(self, posterior: float) -> float:
-        """Return the share of guesses with this posterior that are right."""
-        bounded = min(max(posterior, 1e-6), 1.0 - 1e-6)
-        return self.at(float(np.log(bounded / (1.0 - bounded))))
+    def __call__(self, guessed: float) -> float:
+        """Return the probability where this one was guessed."""
+        return self.at(log_odds_of(guessed))
 
 
 class Card(BaseModel):
     """The part of ``card.json`` that `Ctc` reads."""
 
     model_config = ConfigDict(extra="ignore", frozen=True, allow_inf_nan=False)
-    word_calibration: Calibration
-    """Calibration of the highest posterior of a word."""
+    word_curve: WordCurve
+    """Probability that a word is right."""
     lost_words: LossCurve
     """Probability that a word was said where more was heard than is written."""
     callsign_odds: Odds
@@ -97,6 +97,8 @@ class Emission:
     """Least of its pieces' highest posteriors, or of a callsign of the roster its confidence."""
     begin: int
     """Step at which it begins."""
+    against: float = LARGEST_LOG_ODDS
+    """Least log-odds of its pieces against what else may have been said there."""
     is_callsign: bool = False
     """True if it is of a callsign of the roster."""
     unwritten: float = 0.0
@@ -140,7 +142,7 @@ class Ctc:
                 f"recogniser {self.name}: {where / 'card.json'} is no model card: "
                 f"{first_problem(error)}; expected it as tools/asr/train_asr.py writes it"
             ) from None
-        self._word, self._call = card.word_calibration, card.call_calibration
+        self._word, self._call = card.word_curve, card.call_calibration
         self._lost = card.lost_words
         self._odds = card.callsign_odds
         self._least = card.least_word_confidence
@@ -184,6 +186,7 @@ class Ctc:
     def _likeliest(self, posteriors: NDArray[np.float32]) -> list[Emission]:
         units = self._search.units(posteriors)
         heard = aligned(posteriors, units)
+        against = log_odds(posteriors, heard, self._search.prior(), self._search.language.order)
         places = self._pieces.words(units)
         words = [heard[first:after] for first, after in places]
         return [
@@ -191,6 +194,7 @@ class Ctc:
                 self._pieces.text(units[first:after]),
                 min(unit.posterior for unit in word),
                 word[0].begin,
+                min(against[first:after]),
                 unwritten=max(gaps),
             )
             for (first, after), word, gaps in zip(
@@ -244,14 +248,14 @@ class Ctc:
         return np.asarray(weights / weights.sum(axis=1, keepdims=True), np.float32)
 
 
-def confidence_of(heard: Emission, word: Calibration, lost: LossCurve) -> float:
+def confidence_of(heard: Emission, word: WordCurve, lost: LossCurve) -> float:
     """Return the confidence that a word is right, or, if it is less, that none beside it is lost.
 
     A callsign of the roster has its own.
     """
     if heard.is_callsign:
         return heard.posterior
-    return min(word(heard.posterior), 1.0 - lost(heard.unwritten))
+    return min(word(heard.posterior, heard.against), 1.0 - lost(heard.unwritten))
 
 
 def with_callsign(path: Sequence[Emission], spotted: Spotted) -> list[Emission]:

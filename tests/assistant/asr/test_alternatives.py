@@ -1,0 +1,107 @@
+"""A piece is the surer the less sense another one would make in its place."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from airhilt.assistant.asr.alternatives import (
+    LARGEST_LOG_ODDS,
+    LEAST_POSTERIOR,
+    WordCurve,
+    log_odds,
+)
+from airhilt.assistant.asr.beam_search import Prior, aligned
+from airhilt.assistant.asr.language import END
+
+GO, NO, AROUND, UNITS = 1, 2, 3, 4
+ORDER = 3
+LIKELIHOODS = np.random.default_rng(7).uniform(-6.0, 0.0, (UNITS, UNITS, UNITS))
+
+
+def prior(before: tuple[int, ...], unit: int) -> float:
+    """Return how likely a unit follows the last two, which is nothing but a table."""
+    first, second = (END, END, *before)[-2:]
+    return float(LIKELIHOODS[first, second, unit])
+
+
+def alike(before: tuple[int, ...], unit: int) -> float:
+    return 0.0
+
+
+def go_before_around(before: tuple[int, ...], unit: int) -> float:
+    """Return a likelihood that knows only that "around" comes after "go"."""
+    return -6.0 if unit == AROUND and before[-1:] != (GO,) else 0.0
+
+
+def odds(steps: np.ndarray, units: tuple[int, ...], how_likely: Prior) -> list[float]:
+    return log_odds(steps, aligned(steps, units), how_likely, ORDER)
+
+
+def test_a_word_that_was_heard_badly_is_sure_if_the_next_makes_sense_only_after_it() -> None:
+    steps = np.array([[0.1, 0.5, 0.4, 0.0], [0.05, 0.0, 0.05, 0.9]], np.float32)
+    alone, _ = odds(steps, (GO, AROUND), alike)
+    together, _ = odds(steps, (GO, AROUND), go_before_around)
+    assert alone == pytest.approx(0.0, abs=1e-6)
+    assert together == pytest.approx(6.0, abs=1e-3)
+
+
+def test_a_word_that_was_heard_well_is_unsure_if_another_makes_far_more_sense() -> None:
+    steps = np.array([[0.1, 0.1, 0.8, 0.0], [0.05, 0.0, 0.05, 0.9]], np.float32)
+    unlikely, _ = odds(steps, (NO, AROUND), go_before_around)
+    assert unlikely < 0.0
+
+
+def test_that_nothing_was_said_is_an_alternative() -> None:
+    steps = np.array([[0.4, 0.6, 0.0, 0.0]], np.float32)
+    (against_nothing,) = odds(steps, (GO,), alike)
+    assert against_nothing == pytest.approx(np.log(0.6 / 0.4), abs=1e-4)
+
+
+def test_what_was_hardly_heard_is_no_alternative_however_likely_it_would_be() -> None:
+    steps = np.array([[0.5, 0.5, 0.1 * LEAST_POSTERIOR, 0.0]], np.float32)
+
+    def never_go(before: tuple[int, ...], unit: int) -> float:
+        return -20.0 if unit == GO else 0.0
+
+    (against,) = odds(steps, (GO,), never_go)
+    assert against == pytest.approx(-LARGEST_LOG_ODDS)  # Nothing is likelier, and it counts alone.
+
+
+def test_no_piece_is_surer_than_one_in_a_million() -> None:
+    steps = np.array([[0.0, 1.0, 0.0, 0.0]], np.float32)
+    assert odds(steps, (GO,), alike) == pytest.approx([LARGEST_LOG_ODDS])
+
+
+@given(st.lists(st.integers(1, UNITS - 1), min_size=1, max_size=6), st.integers(0, 1000))
+def test_the_odds_are_those_of_whole_calls_in_which_one_piece_differs(
+    units: list[int], seed: int
+) -> None:
+    rng = np.random.default_rng(seed)
+    spoken = [step for unit in units for step in (unit, 0)]
+    steps = rng.dirichlet(np.ones(UNITS), len(spoken))
+    steps[range(len(spoken)), spoken] += 3.0
+    steps = (steps / steps.sum(axis=1, keepdims=True)).astype(np.float32)
+
+    def whole(call: list[int]) -> float:
+        return sum(prior(tuple(call[:at]), unit) for at, unit in enumerate([*call, END]))
+
+    for at, found in enumerate(odds(steps, tuple(units), prior)):
+        here = np.log(steps[2 * at])
+        each = {
+            other: here[other] + whole([*units[:at], *([other] if other else []), *units[at + 1 :]])
+            for other in range(UNITS)
+            if steps[2 * at, other] >= LEAST_POSTERIOR
+        }
+        own = each.pop(units[at])
+        against = np.logaddexp.reduce([*each.values(), own - LARGEST_LOG_ODDS])
+        assert found == pytest.approx(max(own - against, -LARGEST_LOG_ODDS), abs=1e-4)
+
+
+def test_a_word_is_the_likelier_right_the_better_it_was_heard_and_the_more_sense_it_makes() -> None:
+    curve = WordCurve(heard=0.3, likely=0.4, offset=-0.7)
+    assert curve(0.5, 0.0) == pytest.approx(1.0 / (1.0 + np.exp(0.7)))
+    assert curve(0.5, 0.0) < curve(0.9, 0.0) < curve(0.9, 3.0) < curve(0.99, 6.0) < 1.0
+    assert curve(0.0, -LARGEST_LOG_ODDS) > 0.0
