@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,8 +20,10 @@ from airhilt.assistant.asr.logistic import log_odds_of, probability
 
 LEAST_POSTERIOR = 1e-3
 """Posterior below which a unit is no alternative."""
-LARGEST_LOG_ODDS = 14.0
-"""Log-odds of one in a million; nothing is surer."""
+NO_POSTERIOR = 1e-10
+"""Posterior of a unit that was not heard at all, whose logarithm is not taken."""
+LARGEST_LOG_ODDS = log_odds_of(1.0)
+"""Log-odds beyond which nothing is surer."""
 
 
 @dataclass(frozen=True)
@@ -50,7 +53,9 @@ class WordCurve:
 def log_odds(
     posteriors: NDArray[np.float32], heard: Sequence[HeardUnit], prior: Prior, order: int
 ) -> list[float]:
-    """Return the log-odds of each piece against all others, and none, with the rest of the call.
+    """Return the log-odds of each piece against everything else that may have been said there.
+
+    That is every other piece, and nothing. All other pieces of the call stay as they are.
 
     Parameters
     ----------
@@ -61,22 +66,36 @@ def log_odds(
     prior
         Log-likelihood of a piece after others.
     order
-        Greatest number of pieces of which the prior knows how likely they follow each other.
+        Order of the n-grams of the prior: it depends on one piece less.
     """
-    units = tuple(each.unit for each in heard)
+    ended = (*(each.unit for each in heard), END)
     found = []
-    for at, (unit, _, _, surest, _) in enumerate(heard):
-        here = posteriors[surest]
-        before, after = units[:at], (*units, END)[at + 1 : at + order]
+    for at, each in enumerate(heard):
+        here = posteriors[each.surest]
+        first, last = max(at - 1, 0), min(at + 2, len(heard))
+        before, after = ended[:first], ended[last : at + order]
         likely = {
-            other: float(np.log(here[other]))
-            + _log_likelihood(before, (other, *after) if other != BLANK else after, prior)
-            for other in {*np.flatnonzero(here >= LEAST_POSTERIOR).tolist(), unit}
+            unit: float(np.log(max(here[unit], NO_POSTERIOR)))
+            + _log_likelihood(before, (*_with(heard[first:last], each, unit), *after), prior)
+            for unit in {*np.flatnonzero(here >= LEAST_POSTERIOR).tolist(), each.unit}
         }
-        own = likely.pop(unit)
+        own = likely.pop(each.unit)
         against = float(np.logaddexp.reduce([*likely.values(), own - LARGEST_LOG_ODDS]))
         found.append(max(own - against, -LARGEST_LOG_ODDS))
     return found
+
+
+def _with(heard: Sequence[HeardUnit], changed: HeardUnit, unit: int) -> list[int]:
+    """Return units of which one is another, or the blank.
+
+    Equal units without a blank between them are one.
+    """
+    path: list[int] = []
+    for at, each in enumerate(heard):
+        if at > 0 and heard[at - 1].end < each.begin:
+            path.append(BLANK)
+        path.append(unit if each is changed else each.unit)
+    return [unit for unit, _ in groupby(path) if unit != BLANK]
 
 
 def _log_likelihood(before: tuple[int, ...], units: Iterable[int], prior: Prior) -> float:

@@ -117,8 +117,8 @@ class BeamSearch:
         known, before_most = cache(self.language.score), self.language.order - 1
 
         def prior(before: tuple[int, ...], unit: int) -> float:
-            context = before if len(before) >= before_most else (END, *before)
-            score = known(context[len(context) - before_most :], unit)
+            context = (END, *before)
+            score = known(context[max(len(context) - before_most, 0) :], unit)
             return self.weight * score + (0.0 if unit == END else self.reward)
 
         return prior

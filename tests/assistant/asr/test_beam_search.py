@@ -66,6 +66,27 @@ def test_what_is_clearly_heard_is_kept_though_it_is_unusual(tmp_path: Path) -> N
     assert BeamSearch(usual, 0.5, 0.0).units(said) == (1, 3)
 
 
+@pytest.mark.parametrize("order", [1, 2, 3, 4])
+def test_the_language_model_is_asked_about_as_many_units_before_as_it_knows(
+    order: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    call = (1, 2, 3)
+    asked: list[tuple[int, ...]] = []
+
+    def score(before: tuple[int, ...], unit: int) -> float:
+        asked.append(before)
+        return 0.0
+
+    model = language(tmp_path, {})
+    monkeypatch.setattr(model, "order", order)
+    monkeypatch.setattr(model, "score", score)
+    prior = BeamSearch(model, 1.0, 0.0).prior()
+    for at, unit in enumerate((*call, END)):
+        prior(call[:at], unit)
+    expected = [(END, *call)[max(at + 2 - order, 0) : at + 1] for at in range(len(call) + 1)]
+    assert asked == expected
+
+
 def test_a_reward_makes_up_for_what_each_piece_costs(tmp_path: Path) -> None:
     said = np.array([[0.55, 0.45, 0, 0]], np.float32)
     even = language(tmp_path, {})
