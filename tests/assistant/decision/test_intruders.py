@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any, cast
 
 import numpy as np
@@ -13,9 +14,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.approach import approach_of
-from airhilt.assistant.decision.intruders import IntruderConfig, IntruderWatch
-from airhilt.assistant.decision.line_of_sight import PictureGeometry
+from airhilt.assistant.decision.approach import Approach, approach_of
+from airhilt.assistant.decision.intruders import IntruderConfig, IntruderWatch, _note, _where
+from airhilt.assistant.decision.line_of_sight import PictureGeometry, Ray
 from airhilt.assistant.decision.visual_tracks import Observation, VisualTracks
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.relative_motion import Minima
@@ -471,3 +472,50 @@ def test_two_wild_boxes_of_many_do_not_turn_the_direction(wild: tuple[int, int])
     approach = approach_of(seen)
     assert math.hypot(*approach.turning_rad_s) < 0.01 * DEGREE
     assert approach.least_miss() < 0.5
+
+
+# --- where it is, and what is told of it ----------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("right_deg", "where"),
+    [
+        (0.0, "ahead"),
+        (14.9, "ahead"),
+        (-14.9, "ahead"),
+        (15.1, "ahead to the right"),
+        (-15.1, "ahead to the left"),
+        (59.9, "ahead to the right"),
+        (60.1, "to the right"),
+        (-60.1, "to the left"),
+        (119.9, "to the right"),
+        (-119.9, "to the left"),
+        (120.1, "behind"),
+        (180.0, "behind"),
+        (-120.1, "behind"),
+    ],
+)
+@pytest.mark.parametrize("heading_deg", [0.0, 90.0, 350.0])
+def test_a_direction_is_told_as_a_crew_sees_it(
+    heading_deg: float, right_deg: float, where: str
+) -> None:
+    azimuth_rad = (heading_deg + right_deg) * DEGREE
+    ray = Ray(math.sin(azimuth_rad), math.cos(azimuth_rad), 0.0)
+    view = SimpleNamespace(heading_deg=heading_deg)
+    track = SimpleNamespace(last=SimpleNamespace(ray=ray, geometry=SimpleNamespace(view=view)))
+    assert _where(cast(Any, SimpleNamespace(track=track, ray=ray))) == where
+
+
+def test_the_evidence_has_the_time_with_its_error_and_how_the_direction_turns() -> None:
+    """1 / 0.05 s; an error of 0.005 / s is one of a tenth, 2 s; 0.03 and 0.04 are 0.05 together."""
+    approach = Approach(0.05, 0.003, 0.004, (0.03 * DEGREE, 0.04 * DEGREE), 0.001, 0.01)
+    encounter = SimpleNamespace(approach=approach, track=SimpleNamespace(camera="nose"))
+    assert _note(cast(Any, encounter)) == (
+        "nose: contact in 20 s, give or take 2 s; direction turns by 0.05 degrees/s"
+    )
+
+
+def test_a_judgement_rests_on_sight_alone_unless_the_other_is_known_by_ads_b() -> None:
+    told = watching(closing_camera(130.0, 0.0, 22.0, 6.0), 6.0)
+    assert {alert.evidence.sources for alert in told} == {("vision",)}
+    assert all(alert.evidence.shares == {"vision": 1.0} for alert in told)

@@ -101,6 +101,80 @@ def test_the_error_grows_with_the_square_of_the_distance_along_and_evenly_across
     assert far_across / near_across == pytest.approx(2.0, rel=0.01)
 
 
+@pytest.mark.parametrize("height_m", [10.0, 200.0])
+@pytest.mark.parametrize("depression_deg", [8.0, 45.0, 80.0])
+def test_the_error_on_the_ground_is_what_a_little_turn_of_the_line_of_sight_makes(
+    height_m: float, depression_deg: float
+) -> None:
+    turn_rad = 1e-4
+
+    def fix(down_deg: float, azimuth_rad: float = 0.0) -> GroundFix:
+        level, down = math.cos(down_deg * DEGREE), math.sin(down_deg * DEGREE)
+        ray = Ray(level * math.sin(azimuth_rad), level * math.cos(azimuth_rad), -down)
+        found = LineOfSight(Vector(0.0, 0.0), height_m, ray, turn_rad).on_ground()
+        assert found is not None
+        return found
+
+    here = fix(depression_deg)
+    farther = fix(depression_deg - turn_rad / DEGREE)
+    assert math.sqrt(here.north_m2) == pytest.approx(
+        farther.point.north - here.point.north, rel=0.01
+    )
+    aside = fix(depression_deg, turn_rad / math.cos(depression_deg * DEGREE))
+    assert math.sqrt(here.east_m2) == pytest.approx(aside.point.east, rel=0.01)
+    assert here.both_m2 == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("azimuth_deg", [0.0, 30.0, 135.0, 250.0])
+def test_the_ellipse_of_the_error_turns_with_the_line_of_sight(azimuth_deg: float) -> None:
+    east, north = math.sin(azimuth_deg * DEGREE), math.cos(azimuth_deg * DEGREE)
+    ray = Ray.towards(200.0 * east, 200.0 * north, -10.0)
+    fix = LineOfSight(Vector(0.0, 0.0), 10.0, ray, 1e-3).on_ground()
+    assert fix is not None
+    assert fix.point == pytest.approx((200.0 * east, 200.0 * north))
+    spread = np.array([[fix.east_m2, fix.both_m2], [fix.both_m2, fix.north_m2]])
+    along, across = np.array([east, north]), np.array([north, -east])
+    slant2 = 200.0**2 + 10.0**2
+    assert along @ spread @ along == pytest.approx((slant2 / 10.0 * 1e-3) ** 2)
+    assert across @ spread @ across == pytest.approx(slant2 * 1e-6)
+
+
+def test_a_position_counts_while_its_error_is_less_than_half_of_its_distance() -> None:
+    """At 100 m from a height of 10 m a line of sight errs by 1,010 m for each radian."""
+
+    def fix(error_m: float) -> GroundFix | None:
+        ray = Ray.towards(100.0, 0.0, -10.0)
+        return LineOfSight(Vector(0.0, 0.0), 10.0, ray, error_m / 1010.0).on_ground()
+
+    assert fix(49.9) is not None
+    assert fix(50.1) is None
+
+
+@pytest.mark.parametrize(
+    ("ray", "azimuth_deg", "elevation_deg"),
+    [
+        (Ray.towards(1.0, 1.0, 0.0), 45.0, 0.0),
+        (Ray.towards(-1.0, 0.0, 1.0), -90.0, 45.0),
+        (Ray.towards(0.0, -2.0, -2.0), 180.0, -45.0),
+        (Ray(0.0, 0.0, 1.0 + 1e-15), 0.0, 90.0),  # Rounded to more than the whole.
+        (Ray(0.0, 0.0, -1.0 - 1e-15), 0.0, -90.0),
+    ],
+)
+def test_a_direction_has_an_azimuth_from_north_and_an_elevation_from_the_horizon(
+    ray: Ray, azimuth_deg: float, elevation_deg: float
+) -> None:
+    assert ray.azimuth_rad / DEGREE == pytest.approx(azimuth_deg)
+    assert ray.elevation_rad / DEGREE == pytest.approx(elevation_deg)
+
+
+def test_right_and_above_are_positive_also_across_south() -> None:
+    one = Ray.towards(0.01, -1.0, 0.0)
+    other = Ray.towards(-0.01, -1.0, 0.03)
+    assert one.offset_to(other) == pytest.approx((0.02, 0.03), rel=0.01)
+    assert other.offset_to(one) == pytest.approx((-0.02, -0.03), rel=0.01)
+    assert one.angle_to(other) == pytest.approx(math.hypot(0.02, 0.03), rel=0.01)
+
+
 @pytest.mark.parametrize("up", [0.0, 0.1, -0.001])
 def test_a_line_of_sight_to_the_horizon_or_above_meets_no_ground(up: float) -> None:
     assert LineOfSight(Vector(0.0, 0.0), 10.0, Ray.towards(0.0, 1.0, up), 1e-3).on_ground() is None

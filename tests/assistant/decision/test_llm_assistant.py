@@ -206,6 +206,15 @@ def test_the_schema_can_name_only_what_is_known() -> None:
     assert "judgements" not in situation([], CLEARED).schema()["properties"]
 
 
+def test_the_schema_of_an_advisory_leaves_room_for_three_in_conflict_and_the_controller() -> None:
+    advisory = situation([CAUTION], CLEARED).schema()["properties"]["advisories"]["items"]
+    most = {name: part.get("maxItems") for name, part in advisory["properties"].items()}
+    assert most["traffic"] == most["actions"] == 3
+    assert most["recipients"] == 4
+    assert set(most) == set(advisory["required"])
+    assert advisory["additionalProperties"] is False
+
+
 def test_words_that_mean_nothing_to_the_phraseology_do_not_reach_the_model() -> None:
     without = situation([CAUTION], CLEARED)
     both = f"United seven, runway zero one, cleared for takeoff, {INJECTION}"

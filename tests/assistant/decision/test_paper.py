@@ -140,6 +140,16 @@ def test_a_callsign_that_may_be_one_of_two_is_a_caution_to_both() -> None:
     assert told.message.startswith("line up runway 01 may be for N172SP or N552SP")
 
 
+def test_of_several_who_use_the_runway_the_one_on_it_is_named_first() -> None:
+    calls = [(20.0, "November two sierra papa, runway zero one, line up and wait.")]
+    movers = (arrival(), lined_up(), Mover("N172SP", NORTH, stands(40, -100)))
+    field = flown(*movers, seconds=25.0, calls=calls, briefing=ALIKE)
+    _, told = field.first("CAUTION", "readback_mismatch")
+    assert set(told.traffic) == {"N172SP", "N552SP", "DAL456"}
+    assert "DAL456" in told.message
+    assert "AAL123" not in told.message
+
+
 def test_it_is_over_when_one_of_them_is_named() -> None:
     calls = [
         (20.0, "November two sierra papa, runway zero one, line up and wait."),

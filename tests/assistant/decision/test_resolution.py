@@ -185,6 +185,60 @@ def test_who_climbs_towards_the_other_need_only_stop_short() -> None:
     assert resolution.second is None
 
 
+def test_who_descends_towards_the_other_need_only_stop_short() -> None:
+    resolution = resolve(*head_on_pair(-2_000, -1_500), [], STANDARD, INFRINGED, strong=False)
+    assert resolution.first == MaintainLevel(altitude_ft=34_000)
+    assert resolution.second is None
+
+
+@pytest.mark.parametrize(("gap_ft", "rate_fpm"), [(900, 1_500), (-900, -1_500)])
+def test_who_is_nearer_than_the_minimum_already_cannot_stop_short(
+    gap_ft: float, rate_fpm: float
+) -> None:
+    resolution = resolve(*head_on_pair(gap_ft, rate_fpm), [], STANDARD, INFRINGED, strong=False)
+    assert not isinstance(resolution.first, MaintainLevel)
+    assert sense(resolution.first) or sense(resolution.second)
+
+
+def test_the_level_to_stop_at_is_the_next_flight_level_that_keeps_the_minimum() -> None:
+    up = resolve(*head_on_pair(2_060, 1_500), [], STANDARD, INFRINGED, strong=False).first
+    down = resolve(*head_on_pair(-2_060, -1_500), [], STANDARD, INFRINGED, strong=False).first
+    assert (up, down) == (MaintainLevel(altitude_ft=36_000), MaintainLevel(altitude_ft=34_000))
+
+
+@settings(deadline=None, max_examples=60)
+@given(pairs_in_conflict(), st.lists(st.tuples(*[st.floats(-30_000.0, 30_000.0)] * 2,
+                                               st.sampled_from([34_000.0, 35_000.0, 36_000.0])),
+                                     max_size=6))  # fmt: skip
+def test_nothing_that_could_have_been_told_would_have_kept_more_separation(
+    pair: tuple[Track, Track], crowd: list[tuple[float, float, float]]
+) -> None:
+    """A turn by 30 degrees of either, or of both, is always among what is weighed.
+
+    What brings somebody into conflict with others within 3 minutes counts 1 less.
+    """
+    first, second = pair
+    others = [
+        track(f"b0000{number}", north_m, east_m, altitude_ft, (100.0, -50.0))
+        for number, (north_m, east_m, altitude_ft) in enumerate(crowd)
+    ]
+    best = resolve(first, second, others, STANDARD, INFRINGED, strong=False).margin
+
+    def worth(up: object, down: object) -> float:
+        flown = flown_by(first, up, first), flown_by(second, down, first)
+        margin = float(separations(*flown, INFRINGED)[0])
+        meets = any(
+            separations(path.soon(0), flown_by(other, None, first).soon(0), INFRINGED)[0] < 0.999
+            for path, told in zip(flown, (up, down), strict=True) if told is not None
+            for other in others
+        )  # fmt: skip
+        return margin - 1.0 if meets else margin
+
+    turn = Turn(degrees=30)
+    weighed = [worth(turn, turn), worth(turn, None), worth(None, turn)]
+    assert best >= min(max(weighed), 1.0) - 0.01
+
+
 def test_in_a_warning_the_rate_is_stronger() -> None:
     rates = [
         resolve(*head_on_pair(), [], STANDARD, INFRINGED, strong).first.vertical_rate_fpm

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any, cast
 
 import pytest
@@ -28,6 +29,7 @@ from airfield import (
     takes_off,
 )
 from airhilt.assistant.decision.aerodrome import Aerodrome, Vector, opposite, way_through
+from airhilt.assistant.decision.clearance_conflicts import _opposed
 from airhilt.assistant.decision.clearances import Clearances
 from airhilt.assistant.decision.engines.reference import ReferenceConfig
 from airhilt.assistant.decision.escalation import Escalation
@@ -35,7 +37,7 @@ from airhilt.assistant.decision.guard import Guard
 from airhilt.assistant.decision.mobiles import is_on_pavement
 from airhilt.assistant.decision.threats import PAPER_TIME_TO_GO_S, RunwayConfig
 from airhilt.cosim.briefing import briefing_of
-from airhilt.messages import AirportBriefing, Severity, Transcript
+from airhilt.messages import AirportBriefing, Severity, Transcript, TransmissionOpened
 from airhilt.phraseology import parse_call
 from airhilt.sim import Input
 from airhilt.surveillance.receivers import Receiver
@@ -493,6 +495,41 @@ def test_clearances_for_both_ends_of_a_runway_are_a_caution() -> None:
     told_s, told = Airfield(movers, calls).run(50).first("CAUTION")
     assert told_s == 40.0
     assert set(told.recipients) == {"AAL123", "DAL456", "ATC"}
+
+
+@pytest.mark.parametrize(
+    "second",
+    [
+        "Delta 456, runway one five, cleared for takeoff.",  # The other runway.
+        "Delta 456, runway one niner, line up and wait.",  # The same direction.
+        "American 123, runway zero one, cleared to land.",  # The same aircraft.
+        "Delta 456, cleared for takeoff.",
+        "Delta 456, cross runway zero one.",
+    ],
+)
+def test_clearances_that_are_not_for_both_ends_do_not_oppose_each_other(second: str) -> None:
+    clearances = Clearances(Guard())
+    heard("American 123, runway one niner, cleared to land.", 0, 5, clearances)
+    heard(second, 10, 15, clearances)
+    outlook = SimpleNamespace(
+        in_force=list(clearances.in_force(16 * SECOND_NS)),
+        situation=SimpleNamespace(aerodrome=Aerodrome(cast(AirportBriefing, BRIEFING.airport))),
+    )
+    assert list(_opposed(cast(Any, outlook))) == []
+
+
+def test_an_instruction_to_keep_off_that_is_not_read_back_is_told_for_two_minutes() -> None:
+    clearances = Clearances(Guard())
+    clearances.take_opening(
+        TransmissionOpened(id="1", frequency_khz=119100, t_tx_ns=10 * SECOND_NS)
+    )
+    heard("Delta 456, cancel takeoff clearance, hold position.", 10, 15, clearances)
+
+    def late(t_s: float) -> list[str]:
+        return [each.callsign for each in clearances.unanswered(round(t_s * SECOND_NS))]
+
+    assert [late(t_s) for t_s in (19.9, 20.0, 135.0)] == [[], ["DAL456"], ["DAL456"]]
+    assert late(135.1) == []
 
 
 def test_a_clearance_that_has_been_used_conflicts_with_nothing() -> None:

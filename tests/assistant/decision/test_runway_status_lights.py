@@ -67,7 +67,8 @@ class SurfaceField:
             on_ground=grounded if named else None,
             ground_speed_kt=speed / KNOT,
             track_deg=bearing_degrees(state.heading_rad) if speed > 0.2 else None,
-            icao24=mover.icao24 if named else None, callsign=mover.callsign if named else None,
+            icao24=mover.icao24 if named else None,
+            callsign=mover.callsign or None if named else None,
         )  # fmt: skip
         return track.model_dump_json().encode()
 
@@ -201,6 +202,20 @@ def test_nobody_is_named_where_two_tracks_have_no_name() -> None:
     truck, deer = comes_to_hold(0.0), comes_to_hold(0.0, along_m=900.0)
     truck.equipped = deer.equipped = False
     assert not lit(arrival(), truck, deer).red("OPS1")
+
+
+def test_who_has_an_address_but_no_callsign_is_not_without_a_name() -> None:
+    truck, other = comes_to_hold(0.0), Mover("DAL456", NORTH, stands(500.0, 300.0))
+    truck.equipped = False
+    other.callsign = ""
+    assert lit(arrival(), truck, other).red("OPS1")
+
+
+def test_entrance_lights_are_none_of_one_who_is_on_the_runway_already() -> None:
+    """It drives on to the pavement just before the arrival is a mile away, and off it again."""
+    on_pavement_s = ONE_MILE_S - 1.5
+    truck = Mover("OPS1", NORTH, drives(on_pavement_s - (250.0 - 22.5) / 8.0), category="C2")
+    assert not lit(arrival(), truck, seconds=60).red("OPS1")
 
 
 def test_the_numbers_of_the_lights_can_be_set() -> None:

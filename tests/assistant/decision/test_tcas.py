@@ -191,6 +191,7 @@ def test_who_comes_back_after_the_conflict_is_over_is_told_of_again() -> None:
     returning = Returning("DAL2", "aaaaa2", 270.0, 0.0, 35_000.0, has_tcas=False)
     told = meeting(replace(ONE, speed_kt=0.0), returning).fly().told
     first, second = dict.fromkeys(alert.id for _, alert in told)
+    assert (first, second) == ("AAL1-1", "AAL1-2")
     over_s = next(s for s, alert in told if alert.id == first and not alert.active)
     again_s = next(s for s, alert in told if alert.id == second)
     assert over_s > 30.0 > again_s > 15.0

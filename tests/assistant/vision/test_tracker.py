@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Iterable
 
@@ -11,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from airhilt.assistant.vision.detector import Found
-from airhilt.assistant.vision.tracker import Tracked, Tracker
+from airhilt.assistant.vision.tracker import Tracked, Tracker, _Track
 from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.messages import CameraView
 from airhilt.units import SECOND_NS
@@ -294,3 +295,31 @@ def pixel_of(view: CameraView, place: tuple[float, float, float]) -> tuple[float
     camera = View(lens, Pose.of((0.0, 0.0, view.height_m), *angles))
     column, row = camera.pixels(camera.in_camera(np.array([place])))[0]
     return float(column), float(row)
+
+
+@pytest.mark.parametrize("dt_s", [0.0, 0.0625, 0.5])
+def test_it_does_not_matter_in_how_many_steps_time_goes_by(dt_s: float) -> None:
+    """The noise of white acceleration over two steps is that over both (Bar-Shalom et al.)."""
+    once, twice = (_Track.begin(1, a("truck", 100.0, 50.0, 20.0), 0) for _ in range(2))
+    for track in (once, twice):
+        track.state[:, 1] = (3.0, -2.0, 0.0, 0.0)
+    once.predict(2.0 * dt_s)
+    twice.predict(dt_s)
+    twice.predict(dt_s)
+    assert once.state == pytest.approx(twice.state)
+    assert once.covariance == pytest.approx(twice.covariance)
+    moved = _Track.begin(1, a("truck", 100.0, 50.0, 20.0), 0)
+    moved.state[:, 1] = (3.0, -2.0, 0.0, 0.0)
+    place = moved.state[:2, 0].copy()
+    moved.predict(dt_s)
+    assert moved.state[:2, 0] - place == pytest.approx([3.0 * dt_s, -2.0 * dt_s])
+
+
+def test_what_is_known_of_a_thing_wears_off_with_time() -> None:
+    track = _Track.begin(1, a("truck", 100.0, 50.0, 20.0), 0)
+    spreads = [track.covariance[:, 0, 0].copy()]
+    for _ in range(5):
+        track.predict(0.1)
+        spreads.append(track.covariance[:, 0, 0].copy())
+        assert np.linalg.eigvalsh(track.covariance).min() > 0.0
+    assert all((later > sooner).all() for sooner, later in itertools.pairwise(spreads))

@@ -73,6 +73,9 @@ def test_it_is_asked_with_temperature_0_the_seed_and_a_schema_of_the_answer() ->
     assert (request["temperature"], request["seed"], request["model"]) == (0, 7, "scripted")
     schema = request["response_format"]["json_schema"]["schema"]
     assert schema["required"] == ["m1", "m2"]
+    objects = [schema, *schema["properties"].values()]
+    assert [each["additionalProperties"] for each in objects] == [False] * 3
+    assert [each["required"] for each in objects[1:]] == [["severity", "text"]] * 2
     assert request["path"].endswith("/chat/completions")
     assert "Authorization" not in request["headers"]
 
