@@ -60,6 +60,7 @@ class TaxiPath:
             raise ValueError(f"the path has {len(places)} places; expected at least 2")
         self._local_frame = LocalFrame(places[0])
         self._look_ahead = look_ahead_m
+        self._greatest_m_s = speed_m_s
         corners = [self._local_frame.to_local(place) for place in places]
         self._points = [corners[0]]
         for a, b in itertools.pairwise(corners):
@@ -77,7 +78,7 @@ class TaxiPath:
                 itertools.pairwise(self._points), steps, self._along[:-1], strict=True
             )
         ]
-        self._speeds = self._greatest_speeds(speed_m_s)
+        self._speeds = self._greatest_speeds()
         self._index = 0
 
     @property
@@ -122,7 +123,8 @@ class TaxiPath:
             return 0.0
         index = min(max(bisect.bisect_right(self._along, along_m), 0), len(self._speeds) - 1)
         ahead = max(self._along[index] - along_m, 0.0)
-        return math.sqrt(self._speeds[index] ** 2 + 2.0 * DECELERATION_M_S2 * ahead)
+        slowing = math.sqrt(self._speeds[index] ** 2 + 2.0 * DECELERATION_M_S2 * ahead)
+        return min(slowing, self._greatest_m_s)
 
     def _at(self, along_m: float) -> tuple[float, float]:
         """Return the point at a distance along the path, straight on beyond its end."""
@@ -131,9 +133,9 @@ class TaxiPath:
         part = (along_m - self._along[index - 1]) / (self._along[index] - self._along[index - 1])
         return a[0] + (b[0] - a[0]) * part, a[1] + (b[1] - a[1]) * part
 
-    def _greatest_speeds(self, speed_m_s: float) -> list[float]:
+    def _greatest_speeds(self) -> list[float]:
         """Return the greatest speed at each point, with room to slow down for what follows."""
-        speeds = [speed_m_s] * len(self._points)
+        speeds = [self._greatest_m_s] * len(self._points)
         for index in range(1, len(self._points) - 1):
             before, here, after = self._points[index - 1 : index + 2]
             turn = wrap_angle(
@@ -142,9 +144,8 @@ class TaxiPath:
             )
             if abs(turn) > 1e-3:
                 radius = max(math.dist(before, after) / 2.0, 2.0) / abs(turn)
-                speeds[index] = min(
-                    speed_m_s, max(math.sqrt(LATERAL_ACCELERATION_M_S2 * radius), 2.0)
-                )
+                in_turn = max(math.sqrt(LATERAL_ACCELERATION_M_S2 * radius), 2.0)
+                speeds[index] = min(self._greatest_m_s, in_turn)
         speeds[-1] = 0.0
         for index in range(len(speeds) - 2, -1, -1):
             step = self._along[index + 1] - self._along[index]
