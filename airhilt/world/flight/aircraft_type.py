@@ -4,19 +4,33 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 import pydantic
 from pydantic import Field
 
 from airhilt import library
-from airhilt.quantities import Name, Number
+from airhilt.quantities import Name, Number, Share, VerticalRateFpm
 from airhilt.scenario import documents
 from airhilt.scenario.problems import no_file_of
 from airhilt.shapes.aircraft.spec import AircraftCategory, AircraftDimensions, AircraftMesh
 
 MOST_GAIN = 1000
 """Greatest number of a gain or a time constant, far above that of any aircraft."""
+Gain = Annotated[Number, Field(ge=0, le=MOST_GAIN)]
+"""Gain that may be 0: then its part is left out."""
+LoopGain = Annotated[Number, Field(gt=0, le=MOST_GAIN)]
+"""Gain or time constant without which nothing is controlled."""
+Knots = Annotated[Number, Field(gt=0, le=1000)]
+"""Speed of flight or of taxiing, in kt."""
+Degrees = Annotated[Number, Field(gt=0, le=90)]
+"""Angle between two parts of an aircraft, or to the ground, in degrees."""
+DegreesPerS = Annotated[Number, Field(gt=0, le=180)]
+"""Rate of turning about an axis, in degrees/s."""
+DistanceM = Annotated[Number, Field(gt=0, le=100_000)]
+"""Distance over the ground, in m."""
+DecelerationMS2 = Annotated[Number, Field(gt=0, le=50)]
+"""Deceleration on the wheels, in m/s2."""
 
 
 class _Section(pydantic.BaseModel):
@@ -26,22 +40,22 @@ class _Section(pydantic.BaseModel):
 class Speeds(_Section):
     """Calibrated airspeeds in knots, and the limits that guidance keeps."""
 
-    approach_kt: Number = Field(gt=0, le=1000)
-    rotate_kt: Number = Field(gt=0, le=1000)
-    climb_safety_kt: Number = Field(gt=0, le=1000)
+    approach_kt: Knots
+    rotate_kt: Knots
+    climb_safety_kt: Knots
     """V2."""
-    drift_down_kt: Number = Field(gt=0, le=1000)
+    drift_down_kt: Knots
     """Speed after an engine failure en route; best glide speed of an aircraft with one engine."""
-    cruise_kt: Number = Field(gt=0, le=1000)
-    minimum_clean_kt: Number = Field(gt=0, le=1000)
-    maximum_kt: Number = Field(gt=0, le=1000)
+    cruise_kt: Knots
+    minimum_clean_kt: Knots
+    maximum_kt: Knots
     """Vmo, or Vno for a piston aircraft."""
     maximum_mach: Number = Field(gt=0, le=5)
     service_ceiling_ft: Number = Field(gt=0, le=100_000)
-    climb_rate_fpm: Number = Field(gt=0, le=20_000)
+    climb_rate_fpm: VerticalRateFpm
     """Rate of a climb or descent for which none was asked."""
-    maximum_climb_rate_fpm: Number = Field(gt=0, le=20_000)
-    maximum_descent_rate_fpm: Number = Field(gt=0, le=20_000)
+    maximum_climb_rate_fpm: VerticalRateFpm
+    maximum_descent_rate_fpm: VerticalRateFpm
 
 
 class PitchGains(_Section):
@@ -51,10 +65,10 @@ class PitchGains(_Section):
     ``reference_pressure_pa``.
     """
 
-    attitude_per_s: Number = Field(gt=0, le=MOST_GAIN)
-    rate_limit_deg_s: Number = Field(gt=0, le=180)
-    rate_s: Number = Field(ge=0, le=MOST_GAIN)
-    rate_integral: Number = Field(ge=0, le=MOST_GAIN)
+    attitude_per_s: LoopGain
+    rate_limit_deg_s: DegreesPerS
+    rate_s: Gain
+    rate_integral: Gain
     zero_lift_angle_deg: Number = Field(ge=-90, le=90)
     """Angle of attack without lift, flaps up."""
     reference_pressure_pa: Number = Field(gt=0, le=100_000)
@@ -64,35 +78,35 @@ class RollGains(_Section):
     """Bank to roll rate to aileron (normalised, -1..1)."""
 
     bank_limit_deg: Number = Field(gt=0, le=45)
-    bank_rate_limit_deg_s: Number = Field(gt=0, le=180)
-    bank_per_s: Number = Field(gt=0, le=MOST_GAIN)
-    rate_s: Number = Field(ge=0, le=MOST_GAIN)
-    rate_integral: Number = Field(ge=0, le=MOST_GAIN)
+    bank_rate_limit_deg_s: DegreesPerS
+    bank_per_s: LoopGain
+    rate_s: Gain
+    rate_integral: Gain
 
 
 class YawGains(_Section):
     """Sideslip and yaw rate (against that of a coordinated turn) to rudder (normalised, -1..1)."""
 
-    sideslip: Number = Field(ge=0, le=MOST_GAIN)
-    sideslip_integral_per_s: Number = Field(ge=0, le=MOST_GAIN)
-    rate_s: Number = Field(ge=0, le=MOST_GAIN)
+    sideslip: Gain
+    sideslip_integral_per_s: Gain
+    rate_s: Gain
 
 
 class ThrustGains(_Section):
     """Airspeed to throttle lever (0..1)."""
 
-    speed_s_m: Number = Field(ge=0, le=MOST_GAIN)
-    speed_integral_m: Number = Field(ge=0, le=MOST_GAIN)
-    acceleration_s2_m: Number = Field(ge=0, le=MOST_GAIN)
-    climb_angle: Number = Field(ge=0, le=MOST_GAIN)
-    lever_rate_per_s: Number = Field(gt=0, le=MOST_GAIN)
+    speed_s_m: Gain
+    speed_integral_m: Gain
+    acceleration_s2_m: Gain
+    climb_angle: Gain
+    lever_rate_per_s: LoopGain
 
 
 class GuidanceGains(_Section):
     """Course error to turn rate, altitude error to vertical rate."""
 
-    course_per_s: Number = Field(gt=0, le=MOST_GAIN)
-    altitude_per_s: Number = Field(gt=0, le=MOST_GAIN)
+    course_per_s: LoopGain
+    altitude_per_s: LoopGain
 
 
 class Gains(_Section):
@@ -108,22 +122,22 @@ class Gains(_Section):
 class Ground(_Section):
     """Rolling and taxiing."""
 
-    model_nose_wheel_deg: Number = Field(gt=0, le=90)
+    model_nose_wheel_deg: Degrees
     """Angle of the JSBSim model's nose wheel at full command; the model obeys more than full."""
     nose_wheel_limit_deg: Number = Field(gt=0, lt=90)
     """Greatest angle of the real aircraft's nose wheel."""
-    yaw_rate_s: Number = Field(gt=0, le=MOST_GAIN)
+    yaw_rate_s: LoopGain
     """Rudder per error of yaw rate, and of its integral."""
-    yaw_integral: Number = Field(ge=0, le=MOST_GAIN)
-    deceleration_m_s2: Number = Field(gt=0, le=50)
+    yaw_integral: Gain
+    deceleration_m_s2: DecelerationMS2
     """Deceleration after touchdown."""
-    taxi_speed_kt: Number = Field(gt=0, le=1000)
-    look_ahead_m: Number = Field(gt=0, le=100_000)
+    taxi_speed_kt: Knots
+    look_ahead_m: DistanceM
     """Least distance of the point on a path that is steered to."""
-    tail_contact_deg: Number = Field(gt=0, le=90)
+    tail_contact_deg: Degrees
     """Pitch, on the main wheels, at which the tail touches the ground: of the Boeings as their
     flight crew training manuals have it, of the Cessnas from the JSBSim model's tail skid."""
-    wing_contact_deg: Number = Field(gt=0, le=90)
+    wing_contact_deg: Degrees
     """Bank, on one main wheel, at which a wing tip or an engine touches the ground: of the 747 as
     its flight manual warns (BFU Bulletin, October 2014), of the 737 about, of the Cessnas from the
     JSBSim model's wing tips."""
@@ -132,31 +146,31 @@ class Ground(_Section):
 class Flare(_Section):
     """The flare: sink rate ``height / time_constant_s + touchdown_rate_fpm``, and its pitch law."""
 
-    time_constant_s: Number = Field(gt=0, le=MOST_GAIN)
-    touchdown_rate_fpm: Number = Field(gt=0, le=20_000)
+    time_constant_s: LoopGain
+    touchdown_rate_fpm: VerticalRateFpm
     decrab_height_m: Number = Field(ge=0, le=1000)
     """Height of the main wheels below which the rudder points the nose along the runway."""
     idle_height_part: Number = Field(ge=0, lt=1)
     """Part of the flare's initial height at which the levers have come to idle."""
-    climb: Number = Field(gt=0, le=MOST_GAIN)
+    climb: LoopGain
     """Pitch per error of climb angle; `airhilt.world.flight.autopilot.PitchLaw` says the rest."""
-    climb_integral_per_s: Number = Field(ge=0, le=MOST_GAIN)
-    climb_rate_s: Number = Field(ge=0, le=MOST_GAIN)
-    attitude_per_s: Number = Field(gt=0, le=MOST_GAIN)
+    climb_integral_per_s: Gain
+    climb_rate_s: Gain
+    attitude_per_s: LoopGain
 
 
 class Landing(_Section):
     """Configuration and guidance of approach and landing."""
 
-    flaps: Number = Field(ge=0, le=1)
+    flaps: Share
     """Part of the model's full deflection."""
-    aim_m: Number = Field(gt=0, le=100_000)
+    aim_m: DistanceM
     """Distance from the threshold to where the main wheels' glide path meets the runway."""
-    configure_m: Number = Field(gt=0, le=100_000)
+    configure_m: DistanceM
     """Distance from the threshold at which gear and flaps are lowered."""
-    course_per_s: Number = Field(gt=0, le=MOST_GAIN)
+    course_per_s: LoopGain
     """Turn rate per course error on the localizer."""
-    glide_per_s: Number = Field(gt=0, le=MOST_GAIN)
+    glide_per_s: LoopGain
     """Vertical rate per height error on the glide path."""
     flare: Flare
 
@@ -164,14 +178,14 @@ class Landing(_Section):
 class Takeoff(_Section):
     """Configuration and rotation."""
 
-    flaps: Number = Field(ge=0, le=1)
+    flaps: Share
     """Part of the model's full deflection."""
-    pitch_deg: Number = Field(gt=0, le=90)
+    pitch_deg: Degrees
     """Pitch after the rotation, below the pitch at which the tail touches."""
-    pitch_rate_deg_s: Number = Field(gt=0, le=180)
+    pitch_rate_deg_s: DegreesPerS
     pull: Number = Field(ge=0, lt=1)
     """Elevator at the beginning of the rotation; it lifts the nose wheel at rotation speed."""
-    rejected_deceleration_m_s2: Number = Field(gt=0, le=50)
+    rejected_deceleration_m_s2: DecelerationMS2
     """Deceleration of a rejected takeoff."""
 
 
