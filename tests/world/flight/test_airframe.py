@@ -2,14 +2,22 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from airhilt.units import DEGREE
-from airhilt.world.flight import standard_atmosphere
-from airhilt.world.flight.airframe import Airframe
+from airhilt.world.flight import (
+    Atmosphere,
+    InitialCondition,
+    load_aircraft_type,
+    standard_atmosphere,
+)
+from airhilt.world.flight.airframe import Airframe, heading_to_track
 from airhilt.world.surface.runway import RunwayEnd
 
 
@@ -47,3 +55,100 @@ def test_cleaned_up_it_has_gear_flaps_and_speed_brakes_in(on_final: Callable[...
         airframe.step()
     assert (aircraft.gear, aircraft.flaps) == (0.0, 0.0)
     assert airframe._fdm["fcs/speedbrake-pos-norm"] == 0.0
+
+
+# --- the wind -------------------------------------------------------------------------------
+
+WINDY = Atmosphere(wind_north_m_s=6.3, wind_east_m_s=-4.1, turbulence_wind_at_20ft_m_s=2.7)
+
+
+def wind_of(airframe: Airframe) -> list[float]:
+    fdm = airframe._fdm
+    return [
+        fdm[f"atmosphere/{name}-fps"] * 0.3048
+        for name in ("wind-north", "wind-east", "turbulence/milspec/windspeed_at_20ft_AGL")
+    ]
+
+
+def test_an_aircraft_that_stands_feels_no_wind_and_one_at_15_m_s_all_of_it(
+    on_the_ground: Callable[..., Any],
+) -> None:
+    airframe: Airframe = on_the_ground("737", atmosphere=WINDY)._airframe
+    whole = [6.3, -4.1, 2.7]
+    assert wind_of(airframe) == [0.0, 0.0, 0.0]
+    for speed_m_s, part in ((3.0, 0.2), (7.5, 0.5), (15.0, 1.0), (60.0, 1.0), (0.0, 0.0)):
+        airframe.set_wind_for_ground_speed(speed_m_s)
+        assert wind_of(airframe) == pytest.approx([part * each for each in whole], abs=1e-9)
+
+
+def test_an_aircraft_in_flight_has_the_whole_wind_from_the_beginning(
+    in_cruise: Callable[..., Any],
+) -> None:
+    aircraft = in_cruise("737", atmosphere=Atmosphere(wind_north_m_s=20.0, wind_east_m_s=-12.0))
+    assert wind_of(aircraft._airframe)[:2] == pytest.approx([20.0, -12.0], abs=1e-6)
+    state = aircraft.state
+    heading = state.heading_rad
+    airspeed = state.true_airspeed_m_s
+    assert state.velocity_north_m_s == pytest.approx(airspeed * math.cos(heading) + 20.0, abs=0.3)
+    assert state.velocity_east_m_s == pytest.approx(airspeed * math.sin(heading) - 12.0, abs=0.3)
+
+
+@given(st.floats(-180.0, 180.0), st.floats(-25.0, 25.0), st.floats(-25.0, 25.0),
+       st.floats(-10.0, 10.0))  # fmt: skip
+def test_the_heading_and_the_wind_together_make_good_the_track(
+    track_deg: float, north_m_s: float, east_m_s: float, rate_m_s: float
+) -> None:
+    initial = InitialCondition(0.8, 0.1, 0.0, track_deg * DEGREE, 90.0, rate_m_s)
+    wind = Atmosphere(wind_north_m_s=north_m_s, wind_east_m_s=east_m_s)
+    heading = heading_to_track(initial, wind)
+    level_m_s = math.sqrt(90.0**2 - rate_m_s**2)
+    north = level_m_s * math.cos(heading) + north_m_s
+    east = level_m_s * math.sin(heading) + east_m_s
+    off = math.remainder(math.atan2(east, north) - track_deg * DEGREE, math.tau)
+    assert off == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize(("wind_m_s", "is_refused"), [(89.9, False), (90.1, True)])
+@pytest.mark.parametrize("side", [1.0, -1.0])
+def test_a_wind_across_that_is_stronger_than_the_airspeed_is_refused(
+    side: float, wind_m_s: float, is_refused: bool
+) -> None:
+    initial = InitialCondition(0.8, 0.1, 0.0, 0.0, 90.0)
+    across = Atmosphere(wind_east_m_s=side * wind_m_s)
+    if is_refused:
+        with pytest.raises(ValueError, match=r"across the track is 90\.1 m/s"):
+            heading_to_track(initial, across)
+    else:
+        assert heading_to_track(initial, across) * side < -80.0 * DEGREE
+
+
+# --- its engines and wheels -----------------------------------------------------------------
+
+
+def test_an_engine_is_counted_from_0(in_cruise: Callable[..., Any]) -> None:
+    airframe: Airframe = in_cruise("737")._airframe
+    airframe.require_engine(0)
+    airframe.require_engine(1)
+    for engine in (-1, 2):
+        with pytest.raises(ValueError, match=f"engine is {engine}; expected 0 to 1"):
+            airframe.require_engine(engine)
+
+
+def test_it_is_on_the_ground_and_stands_there_with_its_nose_wheel(
+    on_the_ground: Callable[..., Any], in_cruise: Callable[..., Any]
+) -> None:
+    standing: Airframe = on_the_ground("737")._airframe
+    assert standing.on_ground()
+    assert standing.nose_on_ground()
+    assert standing.gear() == 1.0
+    assert standing.flaps() == pytest.approx(load_aircraft_type("737").takeoff.flaps, abs=0.01)
+    flying: Airframe = in_cruise("737")._airframe
+    assert not flying.on_ground()
+    assert not flying.nose_on_ground()
+    assert (flying.gear(), flying.flaps()) == (0.0, 0.0)
+
+
+def test_the_wheelbase_is_that_of_the_aircraft(on_the_ground: Callable[..., Any]) -> None:
+    """15.6 m of the 737-800 (Boeing D6-58325-6), 1.65 m of the 172 (its flight manual)."""
+    assert on_the_ground("737")._airframe.wheelbase_m == pytest.approx(15.6, rel=0.25)
+    assert on_the_ground("c172p")._airframe.wheelbase_m == pytest.approx(1.65, rel=0.25)

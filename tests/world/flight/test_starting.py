@@ -10,6 +10,7 @@ import pytest
 
 from airhilt.units import FOOT, KNOT
 from airhilt.world.flight import InitialCondition, load_aircraft_type
+from airhilt.world.flight.airframe import Airframe
 from airhilt.world.flight.modes import GuidanceModes
 from airhilt.world.flight.state import OnGround
 
@@ -48,3 +49,26 @@ def test_beyond_the_poles_there_is_no_place_to_begin(degrees: float) -> None:
 def test_a_pole_is_a_place(pole: float) -> None:
     assert InitialCondition(pole, 0.0, 3_000.0, 0.0, 100.0).latitude_rad == pole
     assert OnGround(pole, 0.0, 0.0).latitude_rad == pole
+
+
+@pytest.mark.parametrize("rate_m_s", [2.0, -2.0])
+def test_a_model_that_settles_comes_by_its_rate_to_the_altitude_where_it_begins(
+    rate_m_s: float, in_cruise: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    settled: list[float] = []
+
+    def release(airframe: Airframe, *given: Any) -> None:
+        settled.append(airframe.state().altitude_m)
+        settled.append(airframe.state().vertical_rate_m_s)
+
+    monkeypatch.setattr(Airframe, "release", release)
+    in_cruise("c310", vertical_rate_m_s=rate_m_s)
+    assert settled[0] == pytest.approx(6_000 * FOOT, abs=30.0)
+    assert settled[1] == pytest.approx(rate_m_s, abs=0.3)
+
+
+def test_it_may_not_begin_in_the_ground_or_above_its_ceiling(in_cruise: Callable[..., Any]) -> None:
+    ceiling_ft = load_aircraft_type("737").speeds.service_ceiling_ft
+    for altitude_ft in (100.0, ceiling_ft + 1.0):
+        with pytest.raises(ValueError, match="expected between the terrain at 30 m"):
+            in_cruise("737", altitude_ft=altitude_ft, terrain_elevation_m=30.48)

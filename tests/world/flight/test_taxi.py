@@ -194,3 +194,14 @@ def test_what_belongs_to_the_air_is_refused_on_the_ground(
 def test_a_path_needs_places(on_the_ground: Callable[..., Any]) -> None:
     with pytest.raises(ValueError, match="path"):
         on_the_ground("c172p").procedures.taxi([])
+
+
+def test_who_taxies_has_speed_brakes_and_spoilers_in(
+    on_the_ground: Callable[..., Any], along_runway: Callable[..., Any]
+) -> None:
+    aircraft = on_the_ground("737")
+    fdm = aircraft._airframe._fdm
+    aircraft._airframe.set_speed_brakes(1.0)
+    aircraft._airframe.set_ground_spoilers(1.0)
+    aircraft.procedures.taxi([along_runway(along_m) for along_m in (60.0, 200.0)])
+    assert (fdm["fcs/speedbrake-cmd-norm"], fdm["fcs/spoiler-cmd-norm"]) == (0.0, 0.0)
