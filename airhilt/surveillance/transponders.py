@@ -44,7 +44,7 @@ IDENTIFICATION_INTERVAL_S = (4.8, 5.2)
 STATIONARY_IDENTIFICATION_INTERVAL_S = (9.8, 10.2)
 """Interval of identification squitters at a standstill on the surface, in s (2.2.3.3)."""
 STATIONARY_WITHIN_M = 10.0
-"""Movement below which a carrier on the surface counts as standing, in m."""
+"""Movement up to which a carrier on the surface counts as standing, in m (as below)."""
 STATIONARY_AFTER_NS = 30 * SECOND_NS
 """Time without such a movement after which the low squitter rates apply, in ns (DO-260B, 2.2.3.3;
 ICAO Doc 9871, table A-2-7)."""

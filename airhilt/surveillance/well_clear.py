@@ -45,6 +45,7 @@ WARNING = AlertLevel("warning", Volume(_TAU_S, _DMOD_M, 450 * FOOT), 25.0, 55.0)
 LEVELS = (WARNING, CORRECTIVE, PREVENTIVE)
 """The levels, the most urgent first."""
 LOOK_AHEAD_S = 180.0
+"""Time for which a manoeuvre is to stay well clear, in s (DAIDALUS)."""
 HYSTERESIS_S = 5.0
 """Time without a violation ahead after which an alert ends, in s. It keeps the least duration of
 an alert, the persistence of 4 s, as well."""

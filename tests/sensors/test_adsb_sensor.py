@@ -57,6 +57,7 @@ def context(
     steps: list[Any],
     latency: str = "fixed:0.05",
     seed: int = 1,
+    age_ns: int = 0,
 ) -> SensorContext:
     """Return what a run would give to the sensor."""
     return SensorContext(
@@ -66,7 +67,7 @@ def context(
         actors=actors,
         latency=parse_latency(latency),
         seed=seed,
-        state_at_ns=lambda: director.now_ns,
+        state_at_ns=lambda: director.now_ns - age_ns,
         publish=lambda key, report, raw=None: reports.append(report),
         step_done=steps.append,
     )
@@ -79,6 +80,7 @@ class Run:
         latency: str = "fixed:0.05",
         seed: int = 1,
         equipped: bool = True,
+        age_ns: int = 0,
         **adsb: Any,
     ) -> None:
         document = load("s02a_headon").model_dump()
@@ -92,7 +94,9 @@ class Run:
         actors: dict[str, Any] = {one.callsign: Acting(cast(Any, one)) for one in scenario.actors}
         self.aircraft = {callsign: acting.body for callsign, acting in actors.items()}
         self.sensor = AdsbSensor(
-            context(scenario, self.director, actors, self.reports, self.steps, latency, seed)
+            context(
+                scenario, self.director, actors, self.reports, self.steps, latency, seed, age_ns
+            )
         )
         self.sensor.start()
         self.end_ns = round(seconds * SECOND_NS)
@@ -195,6 +199,16 @@ def test_between_two_ticks_a_state_is_carried_straight_on() -> None:
     east_m = (moved.longitude_rad - STATE.longitude_rad) * 6.39e6 * 0.778
     assert east_m == pytest.approx(230.0 * 0.04, rel=0.01)
     assert carried_on(STATE, 0.0) is STATE
+
+
+def test_a_squitter_has_the_place_of_its_instant_and_not_that_of_the_tick_before() -> None:
+    """Eastward with 230 m/s, four tenths of a second are 92 m."""
+    fresh, aged = (Run(10.0, age_ns=age_ns).go().reports for age_ns in (0, 400_000_000))
+    assert len(fresh) == len(aged) > 10
+    for one, other in zip(fresh, aged, strict=True):
+        east_m = (other.longitude_deg - one.longitude_deg) * DEGREE * 6.39e6 * 0.778
+        assert east_m == pytest.approx(92.0, abs=4.0)
+        assert other.latitude_deg == pytest.approx(one.latitude_deg, abs=4e-5)
 
 
 def test_a_receiver_far_away_hears_nothing() -> None:

@@ -161,6 +161,22 @@ def test_an_attitude_is_shown_in_degrees(degrees: float) -> None:
     assert (shown.pitch_deg, shown.roll_deg) == (degrees, 2.0 * degrees)
 
 
+def test_instruments_show_the_units_of_a_cockpit_to_the_step_that_their_names_say() -> None:
+    shown = shown_at(
+        velocity_north_m_s=30.0, velocity_east_m_s=-40.0, velocity_down_m_s=-5.0,
+        calibrated_airspeed_m_s=70.0, mach=0.78549, altitude_m=3_000.0,
+        heading_rad=math.radians(271.26),
+    )  # fmt: skip
+    assert shown.ground_speed_kt == 97.2  # 50 m/s
+    assert shown.airspeed_kt == 136.1
+    assert shown.mach == 0.785
+    assert shown.altitude_ft == 9843
+    assert shown.vertical_speed_fpm == 984
+    assert shown.track_deg == pytest.approx(306.87, abs=0.1)
+    assert shown.heading_deg == pytest.approx(271.26, abs=0.1)
+    assert (shown.selected_altitude_ft, shown.selected_airspeed_kt) == (0, 0)
+
+
 def test_a_vehicle_shows_its_driver_where_it_is(tmp_path: Path) -> None:
     scenario = load("s01b_nominal").model_copy(update={"duration_s": 3.0, "cameras": ()})
     run(scenario, Options(out=tmp_path / "run", latency="fixed", speech=False, cockpit=True))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import statistics
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,7 +12,7 @@ from geographiclib.geodesic import Geodesic
 
 from airhilt import load
 from airhilt.messages import RadarKind, RadarPlot, SurfaceTrack
-from airhilt.scenario.models import Radar, SurfaceSurveillance
+from airhilt.scenario.models import AircraftSpec, Radar, SurfaceSurveillance
 from airhilt.sensors import radar, surface
 from airhilt.sensors.base import SensorContext, SensorType
 from airhilt.shapes.sizes import Dimensions
@@ -56,12 +58,14 @@ class Field:
         self.centre = self.site.place(self.site.centre)
         self.antenna = Antenna(*self.centre, self.site.ground_m + site.antenna_height_ft * FOOT)
 
-    def state(self, away_m: float, height_m: float) -> SurfaceState:
+    def state(
+        self, away_m: float, height_m: float, north_m_s: float = 0.0, east_m_s: float = 0.0
+    ) -> SurfaceState:
         degrees = [angle / DEGREE for angle in self.centre]
         there = Geodesic.WGS84.Direct(*degrees, 90.0, away_m)
         place = there["lat2"] * DEGREE, there["lon2"] * DEGREE
         altitude_m = self.site.ground_m + height_m
-        return SurfaceState(*place, altitude_m, height_m, 0.0, 0.0, 0.0, 0.0)
+        return SurfaceState(*place, altitude_m, height_m, north_m_s, east_m_s, 0.0, 0.0)
 
     def at_range(self, range_nm: float, height_m: float) -> SurfaceState:
         """Return the state at a slant range from the antenna, found by bisection."""
@@ -103,6 +107,10 @@ class Field:
 @pytest.mark.parametrize(
     ("kind", "range_nm", "height_ft", "has_echo", "has_reply"),
     [
+        ("terminal", 0.45, 500, False, False),
+        ("terminal", 0.55, 500, False, True),
+        ("en_route", 4.9, 3_000, False, False),
+        ("en_route", 5.1, 3_000, False, True),
         ("terminal", 59.7, 15_000, True, True),
         ("terminal", 60.3, 15_000, False, True),
         ("terminal", 119.7, 30_000, False, True),
@@ -114,7 +122,9 @@ class Field:
 def test_radars_see_as_far_as_their_sources_say(
     kind: RadarKind, range_nm: float, height_ft: float, has_echo: bool, has_reply: bool
 ) -> None:
-    """The FAA gives 60 NM for the primary radar of the ASR-11; 120 and 250 NM are typical."""
+    """The FAA gives 60 NM for the primary radar of the ASR-11; 120 and 250 NM are typical, and so
+    are the least ranges of 0.5 and 5 NM. What
+    stands in the air so near is taken for the ground by the primary radar."""
     field = Field(kind)
     plots = field.seen(radar.SENSOR, field.at_range(range_nm, height_ft * FOOT), 240.0)
     assert any(plot.kind != "secondary" for plot in plots) == has_echo
@@ -148,3 +158,34 @@ def test_over_an_airport_radar_sees_up_to_200_ft_and_transponders_are_located_in
     field = Field()
     tracks = field.seen(surface.SENSOR, field.state(1_000.0, height_ft * FOOT), 120.0)
     assert {track.kind for track in tracks} == kinds
+
+
+@pytest.mark.parametrize(("north_m_s", "east_m_s"), [(0.0, 40.0), (-30.0, 0.0), (20.0, -35.0)])
+def test_a_target_on_an_airport_is_shown_with_its_name_its_speed_and_its_way(
+    north_m_s: float, east_m_s: float
+) -> None:
+    field = Field()
+    state = field.state(1_000.0, 500.0 * FOOT, north_m_s, east_m_s)
+    spec = field.scenario.actors[0]
+    assert isinstance(spec, AircraftSpec)
+    tracks = [
+        track
+        for track in field.seen(surface.SENSOR, state, 60.0)
+        if isinstance(track, SurfaceTrack)
+    ]
+    assert len(tracks) > 30
+    assert {(track.icao24, track.callsign) for track in tracks} == {(spec.icao24, spec.callsign)}
+    assert {track.on_ground for track in tracks} == {False}
+    speeds = [track.ground_speed_kt * 1852.0 / 3600.0 for track in tracks]
+    assert statistics.mean(speeds) == pytest.approx(math.hypot(north_m_s, east_m_s), abs=2.0)
+    course_deg = math.degrees(math.atan2(east_m_s, north_m_s))
+    off_deg = [math.remainder((track.track_deg or 0.0) - course_deg, 360.0) for track in tracks]
+    assert statistics.mean(off_deg) == pytest.approx(0.0, abs=4.0)
+    altitude_ft = state.altitude_m / FOOT
+    assert all(abs((track.altitude_ft or 0.0) - altitude_ft) <= 12.5 for track in tracks)
+
+
+def test_who_stands_on_an_airport_has_no_way() -> None:
+    field = Field()
+    tracks = field.seen(surface.SENSOR, field.state(1_000.0, 50.0), 20.0)
+    assert {(track.ground_speed_kt, track.track_deg) for track in tracks} == {(0.0, None)}

@@ -13,6 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from airhilt.geodesy.relative_motion import relative
+from airhilt.surveillance import transponders
 from airhilt.surveillance.receivers import Receiver, Reception
 from airhilt.surveillance.squitters import (
     FASTEST_MOVEMENT_KT,
@@ -378,6 +379,25 @@ def test_who_keeps_within_10_m_for_30_s_is_stationary_until_it_has_moved_10_m() 
     assert not stationary(rate, 11.0, after_s + 5.5)
     assert not stationary(rate, 11.0, 2 * after_s)
     assert stationary(rate, 11.0, 2 * after_s + 6.0)
+
+
+@pytest.mark.parametrize(("moved_m", "stands"), [(9.9, True), (10.0, True), (10.1, False)])
+def test_who_has_moved_by_10_m_has_not_moved_by_more(
+    moved_m: float, stands: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """DO-260B, 2.2.3.3: the low rate is for a position that has not changed more than 10 m."""
+    rate = SurfaceRate()
+    assert not rate.is_stationary(STANDING, 0)
+    monkeypatch.setattr(transponders, "horizontal_distance_m", lambda *_: moved_m)
+    assert rate.is_stationary(STANDING, 30 * SECOND_NS) is stands
+    assert not SurfaceRate().is_stationary(STANDING, 60 * SECOND_NS)
+
+
+@pytest.mark.parametrize(("t_s", "stands"), [(29.999, False), (30.0, True)])
+def test_who_has_not_moved_stands_after_30_s(t_s: float, stands: bool) -> None:
+    rate = SurfaceRate()
+    assert not rate.is_stationary(STANDING, 0)
+    assert rate.is_stationary(STANDING, round(t_s * SECOND_NS)) is stands
 
 
 def test_who_creeps_on_is_not_stationary() -> None:

@@ -7,16 +7,21 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from airhilt.assistant.decision.engines import decision_engine
 from airhilt.geodesy.relative_motion import Relative
 from airhilt.surveillance import tcas
 from airhilt.surveillance.tcas_resolution import (
     ACCELERATION_M_S2,
+    INCREASED_RATE_M_S,
     RATE_M_S,
     RESPONSE_S,
     Resolution,
+    Sense,
     Vertical,
+    may_weaken,
     select,
     separation_m,
 )
@@ -173,6 +178,74 @@ def test_the_sense_that_does_not_cross_the_intruder_is_chosen_if_it_gives_alim()
     assert crossing > other > alim_m
     chosen = select(own, intruder, 35.0, alim_m, required=None, may_descend=True)
     assert chosen == Resolution("climb", RATE_M_S)
+
+
+def test_a_first_climb_is_with_1_500_ft_min_and_an_increased_one_with_2_500() -> None:
+    """FAA, Introduction to TCAS II Version 7.1, table of resolution advisories."""
+    own, intruder = Vertical(HIGH, 0.0), Vertical(HIGH, 0.0)
+    chosen = select(own, intruder, 25.0, 600 * FOOT, required=None, may_descend=True)
+    assert chosen.rate_m_s == pytest.approx(1500.0 * 0.3048 / 60.0)
+    assert pytest.approx(2500.0 * 0.3048 / 60.0) == INCREASED_RATE_M_S
+
+
+@pytest.mark.parametrize(
+    ("gap_ft", "rate_m_s"), [(700.0, 0.0), (600.5, 0.0), (599.5, RATE_M_S), (0.0, RATE_M_S)]
+)
+@pytest.mark.parametrize("sense", ["climb", "descend"])
+def test_the_weakest_advisory_that_gives_alim_is_chosen(
+    sense: Sense, gap_ft: float, rate_m_s: float
+) -> None:
+    up = 1.0 if sense == "climb" else -1.0
+    own, intruder = Vertical(HIGH + up * gap_ft * FOOT, 0.0), Vertical(HIGH, 0.0)
+    chosen = select(own, intruder, 25.0, 600 * FOOT, required=None, may_descend=True)
+    assert chosen == Resolution(sense if gap_ft else "climb", rate_m_s)
+
+
+def test_near_the_ground_nobody_is_sent_down() -> None:
+    own, intruder = Vertical(500.0, 0.0), Vertical(560.0, 0.0)
+    alim_m = 300 * FOOT
+    chosen = select(own, intruder, 25.0, alim_m, required=None, may_descend=False)
+    assert chosen == Resolution("climb", RATE_M_S)
+    chosen = select(own, intruder, 25.0, alim_m, required="descend", may_descend=False)
+    assert chosen == Resolution("descend", 0.0)
+
+
+@pytest.mark.parametrize("up", [1.0, -1.0])
+@pytest.mark.parametrize(("gap_ft", "weakens"), [(601.0, True), (599.0, False)])
+def test_an_advisory_is_weakened_once_alim_is_reached_and_kept(
+    up: float, gap_ft: float, weakens: bool
+) -> None:
+    sense: Sense = "climb" if up > 0.0 else "descend"
+    own = Vertical(HIGH + up * gap_ft * FOOT, up * RATE_M_S)
+    level_off = may_weaken(own, Vertical(HIGH, 0.0), sense, 15.0, 600 * FOOT)
+    assert level_off is weakens
+    nearing = Vertical(HIGH, up * 20.0)  # It comes up to the own level before the two meet.
+    assert not may_weaken(own, nearing, sense, 15.0, 600 * FOOT)
+
+
+@settings(max_examples=40, deadline=None)
+@given(st.floats(-15.0, 15.0), st.floats(0.0, 60.0), st.sampled_from(["climb", "descend"]),
+       st.sampled_from([0.0, RATE_M_S, INCREASED_RATE_M_S]))  # fmt: skip
+def test_the_response_is_flown_as_a_pilot_does_it_by_small_steps(
+    rate_m_s: float, time_s: float, sense: Sense, advised_m_s: float
+) -> None:
+    """After 5 s it changes by a quarter of g to the advised rate, unless it does more already."""
+    up = 1.0 if sense == "climb" else -1.0
+    wanted = up * max(up * rate_m_s, advised_m_s) if advised_m_s else 0.0
+    altitude_m, rate, step_s = 0.0, rate_m_s, 0.005
+    for step in range(round(time_s / step_s)):
+        if step * step_s >= RESPONSE_S:
+            change = min(max(wanted - rate, -2.4517 * step_s), 2.4517 * step_s)
+            altitude_m += 0.5 * change * step_s
+            rate += change
+            altitude_m += (rate - change) * step_s
+        else:
+            altitude_m += rate * step_s
+    found = separation_m(
+        Vertical(0.0, rate_m_s), Vertical(0.0, 0.0), Resolution(sense, advised_m_s), time_s,
+        RESPONSE_S,
+    )  # fmt: skip
+    assert found == pytest.approx(up * altitude_m, abs=0.1)
 
 
 @pytest.mark.parametrize("rate_fpm", [-2_000.0, 0.0, 2_000.0])

@@ -7,12 +7,12 @@ from typing import Any
 import pytest
 
 from airhilt.assistant.decision.engines import decision_engine
-from airhilt.assistant.decision.remaining_clear import smallest_turn
+from airhilt.assistant.decision.remaining_clear import RESPONSE_S, _stays_clear, smallest_turn
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.geodesy.relative_motion import Relative
 from airhilt.messages import Advisory, Turn
-from airhilt.surveillance.well_clear import Gap
+from airhilt.surveillance.well_clear import CORRECTIVE, Gap, time_to_violation_s
 from encounters import Encounter, Flight, head_on
 
 
@@ -111,3 +111,36 @@ def test_an_alert_stays_open_until_the_two_are_past_each_other() -> None:
 
 def test_it_reads_adsb_and_the_briefing_alone() -> None:
     assert {wanted.key for wanted in well_clear().description.inputs} == {"briefing", "adsb/*"}
+
+
+@pytest.mark.parametrize(("after_s", "is_clear"), [(179.5, False), (180.5, True)])
+def test_a_turn_is_to_stay_well_clear_for_three_minutes(after_s: float, is_clear: bool) -> None:
+    """Two meet head-on at 400 m/s; the violation begins some time after the response."""
+
+    def motion(distance_m: float) -> Relative:
+        return Relative(distance_m, 0.0, -400.0, 0.0)
+
+    def violation_s(distance_m: float) -> float:
+        found = time_to_violation_s(motion(distance_m), Gap(0.0, 0.0), CORRECTIVE.volume)
+        assert found is not None
+        return found
+
+    distance_m = 100_000.0 + 400.0 * (after_s + RESPONSE_S - violation_s(100_000.0))
+    assert violation_s(distance_m) == pytest.approx(after_s + RESPONSE_S)
+    assert _stays_clear(motion(distance_m), (200.0, 0.0), Gap(0.0, 0.0), 0.0) is is_clear
+
+
+@pytest.mark.parametrize(("aside_m", "degrees"), [(0.0, 10.0), (4.7, -10.0), (-4.7, 10.0)])
+def test_the_smallest_turn_is_away_from_the_other_and_to_the_right_where_either_will_do(
+    aside_m: float, degrees: float
+) -> None:
+    """They meet in two minutes and a half; 10 degrees are 4.7 km to the side then."""
+    apart = Relative(60_000.0, aside_m * 1_000.0, -400.0, 0.0)
+    told = smallest_turn(apart, (200.0, 0.0), Gap(0.0, 0.0))
+    assert told is not None
+    assert told.degrees == degrees
+
+
+def test_who_is_past_before_a_turn_is_made_is_not_told_to_turn() -> None:
+    assert smallest_turn(Relative(5_900.0, 0.0, -400.0, 0.0), (200.0, 0.0), Gap(0.0, 0.0)) is None
+    assert smallest_turn(Relative(-900.0, 0.0, -400.0, 0.0), (200.0, 0.0), Gap(0.0, 0.0)) is None

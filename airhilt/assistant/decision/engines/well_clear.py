@@ -26,7 +26,6 @@ from airhilt.messages import (
 )
 from airhilt.surveillance.well_clear import (
     HYSTERESIS_S,
-    LOOK_AHEAD_S,
     PREVENTIVE,
     WARNING,
     AlertLevel,
@@ -52,7 +51,13 @@ STALE_NS = 15 * SECOND_NS
 """Silence after which a track is dropped, in ns; an assumption."""
 CYCLE_NS = SECOND_NS
 """Time without a report after which a pair with an alert is judged again, in ns."""
-REACH = Reach(WARNING.volume.dmod_m, PREVENTIVE.volume.zthr_m, LOOK_AHEAD_S)
+REACH = Reach(
+    WARNING.volume.dmod_m,
+    PREVENTIVE.volume.zthr_m,
+    PREVENTIVE.alert_s + PREVENTIVE.volume.tau_s,
+)
+"""The farthest volume. A violation begins within the time of an alert, and two that fly straight on
+are within DMOD after tau more at most."""
 
 
 @dataclass(slots=True)
