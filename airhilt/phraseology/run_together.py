@@ -29,12 +29,11 @@ def split_numbers(words: Words) -> Words:
     texts = words.texts
     if _INTRODUCING.isdisjoint(texts):
         return words
-    numbers = [at for at, text in enumerate(texts) if len(text) > RUNWAY and text.isdigit()]
-    if not any(at and _rest_of(texts, at) for at in numbers):
+    sizes = [_rest_of(texts, index) if index else 0 for index in range(len(texts))]
+    if not any(sizes):
         return words
     split = Words()
-    for index, text in enumerate(texts):
-        size = _rest_of(texts, index) if index else 0
+    for index, (text, size) in enumerate(zip(texts, sizes, strict=True)):
         if size:
             split.add(text[:size], words.confidences[index] * SHORTENED)
             text = text[size:]
