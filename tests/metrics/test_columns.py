@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-from typing import Any
+from typing import Annotated, Any
 
 import pytest
 
 from airhilt.messages import Status
-from airhilt.metrics.columns import column_of, metric_columns, metrics_of
+from airhilt.metrics.columns import _bare, column_of, metric_columns, metrics_of
 from airhilt.metrics.summary import (
     AdvisorySummary,
     ClosestApproach,
@@ -209,3 +209,30 @@ def test_the_first_alert_of_all_equipment_counts() -> None:
     row = metrics_of(summary(equipment=equipment))
     assert row["equipment_t_first_warning_s"] == 20.0
     assert row["equipment_t_first_action_s"] is None
+
+
+@pytest.mark.parametrize(
+    ("annotation", "bare"),
+    [
+        (int, int),
+        (int | None, int),
+        (None | str, str),
+        (Annotated[bool, "mark"], bool),
+        (Annotated[float | None, "mark"], float),
+    ],
+)
+def test_a_column_has_the_type_of_a_value_that_is_there(annotation: Any, bare: type) -> None:
+    assert _bare(annotation) is bare
+
+
+def test_a_field_of_a_model_in_the_summary_says_whose_it_is() -> None:
+    described = {column.name: column.description for column in metric_columns()}
+    assert described["radio_wer"].startswith("radio: ")
+    assert described["duration_s"] == Summary.model_fields["duration_s"].description
+    kinds = {column.name: column.type for column in metric_columns()}
+    assert (kinds["duration_s"], kinds["radio_calls"], kinds["nmac"]) == (
+        "float64",
+        "int64",
+        "bool",
+    )
+    assert kinds["t_first_warning_s"] == "float64"  # None without a warning.

@@ -267,3 +267,13 @@ def test_truth_is_not_kept_for_ever() -> None:
     assert watched.numbers().looked_at == 0
     watched.sight.take(seen(1_999, found(PLANE)))
     assert watched.numbers().recall == 1.0
+
+
+@pytest.mark.parametrize(
+    ("size", "bin_px"),
+    [(8.0, 8.0), (11.9, 8.0), (12.0, 12.0), (19.9, 12.0), (20.0, 20.0), (49.9, 20.0), (50.0, 50.0)],
+)
+def test_recall_is_told_from_8_12_20_and_50_pixels_on(size: float, bin_px: float) -> None:
+    numbers = Watched().picture(1, sighting((10.0, 10.0, 10.0 + size, 14.0))).numbers()
+    assert [one.from_px for one in numbers.by_size if one.sightings] == [bin_px]
+    assert [one.from_px for one in numbers.by_size] == [8.0, 12.0, 20.0, 50.0]

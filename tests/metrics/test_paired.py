@@ -126,3 +126,32 @@ def test_the_interval_of_groups_is_as_wide_as_that_of_their_means() -> None:
     assert many.value == pytest.approx(once.value)
     assert many.low == pytest.approx(once.low, abs=0.05)
     assert many.high == pytest.approx(once.high, abs=0.05)
+
+
+@pytest.mark.parametrize(
+    ("only_first", "only_second", "agree", "p_value"),
+    [
+        (4, 0, 0, 2 / 16),  # 2 of the 16 ways to give four groups a sign.
+        (0, 4, 0, 2 / 16),
+        (4, 0, 3, 2 / 16),  # Groups that agree prove nothing.
+        (3, 1, 0, 10 / 16),
+        (2, 2, 1, 1.0),
+    ],
+)
+def test_groups_that_depend_on_each_other_are_one_sign_each(
+    only_first: int, only_second: int, agree: int, p_value: float
+) -> None:
+    """Each group has two pairs, of which the second one agrees."""
+    first = np.array([True] * only_first + [False] * (only_second + agree))
+    second = np.array([False] * only_first + [True] * only_second + [False] * agree)
+    none = np.zeros(len(first), bool)
+    groups = np.repeat(np.arange(len(first)), 2)
+    one, other = (np.column_stack((each, none)).ravel() for each in (first, second))
+    assert mcnemar(one, other, groups).p_value == pytest.approx(p_value)
+
+
+def test_what_was_seen_is_one_of_the_signs_that_are_drawn() -> None:
+    """40 groups that all differ alike: no draw is as far, and yet chance is not impossible."""
+    first = np.tile([True, False], 40)
+    found = mcnemar(first, np.zeros(80, bool), np.repeat(np.arange(40), 2))
+    assert found.p_value == pytest.approx(1.0 / (2**14 + 1))

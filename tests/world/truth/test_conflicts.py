@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import pytest
 from hypothesis import given, settings
@@ -344,3 +345,67 @@ def test_a_fast_aircraft_does_not_pass_a_vehicle_between_two_looks() -> None:
     """Pairs on the ground are sorted out once a second."""
     plane = Straight(-2_000.0, altitude_ft=0.0, east_m_s=75.0, on_ground=True, phase="takeoff_roll")
     assert "collision" in Watch(plane, Rolling(), always=False).fly(40.0).told
+
+
+@pytest.mark.parametrize("names", [(0, 1), (1, 0)])
+@pytest.mark.parametrize(("gap_ft", "speaks"), [(500.0, True), (2_000.0, False)])
+def test_tcas_is_silent_about_one_that_stays_far_above_or_below(
+    gap_ft: float, speaks: bool, names: tuple[int, int]
+) -> None:
+    """At flight level 350 an advisory needs less than 1,200 ft of altitude (FAA, table 2)."""
+    pair = head_on(60.0, altitude_ft=35_000.0 + gap_ft)
+    told = Watch(*(pair[at] for at in names)).fly(70.0).told
+    assert ("tcas_ta" in told) is speaks
+
+
+@pytest.mark.parametrize("names", [(0, 1), (1, 0)])
+def test_tcas_speaks_of_one_that_climbs_to_the_own_level_and_not_of_one_that_climbs_away(
+    names: tuple[int, int],
+) -> None:
+    """It climbs with 2,000 ft/min, and is 2,000 ft away a minute before the two pass."""
+    for below_ft, speaks in ((-2_000.0, True), (2_000.0, False)):
+        pair = head_on(60.0, altitude_ft=35_000.0 + below_ft, rate_fpm=2_000.0)
+        told = Watch(*(pair[at] for at in names)).fly(70.0).told
+        assert ("tcas_ra" in told) is speaks
+
+
+@pytest.mark.parametrize(("above_ft", "is_nmac"), [(99.5, True), (100.5, False), (-99.5, True),
+                                                   (-100.5, False)])  # fmt: skip
+def test_a_near_mid_air_collision_is_within_100_ft(above_ft: float, is_nmac: bool) -> None:
+    """RTCA DO-365: 500 ft horizontally, and 100 ft vertically."""
+    told = Watch(*head_on(10.0, altitude_ft=35_000.0 + above_ft)).fly(20.0).told
+    assert ("nmac" in told) is is_nmac
+
+
+@pytest.mark.parametrize(("aside_ft", "is_nmac"), [(499.0, True), (501.0, False)])
+def test_a_near_mid_air_collision_is_within_500_ft(aside_ft: float, is_nmac: bool) -> None:
+    told = Watch(*head_on(10.0, north_m=aside_ft * FOOT)).fly(20.0).told
+    assert ("nmac" in told) is is_nmac
+
+
+@pytest.mark.parametrize(
+    ("target_ft", "rate_fpm", "expected_fpm", "has_target"),
+    [
+        (36_000.0, 500.0, 500.0, True),
+        (34_000.0, -500.0, -500.0, True),
+        (36_000.0, -500.0, 1_500.0, True),  # It still descends, and is to climb.
+        (34_000.0, 500.0, 1_500.0, True),
+        (34_000.0, 0.0, 1_500.0, True),
+        (35_090.0, 500.0, 0.0, False),  # As good as there.
+        (35_110.0, 500.0, 500.0, True),
+    ],
+)
+def test_an_aircraft_flies_to_its_target_at_its_rate_once_that_leads_there(
+    target_ft: float, rate_fpm: float, expected_fpm: float, has_target: bool
+) -> None:
+    state = Straight(rate_fpm=rate_fpm).state
+    aircraft = SimpleNamespace(
+        state=state, target_altitude_m=target_ft * FOOT, on_ground=False,
+        target_vertical_rate_m_s=1_500.0 * FOOT_PER_MINUTE,
+    )  # fmt: skip
+    profile = profile_of(cast(Any, aircraft))
+    assert profile.altitude_m == state.altitude_m
+    assert profile.rate_m_s == pytest.approx(expected_fpm * FOOT_PER_MINUTE)
+    assert profile.target_m == (pytest.approx(target_ft * FOOT) if has_target else None)
+    aircraft.on_ground = True
+    assert profile_of(cast(Any, aircraft)) == VerticalProfile(state.altitude_m, 0.0)

@@ -16,7 +16,7 @@ from airhilt.world.flight import load_aircraft_type
 from airhilt.world.mover import SurfaceState
 from airhilt.world.surface.airport import load_airport
 from airhilt.world.surface.layout import Layout
-from airhilt.world.truth.runways import RunwayMonitor
+from airhilt.world.truth.runways import RunwayMonitor, User
 
 B737 = load_aircraft_type("737")
 CAR = Dimensions(length_m=5.0, span_m=2.0, height_m=2.0)
@@ -134,9 +134,10 @@ def test_a_nose_beyond_the_hold_line_occupies_the_runway(
 
 
 def test_who_is_in_the_air_occupies_nothing_but_low_birds_do() -> None:
+    """Up to 15 m: an airliner on the runway is about as high."""
     plane = airliner(500.0, "climb_out", height_m=5.0, on_ground=False)
-    bird = Performing(Body(500.0, height_m=10.0, on_ground=False), category="wildlife")
-    high = Performing(Body(500.0, height_m=20.0, on_ground=False), category="wildlife")
+    bird = Performing(Body(500.0, height_m=14.9, on_ground=False), category="wildlife")
+    high = Performing(Body(500.0, height_m=15.1, on_ground=False), category="wildlife")
     watch = Watch({"A": plane, "B": bird, "C": high}).look()
     assert [watch.monitor.is_on(name, "01") for name in "ABC"] == [False, True, False]
 
@@ -205,6 +206,46 @@ def test_on_a_crossing_runway_who_rolls_through_the_intersection_is_in_the_way()
     crossing = airliner(1_505.0, "rollout", speed_kt=80.0)
     leaving = airliner(300.0, "takeoff_roll", runway="33", speed_kt=70.0)
     assert ("D", "A") in Watch({"A": crossing, "D": leaving}).look().incurred
+
+
+def test_an_incursion_is_over_once_neither_uses_the_runway_whatever_they_do_later() -> None:
+    rolling, car = airliner(1_200.0, "rollout", speed_kt=60.0), vehicle(1_700.0)
+    watch = Watch({"A": rolling, "OPS": car}).look()
+    (incursion,) = watch.monitor.incursions.values()
+    rolling.body.phase, rolling.bound_runway = "taxi", None
+    watch.look()
+    apart = incursion.closest
+    rolling.body.phase = "takeoff_roll"  # From another runway, past the car beside it.
+    rolling.body.right_m = car.body.right_m = -400.0
+    car.body.along_m = 1_230.0
+    watch.look()
+    assert incursion.over
+    assert incursion.closest == apart
+    assert watch.categories == ["C"]
+
+
+def test_each_animal_on_each_runway_is_an_incursion_of_its_own() -> None:
+    """The first one stands where two runways cross, the others on one runway alone."""
+    deer = [Performing(Body(along_m), category="wildlife") for along_m in (609.0, 900.0, 1_000.0)]
+    watch = Watch(dict(zip("XYZ", deer, strict=True))).look().look()
+    found = sorted((each.runway, each.intruder) for each in watch.monitor.incursions.values())
+    north, crossing = kdca().strip_of("01").name, kdca().strip_of("22").name
+    assert found == sorted([(north, "X"), (north, "Y"), (north, "Z"), (crossing, "X")])
+    assert set(watch.categories) == {"D"}
+
+
+@pytest.mark.parametrize("ident", ["01", "19", "15", "33", "04", "22"])
+@pytest.mark.parametrize(("past_m", "is_ahead"), [(-200.0, True), (29.0, True), (31.0, False)])
+def test_a_crossing_is_ahead_of_a_user_until_30_m_past_it(
+    ident: str, past_m: float, is_ahead: bool
+) -> None:
+    monitor = Watch({}).monitor
+    threshold = kdca().local_frame.to_local(kdca().runway(ident).threshold)
+    crossings = monitor._crossings[kdca().strip_of(ident).name]
+    assert crossings
+    for _, point in crossings:
+        user = User("A", ident, math.dist(threshold, point) + past_m, 0.0, rolling=True)
+        assert monitor._is_ahead(user, point) is is_ahead
 
 
 def test_wildlife_alone_is_of_category_d_and_so_is_who_was_misled() -> None:

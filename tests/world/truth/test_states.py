@@ -8,11 +8,12 @@ from typing import Any
 import pytest
 
 from airhilt.scenario import Scenario
+from airhilt.scenario.models import Separation
 from airhilt.units import FOOT
 from airhilt.world.actors import build_actors
-from airhilt.world.loading import draw
+from airhilt.world.loading import draw, load
 from airhilt.world.site import ScenarioSite
-from airhilt.world.truth.states import truth_of
+from airhilt.world.truth.states import minima_of, truth_of, zone_of
 
 
 def test_the_truth_is_the_state_in_degrees_and_metres(encounter: Scenario) -> None:
@@ -32,3 +33,22 @@ def test_the_truth_is_the_state_in_degrees_and_metres(encounter: Scenario) -> No
     assert truth.velocity_north_m_s == state.velocity_north_m_s
     assert truth.velocity_east_m_s == state.velocity_east_m_s
     assert truth.velocity_down_m_s == state.velocity_down_m_s
+
+
+def test_the_zone_of_a_tower_is_round_the_middle_of_its_airport() -> None:
+    site = ScenarioSite.of(load("s01a_nominal"))
+    zone = zone_of(site)
+    assert zone is not None
+    assert site.layout is not None
+    middle = site.layout.local_frame.to_local((zone.latitude_rad, zone.longitude_rad))
+    assert middle == pytest.approx((0.0, 0.0), abs=1e-3)
+    assert zone.altitude_m == site.ground_m
+
+
+def test_in_an_airspace_without_an_airport_there_is_no_zone(encounter: Scenario) -> None:
+    assert zone_of(ScenarioSite.of(encounter)) is None
+
+
+def test_the_minima_have_the_tolerance_of_level_keeping_taken_off() -> None:
+    separation = Separation(horizontal_nm=3.0, vertical_ft=1000.0, level_tolerance_ft=150.0)
+    assert minima_of(separation) == pytest.approx((5556.0, 850.0 * 0.3048))

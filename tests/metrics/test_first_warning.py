@@ -1,0 +1,101 @@
+"""The first warning: which of many it is, and when it counts."""
+
+from __future__ import annotations
+
+from typing import Any, cast
+
+import pytest
+
+from airhilt.messages import Advisory, Evidence, Severity
+from airhilt.metrics.collector import WindowTimes
+from airhilt.metrics.first_warning import FirstWarning
+from airhilt.units import SECOND_NS
+
+
+def warning(name: str, at_s: float = 0.0, revision: int = 0) -> Advisory:
+    return Advisory(
+        t_ns=round(at_s * SECOND_NS), id=name, revision=revision, recipient="AAL1",
+        recipients=("AAL1",), kind="loss_of_separation", severity=Severity.WARNING,
+        traffic=("AAL1", "DAL2"), message="climb", evidence=Evidence(sources=("adsb",)),
+        t_ready_ns=0,
+    )  # fmt: skip
+
+
+def first_of_none() -> FirstWarning:
+    """Return the first warning of a scenario without an annotated pair."""
+    return FirstWarning(None, cast(Any, None), cast(Any, None), 0.0)
+
+
+def at_s(first: FirstWarning) -> float | None:
+    return None if first.t_ns is None else first.t_ns / SECOND_NS
+
+
+def test_before_a_warning_there_is_none() -> None:
+    first = first_of_none()
+    assert (first.t_ns, first.advisory) == (None, None)
+    assert first.margin_s("tcas_ta", None) is None
+
+
+def test_what_is_not_spoken_is_read_when_it_is_published() -> None:
+    first, told = first_of_none(), warning("a", 10.0)
+    first.warned(told, is_spoken=False)
+    assert (at_s(first), first.advisory) == (10.0, told)
+
+
+def test_what_is_spoken_counts_when_its_voice_begins() -> None:
+    first, told = first_of_none(), warning("a", 10.0)
+    first.warned(told, is_spoken=True)
+    assert first.advisory is None
+    first.heard(("a", "AAL1", 1), 11 * SECOND_NS)  # Another revision.
+    assert first.advisory is None
+    first.heard(("a", "AAL1", 0), 12 * SECOND_NS)
+    assert (at_s(first), first.advisory) == (12.0, told)
+
+
+def test_the_first_of_several_counts_and_of_one_its_first_revision() -> None:
+    first = first_of_none()
+    first.warned(warning("a", 10.0), is_spoken=False)
+    first.warned(warning("a", 11.0, revision=1), is_spoken=False)
+    first.warned(warning("b", 12.0), is_spoken=False)
+    assert at_s(first) == 10.0
+
+
+def test_what_is_withdrawn_before_the_conflict_begins_is_no_warning_of_it() -> None:
+    first = first_of_none()
+    first.warned(warning("a", 10.0), is_spoken=False)
+    first.warned(warning("b", 11.0), is_spoken=True)
+    first.withdrawn("a")
+    first.withdrawn("b")
+    first.heard(("b", "AAL1", 0), 12 * SECOND_NS)
+    assert first.advisory is None
+
+
+def test_what_is_withdrawn_after_that_was_one() -> None:
+    first = first_of_none()
+    first.warned(warning("a", 10.0), is_spoken=False)
+    first.begin()
+    first.withdrawn("a")
+    first.warned(warning("b", 11.0), is_spoken=False)
+    assert at_s(first) == 10.0
+
+
+def test_where_the_voice_is_lost_what_waits_for_it_is_read() -> None:
+    first = first_of_none()
+    first.warned(warning("a", 10.0), is_spoken=True)
+    first.voice_lost(15 * SECOND_NS)
+    assert at_s(first) == 15.0
+    first.heard(("a", "AAL1", 0), 16 * SECOND_NS)
+    assert at_s(first) == 15.0
+
+
+@pytest.mark.parametrize(
+    ("window", "end_ns"),
+    [
+        (WindowTimes(), None),
+        (WindowTimes(begun_ns=1, closed_ns=5), None),
+        (WindowTimes(opened_ns=3), 9),
+        (WindowTimes(opened_ns=3, closed_ns=5), 5),
+    ],
+)
+def test_a_window_ends_where_it_closed_or_now(window: WindowTimes, end_ns: int | None) -> None:
+    assert window.end_ns(9) == end_ns
