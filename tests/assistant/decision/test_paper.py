@@ -11,6 +11,7 @@ from airfield import (
     NORTH,
     Airfield,
     Mover,
+    drives,
     lands,
     stands,
     takes_off,
@@ -158,6 +159,20 @@ def test_it_is_over_when_one_of_them_is_named() -> None:
     movers = (arrival(), Mover("N172SP", NORTH, stands(40, -100)))
     field = flown(*movers, seconds=35.0, calls=calls, briefing=ALIKE)
     assert [a.active for a in field.to("ATC") if a.kind == "readback_mismatch"] == [True, False]
+
+
+@pytest.mark.parametrize("release_s", [None, 2.0, 12.0])
+def test_a_conflict_is_over_once_it_has_been_for_5_s_unless_told_otherwise(
+    release_s: float | None,
+) -> None:
+    def over_s(config: PaperConfig) -> float:
+        movers = arrival(110.0), Mover("OPS1", NORTH, drives(20.0), category="C2")
+        told = flown(*movers, seconds=80.0, worker=paper(config)).told
+        return next(t_s for t_s, each in told if not each.active)
+
+    at_once_s = over_s(PaperConfig(release_s=0.0))
+    config = PaperConfig() if release_s is None else PaperConfig(release_s=release_s)
+    assert over_s(config) - at_once_s == pytest.approx(release_s or 5.0, abs=0.5)
 
 
 # --- the score ------------------------------------------------------------------------------

@@ -13,7 +13,15 @@ from airhilt.errors import SpeechError
 from airhilt.scenario.models import Radio
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.backends.audio import AudioRadio
-from airhilt.sensors.radio.channel import BackgroundNoise, Channel, Other, VhfChannel, active
+from airhilt.sensors.radio.channel import (
+    WHISTLES_HZ,
+    BackgroundNoise,
+    Channel,
+    Other,
+    VhfChannel,
+    _even_out,
+    active,
+)
 from airhilt.sensors.radio.on_air import OnAir, Utterance
 from airhilt.voices.engines.espeak import Espeak
 
@@ -226,6 +234,24 @@ def test_gain_control_evens_out_a_weak_and_a_strong_half() -> None:
         return decibels(power(samples[half:]) / power(samples[:half]))
 
     assert difference(after) < difference(before) - 4.0
+
+
+def test_gain_control_knows_nothing_of_what_comes_half_a_frame_later() -> None:
+    """In the middle of a frame of 20 ms the gain is that of the frames up to it."""
+    frame = SAMPLE_RATE_HZ // 50
+    quiet = np.full(100 * frame, 0.05, np.float32)
+    louder = quiet.copy()
+    louder[60 * frame :] = 0.5
+    alone, followed = _even_out(quiet, 0.7), _even_out(louder, 0.7)
+    middle = 59 * frame + frame // 2
+    assert followed[: middle + 1] == pytest.approx(alone[: middle + 1])
+    assert followed[60 * frame - 1] < 0.99 * alone[60 * frame - 1]
+
+
+def test_two_carriers_are_apart_by_what_their_transmitters_may_be_off() -> None:
+    """Each by 5 parts in a million, at 120 MHz (ICAO Annex 10 volume III)."""
+    assert WHISTLES_HZ[1] == pytest.approx(2.0 * 5e-6 * 120e6)
+    assert 0.0 < WHISTLES_HZ[0] < WHISTLES_HZ[1]
 
 
 def test_gain_control_leaves_a_call_at_its_usual_level_as_loud_as_it_is() -> None:

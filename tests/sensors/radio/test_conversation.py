@@ -612,6 +612,44 @@ def test_what_a_person_says_is_of_a_person_however_little_of_it_is_understood(se
     assert spoken.is_of_person
 
 
+@pytest.mark.parametrize(
+    ("seat", "words", "is_told"),
+    [
+        (TOWER, "American 123, behind the landing traffic line up and wait runway one", True),
+        (TOWER, "American 123, line up and wait runway one", False),
+        (TOWER, "Somebody else, behind the landing traffic line up and wait runway one", False),
+        ("AAL123", "Behind the landing traffic, lining up runway one, American 123", False),
+    ],
+)
+def test_a_unit_is_told_that_a_condition_alone_makes_nobody_move(
+    seat: str, words: str, is_told: bool
+) -> None:
+    world = World(CLEARANCE, READBACK)
+    lines = world.scenario.radio.lines
+    stations = Stations(cast(Any, world.actors), ScenarioSite.of(world.scenario), lines)
+    seats, told = Seats([seat], stations, {}, world.publish, lambda: 0), []
+    seats.notify = lambda speaker, text: told.append((speaker, text))
+    seats.make(seat, KHZ, words)
+    waits = [speaker for speaker, text in told if "reads a condition back and waits" in text]
+    assert waits == ([seat] if is_told else [])
+
+
+def test_nobody_hears_who_exists_no_more_or_is_heard_by_them() -> None:
+    world = World(CLEARANCE, READBACK)
+    stations = Stations(
+        cast(Any, world.actors), ScenarioSite.of(world.scenario), world.scenario.radio.lines
+    )
+    assert stations.is_there("AAL123")
+    assert stations.audible("AAL123", TOWER)
+    assert stations.received("AAL123")
+    cast(Any, world.actors["AAL123"].body).ended = "collision"
+    assert not stations.is_there("AAL123")
+    assert not stations.audible("AAL123", TOWER)
+    assert not stations.audible(TOWER, "AAL123")
+    assert not stations.received("AAL123")
+    assert stations.audible(TOWER, TOWER)
+
+
 @pytest.mark.parametrize("topology", ["parallel", "asr_first", "gated_fusion"])
 def test_with_text_and_no_noise_all_topologies_are_the_same(topology: str) -> None:
     world = World(CLEARANCE, READBACK, topology=topology).run()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable
 from functools import partial
+from types import SimpleNamespace
 from typing import Any, TypeVar, cast
 
 import numpy as np
@@ -423,6 +424,27 @@ def test_what_ended_when_a_piece_of_a_persons_call_begins_is_not_heard_in_it() -
         return audio_radio().receive(person, mixed_with, "none", begin, 5 * SECOND_NS)
 
     assert received((other,)) == received(())
+
+
+@pytest.mark.parametrize(("begin_s", "context_s"), [(4.0, 2.0), (2.0, 2.0), (1.5, 1.5), (0.0, 0.0)])
+def test_a_piece_of_a_persons_call_is_levelled_with_the_two_seconds_before_it(
+    begin_s: float, context_s: float
+) -> None:
+    pieces: list[Audio] = []
+    radio = audio_radio()
+
+    def transmit(piece: Audio, *_: Any) -> Audio:
+        pieces.append(piece)
+        return piece
+
+    radio._channel = cast(Any, SimpleNamespace(transmit=transmit))
+    said = Utterance("person", KHZ, "AAL1", None, "")
+    person = OnAir(said, 0, 5 * SECOND_NS, spoken(5.0), is_open_ended=True)
+    begin = round(begin_s * SAMPLE_RATE_HZ)
+    given_out = radio.receive(person, (), "none", begin, 5 * SECOND_NS)
+    (piece,) = pieces
+    assert len(piece) / SAMPLE_RATE_HZ == pytest.approx(5.0 - begin_s + context_s)
+    assert len(given_out) == 2 * (5 * SAMPLE_RATE_HZ - begin)
 
 
 # --- a person's microphone ----------------------------------------------------------------------
