@@ -58,6 +58,19 @@ def test_what_the_code_does_is_changed_and_types_texts_and_errors_are_not() -> N
     assert {name for line, name in changes(SOURCE) if line in (2, 6)} == {"NumberReplacer"}
 
 
+def test_the_star_before_named_parameters_multiplies_nothing() -> None:
+    signature = "def of(first: int, second=2, *, third=4 * 5) -> int:\n    return first * third\n"
+    stars = [
+        place
+        for place, found in places(signature).items()
+        if any(name.startswith("ReplaceBinaryOperator_Mul") for name, _ in found)
+    ]
+    assert stars == [(1, signature.index("* 5")), (2, 17)]
+    assert not changes("def of(*, third: int) -> int:\n    return third\n")
+    defaults = {place for place in places(signature) if place[0] == 1}
+    assert (1, signature.index("2,")) in defaults
+
+
 def test_a_mutant_differs_in_one_place() -> None:
     changed = mutant(SOURCE, 10, "ReplaceBinaryOperator_Sub_Add").applied(SOURCE)
     assert changed == SOURCE.replace("value - LIMIT", "value + LIMIT")

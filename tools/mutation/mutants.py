@@ -116,7 +116,7 @@ class Module:
     @cached_property
     def _left_out(self) -> list[tuple[Position, Position]]:
         """Begin and end of what is not mutated."""
-        return [_span(node) for node in _unmutated(self._tree)]
+        return [*map(_span, _unmutated(self._tree)), *_marks_of_keywords(self._tree)]
 
     def is_mutated(self, place: Position) -> bool:
         """Return whether a place is none of those that are left out."""
@@ -282,6 +282,17 @@ def _unmutated(tree: ast.Module) -> Iterator[ast.AST]:
             yield node.annotation
         if isinstance(node, ast.BinOp) and _is_union(node):
             yield node
+
+
+def _marks_of_keywords(tree: ast.Module) -> Iterator[tuple[Position, Position]]:
+    """Yield where a signature has a star before named parameters: it multiplies nothing."""
+    for node in ast.walk(tree):
+        if not isinstance(node, FUNCTIONS) or not node.args.kwonlyargs or node.args.vararg:
+            continue
+        signature = node.args
+        before = [*signature.posonlyargs, *signature.args, *signature.defaults]
+        begin = max((_span(each)[1] for each in before), default=(node.lineno, node.col_offset))
+        yield begin, _span(signature.kwonlyargs[0])[0]
 
 
 def _is_union(node: ast.expr) -> bool:
