@@ -1,0 +1,284 @@
+"""Single steps of what is told of aircraft that only cameras show, at both sides of each limit."""
+
+from __future__ import annotations
+
+import math
+from types import SimpleNamespace
+from typing import Any, cast
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from airhilt.assistant.decision.approach import Approach, _line, _variance_ratio
+from airhilt.assistant.decision.escalation import Escalation
+from airhilt.assistant.decision.intruder_advice import evasion
+from airhilt.assistant.decision.intruders import IntruderConfig, IntruderWatch
+from airhilt.assistant.decision.line_of_sight import Ray
+from airhilt.assistant.decision.standing import _across, may_stand
+from airhilt.geodesy.relative_motion import Minima
+from airhilt.messages import Climb, Severity, Turn
+from airhilt.units import DEGREE, FOOT, SECOND_NS
+
+
+def approach(**changed: Any) -> Approach:
+    """Return a straight approach: contact in 20 s, known well, of something of 0.01 rad."""
+    usual = Approach(0.05, 0.001, 0.001, (0.0, 0.0), 0.0, 0.01)
+    return usual._replace(**changed)
+
+
+# --- what an approach says ------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("closing", "time_s"), [(0.05, 20.0), (0.0, math.inf), (-0.05, math.inf)])
+def test_the_time_to_contact_is_the_inverse_of_the_rate(closing: float, time_s: float) -> None:
+    assert approach(closing=closing).time_s == time_s
+
+
+@pytest.mark.parametrize(
+    ("errors", "longest_s"),
+    [
+        ((0.003, 0.004), 25.0),
+        ((0.0, 0.0), 20.0),
+        ((0.015, 0.02), math.inf),
+        ((0.02, 0.02), math.inf),
+    ],
+)
+def test_the_longest_time_is_that_of_two_standard_deviations_less(
+    errors: tuple[float, float], longest_s: float
+) -> None:
+    """0.003 and 0.004 are 0.005 together, and 0.05 less twice that is 0.04 a second."""
+    found = approach(closing_error=errors[0], lasting_error=errors[1]).longest_s
+    assert found == pytest.approx(longest_s)
+
+
+@pytest.mark.parametrize(("error", "grows"), [(0.0249, True), (0.0251, False)])
+def test_what_grows_by_more_than_two_standard_deviations_comes_nearer(
+    error: float, grows: bool
+) -> None:
+    assert approach(closing_error=error, lasting_error=1.0).is_growing is grows
+
+
+@pytest.mark.parametrize(
+    ("turning", "error", "sizes"),
+    [
+        ((0.003, 0.004), 0.0, 10.0),  # 0.005 rad/s in 20 s, over 0.01 rad.
+        ((-0.003, -0.004), 0.0, 10.0),
+        ((0.003, 0.004), 0.001, 6.0),
+        ((0.003, 0.004), 0.0025, 0.0),
+        ((0.003, 0.004), 0.004, 0.0),
+    ],
+)
+def test_it_passes_by_as_many_sizes_as_its_direction_turns(
+    turning: tuple[float, float], error: float, sizes: float
+) -> None:
+    found = approach(turning_rad_s=turning, turning_error=error)
+    assert found.least_miss() == pytest.approx(sizes)
+    assert found.passes_above() == pytest.approx(turning[1] * 20.0 / 0.01)
+
+
+@given(st.floats(-5.0, 5.0), st.floats(-2.0, 2.0), st.integers(6, 30))
+def test_a_straight_line_is_fitted_through_points_on_one_and_not_through_an_outlier(
+    now: float, slope: float, count: int
+) -> None:
+    times = np.linspace(-3.0, 0.0, count)
+    values = now + slope * times
+    values[count // 2] += 50.0
+    errors = np.full(count, 0.1)
+    found = _line(times, values, errors)
+    assert (found.now, found.slope) == pytest.approx((now, slope), abs=1e-6)
+    assert found.slope_error > 0.0
+
+
+def test_the_error_of_a_slope_is_that_of_least_squares_where_pictures_are_unlike() -> None:
+    times = np.linspace(-10.0, 0.0, 21)  # Half a second apart: more than errors stay alike.
+    found = _line(times, 2.0 + 0.3 * times, np.full(21, 0.2))
+    spread = float(np.sum((times - times.mean()) ** 2))
+    assert found.slope_error == pytest.approx(0.2 / math.sqrt(spread))
+
+
+@pytest.mark.parametrize(
+    ("misfit", "ratio"),
+    [
+        ((1.0, -1.0, 1.0, -1.0), 1.0),  # Errors that alternate do not last.
+        ((0.0, 0.0), 1.0),
+        ((1.0, 1.0, 1.0, 1.0), 7.0),  # r is 3 / 4.
+        ((1.0,) * 100, 39.0),  # 0.99 counts as 0.95.
+    ],
+)
+def test_errors_that_last_raise_the_variance(misfit: tuple[float, ...], ratio: float) -> None:
+    assert _variance_ratio(np.array(misfit)) == pytest.approx(ratio)
+
+
+# --- how grave it is ------------------------------------------------------------------------
+
+
+def grade(seen: Approach, *, age_s: float = 0.0, is_there: bool = True) -> Severity | None:
+    shows = SimpleNamespace(shows=lambda _: is_there)
+    watch = IntruderWatch(
+        IntruderConfig(), cast(Any, shows), lambda _: None, lambda: Minima(1222.0, 137.0)
+    )
+    track = SimpleNamespace(last=SimpleNamespace(t_ns=0), belief_of_one_look=0.9)
+    return watch._grade(cast(Any, track), seen, round(age_s * SECOND_NS))
+
+
+@pytest.mark.parametrize(
+    ("time_s", "severity"),
+    [
+        (24.9, Severity.WARNING), (25.1, Severity.CAUTION), (59.9, Severity.CAUTION),
+        (60.1, Severity.ADVISORY), (89.9, Severity.ADVISORY), (90.1, None),
+    ],
+)  # fmt: skip
+def test_the_nearer_an_intruder_the_graver_it_is(time_s: float, severity: Severity | None) -> None:
+    assert grade(approach(closing=1.0 / time_s)) is severity
+    assert grade(approach(closing=1.0 / (time_s + 5.0)), age_s=5.0) is severity
+    doubtful = grade(approach(closing=1.0 / time_s), is_there=False)
+    assert doubtful is (Severity.ADVISORY if severity else None)
+
+
+@pytest.mark.parametrize(
+    ("sizes", "severity"),
+    [(11.9, Severity.WARNING), (12.1, Severity.CAUTION), (24.9, Severity.CAUTION), (25.1, None)],
+)
+def test_the_nearer_it_passes_the_graver_it_is(sizes: float, severity: Severity | None) -> None:
+    seen = approach(turning_rad_s=(sizes * 0.01 / 20.0, 0.0))
+    assert seen.least_miss() == pytest.approx(sizes)
+    assert grade(seen) is severity
+
+
+def test_what_recedes_or_is_past_is_nothing() -> None:
+    assert grade(approach(closing=-0.05)) is None
+    assert grade(approach(closing=0.05, closing_error=0.051)) is None
+    assert grade(approach(), age_s=20.1) is None
+
+
+# --- the way out ----------------------------------------------------------------------------
+
+
+def way_out(
+    seen: Approach | None = None, *, elevation_deg: float = 0.0, label: str = "airplane",
+    rate_fpm: float = 0.0, height_m: float = 3000.0, altitude_ft: float | None = 10_000.0,
+) -> Climb | Turn:  # fmt: skip
+    ray = Ray(0.0, math.cos(elevation_deg * DEGREE), math.sin(elevation_deg * DEGREE))
+    view = SimpleNamespace(height_m=height_m)
+    track = SimpleNamespace(
+        label=label, last=SimpleNamespace(ray=ray, geometry=SimpleNamespace(view=view))
+    )
+    report = SimpleNamespace(altitude_ft=altitude_ft, vertical_rate_fpm=rate_fpm)
+    return evasion(cast(Any, track), seen or approach(), cast(Any, report), 450.0 * FOOT)
+
+
+def sense(told: Climb | Turn) -> str:
+    return told.sense if isinstance(told, Climb) else "turn"
+
+
+@pytest.mark.parametrize(
+    ("how", "expected"),
+    [
+        ({}, "climb"),
+        ({"rate_fpm": -1.0}, "descend"),
+        ({"elevation_deg": 0.6}, "descend"),
+        ({"elevation_deg": -0.6, "rate_fpm": -500.0}, "climb"),
+        ({"elevation_deg": 0.4}, "climb"),  # About level: as it moves already.
+        ({"label": "bird", "elevation_deg": 5.0}, "climb"),
+        ({"altitude_ft": None}, "turn"),
+        ({"rate_fpm": -1.0, "height_m": 200.0}, "turn"),
+    ],
+)
+def test_the_way_out_leads_away_from_it_and_not_into_the_ground(
+    how: dict[str, Any], expected: str
+) -> None:
+    assert sense(way_out(**how)) == expected
+
+
+@pytest.mark.parametrize(("up", "expected"), [(1.1, "descend"), (-1.1, "climb"), (0.9, "climb")])
+def test_what_will_pass_above_is_dived_under(up: float, expected: str) -> None:
+    """By more than its own size, whatever it does now."""
+    seen = approach(turning_rad_s=(0.0, up * 0.01 / 20.0), turning_error=0.0)
+    assert sense(way_out(seen)) == expected
+    if expected == "climb":
+        assert sense(way_out(seen, rate_fpm=-1.0)) == ("climb" if up < 0.0 else "descend")
+
+
+def test_to_the_right_goes_who_cannot_climb_or_descend() -> None:
+    told = way_out(altitude_ft=None)
+    assert isinstance(told, Turn)
+    assert told.degrees > 0
+
+
+# --- what may stand on the ground -----------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("label", "size_rad", "stands"),
+    [("airplane", 0.0399, True), ("airplane", 0.0401, False), ("bird", 0.0099, True),
+     ("bird", 0.0101, False)],
+)  # fmt: skip
+def test_what_would_be_larger_than_an_airliner_on_the_ground_is_in_the_air(
+    label: str, size_rad: float, stands: bool
+) -> None:
+    """From 1,000 m and 30 degrees below the horizon the ground is 2 km away: 80 m are 0.04 rad."""
+    foot = SimpleNamespace(elevation_rad=-30.0 * DEGREE)
+    geometry = SimpleNamespace(view=SimpleNamespace(height_m=1000.0), foot=lambda _: foot)
+    last = SimpleNamespace(geometry=geometry, box=None, size_rad=(size_rad, 0.001))
+    assert may_stand(cast(Any, SimpleNamespace(label=label, last=last))) is stands
+    foot.elevation_rad = 0.0
+    assert not may_stand(cast(Any, SimpleNamespace(label=label, last=last)))
+
+
+@given(st.floats(-3.1, 3.1), st.floats(-1.4, 1.4))
+def test_right_and_above_are_square_to_a_line_of_sight(azimuth: float, elevation: float) -> None:
+    ray = Ray(
+        math.cos(elevation) * math.sin(azimuth), math.cos(elevation) * math.cos(azimuth),
+        math.sin(elevation),
+    )  # fmt: skip
+    axes = np.array([*_across(ray), ray])
+    assert axes @ axes.T == pytest.approx(np.eye(3), abs=1e-9)
+    assert np.linalg.det(axes) == pytest.approx(-1.0)  # East, up and north at azimuth 0.
+    assert axes[1, 2] > 0.0
+    assert axes[0, 2] == 0.0
+
+
+# --- when it is told ------------------------------------------------------------------------
+
+
+def at(seconds: float) -> int:
+    return round(seconds * SECOND_NS)
+
+
+def test_a_severity_is_told_once_it_has_held_and_again_only_when_it_rises() -> None:
+    told = Escalation()
+    assert not told.rises(Severity.CAUTION, at(0.0), 1.0)
+    assert not told.rises(Severity.CAUTION, at(0.999), 1.0)
+    assert told.rises(Severity.WARNING, at(1.0), 1.0)
+    assert told.severity is Severity.CAUTION  # The WARNING has not held yet.
+    assert not told.rises(Severity.WARNING, at(1.999), 1.0)
+    assert told.rises(Severity.WARNING, at(2.0), 1.0)
+    assert not told.rises(Severity.CAUTION, at(9.0), 1.0)
+    assert told.severity is Severity.WARNING
+
+
+def test_a_severity_that_was_interrupted_begins_anew() -> None:
+    told = Escalation()
+    told.observe(Severity.CAUTION, at(0.0))
+    told.observe(None, at(0.5))
+    assert not told.rises(Severity.CAUTION, at(1.0), 1.0)
+    assert told.rises(Severity.CAUTION, at(2.0), 1.0)
+
+
+def test_information_alone_is_never_told() -> None:
+    assert not Escalation().rises(Severity.INFO, at(5.0), 0.0)
+
+
+def test_a_conflict_is_over_once_it_has_been_quiet_for_long_enough() -> None:
+    told = Escalation()
+    assert told.rises(Severity.CAUTION, at(0.0), 0.0)
+    assert not told.is_over(at(1.0), 5.0)
+    assert not told.is_over(at(5.999), 5.0)
+    assert told.is_over(at(6.0), 5.0)
+    told.stays()
+    assert not told.is_over(at(7.0), 5.0)
+    told.stays_open(at(12.0), 5.0)
+    assert told.rises(Severity.CAUTION, at(13.0), 0.0)  # It has come back.
+    assert not told.rises(Severity.CAUTION, at(14.0), 0.0)
