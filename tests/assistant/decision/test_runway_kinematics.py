@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from airfield import BRIEFING, NORTH, SOUTH, Axis, degrees
 from airhilt.assistant.decision.aerodrome import Aerodrome, Direction, Strip, Vector, Way
 from airhilt.assistant.decision.leaving import leaving_s
+from airhilt.assistant.decision.meeting_runways import meeting_uses
 from airhilt.assistant.decision.mobiles import (
     Kind,
     Mobile,
@@ -21,8 +22,9 @@ from airhilt.assistant.decision.mobiles import (
     lined_up_on,
     use_of,
 )
-from airhilt.assistant.decision.situation import Obstacle
-from airhilt.messages import AdsbReport
+from airhilt.assistant.decision.situation import Obstacle, Situation
+from airhilt.assistant.decision.threats import Outlook, RunwayConfig, Threat
+from airhilt.messages import AdsbReport, Severity
 from airhilt.units import DEGREE, KNOT, SECOND_NS
 
 assert BRIEFING.airport is not None
@@ -298,3 +300,62 @@ def test_courses_and_sides_are_those_of_a_map() -> None:
         )
         assert direction.along_m(middle) == pytest.approx(1050.0, abs=0.5)
         assert math.cos(direction.course_rad - (4.0 if sign > 0 else 184.0) * DEGREE) > 0.99999
+
+
+# --- two that meet --------------------------------------------------------------------------
+
+
+def meeting(first: Use, second: Use) -> list[Threat]:
+    """Return what is told of two uses, at the time of their reports."""
+    assert BRIEFING.airport is not None
+    situation = Situation(BRIEFING.airport, BRIEFING)
+    return list(meeting_uses(Outlook(situation, RunwayConfig(), 0), first, second))
+
+
+def opposite(kind: Kind, gap_m: float, speed_m_s: float) -> Use:
+    """Return a use of the other end, so far from 500 m past the threshold of runway 01."""
+    who = mobile(500.0 + gap_m, axis=NORTH, off_deg=180.0, speed_m_s=speed_m_s)
+    strip, direction = runway("19")
+    return Use(who, strip, direction, kind, direction.along_m(who.point))
+
+
+@pytest.mark.parametrize(
+    ("gap_m", "own_m_s", "other_m_s", "time_s"),
+    [(900.0, 40.0, 20.0, 15.0), (900.0, 5.0, 2.0, 900.0 / (25 * KNOT))],
+)
+def test_two_that_roll_towards_each_other_are_a_warning_at_once(
+    gap_m: float, own_m_s: float, other_m_s: float, time_s: float
+) -> None:
+    """The time is that of their speeds together, 25 kt at least."""
+    (threat,) = meeting(use("departure", 500.0, own_m_s), opposite("departure", gap_m, other_m_s))
+    assert threat.severity is Severity.WARNING
+    assert threat.time_to_go_s == pytest.approx(time_s, rel=1e-3)
+
+
+def test_two_that_have_passed_each_other_or_go_the_same_way_do_not_meet() -> None:
+    own = use("departure", 500.0, 40.0)
+    assert meeting(own, opposite("departure", -20.0, 40.0)) == []
+    assert meeting(own, use("departure", 900.0, 40.0)) == []
+    assert meeting(use("rollout", 500.0, 40.0), opposite("arrival", 900.0, 70.0)) == []
+
+
+@pytest.mark.parametrize(
+    ("time_s", "severity"),
+    [(34.0, Severity.WARNING), (36.0, Severity.CAUTION), (59.0, Severity.CAUTION), (61.0, None)],
+)
+def test_two_arrivals_from_both_ends_are_as_grave_as_the_sooner_one(
+    time_s: float, severity: Severity | None
+) -> None:
+    later = opposite("arrival", 500.0, 70.0)
+    later = later._replace(along_m=-70.0 * (time_s + 10.0))
+    found = meeting(use("arrival", -70.0 * time_s, 70.0), later)
+    assert [threat.severity for threat in found] == ([severity] if severity else [])
+
+
+def test_crossings_are_where_the_centre_lines_meet() -> None:
+    point = AERODROME.crossing(runway("01")[0], runway("15")[0])
+    assert point is not None
+    assert AERODROME.crossing(runway("15")[0], runway("01")[0]) == point
+    for ident in ("01", "15", "19", "33"):
+        assert runway(ident)[1].across_m(point) == pytest.approx(0.0, abs=0.01)
+    assert AERODROME.crossing(runway("01")[0], runway("01")[0]) is None

@@ -9,6 +9,7 @@ import pytest
 
 from airhilt.assistant.decision.engines import decision_engine
 from airhilt.assistant.decision.worker import DecisionWorker
+from airhilt.assistant.equipment import equipment_worker
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.errors import AirhiltError
 from airhilt.messages import Climb, MaintainLevel
@@ -243,3 +244,12 @@ def test_an_unknown_argument_is_refused() -> None:
 def test_the_same_replies_give_the_same_alerts() -> None:
     told = [meeting(ONE, OTHER, noise_m=15.24).fly().told for _ in range(2)]
     assert told[0] == told[1]
+
+
+def test_as_equipment_its_alerts_come_before_its_next_cycle() -> None:
+    """It works once a second (FAA, Introduction to TCAS II Version 7.1)."""
+    described = equipment_worker("tcas:hmd").description
+    assert (described.name, described.modality) == ("equipment-tcas", "equipment")
+    assert described.latency is not None
+    assert described.latency.sigma == 0.0
+    assert 0.0 < described.latency.median_s < 1.0
