@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import pytest
 
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, wrap_angle
+from airhilt.world.flight.procedures.engine_failure import DriftDown
 from airhilt.world.surface.runway import RunwayEnd
+from stand_ins import state_at
 
 
 def test_a_twin_drifts_down_at_its_speed_on_its_heading(
@@ -124,3 +127,17 @@ def test_an_emergency_descent_loses_4000_feet_a_minute_and_levels_off(
 def test_an_emergency_descent_upwards_is_refused(in_cruise: Callable[..., Any]) -> None:
     with pytest.raises(ValueError, match="expected less than the altitude now"):
         in_cruise("737").procedures.emergency_descent(12_000.0)
+
+
+@pytest.mark.parametrize(
+    ("lever", "rate_fpm", "is_kept"),
+    [(1.0, -99.0, True), (1.0, -101.0, False), (1.0, 50.0, True), (0.99, -50.0, False)],
+)
+def test_engines_at_full_thrust_keep_an_altitude_that_costs_less_than_100_ft_min(
+    lever: float, rate_fpm: float, is_kept: bool
+) -> None:
+    state = state_at(speed_m_s=100.0)
+    climb = rate_fpm * FOOT_PER_MINUTE / 100.0
+    autopilot = SimpleNamespace(lever=lever, potential_climb=climb)
+    systems = SimpleNamespace(autopilot=autopilot)
+    assert DriftDown(cast(Any, systems), cast(Any, None))._kept(state) is is_kept
