@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import TypeVar
@@ -64,36 +64,56 @@ class RunConnection:
         tls: Path | None = None,
     ) -> None:
         self.session = connect_client(endpoint, patience_s, tls, role)
-        self.prefix = find_run(self.session, patience_s)
+        try:
+            self.prefix = find_run(self.session, patience_s)
+        except BaseException:
+            close_session(self.session)
+            raise
         self.run = self.prefix.rpartition("/")[2]
 
-    def seats(self, names: Sequence[str]) -> tuple[str, ...]:
+    def seats(self, names: Sequence[str], tell: Callable[[str], None]) -> tuple[str, ...]:
         """Return the seats of the run that are asked for by names and roles, each once.
 
         Nobody knows the seats of a run that has not begun. A role waits until it has; without one,
         the names are returned as they are.
 
+        Parameters
+        ----------
+        tell
+            Called with a line for the user once there is a role that has to wait.
+
         Raises
         ------
         StationError
-            The run goes on, and has no such seat.
+            The run goes on, and has no such seat; or a role is asked for, and it does not say
+            which seats it has.
         """
+        roles = sorted(ROLES.intersection(names))
         phase = self._phase() if names else None
-        while phase == "waiting" and not ROLES.isdisjoint(names):
+        if roles and phase == "waiting":
+            tell(f"the run has not begun; until then nobody knows the seat of {roles[0]!r}")
+        while roles and phase == "waiting":
             time.sleep(PHASE_PERIOD_S)
-            phase = self._phase()
-        if phase != "running":
-            return tuple(names)
+            phase = self._phase() or self._phase()  # One answer may be late.
+        if phase == "running":
+            return self._known(names)
+        if roles:
+            raise StationError(
+                f"--seat {roles[0]!r}: the run does not say which seats it has "
+                f"({phase or 'no answer'}); expected a run that goes on"
+            )
+        return tuple(names)
+
+    def _known(self, names: Sequence[str]) -> tuple[str, ...]:
         known = sorted({info.seat for info in self._told("seat/*/info", SeatInfo)})
         controller = next((one.controller for one in self._told("briefing", Briefing)), "")
-        found = without_roles(names, controller, known)
-        for seat in found:
-            if seat not in known:
+        for name in names:
+            if not set(without_roles([name], controller, known)).issubset(known):
                 raise StationError(
-                    f"--seat {readable(seat)!r}: not a seat of the run; expected "
+                    f"--seat {readable(name)!r}: not a seat of the run; expected "
                     + (readable(", ".join(map(repr, known))) or "none: it has no seats")
                 )
-        return found
+        return without_roles(names, controller, known)
 
     def answers(self, key: str) -> Iterator[zenoh.Sample]:
         """Yield what the run answers to a query on a key below its own."""

@@ -29,7 +29,7 @@ CHECK_PERIOD_S = 0.1
 
 
 class _Interruptible:
-    """Application that ends quietly when the server gives up what it still does."""
+    """Application that answers, and has no traceback, when the server gives up what it does."""
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
@@ -80,7 +80,7 @@ def serve(
     listening = address.bound()
     url = address.url(listening.getsockname()[1])
     config = uvicorn.Config(
-        _Interruptible(Guard(app, address, notice)),
+        Guard(_Interruptible(app), address, notice),
         log_level="warning",
         access_log=False,
         lifespan="off",

@@ -9,7 +9,7 @@ import threading
 import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import closing, contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
 from typing import TypeVar
 
@@ -18,6 +18,7 @@ import zenoh
 
 from airhilt.bus.certificates import make_keys
 from airhilt.bus.session import Bus, configuration, free_endpoint
+from airhilt.errors import StationError
 from airhilt.messages import Advisory, AdvisoryAudio, Briefing, Clock, Phase, SeatInfo
 from airhilt.record import Logged
 from airhilt.sensors.radio.hearing import key_chunk
@@ -185,16 +186,40 @@ def test_a_seat_that_a_run_does_not_have_is_refused_with_the_names_of_its_seats(
 @pytest.mark.parametrize("names", [["tower", "ground"], ["Washington Tower", "ground", "tower"]])
 def test_a_seat_may_be_asked_for_by_the_role_of_its_unit(names: list[str]) -> None:
     with begun() as bus, closing(RunConnection(bus.endpoint)) as connection:
-        assert sorted(connection.seats(names)) == ["Washington Ground", "Washington Tower"]
+        assert sorted(connection.seats(names, pytest.fail)) == [
+            "Washington Ground",
+            "Washington Tower",
+        ]
 
 
 def test_a_role_is_known_once_the_run_has_begun_and_a_name_is_taken_before_that() -> None:
+    told: list[str] = []
     with begun("waiting") as bus, closing(RunConnection(bus.endpoint)) as connection:
-        assert connection.seats(["Tower"]) == ("Tower",)
+        assert connection.seats(["Tower"], told.append) == ("Tower",)
+        assert told == []
         beginning = threading.Timer(0.3, tell_phase, (bus, "running"))
         beginning.start()
-        assert connection.seats(["tower"]) == ("Washington Tower",)
+        assert connection.seats(["tower"], told.append) == ("Washington Tower",)
         beginning.join()
+    assert told == ["the run has not begun; until then nobody knows the seat of 'tower'"]
+
+
+def test_a_role_in_a_run_that_is_over_is_refused() -> None:
+    with begun("finished") as bus, closing(RunConnection(bus.endpoint)) as connection:
+        with pytest.raises(StationError, match=r"--seat 'tower': .*\(finished\); expected a run"):
+            connection.seats(["tower"], pytest.fail)
+        assert connection.seats(["Tower"], pytest.fail) == ("Tower",)
+
+
+def test_a_role_that_waits_for_a_run_is_refused_once_the_run_is_gone() -> None:
+    with ExitStack() as run:
+        connection = RunConnection(run.enter_context(begun("waiting")).endpoint)
+        ending = threading.Timer(0.3, run.close)
+        ending.start()
+        with pytest.raises(StationError, match=r"no answer"):
+            connection.seats(["ground"], lambda _: None)
+        ending.join()
+        connection.close()
 
 
 @pytest.fixture(params=[False, True], ids=["plain", "tls"])

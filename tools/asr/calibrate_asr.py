@@ -35,6 +35,7 @@ from airhilt.assistant.asr.alternatives import WordCurve
 from airhilt.assistant.asr.beam_search import BeamSearch
 from airhilt.assistant.asr.engines.embedded import Ctc, Emission, confidence_of
 from airhilt.assistant.asr.language import Language
+from airhilt.assistant.asr.logistic import log_odds_of
 from airhilt.assistant.asr.lost_words import LossCurve, log_heard
 from airhilt.assistant.asr.pieces import Pieces
 from airhilt.assistant.asr.spotting import Aligned, Odds, Spotter
@@ -92,12 +93,6 @@ class Curves(NamedTuple):
 def confidences_of(curves: Curves, path: Sequence[Emission]) -> NDArray[np.float64]:
     """Return the confidence of each word."""
     return np.array([confidence_of(each, *curves) for each in path])
-
-
-def log_odds(probabilities: Sequence[float]) -> NDArray[np.float64]:
-    """Return the logarithms of odds, within those of one in a million."""
-    bounded = np.clip(probabilities, 1e-6, 1 - 1e-6)
-    return np.asarray(np.log(bounded / (1 - bounded)))
 
 
 def fit(x: NDArray[np.float64], happened: Sequence[bool]) -> NDArray[np.float64]:
@@ -331,7 +326,7 @@ def curves_of(calls: Sequence[HeardCall]) -> Curves:
         if not each[0].is_callsign
     ]
     path, right, beside_lost = zip(*words, strict=True)
-    heard = log_odds([each.posterior for each in path])
+    heard = [log_odds_of(each.posterior) for each in path]
     against = [each.against for each in path]
     unwritten = [log_heard(each.unwritten) for each in path]
     return Curves(
@@ -349,7 +344,7 @@ def call_calibration(curves: Curves, calls: Sequence[HeardCall], least: float) -
         trust = confidences_of(curves, call.path)
         confidences.append(float(np.prod(trust)))
         whole.append(in_words(call.text(trust >= least)) == in_words(call.reference))
-    slope, offset = map(float, fit(log_odds(confidences), whole))
+    slope, offset = map(float, fit(np.array(list(map(log_odds_of, confidences))), whole))
     return {"slope": slope, "offset": offset}
 
 

@@ -87,7 +87,7 @@ def main() -> None:
     as_it_is = {"slope": 1.0, "offset": 0.0}
     card = {
         "made_by": "tools/make/tiny_recogniser.py",
-        "word_curve": {"heard": 1.0, "likely": 0.0, "offset": 0.0},
+        "word_curve": {"posterior_slope": 1.0, "alternatives_slope": 0.0, "offset": 0.0},
         "lost_words": {"slope": 1.0, "offset": -5.0},
         "callsign_odds": {"offset": 0.0, "name": 1.0, "sign": 1.0, "loss": 0.5},
         "call_calibration": as_it_is,

@@ -30,9 +30,9 @@ LARGEST_LOG_ODDS = log_odds_of(1.0)
 class WordCurve:
     """Probability that a word is right: a logistic curve over two log-odds."""
 
-    heard: float
+    posterior_slope: float
     """Slope over the log-odds of its posterior."""
-    likely: float
+    alternatives_slope: float
     """Slope over its log-odds against alternatives."""
     offset: float
 
@@ -46,8 +46,8 @@ class WordCurve:
         against
             Least `log_odds` of them.
         """
-        heard = self.heard * log_odds_of(posterior)
-        return probability(heard + self.likely * against + self.offset)
+        heard = self.posterior_slope * log_odds_of(posterior)
+        return probability(heard + self.alternatives_slope * against + self.offset)
 
 
 def log_odds(

@@ -112,7 +112,7 @@ def _show_live(
     with ExitStack() as stack:
         connection = RunConnection(connect, "operator" if asked else "observer", tls=tls)
         stack.callback(connection.close)
-        seats = connection.seats(asked)
+        seats = connection.seats(asked, tell)
         changes, sounds = Changes(), Changes(MOST_SOUNDS)
         of_seats = {seat: SeatChanges() for seat in seats}
         views = SeatViews(seats)

@@ -12,11 +12,11 @@ export function niceStep(range, most) {
 
 const LEAST_TICK_S = 0.1;
 
-/** Returns times from 0 s to an end and their labels, at most `most` steps apart. */
+/** Returns times from 0 s to an end and their labels, at most `most` steps. */
 export function timeTicks(end, most) {
   const step = Math.max(niceStep(end, most), LEAST_TICK_S),
     label = step < 1 ? seconds : (t) => `${whole(t)} s`;
-  return Array.from({ length: Math.floor(end / step) + 1 }, (_, i) => ({
+  return Array.from({ length: Math.floor(end / step + 1e-9) + 1 }, (_, i) => ({
     t: i * step,
     label: label(i * step),
   }));

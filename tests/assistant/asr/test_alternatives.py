@@ -130,7 +130,7 @@ def test_the_odds_are_those_of_whole_calls_in_which_one_piece_differs(
 
 
 def test_a_word_is_the_likelier_right_the_better_it_was_heard_and_the_more_sense_it_makes() -> None:
-    curve = WordCurve(heard=0.3, likely=0.4, offset=-0.7)
+    curve = WordCurve(posterior_slope=0.3, alternatives_slope=0.4, offset=-0.7)
     assert curve(0.5, 0.0) == pytest.approx(1.0 / (1.0 + np.exp(0.7)))
     assert curve(0.5, 0.0) < curve(0.9, 0.0) < curve(0.9, 3.0) < curve(0.99, 6.0) < 1.0
     assert curve(0.0, -LARGEST_LOG_ODDS) > 0.0

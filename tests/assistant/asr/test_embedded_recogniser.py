@@ -123,7 +123,7 @@ def test_windows_of_short_steps_fit_together(monkeypatch: pytest.MonkeyPatch) ->
 
 
 def test_confidences_go_through_the_calibrations_of_the_card(folder: Path) -> None:
-    sharp = {"heard": 2.0, "likely": 0.0, "offset": 0.0}
+    sharp = {"posterior_slope": 2.0, "alternatives_slope": 0.0, "offset": 0.0}
     offset = {"slope": 1.0, "offset": -1.0}
     engine = with_card(folder, word_curve=sharp, call_calibration=offset)
     heard = engine.recognise(call(BRAVO_HZ), ())
@@ -132,10 +132,19 @@ def test_confidences_go_through_the_calibrations_of_the_card(folder: Path) -> No
     assert heard.confidence == pytest.approx(Calibration(**offset)(word), abs=1e-3)
 
 
+def test_the_confidence_of_a_word_counts_what_else_may_have_been_said(folder: Path) -> None:
+    """All that is not in its posterior is in alternatives, which the language model has alike."""
+    curve = {"posterior_slope": 0.0, "alternatives_slope": 2.0, "offset": -1.0}
+    engine = with_card(folder, word_curve=curve)
+    ((word, sure),) = engine.recognise(call(BRAVO_HZ), ()).words
+    assert word == "bravo"
+    assert sure == pytest.approx(WordCurve(**curve)(0.5, np.log(0.8 / 0.2)), abs=1e-3)
+
+
 def test_a_callsign_of_the_roster_needs_no_calibration(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    shy = {"heard": 1.0, "likely": 0.0, "offset": -1.0}
+    shy = {"posterior_slope": 1.0, "alternatives_slope": 0.0, "offset": -1.0}
     engine = with_card(folder, word_curve=shy)
     path = [Emission("climb", 0.9, 0), Emission("alfa", 0.9, 1, is_callsign=True)]
     monkeypatch.setattr(engine, "path", lambda *_: path)
@@ -243,9 +252,15 @@ def test_pieces_that_do_not_fit_the_network_are_refused(pieces: str, folder: Pat
         ("", "Invalid JSON"),
         ("[]", "object"),
         ("{}", "word_curve"),
-        ('{"word_curve": {"heard": "steep", "likely": 1, "offset": 0}}', "word_curve/heard"),
-        ('{"word_curve": {"heard": NaN, "likely": 1, "offset": 0}}', "word_curve/heard"),
-        ('{"word_curve": {"heard": 1, "likely": 1}}', "word_curve/offset"),
+        (
+            '{"word_curve": {"posterior_slope": "steep", "alternatives_slope": 1, "offset": 0}}',
+            "word_curve/posterior_slope",
+        ),
+        (
+            '{"word_curve": {"posterior_slope": NaN, "alternatives_slope": 1, "offset": 0}}',
+            "word_curve/posterior_slope",
+        ),
+        ('{"word_curve": {"posterior_slope": 1, "alternatives_slope": 1}}', "word_curve/offset"),
         ("\udcff", "Invalid JSON"),
     ],
 )

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field, ValidationError
 
-from airhilt.assistant.asr.alternatives import LARGEST_LOG_ODDS, WordCurve, log_odds
+from airhilt.assistant.asr.alternatives import WordCurve, log_odds
 from airhilt.assistant.asr.beam_search import BeamSearch, aligned
 from airhilt.assistant.asr.engine import Recognised
 from airhilt.assistant.asr.features import BINS, mel_power, normalised
@@ -56,11 +56,11 @@ TRIAL_FRAMES = 12
 
 @dataclass(frozen=True)
 class Calibration(Logistic):
-    """Probability that a guess is right: a logistic curve over the log-odds of another one."""
+    """Probability by an estimate of it: a logistic curve over the log-odds of the estimate."""
 
-    def __call__(self, guessed: float) -> float:
-        """Return the probability where this one was guessed."""
-        return self.at(log_odds_of(guessed))
+    def __call__(self, estimate: float) -> float:
+        """Return the probability by an estimate in [0, 1]."""
+        return self.at(log_odds_of(estimate))
 
 
 class Card(BaseModel):
@@ -97,7 +97,7 @@ class Emission:
     """Least of its pieces' highest posteriors, or of a callsign of the roster its confidence."""
     begin: int
     """Step at which it begins."""
-    against: float = LARGEST_LOG_ODDS
+    against: float = 0.0
     """Least log-odds of its pieces against what else may have been said there."""
     is_callsign: bool = False
     """True if it is of a callsign of the roster."""
