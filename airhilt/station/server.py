@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import socket
 import threading
 import time
 import webbrowser
@@ -50,6 +51,18 @@ class _Interruptible:
                 await PlainTextResponse("the station has ended", 503)(scope, receive, send)
 
 
+class _Server(uvicorn.Server):
+    """Server that tells when it listens, and an interruption ends it in order from then on."""
+
+    def __init__(self, config: uvicorn.Config, started: Callable[[], None]) -> None:
+        super().__init__(config)
+        self._tell_started = started
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        await super().startup(sockets)
+        self._tell_started()
+
+
 def serve(
     app: ASGIApp,
     address: Address,
@@ -93,11 +106,14 @@ def serve(
         ws_ping_interval=PING_S,
         ws_ping_timeout=PATIENCE_S,
     )
-    with listening, suppress(KeyboardInterrupt):
+
+    def started() -> None:
         opened(url)
         if browser:
             threading.Thread(target=webbrowser.open, args=(url,), daemon=True).start()
-        server = uvicorn.Server(config)
+
+    with listening, suppress(KeyboardInterrupt):
+        server = _Server(config, started)
         if is_over is not None:
             threading.Thread(target=_end_when, args=(is_over, server), daemon=True).start()
         server.run(sockets=[listening])

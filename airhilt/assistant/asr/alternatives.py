@@ -55,7 +55,7 @@ def log_odds(
 ) -> list[float]:
     """Return the log-odds of each piece against everything else that may have been said there.
 
-    That is every other piece, and nothing. All other pieces of the call stay as they are.
+    Every other piece is an alternative, and so is nothing; the rest of the call stays as it is.
 
     Parameters
     ----------
