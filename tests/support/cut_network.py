@@ -23,7 +23,8 @@ class Network:
         self._forgotten: list[socket.socket] = []
         self._listening = socket.create_server(("127.0.0.1", 0))
         self.port = self._listening.getsockname()[1]
-        threading.Thread(target=self._accept, daemon=True).start()
+        self._accepting = threading.Thread(target=self._accept, daemon=True)
+        self._accepting.start()
 
     def cut(self) -> None:
         """Let nothing pass; who sends something gets no error."""
@@ -41,18 +42,19 @@ class Network:
         """End all connections."""
         self._is_over = True
         self._passes.set()
-        for one in (self._listening, *self._sockets):
-            with suppress(OSError):
-                one.shutdown(socket.SHUT_RDWR)
-            one.close()
+        _end(self._listening)
+        self._accepting.join()  # Before the connections end: it may be about to open another one.
+        for one in self._sockets:
+            _end(one)
 
     def _accept(self) -> None:
         with suppress(OSError):
             while not self._is_over:
                 near, _ = self._listening.accept()
+                self._sockets.append(near)
                 self._passes.wait()
                 far = socket.create_connection(("127.0.0.1", self._port))
-                self._sockets += [near, far]
+                self._sockets.append(far)
                 for from_, to in ((near, far), (far, near)):
                     threading.Thread(target=self._pass, args=(from_, to), daemon=True).start()
 
@@ -66,6 +68,12 @@ class Network:
         with suppress(OSError):
             if from_ not in self._forgotten:
                 to.shutdown(socket.SHUT_WR)
+
+
+def _end(one: socket.socket) -> None:
+    with suppress(OSError):
+        one.shutdown(socket.SHUT_RDWR)
+    one.close()
 
 
 def forgive(page: Page) -> None:
