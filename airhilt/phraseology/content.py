@@ -33,6 +33,9 @@ SLOTS = tuple(each.name for each in fields(Instruction) if each.compare and each
 """Details of an action."""
 _OR = re.compile(r" or (?:[0-9]|flight level|left|right)")
 _OR_INSIDE = re.compile(r"[0-9] or [0-9]")
+_VIA = re.compile(r"(?<!\S)via(?: [^\s|]+){0,4} ?$")
+_OF_PROCEDURE = re.compile(r"(?: [^\s|]+){0,5} (?:arrival|departure|transition)(?!\S)")
+"""Words before and behind the name of a procedure."""
 """Two values of which one is meant."""
 _DENIED = frozenset({*AFTERWARDS, "given", "issued", "yet"})
 """Words behind a clearance that was denied."""
@@ -111,12 +114,14 @@ def _is_doubtful(told: Instruction, text: str, read: Read, each: Found) -> bool:
     """Return whether words may be missing that change what an instruction means.
 
     They are the side of a runway, the "are" of a question, and a condition of which one unknown
-    word is left: "super able climb" may have been "when able climb". Behind an animal without a
-    place, an unknown word may be of the name of a place: "deer park".
+    word is left: "super able climb" may have been "when able climb". An animal without a place may
+    be of the name of one: "deer park".
     """
     if told.action == "wildlife" and told.runway is None and told.position is None:
         behind = text[read.end :].split(maxsplit=1)
         if behind and is_unknown(behind[0]):
+            return True
+        if _VIA.search(text, 0, read.start) and _OF_PROCEDURE.match(text, read.end):
             return True
     if told.runway is not None and has_unknown_side(text, read.start, read.end):
         return True

@@ -122,3 +122,14 @@ def test_an_animal_before_an_unknown_word_may_be_of_a_name_and_is_not_sure() -> 
     (seen,) = parse_call(f"{NAME} deer ahead", KNOWN).instructions
     assert (told.action, seen.action) == ("wildlife", "wildlife")
     assert told.confidence < TAU_ASR <= seen.confidence
+
+
+@pytest.mark.parametrize("name", ["deer that park four", "deer but that sir park", "deer sir"])
+def test_an_animal_in_the_name_of_a_procedure_is_not_sure(name: str) -> None:
+    text = f"{NAME} descend via that the {name} arrival"
+    assert not [each for each in in_effect(text) if each.action == "wildlife"]
+
+
+def test_an_animal_is_sure_though_procedures_are_told_beside_it() -> None:
+    for text in ("deer ahead contact departure", "taxi via alfa deer ahead"):
+        assert "wildlife" in [each.action for each in in_effect(f"{NAME} {text}")]
