@@ -11,12 +11,18 @@ from typing import Any
 import pytest
 
 from airhilt import load
+from airhilt.cosim.recorded import UnregisteredMessage
 from airhilt.cosim.replay import replay
 from airhilt.errors import ScenarioError
 from airhilt.sim import pace
 from airhilt.units import seconds_to_ns
 from breadth import mostly_slow
 from seats import SECOND, calls, contents, logged, message, said, tower
+
+
+def taken(seat: str) -> UnregisteredMessage:
+    """Return the message of a person who takes a seat as the run begins."""
+    return message(f"seat/{seat}", 1.0, is_taken=True)
 
 
 def test_the_script_of_a_seat_is_told_to_its_person_and_not_said(tmp_path: Path) -> None:
@@ -48,6 +54,14 @@ def test_a_crew_reads_back_and_does_what_only_a_person_has_told_it(tmp_path: Pat
     assert json.loads(commands[0]["text"])["action"] == "go_around"
     states = contents(log, "truth/state/AAL123")
     assert states[-1]["altitude_m"] > states[0]["altitude_m"]
+
+
+def test_a_heading_that_a_person_tells_a_crew_at_an_airport_is_magnetic(tmp_path: Path) -> None:
+    """At Washington the compass shows 10.7 degrees more."""
+    words = "American one two three, turn left heading two seven zero"
+    log = logged(tower(30.0), tmp_path / "run", ["tower"], [said("Washington_Tower", 5.0, words)])
+    commands = [one for one in contents(log, "truth/event") if one["kind"] == "command"]
+    assert json.loads(commands[0]["text"])["track_deg"] == pytest.approx(259.3, abs=0.05)
 
 
 @pytest.mark.parametrize(
@@ -193,6 +207,30 @@ def test_a_crew_flies_again_by_itself_once_its_person_has_left(tmp_path: Path) -
     ]
     log = logged(tower(), tmp_path / "run", ["AAL123"], given)
     assert "AAL123" in [call["speaker"] for call in calls(log)]
+
+
+def test_an_aircraft_that_was_not_told_to_land_goes_around_and_says_so(tmp_path: Path) -> None:
+    log = logged(tower(110.0), tmp_path / "run", ["AAL123"], [taken("AAL123")])
+    (told,) = [one["text"] for one in contents(log, "notice/AAL123")]
+    assert told == "Unable: to land without a clearance: going around"
+    (event,) = [one for one in contents(log, "truth/event") if one["kind"] == "unable"]
+    assert event["subject"] == "AAL123"
+
+
+@pytest.mark.parametrize(
+    ("reacts", "avoided"), mostly_slow([(True, True), (False, False)], (False, False))
+)
+def test_a_warning_helps_a_person_who_lands_only_if_the_person_reacts(
+    tmp_path: Path, reacts: bool, avoided: bool
+) -> None:
+    scenario = load("s01b_noncompliance").model_copy(update={"cameras": ()})
+    land, go_around = {"action": "land", "runway": "01"}, {"action": "go_around"}
+    given = [taken("AAL123"), message("command/AAL123", 5.0, command=land)]
+    if reacts:
+        given.append(message("command/AAL123", 71.0, command=go_around))
+    out = tmp_path / "run"
+    logged(scenario, out, ["AAL123"], given, assistant="reference")
+    assert json.loads((out / "summary.json").read_text())["avoided"] is avoided
 
 
 @pytest.mark.parametrize("left_s", mostly_slow([None, 3.0, 95.0], None, 3.0))

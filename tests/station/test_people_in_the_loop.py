@@ -47,6 +47,11 @@ GO_AROUND = "American one two three, go around, climb and maintain three thousan
 UNABLE = "Washington Tower, American one two three, unable, traffic on the runway"
 HALF_SECOND = SAMPLE_RATE_HZ // 2
 """Number of samples."""
+APPROACH = """(() => {
+    document.getElementById('panel-runway').value = '01';
+    [...document.querySelectorAll('#panel-runways button')]
+        .find((one) => one.textContent === 'Approach').click();
+})()"""
 A_SECOND = "new Promise((done) => setTimeout(done, 1000))"
 """Time that the person in the tests takes to think, or to hear all of a call."""
 SEAT_STATE = "document.getElementById('seat-state').textContent"
@@ -257,6 +262,8 @@ def test_a_pilot_who_is_warned_goes_around(tmp_path: Path) -> None:
         page_with_microphone() as page,
     ):
         sit_down(page, url)
+        page.evaluate(APPROACH)  # Without it the aircraft goes around by itself.
+        page.wait_for("document.getElementById('panel-state').textContent.includes('Set')")
         page.wait_for("document.getElementById('own-advisories').textContent.includes('WARNING')")
         page.evaluate(A_SECOND)
         page.click("panel-go-around")

@@ -127,7 +127,7 @@ class RunwayOperations:
         Raises
         ------
         Unable, ValueError, ScenarioError
-            Its moment has come, and it cannot be carried out.
+            Its moment has come, and it cannot be carried out: a landing becomes a go-around.
         """
         following, self._next = self._next, None
         if following is not None and not following() and self._next is None:
@@ -268,13 +268,14 @@ class RunwayOperations:
             return True
         if self._aircraft.state.height_agl_m > DECISION_HEIGHT_M:
             return False
-        return self.go_around()
+        self.go_around()
+        raise Unable("unable to land without a clearance: going around")
 
     def _go_around_if_too_high(self, final: FinalApproach) -> None:
         """Break off an approach that has crossed the threshold too high."""
         too_high = self._aircraft.state.height_agl_m > TOO_HIGH_M
-        if too_high and final.before_m(self._here()) < 0.0:
-            self.go_around()
+        if too_high and final.before_m(self._here()) < 0.0 and self.go_around():
+            raise Unable("unable to land, too high over the threshold: going around")
 
     def _break_off(self, climb_to_m: float) -> None:
         self._cleared_to_land = False

@@ -216,8 +216,10 @@ def test_without_a_landing_clearance_it_goes_around_at_200_ft() -> None:
     crew.attend()
     assert plane.names == ["land"]
     plane.height_m = 190 * FOOT
-    crew.attend()
+    with pytest.raises(Unable, match="without a clearance: going around"):
+        crew.attend()
     assert plane.names == ["land", "go_around"]
+    crew.attend()
     assert crew.runway_operations.bound_runway is None
 
 
@@ -252,7 +254,8 @@ def test_over_the_threshold_and_far_too_high_it_goes_around() -> None:
     crew.runway_operations.begin_on_final("01")
     tell(crew, "land", runway="01")
     plane.place = on_final(-100.0).place
-    crew.attend()
+    with pytest.raises(Unable, match="too high over the threshold: going around"):
+        crew.attend()
     assert plane.names[-1] == "go_around"
 
 
