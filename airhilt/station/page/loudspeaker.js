@@ -23,26 +23,37 @@ export class Loudspeaker {
   // Of each transmission: when its next piece is due, and those that are played.
   #playing = new Map();
   #waiting = new Map(); // pieces of the transmissions that are played when they have ended
+  #isWanted = false;
+  #silent = html("span", { class: "note", role: "status", hidden: true });
   #volume = html("input", { type: "range", min: 0, max: 1, step: 0.05, value: 0.8 });
 
   constructor() {
     this.#volume.addEventListener("input", () => this.#setVolume());
-    byId("hearing").append(html("label", {}, "Volume", this.#volume));
+    byId("hearing").append(html("label", {}, "Volume", this.#volume), this.#silent);
+    for (const gesture of ["pointerup", "keydown"])
+      addEventListener(gesture, () => this.#isWanted && this.#context.resume());
   }
 
-  /** Begins to give out sound; a browser allows that after a click alone. */
+  /**
+   * Begins to give out sound. A browser allows that after a click or a key alone, which a page that
+   * was loaded again has not had: it says so until then.
+   */
   begin() {
     if (!this.#context) {
       this.#context = new AudioContext({ latencyHint: "interactive" });
+      this.#context.addEventListener("statechange", () => this.#tellSilence());
       this.#gain = this.#context.createGain();
       this.#gain.connect(this.#context.destination);
       this.#setVolume();
     }
+    this.#isWanted = true;
     this.#context.resume();
+    this.#tellSilence();
     byId("hearing").hidden = false;
   }
 
   end() {
+    this.#isWanted = false;
     this.#context?.suspend();
     this.#playing.clear();
     this.#waiting.clear();
@@ -156,6 +167,12 @@ export class Loudspeaker {
   /** True unless the volume is down: then nobody hears anything. */
   get #isOn() {
     return Number(this.#volume.value) > 0;
+  }
+
+  #tellSilence() {
+    const isSilent = this.#isWanted && this.#context.state !== "running";
+    this.#silent.textContent = isSilent ? "No sound: click or press a key." : "";
+    this.#silent.hidden = !isSilent;
   }
 
   #setVolume() {
