@@ -42,6 +42,7 @@ class ReportAirport:
         layout = Layout(load_airport(name, files))
         self._frame = layout.local_frame
         self._plan = ground_plan(layout)
+        self._variation_deg = layout.airport.magnetic_variation.east_deg
 
     def locate(self, place: Place, height_m: float) -> Local:  # noqa: ARG002
         """Return the distance of a place east and north of the reference point, in NM."""
@@ -77,6 +78,7 @@ class ReportAirport:
             "icao": plan.icao,
             "name": plan.name,
             "elevation_m": round(plan.elevation_m, 1),
+            "variation_deg": self._variation_deg,
             "runways": [_runway(runway) for runway in plan.runways],
             "taxiways": [_taxiway(name, legs) for name, legs in plan.taxiways.items()],
             "holds": [

@@ -17,7 +17,6 @@ from airhilt.sensors.base import SensorContext
 from airhilt.sim import Priority, StepRecord
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
 from airhilt.world.flight.aircraft import Aircraft
-from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.vehicle import Vehicle
 
 PERIOD_NS = SECOND_NS // 5
@@ -62,7 +61,7 @@ class Cockpits:
     def __init__(self, callsigns: Sequence[str], context: SensorContext) -> None:
         self._director = context.director
         self._publish = context.publish
-        self._variation_deg = _variation_deg(context.site)
+        self._variation_deg = context.site.variation_deg
         bodies = {name: context.actors[name].body for name in callsigns}
         self._aircraft = {
             callsign: body for callsign, body in bodies.items() if isinstance(body, Aircraft)
@@ -141,9 +140,3 @@ def _radio_height_ft(height_m: float) -> int | None:
 
 def _bearing_deg(true_rad: float, variation_deg: float) -> float:
     return round((true_rad / DEGREE - variation_deg) % 360.0, 1) % 360.0
-
-
-def _variation_deg(site: ScenarioSite) -> float | None:
-    """Return the magnetic variation at the airport; None en route, where none is given."""
-    layout = site.layout
-    return None if layout is None else layout.airport.magnetic_variation.east_deg

@@ -82,6 +82,11 @@ class ScenarioSite:
             )
         return self.layout
 
+    @property
+    def variation_deg(self) -> float | None:
+        """Magnetic variation in degrees, positive east; None en route, where none is given."""
+        return None if self.layout is None else self.layout.airport.magnetic_variation.east_deg
+
     def runway(self, ident: str) -> RunwayEnd:
         """Return a direction of a runway, at the height of the flat ground.
 

@@ -730,7 +730,53 @@ def test_a_page_keeps_its_seat_when_it_is_loaded_again_and_a_duplicate_of_its_ta
             if target.get("openerId"):
                 page.call("Target.closeTarget", targetId=target["targetId"])
         page.call("Page.bringToFront")
-    page.complaints.clear()  # A page that was loaded again has no sound before a click.
+    page.complaints.clear()  # A browser complains of sound that it does not play before a click.
+
+
+def test_a_page_that_was_loaded_again_says_that_it_has_no_sound_until_somebody_acts(
+    page: Page,
+) -> None:
+    told = "document.getElementById('hearing').innerText"
+    with seated(page, "TOWER"):
+        assert "No sound" not in page.evaluate(told)
+        page.call("Page.reload")
+        page.wait_for("document.body?.dataset.seat === 'controller'")
+        page.wait_for(f"{told}.includes('No sound: click or press a key.')")
+        page.press("x", ord("X"))
+        page.wait_for(f"!{told}.includes('No sound')")
+    page.complaints.clear()
+
+
+def test_headings_are_offered_as_the_compass_of_the_crew_shows_them(page: Page) -> None:
+    """An aircraft at Washington flies 270 degrees true, which are 281 magnetic."""
+    report = "[...document.querySelectorAll('#phrase-list button')].map((one) => one.title)"
+    with seated(page, "AAL123") as run:
+        run.changes.add("briefing", "TOWER", ReportAirport("kdca").as_json(), CATEGORIES)
+        place = (1.0, 9_000.0, 0.0, 9_000, [-80.0, 0.0], 270.0, False, "")
+        run.changes.add("state", "AAL123", "aircraft", "B738", *place)
+        page.wait_for(f"{report}.some((text) => text.includes('heading two eight zero'))")
+
+
+@pytest.mark.parametrize(
+    ("has_airport", "unit", "track_deg"), [(True, "mag", 269.3), (False, "true", 280.0)]
+)
+def test_the_mode_panel_takes_tracks_as_the_instruments_show_them(
+    page: Page, has_airport: bool, unit: str, track_deg: float
+) -> None:
+    with seated(page, "AAL123") as run:
+        airport = ReportAirport("kdca").as_json() if has_airport else None
+        run.changes.add("briefing", "TOWER", airport, CATEGORIES)
+        run.seat.add("cockpit", INSTRUMENTS | {"selected_altitude_ft": 9_000})
+        page.wait_for(f"document.getElementById('panel-track-unit').textContent.includes('{unit}')")
+        for field, value in (("track", 280), ("rate", 2_500)):
+            page.evaluate(f"""(() => {{
+                const field = document.getElementById('panel-{field}');
+                field.value = '{value}';
+                field.form.requestSubmit();
+            }})()""")
+        track, climb = run.next(), run.next()
+        assert track.track_deg == pytest.approx(track_deg)
+        assert (climb.altitude_ft, climb.vertical_rate_fpm) == (9_000, 2_500)
 
 
 def test_a_controller_sees_what_a_radar_alone_has_found_on_the_plan(page: Page) -> None:

@@ -11,7 +11,6 @@ from airhilt.sensors.radio.radio_call import RadioCall
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director, Priority
 from airhilt.units import seconds_to_ns
-from airhilt.world.actors.listening import Listener
 
 CONFIRM_AFTER_S = 3.0
 """Time in s from an advisory that asks to confirm a call until whoever is asked wants to speak: an
@@ -126,7 +125,7 @@ class Confirmations:
         if before is not None and before.times_said:
             text = before.said
         else:
-            listens = Listener(self._stations.actors_on(call.frequency_khz))
+            listens = self._stations.listener(call.frequency_khz)
             meant = listens.parse(call.said, listens.callsigns, None).instructions
             text = self._answers.readback(listener, meant)
         readback = RadioCall(

@@ -10,7 +10,7 @@ from airhilt.sensors.radio.compliance import COMPLY_AFTER_S
 from airhilt.sensors.radio.on_air import Utterance
 from airhilt.sensors.radio.radio_call import RadioCall
 from airhilt.sensors.radio.stations import Stations
-from airhilt.world.actors.listening import Listener, commands_of
+from airhilt.world.actors.listening import Listener
 
 
 class ControllerCheck:
@@ -92,7 +92,7 @@ class ControllerCheck:
         meant = listens.parse(right.text, listens.callsigns, None).instructions
         return in_script or tuple(
             ScriptedCommand(actor=crew, command=command, delay_s=COMPLY_AFTER_S)
-            for command in commands_of(meant, self._stations.bound_runway(crew))
+            for command in listens.commands_of(meant, self._stations.bound_runway(crew))
         )
 
     def _text_of_second_readback(self, readback: RadioCall, right: RadioLine) -> str:
@@ -103,4 +103,4 @@ class ControllerCheck:
         return self._answers.readback(readback.speaker, meant)
 
     def _listener(self, call: RadioCall) -> Listener:
-        return Listener(self._stations.actors_on(call.frequency_khz))
+        return self._stations.listener(call.frequency_khz)

@@ -209,7 +209,7 @@ class Listeners:
         )
 
     def _listener(self, call: RadioCall) -> Listener:
-        return Listener(self._stations.actors_on(call.frequency_khz))
+        return self._stations.listener(call.frequency_khz)
 
     def _understand(
         self,

@@ -148,7 +148,7 @@ class ReadbackPolicy:
         return None
 
     def _listener(self, call: RadioCall) -> Listener:
-        return Listener(self._stations.actors_on(call.frequency_khz))
+        return self._stations.listener(call.frequency_khz)
 
     # --- asking and calling again -----------------------------------------------------------
 

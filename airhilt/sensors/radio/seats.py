@@ -12,7 +12,7 @@ from airhilt.sensors.base import Publish
 from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.sensors.radio.radio_call import RadioCall
 from airhilt.sensors.radio.stations import Stations
-from airhilt.world.actors.listening import Listener, commands_of, mean_the_same
+from airhilt.world.actors.listening import mean_the_same
 
 
 class Seats:
@@ -133,7 +133,7 @@ class Seats:
         self, frequency_khz: int, text: str, confidences: tuple[float, ...] | None = None
     ) -> Call:
         """Return the meaning of some words on a frequency, with the callsigns that are on it."""
-        heard_by = Listener(self._stations.actors_on(frequency_khz))
+        heard_by = self._stations.listener(frequency_khz)
         return heard_by.parse(text, heard_by.callsigns, confidences)
 
     def make(self, speaker: str, frequency_khz: int, text: str) -> RadioCall:
@@ -220,7 +220,8 @@ class Seats:
             if mean_the_same(meant.instructions, planned.instructions):
                 return line.commands
         runway = self._stations.bound_runway(call.addressed)
+        listener = self._stations.listener(call.frequency_khz)
         return tuple(
             ScriptedCommand(actor=call.addressed, command=command)
-            for command in commands_of(meant.instructions, runway)
+            for command in listener.commands_of(meant.instructions, runway)
         )

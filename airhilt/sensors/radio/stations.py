@@ -10,6 +10,7 @@ from airhilt.scenario.models import RadioLine
 from airhilt.surveillance.horizon import LEAST_ANTENNA_HEIGHT_M, radio_horizon_m
 from airhilt.units import DEGREE, FOOT
 from airhilt.world.actors.actor import Actor
+from airhilt.world.actors.listening import Listener
 from airhilt.world.site import FixedSite, ScenarioSite
 
 if TYPE_CHECKING:
@@ -31,6 +32,7 @@ class Stations:
     ) -> None:
         self._actors = actors
         self._ground_m = site.ground_m
+        self._variation_deg = site.variation_deg or 0.0
         centre = site.centre
         self._site = FixedSite(
             centre.lat_deg * DEGREE,
@@ -47,6 +49,10 @@ class Stations:
     def on(self, frequency_khz: int) -> tuple[str, ...]:
         """Return the names of the actors and units on a frequency."""
         return tuple(self._on.get(frequency_khz, ()))
+
+    def listener(self, frequency_khz: int) -> Listener:
+        """Return who understands the calls on a frequency, with the callsigns there."""
+        return Listener(self.actors_on(frequency_khz), variation_deg=self._variation_deg)
 
     def actors_on(self, frequency_khz: int) -> tuple[str, ...]:
         """Return the callsigns of the actors on a frequency."""

@@ -44,6 +44,12 @@ export class Displays {
       { names: ["s"], shown: ["S"], text: "cockpit: speed", act: () => panel.focus("speed") },
       { names: ["h"], shown: ["H"], text: "cockpit: track", act: () => panel.focus("track") },
       { names: ["a"], shown: ["A"], text: "cockpit: altitude", act: () => panel.focus("altitude") },
+      {
+        names: ["v"],
+        shown: ["V"],
+        text: "cockpit: vertical speed",
+        act: () => panel.focus("rate"),
+      },
       { names: ["g"], shown: ["G"], text: "cockpit: go around", act: () => panel.goAround() },
       { names: ["r"], shown: ["R"], text: "cockpit: longer range", act: () => nd.step(1) },
       { names: ["e"], shown: ["E"], text: "cockpit: shorter range", act: () => nd.step(-1) },
@@ -93,7 +99,7 @@ export class Displays {
   /** Takes in what the instruments show. */
   take(shown) {
     this.#instruments.take(shown);
-    this.#panel.setMode(shown.mode);
+    this.#panel.take(shown);
   }
 
   #drawCockpit(shown) {

@@ -1,6 +1,7 @@
 // The mode panel: what autopilot and guidance are to do. A field sets its value with Enter.
 
 import { byId, html } from "./dom.js";
+import { known } from "./words.js";
 
 const FIELDS = [
   {
@@ -17,7 +18,10 @@ const FIELDS = [
     unit: "\u00b0 true",
     least: 0,
     most: 360,
-    command: (value) => ({ action: "track", track_deg: value % 360 }),
+    command: (value, { variation }) => ({
+      action: "track",
+      track_deg: (value + (variation ?? 0) + 360) % 360,
+    }),
   },
   {
     id: "altitude",
@@ -26,6 +30,20 @@ const FIELDS = [
     least: 0,
     most: 60_000,
     command: (value) => ({ action: "altitude", altitude_ft: value }),
+  },
+  {
+    id: "rate",
+    name: "Vertical speed",
+    short: "V/S",
+    unit: "ft/min",
+    least: 100,
+    most: 20_000,
+    // To the altitude that is selected, up or down.
+    command: (value, { altitude }) => ({
+      action: "altitude",
+      altitude_ft: altitude,
+      vertical_rate_fpm: value,
+    }),
   },
 ];
 const OF_RUNWAYS = [
@@ -49,6 +67,8 @@ export class ModePanel {
   #send;
   #tell;
   #isVehicle = false;
+  // Magnetic variation in degrees, positive east, null where it is not known; selected altitude.
+  #shown = { variation: null, altitude: 0 };
 
   /**
    * `send(command, { heard, lost })` gives a command to the own aircraft, and calls one of the two
@@ -81,7 +101,11 @@ export class ModePanel {
       this.#action(action).hidden = isVehicle && !OF_VEHICLES.includes(action);
       this.#action(action).textContent = (isVehicle && NAMES_IN_VEHICLE[action]) || name;
     }
-    this.setMode("");
+    this.#shown.variation = airport?.variation_deg ?? null;
+    const north = `\u00b0 ${known(this.#shown.variation) ? "mag" : "true"}`;
+    byId("panel-track-unit").textContent = north;
+    byId("panel-track").ariaLabel = `Track in ${north}`;
+    this.#offerActions("");
     const select = byId("panel-runway"),
       chosen = select.value;
     if (select.options.length !== idents.length)
@@ -92,11 +116,14 @@ export class ModePanel {
       );
   }
 
-  /**
-   * Takes in what autopilot and guidance do: a take-off is rejected where there is no approach to
-   * break off.
-   */
-  setMode(mode) {
+  /** Takes in what the instruments show. */
+  take({ mode, selected_altitude_ft: altitude }) {
+    this.#shown.altitude = altitude;
+    this.#offerActions(mode);
+  }
+
+  /** A take-off is rejected where there is no approach to break off. */
+  #offerActions(mode) {
     const isRolling = mode === "takeoff_roll";
     this.#action("go_around").hidden = this.#isVehicle || isRolling;
     this.#action("cancel_takeoff").hidden = this.#isVehicle || !isRolling;
@@ -158,30 +185,36 @@ export class ModePanel {
     this.#give(`${name}, runway ${runway}`, { action, runway });
   }
 
-  #field({ id, name, unit, least, most, command }) {
+  #field({ id, name, short, unit, least, most, command }) {
     const input = html("input", {
       type: "text",
       inputmode: "decimal",
       autocomplete: "off",
       id: `panel-${id}`,
-      size: 6,
+      size: 5,
       "aria-label": `${name} in ${unit}`,
     });
     const form = html(
       "form",
       {},
-      html("span", { class: "dial-name" }, name),
-      html("span", { class: "dial" }, input, html("span", { class: "dim" }, unit)),
+      html(
+        "span",
+        { class: "dial-name" },
+        `${short ?? name} `,
+        html("span", { class: "dim", id: `panel-${id}-unit` }, unit),
+      ),
+      html("span", { class: "dial" }, input),
       html("button", { "aria-label": `Set ${name.toLowerCase()}` }, "Set"),
     );
+    const unitShown = () => byId(`panel-${id}-unit`).textContent;
     form.addEventListener("submit", (event) => {
       event.preventDefault();
       const value = Number(input.value);
       if (input.value.trim() === "" || !(value >= least && value <= most)) {
-        this.#tell(`${name}: expected ${least} to ${most} ${unit}.`);
+        this.#tell(`${name}: expected ${least} to ${most} ${unitShown()}.`);
         return;
       }
-      this.#give(`${name.toLowerCase()} ${value} ${unit}`, command(value));
+      this.#give(`${name.toLowerCase()} ${value} ${unitShown()}`, command(value, this.#shown));
       input.value = "";
       input.blur();
     });

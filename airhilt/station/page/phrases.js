@@ -76,7 +76,7 @@ export class Phrases {
       runway: airport ? byId("phrase-runway").value || null : null,
       altitude_ft: state && category === "aircraft" ? Math.round(state.altitude / 100) * 100 : null,
       ...(state && airport ? this.#fromAirport(state, airport) : {}),
-      heading_deg: state ? (Math.round((state.heading * 18) / Math.PI) * 10 + 360) % 360 : null,
+      heading_deg: state ? magnetic(state.heading, airport?.variation_deg ?? 0) : null,
       heard: this.#isUnit ? "" : (this.#lastCall()?.slice(0, 600) ?? ""),
     };
   }
@@ -144,4 +144,10 @@ export class Phrases {
     });
     return button;
   }
+}
+
+/** Returns the magnetic heading of a true one in radians, in steps of 10 degrees. */
+function magnetic(true_rad, variation) {
+  const heading = (true_rad * 180) / Math.PI - variation;
+  return ((Math.round(heading / 10) % 36) + 36) % 36 * 10;
 }

@@ -42,6 +42,14 @@ class Listener:
 
     callsigns: tuple[str, ...]
     parse: Parse = parse_call
+    variation_deg: float = 0.0
+    """Magnetic variation of the headings that are said, in degrees, positive east."""
+
+    def commands_of(
+        self, instructions: Iterable[Instruction], bound_runway: str | None
+    ) -> tuple[Command, ...]:
+        """Return the commands that instructions give here; see the function of that name."""
+        return commands_of(instructions, bound_runway, self.variation_deg)
 
     def understand(
         self,
@@ -81,7 +89,7 @@ class Listener:
             return Understanding("as_said", taken)
         if not taken.instructions:
             return Understanding("unclear", taken)
-        return Understanding("otherwise", taken, commands_of(taken.instructions, bound_runway))
+        return Understanding("otherwise", taken, self.commands_of(taken.instructions, bound_runway))
 
     def overhear(
         self,
@@ -95,7 +103,7 @@ class Listener:
         if words(heard) == words(said):
             return Understanding("not_for_me")
         taken = self.parse(heard, self.callsigns, word_confidences)
-        commands = commands_of(taken.instructions, bound_runway)
+        commands = self.commands_of(taken.instructions, bound_runway)
         is_mine = self._is_not_for(taken, (callsign,)) is None and taken.kind in (
             "instruction",
             "correction",
@@ -154,9 +162,11 @@ def words(text: str) -> list[str]:
 
 
 def commands_of(
-    instructions: Iterable[Instruction], bound_runway: str | None
+    instructions: Iterable[Instruction], bound_runway: str | None, variation_deg: float = 0.0
 ) -> tuple[Command, ...]:
     """Return the commands that instructions give, as far as there is a command for each.
+
+    Headings are magnetic, and are flown as true tracks: without wind.
 
     Instructions with a condition give none: their words do not say when it is met. A level that
     comes with a takeoff or a go-around is the level that it climbs to. A level to cross a fix at,
@@ -167,7 +177,7 @@ def commands_of(
     level_ft = next((one.altitude_ft for one in levels if one.altitude_ft is not None), None)
     climbs = [one for one in now if one.action in ("cleared_for_takeoff", "go_around")]
     found = [
-        _command_of(instruction, bound_runway, level_ft)
+        _command_of(instruction, bound_runway, level_ft, variation_deg)
         for instruction in now
         if not climbs or instruction.action != "altitude"
     ]
@@ -175,7 +185,10 @@ def commands_of(
 
 
 def _command_of(
-    instruction: Instruction, bound_runway: str | None, level_ft: float | None
+    instruction: Instruction,
+    bound_runway: str | None,
+    level_ft: float | None,
+    variation_deg: float,
 ) -> Command | None:
     runway = instruction.runway or bound_runway
     climb = {} if level_ft is None else {"climb_to_ft": level_ft}
@@ -197,7 +210,8 @@ def _command_of(
         case "altitude" if level_ft is not None:
             return AltitudeCommand(action="altitude", altitude_ft=level_ft)
         case "heading" if instruction.heading_deg is not None:
-            return TrackCommand(action="track", track_deg=instruction.heading_deg)
+            track_deg = (instruction.heading_deg + variation_deg) % 360.0
+            return TrackCommand(action="track", track_deg=track_deg)
         case "speed" if instruction.speed_kt is not None:
             return SpeedCommand(action="speed", cas_kt=instruction.speed_kt)
     return None

@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 
+from airhilt.commands import TrackCommand
 from airhilt.phraseology import TAU_ASR, Action, Instruction, parse_call
 from airhilt.world.actors.listening import Listener, Understanding, commands_of
 
@@ -228,3 +229,10 @@ def test_what_holds_until_an_event_is_done_at_once() -> None:
 )
 def test_what_has_no_command_is_not_done_as_another(said: Instruction) -> None:
     assert commands_of([said], None) == ()
+
+
+def test_headings_that_are_said_are_magnetic() -> None:
+    west = Listener(ON_FREQUENCY, variation_deg=-10.7)
+    (command,) = west.commands_of([Instruction(action="heading", heading_deg=5.0)], None)
+    assert isinstance(command, TrackCommand)
+    assert command.track_deg == pytest.approx(354.3)
