@@ -380,7 +380,8 @@ def test_after_a_go_around_it_needs_another_clearance_to_land() -> None:
     plane.phase, plane.told = "glide", []
     crew.runway_operations.begin_on_final("01")
     plane.height_m = 190 * FOOT
-    crew.attend()
+    with pytest.raises(Unable):
+        crew.attend()
     assert plane.names == ["land", "go_around"]
 
 
