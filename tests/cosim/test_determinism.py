@@ -13,6 +13,7 @@ import pytest
 from airhilt import run
 from airhilt.cosim.replay import replay
 from airhilt.scenario import Scenario
+from airhilt.scenario.models.radio import ReceiverRadio
 from breadth import mostly_slow
 
 
@@ -55,6 +56,24 @@ def test_another_process_with_another_hash_seed_gives_the_same_log(
         check=True,
     )  # fmt: skip
     assert (out / "log.mcap").read_bytes() == here
+
+
+@pytest.mark.parametrize(("snr_db", "is_same"), [(60.0, True), (-5.0, False)])
+def test_receivers_change_the_log_only_where_they_are_worse_than_the_calls(
+    encounter: Scenario, tmp_path: Path, snr_db: float, is_same: bool
+) -> None:
+    listeners = {name for line in encounter.radio.lines for name in (line.speaker, line.to) if name}
+    receivers = dict.fromkeys(listeners, ReceiverRadio(snr_db=snr_db))
+    radio = encounter.radio.model_copy(update={"snr_db": 3.0})
+    given = radio.model_copy(update={"receivers": receivers})
+    without, with_them = (
+        log_of(
+            encounter.model_copy(update={"radio": each}), tmp_path / name,
+            latency="fixed", assistant="none", speech=False,
+        )
+        for name, each in (("without", radio), ("with", given))
+    )  # fmt: skip
+    assert (with_them == without) == is_same
 
 
 def test_pace_does_not_change_the_log(first: bytes, encounter: Scenario, tmp_path: Path) -> None:

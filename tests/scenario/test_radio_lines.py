@@ -86,6 +86,7 @@ def test_a_line_answers_one_before_it_on_its_frequency() -> None:
     [
         ("snr_db", 100.0), ("snr_db", "loud"), ("topology", "serial"), ("readbacks", "none"),
         ("words_per_minute", 5.0), ("wet", 1.5), ("stations", {"AAL123": {"snr_db": 100.0}}),
+        ("receivers", {"AAL123": {"snr_db": 100.0}}), ("receivers", {"AAL123": {}}),
     ],
 )  # fmt: skip
 def test_settings_of_the_radio_have_limits(field: str, value: Any) -> None:
@@ -102,6 +103,21 @@ def test_the_radio_of_a_station_belongs_to_somebody_in_the_scenario() -> None:
     document["radio"]["stations"] = {"AAL124": {"snr_db": 5.0}}
     message = complaint(document)
     assert "radio/stations/AAL124: no actor or unit 'AAL124'; did you mean 'AAL123'" in message
+
+
+def test_a_receiver_belongs_to_somebody_in_the_scenario_who_listens() -> None:
+    document = changed()
+    document["radio"]["receivers"] = {"AAL123": {"snr_db": 3.0}, "Washington Tower": {"snr_db": 9}}
+    radio = load_text(json.dumps(document), "test.json").radio
+    assert radio.receivers["AAL123"].snr_db == 3.0
+    document["radio"]["receivers"] = {"AAL124": {"snr_db": 3.0}}
+    message = complaint(document)
+    assert "radio/receivers/AAL124: no actor or unit 'AAL124'; did you mean 'AAL123'" in message
+    document["radio"]["receivers"] = {"ASSISTANT": {"snr_db": 3.0}}
+    assert "radio/receivers/ASSISTANT: no actor or unit" in complaint(document)
+    deer = load("s01c_nominal").model_dump(mode="json")
+    deer["radio"]["receivers"] = {"DEER1": {"snr_db": 3.0}}
+    assert "radio/receivers/DEER1: no actor or unit" in complaint(deer)
 
 
 def test_a_microphone_sticks_on_a_frequency() -> None:

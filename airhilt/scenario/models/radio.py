@@ -44,6 +44,15 @@ class StationRadio(ReceptionSettings):
     """Transmitter of an actor or a unit: the reception of its calls."""
 
 
+class ReceiverRadio(Model):
+    """Receiver of an actor or a unit: the reception of all calls there."""
+
+    snr_db: SnrDb = Field(
+        description="SNR of the best calls at this receiver: a call has the lower one of this and "
+        "its own"
+    )
+
+
 class RadioLine(ReceptionSettings):
     """One call on a frequency. If the frequency is busy, the call waits until it is free."""
 
@@ -83,6 +92,13 @@ class Radio(ReceptionSettings):
         description="units besides the controller, and reception of the calls of single speakers, "
         "by callsign or by the unit's name",
         examples=[{"AAL123": {"snr_db": 5.0, "wet": 0.7}}],
+    )
+    receivers: dict[Name, ReceiverRadio] = Field(
+        default={},
+        max_length=500,
+        description="reception of all calls at single listeners, by callsign or by the unit's "
+        "name; whoever has none hears as the receiver at the units' site",
+        examples=[{"AAL123": {"snr_db": 3.0}}],
     )
     squelch_db: SnrDb = Field(default=-10.0, description="SNR below which receivers stay silent")
     profile: Annotated[str, Field(max_length=500), AfterValidator(profiles.checked)] | None = Field(

@@ -87,7 +87,7 @@ class Listeners:
         if listener in call.deaf or not self._reaches(on_air, listener):
             self._understand(call, said, listener, NOTHING, "")
             return
-        snr_db = self._receptions.of(said).snr_db
+        snr_db = self._receptions.of(said, listener).snr_db
         heard = self._hearing.listen(said.id, listener, said.text, snr_db)
         match heard.outcome:
             case "understood":

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from airhilt.scenario.models import Radio
 from airhilt.scenario.models.radio import ReceptionSettings
@@ -11,7 +11,7 @@ from airhilt.sensors.radio.on_air import Utterance
 
 @dataclass(frozen=True, slots=True)
 class Reception:
-    """Reception of one call by all receivers."""
+    """Reception of one call by one receiver."""
 
     snr_db: float | None
     """Signal-to-noise ratio; None: without noise."""
@@ -23,15 +23,33 @@ class Receptions:
     """Reception of the calls of a scenario.
 
     A line of the script has its own settings. Where it has none, those of its speaker's station
-    apply, and where that has none, those of the whole radio.
+    apply, and where that has none, those of the whole radio. A listener whose receiver has an SNR
+    of its own gets no call better than that.
     """
 
     def __init__(self, radio: Radio) -> None:
         self._radio = radio
         self._lines = {line.id: line for line in radio.lines}
 
-    def of(self, said: Utterance) -> Reception:
-        """Return the reception of an utterance."""
+    def of(self, said: Utterance, listener: str | None = None) -> Reception:
+        """Return the reception of an utterance by a listener; None: at the units' site.
+
+        The lower SNR counts: that of the call, or that of the listener's receiver. Nobody hears
+        the own voice through the own receiver.
+        """
+        call = self._of_call(said)
+        receiver = None if listener is None else self._radio.receivers.get(listener)
+        if receiver is None or listener == said.speaker:
+            return call
+        return replace(call, snr_db=_lower(call.snr_db, receiver.snr_db))
+
+    def opens_squelch(self, said: Utterance, listener: str | None = None) -> bool:
+        """Return whether a call is strong enough for a receiver not to stay silent."""
+        snr_db = self.of(said, listener).snr_db
+        return snr_db is None or snr_db >= self._radio.squelch_db
+
+    def _of_call(self, said: Utterance) -> Reception:
+        """Return what a call has by its line, its speaker's station and the radio."""
         given = (self._lines.get(said.line or ""), self._radio.stations.get(said.speaker))
         settings: list[ReceptionSettings] = [each for each in given if each is not None]
         settings.append(self._radio)
@@ -39,10 +57,10 @@ class Receptions:
             _first([each.snr_db for each in settings]), _first([each.wet for each in settings])
         )
 
-    def opens_squelch(self, said: Utterance) -> bool:
-        """Return whether a call is strong enough for receivers not to stay silent."""
-        snr_db = self.of(said).snr_db
-        return snr_db is None or snr_db >= self._radio.squelch_db
+
+def _lower(call_db: float | None, receiver_db: float) -> float:
+    """Return the lower one of two ratios; None is without noise."""
+    return receiver_db if call_db is None else min(call_db, receiver_db)
 
 
 def _first(values: list[float | None]) -> float | None:

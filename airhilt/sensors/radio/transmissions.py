@@ -93,7 +93,7 @@ class Transmissions:
         """Return whether a transmission reaches a listener, and no other at the same time."""
         audible = self._stations.audible
         return (
-            self._receptions.opens_squelch(on_air.utterance)
+            self._receptions.opens_squelch(on_air.utterance, listener)
             and audible(on_air.utterance.speaker, listener)
             and not any(audible(other.utterance.speaker, listener) for other in on_air.overlapping)
         )

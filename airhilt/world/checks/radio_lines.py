@@ -1,9 +1,9 @@
-"""Checks of radio lines: their ids, times, frequencies, answers, speakers and stations."""
+"""Checks of the radio: ids, times, frequencies, answers and speakers of lines; names of radios."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Collection, Iterable, Iterator
 
 from airhilt import library
 from airhilt.errors import ScenarioError
@@ -19,7 +19,7 @@ GENERATED_ID = re.compile(
 
 
 def impossible_lines(scenario: Scenario) -> Iterator[Problem]:
-    """Yield lines that cannot be said as they are, by whom they are said, and unknown stations."""
+    """Yield lines that cannot be said as they are, and radios of nobody in the scenario."""
     line_ids = [line.id for line in scenario.radio.lines]
     frequencies: dict[str, int] = {}
     for index, line in enumerate(scenario.radio.lines):
@@ -47,6 +47,7 @@ def impossible_lines(scenario: Scenario) -> Iterator[Problem]:
         frequencies[line.id] = line.frequency_khz
     yield from _unknown_speakers(scenario)
     yield from _unknown_stations(scenario)
+    yield from _unknown_receivers(scenario)
 
 
 def _unknown_speakers(scenario: Scenario) -> Iterator[Problem]:
@@ -67,10 +68,27 @@ def _unknown_speakers(scenario: Scenario) -> Iterator[Problem]:
 
 def _unknown_stations(scenario: Scenario) -> Iterator[Problem]:
     """Yield the stations of speakers that are not in the scenario."""
-    units = [name for line in scenario.radio.lines for name in (line.speaker, line.to) if name]
     callsigns = [actor.callsign for actor in scenario.actors]
-    known = dict.fromkeys([*callsigns, *units, scenario.radio.controller, ASSISTANT])
-    for name in scenario.radio.stations:
+    known = dict.fromkeys([*callsigns, *_units(scenario), ASSISTANT])
+    yield from _not_among(known, scenario.radio.stations, "radio/stations")
+
+
+def _unknown_receivers(scenario: Scenario) -> Iterator[Problem]:
+    """Yield the receivers of listeners that are not in the scenario; no animal listens."""
+    people = [one.callsign for one in scenario.actors if not isinstance(one, WildlifeSpec)]
+    known = dict.fromkeys([*people, *_units(scenario)])
+    yield from _not_among(known, scenario.radio.receivers, "radio/receivers")
+
+
+def _units(scenario: Scenario) -> list[str]:
+    """Return the controller, and all who speak or are addressed."""
+    radio = scenario.radio
+    named = [name for line in radio.lines for name in (line.speaker, line.to) if name]
+    return [*named, radio.controller]
+
+
+def _not_among(known: Collection[str], names: Iterable[str], path: str) -> Iterator[Problem]:
+    for name in names:
         if name not in known:
             tail = library.nearest(name, list(known))
-            yield Problem(f"radio/stations/{name}", f"no actor or unit {name!r}{tail}")
+            yield Problem(f"{path}/{name}", f"no actor or unit {name!r}{tail}")

@@ -64,6 +64,7 @@ class World:
         *lines: dict[Any, Any],
         failures: list[Any] | tuple[Any, ...] = (),
         heard: dict[tuple[str, str], Heard] | None = None,
+        hearing: HearingModel | None = None,
         **radio: Any,
     ) -> None:
         document = load("s02a_nominal").model_dump(mode="json")
@@ -101,7 +102,7 @@ class World:
             failed=lambda happening: None,
             microphone_stuck=lambda actor, text: self.microphones.append((self.now_s, actor)),
             microphones_free=lambda: self.microphones.append((self.now_s, None)),
-            hearing=None if heard is None else Scripted(heard),
+            hearing=hearing if heard is None else Scripted(heard),
         )
         self.conversation.start()
 
@@ -169,6 +170,14 @@ class Scripted(HearingModel):
         return self._heard.get((transmission, listener), Heard("understood", text))
 
 
+class Sharp(HearingModel):
+    """Understands all that is above 0 dB, and nothing of what is below."""
+
+    def listen(self, transmission: str, listener: str, text: str, snr_db: float | None) -> Heard:
+        is_loud = snr_db is None or snr_db >= 0.0
+        return Heard("understood", text) if is_loud else Heard("unsure", text)
+
+
 MISSED, UNSURE = Heard("missed", ""), Heard("unsure", "...")
 
 
@@ -220,6 +229,46 @@ def test_one_who_is_not_sure_asks_again() -> None:
     assert world.spoken("clearance.say-again-1").speaker == "AAL123"
     assert world.spoken("clearance.say-again-1").in_reply_to == "clearance"
     assert len(world.done) == 1
+
+
+def test_a_crew_with_a_bad_receiver_asks_again_where_others_understand() -> None:
+    other = line(
+        "other", 60, TOWER, "DAL456", "Delta four five six, climb flight level three three zero.",
+        commands=[{"actor": "DAL456", "command": CLIMB}],
+    )  # fmt: skip
+    receivers = {"AAL123": {"snr_db": -3.0}, "DAL456": {"snr_db": 3.0}}
+    world = World(CLEARANCE, other, hearing=Sharp(0), snr_db=20.0, receivers=receivers).run()
+    assert world.said()[:2] == ["clearance", "clearance.say-again-1"]
+    assert world.hearings("DAL456") == [("other", "understood")]
+    assert world.hearings(TOWER) == [
+        (name, "understood") for name in world.said() if "say-again" in name
+    ]
+    assert [callsign for callsign, *_ in world.done] == ["DAL456"]
+
+
+def test_a_controller_with_a_bad_receiver_asks_the_crew_again() -> None:
+    receivers = {TOWER: {"snr_db": -3.0}}
+    check = line("check", 2, "AAL123", TOWER, "Washington Center, American one two three.")
+    world = World(check, hearing=Sharp(0), receivers=receivers).run()
+    assert world.said()[:2] == ["check", "check.say-again-1"]
+    assert world.spoken("check.say-again-1").speaker == TOWER
+
+
+def test_a_good_receiver_does_not_help_where_the_call_is_bad() -> None:
+    weak = {**CLEARANCE, "snr_db": -3.0}
+    receivers = {"AAL123": {"snr_db": 30.0}}
+    world = World(weak, hearing=Sharp(0), receivers=receivers).run()
+    assert world.said()[:2] == ["clearance", "clearance.say-again-1"]
+    assert not world.done
+
+
+def test_a_receiver_below_the_squelch_gives_its_crew_nothing_and_the_assistant_all() -> None:
+    receivers = {"AAL123": {"snr_db": -11.0}}
+    world = World(CLEARANCE, READBACK, receivers=receivers).run()
+    assert set(world.hearings("AAL123")) == {(name, "missed") for name in world.said()}
+    assert "readback" not in world.said()
+    texts = [one.id for one in world.published if isinstance(one, Transcript)]
+    assert texts == world.said()
 
 
 def test_a_unit_asks_the_caller_by_his_callsign() -> None:
