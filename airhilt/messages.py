@@ -303,6 +303,36 @@ TransmissionAudio = Annotated[
 """Messages on ``radio/<freq_khz>/audio``."""
 
 
+class SeatAudioOpened(TransmissionOpened):
+    """``seat/<seat>/audio``: attachment without payload; a seat begins to receive a transmission.
+
+    Only a seat has it whose receiver has a reception of its own. Whoever keyed is not known there.
+    """
+
+    seat: str
+
+
+class SeatAudioChunk(TransmissionChunk):
+    """``seat/<seat>/audio``: attachment to at most 0.5 s of what a seat receives, as PCM."""
+
+    seat: str
+
+
+class SeatAudioClosed(TransmissionClosed):
+    """``seat/<seat>/audio``: attachment without payload; a transmission that a seat got has ended.
+
+    ``snr_db`` is the ratio at the seat.
+    """
+
+    seat: str
+
+
+SeatAudio = Annotated[
+    SeatAudioOpened | SeatAudioChunk | SeatAudioClosed, Field(discriminator="phase")
+]
+"""Messages on ``seat/<seat>/audio``."""
+
+
 EmitterCategory = Literal[
     "A0", "A1", "A2", "A3", "A4", "A5", "A6", "A7",
     "B0", "B1", "B2", "B3", "B4", "B6", "B7",
@@ -1054,6 +1084,11 @@ class SeatInfo(Message):
         description="true if a recogniser takes part, so that automata understand a spoken call"
     )
     voice_is_recorded: bool
+    has_own_receiver: bool = Field(
+        default=False,
+        description="true if the person hears what is on ``seat/<seat>/audio``; false: what the "
+        "receiver at the units' site gets",
+    )
     longest_call_s: float = Field(description="a call is cut after this time")
     phraseology: Literal["faa", "icao"] = "faa"
 
@@ -1371,6 +1406,9 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "page": PageRefusal,
     "seat/{seat}": SeatPresence,
     "seat/{seat}/info": SeatInfo,
+    "seat/{seat}/audio (opened)": SeatAudioOpened,
+    "seat/{seat}/audio (chunk)": SeatAudioChunk,
+    "seat/{seat}/audio (closed)": SeatAudioClosed,
     "notice/{seat}": SeatNotice,
     "question/{seat}": WorkloadQuestion,
     "workload/{seat}": WorkloadAnswer,

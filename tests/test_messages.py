@@ -86,6 +86,15 @@ EXAMPLES: dict[str, dict[str, Any]] = {
         "id": "a", "frequency_khz": 134325, "t_tx_ns": 1, "t_end_ns": 2, "samples": 9,
         "snr_db": 10.0,
     },
+    "SeatAudioOpened": {"id": "a", "frequency_khz": 134325, "t_tx_ns": 1, "seat": "AAL1"},
+    "SeatAudioChunk": {
+        "id": "a", "frequency_khz": 134325, "seq": 2, "first_sample": 16_000, "samples": 9,
+        "sha256": "ab", "seat": "AAL1",
+    },
+    "SeatAudioClosed": {
+        "id": "a", "frequency_khz": 134325, "t_tx_ns": 1, "t_end_ns": 2, "samples": 9,
+        "snr_db": 3.0, "seat": "AAL1",
+    },
     "AdsbReport": {
         "icao24": "a1b2c3", "callsign": None, "latitude_deg": 1.5, "longitude_deg": -2.5,
         "altitude_ft": 35000.0, "ground_speed_kt": 450.0, "track_deg": 359.5,

@@ -21,6 +21,8 @@ from airhilt.messages import (
     DroppedMessages,
     EnhancedTransmission,
     Event,
+    SeatAudio,
+    SeatAudioClosed,
     SpokenTruth,
     Status,
     Transcript,
@@ -46,6 +48,9 @@ if TYPE_CHECKING:
 UNENDING_S = 86_400.0
 """Length of a call, in s, that its run has cut off: longer than any run."""
 _AUDIO = TypeAdapter[TransmissionAudio](TransmissionAudio)
+_SEAT_AUDIO = TypeAdapter[SeatAudio](SeatAudio)
+Received = tuple[str, str | None]
+"""Id of a call, and the owner of the receiver; None: it is the one at the units' site."""
 
 
 def read_recorded(
@@ -165,7 +170,7 @@ def _is_spoken_elsewhere(options: Options) -> bool:
 def _sound(folder: RunFolder, log: Sequence[Logged]) -> ReplayedRadio:
     """Return what was on the air, and why that ended."""
     durations_s: dict[tuple[str, str], float] = {}
-    received: dict[str, Transmission | TransmissionClosed] = {}
+    received: dict[Received, Transmission | TransmissionClosed] = {}
     lost: Event | None = None
     is_over = False
     for logged in log:
@@ -180,11 +185,15 @@ def _sound(folder: RunFolder, log: Sequence[Logged]) -> ReplayedRadio:
         elif kind[0] == "radio" and kind[-1] == "tx":
             header = Transmission.model_validate_json(logged.data)
             if header.samples:
-                received[header.id] = header
+                received[header.id, None] = header
         elif kind[0] == "radio" and kind[-1] == "audio":
             audio = _AUDIO.validate_json(logged.data)
             if isinstance(audio, TransmissionClosed) and not audio.is_complete:
-                received[audio.id] = audio
+                received[audio.id, None] = audio
+        elif kind[0] == "seat" and kind[-1] == "audio":
+            heard = _SEAT_AUDIO.validate_json(logged.data)
+            if isinstance(heard, SeatAudioClosed) and heard.samples:
+                received[heard.id, heard.seat] = heard
         elif logged.key == "truth/event":
             event = Event.model_validate_json(logged.data)
             is_over = is_over or event.kind in ("finished", "stopped")
@@ -259,7 +268,7 @@ class ReplayedStep:
 
 
 class ReplayedRadio:
-    """The voices of an earlier run, and what its receiver gave out.
+    """The voices of an earlier run, and what its receivers gave out.
 
     Parameters
     ----------
@@ -268,7 +277,7 @@ class ReplayedRadio:
     durations_s
         Duration of each spoken text, by speaker and text.
     received
-        Headers of the sound that was received, by the ids of the calls.
+        Headers of the sound that was received, by call and receiver.
     failure
         Reason why the sound was lost; None if it was not.
     """
@@ -279,7 +288,7 @@ class ReplayedRadio:
         self,
         audio: Path,
         durations_s: Mapping[tuple[str, str], float],
-        received: Mapping[str, Transmission | TransmissionClosed],
+        received: Mapping[Received, Transmission | TransmissionClosed],
         failure: str | None,
     ) -> None:
         self._audio = audio
@@ -307,6 +316,7 @@ class ReplayedRadio:
         background: BackgroundNoise,  # noqa: ARG002
         begin: int,
         now_ns: int,  # noqa: ARG002
+        listener: str | None = None,
     ) -> bytes:
         """Return the samples as they were received.
 
@@ -315,7 +325,7 @@ class ReplayedRadio:
         SpeechError
             It was in this transmission that the sound was lost.
         """
-        header = self._received.get(on_air.utterance.id)
+        header = self._received.get((on_air.utterance.id, listener))
         pcm = b"" if header is None else recorded_pcm(self._audio, header)[SAMPLE_BYTES * begin :]
         if not pcm:
             raise SpeechError(self._failure or f"{on_air.utterance.id}: not in the recording")

@@ -20,12 +20,15 @@ from airhilt.messages import (
     AdvisoryAudio,
     EnhancedTransmission,
     Message,
+    SeatAudioClosed,
     Transmission,
     TransmissionChunk,
     TransmissionClosed,
 )
 
-MessageWithSound = Transmission | TransmissionClosed | EnhancedTransmission | AdvisoryAudio
+MessageWithSound = (
+    Transmission | TransmissionClosed | SeatAudioClosed | EnhancedTransmission | AdvisoryAudio
+)
 """A message whose sound is written to a file of its own."""
 
 
@@ -36,6 +39,8 @@ def audio_file(folder: Path, message: MessageWithSound) -> Path:
         stem = f"advisory-{message.id}-{message.revision}-{message.recipient}"
     elif isinstance(message, EnhancedTransmission):
         stem = f"enhanced-{message.id}"
+    elif isinstance(message, SeatAudioClosed):
+        stem = f"seat-{message.seat}-{message.id}"
     return folder / f"{''.join(c if c.isalnum() or c in '._-' else '_' for c in stem)}.wav"
 
 
@@ -43,7 +48,7 @@ class AudioRecorder:
     """Writes the sound of each message that has any, as it is published.
 
     The chunks of a transmission are written only if no `Transmission` has their samples, because
-    its sender or the sound of the radio was lost while it lasted.
+    its sender or the sound of the radio was lost while it lasted, or a seat received them.
 
     Parameters
     ----------
@@ -54,10 +59,10 @@ class AudioRecorder:
     def __init__(self, folder: Path, *, keeps_voices: bool = True) -> None:
         self._folder = folder
         self._keeps_voices = keeps_voices
-        self._chunks: dict[str, bytearray] = {}
-        """PCM of the transmissions that are on the air, by id."""
+        self._chunks: dict[tuple[str, str], bytearray] = {}
+        """PCM of the transmissions that are on the air, by the key of their chunks and by id."""
 
-    def take(self, key: str, message: Message, payload: Payload) -> None:  # noqa: ARG002
+    def take(self, key: str, message: Message, payload: Payload) -> None:
         """Write the sound of a message.
 
         Raises
@@ -67,10 +72,10 @@ class AudioRecorder:
         """
         match message:
             case TransmissionChunk():
-                self._chunks.setdefault(message.id, bytearray()).extend(bytes(payload))
+                self._chunks.setdefault((key, message.id), bytearray()).extend(bytes(payload))
             case TransmissionClosed():
-                pcm = bytes(self._chunks.pop(message.id, b""))
-                if pcm and not message.is_complete:
+                pcm = bytes(self._chunks.pop((key, message.id), b""))
+                if pcm and (isinstance(message, SeatAudioClosed) or not message.is_complete):
                     self._write(message, pcm)
             case Transmission() | EnhancedTransmission() | AdvisoryAudio() if payload:
                 self._write(message, bytes(payload))

@@ -19,6 +19,7 @@ from airhilt.errors import RunStopped, SpeechError
 from airhilt.messages import SpokenTruth, Transmission, TransmissionClosed
 from airhilt.record import read_log
 from airhilt.scenario import Scenario
+from airhilt.scenario.models.radio import ReceiverRadio
 from airhilt.sensors.radio.learned_channel import LearnedChannel
 from paths import DATA
 from services import answering, nobody, service
@@ -184,6 +185,20 @@ def test_a_replay_knows_what_was_heard_of_a_call_in_which_the_voices_failed(
     assert incomplete[0].samples == SAMPLE_RATE_HZ
     assert rows(result, "radio/", Transmission)[0].samples == 0
     verdict = replay(result.folder)
+    assert verdict.identical, verdict.difference
+
+
+@pytest.mark.parametrize("calls", [2, 100])
+def test_a_replay_knows_what_a_seat_with_a_bad_receiver_heard_of_these_voices(
+    calls: int, short: Scenario, tmp_path: Path
+) -> None:
+    receivers = {"Washington Centre": ReceiverRadio(snr_db=3.0)}
+    radio = short.radio.model_copy(update={"snr_db": 20.0, "receivers": receivers})
+    scenario = short.model_copy(update={"radio": radio})
+    options = {"assistant": "none", "seat": ("Washington Centre",), "pace": "virtual"}
+    result = lost_after(calls, scenario, tmp_path / "run", **options)
+    assert list((result.folder / "audio").glob("seat-Washington_Centre-*.wav"))
+    verdict = replay(result.folder)  # The service is down now.
     assert verdict.identical, verdict.difference
 
 

@@ -141,6 +141,7 @@ class RadioConversation:
             began=self._began,
             ended=self._ended,
             roster=roster_of(scenario),
+            seats=self._seats.names,
         )
 
     def _make_stuck_microphones(
@@ -273,6 +274,7 @@ class RadioConversation:
                 **self._equipment_of(seat),
                 frequencies_khz=self._stations.selectable(seat),
                 has_sound=self._backend.has_sound,
+                has_own_receiver=seat in self._scenario.radio.receivers,
                 is_recognised=is_recognised,
                 voice_is_recorded=voice_is_recorded,
                 longest_call_s=LONGEST_CALL_S,

@@ -13,7 +13,7 @@ from airhilt.sensors.radio.backends import RadioBackend
 from airhilt.sensors.radio.frequency_arbiter import FrequencyArbiter
 from airhilt.sensors.radio.on_air import OnAir, Utterance
 from airhilt.sensors.radio.open_microphone import OpenMicrophone
-from airhilt.sensors.radio.receiver import RadioReceiver
+from airhilt.sensors.radio.receiver import RadioReceiver, SeatReceiver
 from airhilt.sensors.radio.reception import Receptions
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director
@@ -41,6 +41,8 @@ class Transmissions:
         Called with each transmission when it has ended and has been published.
     roster
         Callsigns that the controller expects.
+    seats
+        Units and actors at which a person hears; those with a receiver of their own get its sound.
     """
 
     def __init__(
@@ -54,6 +56,7 @@ class Transmissions:
         began: Callable[[Utterance], None],
         ended: Callable[[EndedTransmission], None],
         roster: Collection[str] = (),
+        seats: Collection[str] = (),
     ) -> None:
         self._director = director
         self._controller = radio.controller
@@ -63,6 +66,11 @@ class Transmissions:
         self._backend = backend
         self._publish = publish
         self._receiver = RadioReceiver(director, self._receptions, stations, backend, publish)
+        self._at_seats = [
+            SeatReceiver(seat, director, self._receptions, stations, backend, publish)
+            for seat in sorted(seats)
+            if seat in radio.receivers
+        ]
         self._began = began
         self._arbiter = FrequencyArbiter(
             director,
@@ -100,6 +108,8 @@ class Transmissions:
 
     def _open(self, on_air: OnAir) -> None:
         self._receiver.open(on_air)
+        for receiver in self._at_seats:
+            receiver.open(on_air)
         self._began(on_air.utterance)
 
     def _finish(self, on_air: OnAir) -> EndedTransmission:
@@ -108,6 +118,8 @@ class Transmissions:
         transcript = None
         if self._receiver.close(on_air):
             transcript = self._backend.transcript(on_air, mixed_with)
+        for receiver in self._at_seats:
+            receiver.close(on_air)
         if transcript is not None:
             keyed_by = self._stations.keyed_by(on_air.utterance.speaker)
             transcript = with_parties(transcript, self._roster, self._controller, keyed_by)

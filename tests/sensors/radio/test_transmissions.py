@@ -17,6 +17,9 @@ from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ, Audio, from_pcm, to_
 from airhilt.errors import SpeechError
 from airhilt.messages import (
     Message,
+    SeatAudioChunk,
+    SeatAudioClosed,
+    SeatAudioOpened,
     SpokenTruth,
     Transmission,
     TransmissionChunk,
@@ -77,6 +80,9 @@ class Everywhere:
     def keyed_by(self, speaker: str) -> str | None:
         return speaker if speaker == "Tower" else None
 
+    def selectable(self, name: str) -> tuple[int, ...]:
+        return (KHZ,)
+
     def background_of(self, name: str) -> str:
         return "tower" if name == "Tower" else "cockpit"
 
@@ -88,7 +94,12 @@ def audio_radio(profile: str = "vhf", radio: Radio = RADIO) -> AudioRadio:
 class Air:
     """The transmissions of a run, and what was published of them."""
 
-    def __init__(self, backend: RadioBackend | None = None, radio: Radio = RADIO) -> None:
+    def __init__(
+        self,
+        backend: RadioBackend | None = None,
+        radio: Radio = RADIO,
+        seats: tuple[str, ...] = (),
+    ) -> None:
         self.director = Director(Virtual())
         self.stations = Everywhere()
         self.published: list[tuple[str, Message, bytes]] = []
@@ -100,6 +111,7 @@ class Air:
             self.publish,
             began=lambda said: None,
             ended=lambda ended: None,
+            seats=seats,
         )
 
     def publish(self, key: str, message: Message, *, raw: bytes | None = None) -> None:
@@ -142,7 +154,7 @@ class Air:
         return [
             (message, raw)
             for _, message, raw in self.published
-            if isinstance(message, model) and message.id == name  # type: ignore[attr-defined]
+            if type(message) is model and message.id == name  # type: ignore[attr-defined]
         ]
 
     def chunks(self, name: str) -> list[tuple[TransmissionChunk, bytes]]:
@@ -290,7 +302,7 @@ def test_two_calls_at_once_are_mixed_as_if_both_had_been_known_before() -> None:
         air.say(10.0, "first", 3.0)
         air.say(11.2, "second", 3.0, listens_first=False)
     streamed.run()
-    known.transmissions._receiver._stream = lambda on_air: None
+    known.transmissions._receiver._streams._stream = lambda on_air: None
     known.run()
     for name in ("first", "second"):
         assert streamed.whole(name) == known.whole(name)
@@ -348,6 +360,126 @@ def test_a_stuck_microphone_is_streamed_like_any_transmission() -> None:
         check_stream(air, name)
 
 
+# --- at a seat with a receiver of its own -------------------------------------------------------
+
+
+BAD = Radio.model_validate({"snr_db": 20.0, "receivers": {"AAL123": {"snr_db": 3.0}}})
+
+
+def at_seat(air: Air, name: str) -> bytes:
+    return b"".join(pcm for _, pcm in air.of(SeatAudioChunk, name))
+
+
+def others(air: Air) -> list[tuple[str, Message, bytes]]:
+    """Return what is published of everything but the seats."""
+    return [one for one in air.published if not one[0].startswith("seat/")]
+
+
+def test_a_seat_with_a_receiver_of_its_own_hears_each_call_with_its_own_noise() -> None:
+    air = Air(radio=BAD, seats=("AAL123", "UAL7"))
+    air.say(10.0, "call", 1.8, speaker="Tower")
+    air.run()
+    voices = Buzzing()
+    speech = voices.synthesise("x" * 18, voices.voice_of("Tower"))
+    rng = stream(SEED, "channel@AAL123/call")
+    heard = VhfChannel(PROFILES["vhf"]).transmit(speech, 3.0, rng, (), "tower")
+    assert at_seat(air, "call") == to_pcm(heard)
+    assert {key for key, *_ in air.published if key.startswith("seat/")} == {"seat/AAL123/audio"}
+
+
+def test_the_stream_of_a_seat_opens_chunks_while_it_lasts_and_closes() -> None:
+    air = Air(radio=BAD, seats=("AAL123",))
+    air.say(10.0, "call", 1.8, speaker="Tower")
+    air.run()
+    ((opened, _),) = air.of(SeatAudioOpened, "call")
+    chunks = air.of(SeatAudioChunk, "call")
+    ((closed, _),) = air.of(SeatAudioClosed, "call")
+    assert (opened.seat, opened.t_ns, opened.keyed_by) == ("AAL123", 10 * SECOND_NS, None)
+    assert [chunk.t_ns / SECOND_NS for chunk, _ in chunks] == [10.5, 11.0, 11.5, 11.8]
+    assert [hashlib.sha256(pcm).hexdigest() for _, pcm in chunks] == [
+        chunk.sha256 for chunk, _ in chunks
+    ]
+    assert closed.sha256 == hashlib.sha256(at_seat(air, "call")).hexdigest()
+    assert (closed.snr_db, air.closed("call").snr_db) == (3.0, 20.0)
+
+
+def test_the_receivers_of_seats_change_nothing_of_what_all_others_hear() -> None:
+    airs = [
+        Air(radio=RADIO),
+        Air(radio=BAD.model_copy(update={"snr_db": SNR_DB}), seats=("AAL123",)),
+    ]
+    for air in airs:
+        air.say(10.0, "first", 3.0, speaker="Tower")
+        air.say(11.2, "second", 3.0, listens_first=False)
+        air.press(20.0, "person", packets(20.0, spoken(2.0), [0.3] * 7), 22.2)
+        air.run()
+    assert others(airs[0]) == airs[0].published == others(airs[1])
+    assert len(airs[1].published) > len(airs[0].published)
+
+
+def test_nothing_is_heard_at_a_seat_below_its_squelch_or_out_of_its_reach() -> None:
+    deaf = Radio.model_validate({"snr_db": 20.0, "receivers": {"AAL123": {"snr_db": -20.0}}})
+    far = Air(radio=BAD, seats=("AAL123",))
+    far.stations.out_of_reach.add("AAL123")
+    for air in (far, Air(radio=deaf, seats=("AAL123",))):
+        air.say(10.0, "call", 1.0, speaker="Tower")
+        air.run()
+        assert not [key for key, *_ in air.published if key.startswith("seat/")]
+        check_stream(air, "call")
+
+
+class Counting(AudioRadio):
+    """A radio that notes whose receivers have asked it for samples."""
+
+    def __init__(self, radio: Radio) -> None:
+        super().__init__(Buzzing(), VhfChannel(PROFILES["vhf"]), SEED, radio)
+        self.asked: set[str | None] = set()
+
+    def receive(self, on_air: OnAir, *rest: Any) -> bytes:
+        self.asked.add(rest[-1])
+        return super().receive(on_air, *rest)
+
+
+def test_a_seat_gets_nothing_of_a_call_into_whose_reach_it_comes_in_the_middle() -> None:
+    """So that a replay has no need of samples that no message has told of."""
+    backend = Counting(BAD)
+    air = Air(backend, radio=BAD, seats=("AAL123",))
+    air.stations.out_of_reach.add("AAL123")
+    air.say(10.0, "call", 3.0, speaker="Tower")
+    air.at(11.2, lambda: air.stations.out_of_reach.clear())
+    air.run()
+    assert not [key for key, *_ in air.published if key.startswith("seat/")]
+    assert backend.asked == {None}
+
+
+def test_a_seat_that_comes_out_of_reach_keeps_what_it_heard_until_then() -> None:
+    air = Air(radio=BAD, seats=("AAL123",))
+    air.say(10.0, "call", 3.0, speaker="Tower")
+    air.at(11.2, lambda: air.stations.out_of_reach.add("AAL123"))
+    air.run()
+    ((closed, _),) = air.of(SeatAudioClosed, "call")
+    assert not closed.is_complete
+    assert closed.samples == SAMPLE_RATE_HZ
+    assert closed.sha256 == hashlib.sha256(at_seat(air, "call")).hexdigest()
+    check_stream(air, "call")
+
+
+def test_the_own_call_of_a_seat_comes_back_without_the_noise_of_its_receiver() -> None:
+    air = Air(radio=BAD, seats=("AAL123",))
+    air.say(10.0, "call", 1.0, speaker="AAL123")
+    air.run()
+    ((closed, _),) = air.of(SeatAudioClosed, "call")
+    assert closed.snr_db == 20.0
+
+
+def test_without_sound_a_seat_is_told_when_its_frequency_is_busy() -> None:
+    air = Air(TextRadio(160.0), radio=BAD, seats=("AAL123",))
+    air.say(10.0, "call", 1.0, speaker="Tower")
+    air.run()
+    assert len(air.of(SeatAudioOpened, "call")) == len(air.of(SeatAudioClosed, "call")) == 1
+    assert not air.of(SeatAudioChunk, "call")
+
+
 # --- without sound ------------------------------------------------------------------------------
 
 
@@ -376,7 +508,7 @@ class Failing(AudioRadio):
 
     @staticmethod
     def _now_ns(rest: tuple[Any, ...]) -> int:
-        return int(rest[-1])
+        return int(rest[3])
 
 
 def test_a_call_in_which_the_sound_is_lost_has_no_samples_though_some_were_streamed() -> None:

@@ -53,14 +53,19 @@ class AudioRadio:
         background: BackgroundNoise,
         begin: int,
         now_ns: int,
+        listener: str | None = None,
     ) -> bytes:
-        """Return what the receiver gives out from a sample on, as PCM."""
+        """Return what a receiver gives out from a sample on, as PCM.
+
+        Each receiver has noise of its own.
+        """
         speech = _speech_of(on_air, on_air.known_until_ns(now_ns))
         is_over = not on_air.is_open_ended or on_air.has_ended(now_ns)
         if begin >= len(speech) and not is_over:
             return b""
         speech = speech if len(speech) else np.zeros(1, np.float32)
-        first, draws = 0, f"channel/{on_air.utterance.id}"
+        at = "" if listener is None else f"@{listener}"
+        first, draws = 0, f"channel{at}/{on_air.utterance.id}"
         if on_air.is_open_ended:
             context = 0 if on_air.is_carrier else CONTEXT  # A carrier has no level of speech.
             first, draws = max(begin - context, 0), f"{draws}/{begin}"
@@ -70,7 +75,7 @@ class AudioRadio:
             for other in mixed_with
             if not other.has_ended(first_ns)
         ]
-        reception = self._receptions.of(on_air.utterance)
+        reception = self._receptions.of(on_air.utterance, listener)
         heard = self._channel.transmit(
             piece,
             reception.snr_db,

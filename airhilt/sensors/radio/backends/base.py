@@ -1,4 +1,4 @@
-"""The protocol of a radio backend: the voices of a run, and its receiver."""
+"""The protocol of a radio backend: the voices of a run, and its receivers."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class RadioBackend(Protocol):
-    """The voices of a run and its receiver."""
+    """The voices of a run and its receivers."""
 
     @property
     def has_sound(self) -> bool:
@@ -37,8 +37,9 @@ class RadioBackend(Protocol):
         background: BackgroundNoise,
         begin: int,
         now_ns: int,
+        listener: str | None = None,
     ) -> bytes:
-        """Return what the receiver gives out of a transmission, as far as it can be known.
+        """Return what a receiver gives out of a transmission, as far as it can be known.
 
         The result is the whole of a transmission whose speech was known when it began, and the
         part that has been on the air by now of any other.
@@ -51,6 +52,8 @@ class RadioBackend(Protocol):
             Noise around the speaker.
         begin
             First sample that is asked for. The samples before it have been given out already.
+        listener
+            Owner of the receiver; None: it is the one at the units' site.
 
         Returns
         -------

@@ -61,11 +61,14 @@ class FallbackRadio:
         background: BackgroundNoise,
         begin: int,
         now_ns: int,
+        listener: str | None = None,
     ) -> bytes:
         """Return what the backend receives; no samples once it has failed."""
         if not self.is_lost:
             try:
-                return self._backend.receive(on_air, mixed_with, background, begin, now_ns)
+                return self._backend.receive(
+                    on_air, mixed_with, background, begin, now_ns, listener
+                )
             except SpeechError as error:
                 self._lose(error)
         return b""

@@ -33,6 +33,7 @@ class TextRadio:
         background: BackgroundNoise,  # noqa: ARG002
         begin: int,  # noqa: ARG002
         now_ns: int,  # noqa: ARG002
+        listener: str | None = None,  # noqa: ARG002
     ) -> bytes:
         """Return no samples."""
         return b""
