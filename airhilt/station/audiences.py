@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
-from typing import Literal, NamedTuple
+from collections.abc import Collection, Mapping
+from typing import Any, Literal, NamedTuple
 
 from airhilt.messages import (
     ActorCommand,
@@ -31,17 +31,18 @@ class Audience(NamedTuple):
     Attributes
     ----------
     way
-        What shows it: ADS-B, radars and surface surveillance, a frequency, an advisory to somebody,
-        a camera, or the actor that got a command. Else everybody sees it, with a seat or without,
-        or nobody does.
+        What shows it: ADS-B, radars and surface surveillance, a frequency, the own receiver of a
+        seat, an advisory to somebody, a camera, or the actor that got a command. Else everybody
+        sees it, with a seat or without, or nobody does.
     of
-        The icao24 of the sender, the frequency in kHz, the recipient, the carrier of the camera
-        (None: the ground), or the actor as a part of keys, each by its way.
+        The icao24 of the sender, the frequency in kHz, the seat, the recipient, the carrier of the
+        camera (None: the ground), or the actor as a part of keys, each by its way.
     """
 
     way: Literal[
-        "everybody", "adsb", "surveillance", "frequency", "advisory", "camera", "command", "nobody"
-    ]
+        "everybody", "adsb", "surveillance", "frequency", "receiver", "advisory", "camera",
+        "command", "nobody",
+    ]  # fmt: skip
     of: str | int | None = None
 
 
@@ -77,6 +78,13 @@ def audience_of(key: str, message: Message) -> Audience:
     return NOBODY
 
 
+def heard_by(header: Mapping[str, Any]) -> Audience:
+    """Return the audience of a piece of a transmission, by its header in JSON."""
+    if "seat" in header:
+        return Audience("receiver", header["seat"])
+    return Audience("frequency", header["frequency_khz"])
+
+
 class SeatView:
     """View of a run at a seat, besides what everybody sees.
 
@@ -92,6 +100,15 @@ class SeatView:
     def frequencies_khz(self) -> frozenset[int]:
         """Frequencies that are heard at the seat, as far as they are tuned to."""
         return frozenset(self._info.frequencies_khz)
+
+    def hears(self, audience: Audience) -> bool:
+        """Return true if a piece of a transmission with this audience is heard at the seat.
+
+        It comes from the own receiver of the seat, or where it has none from the units' site.
+        """
+        if self._info.has_own_receiver:
+            return audience == Audience("receiver", self._info.seat)
+        return audience.way == "frequency" and self.sees(audience)
 
     def sees(self, audience: Audience) -> bool:
         """Return true if something with this audience is seen at the seat."""

@@ -471,11 +471,8 @@ class Browsers:
                     await send(browser.unsent.popleft())
             if (own := self._own(browser)) is not None:
                 await send(f'{{"own":{own}}}')
-            sounds = self._sounds.since(browser.heard)
-            if sounds is not None:
-                browser.heard = sounds.next_number
-                if heard := _on(browser.tuned, sounds.changes):
-                    await send(json.dumps({"sounds": heard}))
+            if heard := self._heard_at(browser):
+                await send(json.dumps({"sounds": heard}))
             end = min(self._changes.next_number, number + MOST_AT_ONCE)
             if number >= end:
                 await asyncio.sleep(PERIOD_S)
@@ -491,6 +488,19 @@ class Browsers:
             return None
         browser.seen_of_seat = batch.next_number
         return batch.changes
+
+    def _heard_at(self, browser: _Browser) -> list[Any]:
+        """Return the pieces of sound, as JSON, that a browser has yet to get."""
+        view = self._views.of(self._book.of(browser))
+
+        def is_heard(audience: Audience) -> bool:
+            return view is not None and view.hears(audience)
+
+        batch = self._sounds.since(browser.heard, admits=is_heard)
+        if batch is None:
+            return []
+        browser.heard = batch.next_number
+        return _on(browser.tuned, batch.changes)
 
     def _view_of(self, browser: _Browser) -> str | None:
         """Return the seat whose view a browser is shown; None: it is shown what everybody sees."""

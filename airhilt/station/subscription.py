@@ -35,7 +35,7 @@ from airhilt.messages import (
 )
 from airhilt.record import Logged
 from airhilt.sensors.radio.hearing import key_chunk
-from airhilt.station.audiences import Audience, audience_of
+from airhilt.station.audiences import Audience, audience_of, heard_by
 from airhilt.station.changes import Changes
 from airhilt.station.connection import ASKED_S, RunConnection
 from airhilt.station.pictures import Picture
@@ -62,6 +62,8 @@ CLAIMS_PERIOD_S = 0.02
 """Time between two looks at the claims of other pages to a seat, in s."""
 STREAMED = "radio/*/audio"
 """Keys of the sound of transmissions while they last."""
+STREAMED_TO_SEATS = ("seat/{seat}/audio",)
+"""Likewise, of what only the receiver of a seat gets."""
 HEARD: Mapping[str, type[Message]] = {"command": ActorCommand}
 """Messages of programs besides what workers publish, by the first part of their key."""
 MOST_WAITING = 20_000
@@ -127,6 +129,7 @@ class Subscription:
         self._waiting: queue.Queue[Logged | None] = queue.Queue(MOST_WAITING)
         self._waiting_bytes = 0
         self._sounds: OrderedDict[str, Sound] = OrderedDict()
+        self._has_seats = bool(seats)
         self._pictures: dict[str, OrderedDict[int, Picture]] = {}
         self._watched: dict[str, zenoh.Subscriber[None]] = {}
         self._tokens: dict[str, zenoh.LivelinessToken] = {}
@@ -143,8 +146,10 @@ class Subscription:
             for key in _keys(seats)
         ]
         if sounds is not None:
-            key = f"{self._prefix}/{STREAMED}"
-            self._kept.append(self._session.declare_subscriber(key, self._stream))
+            self._kept += [
+                self._session.declare_subscriber(f"{self._prefix}/{key}", self._stream)
+                for key in (STREAMED, *_of(seats, STREAMED_TO_SEATS))
+            ]
         self._kept.append(
             self._session.liveliness().declare_subscriber(
                 f"{self._prefix}/run", self._ended, history=True
@@ -327,6 +332,8 @@ class Subscription:
         model = bus_message(key)
         if not pcm or model not in (Transmission, AdvisoryAudio):
             return True
+        if model is Transmission and self._has_seats:
+            return True  # At seats calls are heard while they last, each at its own receiver.
         try:
             message = model.model_validate_json(header)
         except ValidationError:
@@ -348,7 +355,8 @@ class Subscription:
         header = json.loads(sample.attachment.to_bytes())
         about = {name: header[name] for name in ("id", "frequency_khz")}
         sound = b64encode(sample.payload.to_bytes()).decode()
-        self._streamed.add(header["phase"], about | ({"pcm": sound} if sound else {}))
+        piece = about | ({"pcm": sound} if sound else {})
+        self._streamed.add(header["phase"], piece, audience=heard_by(header))
 
     def _see(self, sample: zenoh.Sample) -> None:
         """Receive a picture on a thread of Zenoh."""

@@ -69,8 +69,7 @@ def flood(run: PretendedRun) -> None:
         row |= {"active": True, "kind": "runway_conflict", "traffic": [name], "texts": [text]}
         run.changes.add("advisory", row | {"evidence": evidence})
         run.changes.add("event", {"t": t_s, "kind": "status", "who": name, "text": "", "state": ""})
-        sound = {"id": name, "frequency_khz": 119_100}
-        run.sounds.add("opened", sound)
+        run.stream("opened", id=name, frequency_khz=119_100)
         card = {"line": name, "seat": "TOWER", "t": t_s, "addressed": None, "text": name}
         run.seat.add("task", card | {"done": False})
 

@@ -87,7 +87,7 @@ def test_a_person_hears_only_the_frequencies_of_the_seat_that_are_listened_to(
             socket.send(json.dumps(wish))
         next_of(socket, "echo")
         for khz in (121_700, 119_100):
-            run.sounds.add("opened", {"id": f"call {khz}", "frequency_khz": khz})
+            run.stream("opened", id=f"call {khz}", frequency_khz=khz)
         assert next_of(socket, "sounds") == [
             ["opened", {"id": "call 119100", "frequency_khz": 119_100}]
         ]

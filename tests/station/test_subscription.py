@@ -19,10 +19,22 @@ import zenoh
 from airhilt.bus.certificates import make_keys
 from airhilt.bus.session import Bus, configuration, free_endpoint
 from airhilt.errors import StationError
-from airhilt.messages import Advisory, AdvisoryAudio, Briefing, Clock, Phase, SeatInfo
+from airhilt.messages import (
+    Advisory,
+    AdvisoryAudio,
+    Briefing,
+    Clock,
+    Phase,
+    SeatAudioOpened,
+    SeatInfo,
+    Transmission,
+    TransmissionOpened,
+)
 from airhilt.record import Logged
 from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.station import subscription
+from airhilt.station.audiences import Audience
+from airhilt.station.changes import Changes
 from airhilt.station.connection import RunConnection
 from airhilt.station.subscription import MOST_SOUND_BYTES, Subscription
 
@@ -132,6 +144,59 @@ def test_the_sounds_that_are_kept_have_a_limit(followed: Followed) -> None:
     followed.wait_until(lambda: followed.page.sound("call-11-0-ATC"))
     kept = [number for number in range(12) if followed.page.sound(f"call-{number}-0-ATC")]
     assert kept == list(range(12 - MOST_SOUND_BYTES // size, 12))
+
+
+def test_the_sound_of_the_receiver_of_a_seat_is_for_that_seat_alone() -> None:
+    sounds = Changes()
+    times = {"t_tx_ns": 0, "frequency_khz": 119_100}
+    with closing(Bus("run")) as bus:
+        bus.keep("clock", b"{}")
+        with closing(RunConnection(bus.endpoint)) as connection:
+            page = Subscription(
+                connection, lambda _: None, lambda: None, seats=["Ops 1"], sounds=sounds
+            )
+            with closing(page):
+                sent = {
+                    "radio/119100/audio": TransmissionOpened(id="call", **times),
+                    "seat/Ops_1/audio": SeatAudioOpened(id="call", seat="Ops 1", **times),
+                    "seat/AAL123/audio": SeatAudioOpened(id="call", seat="AAL123", **times),
+                }
+                for key, header in sent.items():
+                    bus.put(key, b"", header.model_dump_json().encode())
+                until = time.monotonic() + PATIENCE_S
+                while sounds.next_number < 2 and time.monotonic() < until:
+                    time.sleep(0.01)
+    audiences: set[Audience] = set()
+
+    def note(audience: Audience) -> bool:
+        audiences.add(audience)
+        return True
+
+    sounds.since(0, admits=note)
+    assert audiences == {Audience("frequency", 119_100), Audience("receiver", "Ops 1")}
+
+
+@pytest.mark.parametrize("seats", [(), ("TOWER",)])
+def test_the_sound_of_whole_calls_is_kept_for_pages_without_seats_alone(
+    seats: tuple[str, ...],
+) -> None:
+    call = Transmission(id="call", frequency_khz=119_100, t_tx_ns=0, t_end_ns=1, samples=1)
+    advice = AdvisoryAudio(
+        id="a", revision=0, recipient="ATC", text="stop", t_dec_ns=0, engine="", samples=1,
+        sha256="",
+    )  # fmt: skip
+    with closing(Bus("run")) as bus:
+        bus.keep("clock", b"{}")
+        with closing(RunConnection(bus.endpoint)) as connection:
+            taken: queue.Queue[Logged] = queue.Queue()
+            with closing(Subscription(connection, taken.put, lambda: None, seats=seats)) as page:
+                bus.put("radio/119100/tx", b"\0\0", call.model_dump_json().encode())
+                bus.put("tts/a", b"\0\0", advice.model_dump_json().encode())
+                wanted = {"radio/119100/tx", "tts/a"}
+                while wanted:
+                    wanted -= {taken.get(timeout=PATIENCE_S).key}
+                assert page.sound("a-0-ATC")
+                assert bool(page.sound("call")) is not bool(seats)
 
 
 def test_a_page_that_comes_late_asks_where_the_radars_are() -> None:

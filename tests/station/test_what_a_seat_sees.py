@@ -354,6 +354,28 @@ def test_a_seat_listens_to_its_own_frequencies_alone(seats: tuple[PretendedRun, 
         shown_refused = next(one for one in socket if "refused" in one)
         assert "frequency" in shown_refused
         for khz in (GROUND_KHZ, TOWER_KHZ):
-            run.sounds.add("opened", {"id": "one", "frequency_khz": khz})
+            run.stream("opened", id="one", frequency_khz=khz)
         heard = json.loads(next(one for one in socket if "sounds" in one))["sounds"]
         assert [piece[1]["frequency_khz"] for piece in heard] == [TOWER_KHZ]
+
+
+@pytest.mark.parametrize(("seat", "heard"), [("AAL123", "own"), ("TOWER", "site")])
+def test_a_seat_with_a_receiver_of_its_own_hears_that_and_the_others_the_one_of_the_units(
+    seat: str, heard: str
+) -> None:
+    tower, pilot, _ = SEATS
+    run = PretendedRun((tower, pilot.model_copy(update={"has_own_receiver": True})))
+    with seat_page(run) as (_, url), opened(url) as socket:
+        taken(socket, seat)
+        socket.send(json.dumps({"tune": [TOWER_KHZ]}))
+        socket.send(json.dumps({"echo": 1.0}))
+        next(one for one in socket if "echo" in one)
+        run.stream("chunk", id="call", frequency_khz=TOWER_KHZ, pcm="site")
+        run.stream("chunk", id="call", frequency_khz=TOWER_KHZ, pcm="another", seat="DAL456")
+        run.stream("chunk", id="call", frequency_khz=GROUND_KHZ, pcm="untuned", seat="AAL123")
+        run.stream("chunk", id="call", frequency_khz=TOWER_KHZ, pcm="own", seat="AAL123")
+        pieces: list[str] = []
+        while not pieces:
+            message = json.loads(socket.recv(timeout=PATIENCE_S))
+            pieces = [piece[1]["pcm"] for piece in message.get("sounds", ())]
+        assert pieces == [heard]

@@ -28,7 +28,7 @@ from airhilt.messages import (
 )
 from airhilt.station.address import Address
 from airhilt.station.app import live_app
-from airhilt.station.audiences import SeatViews
+from airhilt.station.audiences import SeatViews, heard_by
 from airhilt.station.browsers import Browsers
 from airhilt.station.changes import Changes, SeatChanges
 from airhilt.station.pictures import Picture
@@ -201,6 +201,10 @@ class PretendedRun:
     def fly(self, seat: str, command: Command) -> None:
         """Note a command."""
         self.done.put(command)
+
+    def stream(self, phase: str, **header: Any) -> None:
+        """Let a piece of a transmission come, by its header."""
+        self.sounds.add(phase, header, audience=heard_by(header))
 
     def picture(self, camera: str, seq: int) -> Picture | None:
         """Return a picture of a camera."""
