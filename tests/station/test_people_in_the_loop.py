@@ -10,6 +10,7 @@ import json
 import signal
 import subprocess
 import sys
+from base64 import b64decode
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -18,13 +19,16 @@ from typing import Any
 import numpy as np
 import psutil
 import pytest
+from websockets.sync.client import connect
 
 from airhilt.assistant.asr.engines import asr_engine
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.cosim.replay import replay
 from airhilt.library import find
+from airhilt.messages import SeatAudioClosed
 from airhilt.phraseology import TAU_ASR, parse_call
 from airhilt.record import open_run
+from airhilt.record.audio import recorded_pcm
 from airhilt.units import SECOND_NS
 from cut_network import forgive, through_network
 from devtools import Page
@@ -63,10 +67,13 @@ SAYINGS = 4
 
 
 @contextmanager
-def running(out: Path, scenario: str, duration_s: float, *options: str) -> Iterator[str]:
+def running(
+    out: Path, scenario: str, duration_s: float, *options: str, **radio: Any
+) -> Iterator[str]:
     """Start a run with sound and a page, yield the URL, and wait for the end of the run."""
     file = out.with_suffix(".json")
     content = json.loads(find("scenarios", scenario).read_text()) | {"duration_s": duration_s}
+    content["radio"] |= radio
     file.write_text(json.dumps(content))
     command = [sys.executable, "-m", "airhilt", "cosim", "--scenario", str(file), "--no-cameras"]
     command += ["--no-browser", "--port", "0", "--latency", "fixed", "--out", str(out), *options]
@@ -191,6 +198,33 @@ def test_two_people_hear_each_other_and_block_each_other_when_both_talk(tmp_path
     assert {one["speaker"] for one in together} == {"Washington Tower", "AAL123"}
     assert all(one["blocked_by"] for one in together)
     assert replay(out).identical
+
+
+def test_who_has_a_bad_receiver_hears_at_the_page_what_the_run_records_of_it(
+    tmp_path: Path,
+) -> None:
+    out, seat, call = tmp_path / "run", "Washington Centre", "check-in-dal"
+    radio = {"snr_db": 20.0, "receivers": {seat: {"snr_db": 3.0}}}
+    options = ("--seat", "tower", "--assistant", "none")
+    pieces: list[tuple[str, dict[str, Any]]] = []
+    with (
+        running(out, "s02a_headon", 25.0, *options, **radio) as url,
+        connect(f"{url.replace('http', 'ws')}api/live", proxy=None) as socket,
+    ):
+        socket.send(json.dumps({"take": seat}))
+        while "own" not in json.loads(socket.recv(timeout=PATIENCE_S)):
+            pass
+        socket.send(json.dumps({"tune": [133_475, 134_325]}))
+        while ("closed", call) not in [(phase, piece["id"]) for phase, piece in pieces]:
+            pieces += json.loads(socket.recv(timeout=PATIENCE_S)).get("sounds", ())
+    heard = [piece["pcm"] for _, piece in pieces if piece["id"] == call and "pcm" in piece]
+    (closed,) = (
+        one for one in contents(out, "seat/Washington_Centre/audio")
+        if (one["id"], one["phase"]) == (call, "closed")
+    )  # fmt: skip
+    assert closed["snr_db"] == 3.0
+    recorded = recorded_pcm(out / "audio", SeatAudioClosed.model_validate(closed))
+    assert b"".join(map(b64decode, heard)) == recorded
 
 
 def said_until_written(speaker: Page, listener: Page, words: str) -> Audio:
