@@ -8,7 +8,7 @@ from airhilt.errors import StationError
 from airhilt.record import Run
 from airhilt.report.data import read_run
 from airhilt.report.sections import Content, GuardedContent, Section
-from airhilt.station import advisories, calls, cameras, latencies, redrawing
+from airhilt.station import advisories, calls, cameras, latencies, redrawing, seat_sounds
 from airhilt.station.sounds import Sounds
 from airhilt.text import readable
 
@@ -33,15 +33,17 @@ class Debrief:
     document
         Document with which the page begins, for JSON.
     sounds
-        Sounds of the frequencies and of the assistant.
+        Sounds of the frequencies, of receivers of seats, and of the assistant.
     """
 
     def __init__(self, run: Run) -> None:
         folder = run.folder
         said, advised = calls.Calls(folder), advisories.Advisories(folder)
+        at_seats = seat_sounds.SeatSounds(folder)
         self._cameras, states = cameras.Cameras(folder), redrawing.States(folder)
         contents = [
             _content("calls", said, calls.KEYS),
+            _content("seat_sounds", at_seats, seat_sounds.KEYS),
             _content("advisories", advised, advisories.KEYS),
             _content("cameras", self._cameras, cameras.KEYS),
             _content("states", states, redrawing.KEYS),
@@ -51,7 +53,7 @@ class Debrief:
         self._locate = data.locate
         parts = {content.section.name: content.as_json(data) for content in contents}
         notes = [readable(note) for content in contents for note in content.notes]
-        self.sounds = Sounds(run, said.frequencies_khz, said.spoken)
+        self.sounds = Sounds(run, said.frequencies_khz, said.spoken, at_seats.heard)
         self._redrawn = redrawing.RedrawnPictures(run.info, states.by_actor())
         shared = data.as_json()
         self.document: Json = {

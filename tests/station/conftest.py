@@ -9,6 +9,8 @@ import pytest
 
 from airhilt import load, run
 from airhilt.scenario import Scenario
+from airhilt.scenario.models.radio import ReceiverRadio
+from seats import logged, spoken, tower, voice
 from shortened import shortened
 
 
@@ -34,3 +36,16 @@ def airport_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
     out = tmp_path_factory.mktemp("airport") / "run"
     short = load("s01b_dropped_hold").model_copy(update={"duration_s": 6.0, "cameras": ()})
     return run(short, out=out, latency="fixed", assistant="none", speech=False, report=False).folder
+
+
+@pytest.fixture(scope="session")
+def noisy_seat(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A run in which the pilot has a worse receiver than the units' site."""
+    radio = tower().radio.model_copy(
+        update={"receivers": {"AAL123": ReceiverRadio(snr_db=0.0)}, "snr_db": 30.0}
+    )
+    out = tmp_path_factory.mktemp("noisy") / "run"
+    words = spoken("Washington_Tower", 4.0, voice("American one two three, cleared to land"))
+    scenario = tower(10.0).model_copy(update={"radio": radio})
+    logged(scenario, out, ["tower", "AAL123"], words, speech=True)
+    return out

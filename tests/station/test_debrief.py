@@ -120,3 +120,14 @@ def test_no_file_outside_of_the_page_is_served(debrief: Debrief) -> None:
 
 def test_what_the_page_is_told_is_json(debrief: Debrief) -> None:
     json.dumps(debrief.document, allow_nan=False)
+
+
+def test_what_a_seat_heard_by_its_own_receiver_is_a_sound_of_its_own(noisy_seat: Path) -> None:
+    debrief = Debrief(open_run(noisy_seat))
+    assert debrief.document["sounds"] == ("119100", "119100@AAL123")
+    at_site, at_seat = (read_wav(debrief.sounds.wav(one)) for one in debrief.document["sounds"])
+    assert len(at_site) == len(at_seat)
+    assert not at_seat[: 4 * 16_000].any()
+    assert at_seat[4 * 16_000 :].std() > 0.01
+    assert abs(at_seat - at_site).max() > 0.01
+    debrief.close()

@@ -5,6 +5,14 @@ import { byId, html } from "./dom.js";
 import { megahertz } from "./words.js";
 
 const MOST_OFF_S = 0.15;
+const AT = "@"; // between the frequency and the seat whose receiver gave out a sound
+
+/** Returns how a sound is called: of the assistant, of a frequency, or of a frequency at a seat. */
+function labelOf(name) {
+  if (name === "assistant") return "Assistant";
+  const [khz, seat] = name.split(AT);
+  return seat ? `${megahertz(Number(khz))} at ${seat.replaceAll("_", " ")}` : megahertz(Number(khz));
+}
 
 export class Sounds {
   #clock;
@@ -14,23 +22,21 @@ export class Sounds {
     this.#clock = clock;
     this.#channels = run.sounds.map((name) => {
       const audio = new Audio(`api/sounds/${encodeURIComponent(name)}.wav`),
-        box = html("input", { type: "checkbox", checked: true });
-      audio.preload = "auto";
+        // The calls are heard at the units' site already.
+        isFirst = !name.includes(AT),
+        box = html("input", { type: "checkbox", checked: isFirst });
+      audio.preload = isFirst ? "auto" : "none";
       box.addEventListener("change", () => this.draw());
-      return {
-        audio,
-        box,
-        label: html("label", {}, box, name === "assistant" ? "Assistant" : megahertz(Number(name))),
-      };
+      return { audio, box, isFirst, label: html("label", {}, box, labelOf(name)) };
     });
     byId("sounds").replaceChildren(...this.#channels.map(({ label }) => label));
     if (!run.sounds.length) byId("sounds").append(html("span", { class: "dim" }, "no sound"));
   }
 
-  /** Switches all sounds off, or on if none is. */
+  /** Switches all sounds off, or those on that are so at first if none is. */
   mute() {
     const on = this.#channels.some(({ box }) => box.checked);
-    for (const { box } of this.#channels) box.checked = !on;
+    for (const { box, isFirst } of this.#channels) box.checked = !on && isFirst;
     this.draw();
   }
 
