@@ -33,10 +33,13 @@ SLOTS = tuple(each.name for each in fields(Instruction) if each.compare and each
 """Details of an action."""
 _OR = re.compile(r" or (?:[0-9]|flight level|left|right)")
 _OR_INSIDE = re.compile(r"[0-9] or [0-9]")
-_VIA = re.compile(r"(?<!\S)via(?: [^\s|]+){0,4} ?$")
-_OF_PROCEDURE = re.compile(r"(?: [^\s|]+){0,5} (?:arrival|departure|transition)(?!\S)")
-"""Words before and behind the name of a procedure."""
 """Two values of which one is meant."""
+_VIA = re.compile(r"(?<!\S)(?:climb|descend) via(?: [^\s|]+){0,4} ?$")
+_OF_PROCEDURE = re.compile(
+    r"(?: (?!ahead|caution|contact|expect|monitor|on|report)[^\s|]+){0,5}"
+    r" (?:arrival|departure|transition)(?!\S)"
+)
+"""Words before and behind the name of a procedure, which has no word of a report or an order."""
 _DENIED = frozenset({*AFTERWARDS, "given", "issued", "yet"})
 """Words behind a clearance that was denied."""
 _VALUED = frozenset({"altitude", "heading", "speed", *CLEARANCES} - {"taxi", "cleared_approach"})

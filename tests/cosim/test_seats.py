@@ -213,7 +213,7 @@ def test_a_crew_flies_again_by_itself_once_its_person_has_left(tmp_path: Path) -
 def test_an_aircraft_that_was_not_told_to_land_goes_around_and_says_so(tmp_path: Path) -> None:
     log = logged(tower(110.0), tmp_path / "run", ["AAL123"], [taken("AAL123")])
     (told,) = [one["text"] for one in contents(log, "notice/AAL123")]
-    assert told == "Unable: to land without a clearance: going around"
+    assert told == "Unable: no clearance to land: going around"
     (event,) = [one for one in contents(log, "truth/event") if one["kind"] == "unable"]
     assert event["subject"] == "AAL123"
 

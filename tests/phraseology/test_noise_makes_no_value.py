@@ -131,5 +131,10 @@ def test_an_animal_in_the_name_of_a_procedure_is_not_sure(name: str) -> None:
 
 
 def test_an_animal_is_sure_though_procedures_are_told_beside_it() -> None:
-    for text in ("deer ahead contact departure", "taxi via alfa deer ahead"):
+    for text in (
+        "deer ahead contact departure",
+        "taxi via alfa deer ahead contact departure",
+        "taxi to runway one niner via alfa caution deer ahead expect departure in two minutes",
+        "climb via the sid deer on the grass contact departure",
+    ):
         assert "wildlife" in [each.action for each in in_effect(f"{NAME} {text}")]

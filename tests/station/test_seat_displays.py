@@ -738,7 +738,8 @@ def test_a_page_that_was_loaded_again_says_that_it_has_no_sound_until_somebody_a
 ) -> None:
     told = "document.getElementById('hearing').innerText"
     with seated(page, "TOWER"):
-        assert "No sound" not in page.evaluate(told)
+        page.evaluate("new Promise((done) => setTimeout(done, 1000))")
+        page.wait_for(f"!{told}.includes('No sound')")
         page.call("Page.reload")
         page.wait_for("document.body?.dataset.seat === 'controller'")
         page.wait_for(f"{told}.includes('No sound: click or press a key.')")
@@ -766,6 +767,7 @@ def test_the_mode_panel_takes_tracks_as_the_instruments_show_them(
     with seated(page, "AAL123") as run:
         airport = ReportAirport("kdca").as_json() if has_airport else None
         run.changes.add("briefing", "TOWER", airport, CATEGORIES)
+        told = "document.getElementById('panel-state').textContent"
         run.seat.add("cockpit", INSTRUMENTS | {"selected_altitude_ft": 9_000})
         page.wait_for(f"document.getElementById('panel-track-unit').textContent.includes('{unit}')")
         for field, value in (("track", 280), ("rate", 2_500)):
@@ -777,6 +779,21 @@ def test_the_mode_panel_takes_tracks_as_the_instruments_show_them(
         track, climb = run.next(), run.next()
         assert track.track_deg == pytest.approx(track_deg)
         assert (climb.altitude_ft, climb.vertical_rate_fpm) == (9_000, 2_500)
+        page.wait_for(f"{told}.includes('vertical speed 2500 ft/min, down to 9,000')")
+
+
+def test_a_vertical_speed_wants_another_altitude_to_fly_to(page: Page) -> None:
+    told = "document.getElementById('panel-state').textContent"
+    with seated(page, "AAL123") as run:
+        run.seat.add("cockpit", INSTRUMENTS)
+        page.wait_for(f"{INSTRUMENT}.startsWith('Primary flight display')")
+        page.evaluate("""(() => {
+            const field = document.getElementById('panel-rate');
+            field.value = '1500';
+            field.form.requestSubmit();
+        })()""")
+        page.wait_for(f"{told}.includes('set another altitude first')")
+        assert commands(run, page) == []
 
 
 def test_a_controller_sees_what_a_radar_alone_has_found_on_the_plan(page: Page) -> None:

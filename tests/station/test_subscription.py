@@ -157,9 +157,9 @@ def test_the_sound_of_the_receiver_of_a_seat_is_for_that_seat_alone() -> None:
             )
             with closing(page):
                 sent = {
+                    "seat/AAL123/audio": SeatAudioOpened(id="call", seat="AAL123", **times),
                     "radio/119100/audio": TransmissionOpened(id="call", **times),
                     "seat/Ops_1/audio": SeatAudioOpened(id="call", seat="Ops 1", **times),
-                    "seat/AAL123/audio": SeatAudioOpened(id="call", seat="AAL123", **times),
                 }
                 for key, header in sent.items():
                     bus.put(key, b"", header.model_dump_json().encode())

@@ -16,6 +16,7 @@ const MOST_OPEN = 20; // transmissions at a time
 // Frequency in Hz, and when each pulse begins, in s.
 const TONES = { CAUTION: [700, [0]], WARNING: [1100, [0, 0.18, 0.36]] };
 const PULSE_S = 0.12;
+const WAKING_MS = 500; // that sound may take to begin after a click
 
 export class Loudspeaker {
   #context = null;
@@ -48,7 +49,7 @@ export class Loudspeaker {
     }
     this.#isWanted = true;
     this.#context.resume();
-    this.#tellSilence();
+    setTimeout(() => this.#tellSilence(), WAKING_MS);
     byId("hearing").hidden = false;
   }
 
@@ -67,7 +68,7 @@ export class Loudspeaker {
   take(pieces, { isOwn, isDeaf, isSlow }) {
     for (const [phase, { id, pcm }] of pieces) {
       if (phase === "closed") this.#close(id);
-      if (pcm && !isOwn(id) && !isDeaf && this.#context) {
+      if (pcm && !isOwn(id) && !isDeaf && this.#context?.state === "running") {
         if (isSlow) this.#keep(id, pcm);
         else this.#play(id, pcm);
       }

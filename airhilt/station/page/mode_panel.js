@@ -1,8 +1,9 @@
 // The mode panel: what autopilot and guidance are to do. A field sets its value with Enter.
 
 import { byId, html } from "./dom.js";
-import { known } from "./words.js";
+import { feet, known } from "./words.js";
 
+const LEAST_CHANGE_FT = 100; // of altitude, for which a vertical speed can be set
 const FIELDS = [
   {
     id: "speed",
@@ -38,12 +39,15 @@ const FIELDS = [
     unit: "ft/min",
     least: 100,
     most: 20_000,
-    // To the altitude that is selected, up or down.
-    command: (value, { altitude }) => ({
+    command: (value, { selected }) => ({
       action: "altitude",
-      altitude_ft: altitude,
+      altitude_ft: selected,
       vertical_rate_fpm: value,
     }),
+    isPossible: ({ altitude, selected }) =>
+      selected !== null && Math.abs(selected - altitude) >= LEAST_CHANGE_FT,
+    target: ({ altitude, selected }) =>
+      `, ${selected > altitude ? "up" : "down"} to ${feet(selected)}`,
   },
 ];
 const OF_RUNWAYS = [
@@ -67,8 +71,9 @@ export class ModePanel {
   #send;
   #tell;
   #isVehicle = false;
-  // Magnetic variation in degrees, positive east, null where it is not known; selected altitude.
-  #shown = { variation: null, altitude: 0 };
+  // Magnetic variation in degrees, positive east; altitude and selected altitude in ft. Null: it
+  // is not known.
+  #shown = { variation: null, altitude: null, selected: null };
 
   /**
    * `send(command, { heard, lost })` gives a command to the own aircraft, and calls one of the two
@@ -117,8 +122,8 @@ export class ModePanel {
   }
 
   /** Takes in what the instruments show. */
-  take({ mode, selected_altitude_ft: altitude }) {
-    this.#shown.altitude = altitude;
+  take({ mode, altitude_ft: altitude, selected_altitude_ft: selected }) {
+    Object.assign(this.#shown, { altitude, selected });
     this.#offerActions(mode);
   }
 
@@ -129,8 +134,9 @@ export class ModePanel {
     this.#action("cancel_takeoff").hidden = this.#isVehicle || !isRolling;
   }
 
-  /** Empties the fields. */
+  /** Forgets what was shown and typed. */
   clear() {
+    Object.assign(this.#shown, { altitude: null, selected: null });
     for (const { id } of FIELDS) byId(`panel-${id}`).value = "";
   }
 
@@ -185,7 +191,7 @@ export class ModePanel {
     this.#give(`${name}, runway ${runway}`, { action, runway });
   }
 
-  #field({ id, name, short, unit, least, most, command }) {
+  #field({ id, name, short, unit, least, most, command, isPossible, target }) {
     const input = html("input", {
       type: "text",
       inputmode: "decimal",
@@ -214,7 +220,14 @@ export class ModePanel {
         this.#tell(`${name}: expected ${least} to ${most} ${unitShown()}.`);
         return;
       }
-      this.#give(`${name.toLowerCase()} ${value} ${unitShown()}`, command(value, this.#shown));
+      if (isPossible && !isPossible(this.#shown)) {
+        this.#tell(`${name}: set another altitude first.`);
+        return;
+      }
+      this.#give(
+        `${name.toLowerCase()} ${value} ${unitShown()}${target?.(this.#shown) ?? ""}`,
+        command(value, this.#shown),
+      );
       input.value = "";
       input.blur();
     });

@@ -268,14 +268,15 @@ class RunwayOperations:
             return True
         if self._aircraft.state.height_agl_m > DECISION_HEIGHT_M:
             return False
-        self.go_around()
-        raise Unable("unable to land without a clearance: going around")
+        if not self.go_around():
+            return True
+        raise Unable("unable, no clearance to land: going around")
 
     def _go_around_if_too_high(self, final: FinalApproach) -> None:
         """Break off an approach that has crossed the threshold too high."""
         too_high = self._aircraft.state.height_agl_m > TOO_HIGH_M
         if too_high and final.before_m(self._here()) < 0.0 and self.go_around():
-            raise Unable("unable to land, too high over the threshold: going around")
+            raise Unable("unable, too high over the threshold: going around")
 
     def _break_off(self, climb_to_m: float) -> None:
         self._cleared_to_land = False

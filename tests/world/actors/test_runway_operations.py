@@ -216,7 +216,7 @@ def test_without_a_landing_clearance_it_goes_around_at_200_ft() -> None:
     crew.attend()
     assert plane.names == ["land"]
     plane.height_m = 190 * FOOT
-    with pytest.raises(Unable, match="without a clearance: going around"):
+    with pytest.raises(Unable, match="no clearance to land: going around"):
         crew.attend()
     assert plane.names == ["land", "go_around"]
     crew.attend()
