@@ -770,6 +770,7 @@ def test_the_mode_panel_takes_tracks_as_the_instruments_show_them(
         told = "document.getElementById('panel-state').textContent"
         run.seat.add("cockpit", INSTRUMENTS | {"selected_altitude_ft": 9_000})
         page.wait_for(f"document.getElementById('panel-track-unit').textContent.includes('{unit}')")
+        page.wait_for("document.getElementById('instruments').textContent.includes('9,000')")
         for field, value in (("track", 280), ("rate", 2_500)):
             page.evaluate(f"""(() => {{
                 const field = document.getElementById('panel-{field}');
