@@ -2,8 +2,8 @@
 
 A mutant is a document with a few changes: a value replaced, a number scaled, a part left out,
 repeated, nested, or taken from another one, sometimes text that is no JSON any more. It must be
-accepted, or refused with a named error of at most 500 characters. What is neither is kept as a
-file in the folder of ``--keep``, and the exit code is 1.
+accepted, or refused with a named error of at most 500 characters, in at most 2 s of CPU time. What
+is neither is kept as a file in the folder of ``--keep``, and the exit code is 1.
 """
 
 from __future__ import annotations
@@ -31,6 +31,8 @@ from airhilt.scenario import Scenario
 
 LONGEST_MESSAGE = 500
 """Greatest number of characters of an error."""
+LONGEST_CHECK_S = 2.0
+"""Greatest CPU time until a mutant is accepted or refused, in s."""
 RUN_S = 1.0
 """Simulated time of the run of an accepted mutant."""
 
@@ -55,6 +57,9 @@ class Outcome:
     kind: Kind
     message: str
     cpu_s: float
+    """CPU time until it was accepted or refused."""
+    ran: bool = False
+    """True if it was accepted, and the beginning of its scenario was run."""
 
 
 class Mutator:
@@ -163,17 +168,24 @@ def judge(text: str, read: Read, runs: bool) -> Outcome:
         Whether the beginning of its scenario is run if it is accepted.
     """
     begin_s = time.process_time()
+    scenario: Scenario | None = None
+    kind: Kind = "accepted"
+    message = ""
     try:
         scenario = read(text)
     except AirhiltError as error:
-        cpu_s = time.process_time() - begin_s
-        too_long = len(str(error)) > LONGEST_MESSAGE
-        return Outcome("failed" if too_long else "refused", str(error), cpu_s)
+        message = str(error)
+        kind = "failed" if len(message) > LONGEST_MESSAGE else "refused"
     except Exception:
-        return Outcome("failed", traceback.format_exc(), time.process_time() - begin_s)
+        kind, message = "failed", traceback.format_exc()
     cpu_s = time.process_time() - begin_s
-    failure = _run(scenario) if runs else None
-    return Outcome("failed", failure, cpu_s) if failure else Outcome("accepted", "", cpu_s)
+    if cpu_s > LONGEST_CHECK_S:
+        message = f"checked for {cpu_s:.1f} s of CPU time: {message or kind}"
+        return Outcome("failed", message, cpu_s)
+    if scenario is None or not runs:
+        return Outcome(kind, message, cpu_s)
+    failure = _run(scenario)
+    return Outcome("failed" if failure else "accepted", failure or "", cpu_s, ran=True)
 
 
 def judge_many(
@@ -184,11 +196,13 @@ def judge_many(
     Parameters
     ----------
     run_every
-        Each of so many is run if it is accepted; 0: none.
+        One of so many that are accepted is run, the first one too; 0: none.
     """
-    mutants = itertools.islice(Mutator(documents, seed).mutants(), count)
-    for number, text in enumerate(mutants):
-        yield text, judge(text, read, runs=run_every > 0 and number % run_every == 0)
+    accepted = 0
+    for text in itertools.islice(Mutator(documents, seed).mutants(), count):
+        outcome = judge(text, read, runs=run_every > 0 and accepted % run_every == 0)
+        accepted += outcome.kind == "accepted"
+        yield text, outcome
 
 
 def _run(scenario: Scenario) -> str | None:
@@ -218,7 +232,9 @@ def fuzz(kind: str, read: Read, description: str) -> int:
     parser.add_argument("--count", type=int, default=10_000, help="number of mutants")
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--names", help="documents, separated by commas; all if missing")
-    parser.add_argument("--run-every", type=int, default=1, help="run each N-th mutant; 0: none")
+    parser.add_argument(
+        "--run-every", type=int, default=1, help="run each N-th accepted mutant; 0: none"
+    )
     parser.add_argument("--keep", type=Path, help="folder for the mutants that failed")
     given = parser.parse_args()
     documents = shipped(kind, given.names.split(",") if given.names else None)

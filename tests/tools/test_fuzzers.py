@@ -23,13 +23,14 @@ def require_accepted_or_refused(
     outcomes = [outcome for _, outcome in judged]
     assert [outcome.message for outcome in outcomes if outcome.kind == "failed"] == []
     assert {outcome.kind for outcome in outcomes} == {"accepted", "refused"}
+    assert any(outcome.ran for outcome in outcomes) == (run_every > 0)
 
 
 @pytest.mark.parametrize(
     ("names", "count", "run_every"),
     mostly_slow(
-        [(EN_ROUTE, 440, 40), (EN_ROUTE, 120, 60), (AIRPORTS, 60, 0), (AIRPORTS, 20, 0)],
-        (EN_ROUTE, 120, 60), (AIRPORTS, 20, 0),
+        [(EN_ROUTE, 440, 10), (EN_ROUTE, 120, 10), (AIRPORTS, 60, 0), (AIRPORTS, 20, 0)],
+        (EN_ROUTE, 120, 10), (AIRPORTS, 20, 0),
     ),
     ids=["air", "a little in the air", "ground", "a little on the ground"],
 )  # fmt: skip
@@ -42,8 +43,8 @@ def test_a_mutated_scenario_is_accepted_or_refused_by_name(
 @pytest.mark.parametrize(
     ("kind", "count", "run_every"),
     mostly_slow(
-        [("airports", 200, 0), ("airports", 60, 0), ("aircraft", 200, 20), ("aircraft", 60, 30)],
-        ("airports", 60, 0), ("aircraft", 60, 30),
+        [("airports", 200, 0), ("airports", 60, 0), ("aircraft", 200, 10), ("aircraft", 60, 5)],
+        ("airports", 60, 0), ("aircraft", 60, 5),
     ),
 )  # fmt: skip
 def test_a_mutated_airport_or_aircraft_type_is_accepted_or_refused_by_name(
@@ -69,3 +70,15 @@ def test_a_scenario_that_ships_is_accepted_and_runs() -> None:
 def test_an_airport_or_aircraft_type_that_ships_is_accepted_and_runs(kind: str, name: str) -> None:
     (document,) = shipped(kind, [name])
     assert judge(json.dumps(document), fuzz_files.READERS[kind], runs=True).kind == "accepted"
+
+
+def test_a_check_that_takes_over_two_seconds_of_cpu_time_has_failed(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    (document,) = shipped("scenarios", ["s02a_headon"])
+    for cpu_s, kind in ((2.0, "accepted"), (2.1, "failed")):
+        times = iter((10.0, 10.0 + cpu_s))
+        monkeypatch.setattr("mutants.time.process_time", lambda times=times: next(times))
+        outcome = judge(json.dumps(document), fuzz_scenarios.read, runs=False)
+        assert outcome.kind == kind
+    assert outcome.message == "checked for 2.1 s of CPU time: accepted"
