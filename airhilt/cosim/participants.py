@@ -215,6 +215,12 @@ def _require_different_names(workers: Sequence[Participant], programs: Sequence[
             )
         if names.count(name) > 1:
             raise WorkerError(f"two workers are named {name!r}; expected a name for each")
+        for other in names:
+            if other.startswith(f"{name}-"):
+                raise WorkerError(
+                    f"two workers are named {name!r} and {other!r}: an id that begins with "
+                    f"'{other}-' would be of both; expected a name that does not begin the other"
+                )
 
 
 def _engines(options: Options, scenario: Scenario) -> Engines:

@@ -69,6 +69,16 @@ def test_two_workers_of_one_name_are_refused(encounter: Scenario, tmp_path: Path
     assert not (tmp_path / "run").exists()
 
 
+def test_two_workers_of_which_one_could_write_the_ids_of_the_other_are_refused(
+    encounter: Scenario, tmp_path: Path
+) -> None:
+    other = WarnsOnce()
+    other.description = other.description.model_copy(update={"name": "warner-b"})
+    with pytest.raises(WorkerError, match="'warner' and 'warner-b': an id that begins with"):
+        airhilt.run(encounter, out=tmp_path / "run", workers=[other, WarnsOnce()])
+    assert not (tmp_path / "run").exists()
+
+
 def test_a_worker_with_a_name_that_the_log_gives_to_others_is_refused(
     encounter: Scenario, tmp_path: Path
 ) -> None:
