@@ -44,7 +44,8 @@ class Run:
     log_damage
         From when to when the log is damaged, empty if it is not.
     damage
-        A line for each file that is not as the run wrote it.
+        A line for each file that commands read and that is not as the run wrote it: ``run.json``,
+        the log, the latencies, the summary. Sound, pictures and videos are not among them.
     """
 
     def __init__(self, folder: RunFolder) -> None:
@@ -57,6 +58,20 @@ class Run:
             *(self._problem(path) for path in (folder.latency_path, folder.summary_path)),
         )
         self.damage = tuple(line for line in lines if line)
+
+    def damage_of_all_files(self) -> tuple[str, ...]:
+        """Return `damage`, and a line for each other file of the manifest that was changed.
+
+        All of them are read, which takes as long as they are large.
+        """
+        checked = (self.folder.log_path, self.folder.latency_path, self.folder.summary_path)
+        others = self.info.files.keys() - {path.name for path in checked}
+        lines = (
+            problem_of(self.folder.path, name, record)
+            for name, record in self.info.files.items()
+            if name in others
+        )
+        return (*self.damage, *(line for line in lines if line))
 
     def messages(self) -> Iterator[Logged]:
         """Yield the messages of the log in the order of writing, up to where it breaks off.

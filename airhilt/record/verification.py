@@ -10,8 +10,7 @@ from typing import Any, Literal
 from airhilt.errors import RunFolderError, SignatureError
 from airhilt.record.folder import RunFolder, RunInfo
 from airhilt.record.log_reader import LogReader
-from airhilt.record.manifest import problem_of
-from airhilt.record.run import digest_problem, log_problem
+from airhilt.record.run import Run
 from airhilt.record.signature import fingerprint, is_signed_by, private_key, public_key, sign
 from airhilt.units import SECOND_NS
 
@@ -172,18 +171,10 @@ def _signature(
 
 def _problems(folder: RunFolder, info: RunInfo) -> list[str]:
     log = folder.log_path.name
-    lines = [
-        digest_problem(folder, info),
-        log_problem(folder, info),
-        *(
-            problem_of(folder.path, name, record)
-            for name, record in info.files.items()
-            if name != log
-        ),
-    ]
+    lines = list(Run(folder).damage_of_all_files())
     if info.phase != "running" and log not in info.files:
         lines.append(f"run.json: its manifest has no {log}")
-    return [line for line in lines if line]
+    return lines
 
 
 def _ended(folder: RunFolder) -> str:

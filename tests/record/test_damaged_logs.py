@@ -14,7 +14,7 @@ import pytest
 import airhilt
 from airhilt.errors import RunFolderError
 from airhilt.messages import Clock
-from airhilt.record import Logged, LogWriter, Run, open_run, read_log
+from airhilt.record import Logged, LogWriter, Run, RunFolder, open_run, read_log
 from airhilt.units import SECOND_NS
 from damage import chunks, flip, kill
 
@@ -261,3 +261,16 @@ def test_a_record_of_version_0_5_has_the_hash_of_its_log_alone(run_copy: Path) -
     assert quiet(run_copy).damage == ()
     flip(run_copy / "log.mcap", 8 * 2000)
     assert quiet(run_copy).damage
+
+
+def test_a_changed_sound_is_named_when_all_files_are_asked_for(run_copy: Path) -> None:
+    folder = RunFolder(run_copy)
+    sound = run_copy / "audio" / "call-1.wav"
+    sound.parent.mkdir(exist_ok=True)
+    sound.write_bytes(b"heard")
+    folder.write_info(folder.info().model_copy(update={"files": folder.manifest()}))
+    assert quiet(run_copy).damage_of_all_files() == ()
+    sound.write_bytes(b"other")
+    assert quiet(run_copy).damage == ()
+    (line,) = quiet(run_copy).damage_of_all_files()
+    assert line.startswith("audio/call-1.wav: damaged or changed")
