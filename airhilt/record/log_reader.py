@@ -47,6 +47,13 @@ LARGEST_CHUNK_BYTES = 1 << 28
 """Greatest size of the records of a chunk, in bytes: a larger one is damaged."""
 LARGEST_INDEX_BYTES = 1 << 28
 """Greatest size of the end of a log that repeats what is in it, in bytes."""
+FRAME_HEAD_BYTES = 18
+"""Greatest size of the head of a compressed chunk, which has the size of its records."""
+MOST_EXPANSION = 1000
+"""Number of bytes that are expanded and searched for each byte of a log: a run writes 3 to 5, and
+more when a program floods it with one text."""
+RECORD_COST_BYTES = 1000
+"""Number of bytes that are expanded in the time in which one record is handled."""
 BLOCK_BYTES = 1 << 20
 """Number of bytes that are read at a time where the whole file is gone through."""
 MOST_GAPS = 3
@@ -115,6 +122,8 @@ class LogReader:
         self.is_closed = False
         self.is_faultless = True
         self._size = 0
+        self._left_bytes = 0
+        """Number of bytes that may still be expanded and searched; below 0, reading ends."""
         self._channels: dict[int, Channel] = {}
         self._last = 0
         """Number of the last message that was read."""
@@ -137,6 +146,7 @@ class LogReader:
 
     def _messages(self, stream: BinaryIO) -> Iterator[Logged]:
         self._size = stream.seek(0, io.SEEK_END)
+        self._left_bytes = LARGEST_CHUNK_BYTES + MOST_EXPANSION * self._size
         is_mcap = _read(stream, 0, len(MAGIC)) == MAGIC
         index = self._index(stream)
         if index is not None:
@@ -147,7 +157,7 @@ class LogReader:
         )
         broken_at: int | None = None
         position = len(MAGIC)
-        while True:
+        while self._may_read(0):
             chunk, position, broken_at = self._next_chunk(stream, position)
             if chunk is None:
                 break
@@ -167,6 +177,8 @@ class LogReader:
         """
         try:
             for opcode, begin, end in _records(chunk):
+                if not self._may_read(RECORD_COST_BYTES):
+                    return
                 if opcode == Opcode.CHANNEL:
                     channel = Channel.read(ReadDataStream(io.BytesIO(chunk[begin:end])))
                     self._channels[channel.id] = channel
@@ -197,11 +209,20 @@ class LogReader:
     def _close_gap(self, index: _Index | None, broken_at: int | None) -> None:
         """Keep the gap after the last message, if there is one."""
         total = self._nameless if index is None else index.messages
-        if index is None and broken_at is not None:
+        if not self._may_read(0) or (index is None and broken_at is not None):
             self.gaps.append(Gap(self.end_ns, None, None))
         elif total > self._last:
             self.gaps.append(Gap(self.end_ns, None, total - self._last))
         self.is_faultless = self.is_faultless and not self.gaps
+
+    def _may_read(self, size: int) -> bool:
+        """Return true if so many bytes more may be expanded or searched, and count them.
+
+        Without a limit a small log could hold its reader for hours: chunks within each other, and
+        records of nothing, of which a billion take up a few kilobytes.
+        """
+        self._left_bytes -= size
+        return self._left_bytes >= 0
 
     # --- records --------------------------------------------------------------------------------
 
@@ -212,7 +233,10 @@ class LogReader:
         """
         begin = position
         broken_at: int | None = None
-        while (head := _read(stream, begin, RECORD_HEAD.size)) and len(head) == RECORD_HEAD.size:
+        while self._may_read(RECORD_COST_BYTES):
+            head = _read(stream, begin, RECORD_HEAD.size)
+            if len(head) < RECORD_HEAD.size:
+                break
             opcode, length = RECORD_HEAD.unpack(head)
             end = begin + RECORD_HEAD.size + length
             if opcode == Opcode.DATA_END and end == begin + DATA_END.size:
@@ -237,6 +261,8 @@ class LogReader:
     ) -> tuple[bytes | None, int, int | None]:
         """Return the same as `_next_chunk` for a chunk that is found by its content."""
         for place in _places(stream, COMPRESSION, position + COMPRESSION_AT):
+            if not self._may_read(0):
+                break
             begin = place - COMPRESSION_AT
             chunk = self._chunk(stream, begin)
             if chunk is not None:
@@ -262,10 +288,13 @@ class LogReader:
             return None
         if begin + RECORD_HEAD.size + length > self._size:
             return None
-        compressed = _read(stream, begin + len(head), compressed_size)
+        start = _read(stream, begin + len(head), min(FRAME_HEAD_BYTES, compressed_size))
         try:
-            if zstandard.frame_content_size(compressed) != size:
+            if zstandard.frame_content_size(start) != size:
                 return None
+            if not self._may_read(compressed_size + size):
+                return None
+            compressed = _read(stream, begin + len(head), compressed_size)
             chunk = zstandard.decompress(compressed, size)
         except BROKEN:
             return None

@@ -57,6 +57,11 @@ def problem_of(folder: Path, name: str, record: FileRecord) -> str:
     try:
         with open_inside(folder, folder / place) as stream:
             size_bytes = os.fstat(stream.fileno()).st_size
+            if record.size_bytes not in (None, size_bytes):
+                return (
+                    f"{name}: damaged or changed: it has {size_bytes} bytes, and run.json says "
+                    f"{record.size_bytes}"
+                )
             found = hashlib.file_digest(stream, "sha256").hexdigest()
     except FileNotFoundError:
         return f"{name}: missing"
@@ -64,9 +69,4 @@ def problem_of(folder: Path, name: str, record: FileRecord) -> str:
         return f"{name}: cannot be read: {error.strerror}"
     if found == record.sha256:
         return ""
-    sizes = (
-        f", and it has {size_bytes} of {record.size_bytes} bytes"
-        if record.size_bytes not in (None, size_bytes)
-        else ""
-    )
-    return f"{name}: damaged or changed: its SHA-256 is not that in run.json{sizes}"
+    return f"{name}: damaged or changed: its SHA-256 is not that in run.json"

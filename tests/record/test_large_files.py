@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 import tracemalloc
+import zlib
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
+import zstandard
 from mcap.opcode import Opcode
 
 from airhilt import bounded_json
@@ -20,10 +22,19 @@ from airhilt.audio.wav import LARGEST_WAV_BYTES
 from airhilt.configuration import read_configuration
 from airhilt.errors import AirhiltError, RunFolderError
 from airhilt.messages import Transmission
-from airhilt.record import RunFolder
+from airhilt.record import RunFolder, log_reader
 from airhilt.record.audio import recorded_pcm
 from airhilt.record.latency import LONGEST_STEP_BYTES, read_latencies
-from airhilt.record.log_reader import FOOTER, LARGEST_INDEX_BYTES, MAGIC, LogReader
+from airhilt.record.log_reader import (
+    CHUNK_HEAD,
+    FOOTER,
+    LARGEST_INDEX_BYTES,
+    MAGIC,
+    RECORD_HEAD,
+    Gap,
+    LogReader,
+)
+from airhilt.record.manifest import problem_of
 from airhilt.record.sweep_folder import SweepFolder
 from sweep_tables import grid, write_sweep
 
@@ -170,3 +181,82 @@ def test_a_table_of_texts_is_read_as_it_was_written(tmp_path: Path) -> None:
     read = SweepFolder.open(folder).table()
     assert read.equals(written)
     assert read.schema.equals(written.schema, check_metadata=True)
+
+
+def test_a_large_file_in_the_place_of_a_small_one_is_not_hashed(run_copy: Path) -> None:
+    size_bytes = (run_copy / "summary.json").stat().st_size
+    make_endless(run_copy / "summary.json")
+    record = RunFolder(run_copy).info().files["summary.json"]
+    assert problem_of(run_copy, "summary.json", record) == (
+        f"summary.json: damaged or changed: it has {ENDLESS} bytes, and run.json says {size_bytes}"
+    )
+
+
+def chunk(records: bytes, compressed: bytes, claimed_bytes: int) -> bytes:
+    """Return a chunk of a log, of which more bytes may be claimed than it has."""
+    crc = zlib.crc32(records)
+    head = CHUNK_HEAD.pack(0, 0, len(records), crc, 4, b"zstd", claimed_bytes)
+    return RECORD_HEAD.pack(Opcode.CHUNK, CHUNK_HEAD.size + claimed_bytes) + head + compressed
+
+
+def records_of_nothing() -> bytes:
+    """Return a log of a few kilobytes with millions of empty records."""
+    records = RECORD_HEAD.pack(0x80, 0) * 3_000_000
+    compressed = zstandard.compress(records)
+    return MAGIC + chunk(records, compressed, len(compressed))
+
+
+def chunks_within_each_other() -> bytes:
+    """Return a log of chunks each of which claims all that is behind it, and is broken."""
+    records = bytes(200)
+    good = zstandard.compress(records)
+    compressed = good[:-1] + bytes([good[-1] ^ 1])
+    size = len(chunk(records, compressed, 0))
+    count = 10_000
+    return MAGIC + b"".join(
+        chunk(records, compressed, len(compressed) + size * left) for left in reversed(range(count))
+    )
+
+
+def chunks_beside_a_long_way() -> bytes:
+    """Return a log of good chunks, behind each of which the way leads past all later ones."""
+    good = chunk(b"", compressed := zstandard.compress(b""), len(compressed))
+    step = RECORD_HEAD.pack(Opcode.MESSAGE_INDEX, len(good)) + good
+    return MAGIC + step * 5000 + b"\xff" * RECORD_HEAD.size
+
+
+@pytest.mark.parametrize(
+    "make", [records_of_nothing, chunks_within_each_other, chunks_beside_a_long_way]
+)
+def test_a_small_log_that_would_hold_its_reader_for_long_is_damaged_to_its_end(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, make: Callable[[], bytes]
+) -> None:
+    path = tmp_path / "log.mcap"
+    path.write_bytes(make())
+    reads = count_reads(monkeypatch)
+    reader = LogReader(path)
+    assert list(reader.messages()) == []
+    assert reader.gaps == [Gap(0, None, None)]
+    assert not reader.is_faultless
+    assert len(reads) < 1.2 * path.stat().st_size + 300_000
+    assert sum(reads) < 1100 * path.stat().st_size + 300_000_000
+
+
+def count_reads(monkeypatch: pytest.MonkeyPatch) -> list[int]:
+    """Return a list that gets the size of whatever is read of a log, and 0 for each record."""
+    reads: list[int] = []
+
+    def read(stream: Any, position: int, size: int) -> bytes:
+        data = stream_read(stream, position, size)
+        reads.append(len(data))
+        return data
+
+    def records(data: bytes) -> Any:
+        for record in chunk_records(data):
+            reads.append(0)
+            yield record
+
+    stream_read, chunk_records = log_reader._read, log_reader._records
+    monkeypatch.setattr(log_reader, "_read", read)
+    monkeypatch.setattr(log_reader, "_records", records)
+    return reads
