@@ -81,6 +81,17 @@ def _new(path: Path, mode: int) -> BufferedWriter:
     return os.fdopen(os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, mode), "wb")
 
 
+def is_of_owner_alone(path: Path) -> bool:
+    """Return whether no other user may read or write a file.
+
+    Raises
+    ------
+    OSError
+        It is not there.
+    """
+    return not stat.S_IMODE(path.stat().st_mode) & (stat.S_IRWXG | stat.S_IRWXO)
+
+
 def make_folder(path: Path) -> None:
     """Make a folder, unless it is there already.
 

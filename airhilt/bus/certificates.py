@@ -10,6 +10,7 @@ from __future__ import annotations
 import base64
 import ipaddress
 import json
+import stat
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
@@ -25,7 +26,7 @@ from airhilt import bounded_json
 from airhilt.bus.access import CERTIFICATE_NAME, ROLES, Role
 from airhilt.bus.endpoints import AUTHENTICATED, host_of, protocol_of
 from airhilt.errors import BusError
-from airhilt.files import read_file, write_new
+from airhilt.files import is_of_owner_alone, read_file, write_new
 
 Holder = Role | Literal["router"]
 """Whose a file is: a program of a role, or the run, whose session is a router of Zenoh."""
@@ -86,7 +87,8 @@ def make_keys(folder: Path, endpoint: str) -> None:
     Raises
     ------
     BusError
-        The endpoint has no certificates, or the files are there or cannot be written.
+        The endpoint has no certificates, other users may write into the folder, or the files are
+        there or cannot be written.
     """
     host = host_of(endpoint)
     if host is None or protocol_of(endpoint) not in AUTHENTICATED:
@@ -94,14 +96,19 @@ def make_keys(folder: Path, endpoint: str) -> None:
     authority = _authority()
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        if folder.stat().st_mode & (stat.S_IWGRP | stat.S_IWOTH):
+            raise BusError(
+                f"{folder}: other users may write into this folder, and replace the keys; "
+                f"expected a folder of its owner alone: chmod 700 {folder}"
+            )
+        for holder in HOLDERS:
+            path = key_file(folder, holder)
+            if path.exists() or path.is_symlink():
+                raise BusError(f"{path}: is there already; choose another folder for the keys")
         for holder in HOLDERS:
             settings = _settings(authority, holder, host, endpoint)
             data = json.dumps(settings, indent=2) + "\n"
             write_new(key_file(folder, holder), data.encode(), 0o600)
-    except FileExistsError as error:
-        raise BusError(
-            f"{error.filename}: is there already; choose another folder for the keys"
-        ) from None
     except OSError as error:
         raise BusError(f"{error.filename}: cannot be written: {error.strerror}") from None
 
@@ -112,8 +119,8 @@ def read_keys(folder: Path, holder: Holder) -> Keys:
     Raises
     ------
     BusError
-        There is no such file, it is none of `make_keys`, or its certificate has expired or is of
-        another role.
+        There is no such file, it is none of `make_keys`, other users may read it, or its
+        certificate has expired or is of another role.
     """
     path = key_file(folder, holder)
     try:
@@ -131,6 +138,11 @@ def read_keys(folder: Path, holder: Holder) -> Keys:
     except (ValueError, LookupError, TypeError):
         raise BusError(f"{path}: no keys; expected a file of `airhilt keys init`") from None
     _require_holder(certificate, holder, path)
+    if not is_of_owner_alone(path):
+        raise BusError(
+            f"{path}: other users may read or change this file, which has a private key; expected "
+            f"a file of its owner alone: chmod 600 {path}"
+        )
     if certificate.not_valid_after_utc < datetime.now(UTC):
         raise BusError(
             f"{path}: its certificate has expired on {certificate.not_valid_after_utc:%Y-%m-%d}; "

@@ -22,7 +22,7 @@ from cryptography.hazmat.primitives.serialization import (
 )
 
 from airhilt.errors import SignatureError
-from airhilt.files import read_file, replace_file, write_new
+from airhilt.files import is_of_owner_alone, read_file, replace_file, write_new
 from airhilt.record.folder import RunFolder
 
 LARGEST_KEY_BYTES = 1_000_000
@@ -82,7 +82,7 @@ def private_key(path: Path) -> Ed25519PrivateKey:
     Raises
     ------
     SignatureError
-        It cannot be read, or is no private Ed25519 key without a password.
+        It cannot be read, is no private Ed25519 key without a password, or other users may read it.
     """
     try:
         key = load_pem_private_key(_content(path), None)
@@ -92,6 +92,11 @@ def private_key(path: Path) -> Ed25519PrivateKey:
         raise SignatureError(
             f"{path}: no private key; expected one that `airhilt keys sign` has made (Ed25519, "
             "PEM, without a password)"
+        )
+    if not is_of_owner_alone(path):
+        raise SignatureError(
+            f"{path}: other users may read or change this private key; expected a file of its "
+            f"owner alone: chmod 600 {path}"
         )
     return key
 

@@ -248,6 +248,18 @@ def test_a_private_key_is_for_its_owner_alone_and_never_overwritten(
     assert not keys.exists()
 
 
+@pytest.mark.parametrize("mode", [0o640, 0o604, 0o620, 0o666])
+def test_a_private_key_that_others_may_read_or_change_signs_nothing(
+    airhilt_command: Any, run_copy: Path, keys: Path, mode: int
+) -> None:
+    keys.chmod(mode)
+    done = airhilt_command("sign", run_copy, "--key", keys)
+    assert done.returncode == 2
+    assert f"{keys}: other users may read or change this private key" in done.stderr
+    assert f"chmod 600 {keys}" in done.stderr
+    assert not (run_copy / "run.json.sig").exists()
+
+
 def test_a_key_of_the_wrong_kind_is_a_named_mistake(
     airhilt_command: Any, run_copy: Path, keys: Path, tmp_path: Path
 ) -> None:
