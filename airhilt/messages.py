@@ -1266,7 +1266,7 @@ class DroppedMessages(Message):
     keys: str = Field(examples=["advisory/*"])
     cause: DropCause = Field(
         description="size: larger than the limit; rate: more in a second than the limit; queue: "
-        "more than could wait; transport: numbers are missing among those of their sender"
+        "more than could wait; transport: numbers are missing among those that the sender gave"
     )
     messages: int = Field(ge=1)
 

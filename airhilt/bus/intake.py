@@ -18,6 +18,9 @@ MOST_WAITING_BYTES = 32_000_000
 """Size of the messages that may wait, in bytes."""
 MOST_SENDERS = 1000
 """Number of senders whose numbering is followed."""
+MOST_MISSING = 100_000
+"""Greatest number of messages that are taken to be missing between two of one sender; beyond it the
+sender has begun to count anew, or has made the number up."""
 ROUTED_BYTES = 8_000_000
 """Size in bytes above which the router drops a message of a program, so that neither the run nor
 another program gets it. Nothing counts these."""
@@ -152,8 +155,11 @@ class Intake:
         last = self._numbers.get(source.sender)
         if last is None and len(self._numbers) >= MOST_SENDERS:
             return 0
-        self._numbers[source.sender] = max(source.number, -1 if last is None else last)
-        return 0 if last is None else max(source.number - last - 1, 0)
+        if last is None or abs(source.number - last) > MOST_MISSING + 1:
+            self._numbers[source.sender] = source.number
+            return 0
+        self._numbers[source.sender] = max(source.number, last)
+        return max(source.number - last - 1, 0)
 
     def _count(self, keys: str, cause: DropCause, number: int) -> None:
         if not number:

@@ -444,7 +444,8 @@ class Summary(BaseModel):
     messages_dropped: dict[str, int] = Field(
         default_factory=dict,
         description="messages of programs without grants that did not count because they were too "
-        "large or too many, or were lost on the way, by kind of key and cause",
+        "large or too many, or were lost on the way as their senders number them, by kind of key "
+        "and cause",
     )
     evidence: dict[str, EvidenceAge] = Field(
         default_factory=dict,

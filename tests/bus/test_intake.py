@@ -12,6 +12,7 @@ import pytest
 import zenoh
 
 from airhilt.bus.intake import (
+    MOST_MISSING,
     MOST_SENDERS,
     MOST_WAITING,
     MOST_WAITING_BYTES,
@@ -82,6 +83,15 @@ def test_missing_numbers_of_a_sender_are_counted() -> None:
     assert taken.admit(KEYS, 1)
     assert told == [(KEYS, "transport")]
     assert taken.dropped == {(KEYS, "transport"): 3}
+
+
+def test_a_number_far_from_the_last_one_begins_the_count_anew() -> None:
+    taken, _ = intake(Limit(size_bytes=10, rate_hz=100))
+    for number in (0, 2**32 - 1, 2, 4):
+        assert taken.admit(KEYS, 1, Source("a", number))
+    assert taken.dropped == {(KEYS, "transport"): 1}
+    assert taken.admit(KEYS, 1, Source("a", 4 + MOST_MISSING + 1))
+    assert taken.dropped == {(KEYS, "transport"): 1 + MOST_MISSING}
 
 
 def test_the_numbers_of_a_bounded_number_of_senders_are_followed() -> None:
