@@ -87,12 +87,13 @@ def require_authenticated(endpoint: str, has_keys: bool, insecure: bool) -> None
         )
 
 
-def what_is_open(endpoint: str) -> str:
+def what_is_open(endpoint: str, shares_truth: bool) -> str:
     """Return in a sentence what every program can do that reaches an endpoint without keys."""
+    truth = " and the truth" if shares_truth else ""
     keys = ", ".join(
         key for keys in PUBLISHED.values() for key in keys if not key.startswith("tts")
     )
     return (
-        f"--insecure: whoever reaches {endpoint} can read all sensors and advisories, attach "
-        f"workers, and publish on {keys}: commands move aircraft. Nothing is encrypted"
+        f"--insecure: whoever reaches {endpoint} can read all sensors and advisories{truth}, "
+        f"attach workers, and publish on {keys}: commands move aircraft. Nothing is encrypted"
     )

@@ -153,7 +153,7 @@ def _open_bus(name: str, options: Options, observer: Observer) -> Bus:
         insecure=options.insecure,
     )
     if options.insecure:
-        observer.notice(what_is_open(bus.endpoint))
+        observer.notice(what_is_open(bus.endpoint, options.share_truth))
     return bus
 
 

@@ -297,7 +297,13 @@ def test_insecure_says_what_it_opens(encounter: Scenario, tmp_path: Path) -> Non
     endpoint = free_endpoint().replace("127.0.0.1", "0.0.0.0")
     short = encounter.model_copy(update={"duration_s": 1.0})
     run(short, out=tmp_path / "run", endpoint=endpoint, insecure=True, observer=notices)
-    assert f"whoever reaches {endpoint} can read all sensors" in notices.texts[0]
+    assert (
+        f"whoever reaches {endpoint} can read all sensors and advisories, attach"
+        in (notices.texts[0])
+    )
+    is_open: dict[str, Any] = {"endpoint": endpoint, "insecure": True, "share_truth": True}
+    run(short, out=tmp_path / "open", observer=notices, **is_open)
+    assert "can read all sensors and advisories and the truth, attach" in notices.texts[-1]
     with pytest.raises(AirhiltError, match="--insecure would do nothing without --endpoint"):
         run(short, out=tmp_path / "other", insecure=True)
 
