@@ -45,6 +45,9 @@ class Verification:
         ``unchecked``: there is one, and no key was given.
     key
         Fingerprint of the key that was given, empty without one.
+    has_digest
+        False if ``run.json`` has no hash of itself, as version 0.5 wrote none: what it says was not
+        checked, and of the files the log alone.
     """
 
     run: str
@@ -56,6 +59,7 @@ class Verification:
     made_again: tuple[str, ...]
     signature: Literal["absent", "unchecked", "good", "bad"]
     key: str
+    has_digest: bool = True
 
     @property
     def exit_code(self) -> int:
@@ -77,6 +81,10 @@ class Verification:
             case "unfinished":
                 head = f"unfinished: the run was killed, or is still going on; {self.ended}"
         lines = [f"{self.run}: {head}", *(f"  {problem}" for problem in self.problems)]
+        if not self.has_digest:
+            lines.append(
+                "run.json has no hash of itself, as in version 0.5: only log.mcap was checked"
+            )
         lines.append(f"signature: {self._signature_text()}")
         if self.additional:
             lines.append(f"not written by the run: {', '.join(self.additional)}")
@@ -128,6 +136,7 @@ def verify(path: Path, key: Path | None = None) -> Verification:
         tuple(made_again),
         signature,
         mark,
+        bool(info.digest),
     )
 
 

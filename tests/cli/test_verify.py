@@ -286,3 +286,27 @@ def test_a_run_that_has_no_hash_of_its_manifest_is_not_signed(
     assert done.returncode == 2
     assert "recorded by an earlier version, whose manifest has its log alone" in done.stderr
     assert not (run_copy / "run.json.sig").exists()
+
+
+def test_a_run_without_a_hash_of_its_record_is_told_to_be_checked_in_part(
+    airhilt_command: Any, run_copy: Path
+) -> None:
+    """Whoever changes a run on purpose can make it look like one of version 0.5."""
+    path = run_copy / "run.json"
+    document = json.loads(path.read_text())
+    document |= {"digest": "", "files": {"log.mcap": document["files"]["log.mcap"]}}
+    document["options"]["seed"] = 7
+    path.write_text(json.dumps(document))
+    code, found = verified(airhilt_command, run_copy)
+    assert (code, found["state"], found["has_digest"]) == (0, "intact", False)
+    done = airhilt_command("verify", run_copy)
+    assert "run.json has no hash of itself, as in version 0.5: only log.mcap was checked" in (
+        done.stdout
+    )
+
+
+def test_a_run_with_a_hash_of_its_record_is_checked_as_a_whole(
+    airhilt_command: Any, run_copy: Path
+) -> None:
+    assert "only" not in airhilt_command("verify", run_copy).stdout
+    assert verified(airhilt_command, run_copy)[1]["has_digest"]
