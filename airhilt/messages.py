@@ -1373,6 +1373,10 @@ class StepReply(Part):
     )
 
 
+SEAT_KEYS = ("task", "speech", "microphone", "perceived", "question", "workload", "notice")
+"""First parts of the keys between a run and the people at its seats: they have the words of the
+script before they are said, and exactly what people say and do."""
+
 BUS_MESSAGES: dict[str, type[Message]] = {
     "clock": Clock,
     "briefing": Briefing,

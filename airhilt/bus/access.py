@@ -10,6 +10,8 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping
 from typing import Any, Literal, get_args
 
+from airhilt.messages import SEAT_KEYS
+
 Role = Literal["observer", "worker", "operator", "recorder"]
 """Role of a program of another process."""
 ROLES: tuple[Role, ...] = get_args(Role)
@@ -73,6 +75,8 @@ _OF_ROLE: Mapping[Role, tuple[str, ...]] = {
 }
 NO_TRUTH = "no truth"
 """Rule for all but recorders. It comes before those that allow something."""
+NO_SEATS = "no seats"
+"""Rule for all but operators and recorders, of the same rank."""
 
 
 def access_control(root: str, run: str, subjects: Subjects) -> Any:
@@ -88,7 +92,11 @@ def access_control(root: str, run: str, subjects: Subjects) -> Any:
     return {
         "enabled": True,
         "default_permission": "deny",
-        "rules": [*_allowing(root, run), _no_truth(f"{root}/{run}")],
+        "rules": [
+            *_allowing(root, run),
+            _denying(NO_TRUTH, [f"{root}/{run}/truth/**"]),
+            _denying(NO_SEATS, [f"{root}/{run}/{first}/**" for first in SEAT_KEYS]),
+        ],
         "subjects": [
             {"id": name or "everybody"} | ({"cert_common_names": [name]} if name else {})
             for name in subjects
@@ -113,13 +121,13 @@ def _allowing(root: str, run: str) -> Iterator[dict[str, Any]]:
         }
 
 
-def _no_truth(prefix: str) -> dict[str, Any]:
+def _denying(name: str, keys: list[str]) -> dict[str, Any]:
     return {
-        "id": NO_TRUTH,
+        "id": name,
         "permission": "deny",
         "flows": ["egress"],
         "messages": ["put"],
-        "key_exprs": [f"{prefix}/truth/**"],
+        "key_exprs": keys,
     }
 
 
@@ -130,3 +138,5 @@ def _rules_of(roles: Collection[Role]) -> Iterator[str]:
         yield from _OF_ROLE[role]
     if "recorder" not in roles:
         yield NO_TRUTH
+    if not {"operator", "recorder"} & set(roles):
+        yield NO_SEATS

@@ -15,6 +15,7 @@ from airhilt.audio.pcm import SAMPLE_RATE_HZ
 from airhilt.deferred import Payload
 from airhilt.errors import WorkerError, first_problem, shown
 from airhilt.messages import (
+    SEAT_KEYS,
     UNREGISTERED,
     WORKER_OUTPUTS,
     Advisory,
@@ -184,18 +185,24 @@ def _begun_ns(message: Message) -> int | None:
 
 
 def require_no_truth(worker: str, key: str) -> None:
-    """Complain about an input key that takes in truth, or may.
+    """Complain about an input key that takes in truth, or may, or what only people know.
 
     Raises
     ------
     WorkerError
-        The key is below ``truth``, or its first chunk is no plain name.
+        The key is below ``truth``, its first chunk is no plain name, or it is a key of commands or
+        of seats.
     """
     first = key.split("/")[0]
     if first == "truth" or not NAMED.fullmatch(first):
         raise WorkerError(
             f"worker {worker!r} asks for {key!r}; truth never reaches a worker, so the first part "
             "of a key must be named: adsb/*"
+        )
+    if first in ("command", *SEAT_KEYS):
+        raise WorkerError(
+            f"worker {worker!r} asks for {key!r}; the script and what people enter never reach a "
+            "worker but as it is heard and seen: radio/*/tx, asr/*"
         )
 
 

@@ -46,6 +46,13 @@ session.close()
 TRIED = ("advisory/ATC", "command/AAL123", "adsb/a1b2c3", "truth/conflict", "vision/tower")
 
 
+OF_SEATS = {
+    "task/TOWER", "speech/TOWER", "microphone/TOWER", "perceived/TOWER", "question/TOWER",
+    "workload/TOWER", "notice/TOWER",
+}  # fmt: skip
+PUBLISHED_BY_RUN = ("truth/state/AAL123", "adsb/d4e5f6", *OF_SEATS, "clock")
+
+
 @pytest.fixture(scope="module")
 def keys(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("keys") / "lab"
@@ -70,7 +77,7 @@ def try_as(bus: Bus, file: Path) -> tuple[list[str], set[str], set[str]]:
         assert program.stdout is not None
         answers = json.loads(program.stdout.readline() or "[]")
         while program.poll() is None:
-            for key in ("truth/state/AAL123", "adsb/d4e5f6", "clock"):
+            for key in PUBLISHED_BY_RUN:
                 bus.put(key, b"{}")
             try:
                 program.wait(0.05)
@@ -85,8 +92,8 @@ def try_as(bus: Bus, file: Path) -> tuple[list[str], set[str], set[str]]:
     [
         ("observer", set(), set()),
         ("worker", set(), {"advisory/ATC", "vision/tower"}),
-        ("operator", set(), {"command/AAL123"}),
-        ("recorder", {"truth/state/AAL123"}, set()),
+        ("operator", OF_SEATS, {"command/AAL123"}),
+        ("recorder", {"truth/state/AAL123", *OF_SEATS}, set()),
     ],
 )
 def test_a_program_may_do_what_its_role_may(
@@ -94,7 +101,7 @@ def test_a_program_may_do_what_its_role_may(
 ) -> None:
     answers, received, heard = try_as(bus, key_file(keys, role))
     assert answers == ["airhilt/run/clock"]
-    from_run = received & {"truth/state/AAL123", "adsb/d4e5f6", "clock"}
+    from_run = received & set(PUBLISHED_BY_RUN)
     assert from_run == {"adsb/d4e5f6", "clock"} | reads
     assert heard == publishes
 
