@@ -49,6 +49,21 @@ WORDS: dict[str, frozenset[Action]] = {
 }  # fmt: skip
 """Actions in words by which each command is given; the others have no words of their own."""
 
+BESIDES: dict[str, frozenset[Action]] = {
+    "land": frozenset({"circle"}),
+    "take_off": frozenset({"altitude", "heading", "turn_by"}),
+    "go_around": frozenset({"altitude", "heading", "turn_by"}),
+    "route": frozenset({"direct", "heading", "turn_by", "cleared_approach", "cross_fix"}),
+    "resume_route": frozenset({"direct", "resume_speed"}),
+    "drift_down": frozenset({"altitude"}),
+    "emergency_descent": frozenset({"altitude"}),
+}
+"""Actions that each command carries out as well, though none of them need be said."""
+MAY_CHANGE_NOTHING: frozenset[Action] = WORDS["hold_position"] | {"continue_approach", "follow"}
+"""Actions that order what an actor may do already, so that they need no command."""
+ORDERS = frozenset[Action]().union(*WORDS.values()) - MAY_CHANGE_NOTHING
+"""Actions that nothing but a command carries out."""
+
 
 @dataclass(frozen=True)
 class _Text:
@@ -59,13 +74,18 @@ class _Text:
     station: str | None
     """Actor that the call is to, or from; None if it is between units."""
     commands: tuple[ScriptedCommand, ...]
+    is_order: bool
+    """True if it is said to the actor, or has commands: each order in it must be a command."""
+    answered: tuple[ScriptedCommand, ...] = ()
+    """Commands of the lines that answer it, which carry out what it orders."""
 
 
 def doubtful_texts(scenario: Scenario) -> Iterator[Problem]:
-    """Yield texts that name another actor than their line, or do not say what its commands are.
+    """Yield texts that name another actor than their line, or differ from what its commands are.
 
-    A wrong readback is compared with the commands of its failure; what other failures change is
-    meant to differ.
+    Such a text does not say what a command does, or orders what no command does, neither of its
+    line nor of what answers it. A wrong readback is compared with the commands of its failure; what
+    other failures change is meant to differ.
     """
     callsigns = [a.callsign for a in scenario.actors if not isinstance(a, WildlifeSpec)]
     for text in _texts(scenario, callsigns):
@@ -80,18 +100,51 @@ def doubtful_texts(scenario: Scenario) -> Iterator[Problem]:
             found = _difference(scripted.command, call)
             if found is not None:
                 yield Problem(text.path, f"{found}: {text.words!r}")
+        for order in _without_command(text, call):
+            said = order.replace("_", " ")
+            yield Problem(text.path, f"says {said}, which no command does: {text.words!r}")
+
+
+def _without_command(text: _Text, call: Call) -> Iterator[Action]:
+    """Yield the actions of an order that neither its commands nor those of its answers do."""
+    if not text.is_order:
+        return
+    done: frozenset[Action] = frozenset()
+    for scripted in (*text.commands, *text.answered):
+        action = scripted.command.action
+        done |= WORDS.get(action, frozenset()) | BESIDES.get(action, frozenset())
+    for each in call.instructions:
+        is_kept = each.action == "altitude" and each.sense == "maintain"
+        if each.action in ORDERS - done and not is_kept:
+            yield each.action
 
 
 def _texts(scenario: Scenario, callsigns: list[str]) -> Iterator[_Text]:
     lines = {line.id: line for line in scenario.radio.lines}
     for index, line in enumerate(scenario.radio.lines):
         named = next((name for name in (line.to, line.speaker) if name in callsigns), None)
-        yield _Text(f"radio/lines/{index}/text", line.text, named, line.commands)
+        is_order = line.to in callsigns or bool(line.commands)
+        yield _Text(
+            f"radio/lines/{index}/text", line.text, named, line.commands, is_order,
+            tuple(_answered(scenario, index, named)),
+        )  # fmt: skip
     for index, failure in enumerate(scenario.failures):
         if isinstance(failure, ReadbackWrong):
             speaker = lines[failure.line].speaker
             named = speaker if speaker in callsigns else None
-            yield _Text(f"failures/{index}/text", failure.text, named, failure.commands)
+            yield _Text(
+                f"failures/{index}/text", failure.text, named, failure.commands,
+                bool(failure.commands),
+            )  # fmt: skip
+
+
+def _answered(scenario: Scenario, index: int, actor: str | None) -> Iterator[ScriptedCommand]:
+    """Yield the commands of what an actor says after a line, until it is called again."""
+    for line in scenario.radio.lines[index + 1 :]:
+        if actor is None or line.to == actor:
+            return
+        if line.speaker == actor:
+            yield from line.commands
 
 
 def _difference(command: Command, call: Call) -> str | None:

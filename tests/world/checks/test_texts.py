@@ -16,6 +16,7 @@ from airhilt.world.checks.texts import doubtful_texts
 from airhilt.world.loading import load
 
 TIGHT = load("s01a_tight_timing").model_dump(mode="json")
+BAD_READBACK = load("s01a_bad_readback").model_dump(mode="json")
 VERTICAL = load("s02a_vertical").model_dump(mode="json")
 
 
@@ -41,12 +42,18 @@ def test_texts_of_shipped_scenarios_say_what_their_commands_do(name: str) -> Non
             "says runway 19, where its command has 01",
         ),
         ("American one two three, good morning.", "does not say to land, as its command does"),
-        ("American one two three, go around.", "does not say to land, as its command does"),
     ],
 )
 def test_words_that_mean_something_else_are_told(text: str, doubt: str) -> None:
     (found,) = doubts(TIGHT, TIGHT["radio"]["lines"][0]["id"], text=text)
     assert found == f"radio/lines/0/text: {doubt}: {text!r}"
+
+
+def test_another_order_than_the_command_is_told_both_ways() -> None:
+    text = "American one two three, go around."
+    lacking, besides = doubts(TIGHT, TIGHT["radio"]["lines"][0]["id"], text=text)
+    assert lacking == f"radio/lines/0/text: does not say to land, as its command does: {text!r}"
+    assert besides == f"radio/lines/0/text: says go around, which no command does: {text!r}"
 
 
 @pytest.mark.parametrize(
@@ -77,6 +84,51 @@ def test_details_of_turns_routes_and_climbs_are_compared(
     )
     assert len(found) == bool(doubt)
     assert all(doubt in each for each in found)
+
+
+@pytest.mark.parametrize(
+    ("line", "text", "order"),
+    [
+        ("roger", "go around, climb and maintain three thousand", "go around"),
+        ("roger", "descend and maintain two thousand", "altitude"),
+        ("clearance", "cleared to land runway zero one, turn left heading one eight zero",
+         "heading"),
+        ("clearance", "cleared for takeoff runway zero one", "cleared for takeoff"),
+        ("readback", "cleared to land runway zero one, go around", "go around"),
+        ("readback", "cleared to land runway zero one, descend and maintain two thousand",
+         "altitude"),
+    ],
+)  # fmt: skip
+def test_an_order_that_no_command_carries_out_is_told(line: str, text: str, order: str) -> None:
+    said = f"American one two three, {text}."
+    if line == "readback":
+        said = f"{text.capitalize()}, American one two three."
+    doubted = doubts(BAD_READBACK, line, text=said)
+    assert any(f"says {order}, which no command does: {said!r}" in each for each in doubted)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "American one two three, continue approach, number two.",
+        "American one two three, hold position.",
+        "American one two three, maintain three thousand.",
+        "American one two three, expect runway one niner.",
+    ],
+)
+def test_an_order_to_go_on_as_before_needs_no_command(text: str) -> None:
+    assert doubts(BAD_READBACK, "roger", text=text) == []
+
+
+def test_what_an_answer_does_is_not_missing_in_the_call_that_it_answers() -> None:
+    text = "American one two three, runway zero one, cleared to land."
+    assert doubts(BAD_READBACK, "clearance", text=text) == []
+    assert doubts(BAD_READBACK, "readback", commands=[]) != []
+
+
+def test_a_take_off_that_climbs_and_turns_is_one_command() -> None:
+    text = "Delta four five six, fly heading one eight zero, runway zero one, cleared for takeoff."
+    assert doubts(BAD_READBACK, "takeoff", text=text) == []
 
 
 def test_a_level_that_is_not_the_one_flown_to_is_told() -> None:
