@@ -1,26 +1,26 @@
-"""The summary of a run as one flat row: a column for each number, by rule from the models.
+"""Summaries as flat rows: of a run, of a person at a seat, and of one reaction of a person.
 
-A field of a model within another has the names of both, such as ``radio_wer``. Fields by stage,
-modality or outcome have a column for each that AIRHILT itself knows, so that every run has the same
-columns. Lists have none: what is wanted of them is counted in `DERIVED`.
+A row has a column for each number, by rule from the models. A field of a model within another has
+the names of both, such as ``radio_wer``. Fields by stage, modality or outcome have a column for
+each that AIRHILT itself knows, so that every run has the same columns. Lists have none: what is
+wanted of them is counted in `DERIVED` and `DERIVED_OF_PEOPLE`.
 """
 
 from __future__ import annotations
 
 import types
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
-from functools import cache
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
 from airhilt.messages import HearingTruth, Modality
-from airhilt.metrics.derived import DERIVED
+from airhilt.metrics.derived import DERIVED, DERIVED_OF_PEOPLE, Derived
 from airhilt.metrics.latencies import STAGES
-from airhilt.metrics.summary import Summary
+from airhilt.metrics.summary import PersonReaction, PersonSummary, Summary
 from airhilt.options import MODALITIES
 
 Kind = Literal["string", "bool", "int64", "float64"]
@@ -29,6 +29,9 @@ Value = str | bool | int | float | None
 
 NOT_METRICS = frozenset({"scenario", "seed", "assistant", "real_time_factor", "cpu_s"})
 """Fields of the summary that are no result: what the run was, and what depends on the machine."""
+NOT_OF_A_PERSON = frozenset({"seat", "workload"})
+"""Fields of a person that have no column: the name of the seat, and answers, which tables have of
+their own."""
 KNOWN_KEYS: Mapping[str, tuple[str, ...]] = {
     "latencies": STAGES,
     "evidence": MODALITIES,
@@ -76,29 +79,42 @@ class _Field:
     path: tuple[str, ...]
 
 
-def metric_columns() -> tuple[Column, ...]:
-    """Return the columns of the metrics of a run; they are the same for every run."""
-    own = tuple(field.column for field in _fields())
-    return (*own, *(column_of(each.name, each.type, each.description) for each in DERIVED))
-
-
-def metrics_of(summary: Summary | Mapping[str, Any]) -> dict[str, Value]:
-    """Return the metrics of a run by the names of their columns.
+class FlatRow:
+    """The columns of a model, and their values.
 
     Parameters
     ----------
-    summary
-        The summary of a run, or the content of its ``summary.json``. What an earlier version did
-        not write is null.
-
-    Raises
-    ------
-    TypeError, ValueError
-        A field has a value of another type.
+    model
+        Model of which each single value has a column.
+    derived
+        Metrics that are worked out from others; their columns come last.
+    left_out
+        Fields without a column.
     """
-    content = summary.model_dump(mode="json") if isinstance(summary, Summary) else summary
-    own = {field.column.name: _at(content, field) for field in _fields()}
-    return own | {each.name: each.value(content) for each in DERIVED}
+
+    def __init__(
+        self,
+        model: type[BaseModel],
+        derived: Sequence[Derived] = (),
+        left_out: Collection[str] = (),
+    ) -> None:
+        self._fields = tuple(_of_model(model, (), left_out))
+        self._derived = derived
+        own = tuple(field.column for field in self._fields)
+        self.columns = (*own, *(column_of(one.name, one.type, one.description) for one in derived))
+
+    def values(self, content: Mapping[str, Any]) -> dict[str, Value]:
+        """Return the values by the names of their columns, of a model as JSON has it.
+
+        What an earlier version did not write is null.
+
+        Raises
+        ------
+        TypeError, ValueError
+            A field has a value of another type.
+        """
+        own = {field.column.name: _at(content, field) for field in self._fields}
+        return own | {each.name: each.value(content) for each in self._derived}
 
 
 def column_of(name: str, kind: Kind, description: str) -> Column:
@@ -109,15 +125,12 @@ def column_of(name: str, kind: Kind, description: str) -> Column:
     return Column(name, kind, unit, description)
 
 
-@cache
-def _fields() -> tuple[_Field, ...]:
-    return tuple(_of_model(Summary, ()))
-
-
-def _of_model(model: type[BaseModel], path: tuple[str, ...]) -> Iterator[_Field]:
+def _of_model(
+    model: type[BaseModel], path: tuple[str, ...], left_out: Collection[str] = ()
+) -> Iterator[_Field]:
     """Yield the fields of a model that are, or consist of, single values."""
     for name, info in model.model_fields.items():
-        if not path and name in NOT_METRICS:
+        if name in left_out:
             continue
         annotation, own = _bare(info.annotation), (*path, name)
         if get_origin(annotation) is dict:
@@ -174,3 +187,34 @@ def _at(content: Mapping[str, Any], field: _Field) -> Value:
     convert = {"string": str, "bool": bool, "int64": int, "float64": float}
     value: Value = convert[field.column.type](found)
     return value
+
+
+OF_RUNS = FlatRow(Summary, DERIVED, NOT_METRICS)
+"""Row of the metrics of a run."""
+OF_PEOPLE = FlatRow(PersonSummary, DERIVED_OF_PEOPLE, NOT_OF_A_PERSON)
+"""Row of the totals of a person at a seat."""
+OF_REACTIONS = FlatRow(PersonReaction)
+"""Row of a reaction of a person."""
+
+
+def metric_columns() -> tuple[Column, ...]:
+    """Return the columns of the metrics of a run; they are the same for every run."""
+    return OF_RUNS.columns
+
+
+def metrics_of(summary: Summary | Mapping[str, Any]) -> dict[str, Value]:
+    """Return the metrics of a run by the names of their columns.
+
+    Parameters
+    ----------
+    summary
+        The summary of a run, or the content of its ``summary.json``. What an earlier version did
+        not write is null.
+
+    Raises
+    ------
+    TypeError, ValueError
+        A field has a value of another type.
+    """
+    content = summary.model_dump(mode="json") if isinstance(summary, Summary) else summary
+    return OF_RUNS.values(content)

@@ -1,4 +1,4 @@
-"""Metrics of a run that are worked out from others in its summary."""
+"""Metrics of a run, or of a person at a seat, that are worked out from others in its summary."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ table of recognition and reaction times, with all of its parts."""
 
 @dataclass(frozen=True)
 class Derived:
-    """A metric that is worked out from the content of ``summary.json``."""
+    """A metric that is worked out from the content of ``summary.json``, or of a person there."""
 
     name: str
     type: Literal["string", "bool", "int64", "float64"]
@@ -105,6 +105,20 @@ def _equipment(field: str) -> Callable[[Json], float | None]:
         return min((float(each) for each in times if each is not None), default=None)
 
     return value
+
+
+def _isa_mean(person: Json) -> float | None:
+    return (person.get("workload") or {}).get("isa_mean")
+
+
+def _reactions_with(field: str) -> Callable[[Json], int]:
+    """Return what counts the reactions of a person that have a value of a field."""
+    return lambda person: sum(each.get(field) is not None for each in person["reactions"])
+
+
+def _reactions_that(*, followed: bool) -> Callable[[Json], int]:
+    """Return what counts the reactions of a person that followed advice, or did not."""
+    return lambda person: sum(each.get("followed") is followed for each in person["reactions"])
 
 
 DERIVED = (
@@ -211,3 +225,37 @@ DERIVED = (
     ),
 )
 """The derived metrics, in the order of their columns."""
+DERIVED_OF_PEOPLE = (
+    Derived("isa_mean", "float64", "mean of the ISA ratings; null: none was given", _isa_mean),
+    Derived(
+        "reaction_times",
+        "int64",
+        "reaction times that were measured, of which reaction_time_s is the median",
+        _reactions_with("reaction_time_s"),
+    ),
+    Derived(
+        "advisories_seen",
+        "int64",
+        "revisions of advisories that the page of the seat drew",
+        _reactions_with("t_seen_s"),
+    ),
+    Derived(
+        "advisories_heard",
+        "int64",
+        "revisions of advisories that were audible at the seat",
+        _reactions_with("t_heard_s"),
+    ),
+    Derived(
+        "followed",
+        "int64",
+        "revisions of advisories whose recommendation the person followed in time",
+        _reactions_that(followed=True),
+    ),
+    Derived(
+        "not_followed",
+        "int64",
+        "revisions of advisories whose recommendation the person did not follow in time",
+        _reactions_that(followed=False),
+    ),
+)
+"""The derived metrics of a person at a seat, in the order of their columns."""

@@ -279,6 +279,7 @@ class PeopleRecords:
         return PersonReaction(
             advisory=advisory.id,
             revision=advisory.revision,
+            kind=advisory.kind,
             severity=advisory.severity,
             advised=None if advisory.recommendation is None else advisory.recommendation.action,
             t_advisory_s=advisory.t_ns / SECOND_NS,

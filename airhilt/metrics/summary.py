@@ -113,11 +113,12 @@ class PersonReaction(BaseModel):
     """Reaction of a person to one revision of an advisory; null where it does not apply."""
 
     model_config = ConfigDict(frozen=True)
-    advisory: str
-    revision: int
-    severity: Severity
+    advisory: str = Field(description="id of the advisory")
+    revision: int = Field(description="revision of the advisory that reached the person")
+    kind: str | None = Field(default=None, description="kind of the advisory")
+    severity: Severity = Field(description="severity of this revision")
     advised: str | None = Field(description="action that it recommends")
-    t_advisory_s: float
+    t_advisory_s: float = Field(description="it was published (t_dec)")
     t_seen_s: float | None = Field(description="the page of the seat drew it")
     t_heard_s: float | None = Field(description="its first sample was audible")
     voice_to_loudspeaker_s: float | None = Field(description="from t_tts to t_heard_s")
@@ -168,9 +169,9 @@ class PersonSummary(BaseModel):
 
     model_config = ConfigDict(frozen=True)
     seat: str
-    spoken_calls: int
-    typed_calls: int
-    commands: int
+    spoken_calls: int = Field(description="calls that the person spoke into the microphone")
+    typed_calls: int = Field(description="calls that the person typed")
+    commands: int = Field(description="commands that the person gave to the aircraft or vehicle")
     asked_to_say_again: int = Field(description="answers to the person that ask to say again")
     readback_errors: int = Field(
         default=0,

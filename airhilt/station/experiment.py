@@ -1,4 +1,4 @@
-"""An experiment with one participant at the page: trials, breaks, questionnaires, and the table.
+"""An experiment with one participant at the page: trials, breaks, and questionnaires.
 
 Each participant has a folder, with a run folder and the answers of each trial. What is finished is
 not run again; what was stopped is begun again in another folder, and stays.
@@ -6,24 +6,17 @@ not run again; what was stopped is begun again in another folder, and stays.
 
 from __future__ import annotations
 
-import json
 import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-import pyarrow as pa
-import pyarrow.csv
-import pyarrow.parquet
-
 from airhilt.errors import RunFolderError, StationError
 from airhilt.files import read_inside, replace_file
 from airhilt.messages import NasaTlx
-from airhilt.metrics.columns import metric_columns, metrics_of
 from airhilt.options import options_of
-from airhilt.record import RunFolder, open_run
-from airhilt.record.run import untold
+from airhilt.record import RunFolder
 from airhilt.scenario import loading
 from airhilt.station.plan import Plan, Trial
 from airhilt.station.started_runs import LARGEST_RECORD_BYTES, StartedRun, StartedRuns
@@ -31,10 +24,6 @@ from airhilt.text import readable
 
 MOST_ATTEMPTS = 100
 """Largest number of times that a trial is begun."""
-TYPES = {"string": pa.string(), "bool": pa.bool_(), "int64": pa.int64(), "float64": pa.float64()}
-
-WRITERS = {"parquet": pa.parquet.write_table, "csv": pa.csv.write_csv}
-"""Functions that write the table, by the end of its file's name."""
 
 
 class Progress:
@@ -201,60 +190,3 @@ class Conductor:
         if self._rested_since_s is None or not plan.break_after or position % plan.break_after:
             return 0.0
         return max(plan.break_minutes * 60.0 - (time.monotonic() - self._rested_since_s), 0.0)
-
-
-def write_tables(plan: Plan, folder: Path) -> int:
-    """Write ``experiment.csv`` and ``experiment.parquet``, a row a finished trial.
-
-    Returns
-    -------
-    The number of rows.
-
-    Raises
-    ------
-    RunFolderError
-        The numbers of a trial are missing, or are not those that its run wrote. Or the table
-        cannot be written.
-    """
-    rows = [row for name in plan.participants for row in _rows(Progress(plan, folder, name))]
-    ratings = [*NasaTlx.model_fields, "raw_tlx"]
-    fields = [pa.field(name, pa.string()) for name in ("participant", "trial", "scenario")]
-    fields += [pa.field("position", pa.int64()), pa.field("run", pa.string())]
-    fields += [pa.field(f"condition.{name}", pa.string()) for name in plan.conditions]
-    fields += [pa.field(f"nasa_tlx.{name}", pa.float64()) for name in ratings]
-    fields += [pa.field(column.name, TYPES[column.type]) for column in metric_columns()]
-    table = pa.Table.from_pylist(rows, schema=pa.schema(fields))
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        for suffix, write in WRITERS.items():
-            sink = pa.BufferOutputStream()
-            write(table, sink)
-            replace_file(folder / f"experiment.{suffix}", sink.getvalue().to_pybytes())
-    except OSError as error:
-        raise RunFolderError(f"{folder}: cannot be written: {error.strerror}") from None
-    return len(rows)
-
-
-def _rows(progress: Progress) -> Iterator[dict[str, Any]]:
-    for position, trial in enumerate(progress.trials, 1):
-        name = progress.finished_run(trial)
-        if name is None:
-            continue
-        summary = open_run(progress.folder / name, untold).summary()
-        answers = progress.answers(name)
-        rated: dict[str, Any] = {} if answers is None else answers.model_dump()
-        rated |= {} if answers is None else {"raw_tlx": answers.raw_tlx}
-        yield {
-            **metrics_of(summary),
-            "participant": progress.participant,
-            "trial": trial.name,
-            "scenario": trial.scenario,
-            "position": position,
-            "run": f"{progress.participant}/{name}",
-            **{f"condition.{key}": _text(value) for key, value in trial.conditions.items()},
-            **{f"nasa_tlx.{key}": float(value) for key, value in rated.items()},
-        }
-
-
-def _text(value: Any) -> str:
-    return value if isinstance(value, str) else json.dumps(value)

@@ -8,7 +8,15 @@ from typing import Annotated, Any
 import pytest
 
 from airhilt.messages import Status
-from airhilt.metrics.columns import _bare, column_of, metric_columns, metrics_of
+from airhilt.metrics.columns import (
+    OF_PEOPLE,
+    OF_REACTIONS,
+    Column,
+    _bare,
+    column_of,
+    metric_columns,
+    metrics_of,
+)
 from airhilt.metrics.summary import (
     AdvisorySummary,
     ClosestApproach,
@@ -75,8 +83,10 @@ def test_every_modality_that_can_be_on_or_off_has_a_column() -> None:
     assert {f"modalities_{name}" for name in modalities} <= {each.name for each in metric_columns()}
 
 
-def test_every_column_has_a_name_of_its_own_a_unit_and_a_description() -> None:
-    columns = metric_columns()
+@pytest.mark.parametrize("columns", [metric_columns(), OF_PEOPLE.columns, OF_REACTIONS.columns])
+def test_every_column_has_a_name_of_its_own_a_unit_and_a_description(
+    columns: tuple[Column, ...],
+) -> None:
     assert len({each.name for each in columns}) == len(columns)
     for each in columns:
         words = each.description.rpartition(": ")[2]

@@ -86,6 +86,7 @@ def test_the_reaction_time_begins_with_the_first_audible_sample() -> None:
     assert found.reaction_time_s == pytest.approx(1.5)
     assert found.voice_to_loudspeaker_s == pytest.approx(0.2)
     assert (found.first_action, found.followed) == ("go_around", True)
+    assert found.kind == "runway_conflict"
 
 
 @pytest.mark.parametrize("is_voiced", [False, True])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import itertools
 import json
 import os
@@ -18,8 +19,11 @@ import pytest
 
 from airhilt.errors import AirhiltError, RunFolderError, StationError
 from airhilt.library import find
-from airhilt.messages import NasaTlx
-from airhilt.station.experiment import Conductor, Progress, write_tables
+from airhilt.messages import NasaTlx, Severity
+from airhilt.metrics.summary import IsaRating, PersonReaction, PersonSummary, WorkloadSummary
+from airhilt.record import RunFolder
+from airhilt.station.experiment import Conductor, Progress
+from airhilt.station.experiment_tables import write_tables
 from airhilt.station.plan import Plan, balanced_latin_square, plan_of
 from airhilt.station.started_runs import StartedRun, StartedRuns
 
@@ -28,6 +32,41 @@ ANSWERS = NasaTlx(
     mental_demand=50, physical_demand=10, temporal_demand=30, performance=20, effort=40,
     frustration=0,
 )  # fmt: skip
+
+
+REACTION = PersonReaction(
+    advisory="reference-1", revision=2, kind="runway_conflict", severity=Severity.WARNING,
+    advised="go_around", t_advisory_s=3.0, t_seen_s=3.1, t_heard_s=3.4,
+    voice_to_loudspeaker_s=0.1, first_action="go_around", reaction_time_s=1.5, followed=True,
+)  # fmt: skip
+PERSON = PersonSummary(
+    seat="AAL123", spoken_calls=3, typed_calls=1, commands=2, asked_to_say_again=0,
+    readback_errors=1, press_to_transmit_s=0.01, reaction_time_s=1.5,
+    reactions=[REACTION],
+    workload=WorkloadSummary(
+        isa_mean=4.0,
+        isa=[IsaRating(t_s=2.0, rating=4, answered_after_s=1.0)],
+        nasa_tlx=None,
+        raw_tlx=None,
+    ),
+)  # fmt: skip
+
+
+def finished(recorded_run: Path, folder: Path, people: list[Any]) -> None:
+    """Copy a run to a folder as if these people had been at its seats, as JSON has them."""
+    paths = RunFolder(Path(shutil.copytree(recorded_run, folder)))
+    summary = json.loads(paths.summary_path.read_text()) | {"people": people}
+    paths.summary_path.write_text(json.dumps(summary))
+    paths.write_info(paths.info().model_copy(update={"files": paths.manifest()}))
+
+
+def table(path: Path) -> list[dict[str, Any]]:
+    """Return the rows of a Parquet file; its CSV file has the same columns and as many rows."""
+    found = pq.read_table(path)
+    head, *lines = path.with_suffix(".csv").read_text().splitlines()
+    assert (next(csv.reader([head])), len(lines)) == (found.column_names, found.num_rows)
+    rows: list[dict[str, Any]] = found.to_pylist()
+    return rows
 
 
 def plan(**given: Any) -> Plan:
@@ -91,13 +130,92 @@ def test_a_finished_trial_is_not_run_again_and_has_a_row(
     assert Conductor(progress).state()["trial"] == 2
     with pytest.raises(StationError, match="no question"):
         conductor.answer(ANSWERS)
-    assert write_tables(experiment, tmp_path) == 1
+    assert write_tables(experiment, tmp_path) == (1, 0)
     row = pq.read_table(tmp_path / "experiment.parquet").to_pylist()[0]
     assert row["run"] == f"P01/01-{first.name}-2"
     assert row["condition.assistant"] == "reference"
     assert row["nasa_tlx.raw_tlx"] == 25.0
     assert row["duration_s"] == pytest.approx(8.0)
     assert (tmp_path / "experiment.csv").read_text().startswith('"participant"')
+
+
+def test_the_row_of_a_trial_has_the_totals_of_its_person(
+    recorded_run: Path, tmp_path: Path
+) -> None:
+    experiment = plan(participants=["P01"])
+    progress = Progress(experiment, tmp_path, "P01")
+    ignored = REACTION.model_copy(
+        update={"t_heard_s": None, "reaction_time_s": None, "followed": False}
+    )
+    unadvised = ignored.model_copy(update={"t_seen_s": None, "t_heard_s": 5.0, "followed": None})
+    person = PERSON.model_copy(update={"reactions": [REACTION, ignored, unadvised]})
+    name = f"01-{progress.trials[0].name}"
+    finished(recorded_run, progress.folder / name, [person.model_dump(mode="json")])
+    write_tables(experiment, tmp_path)
+    row = table(tmp_path / "experiment.parquet")[0]
+    own = {key.removeprefix("person."): row[key] for key in row if key.startswith("person.")}
+    assert own == {
+        "spoken_calls": 3,
+        "typed_calls": 1,
+        "commands": 2,
+        "asked_to_say_again": 0,
+        "readback_errors": 1,
+        "readback_errors_heard": 0,
+        "press_to_transmit_s": 0.01,
+        "reaction_time_s": 1.5,
+        "unperceived": 0,
+        "isa_mean": 4.0,
+        "reaction_times": 1,
+        "advisories_seen": 2,
+        "advisories_heard": 2,
+        "followed": 1,
+        "not_followed": 1,
+    }
+
+
+def test_a_reaction_has_a_row_with_its_trial(recorded_run: Path, tmp_path: Path) -> None:
+    experiment = plan(participants=["P01"])
+    progress = Progress(experiment, tmp_path, "P01")
+    for position, trial in enumerate(progress.trials, 1):
+        folder = progress.folder / f"{position:02d}-{trial.name}"
+        people = [PERSON.model_dump(mode="json")] if position == 2 else []
+        finished(recorded_run, folder, people)
+    assert write_tables(experiment, tmp_path) == (2, 1)
+    row = table(tmp_path / "reactions.parquet")[0]
+    of_trial = table(tmp_path / "experiment.parquet")[1]
+    names = ("participant", "trial", "scenario", "position", "run", "condition.assistant")
+    assert {name: row[name] for name in names} == {name: of_trial[name] for name in names}
+    assert row["seat"] == "AAL123"
+    assert {name: row[name] for name in PersonReaction.model_fields} == REACTION.model_dump()
+
+
+def test_an_earlier_version_that_wrote_less_of_a_person_leaves_gaps(
+    recorded_run: Path, tmp_path: Path
+) -> None:
+    experiment = plan(participants=["P01"])
+    progress = Progress(experiment, tmp_path, "P01")
+    person = PERSON.model_dump(mode="json")
+    del person["unperceived"], person["reactions"][0]["kind"], person["workload"]
+    finished(recorded_run, progress.folder / f"01-{progress.trials[0].name}", [person])
+    write_tables(experiment, tmp_path)
+    row = table(tmp_path / "experiment.parquet")[0]
+    assert (row["person.unperceived"], row["person.isa_mean"], row["person.commands"]) == (
+        None,
+        None,
+        2,
+    )
+    assert table(tmp_path / "reactions.parquet")[0]["kind"] is None
+
+
+@pytest.mark.parametrize("people", [5, [1], [{}], [{"seat": "a", "reactions": [0]}]])
+def test_people_that_no_run_writes_are_refused_in_words(
+    recorded_run: Path, tmp_path: Path, people: Any
+) -> None:
+    experiment = plan(participants=["P01"])
+    progress = Progress(experiment, tmp_path, "P01")
+    finished(recorded_run, progress.folder / f"01-{progress.trials[0].name}", people)
+    with pytest.raises(RunFolderError, match="its numbers cannot be read"):
+        write_tables(experiment, tmp_path)
 
 
 def test_the_page_of_a_trial_that_is_over_is_not_that_of_the_next_one(
@@ -214,4 +332,6 @@ def test_the_command_tells_the_order_of_each_participant(
     assert done.returncode == 0
     assert "P01: s02a_headon-1, s02a_headon-2" in done.stdout
     assert "P02: s02a_headon-2, s02a_headon-1" in done.stdout
-    assert (tmp_path / "experiments" / "plan" / "experiment.csv").is_file()
+    for name in ("experiment", "reactions"):
+        assert (tmp_path / "experiments" / "plan" / f"{name}.csv").is_file()
+        assert f"{name}.csv" in done.stdout

@@ -39,8 +39,9 @@ def experiment(
 ) -> None:
     """Lead participants through trials at a seat, in an order that is counterbalanced.
 
-    Without --participant, the order of each is printed with what is done, and the table is written
-    (experiment.csv and experiment.parquet).
+    Without --participant, the order of each is printed with what is done. The tables are written
+    in any case: experiment.csv has a row a finished trial, reactions.csv a row a reaction to an
+    advisory; both are there as .parquet too.
     """
     from airhilt.configuration import read_configuration
     from airhilt.station.plan import plan_of
@@ -49,7 +50,8 @@ def experiment(
     plan.check()
     folder = (out or Path("experiments") / plan_file.stem).resolve()
 
-    from airhilt.station.experiment import Conductor, Progress, write_tables
+    from airhilt.station.experiment import Conductor, Progress
+    from airhilt.station.experiment_tables import write_tables
 
     if participant is not None:
         address = station_address("127.0.0.1", port, None, None, None)
@@ -68,7 +70,8 @@ def experiment(
             f"{plan.balance()}, or a multiple"
         )
     rows = write_tables(plan, folder)
-    click.echo(f"{rows} finished trials: {folder / 'experiment.csv'}, experiment.parquet")
+    click.echo(f"{rows.trials} finished trials: {folder / 'experiment.csv'}, experiment.parquet")
+    click.echo(f"{rows.reactions} reactions: {folder / 'reactions.csv'}, reactions.parquet")
 
 
 def _shown(progress: Progress, trial: Trial) -> str:
