@@ -229,6 +229,15 @@ class Options(BaseModel):
             in_sweeps=False,
         ),
     ] = ()
+    wait_for_seats: Annotated[
+        bool,
+        Flag(
+            "--wait-for-seats",
+            "Let the time stand still at the start until each --seat is taken.",
+            needs=("seat",),
+            in_sweeps=False,
+        ),
+    ] = False
     voice_recording: Annotated[
         bool,
         Flag(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 
 from airhilt.cosim.events import EventPublisher
 from airhilt.messages import AFTER_STALL_S, STALLED
@@ -17,7 +17,7 @@ class PaceControl:
     """Changes how fast the time of a run passes, and logs it.
 
     Once everybody has left the seats, time passes in real time again: nobody else could let it go
-    on.
+    on. A run that waits for its seats goes on waiting.
 
     A run with people that was stopped for a while, or that the machine does not keep up with, does
     not make up for it: time never passes faster for them than the pace says.
@@ -46,6 +46,10 @@ class PaceControl:
         self._changed = changed
         self._factor = 1.0
         self._present: set[str] = set()
+        self._awaited: frozenset[str] = frozenset()
+        """Seats for which the run waits: it has not begun."""
+        pace = director.pace
+        self._begun_factor = pace.factor if isinstance(pace, RealTime) else 1.0
         self._lost_ns = 0
         self._lost_until_ns = 0
 
@@ -67,8 +71,14 @@ class PaceControl:
         self._event("pace", "run", STALLED)
         self._changed()
 
+    def wait_for(self, seats: Collection[str]) -> None:
+        """Let the time stand still until all these seats are taken, or a person lets it pass."""
+        self.set(0.0)
+        self._awaited = frozenset(seats)
+
     def set(self, factor: float) -> None:
         """Let the time pass at a part of real time; 0 lets it stand still."""
+        self._awaited = frozenset()
         self._factor = factor
         pace = Paused() if factor == 0.0 else RealTime(factor)
         self._event("pace", "run", pace.name)
@@ -81,7 +91,9 @@ class PaceControl:
         """Take in that a person has taken a seat, or has left it."""
         if is_taken:
             self._present.add(seat)
+            if self._awaited and self._awaited <= self._present:
+                self.set(self._begun_factor)
             return
         self._present.discard(seat)
-        if not self._present and self._factor != 1.0:
+        if not self._awaited and not self._present and self._factor != 1.0:
             self.set(1.0)

@@ -52,7 +52,7 @@ from airhilt.sensors.base import Sensor, SensorContext
 from airhilt.sensors.radio.advisory_calls import AdvisoryChannel
 from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.sensors.starting import start_sensors
-from airhilt.sim import Director, Pace, Priority, RealTime, StepRecord, interruptible
+from airhilt.sim import Director, Pace, Priority, RealTime, StepRecord, Virtual, interruptible
 from airhilt.text import LONGEST_LINE, readable
 from airhilt.units import FOOT_PER_MINUTE, SECOND_NS, seconds_to_ns
 from airhilt.workers import Worker
@@ -328,6 +328,16 @@ class Simulation:
         if not self._questions.is_closing:
             self._pace_control.occupy(seat, is_taken=is_taken)
 
+    def _wait_for_seats(self) -> None:
+        """Let the run stand still at its start until its seats are taken, if that is wanted."""
+        setup = self._setup
+        if not setup.options.wait_for_seats:
+            return
+        seats = [key_chunk(name) for name in setup.seats]
+        self._pace_control.wait_for(seats)
+        if not setup.recorded.is_replay and not isinstance(self._director.pace, Virtual):
+            self._observer.notice(f"the run begins when this is taken: {', '.join(setup.seats)}")
+
     def _set_pace(self, factor: float) -> None:
         """Let the time pass as a person asks for; it stands still once the run is at its end."""
         if not self._questions.is_closing:
@@ -457,6 +467,7 @@ class Simulation:
             self._brief()
             self._sensors += start_sensors(self._setup.sensor_types, self._sensor_context())
             self._vision.start()
+            self._wait_for_seats()
             self._director.run()
         if failures and isinstance(failures[0], KeyboardInterrupt):
             self._observer.notice(f"interrupted; {folder.path} is complete up to here")

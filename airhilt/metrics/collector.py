@@ -210,7 +210,7 @@ class Collector:
             clarifications=self._advisories.clarifications(),
             advisories=self._advisories.summaries(incursions),
             equipment=self._equipment.summaries(self._first_warning.t_ns, incursions),
-            people=self._people.summaries(),
+            people=self._people.summaries(now_ns),
             radio=self._calls.statistics(
                 roster_of(self._scenario),
                 is_recognised=self.modalities.get("asr") in ("on", "lost"),

@@ -117,6 +117,10 @@ class _Seat:
     """Names under which advisories are for the person."""
     people: list[_Person] = field(default_factory=list)
     is_taken: bool = False
+    since_ns: int = 0
+    """Time at which the seat was taken or left last."""
+    taken_ns: int = 0
+    """Time for which somebody had the seat, up to then."""
     track_deg: float | None = None
     """True track of the aircraft or vehicle; None for a unit."""
     asked_again: int = 0
@@ -130,10 +134,15 @@ class _Seat:
         """The person who has the seat now."""
         return self.people[-1] if self.is_taken else None
 
-    def occupy(self, *, is_taken: bool) -> None:
+    def occupy(self, t_ns: int, *, is_taken: bool) -> None:
         if is_taken and not self.is_taken:
             self.people.append(_Person())
+        self.taken_ns, self.since_ns = self.taken_until_ns(t_ns), t_ns
         self.is_taken = is_taken
+
+    def taken_until_ns(self, t_ns: int) -> int:
+        """Return for how long somebody has had the seat at a time that is not past."""
+        return self.taken_ns + (t_ns - self.since_ns if self.is_taken else 0)
 
 
 class PeopleRecords:
@@ -213,8 +222,8 @@ class PeopleRecords:
 
     def _take_at(self, seat: _Seat, message: Message) -> None:
         match message:
-            case SeatPresence(is_taken=is_taken):
-                seat.occupy(is_taken=is_taken)
+            case SeatPresence(is_taken=is_taken, t_ns=t_ns):
+                seat.occupy(t_ns, is_taken=is_taken)
             case WorkloadAnswer(question=number):
                 seat.answers.setdefault(number, message)
             case ActorCommand(command=command, t_ns=t_ns) if seat.person is not None:
@@ -237,11 +246,11 @@ class PeopleRecords:
                 name = message.id, message.revision, message.recipient
                 times.setdefault(name, t_ns + round(message.after_s * SECOND_NS))
 
-    def summaries(self) -> list[PersonSummary]:
-        """Return what people did, by seat."""
-        return [self._summary(name, seat) for name, seat in self._seats.items()]
+    def summaries(self, now_ns: int) -> list[PersonSummary]:
+        """Return what people did until the end of the run, by seat."""
+        return [self._summary(name, seat, now_ns) for name, seat in self._seats.items()]
 
-    def _summary(self, name: str, seat: _Seat) -> PersonSummary:
+    def _summary(self, name: str, seat: _Seat, now_ns: int) -> PersonSummary:
         done = [one.what for person in seat.people for one in person.actions]
         spoken, typed = done.count("spoken call"), done.count("typed call")
         delays_s = [delay_s for person in seat.people for delay_s in person.delays_s]
@@ -249,6 +258,7 @@ class PeopleRecords:
         times_s = [one.reaction_time_s for one in reactions if one.reaction_time_s is not None]
         return PersonSummary(
             seat=name,
+            seat_time_s=seat.taken_until_ns(now_ns) / SECOND_NS,
             spoken_calls=spoken,
             typed_calls=typed,
             commands=len(done) - spoken - typed,

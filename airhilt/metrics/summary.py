@@ -169,6 +169,9 @@ class PersonSummary(BaseModel):
 
     model_config = ConfigDict(frozen=True)
     seat: str
+    seat_time_s: float | None = Field(
+        default=None, description="time of the run for which somebody had the seat"
+    )
     spoken_calls: int = Field(description="calls that the person spoke into the microphone")
     typed_calls: int = Field(description="calls that the person typed")
     commands: int = Field(description="commands that the person gave to the aircraft or vehicle")

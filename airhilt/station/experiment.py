@@ -48,13 +48,17 @@ class Progress:
             yield f"{position:02d}-{trial.name}" + (f"-{number}" if number > 1 else "")
 
     def finished_run(self, trial: Trial) -> str | None:
-        """Return the name of the run folder of a trial whose run has ended by itself."""
+        """Return the name of the run folder of a trial that its participant has done.
+
+        Its run has ended by itself, and somebody had the seat.
+        """
         for name in self.attempts(trial):
             folder = self.folder / name
             if not folder.exists():
                 return None
             try:
-                if RunFolder.open(folder).info().phase == "finished":
+                run = RunFolder.open(folder)
+                if run.info().phase == "finished" and not _nobody_sat(run):
                     return name
             except RunFolderError:
                 continue
@@ -102,6 +106,15 @@ class Progress:
         return self.folder / f"{name}.nasa_tlx.json"
 
 
+def _nobody_sat(run: RunFolder) -> bool:
+    """Return true if the summary of a run says that its seats were never taken."""
+    try:
+        people = (run.summary() or {})["people"]
+        return bool(people) and all(person["seat_time_s"] == 0.0 for person in people)
+    except (RunFolderError, LookupError, TypeError):
+        return False  # It cannot be known, as of a run of an earlier version.
+
+
 class Conductor:
     """Leads one participant through the trials."""
 
@@ -131,6 +144,7 @@ class Conductor:
                 raise StationError("it is not time for a trial")
             plan = self._progress.plan
             given = {**plan.options, **trial.conditions, "seat": (plan.seat,)}
+            given["wait_for_seats"] = True
             given["nasa_tlx"] = plan.nasa_tlx
             given["run_name"] = f"Trial-{state['trial']}"  # It tells a participant nothing.
             name = self._progress.new_run(trial)

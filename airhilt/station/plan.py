@@ -16,7 +16,10 @@ from airhilt.scenario.seats import seats_of
 from airhilt.world.loading import load
 
 Identifier = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,19}$")]
-SETTLED = ("seat", "out", "overwrite", "pace", "run_name", "endpoint", "attach", "nasa_tlx")
+SETTLED = (
+    "seat", "wait_for_seats", "out", "overwrite", "pace", "run_name", "endpoint", "attach",
+    "nasa_tlx",
+)  # fmt: skip
 """Options that the experiment itself gives."""
 
 

@@ -261,6 +261,15 @@ def test_a_pause_and_slow_motion_are_events_and_replay(tmp_path: Path) -> None:
     assert replay(tmp_path / "run").identical
 
 
+def test_the_wait_for_the_seats_is_in_the_log_and_replays(tmp_path: Path) -> None:
+    given = [message("seat/Washington_Tower", 1e-9, is_taken=True)]
+    out = tmp_path / "run"
+    log = logged(tower(5.0), out, ["tower"], given, wait_for_seats=True)
+    events = [one for one in contents(log, "truth/event") if one["kind"] == "pace"]
+    assert [(one["t_ns"], one["text"]) for one in events] == [(0, "paused"), (1, "realtime")]
+    assert replay(out).identical
+
+
 @pytest.mark.parametrize("seats", [("tower",), ()])
 def test_a_run_with_people_that_was_stopped_loses_the_time_and_replays(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, seats: tuple[str, ...]

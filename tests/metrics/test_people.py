@@ -68,7 +68,7 @@ def person(*messages: tuple[float, str, Message], pace: str = "realtime") -> Per
         records.take("seat/AAL1", SeatPresence(is_taken=True))
     for t_s, key, message in messages:
         records.take(key, message.model_copy(update={"t_ns": round(t_s * SECOND)}))
-    return records.summaries()[0]
+    return records.summaries(100 * SECOND)[0]
 
 
 def reaction(*messages: tuple[float, str, Message]) -> PersonReaction:
@@ -349,7 +349,7 @@ def test_a_readback_with_another_runway_is_an_error_of_who_reads_it_back(
     records = PeopleRecords(["Tower", "AAL123"], ["AAL123"])
     for _, key, message in (CLEARED, call("AAL123", text, t_s)):
         records.take(key, message)
-    tower, pilot = records.summaries()
+    tower, pilot = records.summaries(100 * SECOND)
     assert (tower.readback_errors, tower.readback_errors_heard) == (0, errors)
     assert (pilot.readback_errors, pilot.readback_errors_heard) == (errors, 0)
 
@@ -363,7 +363,7 @@ def test_a_spoken_readback_counts_as_it_was_recognised() -> None:
     )  # fmt: skip
     for message in (CLEARED[2], spoken, heard):
         records.take("", message)
-    assert records.summaries()[0].readback_errors == 1
+    assert records.summaries(100 * SECOND)[0].readback_errors == 1
 
 
 def test_the_workload_is_what_was_answered_and_what_was_not() -> None:
@@ -381,6 +381,27 @@ def test_the_workload_is_what_was_answered_and_what_was_not() -> None:
     assert found is not None
     assert [(one.rating, one.answered_after_s) for one in found.isa] == [(4, 4.0), (None, None)]
     assert (found.isa_mean, found.raw_tlx) == (4.0, 50.0)
+
+
+@pytest.mark.parametrize(
+    ("presences", "time_s"),
+    [
+        ([], 0.0),
+        ([(10.0, True)], 90.0),
+        ([(10.0, True), (15.0, False)], 5.0),
+        ([(10.0, True), (15.0, False), (20.0, True), (20.5, False)], 5.5),
+        ([(10.0, True), (12.0, True), (15.0, False), (16.0, False)], 5.0),
+    ],
+)
+def test_the_time_at_the_seat_is_that_for_which_somebody_had_it(
+    presences: list[tuple[float, bool]], time_s: float
+) -> None:
+    """The run ends at 100 s."""
+    records = PeopleRecords(["AAL1"])
+    for t_s, is_taken in presences:
+        presence = SeatPresence(t_ns=round(t_s * SECOND), is_taken=is_taken)
+        records.take("seat/AAL1", presence)
+    assert records.summaries(100 * SECOND)[0].seat_time_s == time_s
 
 
 def of_people(recorded_run: Path, folder: Path, people: Any) -> Run:

@@ -21,6 +21,7 @@ from airhilt.errors import AirhiltError, RunFolderError, StationError
 from airhilt.library import find
 from airhilt.messages import NasaTlx, Severity
 from airhilt.metrics.summary import IsaRating, PersonReaction, PersonSummary, WorkloadSummary
+from airhilt.options import Options
 from airhilt.record import RunFolder
 from airhilt.station.experiment import Conductor, Progress
 from airhilt.station.experiment_tables import write_tables
@@ -40,7 +41,7 @@ REACTION = PersonReaction(
     voice_to_loudspeaker_s=0.1, first_action="go_around", reaction_time_s=1.5, followed=True,
 )  # fmt: skip
 PERSON = PersonSummary(
-    seat="AAL123", spoken_calls=3, typed_calls=1, commands=2, asked_to_say_again=0,
+    seat="AAL123", seat_time_s=8.0, spoken_calls=3, typed_calls=1, commands=2, asked_to_say_again=0,
     readback_errors=1, press_to_transmit_s=0.01, reaction_time_s=1.5,
     reactions=[REACTION],
     workload=WorkloadSummary(
@@ -95,6 +96,7 @@ def test_each_trial_is_equally_often_at_each_place_and_after_each_other(size: in
         ({"participants": ["Jane Doe"]}, "participants"),
         ({"participants": ["P01", "P01"]}, "twice"),
         ({"conditions": {"seat": ["tower"]}}, "the experiment gives it"),
+        ({"options": {"wait_for_seats": False}}, "the experiment gives it"),
         ({"conditions": {"snr_db": [900]}}, "snr_db"),
         (
             {"conditions": {"snr_db": [*range(40)], "seed": [*range(26)]}},
@@ -155,6 +157,7 @@ def test_the_row_of_a_trial_has_the_totals_of_its_person(
     row = table(tmp_path / "experiment.parquet")[0]
     own = {key.removeprefix("person."): row[key] for key in row if key.startswith("person.")}
     assert own == {
+        "seat_time_s": 8.0,
         "spoken_calls": 3,
         "typed_calls": 1,
         "commands": 2,
@@ -189,21 +192,43 @@ def test_a_reaction_has_a_row_with_its_trial(recorded_run: Path, tmp_path: Path)
     assert {name: row[name] for name in PersonReaction.model_fields} == REACTION.model_dump()
 
 
+@pytest.mark.parametrize(("seat_time_s", "is_done"), [(0.0, False), (0.5, True), (None, True)])
+def test_a_run_whose_seat_was_never_taken_is_no_finished_trial(
+    recorded_run: Path, tmp_path: Path, seat_time_s: float | None, is_done: bool
+) -> None:
+    """A run of an earlier version does not tell."""
+    progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
+    name = f"01-{progress.trials[0].name}"
+    person = PERSON.model_copy(update={"seat_time_s": seat_time_s})
+    finished(recorded_run, progress.folder / name, [person.model_dump(mode="json")])
+    assert progress.finished_run(progress.trials[0]) == (name if is_done else None)
+    assert Conductor(progress).state()["step"] == ("questions" if is_done else "ready")
+
+
+def test_a_trial_waits_for_its_participant(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    started: list[Options] = []
+    monkeypatch.setattr(StartedRuns, "start", lambda _, __, options, ___: started.append(options))
+    Conductor(Progress(plan(participants=["P01"]), tmp_path, "P01")).begin()
+    assert started[0].wait_for_seats
+
+
 def test_an_earlier_version_that_wrote_less_of_a_person_leaves_gaps(
     recorded_run: Path, tmp_path: Path
 ) -> None:
     experiment = plan(participants=["P01"])
     progress = Progress(experiment, tmp_path, "P01")
     person = PERSON.model_dump(mode="json")
-    del person["unperceived"], person["reactions"][0]["kind"], person["workload"]
+    del (
+        person["seat_time_s"],
+        person["unperceived"],
+        person["reactions"][0]["kind"],
+        person["workload"],
+    )
     finished(recorded_run, progress.folder / f"01-{progress.trials[0].name}", [person])
     write_tables(experiment, tmp_path)
     row = table(tmp_path / "experiment.parquet")[0]
-    assert (row["person.unperceived"], row["person.isa_mean"], row["person.commands"]) == (
-        None,
-        None,
-        2,
-    )
+    names = ("seat_time_s", "unperceived", "isa_mean", "commands")
+    assert [row[f"person.{name}"] for name in names] == [None, None, None, 2]
     assert table(tmp_path / "reactions.parquet")[0]["kind"] is None
 
 

@@ -259,6 +259,33 @@ def test_who_sits_down_before_the_run_knows_that_the_seat_was_left_comes_after_t
     assert told == [True, "first", False, True, "second", False]
 
 
+def test_a_run_that_waits_for_its_seat_stands_at_its_start_until_somebody_has_it(
+    brief_file: Path, tmp_path: Path
+) -> None:
+    out, options = tmp_path / "run", ("--seat", "AAL123", "--wait-for-seats")
+    with running(brief_file, out, *options) as (process, url):
+        with listening(url) as socket:
+            while (clock := clock_of(answer(socket, "changes"))) is None:
+                pass
+            assert clock[1:4] == [0.0, "running", "paused"]
+            assert has_seat(socket)
+            while (clock := clock_of(answer(socket, "changes"))) is None or clock[1] == 0.0:
+                pass
+            assert clock[3] == "realtime"
+        page_process(process).kill()
+        assert process.stderr is not None
+        process.stderr.read()
+    log = open_run(out).messages()
+    taken = next(json.loads(one.data) for one in log if one.key == "seat/AAL123")
+    assert (taken["is_taken"], taken["t_ns"]) == (True, 1)  # The first nanosecond of the run.
+    assert open_run(out).summary()["people"][0]["seat_time_s"] > 0.0
+
+
+def clock_of(changes: list[Any]) -> list[Any] | None:
+    """Return the last clock among some changes, None if they have none."""
+    return next((one for one in reversed(changes) if one[0] == "clock"), None)
+
+
 def test_who_may_take_a_seat_sees_nothing_of_the_truth(
     encounter_file: Path, tmp_path: Path
 ) -> None:

@@ -33,7 +33,7 @@ function textOf({ step, seat, said, rest_s: rest }) {
     case "starting":
       return "The trial is being prepared. That takes some seconds.";
     case "running":
-      return `Open the page of your seat, and take the seat ${seat}. When the trial is over, come back to this page.`;
+      return `Open the page of your seat, and take the seat ${seat}: the trial begins then, and not before. When it is over, come back to this page.`;
     case "questions":
       return "";
     default:

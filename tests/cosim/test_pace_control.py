@@ -1,0 +1,72 @@
+"""A run that stands still until people are there, and whoever lets it go on."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+
+import pytest
+
+from airhilt.cosim.pace_control import PaceControl
+from airhilt.sim import Director, Priority, RealTime
+
+LATER_NS = 3_600_000_000_000
+"""Time of the first step of the run, to which no test comes."""
+Happening = Callable[["Waiting"], None]
+
+
+class Waiting:
+    """A run that waits for a tower and a pilot."""
+
+    def __init__(self) -> None:
+        self.director = Director(RealTime(4.0))
+        self.paces: list[str] = []
+        self.control = PaceControl(
+            self.director,
+            lambda kind, subject, text: self.paces.append(text),  # type: ignore[arg-type]
+            pausing=lambda is_paused: None,
+            changed=lambda: None,
+        )
+        self.control.wait_for(["tower", "AAL1"])
+        self.director.at(LATER_NS, lambda: None, Priority.PHYSICS)
+
+    def pace_after(self, happenings: Sequence[Happening]) -> str:
+        """Return the pace after some happenings, one after the other."""
+        for happening in happenings:
+            self.director.post(partial(happening, self))
+        self.director.post(self.director.stop)
+        self.director.run()
+        assert self.paces[-1] == self.director.pace.name
+        return self.paces[-1]
+
+
+def sits(seat: str) -> Happening:
+    return lambda run: run.control.occupy(seat, is_taken=True)
+
+
+def leaves(seat: str) -> Happening:
+    return lambda run: run.control.occupy(seat, is_taken=False)
+
+
+def asks_for(factor: float) -> Happening:
+    return lambda run: run.control.set(factor)
+
+
+@pytest.mark.parametrize(
+    ("happenings", "pace"),
+    [
+        ([], "paused"),
+        ([sits("tower")], "paused"),
+        ([sits("tower"), leaves("tower")], "paused"),
+        ([sits("tower"), leaves("tower"), sits("AAL1")], "paused"),
+        ([sits("tower"), sits("AAL1")], "4x"),
+        ([sits("tower"), asks_for(1.0)], "realtime"),
+        ([sits("tower"), asks_for(0.5), sits("AAL1")], "0.5x"),
+        ([sits("tower"), asks_for(0.0), sits("AAL1")], "paused"),
+        ([sits("tower"), sits("AAL1"), leaves("tower"), leaves("AAL1")], "realtime"),
+    ],
+)
+def test_a_run_begins_when_all_its_seats_are_taken_or_somebody_lets_it(
+    happenings: list[Happening], pace: str
+) -> None:
+    assert Waiting().pace_after(happenings) == pace
