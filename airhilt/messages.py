@@ -1090,6 +1090,9 @@ class SeatInfo(Message):
         "receiver at the units' site gets",
     )
     longest_call_s: float = Field(description="a call is cut after this time")
+    may_pause: bool = Field(
+        default=True, description="false in a run that refuses pause and slow motion"
+    )
     phraseology: Literal["faa", "icao"] = "faa"
 
 

@@ -238,6 +238,15 @@ class Options(BaseModel):
             in_sweeps=False,
         ),
     ] = False
+    pause: Annotated[
+        bool,
+        Flag(
+            "--no-pause",
+            "Refuse pause and slow motion to people at seats.",
+            needs=("seat",),
+            in_sweeps=False,
+        ),
+    ] = True
     voice_recording: Annotated[
         bool,
         Flag(

@@ -102,6 +102,8 @@ class ExternalPrograms:
         Called with a seat, as a part of keys, and true if a person has taken it, false if left.
     set_pace
         Lets the time pass at a part of real time.
+    may_pause
+        False refuses that.
     answer
         Takes what the person at a seat, a part of keys, answers to a question about workload.
     is_asked
@@ -127,6 +129,7 @@ class ExternalPrograms:
         keeps_voices: bool,
         occupy: Callable[[str, bool], None],
         set_pace: Callable[[float], None],
+        may_pause: bool,
         answer: Callable[[str, WorkloadAnswer], None],
         is_asked: Callable[[str, int], bool],
         workers: Collection[str],
@@ -148,6 +151,7 @@ class ExternalPrograms:
         self._keeps_voices = keeps_voices
         self._occupy = occupy
         self._set_pace = set_pace
+        self._may_pause = may_pause
         self._answer = answer
         self._is_asked = is_asked
         self._workers = workers
@@ -279,6 +283,11 @@ class ExternalPrograms:
             raise WorkerError(
                 f"a program published on {key!r}, which is for the page of people at seats alone; "
                 "expected a run with --seat"
+            )
+        if isinstance(message, PaceCommand) and not self._may_pause:
+            raise WorkerError(
+                f"a program published on {key!r}, but this run has no pause and no slow motion; "
+                "expected a run without --no-pause"
             )
         if isinstance(message, ActorCommand) and key.split("/")[1] in self._units:
             raise WorkerError(

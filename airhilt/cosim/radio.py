@@ -87,10 +87,14 @@ class RunRadio:
         """Take in that the time stands still, or passes again."""
         self._conversation.pause(is_paused)
 
-    def infos(self, *, is_recognised: bool, voice_is_recorded: bool) -> list[SeatInfo]:
+    def infos(
+        self, *, is_recognised: bool, voice_is_recorded: bool, may_pause: bool
+    ) -> list[SeatInfo]:
         """Return what the persons at the seats have to know."""
         return self._conversation.infos(
-            is_recognised=is_recognised, voice_is_recorded=voice_is_recorded
+            is_recognised=is_recognised,
+            voice_is_recorded=voice_is_recorded,
+            may_pause=may_pause,
         )
 
     def unfinished(self) -> Sequence[StepRecord]:

@@ -293,6 +293,7 @@ class Simulation:
             keeps_voices=self._setup.options.voice_recording,
             occupy=self._occupy,
             set_pace=self._set_pace,
+            may_pause=self._setup.options.pause,
             answer=lambda seat, answer: self._questions.answer(seat, answer),
             is_asked=lambda seat, number: self._questions.is_open(seat, number),
             workers=[worker.description.name for worker in participants.workers],
@@ -582,6 +583,7 @@ class Simulation:
         infos = self._radio.infos(
             is_recognised=self._participants.does("asr"),
             voice_is_recorded=self._setup.options.voice_recording,
+            may_pause=self._setup.options.pause,
         )
         for info in infos:
             self._router.publish(f"seat/{key_chunk(info.seat)}/info", info)

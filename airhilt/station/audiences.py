@@ -101,6 +101,11 @@ class SeatView:
         """Frequencies that are heard at the seat, as far as they are tuned to."""
         return frozenset(self._info.frequencies_khz)
 
+    @property
+    def may_pause(self) -> bool:
+        """True if the person at the seat may pause the run, or slow it."""
+        return self._info.may_pause
+
     def hears(self, audience: Audience) -> bool:
         """Return true if a piece of a transmission with this audience is heard at the seat.
 

@@ -16,7 +16,7 @@ from fastapi import WebSocket, WebSocketDisconnect
 from pydantic import ValidationError
 
 from airhilt.errors import first_problem
-from airhilt.messages import MicrophoneAudio
+from airhilt.messages import MicrophoneAudio, PaceCommand
 from airhilt.station.audiences import Audience, SeatViews
 from airhilt.station.changes import MOST_AT_ONCE, Changes, SeatChanges
 from airhilt.station.held_button import HeldButton, what_is_wrong_with
@@ -48,6 +48,8 @@ CLAIMED_ELSEWHERE: Mapping[Claimed, str] = {
 """Reasons for which a seat cannot be claimed."""
 ON_THE_AIR = "You are on the air. End your call before you take another seat."
 """Reason for which who transmits cannot take another seat."""
+NO_PAUSE = "This run has no pause and no slow motion."
+"""Reason for which nobody changes how fast the time passes."""
 LONGEST_REASON = 100
 """Greatest length of a reason for closing, in characters; the protocol has 123 bytes."""
 
@@ -249,7 +251,14 @@ class Browsers:
         elif wish.tune is not None:
             self._tune(browser, frozenset(wish.tune))
         elif wish.pace is not None:
-            await asyncio.to_thread(self._run.set_pace, wish.pace)
+            await self._set_pace(browser, seat, wish.pace)
+
+    async def _set_pace(self, browser: _Browser, seat: str, pace: PaceCommand) -> None:
+        view = self._views.of(seat)
+        if view is not None and not view.may_pause:
+            self._refuse(browser, NO_PAUSE)
+        else:
+            await asyncio.to_thread(self._run.set_pace, pace)
 
     async def _show(self, browser: _Browser, camera: str | None) -> None:
         """Let the pictures of a camera come, if they are for the browser.

@@ -145,6 +145,7 @@ class Conductor:
             plan = self._progress.plan
             given = {**plan.options, **trial.conditions, "seat": (plan.seat,)}
             given["wait_for_seats"] = True
+            given["pause"] = plan.pause
             given["nasa_tlx"] = plan.nasa_tlx
             given["run_name"] = f"Trial-{state['trial']}"  # It tells a participant nothing.
             name = self._progress.new_run(trial)
@@ -174,6 +175,7 @@ class Conductor:
             "participant": self._progress.participant,
             "seat": readable(self._progress.plan.seat),
             "trials": len(trials),
+            "may_pause": self._progress.plan.pause,
             "rest_s": 0.0,
             "url": "",
             "said": "",

@@ -18,7 +18,7 @@ from airhilt.world.loading import load
 Identifier = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,19}$")]
 SETTLED = (
     "seat", "wait_for_seats", "out", "overwrite", "pace", "run_name", "endpoint", "attach",
-    "nasa_tlx",
+    "pause", "nasa_tlx",
 )  # fmt: skip
 """Options that the experiment itself gives."""
 
@@ -58,6 +58,7 @@ class Plan(BaseModel):
     )
     break_after: int = Field(default=0, ge=0, description="trials between breaks; 0: no break")
     break_minutes: float = Field(default=5.0, gt=0.0, le=120.0, description="least time of a break")
+    pause: bool = Field(default=False, description="let participants pause and slow the trials")
     nasa_tlx: bool = Field(default=True, description="ask NASA-TLX at the end of each trial")
 
     @model_validator(mode="after")

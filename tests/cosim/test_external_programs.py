@@ -40,6 +40,7 @@ def programs(
         keeps_voices=True,
         occupy=lambda *_: None,
         set_pace=lambda _: None,
+        may_pause=True,
         answer=lambda *_: None,
         is_asked=lambda _seat, _number: True,
         seats=seats,

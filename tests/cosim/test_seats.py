@@ -324,6 +324,31 @@ def test_a_pace_that_is_none_is_refused(tmp_path: Path, content: dict[str, Any])
     )
 
 
+@pytest.mark.parametrize("factor", [0.0, 0.5, 1.0])
+def test_a_run_without_pause_refuses_it_and_replays(tmp_path: Path, factor: float) -> None:
+    out, given = tmp_path / "run", [message("pace", 2.0, factor=factor)]
+    log = logged(tower(5.0), out, ["tower"], given, pause=False)
+    told = [one for one in contents(log, "truth/event") if one["kind"] in ("pace", "refused")]
+    assert [(one["kind"], one["subject"]) for one in told] == [("refused", "pace")]
+    assert "no pause and no slow motion" in told[0]["text"]
+    assert replay(out).identical
+
+
+def test_a_seat_is_told_whether_the_run_has_a_pause(tmp_path: Path) -> None:
+    for may_pause in (True, False):
+        log = logged(tower(1.0), tmp_path / f"{may_pause}", ["tower"], pause=may_pause)
+        (info,) = contents(log, "seat/Washington_Tower/info")
+        assert info["may_pause"] is may_pause
+
+
+def test_a_run_that_waits_for_its_seats_begins_where_nobody_may_pause(tmp_path: Path) -> None:
+    given = [message("seat/Washington_Tower", 1e-9, is_taken=True)]
+    options = {"wait_for_seats": True, "pause": False}
+    log = logged(tower(2.0), tmp_path / "run", ["tower"], given, **options)
+    events = [one["text"] for one in contents(log, "truth/event") if one["kind"] == "pace"]
+    assert events == ["paused", "realtime"]
+
+
 def test_a_run_without_seats_is_not_paused(tmp_path: Path) -> None:
     log = logged(tower(3.0), tmp_path / "run", [], [message("pace", 2.0, factor=0.0)])
     assert [one["kind"] for one in contents(log, "truth/event")].count("pace") == 0

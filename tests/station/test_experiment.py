@@ -97,6 +97,7 @@ def test_each_trial_is_equally_often_at_each_place_and_after_each_other(size: in
         ({"participants": ["P01", "P01"]}, "twice"),
         ({"conditions": {"seat": ["tower"]}}, "the experiment gives it"),
         ({"options": {"wait_for_seats": False}}, "the experiment gives it"),
+        ({"options": {"pause": True}}, "the experiment gives it"),
         ({"conditions": {"snr_db": [900]}}, "snr_db"),
         (
             {"conditions": {"snr_db": [*range(40)], "seed": [*range(26)]}},
@@ -210,6 +211,17 @@ def test_a_trial_waits_for_its_participant(tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.setattr(StartedRuns, "start", lambda _, __, options, ___: started.append(options))
     Conductor(Progress(plan(participants=["P01"]), tmp_path, "P01")).begin()
     assert started[0].wait_for_seats
+
+
+@pytest.mark.parametrize(("given", "may_pause"), [({}, False), ({"pause": True}, True)])
+def test_a_trial_is_paused_only_where_the_plan_lets_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, given: dict[str, bool], may_pause: bool
+) -> None:
+    started: list[Options] = []
+    monkeypatch.setattr(StartedRuns, "start", lambda _, __, options, ___: started.append(options))
+    conductor = Conductor(Progress(plan(participants=["P01"], **given), tmp_path, "P01"))
+    conductor.begin()
+    assert (started[0].pause, conductor.state()["may_pause"]) == (may_pause, may_pause)
 
 
 def test_an_earlier_version_that_wrote_less_of_a_person_leaves_gaps(

@@ -77,10 +77,15 @@ def advise(run: PretendedRun, recipient: str, message: str, **other: Any) -> Non
 
 @contextmanager
 def seated(
-    page: Page, seat: str, pace: str = "realtime", roster: dict[str, str] | None = None
+    page: Page,
+    seat: str,
+    pace: str = "realtime",
+    roster: dict[str, str] | None = None,
+    **more: Any,
 ) -> Iterator[PretendedRun]:
-    """Open the page of a run, take its seat, and yield the run."""
-    info = TOWER.model_copy(update={"seat": seat, "category": CATEGORIES.get(seat, "unit")})
+    """Open the page of a run, take its seat, of which more may be told, and yield the run."""
+    known = {"seat": seat, "category": CATEGORIES.get(seat, "unit")}
+    info = TOWER.model_copy(update=known | more)
     with seat_page(PretendedRun([info])) as (run, url):
         run.changes.add("briefing", "TOWER", None, CATEGORIES if roster is None else roster)
         run.changes.add("clock", 1.0, "running", pace)
@@ -312,6 +317,13 @@ def test_a_pace_that_nobody_can_choose_is_shown_and_goes_on_in_real_time(page: P
         assert run.next().factor == 1.0
         run.changes.add("clock", 3.0, "running", "0.5x")
         page.wait_for(f"{chosen} === 'half as fast'")
+
+
+@pytest.mark.parametrize("may_pause", [True, False])
+def test_a_pause_is_offered_where_the_run_has_one(page: Page, may_pause: bool) -> None:
+    with seated(page, "TOWER", may_pause=may_pause):
+        page.wait_for("document.getElementById('frequencies').textContent.includes('119.1')")
+        assert page.evaluate("document.getElementById('pace').hidden") is not may_pause
 
 
 def test_words_that_could_not_be_said_stay_in_the_field(page: Page) -> None:

@@ -545,3 +545,14 @@ def test_any_person_at_a_seat_may_pause_the_run(seat: tuple[PretendedRun, str]) 
         take(own)
         own.send(json.dumps({"pace": {"factor": 0.0}}))
         assert run.next().factor == 0.0
+
+
+def test_nobody_at_a_seat_pauses_a_run_that_has_no_pause() -> None:
+    run = PretendedRun([TOWER.model_copy(update={"may_pause": False})])
+    with seat_page(run) as (_, url), browser(url, "three") as own:
+        take(own)
+        for factor in (0.0, 0.5, 1.0):
+            own.send(json.dumps({"pace": {"factor": factor}}))
+            assert answer(own, "refused") == "This run has no pause and no slow motion."
+        own.send(json.dumps({"say": {"text": "hello"}}))
+        assert run.next().text == "hello"

@@ -266,7 +266,9 @@ class RadioConversation:
             for seat in self._seats.names:
                 self._microphones.release(seat)
 
-    def infos(self, *, is_recognised: bool, voice_is_recorded: bool) -> list[SeatInfo]:
+    def infos(
+        self, *, is_recognised: bool, voice_is_recorded: bool, may_pause: bool
+    ) -> list[SeatInfo]:
         """Return what the persons at the seats have to know."""
         return [
             SeatInfo(
@@ -278,6 +280,7 @@ class RadioConversation:
                 is_recognised=is_recognised,
                 voice_is_recorded=voice_is_recorded,
                 longest_call_s=LONGEST_CALL_S,
+                may_pause=may_pause,
                 phraseology=self._scenario.radio.phraseology,
             )
             for seat in sorted(self._seats.names)

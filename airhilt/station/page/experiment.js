@@ -24,7 +24,7 @@ async function ask(path, wish) {
 
 const note = (text) => byId("notes").replaceChildren(...(text ? [html("p", {}, text)] : []));
 
-function textOf({ step, seat, said, rest_s: rest }) {
+function textOf({ step, seat, said, rest_s: rest, may_pause: mayPause }) {
   switch (step) {
     case "ready":
       return rest > 0
@@ -33,7 +33,7 @@ function textOf({ step, seat, said, rest_s: rest }) {
     case "starting":
       return "The trial is being prepared. That takes some seconds.";
     case "running":
-      return `Open the page of your seat, and take the seat ${seat}: the trial begins then, and not before. When it is over, come back to this page.`;
+      return `Open the page of your seat, and take the seat ${seat}: the trial begins then, and not before. ${mayPause ? "" : "It cannot be paused. "}When it is over, come back to this page.`;
     case "questions":
       return "";
     default:

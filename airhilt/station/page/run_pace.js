@@ -6,6 +6,7 @@ export const PACES = { realtime: "real time", virtual: "as fast as it can" };
 
 export class RunPace {
   #run;
+  #mayPause = false; // It is known with the seat.
 
   /** `set(factor)` asks the run for a part of real time; 0 is a pause. */
   constructor(run, set) {
@@ -25,8 +26,14 @@ export class RunPace {
     return Math.min(Number(byId("pace-factor").value) || 1, 1);
   }
 
+  /** Takes in what has to be known of the seat: some runs have no pause. */
+  setInfo(info) {
+    this.#mayPause = info.may_pause;
+    this.show(true);
+  }
+
   show(isShown) {
-    byId("pace").hidden = !isShown;
+    byId("pace").hidden = !(isShown && this.#mayPause);
   }
 
   draw() {

@@ -163,6 +163,7 @@ export class Talk {
   /** Takes in what has to be known of the seat; the space bar is not to give it back at once. */
   #prepare(info) {
     this.#microphone.setInfo(info);
+    this.#pace.setInfo(info);
     this.#frequencies.show(info.frequencies_khz);
     this.#phrases.setSeat(this.#own, info.phraseology);
     if (document.activeElement === byId("seat-take"))
