@@ -1376,6 +1376,8 @@ class StepReply(Part):
     )
 
 
+SEAT_AUDIO = "seat/*/audio"
+"""Keys of the sound that the receiver of one seat gets: nobody else hears it."""
 SEAT_KEYS = ("task", "speech", "microphone", "perceived", "question", "workload", "notice")
 """First parts of the keys between a run and the people at its seats: they have the words of the
 script before they are said, and exactly what people say and do."""

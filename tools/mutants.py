@@ -159,13 +159,15 @@ def shipped(kind: str, names: Sequence[str] | None = None) -> list[Any]:
     ]
 
 
-def judge(text: str, read: Read, runs: bool) -> Outcome:
+def judge(text: str, read: Read, runs: bool, longest_check_s: float = LONGEST_CHECK_S) -> Outcome:
     """Return what becomes of a text that may be a document.
 
     Parameters
     ----------
     runs
         Whether the beginning of its scenario is run if it is accepted.
+    longest_check_s
+        Greatest CPU time until it is accepted or refused, in s.
     """
     begin_s = time.process_time()
     scenario: Scenario | None = None
@@ -179,7 +181,7 @@ def judge(text: str, read: Read, runs: bool) -> Outcome:
     except Exception:
         kind, message = "failed", traceback.format_exc()
     cpu_s = time.process_time() - begin_s
-    if cpu_s > LONGEST_CHECK_S:
+    if cpu_s > longest_check_s:
         message = f"checked for {cpu_s:.1f} s of CPU time: {message or kind}"
         return Outcome("failed", message, cpu_s)
     if scenario is None or not runs:
@@ -189,7 +191,12 @@ def judge(text: str, read: Read, runs: bool) -> Outcome:
 
 
 def judge_many(
-    documents: Sequence[Any], read: Read, seed: int, count: int, run_every: int
+    documents: Sequence[Any],
+    read: Read,
+    seed: int,
+    count: int,
+    run_every: int,
+    longest_check_s: float = LONGEST_CHECK_S,
 ) -> Iterator[tuple[str, Outcome]]:
     """Yield mutants and what becomes of them.
 
@@ -200,7 +207,8 @@ def judge_many(
     """
     accepted = 0
     for text in itertools.islice(Mutator(documents, seed).mutants(), count):
-        outcome = judge(text, read, runs=run_every > 0 and accepted % run_every == 0)
+        runs = run_every > 0 and accepted % run_every == 0
+        outcome = judge(text, read, runs, longest_check_s)
         accepted += outcome.kind == "accepted"
         yield text, outcome
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping
 from typing import Any, Literal, get_args
 
-from airhilt.messages import SEAT_KEYS
+from airhilt.messages import SEAT_AUDIO, SEAT_KEYS
 
 Role = Literal["observer", "worker", "operator", "recorder"]
 """Role of a program of another process."""
@@ -77,6 +77,7 @@ NO_TRUTH = "no truth"
 """Rule for all but recorders. It comes before those that allow something."""
 NO_SEATS = "no seats"
 """Rule for all but operators and recorders, of the same rank."""
+OF_SEATS = tuple(f"{first}/**" for first in SEAT_KEYS)
 
 
 def access_control(root: str, run: str, subjects: Subjects) -> Any:
@@ -95,7 +96,7 @@ def access_control(root: str, run: str, subjects: Subjects) -> Any:
         "rules": [
             *_allowing(root, run),
             _denying(NO_TRUTH, [f"{root}/{run}/truth/**"]),
-            _denying(NO_SEATS, [f"{root}/{run}/{first}/**" for first in SEAT_KEYS]),
+            _denying(NO_SEATS, [f"{root}/{run}/{key}" for key in (*OF_SEATS, SEAT_AUDIO)]),
         ],
         "subjects": [
             {"id": name or "everybody"} | ({"cert_common_names": [name]} if name else {})

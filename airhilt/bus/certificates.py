@@ -99,7 +99,7 @@ def make_keys(folder: Path, endpoint: str) -> None:
         if folder.stat().st_mode & (stat.S_IWGRP | stat.S_IWOTH):
             raise BusError(
                 f"{folder}: other users may write into this folder, and replace the keys; "
-                f"expected a folder of its owner alone: chmod 700 {folder}"
+                f"expected a folder of your own, such as {folder / 'keys'}"
             )
         for holder in HOLDERS:
             path = key_file(folder, holder)

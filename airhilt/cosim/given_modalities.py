@@ -11,7 +11,7 @@ from airhilt.workers.pool import Participant
 
 KEYS: Mapping[str, tuple[str, ...]] = {
     "adsb": ("adsb",),
-    "asr": ("asr", "radio", "enhanced"),
+    "asr": ("asr", "radio", "enhanced", "seat"),
     "vision": ("vision", "camera"),
 }
 """First chunks of the keys of each modality: its results, and the sound or pictures behind them."""

@@ -264,15 +264,19 @@ class LogReader:
             if not self._may_read(0):
                 break
             begin = place - COMPRESSION_AT
-            chunk = self._chunk(stream, begin)
+            chunk = self._chunk(stream, begin, is_found=True)
             if chunk is not None:
                 self.is_faultless = False
                 _, length = RECORD_HEAD.unpack(_read(stream, begin, RECORD_HEAD.size))
                 return chunk, begin + RECORD_HEAD.size + length, None
         return None, position, broken_at
 
-    def _chunk(self, stream: BinaryIO, begin: int) -> bytes | None:
-        """Return the records of the chunk that begins there, None if it is damaged or none."""
+    def _chunk(self, stream: BinaryIO, begin: int, *, is_found: bool = False) -> bytes | None:
+        """Return the records of the chunk that begins there, None if it is damaged or none.
+
+        Chunks that were found by their content may lie within each other: their size counts. Those
+        that follow each other are expanded once.
+        """
         head = _read(stream, begin, RECORD_HEAD.size + CHUNK_HEAD.size)
         if len(head) < RECORD_HEAD.size + CHUNK_HEAD.size:
             return None
@@ -292,7 +296,7 @@ class LogReader:
         try:
             if zstandard.frame_content_size(start) != size:
                 return None
-            if not self._may_read(compressed_size + size):
+            if is_found and not self._may_read(compressed_size + size):
                 return None
             compressed = _read(stream, begin + len(head), compressed_size)
             chunk = zstandard.decompress(compressed, size)

@@ -83,7 +83,8 @@ class Verification:
         lines = [f"{self.run}: {head}", *(f"  {problem}" for problem in self.problems)]
         if not self.has_digest:
             lines.append(
-                "run.json has no hash of itself, as in version 0.5: only log.mcap was checked"
+                "run.json has no hash of itself, as in version 0.5, and was not checked; of the "
+                "files, those in its manifest were"
             )
         lines.append(f"signature: {self._signature_text()}")
         if self.additional:

@@ -16,7 +16,7 @@ from airhilt.messages import BUS_MESSAGES, Advisory, Modality, WorkerDescription
 from airhilt.sim.worker import Input, Output
 from airhilt.units import SECOND_NS
 from airhilt.workers.hints import is_reference, no_action
-from airhilt.workers.pool import is_match, parse_output, require_no_truth
+from airhilt.workers.pool import is_match, parse_output, require_open_key
 from airhilt.workers.protocol import Worker, checked, described
 from airhilt.workers.samples import NAMES, sample_inputs
 
@@ -103,7 +103,7 @@ def _problems(
 
 def _wrong_input(name: str, key: str) -> Iterator[str]:
     try:
-        require_no_truth(name, key)
+        require_open_key(name, key)
     except WorkerError as error:
         yield str(error)
         return

@@ -120,7 +120,7 @@ class WorkerPool:
             )
             policies: dict[str, Policy] = {}
             for wanted in description.inputs:
-                require_no_truth(description.name, wanted.key)
+                require_open_key(description.name, wanted.key)
                 policies[wanted.key] = wanted.policy
             self.servers[description.name] = server
             self._inputs.append((server, policies))
@@ -184,7 +184,7 @@ def _begun_ns(message: Message) -> int | None:
     return None
 
 
-def require_no_truth(worker: str, key: str) -> None:
+def require_open_key(worker: str, key: str) -> None:
     """Complain about an input key that takes in truth, or may, or what only people know.
 
     Raises
@@ -199,10 +199,11 @@ def require_no_truth(worker: str, key: str) -> None:
             f"worker {worker!r} asks for {key!r}; truth never reaches a worker, so the first part "
             "of a key must be named: adsb/*"
         )
-    if first in ("command", *SEAT_KEYS):
+    at_seat = first == "seat" and key.count("/") > 1 and not key.endswith("/info")
+    if first in ("command", *SEAT_KEYS) or at_seat or key == "seat/**":
         raise WorkerError(
-            f"worker {worker!r} asks for {key!r}; the script and what people enter never reach a "
-            "worker but as it is heard and seen: radio/*/tx, asr/*"
+            f"worker {worker!r} asks for {key!r}; the script, and what single people enter and "
+            "hear, reach no worker: it gets what is heard and seen by all: radio/*/tx, asr/*"
         )
 
 

@@ -300,8 +300,9 @@ def test_a_run_without_a_hash_of_its_record_is_told_to_be_checked_in_part(
     code, found = verified(airhilt_command, run_copy)
     assert (code, found["state"], found["has_digest"]) == (0, "intact", False)
     done = airhilt_command("verify", run_copy)
-    assert "run.json has no hash of itself, as in version 0.5: only log.mcap was checked" in (
-        done.stdout
+    assert (
+        "run.json has no hash of itself, as in version 0.5, and was not checked; of the files,"
+        in (done.stdout)
     )
 
 

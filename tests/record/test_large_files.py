@@ -7,6 +7,7 @@ import re
 import tracemalloc
 import zlib
 from collections.abc import Callable
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
@@ -21,10 +22,11 @@ from airhilt import bounded_json
 from airhilt.audio.wav import LARGEST_WAV_BYTES
 from airhilt.configuration import read_configuration
 from airhilt.errors import AirhiltError, RunFolderError
-from airhilt.messages import Transmission
+from airhilt.messages import Clock, Transmission
 from airhilt.record import RunFolder, log_reader
 from airhilt.record.audio import recorded_pcm
 from airhilt.record.latency import LONGEST_STEP_BYTES, read_latencies
+from airhilt.record.log import LogWriter
 from airhilt.record.log_reader import (
     CHUNK_HEAD,
     FOOTER,
@@ -260,3 +262,18 @@ def count_reads(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     monkeypatch.setattr(log_reader, "_read", read)
     monkeypatch.setattr(log_reader, "_records", records)
     return reads
+
+
+def test_a_log_that_a_program_has_flooded_with_one_text_is_whole(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(log_reader, "LARGEST_CHUNK_BYTES", 5_000_000)
+    monkeypatch.setattr(log_reader, "MOST_EXPANSION", 1)
+    path = tmp_path / "log.mcap"
+    with closing(LogWriter(path)) as log:
+        for number in range(100):
+            log.write("vision/tower", "a program", Clock, number, b"x" * 100_000)
+    assert path.stat().st_size < 1_000_000
+    reader = LogReader(path)
+    assert len(list(reader.messages())) == 100
+    assert reader.is_faultless

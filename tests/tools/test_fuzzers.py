@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import math
 
 import pytest
 
@@ -19,7 +20,9 @@ AIRPORTS = ("s01a_bad_readback", "s01b_nominal", "s01c_flock_on_final")
 def require_accepted_or_refused(
     kind: str, names: tuple[str, ...] | None, read: Read, count: int, run_every: int
 ) -> None:
-    judged = judge_many(shipped(kind, names), read, seed=20, count=count, run_every=run_every)
+    """Times are for the tools to judge: those of a busy machine are not the project's."""
+    documents = shipped(kind, names)
+    judged = judge_many(documents, read, 20, count, run_every, longest_check_s=math.inf)
     outcomes = [outcome for _, outcome in judged]
     assert [outcome.message for outcome in outcomes if outcome.kind == "failed"] == []
     assert {outcome.kind for outcome in outcomes} == {"accepted", "refused"}

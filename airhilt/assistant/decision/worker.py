@@ -42,7 +42,7 @@ from airhilt.messages import (
     WorkerDescription,
 )
 from airhilt.sim.worker import Input, Output
-from airhilt.workers.pool import is_match, require_no_truth
+from airhilt.workers.pool import is_match, require_open_key
 from airhilt.workers.protocol import Step
 
 KEYS: dict[type[Message], str] = {
@@ -123,7 +123,7 @@ class DecisionWorker:
             configuration=_configuration(engine),
         )
         for wanted in self.description.inputs:
-            require_no_truth(name, wanted.key)
+            require_open_key(name, wanted.key)
 
     def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
         """Give the engine what has arrived, and publish what has changed.
