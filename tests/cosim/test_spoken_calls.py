@@ -17,7 +17,7 @@ from airhilt.options import Options
 from airhilt.sensors.radio.microphones import LONGEST_CALL_S
 from seats import SECOND, calls, contents, logged, message, spoken, tower, voice
 
-GO_AROUND = "American one two three, go around, climb and maintain three thousand"
+TURN = "American one two three, turn left heading two seven zero"
 LANDING = "American one two three, runway zero one, cleared to land"
 SEAT = "Washington_Tower"
 
@@ -28,23 +28,23 @@ def holding(t_s: float, for_s: float, seat: str = SEAT) -> list[UnregisteredMess
 
 
 def test_a_crew_reads_back_and_does_what_was_recognised_and_it_replays(tmp_path: Path) -> None:
-    said = spoken(SEAT, 5.0, voice(GO_AROUND))
+    said = spoken(SEAT, 5.0, voice(TURN))
     log = logged(tower(20.0), tmp_path / "run", ["tower"], said, speech=True)
     first, readback = calls(log)[:2]
     assert (first["speaker"], first["text"], first["is_from_microphone"]) == (
         "Washington Tower", "", True,
     )  # fmt: skip
     assert first["t_tx_ns"] == 5 * SECOND
-    assert "go around" in contents(log, "asr/")[0]["text"]
+    assert "heading two seven zero" in contents(log, "asr/")[0]["text"]
     assert (readback["speaker"], readback["in_reply_to"]) == ("AAL123", f"seat.{SEAT}.1")
     done = [one for one in contents(log, "truth/event") if one["kind"] == "command"]
-    assert json.loads(done[0]["text"])["action"] == "go_around"
+    assert json.loads(done[0]["text"])["action"] == "track"
     verdict = replay(tmp_path / "run")
     assert verdict.identical, str(verdict)
 
 
 def test_what_is_not_recognised_with_confidence_is_asked_for_again(tmp_path: Path) -> None:
-    said = spoken(SEAT, 5.0, voice(GO_AROUND))
+    said = spoken(SEAT, 5.0, voice(TURN))
     log = logged(tower(20.0), tmp_path / "run", ["tower"], said, speech=True, snr_db=-3.0)
     assert contents(log, "truth/hearing/AAL123")[0]["outcome"] == "unsure"
     assert calls(log)[1]["text"].startswith("Say again")
