@@ -71,7 +71,7 @@ _ALSO: dict[Action, frozenset[str]] = {
 """First words of what may follow one action."""
 _INTRODUCING = frozenset(
     {"or", "at", "of", "by", "cross", "crossing", "turn", "turning", "left", "right", "on", "a",
-     "an", "the", "via", "able", "in", "until", "than", "from", "change",
+     "an", "around", "the", "via", "able", "in", "until", "than", "from", "change",
      "closed", "onto", "is", "are", "was", "were"}
 )  # fmt: skip
 """Words right before an action that belong to something that was not understood."""

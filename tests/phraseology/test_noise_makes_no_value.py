@@ -138,3 +138,9 @@ def test_an_animal_is_sure_though_procedures_are_told_beside_it() -> None:
         "climb via the sid deer on the grass contact departure",
     ):
         assert "wildlife" in [each.action for each in in_effect(f"{NAME} {text}")]
+
+
+def test_what_follows_a_lost_go_around_is_not_sure() -> None:
+    whole = in_effect(f"{NAME} go around climb and maintain three thousand")
+    assert [each.action for each in whole] == ["go_around", "altitude"]
+    assert in_effect(f"{NAME} around climb and maintain three thousand") == []
