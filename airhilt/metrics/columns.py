@@ -12,6 +12,7 @@ import types
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import cached_property
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic import BaseModel
@@ -98,10 +99,16 @@ class FlatRow:
         derived: Sequence[Derived] = (),
         left_out: Collection[str] = (),
     ) -> None:
-        self._fields = tuple(_of_model(model, (), left_out))
+        self._model = model
         self._derived = derived
+        self._left_out = left_out
+
+    @cached_property
+    def columns(self) -> tuple[Column, ...]:
+        """Columns, in their order."""
         own = tuple(field.column for field in self._fields)
-        self.columns = (*own, *(column_of(one.name, one.type, one.description) for one in derived))
+        derived = (column_of(one.name, one.type, one.description) for one in self._derived)
+        return (*own, *derived)
 
     def values(self, content: Mapping[str, Any]) -> dict[str, Value]:
         """Return the values by the names of their columns, of a model as JSON has it.
@@ -115,6 +122,10 @@ class FlatRow:
         """
         own = {field.column.name: _at(content, field) for field in self._fields}
         return own | {each.name: each.value(content) for each in self._derived}
+
+    @cached_property
+    def _fields(self) -> tuple[_Field, ...]:
+        return tuple(_of_model(self._model, (), self._left_out))
 
 
 def column_of(name: str, kind: Kind, description: str) -> Column:
