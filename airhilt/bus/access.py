@@ -77,7 +77,8 @@ NO_TRUTH = "no truth"
 """Rule for all but recorders. It comes before those that allow something."""
 NO_SEATS = "no seats"
 """Rule for all but operators and recorders, of the same rank."""
-OF_SEATS = tuple(f"{first}/**" for first in SEAT_KEYS)
+OF_SEATS = (*(f"{first}/**" for first in SEAT_KEYS), SEAT_AUDIO)
+"""Keys that the rule is about."""
 
 
 def access_control(root: str, run: str, subjects: Subjects) -> Any:
@@ -96,7 +97,7 @@ def access_control(root: str, run: str, subjects: Subjects) -> Any:
         "rules": [
             *_allowing(root, run),
             _denying(NO_TRUTH, [f"{root}/{run}/truth/**"]),
-            _denying(NO_SEATS, [f"{root}/{run}/{key}" for key in (*OF_SEATS, SEAT_AUDIO)]),
+            _denying(NO_SEATS, [f"{root}/{run}/{key}" for key in OF_SEATS]),
         ],
         "subjects": [
             {"id": name or "everybody"} | ({"cert_common_names": [name]} if name else {})

@@ -47,8 +47,8 @@ def audio_file(folder: Path, message: MessageWithSound) -> Path:
 class AudioRecorder:
     """Writes the sound of each message that has any, as it is published.
 
-    The chunks of a transmission are written only if no `Transmission` has their samples, because
-    its sender or the sound of the radio was lost while it lasted, or a seat received them.
+    The chunks of a transmission are written if no `Transmission` has their samples: its sender or
+    the sound of the radio was lost while it lasted. Those of a receiver of a seat always are.
 
     Parameters
     ----------

@@ -21,7 +21,7 @@ _AUDIO = TypeAdapter[SeatAudio](SeatAudio)
 
 
 class SeatSounds(Content):
-    """What the seats with a receiver of their own got on each of their frequencies."""
+    """Sound that receivers of seats gave out, by frequency and seat."""
 
     def __init__(self, folder: RunFolder) -> None:
         super().__init__(folder)

@@ -63,7 +63,7 @@ CLAIMS_PERIOD_S = 0.02
 STREAMED = "radio/*/audio"
 """Keys of the sound of transmissions while they last."""
 STREAMED_TO_SEATS = ("seat/{seat}/audio",)
-"""Likewise, of what only the receiver of a seat gets."""
+"""Keys of the sound that the receiver of a seat gets, of which each seat has its own."""
 HEARD: Mapping[str, type[Message]] = {"command": ActorCommand}
 """Messages of programs besides what workers publish, by the first part of their key."""
 MOST_WAITING = 20_000

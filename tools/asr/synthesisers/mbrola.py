@@ -19,7 +19,7 @@ from synthesisers.synthesiser import InstalledFile, Synthesiser, Voice
 
 TIMEOUT_S = 60.0
 WORDS_PER_MINUTE, NORMAL_PITCH = 175, 50
-"""What espeak-ng is asked for unless a call is to be faster or higher."""
+"""Rate in words a minute, and pitch from 0 to 99, of a call that is not to be faster or higher."""
 VOICES = Path("/usr/share/mbrola")
 
 
