@@ -22,6 +22,7 @@ from airhilt.station.debrief import Debrief
 from airhilt.station.page_files import media_type, page_files, page_version
 from airhilt.station.phrases import Situation, offered
 from airhilt.station.pictures import jpeg
+from airhilt.station.questionnaires import NASA_TLX
 from airhilt.station.subscription import Subscription
 from airhilt.text import LONGEST_LINE, readable
 
@@ -68,7 +69,12 @@ def live_app(subscription: Subscription, browsers: Browsers) -> FastAPI:
 
     @app.get("/api/run")
     def run() -> Response:
-        own = {"run": subscription.run, "seats": browsers.seats, "version": page_version()}
+        own = {
+            "run": subscription.run,
+            "seats": browsers.seats,
+            "version": page_version(),
+            "nasa_tlx": NASA_TLX.document(),
+        }
         return Response(_json(LIVE | own), media_type="application/json")
 
     @app.get("/api/cameras/{name}/{seq}.jpg")

@@ -6,24 +6,44 @@ not run again; what was stopped is begun again in another folder, and stays.
 
 from __future__ import annotations
 
+import json
 import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-from airhilt.errors import RunFolderError, StationError
-from airhilt.files import read_inside, replace_file
+from pydantic import TypeAdapter, ValidationError
+
+from airhilt.errors import RunFolderError, StationError, first_problem
+from airhilt.files import make_folder, read_inside, replace_file
 from airhilt.messages import NasaTlx
 from airhilt.options import options_of
 from airhilt.record import RunFolder
 from airhilt.scenario import loading
 from airhilt.station.plan import Plan, Trial
+from airhilt.station.questionnaires import NASA_TLX, Answers, Questionnaire
 from airhilt.station.started_runs import LARGEST_RECORD_BYTES, StartedRun, StartedRuns
 from airhilt.text import readable
 
 MOST_ATTEMPTS = 100
 """Largest number of times that a trial is begun."""
+
+
+KEPT_ANSWERS = TypeAdapter(Answers)
+
+
+class Asked(NamedTuple):
+    """A questionnaire that is asked, and the run folder of the trial after which it is.
+
+    Attributes
+    ----------
+    run
+        Name of the run folder; empty: it is not asked after a trial.
+    """
+
+    questionnaire: Questionnaire
+    run: str = ""
 
 
 class Progress:
@@ -77,33 +97,97 @@ class Progress:
                 return name
         raise StationError(f"trial {trial.name}: begun {MOST_ATTEMPTS} times; look at its folders")
 
-    def answers(self, name: str) -> NasaTlx | None:
-        """Return what was answered at the end of a run or after it, None if nothing was yet."""
-        try:
-            data = read_inside(self.folder, self._answers_path(name), LARGEST_RECORD_BYTES)
-            return NasaTlx.model_validate_json(data)
-        except (OSError, ValueError):
-            return self._answers_in_run(name)
+    def answers(self, questionnaire: Questionnaire, run: str = "") -> Answers | None:
+        """Return what was answered, None if nothing was yet.
 
-    def _answers_in_run(self, name: str) -> NasaTlx | None:
+        Parameters
+        ----------
+        run
+            Name of the run folder of a trial after which it is asked; empty: it is not asked after
+            a trial.
+
+        Raises
+        ------
+        RunFolderError
+            The file of the answers cannot be read, or has an answer that the item does not take. An
+            item without an answer is none: it may have come into the plan later.
+        """
+        path = self._path(questionnaire, run)
         try:
-            summary = RunFolder(self.folder / name).summary() or {}
+            found = KEPT_ANSWERS.validate_json(read_inside(self.folder, path, LARGEST_RECORD_BYTES))
+            asked = [item for item in questionnaire.items if item.name in found]
+            for item in asked:
+                item.check(found[item.name])
+        except FileNotFoundError:
+            return self._rated_at_seat(run) if questionnaire == NASA_TLX else None
+        except OSError as error:
+            raise _no_answers(path, str(error.strerror)) from None
+        except ValidationError as error:
+            raise _no_answers(path, first_problem(error)) from None
+        except ValueError as error:
+            raise _no_answers(path, str(error)) from None
+        return {item.name: found[item.name] for item in asked}
+
+    def _rated_at_seat(self, run: str) -> Answers | None:
+        """Return the NASA-TLX ratings that were given at the seat, None if there are none."""
+        try:
+            summary = RunFolder(self.folder / run).summary() or {}
             (person,) = summary["people"]
-            return NasaTlx.model_validate(person["workload"]["nasa_tlx"])
+            return NasaTlx.model_validate(person["workload"]["nasa_tlx"]).model_dump()
         except (RunFolderError, ValueError, LookupError, TypeError):
             return None
 
-    def answer(self, name: str, answers: NasaTlx) -> None:
-        """Keep what was answered after a run."""
-        replace_file(self._answers_path(name), answers.model_dump_json(indent=2).encode())
+    def answer(self, asked: Asked, answers: Answers) -> None:
+        """Keep what was answered.
+
+        Raises
+        ------
+        StationError
+            The answers are not those that the questionnaire takes, or cannot be written.
+        """
+        path = self._path(asked.questionnaire, asked.run)
+        try:
+            asked.questionnaire.check(answers)
+            make_folder(path.parent)
+            replace_file(path, json.dumps(answers, indent=2).encode())
+        except ValueError as error:
+            raise StationError(str(error)) from None
+        except OSError as error:
+            raise StationError(f"{path}: cannot be written: {error.strerror}") from None
+
+    def next_trial(self) -> Trial | None:
+        """Return the first trial that is not done, None if there is none."""
+        return next((trial for trial in self.trials if not self.is_done(trial)), None)
+
+    def asked(self) -> Asked | None:
+        """Return what is to be answered now, before anything else is done; None if nothing is."""
+        trial = self.next_trial()
+        due = [Asked(self.plan.before())]
+        if trial is None:
+            due.append(Asked(self.plan.end()))
+        elif (run := self.finished_run(trial)) is not None:
+            due += [Asked(questionnaire, run) for questionnaire in self.plan.after_trial()]
+        return next((asked for asked in due if not self._is_answered(*asked)), None)
 
     def is_done(self, trial: Trial) -> bool:
         """Return true if a trial has been run, and its questions answered."""
         name = self.finished_run(trial)
-        return name is not None and (not self.plan.nasa_tlx or self.answers(name) is not None)
+        return name is not None and all(
+            self._is_answered(questionnaire, name) for questionnaire in self.plan.after_trial()
+        )
 
-    def _answers_path(self, name: str) -> Path:
-        return self.folder / f"{name}.nasa_tlx.json"
+    def _is_answered(self, questionnaire: Questionnaire, run: str) -> bool:
+        return not questionnaire.items or self.answers(questionnaire, run) is not None
+
+    def _path(self, questionnaire: Questionnaire, run: str) -> Path:
+        return self.folder / ".".join(filter(None, (run, questionnaire.name, "json")))
+
+
+def _no_answers(path: Path, problem: str) -> RunFolderError:
+    return RunFolderError(
+        f"{path}: {problem}; expected answers to the questions of the plan, as the page writes "
+        "them; move the file away to ask again"
+    )
 
 
 def _nobody_sat(run: RunFolder) -> bool:
@@ -139,7 +223,7 @@ class Conductor:
             It is not time for it, or it cannot be run.
         """
         with self._lock:
-            state, trial = self._state(), self._next()
+            state, trial = self._state(), self._progress.next_trial()
             if trial is None or state["step"] != "ready" or state["rest_s"] > 0:
                 raise StationError("it is not time for a trial")
             plan = self._progress.plan
@@ -151,23 +235,22 @@ class Conductor:
             name = self._progress.new_run(trial)
             self._started.start(loading.find(trial.scenario), options_of(given), name)
 
-    def answer(self, answers: NasaTlx) -> None:
-        """Take the answers after a trial.
+    def answer(self, name: str, answers: Answers) -> None:
+        """Take the answers to a questionnaire.
 
         Raises
         ------
         StationError
-            Nothing was asked.
+            It is not asked now, or these are not answers to it.
         """
         with self._lock:
-            trial = self._next()
-            name = None if trial is None else self._progress.finished_run(trial)
-            if name is None or self._progress.answers(name) is not None:
-                raise StationError("no question is open")
-            self._progress.answer(name, answers)
+            asked = self._progress.asked()
+            if asked is None or asked.questionnaire.name != name:
+                raise StationError(f"{readable(name)}: no question of it is open")
+            self._progress.answer(asked, answers)
 
     def _state(self) -> dict[str, Any]:
-        trials, trial = self._progress.trials, self._next()
+        trials, trial = self._progress.trials, self._progress.next_trial()
         done = len(trials) if trial is None else trials.index(trial)
         if done > self._done:
             self._done, self._rested_since_s = done, time.monotonic()
@@ -180,22 +263,19 @@ class Conductor:
             "url": "",
             "said": "",
         }
+        shown["trial"] = min(done + 1, len(trials))
+        asked = self._progress.asked()
+        if asked is not None:
+            return shown | {"step": "questions", "questions": asked.questionnaire.document()}
         if trial is None:
-            return shown | {"step": "done", "trial": len(trials)}
-        position = trials.index(trial)
-        shown["trial"] = position + 1
-        if self._progress.finished_run(trial) is not None:
-            return shown | {"step": "questions"}
+            return shown | {"step": "done"}
         run = self._last_run()
         row = next((row for row in self._started.rows() if run and row["name"] == run.name), None)
         if row is not None and row["name"] in self._progress.attempts(trial):
             if row["state"] != "ended":
                 return shown | {"step": row["state"], "url": row["url"]}
             shown["said"] = "The last run of this trial did not finish."
-        return shown | {"step": "ready", "rest_s": self._rest_s(position)}
-
-    def _next(self) -> Trial | None:
-        return next((one for one in self._progress.trials if not self._progress.is_done(one)), None)
+        return shown | {"step": "ready", "rest_s": self._rest_s(done)}
 
     def _last_run(self) -> StartedRun | None:
         return next(iter(self._started.runs()), None)

@@ -5,10 +5,19 @@ from __future__ import annotations
 from typing import Any
 
 from fastapi import FastAPI
+from pydantic import BaseModel, ConfigDict, Field
 
-from airhilt.messages import NasaTlx
 from airhilt.station.app import page_app, refuse_in_words
 from airhilt.station.experiment import Conductor
+from airhilt.station.questionnaires import Answers
+
+
+class GivenAnswers(BaseModel):
+    """Answers of a page to the questionnaire of a name."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    questionnaire: str = Field(max_length=40)
+    answers: Answers = Field(max_length=100)
 
 
 def experiment_app(conductor: Conductor) -> FastAPI:
@@ -25,8 +34,8 @@ def experiment_app(conductor: Conductor) -> FastAPI:
         return conductor.state()
 
     @app.post("/api/answers")
-    def answer(answers: NasaTlx) -> dict[str, Any]:
-        conductor.answer(answers)
+    def answer(given: GivenAnswers) -> dict[str, Any]:
+        conductor.answer(given.questionnaire, given.answers)
         return conductor.state()
 
     refuse_in_words(app)

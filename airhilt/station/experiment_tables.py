@@ -18,8 +18,9 @@ from airhilt.metrics.columns import OF_PEOPLE, OF_REACTIONS, OF_RUNS, Column
 from airhilt.record import open_run
 from airhilt.record.run import untold
 from airhilt.report.unread import CANNOT_READ
-from airhilt.station.experiment import Progress
+from airhilt.station.experiment import Asked, Progress
 from airhilt.station.plan import Plan
+from airhilt.station.questionnaires import NASA_TLX, Questionnaire, Scale
 
 TRIALS, REACTIONS = "experiment", "reactions"
 """Names of the files of the two tables, without their ends."""
@@ -58,13 +59,11 @@ def write_tables(plan: Plan, folder: Path) -> RowCounts:
     identity = [pa.field(name, pa.string()) for name in ("participant", "trial", "scenario")]
     identity += [pa.field("position", pa.int64()), pa.field("run", pa.string())]
     identity += [pa.field(f"condition.{name}", pa.string()) for name in plan.conditions]
-    ratings = [
-        pa.field(f"nasa_tlx.{name}", pa.float64()) for name in (*NasaTlx.model_fields, "raw_tlx")
-    ]
+    answers = [field for asked in _asked(plan) for field in _answer_fields(asked[0])]
     people = _fields(OF_PEOPLE.columns, "person.")
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        _write(folder, TRIALS, trials, [*identity, *ratings, *people, *_fields(OF_RUNS.columns)])
+        _write(folder, TRIALS, trials, [*identity, *answers, *people, *_fields(OF_RUNS.columns)])
         seat = pa.field("seat", pa.string())
         _write(folder, REACTIONS, reactions, [*identity, seat, *_fields(OF_REACTIONS.columns)])
     except OSError as error:
@@ -84,15 +83,37 @@ def _fields(columns: Sequence[Column], prefix: str = "") -> list[pa.Field]:
     return [pa.field(prefix + column.name, TYPES[column.type]) for column in columns]
 
 
+def _asked(plan: Plan, run: str = "") -> list[Asked]:
+    """Return what the row of a trial has answers to, in the order of the columns."""
+    own = [Asked(one, run) for one in plan.after_trial() if one != NASA_TLX]
+    return [Asked(NASA_TLX, run), Asked(plan.before()), *own, Asked(plan.end())]
+
+
+def _answer_fields(questionnaire: Questionnaire) -> Iterator[pa.Field]:
+    for item in questionnaire.items:
+        kind = pa.float64() if isinstance(item, Scale) else pa.string()
+        yield pa.field(f"{questionnaire.name}.{item.name}", kind)
+    if questionnaire == NASA_TLX:
+        yield pa.field("nasa_tlx.raw_tlx", pa.float64())
+
+
+def _answers(progress: Progress, run: str) -> dict[str, Any]:
+    """Return what the row of a trial has of the answers of its participant."""
+    found: dict[str, Any] = {}
+    for asked in _asked(progress.plan, run):
+        answers: dict[str, Any] = dict(progress.answers(*asked) or {})
+        if asked.questionnaire == NASA_TLX and len(answers) == len(NASA_TLX.items):
+            answers["raw_tlx"] = NasaTlx(**answers).raw_tlx
+        found |= {f"{asked.questionnaire.name}.{name}": value for name, value in answers.items()}
+    return found
+
+
 def _rows(progress: Progress) -> Iterator[_Rows]:
     """Yield the rows of the finished trials of a participant."""
     for position, trial in enumerate(progress.trials, 1):
         name = progress.finished_run(trial)
         if name is None:
             continue
-        answers = progress.answers(name)
-        rated: dict[str, Any] = {} if answers is None else answers.model_dump()
-        rated |= {} if answers is None else {"raw_tlx": answers.raw_tlx}
         identity = {
             "participant": progress.participant,
             "trial": trial.name,
@@ -109,9 +130,9 @@ def _rows(progress: Progress) -> Iterator[_Rows]:
                 f"{folder}: its numbers cannot be read ({first_line(error)}); expected them as a "
                 "run writes them"
             ) from None
-        ratings = {f"nasa_tlx.{key}": float(value) for key, value in rated.items()}
+        answers = _answers(progress, name)
         yield _Rows(
-            {**rows.trial, **identity, **ratings}, [{**row, **identity} for row in rows.reactions]
+            {**rows.trial, **identity, **answers}, [{**row, **identity} for row in rows.reactions]
         )
 
 

@@ -13,6 +13,7 @@ from airhilt.errors import AirhiltError, first_problem
 from airhilt.options import options_of
 from airhilt.scenario import loading
 from airhilt.scenario.seats import seats_of
+from airhilt.station.questionnaires import NASA_TLX, Items, Questionnaire
 from airhilt.world.loading import load
 
 Identifier = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,19}$")]
@@ -34,6 +35,15 @@ class Trial(BaseModel):
     name: str
     scenario: str
     conditions: dict[str, JsonValue]
+
+
+class OwnQuestions(BaseModel):
+    """Questions of a plan, by when they are asked."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+    before: Items = Field(default=(), description="before the first trial")
+    after_trial: Items = Field(default=(), description="after each trial, and after NASA-TLX")
+    end: Items = Field(default=(), description="after the last trial")
 
 
 class Plan(BaseModel):
@@ -60,6 +70,9 @@ class Plan(BaseModel):
     break_minutes: float = Field(default=5.0, gt=0.0, le=120.0, description="least time of a break")
     pause: bool = Field(default=False, description="let participants pause and slow the trials")
     nasa_tlx: bool = Field(default=True, description="ask NASA-TLX at the end of each trial")
+    questions: OwnQuestions = Field(
+        default_factory=OwnQuestions, description="more questions, on the page of the experiment"
+    )
 
     @model_validator(mode="after")
     def _is_possible(self) -> Plan:
@@ -75,6 +88,19 @@ class Plan(BaseModel):
         if trials > MOST_TRIALS:
             raise ValueError(f"found {trials:,} trials; expected at most {MOST_TRIALS:,}")
         return self
+
+    def before(self) -> Questionnaire:
+        """Return what is asked before the first trial; it may have no items."""
+        return Questionnaire("before", self.questions.before)
+
+    def after_trial(self) -> list[Questionnaire]:
+        """Return what is asked after each trial, in this order."""
+        own = Questionnaire("after_trial", self.questions.after_trial)
+        return [NASA_TLX, own] if self.nasa_tlx else [own]
+
+    def end(self) -> Questionnaire:
+        """Return what is asked after the last trial; it may have no items."""
+        return Questionnaire("end", self.questions.end)
 
     def trials(self) -> list[Trial]:
         """Return all trials, in the order of the file."""

@@ -32,6 +32,12 @@ FOUND = """
         .map(({id, nodes}) => [id, nodes.map((node) => node.html.slice(0, 200))])])
 """
 
+SHOW_TLX = """
+    Promise.all([fetch('api/run'), import(new URL('page/questionnaire.js', location))])
+    .then(async ([answer, { Questionnaire }]) => new Questionnaire(
+        document.getElementById('tlx-items')).begin((await answer.json()).nasa_tlx))
+"""
+
 
 def serious(page: Page) -> Any:
     """Return what axe-core finds serious or critical on a page, light and dark."""
@@ -95,9 +101,7 @@ def test_the_seat_of_a_driver(page: Page, tmp_path: Path) -> None:
 def test_the_dialogs(page: Page, dialog: str) -> None:
     with seat_page() as (_, url):
         opened(page, url)
-        page.evaluate(
-            "import(new URL('page/tlx.js', location)).then(({ Tlx }) => new Tlx().begin())"
-        )
+        page.evaluate(SHOW_TLX)
         page.evaluate("document.getElementById('consent-text').textContent = 'It is recorded.'")
         page.evaluate(f"document.getElementById('{dialog}').showModal()")
         assert serious(page) == []

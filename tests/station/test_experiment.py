@@ -23,16 +23,27 @@ from airhilt.messages import NasaTlx, Severity
 from airhilt.metrics.summary import IsaRating, PersonReaction, PersonSummary, WorkloadSummary
 from airhilt.options import Options
 from airhilt.record import RunFolder
-from airhilt.station.experiment import Conductor, Progress
+from airhilt.station.experiment import Asked, Conductor, Progress
 from airhilt.station.experiment_tables import write_tables
 from airhilt.station.plan import Plan, balanced_latin_square, plan_of
+from airhilt.station.questionnaires import NASA_TLX, Answers
 from airhilt.station.started_runs import StartedRun, StartedRuns
 
 Cli = Callable[..., subprocess.CompletedProcess[str]]
-ANSWERS = NasaTlx(
-    mental_demand=50, physical_demand=10, temporal_demand=30, performance=20, effort=40,
-    frustration=0,
-)  # fmt: skip
+ANSWERS: Answers = {
+    "mental_demand": 50, "physical_demand": 10, "temporal_demand": 30, "performance": 20,
+    "effort": 40, "frustration": 0,
+}  # fmt: skip
+TRUST = {
+    "type": "scale", "name": "trust", "question": "How much did you trust the assistant?",
+    "low": "Not at all", "high": "Completely",
+}  # fmt: skip
+LICENCE = {
+    "type": "choice", "name": "licence", "question": "Which licence have you?",
+    "choices": ["none", "private", "commercial"],
+}  # fmt: skip
+PREFERRED = LICENCE | {"name": "preferred", "choices": ["with", "without"]}
+QUESTIONS = {"before": [LICENCE], "after_trial": [TRUST], "end": [PREFERRED]}
 
 
 REACTION = PersonReaction(
@@ -80,6 +91,11 @@ def plan(**given: Any) -> Plan:
     return plan_of(document | given, "plan.json")
 
 
+def asking(*items: dict[str, Any]) -> dict[str, Any]:
+    """Return what a plan has to ask these items at the end."""
+    return {"questions": {"end": items}}
+
+
 @pytest.mark.parametrize("size", range(1, 9))
 def test_each_trial_is_equally_often_at_each_place_and_after_each_other(size: int) -> None:
     rows = balanced_latin_square(size)
@@ -105,6 +121,14 @@ def test_each_trial_is_equally_often_at_each_place_and_after_each_other(size: in
         ),
         ({"scenarios": ["nowhere"]}, "nowhere"),
         ({"seat": "nobody"}, "nobody of that name"),
+        ({"questions": {"after": []}}, "plan.json: questions/after"),
+        (asking(TRUST | {"type": "slider"}), "questions/end/0: .*'scale', 'choice'"),
+        (asking(TRUST | {"steps": 1}), "questions/end/0/scale/steps: .*greater than or equal to 2"),
+        (asking({"type": "scale", "name": "trust"}), "questions/end/0/scale/question: Field req"),
+        (asking(TRUST | {"name": "Trust in it"}), "questions/end/0/scale/name"),
+        (asking(TRUST, TRUST), "two items are called trust; expected another name"),
+        (asking(LICENCE | {"choices": ["one"]}), "questions/end/0/choice/choices"),
+        (asking(LICENCE | {"choices": ["one", "one"]}), "one choice is there twice"),
     ],
 )
 def test_a_plan_that_cannot_be_is_refused_in_words(given: dict[str, Any], said: str) -> None:
@@ -128,11 +152,11 @@ def test_a_finished_trial_is_not_run_again_and_has_a_row(
     assert conductor.state()["step"] == "questions"
     with pytest.raises(StationError, match="not time"):
         conductor.begin()
-    conductor.answer(ANSWERS)
+    conductor.answer("nasa_tlx", ANSWERS)
     assert (progress.is_done(first), progress.is_done(second)) == (True, False)
     assert Conductor(progress).state()["trial"] == 2
     with pytest.raises(StationError, match="no question"):
-        conductor.answer(ANSWERS)
+        conductor.answer("nasa_tlx", ANSWERS)
     assert write_tables(experiment, tmp_path) == (1, 0)
     row = pq.read_table(tmp_path / "experiment.parquet").to_pylist()[0]
     assert row["run"] == f"P01/01-{first.name}-2"
@@ -261,7 +285,7 @@ def test_the_page_of_a_trial_that_is_over_is_not_that_of_the_next_one(
     progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
     name = f"01-{progress.trials[0].name}"
     shutil.copytree(recorded_run, progress.folder / name)
-    progress.answer(name, ANSWERS)
+    progress.answer(Asked(NASA_TLX, name), ANSWERS)
     still_there = StartedRun(
         name=name,
         scenario="s02a_headon",
@@ -332,7 +356,7 @@ def test_a_break_has_to_be_taken(recorded_run: Path, tmp_path: Path) -> None:
     progress = Progress(plan(break_after=1), tmp_path, "P01")
     shutil.copytree(recorded_run, progress.folder / f"01-{progress.trials[0].name}")
     conductor = Conductor(progress)
-    conductor.answer(ANSWERS)
+    conductor.answer("nasa_tlx", ANSWERS)
     assert conductor.state()["rest_s"] > 100.0
     with pytest.raises(StationError, match="not time"):
         conductor.begin()
@@ -345,7 +369,7 @@ def test_who_starts_the_page_again_does_not_leave_the_break_out(
     assert Conductor(progress).state()["rest_s"] == 0.0
     name = f"01-{progress.trials[0].name}"
     shutil.copytree(recorded_run, progress.folder / name)
-    progress.answer(name, ANSWERS)
+    progress.answer(Asked(NASA_TLX, name), ANSWERS)
     assert Conductor(progress).state()["rest_s"] > 100.0
 
 
@@ -372,3 +396,118 @@ def test_the_command_tells_the_order_of_each_participant(
     for name in ("experiment", "reactions"):
         assert (tmp_path / "experiments" / "plan" / f"{name}.csv").is_file()
         assert f"{name}.csv" in done.stdout
+
+
+def names_asked(conductor: Conductor) -> list[str]:
+    """Return the names of the items that the page has to ask now."""
+    return [item["name"] for item in conductor.state().get("questions", {"items": []})["items"]]
+
+
+def test_own_questions_are_asked_before_after_each_trial_and_at_the_end(
+    recorded_run: Path, tmp_path: Path
+) -> None:
+    experiment = plan(participants=["P01"], questions=QUESTIONS)
+    progress = Progress(experiment, tmp_path, "P01")
+    conductor = Conductor(progress)
+    assert names_asked(conductor) == ["licence"]
+    with pytest.raises(StationError, match="not time"):
+        conductor.begin()
+    conductor.answer("before", {"licence": "private"})
+    assert conductor.state()["step"] == "ready"
+    for position, trial in enumerate(progress.trials, 1):
+        finished(recorded_run, progress.folder / f"{position:02d}-{trial.name}", [])
+        assert names_asked(conductor) == list(ANSWERS)
+        conductor.answer("nasa_tlx", ANSWERS)
+        assert names_asked(conductor) == ["trust"]
+        assert not progress.is_done(trial)
+        conductor.answer("after_trial", {"trust": position})
+    assert names_asked(conductor) == ["preferred"]
+    conductor.answer("end", {"preferred": "with"})
+    assert conductor.state()["step"] == "done"
+    write_tables(experiment, tmp_path)
+    rows = table(tmp_path / "experiment.parquet")
+    names = ("before.licence", "nasa_tlx.raw_tlx", "after_trial.trust", "end.preferred")
+    assert [[row[name] for name in names] for row in rows] == [
+        ["private", 25.0, 1.0, "with"],
+        ["private", 25.0, 2.0, "with"],
+    ]
+    kept = json.loads((progress.folder / "before.json").read_text())
+    assert kept == {"licence": "private"}
+
+
+def test_what_is_not_answered_yet_is_empty_in_the_table(recorded_run: Path, tmp_path: Path) -> None:
+    experiment = plan(participants=["P01"], questions=QUESTIONS)
+    progress = Progress(experiment, tmp_path, "P01")
+    finished(recorded_run, progress.folder / f"01-{progress.trials[0].name}", [])
+    write_tables(experiment, tmp_path)
+    row = table(tmp_path / "experiment.parquet")[0]
+    asked = ("before.licence", "after_trial.trust", "end.preferred", "nasa_tlx.effort")
+    assert [row[name] for name in asked] == [None] * 4
+
+
+def test_ratings_that_were_given_at_the_seat_are_not_asked_again(
+    recorded_run: Path, tmp_path: Path
+) -> None:
+    experiment = plan(participants=["P01"], questions={"after_trial": [TRUST]})
+    progress = Progress(experiment, tmp_path, "P01")
+    workload = PERSON.workload.model_copy(update={"nasa_tlx": NasaTlx.model_validate(ANSWERS)})
+    person = PERSON.model_copy(update={"workload": workload}).model_dump(mode="json")
+    finished(recorded_run, progress.folder / f"01-{progress.trials[0].name}", [person])
+    assert names_asked(Conductor(progress)) == ["trust"]
+    write_tables(experiment, tmp_path)
+    assert table(tmp_path / "experiment.parquet")[0]["nasa_tlx.raw_tlx"] == 25.0
+
+
+@pytest.mark.parametrize(
+    ("answers", "said"),
+    [
+        ({}, "trust: not answered"),
+        ({"trust": 8}, "trust: found 8; expected 1 to 7"),
+        ({"trust": "much"}, "trust: found 'much'; expected 1 to 7"),
+        ({"trust": 4, "more": 1}, "'more': not asked"),
+    ],
+)
+def test_answers_that_the_items_do_not_take_are_refused_in_words(
+    tmp_path: Path, answers: Answers, said: str
+) -> None:
+    progress = Progress(plan(participants=["P01"], questions={"before": [TRUST]}), tmp_path, "P01")
+    conductor = Conductor(progress)
+    with pytest.raises(StationError, match=said):
+        conductor.answer("before", answers)
+    with pytest.raises(StationError, match="no question of it is open"):
+        conductor.answer("end", answers)
+    assert names_asked(conductor) == ["trust"]
+
+
+@pytest.mark.parametrize("content", ['{"trust": 8}', '{"trust": [1]}', "[", '{"trust": true}'])
+def test_answers_that_no_page_wrote_are_refused_in_words(tmp_path: Path, content: str) -> None:
+    """They are not asked again by themselves: the answers of a person would be lost."""
+    progress = Progress(plan(participants=["P01"], questions={"before": [TRUST]}), tmp_path, "P01")
+    progress.folder.mkdir()
+    (progress.folder / "before.json").write_text(content)
+    with pytest.raises(RunFolderError, match=r"before\.json: .*move the file away to ask again"):
+        Conductor(progress).state()
+
+
+def test_an_item_that_came_into_the_plan_later_leaves_a_gap(
+    recorded_run: Path, tmp_path: Path
+) -> None:
+    progress = Progress(plan(participants=["P01"], questions={"before": [TRUST]}), tmp_path, "P01")
+    Conductor(progress).answer("before", {"trust": 3})
+    later = plan(participants=["P01"], questions={"before": [TRUST, LICENCE]})
+    finished(recorded_run, progress.folder / f"01-{progress.trials[0].name}", [])
+    write_tables(later, tmp_path)
+    row = table(tmp_path / "experiment.parquet")[0]
+    assert (row["before.trust"], row["before.licence"]) == (3.0, None)
+
+
+def test_the_scales_of_nasa_tlx_are_those_that_the_run_takes() -> None:
+    """The page asks by the items, and the message of the seat has the limits."""
+    assert [item.name for item in NASA_TLX.items] == list(NasaTlx.model_fields)
+    for end in (0, 100):
+        ratings = dict.fromkeys(NasaTlx.model_fields, end)
+        NASA_TLX.check(ratings)
+        NasaTlx.model_validate(ratings)
+    for outside in (-5, 105, 52):
+        with pytest.raises(ValueError, match=f"mental_demand: found {outside}; expected 0 to 100"):
+            NASA_TLX.check(ratings | {"mental_demand": outside})

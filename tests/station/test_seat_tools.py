@@ -138,7 +138,7 @@ def test_a_phrase_is_chosen_and_the_workload_is_rated(seat: tuple[PretendedRun, 
         page.wait_for("document.getElementById('tlx-dialog').open")
         page.evaluate("document.getElementById('tlx').requestSubmit()")
         assert "Frustration" in page.evaluate("document.getElementById('tlx-state').textContent")
-        page.evaluate("document.querySelectorAll('#scales input').forEach((one) => one.click())")
+        page.evaluate("document.querySelectorAll('#tlx-items input').forEach((one) => one.click())")
         page.evaluate("document.getElementById('tlx').requestSubmit()")
         assert run.next().nasa_tlx == NasaTlx(**dict.fromkeys(NasaTlx.model_fields, 50))
         page.wait_for("!document.getElementById('tlx-dialog').open")

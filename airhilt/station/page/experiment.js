@@ -1,11 +1,12 @@
 // The page of a participant: what is to be done now, and the questions after a trial.
 
 import { byId, html } from "./dom.js";
+import { Questionnaire } from "./questionnaire.js";
 import { connectTheme } from "./theme.js";
-import { Tlx } from "./tlx.js";
 
 const PERIOD_MS = 1000;
-const tlx = new Tlx();
+const questionnaire = new Questionnaire(byId("items"));
+let shown = ""; // trial and name of the questionnaire that is shown
 
 async function ask(path, wish) {
   const how =
@@ -24,7 +25,31 @@ async function ask(path, wish) {
 
 const note = (text) => byId("notes").replaceChildren(...(text ? [html("p", {}, text)] : []));
 
-function textOf({ step, seat, said, rest_s: rest, may_pause: mayPause }) {
+const afterTrial = ({ trial, trials }) => `Questions after trial ${trial} of ${trials}`;
+
+/** Heading of each questionnaire, and what is said of it, by its name. */
+const QUESTIONNAIRES = {
+  before: [() => "Questions before the first trial", "Please answer each question."],
+  nasa_tlx: [
+    afterTrial,
+    "How was the trial that you have just done? Move each slider to where it fits.",
+  ],
+  after_trial: [afterTrial, "Please answer each question about the trial that you have just done."],
+  end: [() => "Questions at the end", "Please answer each question."],
+};
+
+function titleOf(state) {
+  switch (state.step) {
+    case "questions":
+      return QUESTIONNAIRES[state.questions.name][0](state);
+    case "done":
+      return "All trials are done";
+    default:
+      return `Trial ${state.trial} of ${state.trials}`;
+  }
+}
+
+function textOf({ step, seat, said, questions, rest_s: rest, may_pause: mayPause }) {
   switch (step) {
     case "ready":
       return rest > 0
@@ -35,28 +60,25 @@ function textOf({ step, seat, said, rest_s: rest, may_pause: mayPause }) {
     case "running":
       return `Open the page of your seat, and take the seat ${seat}: the trial begins then, and not before. ${mayPause ? "" : "It cannot be paused. "}When it is over, come back to this page.`;
     case "questions":
-      return "";
+      return QUESTIONNAIRES[questions.name][1];
     default:
       return "That was the last trial. Thank you.";
   }
 }
 
 function show(state) {
-  const { step, trial, trials, url, rest_s: rest } = state;
+  const { step, trial, url, questions, rest_s: rest } = state;
   byId("title").textContent = `Experiment, ${state.participant}`;
-  byId("step").textContent =
-    step === "done"
-      ? "All trials are done"
-      : step === "questions"
-        ? `Questions after trial ${trial} of ${trials}`
-        : `Trial ${trial} of ${trials}`;
+  byId("step").textContent = titleOf(state);
   byId("step-text").textContent = textOf(state);
   byId("begin").hidden = step !== "ready";
   byId("begin").disabled = rest > 0;
   byId("open").hidden = step !== "running";
   byId("open").href = url || "#";
-  if (byId("tlx").hidden && step === "questions") tlx.begin();
-  byId("tlx").hidden = step !== "questions";
+  const asked = questions ? `${trial} ${questions.name}` : "";
+  if (questions && asked !== shown) questionnaire.begin(questions);
+  shown = asked;
+  byId("questions").hidden = !asked;
 }
 
 async function act(path, wish) {
@@ -69,9 +91,9 @@ async function act(path, wish) {
 }
 
 function answer() {
-  const { missing } = tlx;
-  if (missing.length) note(`Please move or click every slider: ${missing.join(", ")}.`);
-  else act("api/answers", tlx.answers);
+  const { missing, answers } = questionnaire;
+  if (missing.length) note(`Please answer these as well: ${missing.join(", ")}`);
+  else act("api/answers", { questionnaire: questionnaire.name, answers });
 }
 
 async function follow() {
@@ -91,7 +113,7 @@ async function follow() {
 
 connectTheme(() => {});
 byId("begin").addEventListener("click", () => act("api/begin", {}));
-byId("tlx").addEventListener("submit", (event) => {
+byId("questions").addEventListener("submit", (event) => {
   event.preventDefault();
   answer();
 });

@@ -52,7 +52,7 @@ export class Talk {
     );
     this.#frequencies = new Frequencies((tune) => live.send({ tune }));
     this.#phrases = new Phrases(run);
-    this.#workload = new Workload((answer) =>
+    this.#workload = new Workload(run.nasa_tlx, (answer) =>
       live.wish({ answer }, { lost: () => live.refuse("Not answered: the connection is lost.") }),
     );
     this.#microphone.setInfo(null);

@@ -1,7 +1,7 @@
 // Questions about workload: ISA while the run goes on, NASA-TLX at its end.
 
 import { byId, html } from "./dom.js";
-import { Tlx } from "./tlx.js";
+import { Questionnaire } from "./questionnaire.js";
 
 /** Ratings of the Instantaneous Self-Assessment (Tattersall & Foord 1996). */
 const RATINGS = ["Under-used", "Relaxed", "Comfortable", "High", "Excessive"];
@@ -11,10 +11,12 @@ export class Workload {
   #answer;
   #question = null;
   #timer = null;
-  #tlx = new Tlx();
+  #nasaTlx;
+  #tlx = new Questionnaire(byId("tlx-items"));
 
-  /** `answer(answer)` gives an answer to the run. */
-  constructor(answer) {
+  /** `nasaTlx` is its questionnaire; `answer(answer)` gives an answer to the run. */
+  constructor(nasaTlx, answer) {
+    this.#nasaTlx = nasaTlx;
     this.#answer = answer;
     byId("isa-ratings").replaceChildren(
       ...RATINGS.map((name, i) => {
@@ -48,7 +50,7 @@ export class Workload {
       this.#timer = setTimeout(() => this.#hideIsa(), PATIENCE_MS);
     } else {
       this.#hideIsa();
-      this.#tlx.begin();
+      this.#tlx.begin(this.#nasaTlx);
       byId("tlx-state").textContent = "";
       if (!byId("tlx-dialog").open) byId("tlx-dialog").showModal();
     }

@@ -1,0 +1,107 @@
+// Questions to a person, each with a scale or a choice; NASA-TLX is one such questionnaire.
+
+import { html } from "./dom.js";
+
+const MOST_BUTTONS = 11; // steps of a scale that are buttons; one with more is a slider
+
+export class Questionnaire {
+  #place;
+  #items = [];
+  #name = "";
+  #answers = {};
+
+  /** `place` is the element in which the questions are shown. */
+  constructor(place) {
+    this.#place = place;
+  }
+
+  /** Shows all items of a questionnaire as not answered. */
+  begin({ name, items }) {
+    this.#name = name;
+    this.#items = items;
+    this.#answers = {};
+    this.#place.replaceChildren(...items.map((item) => this.#row(item)));
+  }
+
+  get name() {
+    return this.#name;
+  }
+
+  /** Names, on the page, of the items that nobody has answered yet. */
+  get missing() {
+    return this.#items
+      .filter(({ name }) => !(name in this.#answers))
+      .map(({ title, question }) => title ?? question);
+  }
+
+  get answers() {
+    return { ...this.#answers };
+  }
+
+  #row(item) {
+    if (item.type === "choice") return this.#choice(item);
+    return item.steps > MOST_BUTTONS ? this.#slider(item) : this.#steps(item);
+  }
+
+  #slider({ name, title, question, low, high, steps, first, interval }) {
+    const last = first + (steps - 1) * interval;
+    const input = html("input", {
+      type: "range",
+      min: first,
+      max: last,
+      step: interval,
+      value: first + Math.floor((steps - 1) / 2) * interval,
+      class: "untouched",
+      "aria-label": title ? `${title}. ${question}` : question,
+    });
+    for (const event of ["input", "click"])
+      input.addEventListener(event, () => {
+        this.#answers[name] = Number(input.value);
+        input.classList.remove("untouched");
+      });
+    return html(
+      "label",
+      { class: "item scale" },
+      html("span", { class: "name" }, ...inWords(title, question)),
+      html("span", { class: "end" }, low),
+      input,
+      html("span", { class: "end" }, high),
+    );
+  }
+
+  #steps({ name, title, question, low, high, steps, first, interval }) {
+    const numbers = Array.from({ length: steps }, (_, i) => first + i * interval);
+    return html(
+      "fieldset",
+      { class: "item" },
+      html("legend", {}, ...inWords(title, question)),
+      html(
+        "div",
+        { class: "scale" },
+        html("span", { class: "end" }, low),
+        html("span", { class: "steps" }, ...numbers.map((n) => this.#button(name, n))),
+        html("span", { class: "end" }, high),
+      ),
+    );
+  }
+
+  #choice({ name, title, question, choices }) {
+    return html(
+      "fieldset",
+      { class: "item" },
+      html("legend", {}, ...inWords(title, question)),
+      html("div", { class: "choices" }, ...choices.map((text) => this.#button(name, text))),
+    );
+  }
+
+  #button(name, answer) {
+    const input = html("input", { type: "radio", name, value: answer });
+    input.addEventListener("change", () => {
+      this.#answers[name] = answer;
+    });
+    return html("label", {}, input, ` ${answer}`);
+  }
+}
+
+const inWords = (title, question) =>
+  title ? [html("strong", {}, title), ` ${question}`] : [question];

@@ -1,0 +1,83 @@
+"""The page of a participant in a real browser."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import pytest
+
+from devtools import Page
+from stations import experimenting
+
+pytestmark = pytest.mark.browser
+LOW_CONTRAST = Path(__file__).with_name("contrast.js").read_text()
+PLAN = {
+    "participants": ["P01"], "seat": "AAL123", "scenarios": ["s02a_headon"],
+    "questions": {
+        "before": [
+            {"type": "choice", "name": "licence", "question": "Which licence have you?",
+             "choices": ["none", "private"]},
+            {"type": "scale", "name": "rested", "title": "Rest", "question": "How rested are you?",
+             "low": "Tired", "high": "Rested", "steps": 5},
+        ],
+        "after_trial": [
+            {"type": "scale", "name": "trust", "question": "How much did you trust it?",
+             "low": "Not at all", "high": "Completely", "steps": 101, "first": 0},
+        ],
+        "end": [
+            {"type": "choice", "name": "again", "question": "Once more?", "choices": ["no", "yes"]},
+        ],
+    },
+}  # fmt: skip
+ANSWER_ALL = """
+    for (const input of document.querySelectorAll('#items [type=range]')) input.click();
+    for (const input of document.querySelectorAll('#items [type=radio]:first-of-type')) {
+        input.click();
+    }
+"""
+SUBMIT = "document.getElementById('questions').requestSubmit()"
+
+
+def heading(page: Page, text: str) -> None:
+    page.wait_for(f"document.getElementById('step').textContent === {text!r}")
+
+
+def test_a_participant_answers_the_questions_of_the_plan(
+    page: Page, recorded_run: Path, tmp_path: Path
+) -> None:
+    file, out = tmp_path / "plan.json", tmp_path / "out"
+    file.write_text(json.dumps(PLAN))
+    with experimenting(file, "--participant", "P01", "--out", str(out)) as url:
+        for dark in (True, False):
+            page.open(url, width=1280, height=720, dark=dark)
+            heading(page, "Questions before the first trial")
+            assert page.evaluate(LOW_CONTRAST) == []
+        page.evaluate("document.querySelector('[name=licence][value=private]').click()")
+        page.evaluate(SUBMIT)
+        assert page.evaluate("document.getElementById('notes').textContent").endswith(": Rest")
+        page.evaluate("document.querySelector('[name=rested][value=\"4\"]').click()")
+        page.evaluate(SUBMIT)
+        heading(page, "Trial 1 of 1")
+        shutil.copytree(recorded_run, out / "P01" / "01-s02a_headon-1")
+        heading(page, "Questions after trial 1 of 1")
+        assert page.evaluate("document.querySelectorAll('#items input').length") == 6
+        page.evaluate(ANSWER_ALL)
+        page.evaluate(SUBMIT)
+        page.wait_for("document.querySelectorAll('#items input').length === 1")
+        page.evaluate(SUBMIT)
+        assert "How much did you trust it?" in page.evaluate(
+            "document.getElementById('notes').textContent"
+        )
+        page.evaluate(ANSWER_ALL)
+        page.evaluate(SUBMIT)
+        heading(page, "Questions at the end")
+        page.evaluate(ANSWER_ALL)
+        page.evaluate(SUBMIT)
+        heading(page, "All trials are done")
+        page.open("about:blank")
+    kept = [json.loads(path.read_text()) for path in sorted((out / "P01").glob("*.json"))]
+    assert {"licence": "private", "rested": 4} in kept
+    assert {"trust": 50} in kept
+    assert {"again": "yes"} in kept
