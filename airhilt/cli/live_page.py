@@ -6,7 +6,7 @@ import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TextIO
@@ -21,7 +21,7 @@ FORWARDING_S = 1.0
 
 @contextmanager
 def live_page(
-    endpoint: str | None, tls: Path | None, seats: Iterable[str], port: int, browser: bool
+    endpoint: str | None, tls: Path | None, seats: Iterable[str], arguments: Sequence[str] = ()
 ) -> Iterator[None]:
     """Serve the page of the run at an endpoint while it goes on, and until no browser shows it.
 
@@ -33,17 +33,14 @@ def live_page(
         Folder with the keys of the run; None: it asks for none.
     seats
         Seats that browsers may take.
-    port
-        Port of the page.
-    browser
-        True opens the page.
+    arguments
+        Arguments of ``airhilt view`` that say where the page is, and who may open it.
     """
-    command = [sys.executable, "-m", "airhilt", "view", "--port", str(port)]
+    command = [sys.executable, "-m", "airhilt", "view", *arguments]
     command += [] if endpoint is None else ["--connect", endpoint]
     command += [] if tls is None else ["--tls", str(tls)]
     for seat in seats:
         command += ["--seat", seat]
-    command += [] if browser else ["--no-browser"]
     # A session of its own: Ctrl+C is for the run, which ends, and then the page does.
     page = subprocess.Popen(  # noqa: S603 - our own command
         command, stdout=subprocess.PIPE, text=True, start_new_session=True

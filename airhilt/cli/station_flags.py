@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import ssl
 from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+from functools import wraps
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 import click
 
@@ -18,21 +20,71 @@ FILE = click.Path(path_type=Path, dir_okay=False)
 NEEDED = ("fastapi", "uvicorn", "websockets")
 """Packages of the extra ``station``."""
 
-port_option = click.option(
-    "--port",
-    type=click.IntRange(0, 65535),
-    default=DEFAULT_PORT,
-    show_default=True,
-    help="Port of the page.",
-)
-"""Option that says where the page of a run is."""
+
+@dataclass(frozen=True)
+class PageOptions:
+    """Where the page of a command is, and who may open it, as the command line says."""
+
+    port: int
+    host: str
+    certificate: Path | None
+    key: Path | None
+    token_file: Path | None
+    no_browser: bool
+
+    def address(self) -> Address:
+        """Return the address that the page has.
+
+        Raises
+        ------
+        StationError
+            The extra is not installed, a file cannot be read, or the address is not safe.
+        """
+        missing = [name for name in NEEDED if find_spec(name) is None]
+        if missing:
+            raise StationError(
+                f"the page needs {', '.join(missing)}, not installed: pip install "
+                "'airhilt[station]'"
+            )
+        for path in (self.certificate, self.key):
+            if path is not None and not path.is_file():
+                raise StationError(f"{path}: no such file; expected a PEM file")
+        _check_certificate(self.certificate, self.key)
+        try:
+            token = "" if self.token_file is None else self.token_file.read_text("utf-8").strip()
+        except (OSError, UnicodeDecodeError) as error:
+            raise StationError(f"{self.token_file}: cannot be read: {error}") from None
+        return Address(self.host, self.port, self.certificate, self.key, token)
+
+    def arguments(self) -> list[str]:
+        """Return the arguments that give these options to another command."""
+        files = {
+            "--certificate": self.certificate,
+            "--key": self.key,
+            "--token-file": self.token_file,
+        }
+        given = [f"--port={self.port}", f"--host={self.host}"]
+        given += [f"{name}={path.resolve()}" for name, path in files.items() if path is not None]
+        return [*given, "--no-browser"] if self.no_browser else given
+
+    def of_another_page(self) -> list[str]:
+        """Return the arguments for a page at a free port, with which this one links to it."""
+        return replace(self, port=0, no_browser=True).arguments()
 
 
 def station_options(command: F) -> F:
-    """Add the options that say where the page is, and who may open it."""
+    """Add the options that say where the page is and who may open it, as a parameter ``page``."""
+
+    @wraps(command)
+    def with_page(*arguments: Any, **given: Any) -> Any:
+        page = PageOptions(**{field.name: given.pop(field.name) for field in fields(PageOptions)})
+        return command(*arguments, page=page, **given)
+
+    decorated: Any = with_page
     for option in reversed(
         (
-            port_option,
+            click.option("--port", type=click.IntRange(0, 65535), default=DEFAULT_PORT,
+                         show_default=True, help="Port of the page."),
             click.option("--host", default=DEFAULT_HOST, show_default=True, help="Address to "
                          "listen at. Any but loopback needs TLS and a token."),
             click.option("--certificate", type=FILE, metavar="FILE", help="TLS certificate, PEM."),
@@ -42,34 +94,8 @@ def station_options(command: F) -> F:
             click.option("--no-browser", is_flag=True, help="Print the URL, and open no browser."),
         )
     ):  # fmt: skip
-        command = option(command)
-    return command
-
-
-def station_address(
-    host: str, port: int, certificate: Path | None, key: Path | None, token_file: Path | None
-) -> Address:
-    """Return the address that these options give.
-
-    Raises
-    ------
-    StationError
-        The extra is not installed, a file cannot be read, or the address is not safe.
-    """
-    missing = [name for name in NEEDED if find_spec(name) is None]
-    if missing:
-        raise StationError(
-            f"the page needs {', '.join(missing)}, not installed: pip install 'airhilt[station]'"
-        )
-    for path in (certificate, key):
-        if path is not None and not path.is_file():
-            raise StationError(f"{path}: no such file; expected a PEM file")
-    _check_certificate(certificate, key)
-    try:
-        token = "" if token_file is None else token_file.read_text("utf-8").strip()
-    except (OSError, UnicodeDecodeError) as error:
-        raise StationError(f"{token_file}: cannot be read: {error}") from None
-    return Address(host, port, certificate, key, token)
+        decorated = option(decorated)
+    return cast("F", decorated)
 
 
 def _check_certificate(certificate: Path | None, key: Path | None) -> None:

@@ -6,13 +6,13 @@ import subprocess
 import sys
 import threading
 from collections import OrderedDict
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import IO, Any
 
 from airhilt.errors import RunFolderError, StationError
 from airhilt.record import RunFolder
-from airhilt.station.started_runs import State
+from airhilt.station.started_runs import PAGE_OF_THIS_MACHINE, State, is_address
 from airhilt.text import LONGEST_LINE, readable
 
 MOST_OPEN = 4
@@ -28,10 +28,18 @@ class Debriefs:
     ----------
     state
         Returns the state of the process of a run by its name, None if it is not known.
+    page
+        Arguments that say where the page of a debrief is, and who may open it.
     """
 
-    def __init__(self, folder: Path, state: Callable[[str], State | None] = lambda _: None) -> None:
+    def __init__(
+        self,
+        folder: Path,
+        state: Callable[[str], State | None] = lambda _: None,
+        page: Sequence[str] = PAGE_OF_THIS_MACHINE,
+    ) -> None:
         self._folder = folder
+        self._page = page
         self._state = state
         self._open: OrderedDict[tuple[str, ...], tuple[subprocess.Popen[str], str]] = OrderedDict()
         self._read: dict[tuple[Path, int], dict[str, Any]] = {}
@@ -102,7 +110,7 @@ class Debriefs:
     def _started(self, names: tuple[str, ...]) -> tuple[subprocess.Popen[str], str]:
         folders = [str(self._folder / name) for name in names]
         process = subprocess.Popen(  # noqa: S603 - our own command
-            [sys.executable, "-m", "airhilt", "view", "--port=0", "--no-browser", "--", *folders],
+            [sys.executable, "-m", "airhilt", "view", *self._page, "--", *folders],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
@@ -112,7 +120,7 @@ class Debriefs:
         assert process.stdout is not None
         said = ""
         for line in process.stdout:
-            if line.startswith("http://"):
+            if is_address(line):
                 threading.Thread(target=_drain, args=(process.stdout,), daemon=True).start()
                 return process, line.split()[0]
             said = line.removeprefix("airhilt: ").strip() or said

@@ -9,7 +9,7 @@ from __future__ import annotations
 import json
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -23,7 +23,12 @@ from airhilt.record import RunFolder
 from airhilt.scenario import loading
 from airhilt.station.plan import Plan, Trial
 from airhilt.station.questionnaires import NASA_TLX, Answers, Questionnaire
-from airhilt.station.started_runs import LARGEST_RECORD_BYTES, StartedRun, StartedRuns
+from airhilt.station.started_runs import (
+    LARGEST_RECORD_BYTES,
+    PAGE_OF_THIS_MACHINE,
+    StartedRun,
+    StartedRuns,
+)
 from airhilt.text import readable
 
 MOST_ATTEMPTS = 100
@@ -200,11 +205,17 @@ def _nobody_sat(run: RunFolder) -> bool:
 
 
 class Conductor:
-    """Leads one participant through the trials."""
+    """Leads one participant through the trials.
 
-    def __init__(self, progress: Progress) -> None:
+    Parameters
+    ----------
+    page
+        Arguments that the pages of the trials have, as `StartedRuns` takes them.
+    """
+
+    def __init__(self, progress: Progress, page: Sequence[str] = PAGE_OF_THIS_MACHINE) -> None:
         self._progress = progress
-        self._started = StartedRuns(progress.folder)
+        self._started = StartedRuns(progress.folder, page)
         self._done = sum(map(progress.is_done, progress.trials))
         self._rested_since_s = time.monotonic() if self._done else None
         self._lock = threading.Lock()

@@ -10,6 +10,7 @@ import os
 import signal
 import subprocess
 import sys
+from collections.abc import Sequence
 from contextlib import suppress
 from datetime import UTC, datetime
 from pathlib import Path
@@ -35,6 +36,8 @@ MOST_ENDED = 5
 """Number of runs that have ended whose output is told."""
 END_BYTES = 4096
 """Size of the beginning and of the end of a run's output that are read."""
+PAGE_OF_THIS_MACHINE = ("--port=0", "--no-browser")
+"""Arguments of a page at a free port that this machine alone can open."""
 State = Literal["starting", "running", "ended"]
 
 
@@ -57,10 +60,13 @@ class StartedRuns:
     ----------
     folder
         Folder of the run folders; made when a run is started.
+    page
+        Arguments that say where the page of a run is, and who may open it.
     """
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, page: Sequence[str] = PAGE_OF_THIS_MACHINE) -> None:
         self.folder = folder
+        self._page = page
         self._children: list[subprocess.Popen[bytes]] = []
 
     def start(self, scenario: Path, options: Options, name: str | None = None) -> str:
@@ -84,10 +90,11 @@ class StartedRuns:
         name = name or _new_name(self.folder, loaded.name, options.seed)
         given = options.model_copy(update={"out": self.folder / name, "pace": "realtime"})
         command = [sys.executable, "-m", "airhilt", "cosim", f"--scenario={scenario}"]
-        command += ["--view", "--no-browser", "--port=0", *arguments_of(given)]
+        command += ["--view", *self._page, *arguments_of(given)]
         try:
             make_folder(self.folder / KEPT)
             replace_file(self._output(name), b"")
+            self._output(name).chmod(0o600)  # The token may be in the address of the page.
         except OSError as error:
             raise StationError(f"{error.filename}: cannot be written: {error.strerror}") from None
         # A session of its own, and a file to write to: it needs nothing of this process.
@@ -150,7 +157,7 @@ class StartedRuns:
     def url(self, run: StartedRun) -> str:
         """Return the address of a run's page, empty if it has none yet."""
         for line in self._lines(run):
-            if line.startswith("http://"):
+            if is_address(line):
                 return line.split()[0]
         return ""
 
@@ -161,7 +168,7 @@ class StartedRuns:
             state = self.state(run)
             ended += state == "ended"
             if state != "ended" or ended <= MOST_ENDED:
-                lines = [line for line in self._lines(run) if not line.startswith("http://")]
+                lines = [line for line in self._lines(run) if not is_address(line)]
                 rows.append(
                     {
                         "name": readable(run.name),
@@ -189,6 +196,11 @@ class StartedRuns:
 
     def _record(self, name: str) -> Path:
         return self.folder / KEPT / f"{name}.json"
+
+
+def is_address(line: str) -> bool:
+    """Return true if a command says in a line where its page is."""
+    return line.startswith(("http://", "https://"))
 
 
 def _new_name(folder: Path, scenario: str, seed: int) -> str:

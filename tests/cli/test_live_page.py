@@ -21,7 +21,10 @@ def test_the_pipe_of_the_page_is_closed_when_the_run_is_interrupted(
         return started[0]
 
     monkeypatch.setattr(subprocess, "Popen", start)
-    with pytest.raises(KeyboardInterrupt), live_page("tcp/127.0.0.1:1", None, [], 0, False):
+    with (
+        pytest.raises(KeyboardInterrupt),
+        live_page("tcp/127.0.0.1:1", None, [], ["--port=0", "--no-browser"]),
+    ):
         raise KeyboardInterrupt
     assert started[0].stdout is not None
     assert started[0].stdout.closed

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
 from collections.abc import Callable
 from pathlib import Path
@@ -13,6 +14,7 @@ import pytest
 from airhilt.cli.commands.cosim import COMMAND as COSIM
 from airhilt.cli.commands.sweep import COMMAND
 from airhilt.cli.run_flags import run_flags
+from airhilt.cli.station_flags import PageOptions
 from airhilt.cli.sweep_flags import specification_given, value_flags
 from airhilt.errors import AirhiltError
 from airhilt.options import Options, flag_of
@@ -55,8 +57,8 @@ def test_every_flag_of_a_run_that_changes_it_is_one_of_sweeps() -> None:
     }
     assert {"--attach", "--endpoint", "--pace", "--seat", "--video"} <= of_one_run
     missing = flags(COSIM) - flags(COMMAND)
-    shown_on_a_page = {"--view", "--port", "--no-browser"}
-    assert missing == (of_one_run | shown_on_a_page | {"--seed"}) - flags(COMMAND)
+    of_page = {f"--{one.name.replace('_', '-')}" for one in dataclasses.fields(PageOptions)}
+    assert missing == (of_one_run | of_page | {"--view", "--seed"}) - flags(COMMAND)
 
 
 def test_flags_and_a_file_say_the_same(with_file: Callable[..., dict[str, Any]]) -> None:

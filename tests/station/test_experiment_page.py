@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import json
 import shutil
+import time
 from pathlib import Path
 
+import httpx
 import pytest
 
+from airhilt.station.started_runs import StartedRuns
 from devtools import Page
-from stations import experimenting
+from stations import PATIENCE_S, TOKEN, experimenting, reachable
 
-pytestmark = pytest.mark.browser
 LOW_CONTRAST = Path(__file__).with_name("contrast.js").read_text()
 PLAN = {
     "participants": ["P01"], "seat": "AAL123", "scenarios": ["s02a_headon"],
@@ -44,6 +46,7 @@ def heading(page: Page, text: str) -> None:
     page.wait_for(f"document.getElementById('step').textContent === {text!r}")
 
 
+@pytest.mark.browser
 def test_a_participant_answers_the_questions_of_the_plan(
     page: Page, recorded_run: Path, tmp_path: Path
 ) -> None:
@@ -81,3 +84,24 @@ def test_a_participant_answers_the_questions_of_the_plan(
     assert {"licence": "private", "rested": 4} in kept
     assert {"trust": 50} in kept
     assert {"again": "yes"} in kept
+
+
+def test_a_trial_admits_those_whom_the_page_of_the_experiment_admits(tmp_path: Path) -> None:
+    file, out = tmp_path / "plan.json", tmp_path / "out"
+    file.write_text(json.dumps(PLAN | {"questions": {}, "options": {"speech": False}}))
+    options = ["--participant", "P01", "--out", str(out), *reachable(tmp_path)]
+    with experimenting(file, *options) as shown:
+        url = httpx.URL(shown).copy_with(host="127.0.0.1")
+        page = url.copy_with(query=None)
+        with httpx.Client(base_url=page, verify=False, trust_env=False) as client:
+            assert client.get("api/experiment").status_code == 403
+            client.get(url)
+            client.post("api/begin", json={})
+            due = time.monotonic() + PATIENCE_S
+            while not (trial := client.get("api/experiment").json()["url"]):
+                assert time.monotonic() < due
+                time.sleep(0.2)
+            seat = httpx.URL(trial).copy_with(host="127.0.0.1")
+            assert (seat.scheme, seat.params["token"]) == ("https", TOKEN)
+            assert "AIRHILT" in client.get(seat).text
+    StartedRuns(out / "P01").stop("01-s02a_headon-1")

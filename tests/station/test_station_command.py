@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import shutil
 import subprocess
 import time
@@ -15,7 +16,8 @@ import pytest
 from airhilt.record import open_run
 from airhilt.scenario import Scenario
 from devtools import Page
-from stations import stationed
+from microphone import page_with_microphone
+from stations import TOKEN, reachable, stationed
 
 PATIENCE_S = 90.0
 Cli = Callable[..., subprocess.CompletedProcess[str]]
@@ -122,6 +124,71 @@ def test_a_person_opens_a_debrief_from_the_page(
         page.wait_for("document.getElementById('traffic') && document.body.dataset.ready")
         assert "AAL123" in page.evaluate("document.getElementById('traffic').textContent")
         page.open("about:blank")
+
+
+def test_runs_and_debriefs_of_a_station_admit_those_whom_it_admits(
+    own_scenarios: Path, recorded_run: Path, tmp_path: Path
+) -> None:
+    runs = tmp_path / "runs"
+    shutil.copytree(recorded_run, runs / "one")
+    options = ["--scenarios", str(own_scenarios), *reachable(tmp_path)]
+    with stationed(runs, *options) as (_, client):
+        name = answer(client, "api/runs", scenario="own/mine.json", options={"speech": False})[
+            "name"
+        ]
+        pages = [
+            started(client, "running")["url"],
+            answer(client, "api/debriefs", runs=["one"])["url"],
+        ]
+        for page in pages:
+            url = httpx.URL(page).copy_with(host="127.0.0.1")
+            assert (url.scheme, url.params["token"]) == ("https", TOKEN)
+            with httpx.Client(verify=False, trust_env=False, follow_redirects=True) as other:
+                assert other.get(url.copy_with(query=None)).status_code == 403
+                assert "AIRHILT" in other.get(url).text
+        kept = runs / ".station" / f"{name}.txt"
+        assert TOKEN in kept.read_text()
+        assert kept.stat().st_mode & 0o077 == 0
+        client.post(f"api/runs/{name}/stop", json={})
+        started(client, "ended")
+
+
+@pytest.mark.browser
+def test_pages_are_linked_by_the_name_under_which_the_station_was_opened(
+    recorded_run: Path, tmp_path: Path
+) -> None:
+    """A station that listens at all addresses does not know the name that others have for it."""
+    runs = tmp_path / "runs"
+    shutil.copytree(recorded_run, runs / "one")
+    with (
+        stationed(runs, *reachable(tmp_path)) as (_, client),
+        page_with_microphone("--ignore-certificate-errors") as page,
+    ):
+        page.open(f"{client.base_url}?token={TOKEN}")
+        page.wait_for("document.body.dataset.ready")
+        page.evaluate("document.querySelector('#recorded button').click()")
+        page.wait_for("document.getElementById('traffic') && document.body.dataset.ready")
+        assert page.evaluate("location.hostname") == "127.0.0.1"
+        page.open("about:blank")
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["station"],
+        ["experiment", "plan.json", "--participant", "P01"],
+        ["cosim", "--scenario", "s02a_headon", "--seat", "tower"],
+    ],
+    ids=lambda command: command[0],
+)
+def test_other_machines_reach_no_page_without_tls_and_a_token(
+    airhilt_command: Cli, tmp_path: Path, command: list[str]
+) -> None:
+    plan = {"participants": ["P01"], "seat": "AAL123", "scenarios": ["s02a_headon"]}
+    (tmp_path / "plan.json").write_text(json.dumps(plan))
+    done = airhilt_command(*command, "--host", "0.0.0.0", "--no-browser")
+    assert done.returncode == 2
+    assert "--host 0.0.0.0: other machines can reach it; expected 127.0.0.1, or TLS" in done.stderr
 
 
 def test_a_folder_that_is_not_there_is_named(airhilt_command: Cli) -> None:

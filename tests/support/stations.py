@@ -10,11 +10,17 @@ import sys
 import threading
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from typing import Any
 
 import httpx
 import psutil
+from cryptography import x509
+from cryptography.hazmat.primitives.asymmetric import ec
+from cryptography.hazmat.primitives.hashes import SHA256
+from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
+from cryptography.x509.oid import NameOID
 
 from airhilt.commands import Command
 from airhilt.messages import (
@@ -37,10 +43,32 @@ from airhilt.station.subscription import Sound
 from airhilt.station.wishes import Claimed
 
 PATIENCE_S = 60.0
+TOKEN = "0123456789abcdef0123456789abcdef"
 TOWER = SeatInfo(
     seat="TOWER", recipients=("TOWER", "ATC"), frequencies_khz=(119_100,), has_sound=True,
     is_recognised=True, voice_is_recorded=True, longest_call_s=60.0,
 )  # fmt: skip
+
+
+def reachable(folder: Path) -> list[str]:
+    """Return options by which other machines reach a page, with new files in a folder."""
+    key = ec.generate_private_key(ec.SECP256R1())
+    name = x509.Name([x509.NameAttribute(NameOID.COMMON_NAME, "station")])
+    now = datetime.now(UTC)
+    certificate = (
+        x509.CertificateBuilder(name, name, key.public_key(), x509.random_serial_number())
+        .not_valid_before(now - timedelta(hours=1))
+        .not_valid_after(now + timedelta(hours=1))
+        .sign(key, SHA256())
+    )
+    files = {
+        "--certificate": certificate.public_bytes(Encoding.PEM),
+        "--key": key.private_bytes(Encoding.PEM, PrivateFormat.PKCS8, NoEncryption()),
+        "--token-file": TOKEN.encode(),
+    }
+    for option, content in files.items():
+        (folder / option.strip("-")).write_bytes(content)
+    return ["--host=0.0.0.0", *(f"{one}={folder / one.strip('-')}" for one in files)]
 
 
 @contextmanager
@@ -118,9 +146,13 @@ def stationed(runs: Path, *options: str) -> Iterator[tuple[subprocess.Popen[str]
     )
     assert process.stdout is not None
     with process.stdout:
-        url = process.stdout.readline().split()[0]
+        url = httpx.URL(process.stdout.readline().split()[0]).copy_with(host="127.0.0.1")
+        base = url.copy_with(query=None)
         try:
-            with httpx.Client(base_url=url, timeout=PATIENCE_S, trust_env=False) as client:
+            with httpx.Client(
+                base_url=base, timeout=PATIENCE_S, trust_env=False, verify=False
+            ) as client:
+                client.get(url)  # A token in it becomes a cookie.
                 yield process, client
         finally:
             process.send_signal(signal.SIGINT)

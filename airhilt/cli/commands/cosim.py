@@ -11,7 +11,7 @@ import click
 from airhilt.cli.notices import tell
 from airhilt.cli.output import echo_json
 from airhilt.cli.parameters import allow_path_option
-from airhilt.cli.station_flags import port_option, station_address
+from airhilt.cli.station_flags import PageOptions, station_options
 
 if TYPE_CHECKING:
     from airhilt.options import Options
@@ -56,8 +56,7 @@ Examples:
     help="Print summary.json on standard output, everything else on standard error.",
 )
 @click.option("--view", is_flag=True, help="Show the run in the browser as it goes on.")
-@port_option
-@click.option("--no-browser", is_flag=True, help="Let --view open no browser.")
+@station_options
 @click.pass_context
 def cosim(
     context: click.Context,
@@ -66,8 +65,7 @@ def cosim(
     allowed: tuple[Path, ...],
     as_json: bool,
     view: bool,
-    port: int,
-    no_browser: bool,
+    page: PageOptions,
     **_: object,
 ) -> None:
     """Run a scenario and leave a run folder."""
@@ -80,7 +78,7 @@ def cosim(
     loaded = load(scenario, allowed)
     with ExitStack() as stack:
         if view or options.seat:
-            options = _with_page(loaded, options, stack, port, not no_browser)
+            options = _with_page(loaded, options, stack, page)
         tell("getting ready; a run that is killed before its folder is there leaves nothing")
         with ProgressLine(scenario) as progress:
             result = run(loaded, options, progress)
@@ -92,7 +90,7 @@ def cosim(
 
 
 def _with_page(
-    scenario: Scenario, options: Options, stack: ExitStack, port: int, browser: bool
+    scenario: Scenario, options: Options, stack: ExitStack, page: PageOptions
 ) -> Options:
     """Serve the page of a run until the stack is closed, and return options with its endpoint.
 
@@ -101,15 +99,14 @@ def _with_page(
     from airhilt.bus.session import free_endpoint
     from airhilt.cli.live_page import live_page
     from airhilt.scenario.seats import seats_of
-    from airhilt.station.address import DEFAULT_HOST
 
-    station_address(DEFAULT_HOST, port, None, None, None)
+    page.address()  # The process of the page would complain too late.
     if options.endpoint is None and options.tls is None:
         options = options.model_copy(update={"endpoint": free_endpoint()})
     seats = seats_of(options.seat, scenario)
     if any(actor.callsign in seats for actor in scenario.actors):
         options = options.model_copy(update={"cockpit": True})
-    stack.enter_context(live_page(options.endpoint, options.tls, seats, port, browser))
+    stack.enter_context(live_page(options.endpoint, options.tls, seats, page.arguments()))
     return options
 
 

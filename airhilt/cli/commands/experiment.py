@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from airhilt.cli.notices import tell
-from airhilt.cli.station_flags import port_option, station_address
+from airhilt.cli.station_flags import PageOptions, station_options
 
 if TYPE_CHECKING:
     from airhilt.station.experiment import Progress
@@ -32,10 +32,9 @@ Examples:
     help="Folder of the experiment; what it has already is not run again.  [default: the name of "
     "PLAN under experiments/]",
 )
-@port_option
-@click.option("--no-browser", is_flag=True, help="Print the URL, and open no browser.")
+@station_options
 def experiment(
-    plan_file: Path, participant: str | None, out: Path | None, port: int, no_browser: bool
+    plan_file: Path, participant: str | None, out: Path | None, page: PageOptions
 ) -> None:
     """Lead participants through trials at a seat, in an order that is counterbalanced.
 
@@ -54,13 +53,14 @@ def experiment(
     from airhilt.station.experiment_tables import write_tables
 
     if participant is not None:
-        address = station_address("127.0.0.1", port, None, None, None)
+        address = page.address()
 
         from airhilt.station.experiment_app import experiment_app
         from airhilt.station.server import serve
 
-        app = experiment_app(Conductor(Progress(plan, folder, participant)))
-        serve(app, address, opened=_opened, notice=tell, browser=not no_browser)
+        progress = Progress(plan, folder, participant)
+        app = experiment_app(Conductor(progress, page.of_another_page()))
+        serve(app, address, opened=_opened, notice=tell, browser=not page.no_browser)
     for name in plan.participants if participant is None else (participant,):
         progress = Progress(plan, folder, name)
         click.echo(f"{name}: " + ", ".join(_shown(progress, trial) for trial in progress.trials))

@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from airhilt.cli.notices import tell
-from airhilt.cli.station_flags import port_option, station_address
+from airhilt.cli.station_flags import PageOptions, station_options
 
 FOLDER = click.Path(path_type=Path, file_okay=False)
 
@@ -20,8 +20,7 @@ Examples:
   airhilt station --port 9000 --no-browser
 """
 )
-@port_option
-@click.option("--no-browser", is_flag=True, help="Print the URL, and open no browser.")
+@station_options
 @click.option(
     "--runs",
     type=FOLDER,
@@ -37,13 +36,13 @@ Examples:
     help="A folder whose scenario files are offered as well; may be given again. No other file is "
     "read.",
 )
-def station(port: int, no_browser: bool, runs: Path, scenarios: tuple[Path, ...]) -> None:
+def station(page: PageOptions, runs: Path, scenarios: tuple[Path, ...]) -> None:
     """Open the page on which runs are chosen, started, stopped and looked at.
 
     A run that is started there is a process of its own, in real time. It goes on when the station
     ends, and a station that is started again with the same --runs finds it.
     """
-    address = station_address("127.0.0.1", port, None, None, None)
+    address = page.address()
 
     from airhilt.assistant.decision.engines import FAMILY as ASSISTANTS
     from airhilt.station.debriefs import Debriefs
@@ -52,11 +51,11 @@ def station(port: int, no_browser: bool, runs: Path, scenarios: tuple[Path, ...]
     from airhilt.station.server import serve
     from airhilt.station.started_runs import StartedRuns
 
-    started = StartedRuns(runs.resolve())
-    debriefs = Debriefs(runs.resolve(), started.state_of)
+    started = StartedRuns(runs.resolve(), page.of_another_page())
+    debriefs = Debriefs(runs.resolve(), started.state_of, page.of_another_page())
     app = home_app(ScenarioChoices(scenarios), started, debriefs, [*ASSISTANTS.names(), "none"])
     try:
-        serve(app, address, opened=_opened, notice=tell, browser=not no_browser)
+        serve(app, address, opened=_opened, notice=tell, browser=not page.no_browser)
     finally:
         debriefs.close()
         for run in started.runs():

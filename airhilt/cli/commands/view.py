@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
 from airhilt.cli.notices import tell
-from airhilt.cli.station_flags import station_address, station_options
+from airhilt.cli.station_flags import PageOptions, station_options
 
 if TYPE_CHECKING:
     from airhilt.station.address import Address
@@ -56,8 +56,7 @@ def view(
     connect: str | None,
     tls: Path | None,
     seats: tuple[str, ...],
-    no_browser: bool,
-    **given: Any,
+    page: PageOptions,
 ) -> None:
     """Show a run in the browser: traffic, radio, advisories and cameras on one clock.
 
@@ -70,11 +69,11 @@ def view(
         raise click.UsageError("expected a run folder, or --connect ENDPOINT")
     if seats and not is_live:
         raise click.UsageError("--seat would do nothing for a run folder")
-    address = station_address(**given)
+    address, browser = page.address(), not page.no_browser
     if run_folder is not None:
-        _show_recorded([run_folder, *([] if other is None else [other])], address, not no_browser)
+        _show_recorded([run_folder, *([] if other is None else [other])], address, browser)
     else:
-        _show_live(connect, tls, seats, address, not no_browser)
+        _show_live(connect, tls, seats, address, browser)
 
 
 def _show_recorded(run_folders: Sequence[Path], address: Address, browser: bool) -> None:

@@ -1,6 +1,7 @@
 // The page of a participant: what is to be done now, and the questions after a trial.
 
 import { byId, html } from "./dom.js";
+import { onThisHost } from "./neighbours.js";
 import { Questionnaire } from "./questionnaire.js";
 import { connectTheme } from "./theme.js";
 
@@ -74,7 +75,7 @@ function show(state) {
   byId("begin").hidden = step !== "ready";
   byId("begin").disabled = rest > 0;
   byId("open").hidden = step !== "running";
-  byId("open").href = url || "#";
+  byId("open").href = url ? onThisHost(url) : "#";
   const asked = questions ? `${trial} ${questions.name}` : "";
   if (questions && asked !== shown) questionnaire.begin(questions);
   shown = asked;

@@ -1,6 +1,7 @@
 // The first page: choose a scenario, its seats and conditions, start the run, open what is there.
 
 import { byId, html } from "./dom.js";
+import { onThisHost } from "./neighbours.js";
 import { Rows } from "./rows.js";
 import { connectTheme } from "./theme.js";
 import { whole } from "./words.js";
@@ -122,7 +123,7 @@ function startedRow(run) {
     parts.push(
       html(
         "a",
-        { class: "open", href: run.url },
+        { class: "open", href: onThisHost(run.url) },
         run.seats.length ? "Open and take a seat" : "Watch",
       ),
     );
@@ -151,7 +152,7 @@ async function open(button, runs) {
   button.disabled = true;
   byId("compare-state").textContent = "Reading ...";
   try {
-    location.href = (await ask("api/debriefs", { runs })).url;
+    location.href = onThisHost((await ask("api/debriefs", { runs })).url);
   } catch (error) {
     note(`The debrief was not opened: ${error.message}`);
   } finally {
