@@ -1093,6 +1093,11 @@ class SeatInfo(Message):
     may_pause: bool = Field(
         default=True, description="false in a run that refuses pause and slow motion"
     )
+    spoken_from: Severity | None = Field(
+        default=None,
+        description="least severity that the assistant speaks; null: it has no voice, or none any "
+        "more",
+    )
     phraseology: Literal["faa", "icao"] = "faa"
 
 

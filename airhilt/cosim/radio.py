@@ -11,7 +11,7 @@ from airhilt.cosim.observer import Observer
 from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import Setup
 from airhilt.cosim.world_loop import WorldLoop
-from airhilt.messages import SeatInfo
+from airhilt.messages import SeatInfo, Severity
 from airhilt.scenario.failures import EffectiveLine
 from airhilt.sensors.radio.advisory_calls import AdvisoryChannel
 from airhilt.sensors.radio.backends import FallbackRadio
@@ -88,13 +88,19 @@ class RunRadio:
         self._conversation.pause(is_paused)
 
     def infos(
-        self, *, is_recognised: bool, voice_is_recorded: bool, may_pause: bool
+        self,
+        *,
+        is_recognised: bool,
+        voice_is_recorded: bool,
+        may_pause: bool,
+        spoken_from: Severity | None,
     ) -> list[SeatInfo]:
         """Return what the persons at the seats have to know."""
         return self._conversation.infos(
             is_recognised=is_recognised,
             voice_is_recorded=voice_is_recorded,
             may_pause=may_pause,
+            spoken_from=spoken_from,
         )
 
     def unfinished(self) -> Sequence[StepRecord]:

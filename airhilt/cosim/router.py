@@ -14,7 +14,7 @@ Listener = Callable[[str, Message, Payload], None]
 Attributed = Callable[[str, Message], None]
 """Called with the name of the publisher and its message."""
 CONSTANT = (Briefing, SeatInfo, RadarInfo)
-"""Messages that are published once; who comes late asks for them."""
+"""Messages that are published when they change; who comes late asks for the newest."""
 
 
 class MessageRouter:

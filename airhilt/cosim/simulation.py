@@ -38,7 +38,7 @@ from airhilt.cosim.setup import Setup, set_up
 from airhilt.cosim.workload_questions import WorkloadQuestions
 from airhilt.cosim.world_loop import WorldLoop
 from airhilt.errors import AirhiltError
-from airhilt.messages import Clock, Phase, WorkerDescription
+from airhilt.messages import Clock, Phase, Severity, WorkerDescription
 from airhilt.metrics.collector import Collector
 from airhilt.metrics.plans import Plans
 from airhilt.metrics.summary import Summary
@@ -563,6 +563,7 @@ class Simulation:
     def _worker_lost(self, worker: WorkerDescription, cause: str, is_of_machine: bool) -> None:
         if worker.modality == "tts":
             self._advisories.voice_lost()
+            self._tell_seats(None)
         cause = readable(cause)
         self._latency_log.lost(worker.name, self._director.now_ns, cause)
         self._modalities.lose(worker.modality, "worker_lost", worker.name, cause, is_of_machine)
@@ -580,10 +581,15 @@ class Simulation:
 
     def _brief(self) -> None:
         self._router.publish("briefing", briefing_of(self._setup.scenario, self._setup.site))
+        has_voice = self._participants.does("tts")
+        self._tell_seats(self._participants.speak_min_level if has_voice else None)
+
+    def _tell_seats(self, spoken_from: Severity | None) -> None:
         infos = self._radio.infos(
             is_recognised=self._participants.does("asr"),
             voice_is_recorded=self._setup.options.voice_recording,
             may_pause=self._setup.options.pause,
+            spoken_from=spoken_from,
         )
         for info in infos:
             self._router.publish(f"seat/{key_chunk(info.seat)}/info", info)

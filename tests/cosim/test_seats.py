@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import time
+from collections.abc import Sequence
 from itertools import count
 from pathlib import Path
 from types import SimpleNamespace
@@ -12,9 +13,12 @@ from typing import Any
 import pytest
 
 from airhilt import load
+from airhilt.assistant.tts.worker import TtsWorker
 from airhilt.cosim.recorded import UnregisteredMessage
 from airhilt.cosim.replay import replay
-from airhilt.errors import ScenarioError
+from airhilt.errors import ScenarioError, SpeechError
+from airhilt.record import Logged
+from airhilt.scenario import Scenario
 from airhilt.sim import pace
 from airhilt.units import seconds_to_ns
 from breadth import mostly_slow
@@ -339,6 +343,32 @@ def test_a_seat_is_told_whether_the_run_has_a_pause(tmp_path: Path) -> None:
         log = logged(tower(1.0), tmp_path / f"{may_pause}", ["tower"], pause=may_pause)
         (info,) = contents(log, "seat/Washington_Tower/info")
         assert info["may_pause"] is may_pause
+
+
+def spoken_from(log: Sequence[Logged]) -> list[str | None]:
+    """Return what the person in AAL123 is told of the voice of the assistant, one after another."""
+    return [one["spoken_from"] for one in contents(log, "seat/AAL123/info")]
+
+
+@pytest.mark.parametrize(("speech", "told"), [(True, ["CAUTION"]), (False, [None])])
+def test_a_seat_is_told_which_advisories_are_spoken(
+    encounter: Scenario, tmp_path: Path, speech: bool, told: list[str | None]
+) -> None:
+    short = encounter.model_copy(update={"duration_s": 1.0})
+    log = logged(short, tmp_path / "run", ["AAL123"], assistant="reference", speech=speech)
+    assert spoken_from(log) == told
+
+
+def test_a_seat_is_told_when_the_voice_of_the_assistant_is_lost(
+    encounter: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fails(*_: object) -> None:
+        raise SpeechError("no voice any more")
+
+    monkeypatch.setattr(TtsWorker, "step", fails)
+    short = encounter.model_copy(update={"duration_s": 5.0})
+    log = logged(short, tmp_path / "run", ["AAL123"], assistant="reference", speech=True)
+    assert spoken_from(log) == ["CAUTION", None]
 
 
 def test_a_run_that_waits_for_its_seats_begins_where_nobody_may_pause(tmp_path: Path) -> None:

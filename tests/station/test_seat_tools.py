@@ -36,7 +36,7 @@ from microphone import (
     playing,
     sit_down,
 )
-from stations import PATIENCE_S, PretendedRun, seat_page
+from stations import PATIENCE_S, TOWER, PretendedRun, seat_page
 
 ROSTER = {"AAL123": "aircraft", "OPS1": "vehicle"}
 GAMEPAD = """
@@ -178,8 +178,62 @@ def test_a_voice_without_a_tone_is_told_to_be_heard_only_if_it_sounds() -> None:
     ]  # fmt: skip
 
 
+COUNT_TONES = """
+    window.tones = [];
+    const make = AudioContext.prototype.createOscillator;
+    AudioContext.prototype.createOscillator = function () {
+        const made = make.call(this);
+        window.tones.push(made.frequency);
+        return made;
+    };
+"""
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize(
+    ("severity", "tones"), [("ADVISORY", []), ("CAUTION", [700]), ("WARNING", [1100] * 3)]
+)
+def test_an_advisory_that_nobody_speaks_has_its_tone_and_is_heard_then(
+    severity: str, tones: list[int]
+) -> None:
+    silent = PretendedRun((TOWER.model_copy(update={"spoken_from": None}),))
+    with seat_page(silent) as (run, url), page_with_microphone() as page:
+        run.changes.add("briefing", "TOWER", None, ROSTER)
+        sit_down(page, url)
+        page.evaluate(COUNT_TONES)
+        warn(run, "unspoken", Severity(severity), has_voice=False)
+        told = [run.next() for _ in range(2 if tones else 1)]
+        sounded = page.evaluate("window.tones.map(({ value }) => value)")
+        wait_for_seat(run)
+    assert sounded == tones
+    assert sorted(one.way for one in told) == (["heard", "seen"] if tones else ["seen"])
+
+
+@pytest.mark.browser
+def test_an_advisory_whose_voice_was_lost_has_its_tone_then_and_no_other_one_again() -> None:
+    with seat_page() as (run, url), page_with_microphone() as page:
+        run.changes.add("briefing", "TOWER", None, ROSTER)
+        sit_down(page, url)
+        page.evaluate(COUNT_TONES)
+        warn(run, "spoken")
+        assert sorted(run.next().way for _ in range(2)) == ["heard", "seen"]
+        warn(run, "waiting", has_voice=False)
+        assert run.next().way == "seen"
+        assert page.evaluate("window.tones.length") == 3
+        without = TOWER.model_copy(update={"spoken_from": None})
+        run.seat.add("info", without.model_dump(mode="json", exclude={"t_ns"}))
+        heard = run.next()
+        assert (heard.id, heard.way) == ("waiting", "heard")
+        assert page.evaluate("window.tones.length") == 6
+        wait_for_seat(run)
+
+
 def warn(
-    run: PretendedRun, name: str, severity: Severity = Severity.WARNING, samples: int = 0
+    run: PretendedRun,
+    name: str,
+    severity: Severity = Severity.WARNING,
+    samples: int = 0,
+    has_voice: bool = True,
 ) -> None:
     """Let the assistant warn the tower, with a tone for a warning, and a voice of some samples."""
     advised = Advisory(
@@ -192,7 +246,8 @@ def warn(
         sha256="", t_ns=1,
     )  # fmt: skip
     live = LiveRun(run.changes, run.of_seats, views=run.views)
-    for key, message in (("advisory/ATC", advised), (f"tts/{name}", audio)):
+    told = (("advisory/ATC", advised), (f"tts/{name}", audio))
+    for key, message in told if has_voice else told[:1]:
         live.take(Logged(key, "", 1, message.model_dump_json().encode()))
 
 

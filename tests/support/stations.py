@@ -29,6 +29,7 @@ from airhilt.messages import (
     MicrophoneAudio,
     PaceCommand,
     SeatInfo,
+    Severity,
     SpokenWords,
     WorkloadAnswer,
 )
@@ -47,6 +48,7 @@ TOKEN = "0123456789abcdef0123456789abcdef"
 TOWER = SeatInfo(
     seat="TOWER", recipients=("TOWER", "ATC"), frequencies_khz=(119_100,), has_sound=True,
     is_recognised=True, voice_is_recorded=True, longest_call_s=60.0,
+    spoken_from=Severity.CAUTION,
 )  # fmt: skip
 
 

@@ -20,6 +20,7 @@ from airhilt.messages import (
     Message,
     MicrophoneAudio,
     SeatInfo,
+    Severity,
     SpokenWords,
     Transcript,
 )
@@ -267,11 +268,17 @@ class RadioConversation:
                 self._microphones.release(seat)
 
     def infos(
-        self, *, is_recognised: bool, voice_is_recorded: bool, may_pause: bool
+        self,
+        *,
+        is_recognised: bool,
+        voice_is_recorded: bool,
+        may_pause: bool,
+        spoken_from: Severity | None,
     ) -> list[SeatInfo]:
         """Return what the persons at the seats have to know."""
         return [
             SeatInfo(
+                t_ns=self._director.now_ns,
                 seat=seat,
                 **self._equipment_of(seat),
                 frequencies_khz=self._stations.selectable(seat),
@@ -281,6 +288,7 @@ class RadioConversation:
                 voice_is_recorded=voice_is_recorded,
                 longest_call_s=LONGEST_CALL_S,
                 may_pause=may_pause,
+                spoken_from=spoken_from,
                 phraseology=self._scenario.radio.phraseology,
             )
             for seat in sorted(self._seats.names)

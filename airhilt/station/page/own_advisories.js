@@ -16,9 +16,11 @@ export class OwnAdvisories {
   #run;
   #tell;
   #warn;
+  // Least severity that the assistant speaks; null: it speaks none; undefined: not known yet.
+  #spokenFrom = undefined;
   #shown = new Map(); // the newest text of each advisory in force
   #told = new Set();
-  #sounded = new Set(); // alerts of the equipment
+  #sounded = new Set(); // what was audible, and is not to sound again
   #rows = new Rows(byId("own-advisories"));
 
   /**
@@ -29,6 +31,11 @@ export class OwnAdvisories {
     this.#run = run;
     this.#tell = tell;
     this.#warn = warn;
+  }
+
+  /** Takes in the least severity that the assistant speaks; null: it has no voice. */
+  setSpoken(severity) {
+    this.#spokenFrom = severity;
   }
 
   /** Takes in an advisory, as the run publishes it. */
@@ -43,7 +50,7 @@ export class OwnAdvisories {
     if (!row.active) return;
     const { recipient } = texts.at(-1);
     requestAnimationFrame(() => setTimeout(() => this.#report(row, recipient, "seen", 0)));
-    if (row.equipment) this.#alert(row, recipient);
+    if (row.equipment || !this.#isSpoken(row)) this.#alert(row, recipient);
   }
 
   /** Takes in that the assistant speaks an advisory to somebody. */
@@ -53,7 +60,7 @@ export class OwnAdvisories {
       (one) => one.id === id && one.revision === revision && !one.equipment,
     );
     this.#sound(
-      row ?? { id, revision, severity: "CAUTION" },
+      row ?? { equipment: "", id, revision, severity: "CAUTION" },
       recipient,
       sound ? `api/calls/${encodeURIComponent(sound)}.wav?browser=${identity()}` : null,
     );
@@ -62,22 +69,29 @@ export class OwnAdvisories {
   /** Forgets everything: whoever has the seat next is another person. */
   clear() {
     for (const kept of [this.#shown, this.#told, this.#sounded]) kept.clear();
+    this.#spokenFrom = undefined;
     this.#draw();
   }
 
-  /** Sounds an alert of the equipment, unless it was audible before. */
-  async #alert({ equipment, id, revision, severity }, recipient) {
-    const name = `${equipment} ${id} ${revision} ${recipient}`;
-    if (this.#sounded.has(name)) return;
-    this.#sounded.add(name);
-    keepNewest(this.#sounded, MOST_TOLD);
-    if ((await this.#warn(severity, null)) === null) this.#sounded.delete(name);
+  #isSpoken({ severity }) {
+    if (this.#spokenFrom === undefined) return true;
+    const from = SEVERITIES.indexOf(this.#spokenFrom);
+    return from >= 0 && SEVERITIES.indexOf(severity) >= from;
   }
 
-  /** Sounds what the assistant speaks, and reports when that was heard. */
+  /** Sounds what nobody speaks, unless it was audible before. */
+  #alert(row, recipient) {
+    if (!this.#sounded.has(soundOf(row, recipient))) this.#sound(row, recipient, null);
+  }
+
+  /** Sounds an advisory, with its voice if there is one, and reports when that was heard. */
   async #sound(row, recipient, url) {
+    const name = soundOf(row, recipient);
+    this.#sounded.add(name);
+    keepNewest(this.#sounded, MOST_TOLD);
     const after = await this.#warn(row.severity, url);
-    if (after !== null) this.#report(row, recipient, "heard", after);
+    if (after === null) this.#sounded.delete(name);
+    else this.#report(row, recipient, "heard", after);
   }
 
   #report({ id, revision, equipment }, recipient, way, after) {
@@ -96,6 +110,9 @@ export class OwnAdvisories {
     this.#rows.show(shown, ({ row }) => `${row.equipment}/${row.id}`, inWords);
   }
 }
+
+const soundOf = ({ equipment, id, revision }, recipient) =>
+  `${equipment} ${id} ${revision} ${recipient}`;
 
 const inWords = ({ row, text }) =>
   html(

@@ -164,6 +164,8 @@ export class Talk {
   #prepare(info) {
     this.#microphone.setInfo(info);
     this.#pace.setInfo(info);
+    this.#advisories.setSpoken(info.spoken_from);
+    this.#takeActive(); // What is in force and nobody speaks sounds now.
     this.#frequencies.show(info.frequencies_khz);
     this.#phrases.setSeat(this.#own, info.phraseology);
     if (document.activeElement === byId("seat-take"))
