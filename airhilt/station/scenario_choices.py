@@ -89,4 +89,5 @@ def _row_of(scenario: Scenario) -> Json:
         "duration_s": scenario.duration_s,
         "visibility_m": scenario.weather.visibility_m,
         "snr_db": scenario.radio.snr_db,
+        "equipment": [readable(name) for name in scenario.equipment],
     }

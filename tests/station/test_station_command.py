@@ -15,11 +15,31 @@ import pytest
 
 from airhilt.record import open_run
 from airhilt.scenario import Scenario
+from airhilt.station.home import options_of_page
 from devtools import Page
 from microphone import page_with_microphone
 from stations import TOKEN, reachable, stationed
 
 PATIENCE_S = 90.0
+CHOOSE = """
+    for (const [id, value] of [['scenario', 'own/mine.json'], ['radar', 'en_route']]) {
+        document.getElementById(id).value = value;
+        document.getElementById(id).dispatchEvent(new Event('change'));
+    }
+    for (const box of ['#seats [value=AAL123]', '#voice-recording', '#equipment [value=tcas]'])
+        document.querySelector(box).click();
+"""
+ASKED_FOR = """
+    new Promise((asked) => {
+        const fetched = window.fetch;
+        window.fetch = (path, how) => {
+            if (how?.method !== 'POST') return fetched(path, how);
+            asked(JSON.parse(how.body));
+            return new Promise(() => {});
+        };
+        document.getElementById('new').requestSubmit();
+    })
+"""
 Cli = Callable[..., subprocess.CompletedProcess[str]]
 
 
@@ -189,6 +209,28 @@ def test_other_machines_reach_no_page_without_tls_and_a_token(
     done = airhilt_command(*command, "--host", "0.0.0.0", "--no-browser")
     assert done.returncode == 2
     assert "--host 0.0.0.0: other machines can reach it; expected 127.0.0.1, or TLS" in done.stderr
+
+
+@pytest.mark.browser
+def test_a_person_chooses_radar_equipment_and_that_voices_are_not_kept(
+    page: Page, encounter: Scenario, tmp_path: Path
+) -> None:
+    """What the scenario has already is ticked, and is not asked for again."""
+    folder = tmp_path / "own"
+    folder.mkdir()
+    equipped = encounter.model_copy(update={"equipment": ("conflict_alert",)})
+    (folder / "mine.json").write_text(equipped.model_dump_json())
+    with stationed(tmp_path / "runs", "--scenarios", str(folder)) as (_, client):
+        page.open(str(client.base_url), width=1280, height=720)
+        page.wait_for("document.body.dataset.ready")
+        page.evaluate(CHOOSE)
+        assert page.evaluate("document.querySelector('#equipment [value=conflict_alert]').checked")
+        asked = page.evaluate(ASKED_FOR)
+        page.open("about:blank")
+    options = options_of_page(asked["options"])
+    assert options.seat == ("AAL123",)
+    assert (options.radar, options.equipment) == ("en_route", ("tcas",))
+    assert not options.voice_recording
 
 
 def test_a_folder_that_is_not_there_is_named(airhilt_command: Cli) -> None:

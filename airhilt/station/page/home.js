@@ -68,11 +68,13 @@ function showScenario() {
   byId("snr").placeholder =
     scenario.snr_db === null ? "no noise" : `${scenario.snr_db}, as in the scenario`;
   byId("visibility").placeholder = `${whole(scenario.visibility_m ?? 0)}, as in the scenario`;
+  for (const box of byId("equipment").querySelectorAll("input"))
+    box.disabled = box.checked = (scenario.equipment ?? []).includes(box.value);
   showCameras();
   showAsked();
 }
 
-/** Questions can be asked where somebody sits. */
+/** Questions can be asked, and voices recorded, where somebody sits. */
 function showAsked() {
   byId("asked").disabled = !byId("seats").querySelector("input:checked");
 }
@@ -81,13 +83,21 @@ function showCameras() {
   byId("visibility").disabled = byId("cameras").disabled || !byId("cameras").checked;
 }
 
+/** Values that are ticked in a group; those of the scenario itself cannot be. */
+const ticked = (group) =>
+  [...byId(group).querySelectorAll("input:checked:enabled")].map((one) => one.value);
+
 function optionsChosen() {
   const options = { seed: Number(byId("seed").value), assistant: byId("assistant").value };
-  const seats = [...byId("seats").querySelectorAll("input:checked")].map((one) => one.value);
+  const seats = ticked("seats"),
+    equipment = ticked("equipment");
   if (seats.length) options.seat = seats;
   if (seats.length && byId("isa-minutes").value !== "")
     options.isa_minutes = Number(byId("isa-minutes").value);
   if (seats.length && byId("nasa-tlx").checked) options.nasa_tlx = true;
+  if (seats.length && !byId("voice-recording").checked) options.voice_recording = false;
+  if (byId("radar").value !== "") options.radar = byId("radar").value;
+  if (equipment.length) options.equipment = equipment;
   if (byId("snr").value !== "") options.snr_db = Number(byId("snr").value);
   if (byId("visibility").value !== "" && !byId("visibility").disabled)
     options.visibility_m = Number(byId("visibility").value);
