@@ -12,10 +12,12 @@ import pytest
 
 from airhilt.messages import AdvisoryPerceived, SpokenWords
 from airhilt.report.airport import ReportAirport
+from airhilt.station import seat_book
 from airhilt.station.audiences import Audience
 from airhilt.station.browsers import Browsers
 from airhilt.station.pictures import Picture
 from devtools import Page
+from loudspeaker import COUNT_PIECES, PIECES, piece
 from stations import PATIENCE_S, TOWER, PretendedRun, seat_page
 
 pytestmark = pytest.mark.browser
@@ -757,6 +759,28 @@ def test_a_page_that_was_loaded_again_says_that_it_has_no_sound_until_somebody_a
         page.wait_for(f"{told}.includes('No sound: click or press a key.')")
         page.press("x", ord("X"))
         page.wait_for(f"!{told}.includes('No sound')")
+    page.complaints.clear()
+
+
+def test_a_call_that_came_while_the_page_had_no_sound_is_not_played_later(
+    page: Page, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(seat_book, "HOLD_S", PATIENCE_S)
+    told = "document.getElementById('hearing').innerText"
+    with seated(page, "TOWER") as run:
+        page.evaluate("new Promise((done) => setTimeout(done, 1000))")
+        page.call("Page.reload")
+        page.wait_for("document.body?.dataset.seat === 'controller'")
+        page.wait_for(f"{told}.includes('No sound: click or press a key.')")
+        page.evaluate(COUNT_PIECES)
+        run.call_on_air("meanwhile", piece(0.5), piece(0.4))
+        run.stream("opened", id="later", frequency_khz=119_100)
+        page.wait_for("document.getElementById('frequencies').innerText.includes('busy')")
+        page.press("x", ord("X"))
+        page.wait_for(f"!{told}.includes('No sound')")
+        run.stream("samples", id="later", frequency_khz=119_100, pcm=piece(0.3))
+        page.wait_for("window.pieces.length")
+        assert page.evaluate(PIECES) == [0.3]
     page.complaints.clear()
 
 

@@ -60,6 +60,24 @@ def test_who_comes_back_at_once_has_the_seat_again_and_nobody_else_gets_it(
         assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", False)
 
 
+def test_what_was_said_while_the_connection_was_lost_is_not_heard_later() -> None:
+    with seat_page() as (run, url):
+        with browser(url, "one") as own:
+            take(own)
+            assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", True)
+        run.call_on_air("meanwhile", "AAAA")
+        with browser(url, "one") as own:
+            own.send(json.dumps({"tune": [119_100]}))
+            own.send(json.dumps({"echo": 1.0}))
+            heard: list[str] = []
+            while "later" not in heard:
+                message = json.loads(own.recv(timeout=PATIENCE_S))
+                heard += [about["id"] for _, about in message.get("sounds", [])]
+                if "echo" in message:
+                    run.call_on_air("later", "AAAA")
+    assert set(heard) == {"later"}
+
+
 def test_who_comes_back_before_the_old_connection_has_ended_has_the_seat_when_it_ends() -> None:
     with seat_page() as (run, url), ExitStack() as connection:
         old = connection.enter_context(browser(url, "one"))

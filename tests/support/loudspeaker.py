@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from base64 import b64decode
+from base64 import b64decode, b64encode
 
 import numpy as np
 
@@ -45,6 +45,24 @@ TAKEN = """(() => {
     for (const byte of new Uint8Array(pcm.buffer)) text += String.fromCharCode(byte);
     return [given.rate, btoa(text)];
 })()"""
+
+
+COUNT_PIECES = """
+    window.pieces = [];
+    const start = AudioBufferSourceNode.prototype.start;
+    AudioBufferSourceNode.prototype.start = function (...when) {
+        window.pieces.push(this.buffer.duration);
+        start.apply(this, when);
+    };
+    null
+"""
+"""Script that notes the length of each piece of sound that the page plays, in s."""
+PIECES = "window.pieces.map((length_s) => Number(length_s.toFixed(3)))"
+
+
+def piece(length_s: float) -> str:
+    """Return a piece of silence as the server sends sound to pages."""
+    return b64encode(bytes(2 * round(length_s * SAMPLE_RATE_HZ))).decode()
 
 
 def tap(page: Page) -> None:

@@ -240,6 +240,14 @@ class PretendedRun:
         """Let a piece of a transmission come, by its header."""
         self.sounds.add(phase, header, audience=heard_by(header))
 
+    def call_on_air(self, name: str, *pieces: str) -> None:
+        """Let a whole call come on the first frequency, in pieces of PCM as base64."""
+        on_air = {"id": name, "frequency_khz": 119_100}
+        self.stream("opened", **on_air)
+        for pcm in pieces:
+            self.stream("samples", **on_air, pcm=pcm)
+        self.stream("closed", **on_air)
+
     def picture(self, camera: str, seq: int) -> Picture | None:
         """Return a picture of a camera."""
         return self.pictures.get((camera, seq))

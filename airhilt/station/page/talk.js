@@ -24,6 +24,8 @@ export class Talk {
   #phrases;
   #workload;
   #roundTrip = 0; // s
+  #isBehind = false; // what comes was sent while the connection was lost
+  #asked = null; // when the echo was asked for that ends this
 
   constructor(run, live) {
     this.#run = run;
@@ -91,9 +93,23 @@ export class Talk {
     return this.#own ? this.#frequencies.heard : null;
   }
 
-  /** Takes in that the connection is lost: nobody is on the air without it. */
+  /**
+   * Takes in that the connection is lost: nobody is on the air without it, and what is said
+   * meanwhile is not heard later.
+   */
   lost() {
     this.#microphone.release();
+    this.#isBehind = true;
+    this.#asked = null;
+  }
+
+  /** Finds out, by an echo, if all has come that was sent while the connection was lost. */
+  #catchUp(echo) {
+    if (!this.#isBehind) return;
+    if (this.#asked === null) {
+      this.#asked = performance.now();
+      this.#live.send({ echo: this.#asked });
+    } else if (echo >= this.#asked) this.#isBehind = false;
   }
 
   /** Takes in one's own seat, null for none. */
@@ -130,6 +146,7 @@ export class Talk {
 
   /** Takes in a message of the server. */
   take({ own, changes, sounds, echo, refused }) {
+    this.#catchUp(echo);
     const told = [
       refused ?? "",
       ...(own ?? []).filter(([kind]) => kind === "notice").map(([, , text]) => text),
@@ -151,7 +168,7 @@ export class Talk {
     if (changes && ["finished", "stopped", "gone"].includes(this.#run.phase))
       this.#workload.clear();
     if (sounds && this.#own) this.#frequencies.take(sounds);
-    if (sounds && this.#own)
+    if (sounds && this.#own && !this.#isBehind)
       this.#loudspeaker.take(sounds, {
         isOwn: (id) => id.startsWith(`microphone.${this.#own.replace(/[^A-Za-z0-9]+/g, "_")}.`),
         isDeaf: this.#microphone.isHeld,
