@@ -5,12 +5,13 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 import httpx
 import pytest
 
-from airhilt.messages import AdvisoryPerceived, SpokenWords
+from airhilt.messages import AdvisoryPerceived, Severity, SpokenWords
 from airhilt.report.airport import ReportAirport
 from airhilt.station import seat_book
 from airhilt.station.audiences import Audience
@@ -22,6 +23,7 @@ from stations import PATIENCE_S, TOWER, PretendedRun, seat_page
 
 pytestmark = pytest.mark.browser
 CATEGORIES = {"AAL123": "aircraft", "DAL456": "aircraft", "OPS1": "vehicle"}
+LOW_CONTRAST = Path(__file__).with_name("contrast.js").read_text()
 KIND = {"TOWER": "controller", "AAL123": "pilot", "OPS1": "driver"}
 KEYS = "[...document.querySelectorAll('#help-keys dd')].map((one) => one.textContent)"
 
@@ -745,6 +747,26 @@ def test_a_page_keeps_its_seat_when_it_is_loaded_again_and_a_duplicate_of_its_ta
                 page.call("Target.closeTarget", targetId=target["targetId"])
         page.call("Page.bringToFront")
     page.complaints.clear()  # A browser complains of sound that it does not play before a click.
+
+
+@pytest.mark.parametrize("seat", KIND)
+def test_contrast_of_all_text_at_a_seat_is_enough(page: Page, seat: str) -> None:
+    """WCAG 2.1, 1.4.3: at least 4.5 to 1, light and dark."""
+    with seated(page, seat) as run:
+        fly(run)
+        for severity in Severity:
+            advise(run, seat, f"An advisory of {severity}.", severity=severity)
+        card = {"seat": seat, "t": 0.5, "addressed": "DAL456", "text": "Delta 456, roger."}
+        for line, done in (("one", False), ("two", True)):
+            run.seat.add("task", card | {"line": line, "done": done})
+        run.seat.add("notice", 0.5, "Your call was cut after 60 s.")
+        run.seat.add("question", 1, "isa", 0.5)
+        page.wait_for("document.querySelectorAll('.own-advisory').length === 4")
+        page.wait_for("!document.getElementById('isa').hidden")
+        for scheme in ("light", "dark"):
+            features = [{"name": "prefers-color-scheme", "value": scheme}]
+            page.call("Emulation.setEmulatedMedia", features=features)
+            assert page.evaluate(LOW_CONTRAST) == [], scheme
 
 
 def test_a_page_that_was_loaded_again_says_that_it_has_no_sound_until_somebody_acts(
