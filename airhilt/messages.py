@@ -1122,6 +1122,23 @@ class TaskCard(Message):
     is_done: bool = Field(default=False, description="true once its addressee has taken it")
 
 
+class CommandOffer(Message):
+    """``offer/<seat>``: a command that the person at a seat may give because of a call.
+
+    It is what the call makes an automaton do. Who gives it does so on ``command/<actor>``.
+    """
+
+    seat: str
+    number: int = Field(ge=1, description="of the offer in this run")
+    call: str = Field(description="id of the call that was taken, or that is due at the seat")
+    command: Command
+    is_over: bool = Field(
+        default=False,
+        description="true once it is given or offered anew, others have taken its place, or the "
+        "person has left",
+    )
+
+
 # --- truth: for the recorder, metrics and viewers only --------------------------------------
 
 
@@ -1169,7 +1186,11 @@ class SpokenTruth(Message):
 
 
 class HearingTruth(Message):
-    """``truth/hearing/<actor>``: understanding of a call by one of its addressees."""
+    """``truth/hearing/<actor>``: understanding of a call by one of its addressees.
+
+    Nobody knows what a person at a seat understands by ear: ``understood`` means then that the call
+    has reached the seat.
+    """
 
     id: str = Field(description="id of the transmission")
     actor: str
@@ -1383,7 +1404,9 @@ class StepReply(Part):
 
 SEAT_AUDIO = "seat/*/audio"
 """Keys of the sound that the receiver of one seat gets: nobody else hears it."""
-SEAT_KEYS = ("task", "speech", "microphone", "perceived", "question", "workload", "notice")
+SEAT_KEYS = (
+    "task", "offer", "speech", "microphone", "perceived", "question", "workload", "notice",
+)  # fmt: skip
 """First parts of the keys between a run and the people at its seats: they have the words of the
 script before they are said, and exactly what people say and do."""
 
@@ -1427,6 +1450,7 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "question/{seat}": WorkloadQuestion,
     "workload/{seat}": WorkloadAnswer,
     "task/{seat}": TaskCard,
+    "offer/{seat}": CommandOffer,
     "truth/state/{actor}": ActorTruth,
     "truth/radio/{id}": SpokenTruth,
     "truth/hearing/{actor}": HearingTruth,

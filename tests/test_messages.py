@@ -189,6 +189,9 @@ EXAMPLES: dict[str, dict[str, Any]] = {
         "line": "landing", "seat": "TOWER", "addressed": "AAL1", "frequency_khz": 118_300,
         "text": "American one, cleared to land",
     },
+    "CommandOffer": {
+        "seat": "OPS1", "number": 1, "call": "hold", "command": {"action": "hold_position"},
+    },
     "ActorTruth": {
         "actor": "AAL1", "category": "aircraft", "icao24": "a1b2c3", "phase": "glide",
         "on_ground": False, "latitude_deg": 1.0, "longitude_deg": 2.0,

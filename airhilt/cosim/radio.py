@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from functools import partial
 
+from airhilt.commands import Command
 from airhilt.cosim.events import EventPublisher
 from airhilt.cosim.modalities import Modalities
 from airhilt.cosim.observer import Observer
@@ -78,6 +79,10 @@ class RunRadio:
     def occupy(self, seat: str, is_taken: bool) -> None:
         """Take in that a person has taken a seat or left it."""
         self._conversation.occupy(seat, is_taken=is_taken)
+
+    def commanded(self, actor: str, command: Command) -> None:
+        """Take in that an actor carries out a command that somebody has given it."""
+        self._conversation.commanded(actor, command)
 
     def has_person(self, name: str) -> bool:
         """Return whether a person speaks and acts for a unit or an actor, and nobody else."""

@@ -20,6 +20,7 @@ from airhilt.bus.access import ROLES, WITHOUT_KEYS
 from airhilt.bus.endpoints import what_is_open
 from airhilt.bus.session import Bus
 from airhilt.child_process import cpu_s
+from airhilt.commands import Command
 from airhilt.cosim.advisory_hints import AdvisoryHints
 from airhilt.cosim.briefing import briefing_of
 from airhilt.cosim.cameras import Vision, open_vision, started_renderers
@@ -286,7 +287,7 @@ class Simulation:
             self._event,
             self._modalities,
             self._observer,
-            obey=self._world.obey,
+            obey=self._obey,
             take_from_seat=lambda seat, said: self._radio.take_from_seat(seat, said),
             seats=[key_chunk(name) for name in self._setup.seats],
             units=[key_chunk(name) for name in self._setup.seats if name not in self._setup.actors],
@@ -338,6 +339,11 @@ class Simulation:
         self._pace_control.wait_for(seats)
         if not setup.recorded.is_replay and not isinstance(self._director.pace, Virtual):
             self._observer.notice(f"the run begins when this is taken: {', '.join(setup.seats)}")
+
+    def _obey(self, callsign: str, command: Command) -> None:
+        """Let an actor carry out a command of a person or a program."""
+        if self._world.obey(callsign, command):
+            self._radio.commanded(callsign, command)
 
     def _set_pace(self, factor: float) -> None:
         """Let the time pass as a person asks for; it stands still once the run is at its end."""

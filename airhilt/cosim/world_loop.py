@@ -138,15 +138,20 @@ class WorldLoop:
             self._event("command", callsign, command.model_dump_json(exclude_none=True))
             self.obey(callsign, command)
 
-    def obey(self, callsign: str, command: Command) -> None:
-        """Let an actor carry out a command, or say that it cannot; nobody else obeys."""
+    def obey(self, callsign: str, command: Command) -> bool:
+        """Let an actor carry out a command, or say that it cannot; return true if it does.
+
+        Nobody else obeys.
+        """
         actor = self._actors.get(callsign)
         if actor is None or actor.body.ended is not None:
-            return
+            return False
         try:
             actor.command(command)
         except Unable as unable:
             self._event("unable", callsign, str(unable))
+            return False
+        return True
 
     def line_begun(self, line: str) -> None:
         """Take in that a radio line begins now: it may be what begins the conflict."""

@@ -19,7 +19,7 @@ MOST_CHANGES = 400_000
 MOST_AT_ONCE = 5_000
 """Largest number of changes in one message to a browser."""
 MOST_OF_SEAT = 2_000
-"""Largest number of tasks, questions and notices of a seat that are kept."""
+"""Largest number of tasks, offers, questions and notices of a seat that are kept."""
 
 Admits = Callable[[Audience], bool]
 """Says of an audience if its changes are wanted."""
@@ -97,13 +97,14 @@ class SeatChanges:
     """Keeps what the person at a seat is told, so that who comes late knows what is in force.
 
     It keeps the newest of each subject alone: of the seat itself, its instruments and its position,
-    of each task and of each question, which an answer ends. It first forgets the oldest of what is
-    not in force any more: tasks that are done, questions that are answered, and notices.
+    of each task, each offer, and each question, which an answer ends. It first forgets the oldest
+    of what is not in force any more: tasks that are done, offers that are over, questions that are
+    answered, and notices.
 
     Parameters
     ----------
     most
-        Number of tasks, questions and notices that are kept at most.
+        Number of tasks, offers, questions and notices that are kept at most.
     """
 
     def __init__(self, most: int = MOST_OF_SEAT) -> None:
@@ -111,7 +112,7 @@ class SeatChanges:
         self._state: dict[Hashable, _Told] = {}
         """Changes of which there is one of each kind at a seat, in the order of the numbers."""
         self._open: dict[Hashable, _Told] = {}
-        """Tasks and questions that are open, by subject, in the order of the numbers."""
+        """Tasks, offers and questions that are open, by subject, in the order of the numbers."""
         self._past: dict[Hashable, _Told] = {}
         """All else, likewise."""
         self._next_number = 0
@@ -137,6 +138,8 @@ class SeatChanges:
                 return kind, self._state
             case "task":
                 return (kind, what["line"]), self._past if what["done"] else self._open
+            case "offer":
+                return (kind, what["number"]), self._past if what["over"] else self._open
             case "question":
                 return (kind, what), self._open
             case "answered":

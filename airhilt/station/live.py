@@ -21,6 +21,7 @@ from airhilt.messages import (
     CameraView,
     Clock,
     CockpitInstruments,
+    CommandOffer,
     ConflictTruth,
     Detections,
     EquipmentAlert,
@@ -86,8 +87,8 @@ class LiveRun:
     changes
         Gets the changes.
     seats
-        Gets the changes that only the person at a seat sees: ``task``, ``cockpit``, ``info``,
-        ``notice``, ``question`` and ``answered``.
+        Gets the changes that only the person at a seat sees: ``task``, ``offer``, ``cockpit``,
+        ``info``, ``notice``, ``question`` and ``answered``.
     notice
         Is told of the first message of a kind that cannot be read.
     views
@@ -150,6 +151,7 @@ class LiveRun:
             Event: (self._event,),
             Detections: (self._vision, self._latency),
             TaskCard: (self._task,),
+            CommandOffer: (self._offer,),
             SeatInfo: (self._seat_info,),
             SeatNotice: (self._notice_of_seat,),
             CockpitInstruments: (self._cockpit,),
@@ -386,6 +388,17 @@ class LiveRun:
                 "addressed": None if card.addressed is None else readable(card.addressed),
                 "text": readable(card.text),
                 "done": card.is_done,
+            },
+        )
+
+    def _offer(self, received: Received) -> None:
+        offer: CommandOffer = received.message
+        self._seats[offer.seat].add(
+            "offer",
+            {
+                "number": offer.number,
+                "command": offer.command.model_dump(mode="json"),
+                "over": offer.is_over,
             },
         )
 

@@ -49,9 +49,8 @@ SUBSCRIBED = (
 TRUTH = ("truth/**",)
 """Keys of the truth, for observers alone; of it comes what the run shares."""
 OF_SEATS = (
-    "cockpit/{seat}", "task/{seat}", "seat/{seat}/info", "notice/{seat}", "question/{seat}",
-    "workload/{seat}",
-    "cockpit/{seat}/position",
+    "cockpit/{seat}", "task/{seat}", "offer/{seat}", "seat/{seat}/info", "notice/{seat}",
+    "question/{seat}", "workload/{seat}", "cockpit/{seat}/position",
 )  # fmt: skip
 """Keys of what only the person at a seat sees."""
 ASKED = ("briefing", "clock", "radar/*/info")

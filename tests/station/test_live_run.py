@@ -7,11 +7,13 @@ from typing import Any
 
 import pytest
 
+from airhilt.commands import HoldPositionCommand
 from airhilt.messages import (
     ActorTruth,
     AdsbReport,
     Briefing,
     Clock,
+    CommandOffer,
     Message,
     RadarInfo,
     RadarPlot,
@@ -259,6 +261,26 @@ def test_only_the_driver_learns_where_the_own_vehicle_is_from_its_map() -> None:
     batch = own.since(0)
     assert batch is not None
     assert json.loads(batch.changes)[0][:3] == ["state", "OPS1", "vehicle"]
+
+
+def test_an_offer_is_for_the_person_at_the_seat_alone_until_it_is_over() -> None:
+    changes, own, other = Changes(), SeatChanges(most=1), SeatChanges()
+    run = LiveRun(changes, {"OPS1": own, "AAL123": other})
+    command = HoldPositionCommand(action="hold_position")
+    for is_over in (False, True):
+        offer = CommandOffer(seat="OPS1", number=1, call="hold", command=command, is_over=is_over)
+        run.take(Logged("offer/OPS1", "", 0, offer.model_dump_json().encode()))
+        batch = own.since(0)
+        assert batch is not None
+        assert json.loads(batch.changes) == [
+            ["offer", {"number": 1, "command": {"action": "hold_position"}, "over": is_over}]
+        ]
+    own.add("notice", 1.0, "what is over is forgotten first")
+    batch = own.since(0)
+    assert batch is not None
+    assert [kind for kind, *_ in json.loads(batch.changes)] == ["notice"]
+    assert changes.since(0) is None
+    assert other.since(0) is None
 
 
 def test_task_cards_and_instruments_are_for_the_person_at_the_seat_alone() -> None:

@@ -289,6 +289,30 @@ def test_the_run_goes_on_while_the_network_of_a_person_is_cut(tmp_path: Path) ->
     assert max(b - a for a, b in itertools.pairwise(times_ns)) <= SECOND_NS
 
 
+@pytest.mark.parametrize(
+    ("scenario", "duration_s", "seat"),
+    [("s01b_nominal", 60.0, "OPS1"), ("s01b_ground_nominal", 115.0, "DAL456")],
+)
+def test_who_drives_or_is_at_a_stand_sets_off_by_the_button_of_the_call(
+    tmp_path: Path, scenario: str, duration_s: float, seat: str
+) -> None:
+    out = tmp_path / "run"
+    button = "document.querySelector('#offers button')"
+    with (
+        running(out, scenario, duration_s, "--seat", seat) as url,
+        page_with_microphone() as page,
+    ):
+        sit_down(page, url)
+        page.wait_for(f"{button}?.textContent.includes('to the hold short of runway 01 on D')")
+        page.evaluate(f"{button}.click()")
+        page.wait_for(f"!{button}")
+        page.wait_for("document.getElementById('state').textContent === 'finished'")
+    states = contents(out, f"truth/state/{seat}")
+    assert states[0]["latitude_deg"] != states[-1]["latitude_deg"]
+    assert json.loads((out / "summary.json").read_text())["people"][0]["commands"] == 1
+    assert replay(out).identical
+
+
 def test_a_pilot_who_is_warned_goes_around(tmp_path: Path) -> None:
     out = tmp_path / "run"
     with (

@@ -252,6 +252,49 @@ def test_a_pilot_may_reject_a_take_off_on_the_roll_and_go_around_elsewhere(
         assert commands(run, page) == actions
 
 
+TAXI = {
+    "action": "taxi", "to": {"type": "hold_short", "runway": "01", "taxiway": "D"},
+    "via": ["K", "D"], "speed_kt": None, "off_taxiways": False,
+}  # fmt: skip
+OFFERED = "[...document.querySelectorAll('#offers button')].map((one) => one.textContent)"
+
+
+def offer(run: PretendedRun, number: int, command: dict[str, Any], *, over: bool = False) -> None:
+    run.seat.add("offer", {"number": number, "command": command, "over": over})
+
+
+@pytest.mark.parametrize(("seat", "verb"), [("OPS1", "Drive"), ("AAL123", "Taxi")])
+def test_what_a_call_has_for_the_seat_is_a_button_that_does_it(
+    page: Page, seat: str, verb: str
+) -> None:
+    with seated(page, seat) as run:
+        offer(run, 1, TAXI)
+        page.wait_for(f"{OFFERED}[0] === '{verb} to the hold short of runway 01 on D via K, D'")
+        assert not commands(run, page)
+        page.evaluate("document.querySelector('#offers button').click()")
+        assert run.next().model_dump(mode="json") == TAXI
+        page.wait_for("document.getElementById('panel-state').textContent.startsWith('Set: ')")
+        offer(run, 1, TAXI, over=True)
+        page.wait_for(f"{OFFERED}.length === 0")
+
+
+def test_a_track_that_a_call_has_is_magnetic_as_on_the_instruments(page: Page) -> None:
+    with seated(page, "AAL123") as run:
+        run.changes.add("briefing", "TOWER", ReportAirport("kdca").as_json(), CATEGORIES)
+        offer(run, 1, {"action": "track", "track_deg": 259.3})
+        page.wait_for(f"{OFFERED}[0] === 'Turn to track 270\u00b0'")
+        page.evaluate("document.querySelector('#offers button').click()")
+        assert run.next().track_deg == 259.3
+
+
+def test_who_leaves_the_seat_is_shown_nothing_that_calls_had_for_it(page: Page) -> None:
+    with seated(page, "OPS1") as run:
+        offer(run, 1, TAXI)
+        page.wait_for(f"{OFFERED}.length === 1")
+        page.click("seat-take")
+        page.wait_for(f"{OFFERED}.length === 0")
+
+
 CALL = {
     "id": "c-1", "from": 0.2, "to": 0.8, "frequency_khz": 119_100, "snr_db": None,
     "speaker": None, "addressed": None, "said": None, "blocked_by": [], "transcripts": [],

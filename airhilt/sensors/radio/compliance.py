@@ -1,4 +1,4 @@
-"""Compliance: actors carry out the calls that they have taken."""
+"""Compliance: actors carry out the calls that they have taken, or people are offered to."""
 
 from __future__ import annotations
 
@@ -25,6 +25,9 @@ class Compliance:
         Calls its second argument as soon as its first, a condition, is true.
     do
         Lets an actor carry out a command.
+    offer
+        Offers the person who acts for an actor a command of a call, by its id; returns False if
+        there is no person, so that the actor does it by itself.
     """
 
     def __init__(
@@ -32,10 +35,12 @@ class Compliance:
         director: Director,
         once: Callable[[Condition, Callable[[], None]], None],
         do: Callable[[str, Command], None],
+        offer: Callable[[str, str, Command], bool],
     ) -> None:
         self._director = director
         self._once = once
         self._do = do
+        self._offer = offer
 
     def carry_out(self, call: RadioCall, actor: str) -> None:
         """Let an actor do what the script has for it in a call."""
@@ -50,13 +55,17 @@ class Compliance:
             self._do_later(call, scripted)
 
     def _do_later(self, call: RadioCall, scripted: ScriptedCommand) -> None:
+        """Let an actor act in time; a person is offered that at once, and chooses the time."""
+        if self._offer(scripted.actor, call.id, scripted.command):
+            return
         due_ns = self._director.now_ns + seconds_to_ns(scripted.delay_s)
         self._director.at(due_ns, partial(self._do_on_condition, call, scripted), Priority.SCRIPT)
 
     def _do_on_condition(self, call: RadioCall, scripted: ScriptedCommand) -> None:
         def act() -> None:
-            if scripted.actor not in call.withdrawn_for:
-                self._do(scripted.actor, scripted.command)
+            actor, command = scripted.actor, scripted.command
+            if actor not in call.withdrawn_for and not self._offer(actor, call.id, command):
+                self._do(actor, command)
 
         if scripted.when is None:
             act()

@@ -37,6 +37,7 @@ from airhilt.sensors.radio.frequency_arbiter import GAP_S
 from airhilt.sensors.radio.hearing import HearingModel, key_chunk
 from airhilt.sensors.radio.listeners import Listeners
 from airhilt.sensors.radio.microphones import LONGEST_CALL_S, Microphones
+from airhilt.sensors.radio.offers import Offers
 from airhilt.sensors.radio.on_air import OnAir, Utterance
 from airhilt.sensors.radio.open_microphone import OpenMicrophone
 from airhilt.sensors.radio.radio_call import RadioCall, calls_of
@@ -121,12 +122,13 @@ class RadioConversation:
         self._times_pressed = 0
         self._is_paused = False
         self._seats = Seats(seats, stations, self._calls, publish, lambda: director.now_ns)
+        self._offers = Offers(publish, lambda: director.now_ns)
         self._microphones = Microphones(director, self.press, self._seats.notify)
         self._script = RadioScript(director, lines, once, failed, self._due)
         self._transmissions = self._make_transmissions(scenario)
         self._stuck_microphones = self._make_stuck_microphones(microphone_stuck, microphones_free)
         self._listeners = self._make_listeners(radio, hearing or HearingModel(seed))
-        self._compliance = Compliance(director, once, self._unless_seat(do))
+        self._compliance = Compliance(director, once, do, self._offer)
         self._policy = ReadbackPolicy(director, radio, stations, seed, self._calls, self._say)
         self._confirmations = self._make_confirmations(radio)
         self._advisories = self._make_advisory_calls(scenario, advisory_channel)
@@ -163,6 +165,7 @@ class RadioConversation:
             self._stations,
             hearing,
             reaches=self._transmissions.reaches,
+            has_person=self._seats.has_person,
             publish=self._publish,
             understood=self._understood,
             overheard=self._overheard,
@@ -253,8 +256,13 @@ class RadioConversation:
         speaker = self._seats.speaker(seat)
         if not is_taken:
             self._microphones.release(speaker)
+            self._offers.end_all(speaker)
         for call in self._seats.occupy(speaker, is_taken=is_taken):
             self._say(call)
+
+    def commanded(self, actor: str, command: Command) -> None:
+        """Take in that an actor carries out a command that somebody has given it."""
+        self._offers.end(actor, command)
 
     def has_person(self, name: str) -> bool:
         """Return whether a person speaks and acts for a unit or an actor, and nobody else."""
@@ -325,17 +333,16 @@ class RadioConversation:
                 return
         if self._seats.has_person(call.speaker):
             self._seats.tell(call)
+            self._compliance.carry_out(call, call.speaker)
         else:
             self._say(call)
 
-    def _unless_seat(self, do: Callable[[str, Command], None]) -> Callable[[str, Command], None]:
-        """Return what lets an actor carry out a command, unless a person does that."""
-
-        def carry_out(actor: str, command: Command) -> None:
-            if not self._seats.has_person(actor):
-                do(actor, command)
-
-        return carry_out
+    def _offer(self, actor: str, call: str, command: Command) -> bool:
+        """Offer the person who acts for an actor a command; return False if there is none."""
+        if not self._seats.has_person(actor):
+            return False
+        self._offers.make(actor, call, command)
+        return True
 
     def _after_gap(self, action: Callable[[], None]) -> None:
         due_ns = self._director.now_ns + seconds_to_ns(GAP_S)

@@ -44,6 +44,9 @@ class Listeners:
     ----------
     reaches
         Returns whether a transmission reaches a listener, and no other with it.
+    has_person
+        Returns whether a person listens for an actor or a unit. No mistake is drawn for people: a
+        call that reaches them counts as heard.
     understood
         Called when a recipient of a call has heard or read it, or has failed to.
     overheard
@@ -58,6 +61,7 @@ class Listeners:
         hearing: HearingModel,
         *,
         reaches: Callable[[OnAir, str], bool],
+        has_person: Callable[[str], bool],
         publish: Publish,
         understood: Understood,
         overheard: Understood,
@@ -68,6 +72,7 @@ class Listeners:
         self._stations = stations
         self._hearing = hearing
         self._reaches = reaches
+        self._has_person = has_person
         self._publish = publish
         self._understood = understood
         self._overheard = overheard
@@ -86,6 +91,9 @@ class Listeners:
         said = on_air.utterance
         if listener in call.deaf or not self._reaches(on_air, listener):
             self._understand(call, said, listener, NOTHING, "")
+            return
+        if self._has_person(listener):
+            self._understand(call, said, listener, AS_SAID, said.text)
             return
         snr_db = self._receptions.of(said, listener).snr_db
         heard = self._hearing.listen(said.id, listener, said.text, snr_db)
@@ -115,12 +123,13 @@ class Listeners:
         for listener in self._stations.actors_on(said.frequency_khz):
             if listener == said.speaker or not self._reads(listener):
                 continue
+            may_overhear = self._radio.overhearing and not self._has_person(listener)
             if listener in recipients and (is_blocked or listener in call.deaf):
                 self._understand(call, said, listener, NOTHING, "", source="transcript")
             elif listener in recipients:
                 read = partial(self._read, call, said, listener)
                 self._waiting.setdefault(said.id, []).append(read)
-            elif self._radio.overhearing and not is_blocked and listener not in call.taken_by:
+            elif may_overhear and not is_blocked and listener not in call.taken_by:
                 overhear = partial(self._overhear, call, said, listener)
                 self._waiting.setdefault(said.id, []).append(overhear)
         if said.id in self._waiting:

@@ -102,6 +102,11 @@ export class Displays {
     this.#panel.take(shown);
   }
 
+  /** Takes in which commands calls have for the person, and have no more. */
+  takeOffers(offers) {
+    this.#panel.takeOffers(offers);
+  }
+
   #drawCockpit(shown) {
     const told = tcasOf(this.#run, this.#clock.t),
       label = ["Primary flight display", spoken(told)].filter((text) => text).join(", ");

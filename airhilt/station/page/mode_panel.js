@@ -1,6 +1,7 @@
 // The mode panel: what autopilot and guidance are to do. A field sets its value with Enter.
 
 import { byId, html } from "./dom.js";
+import { Offers } from "./offers.js";
 import { feet, known } from "./words.js";
 
 const LEAST_CHANGE_FT = 100; // of altitude, for which a vertical speed can be set
@@ -71,6 +72,7 @@ export class ModePanel {
   #send;
   #tell;
   #isVehicle = false;
+  #offers = new Offers((text, command) => this.#give(text, command));
   // Magnetic variation in degrees, positive east; altitude and selected altitude in ft. Null: it
   // is not known.
   #shown = { variation: null, altitude: null, selected: null };
@@ -111,6 +113,7 @@ export class ModePanel {
     byId("panel-track-unit").textContent = north;
     byId("panel-track").ariaLabel = `Track in ${north}`;
     this.#offerActions("");
+    this.#drawOffers();
     const select = byId("panel-runway"),
       chosen = select.value;
     if (select.options.length !== idents.length)
@@ -127,6 +130,16 @@ export class ModePanel {
     this.#offerActions(mode);
   }
 
+  /** Takes in which commands calls have for the person, and have no more. */
+  takeOffers(offers) {
+    this.#offers.take(offers);
+    this.#drawOffers();
+  }
+
+  #drawOffers() {
+    this.#offers.draw({ isVehicle: this.#isVehicle, variation: this.#shown.variation });
+  }
+
   /** A take-off is rejected where there is no approach to break off. */
   #offerActions(mode) {
     const isRolling = mode === "takeoff_roll";
@@ -138,6 +151,8 @@ export class ModePanel {
   clear() {
     Object.assign(this.#shown, { altitude: null, selected: null });
     for (const { id } of FIELDS) byId(`panel-${id}`).value = "";
+    this.#offers.clear();
+    this.#drawOffers();
   }
 
   /** Puts the cursor into the field of speed, track or altitude. */

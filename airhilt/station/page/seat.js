@@ -122,6 +122,8 @@ export class Seat {
       this.#displays.take(instruments[1]);
       this.#showInstruments(instruments[1]);
     }
+    const offers = changes.filter(([kind]) => kind === "offer").map(([, offer]) => offer);
+    if (offers.length) this.#displays.takeOffers(offers);
     const isOpen = (card) =>
       !card.done &&
       !changes.some(([kind, other]) => kind === "task" && other.done && other.line === card.line) &&
