@@ -1175,7 +1175,9 @@ class SpokenTruth(Message):
     text: str
     t_tx_ns: Nanoseconds
     t_end_ns: Nanoseconds
-    in_reply_to: str | None = Field(default=None, description="id of the call that it answers")
+    in_reply_to: str | None = Field(
+        default=None, description="id of the transmission that it answers"
+    )
     blocked_by: tuple[str, ...] = Field(
         default=(), description="ids of the transmissions that it was mixed with"
     )

@@ -1,4 +1,4 @@
-"""Summaries as flat rows: of a run, of a person at a seat, and of one reaction of a person.
+"""Summaries as flat rows: of a run, of a person at a seat, of one reaction or call of a person.
 
 A row has a column for each number, by rule from the models. A field of a model within another has
 the names of both, such as ``radio_wer``. Fields by stage, modality or outcome have a column for
@@ -21,7 +21,7 @@ from pydantic.fields import FieldInfo
 from airhilt.messages import HearingTruth, Modality
 from airhilt.metrics.derived import DERIVED, DERIVED_OF_PEOPLE, Derived
 from airhilt.metrics.latencies import STAGES
-from airhilt.metrics.summary import PersonReaction, PersonSummary, Summary
+from airhilt.metrics.summary import PersonCall, PersonReaction, PersonSummary, Summary
 from airhilt.options import MODALITIES
 
 Kind = Literal["string", "bool", "int64", "float64"]
@@ -206,6 +206,8 @@ OF_PEOPLE = FlatRow(PersonSummary, DERIVED_OF_PEOPLE, NOT_OF_A_PERSON)
 """Row of the totals of a person at a seat."""
 OF_REACTIONS = FlatRow(PersonReaction)
 """Row of a reaction of a person."""
+OF_CALLS = FlatRow(PersonCall)
+"""Row of a call of a person."""
 
 
 def metric_columns() -> tuple[Column, ...]:

@@ -28,6 +28,7 @@ from airhilt.messages import (
     WorkloadQuestion,
 )
 from airhilt.metrics.compliance import complies
+from airhilt.metrics.person_calls import PersonCalls
 from airhilt.metrics.readbacks import Readbacks
 from airhilt.metrics.summary import IsaRating, PersonReaction, PersonSummary, WorkloadSummary
 from airhilt.sensors.radio.hearing import key_chunk
@@ -113,6 +114,7 @@ class _Person:
 class _Seat:
     """Record of a seat, and of those who had it."""
 
+    calls: PersonCalls
     recipients: tuple[str, ...] = ()
     """Names under which advisories are for the person."""
     people: list[_Person] = field(default_factory=list)
@@ -163,7 +165,7 @@ class PeopleRecords:
     ) -> None:
         self._readbacks = Readbacks(callsigns)
         self._names = {key_chunk(seat): seat for seat in seats}
-        self._seats = {seat: _Seat() for seat in seats}
+        self._seats = {seat: _Seat(PersonCalls(seat)) for seat in seats}
         self._advisories: dict[Advised, Advisory] = {}
         self._voices_ns: dict[Advised, int] = {}
         self._first_pace = pace
@@ -185,6 +187,8 @@ class PeopleRecords:
                 self._seats[error.reader].readback_errors += 1
             if error.giver in self._seats:
                 self._seats[error.giver].readback_errors_heard += 1
+        for seat in self._seats.values():
+            seat.calls.take(message)
         match message:
             case Advisory():
                 name = message.id, message.revision, message.recipient
@@ -230,14 +234,16 @@ class PeopleRecords:
                 action = _Action(t_ns, command.action, command, seat.track_deg)
                 seat.person.actions.append(action)
             case _ if seat.person is not None:
-                self._take_of(seat.person, message)
+                self._take_of(seat, seat.person, message)
 
     @staticmethod
-    def _take_of(person: _Person, message: Message) -> None:
+    def _take_of(seat: _Seat, person: _Person, message: Message) -> None:
         match message:
             case SpokenWords(t_ns=t_ns):
+                seat.calls.type(message)
                 person.actions.append(_Action(t_ns, "typed call"))
             case MicrophoneAudio(phase="pressed", t_ns=t_ns, delay_s=delay_s):
+                seat.calls.press(message)
                 pressed_ns = t_ns - round(delay_s * SECOND_NS)
                 person.actions.append(_Action(pressed_ns, "spoken call"))
                 person.delays_s.append(delay_s)
@@ -268,6 +274,7 @@ class PeopleRecords:
             press_to_transmit_s=median(delays_s) if delays_s else None,
             reaction_time_s=median(times_s) if times_s else None,
             unperceived=sum(len(person.told - person.perceived_names) for person in seat.people),
+            calls=seat.calls.rows(),
             reactions=reactions,
             workload=_workload(seat) if seat.questions else None,
         )

@@ -145,6 +145,38 @@ class PersonReaction(BaseModel):
     followed: bool | None = Field(description="true: the person did what it recommends within 30 s")
 
 
+class PersonCall(BaseModel):
+    """A call of a person; null where it does not apply, or is not known."""
+
+    model_config = ConfigDict(frozen=True)
+    call: str | None = Field(
+        default=None, description="id of its transmission; null: it never came on the air"
+    )
+    way: Literal["spoken", "typed"] = Field(description="by microphone or by keyboard")
+    frequency_khz: int | None = None
+    t_s: float = Field(description="the button was pressed, or the words came to the run")
+    t_tx_s: float | None = Field(default=None, description="it began on the air")
+    to_air_s: float | None = Field(
+        default=None,
+        description="from t_s to t_tx_s: of a typed call with the wait for a free frequency",
+    )
+    length_s: float | None = Field(default=None, description="time on the air")
+    said: str | None = Field(default=None, description="words that were typed; null if spoken")
+    recognised: str | None = Field(
+        default=None, description="words that the first recogniser to answer found"
+    )
+    confidence: float | None = Field(default=None, description="confidence of these words")
+    blocked: bool | None = Field(
+        default=None, description="true: somebody else was on the air at the same time"
+    )
+    answer: str | None = Field(
+        default=None, description="words of the answer of an automaton, or of the script"
+    )
+    answered_after_s: float | None = Field(
+        default=None, description="from the end of the call to the beginning of that answer"
+    )
+
+
 class IsaRating(BaseModel):
     """An ISA question at a seat, and what was answered; null: nothing was."""
 
@@ -192,6 +224,7 @@ class PersonSummary(BaseModel):
         default=0,
         description="revisions of advisories to the person that no page has drawn or sounded",
     )
+    calls: list[PersonCall] = Field(default=[], description="calls of the person, one by one")
     reactions: list[PersonReaction]
     workload: WorkloadSummary | None = Field(default=None, description="null: nothing was asked")
 

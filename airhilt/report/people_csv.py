@@ -1,4 +1,4 @@
-"""The people of a run as a table: what each did and said, their reactions, and their workload."""
+"""The people of a run as a table: their actions, reactions, workload and calls."""
 
 from __future__ import annotations
 
@@ -11,24 +11,25 @@ from typing import Any
 from airhilt.errors import RunFolderError, disk_failed, first_line
 from airhilt.files import replace_file
 from airhilt.messages import NasaTlx
-from airhilt.metrics.summary import IsaRating, PersonReaction, PersonSummary
+from airhilt.metrics.summary import IsaRating, PersonCall, PersonReaction, PersonSummary
 from airhilt.record import Run
 from airhilt.report.unread import CANNOT_READ
 
-PARTS = ("seat", "reactions", "workload")
+PARTS = ("seat", "calls", "reactions", "workload")
 """Fields of a person that are no totals: other rows, or columns of their own, have them."""
 TOTALS = tuple(name for name in PersonSummary.model_fields if name not in PARTS)
-COLUMNS = (
+COLUMNS = tuple(dict.fromkeys((
     "run", "seat", "row", *TOTALS, "isa_mean", "raw_tlx", *NasaTlx.model_fields,
-    *(name for name in PersonReaction.model_fields if name not in TOTALS), *IsaRating.model_fields,
-)  # fmt: skip
+    *PersonReaction.model_fields, *IsaRating.model_fields, *PersonCall.model_fields,
+)))  # fmt: skip
+"""Columns; rows of several kinds have a field of the same name in the same column."""
 
 
 def write_people_csv(run: Run, path: Path) -> None:
     """Write the people of a run; without any, the file has its head alone.
 
-    Each seat has a row ``total``, a row ``reaction`` for each advisory, and a row ``isa`` for each
-    question.
+    Each seat has a row ``total``, a row ``reaction`` for each advisory, a row ``isa`` for each
+    question, and a row ``call`` for each call.
 
     Raises
     ------
@@ -61,3 +62,5 @@ def _rows(person: dict[str, Any]) -> Iterator[dict[str, Any]]:
         yield {"row": "reaction", **reaction}
     for question in workload.get("isa", ()):
         yield {"row": "isa", **question}
+    for call in person.get("calls", ()):
+        yield {"row": "call", **call}

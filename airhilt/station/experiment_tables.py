@@ -1,4 +1,4 @@
-"""The tables of an experiment: a row a finished trial, and a row a reaction of its person."""
+"""The tables of an experiment: a row a finished trial, and one a reaction and call in it."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import pyarrow.parquet
 from airhilt.errors import RunFolderError, first_line
 from airhilt.files import replace_file
 from airhilt.messages import NasaTlx
-from airhilt.metrics.columns import OF_PEOPLE, OF_REACTIONS, OF_RUNS, Column
+from airhilt.metrics.columns import OF_CALLS, OF_PEOPLE, OF_REACTIONS, OF_RUNS, Column
 from airhilt.record import open_run
 from airhilt.record.run import untold
 from airhilt.report.unread import CANNOT_READ
@@ -22,8 +22,8 @@ from airhilt.station.experiment import Asked, Progress
 from airhilt.station.plan import Plan
 from airhilt.station.questionnaires import NASA_TLX, Questionnaire, Scale
 
-TRIALS, REACTIONS = "experiment", "reactions"
-"""Names of the files of the two tables, without their ends."""
+TRIALS, REACTIONS, CALLS = "experiment", "reactions", "calls"
+"""Names of the files of the tables, without their ends."""
 TYPES = {"string": pa.string(), "bool": pa.bool_(), "int64": pa.int64(), "float64": pa.float64()}
 
 WRITERS = {"parquet": pa.parquet.write_table, "csv": pa.csv.write_csv}
@@ -31,21 +31,23 @@ WRITERS = {"parquet": pa.parquet.write_table, "csv": pa.csv.write_csv}
 
 
 class _Rows(NamedTuple):
-    """The row of a finished trial, and those of the reactions in it."""
+    """The row of a finished trial, and those of the reactions and calls in it."""
 
     trial: dict[str, Any]
     reactions: list[dict[str, Any]]
+    calls: list[dict[str, Any]]
 
 
 class RowCounts(NamedTuple):
-    """The numbers of rows of the two tables."""
+    """The numbers of rows of the tables."""
 
     trials: int
     reactions: int
+    calls: int
 
 
 def write_tables(plan: Plan, folder: Path) -> RowCounts:
-    """Write ``experiment`` and ``reactions``, each as ``.csv`` and as ``.parquet``.
+    """Write ``experiment``, ``reactions`` and ``calls``, each as ``.csv`` and as ``.parquet``.
 
     Raises
     ------
@@ -56,6 +58,7 @@ def write_tables(plan: Plan, folder: Path) -> RowCounts:
     found = [rows for name in plan.participants for rows in _rows(Progress(plan, folder, name))]
     trials = [rows.trial for rows in found]
     reactions = [row for rows in found for row in rows.reactions]
+    calls = [row for rows in found for row in rows.calls]
     identity = [pa.field(name, pa.string()) for name in ("participant", "trial", "scenario")]
     identity += [pa.field("position", pa.int64()), pa.field("run", pa.string())]
     identity += [pa.field(f"condition.{name}", pa.string()) for name in plan.conditions]
@@ -64,11 +67,12 @@ def write_tables(plan: Plan, folder: Path) -> RowCounts:
     try:
         folder.mkdir(parents=True, exist_ok=True)
         _write(folder, TRIALS, trials, [*identity, *answers, *people, *_fields(OF_RUNS.columns)])
-        seat = pa.field("seat", pa.string())
-        _write(folder, REACTIONS, reactions, [*identity, seat, *_fields(OF_REACTIONS.columns)])
+        at_seat = [*identity, pa.field("seat", pa.string())]
+        _write(folder, REACTIONS, reactions, [*at_seat, *_fields(OF_REACTIONS.columns)])
+        _write(folder, CALLS, calls, [*at_seat, *_fields(OF_CALLS.columns)])
     except OSError as error:
         raise RunFolderError(f"{folder}: cannot be written: {error.strerror}") from None
-    return RowCounts(len(trials), len(reactions))
+    return RowCounts(len(trials), len(reactions), len(calls))
 
 
 def _write(folder: Path, name: str, rows: list[dict[str, Any]], fields: list[pa.Field]) -> None:
@@ -132,18 +136,21 @@ def _rows(progress: Progress) -> Iterator[_Rows]:
             ) from None
         answers = _answers(progress, name)
         yield _Rows(
-            {**rows.trial, **identity, **answers}, [{**row, **identity} for row in rows.reactions]
+            {**rows.trial, **identity, **answers},
+            [{**row, **identity} for row in rows.reactions],
+            [{**row, **identity} for row in rows.calls],
         )
 
 
 def _of_summary(summary: Mapping[str, Any]) -> _Rows:
     """Return what the rows of a trial have of its summary; nothing of a person without a seat."""
-    trial, reactions = OF_RUNS.values(summary), []
+    rows = _Rows(OF_RUNS.values(summary), [], [])
     for person in summary.get("people", ()):  # An experiment has one seat.
-        trial |= {f"person.{key}": value for key, value in OF_PEOPLE.values(person).items()}
-        for reaction in person["reactions"]:
-            reactions.append({"seat": person["seat"], **OF_REACTIONS.values(reaction)})
-    return _Rows(trial, reactions)
+        seat = {"seat": person["seat"]}
+        rows.trial.update({f"person.{name}": of for name, of in OF_PEOPLE.values(person).items()})
+        rows.reactions.extend(seat | OF_REACTIONS.values(one) for one in person["reactions"])
+        rows.calls.extend(seat | OF_CALLS.values(one) for one in person.get("calls", ()))
+    return rows
 
 
 def _text(value: Any) -> str:

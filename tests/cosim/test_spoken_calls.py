@@ -28,7 +28,7 @@ def holding(t_s: float, for_s: float, seat: str = SEAT) -> list[UnregisteredMess
 
 
 def test_a_crew_reads_back_and_does_what_was_recognised_and_it_replays(tmp_path: Path) -> None:
-    said = spoken(SEAT, 5.0, voice(TURN))
+    said = [message(f"seat/{SEAT}", 1.0, is_taken=True), *spoken(SEAT, 5.0, voice(TURN))]
     log = logged(tower(20.0), tmp_path / "run", ["tower"], said, speech=True)
     first, readback = calls(log)[:2]
     assert (first["speaker"], first["text"], first["is_from_microphone"]) == (
@@ -36,9 +36,12 @@ def test_a_crew_reads_back_and_does_what_was_recognised_and_it_replays(tmp_path:
     )  # fmt: skip
     assert first["t_tx_ns"] == 5 * SECOND
     assert "heading two seven zero" in contents(log, "asr/")[0]["text"]
-    assert (readback["speaker"], readback["in_reply_to"]) == ("AAL123", f"seat.{SEAT}.1")
+    assert (readback["speaker"], readback["in_reply_to"]) == ("AAL123", first["id"])
     done = [one for one in contents(log, "truth/event") if one["kind"] == "command"]
     assert json.loads(done[0]["text"])["action"] == "track"
+    (row,) = json.loads((tmp_path / "run" / "summary.json").read_text())["people"][0]["calls"]
+    assert (row["call"], row["answer"]) == (first["id"], readback["text"])
+    assert row["recognised"] == contents(log, "asr/")[0]["text"]
     verdict = replay(tmp_path / "run")
     assert verdict.identical, str(verdict)
 

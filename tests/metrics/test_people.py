@@ -27,6 +27,7 @@ from airhilt.messages import (
     SeatPresence,
     Severity,
     SpokenTruth,
+    SpokenWords,
     Transcript,
     WorkloadAnswer,
     WorkloadQuestion,
@@ -402,6 +403,91 @@ def test_the_time_at_the_seat_is_that_for_which_somebody_had_it(
         presence = SeatPresence(t_ns=round(t_s * SECOND), is_taken=is_taken)
         records.take("seat/AAL1", presence)
     assert records.summaries(100 * SECOND)[0].seat_time_s == time_s
+
+
+def on_air(name: str, t_s: float, to_s: float, **more: Any) -> tuple[float, str, SpokenTruth]:
+    """Return a call on the air, of AAL1 unless told otherwise, as it is told at its end."""
+    said = {"speaker": "AAL1", "addressed": "TOWER", "frequency_khz": 118_300, "text": ""}
+    times = {"t_tx_ns": round(t_s * SECOND), "t_end_ns": round(to_s * SECOND)}
+    return (
+        to_s,
+        f"truth/radio/{name}",
+        SpokenTruth.model_validate({"id": name} | said | times | more),
+    )
+
+
+def recognised(name: str, text: str, confidence: float = 0.9, engine: str = "ctc") -> Transcript:
+    return Transcript(
+        id=name, frequency_khz=118_300, t_tx_ns=0, t_end_ns=0, text=text, confidence=confidence,
+        engine=engine,
+    )  # fmt: skip
+
+
+def test_a_typed_call_has_a_row_from_the_words_to_the_answer() -> None:
+    answer = {"speaker": "TOWER", "addressed": "AAL1", "in_reply_to": "seat.AAL1.1"}
+    (row,) = person(
+        (10.0, "speech/AAL1", SpokenWords(text="ready")),
+        on_air("seat.AAL1.1", 12.5, 14.0, text="ready"),
+        (14.5, "asr/118300", recognised("seat.AAL1.1", "ready", engine="text")),
+        on_air("answer", 15.0, 16.0, text="line up", **answer),
+        on_air("again", 18.0, 19.0, text="line up", **answer),
+    ).calls
+    assert (row.call, row.way, row.said, row.frequency_khz) == (
+        "seat.AAL1.1", "typed", "ready", 118_300,
+    )  # fmt: skip
+    assert (row.t_s, row.t_tx_s, row.to_air_s, row.length_s) == (10.0, 12.5, 2.5, 1.5)
+    assert (row.answer, row.answered_after_s, row.blocked) == ("line up", 1.0, False)
+    assert (row.recognised, row.confidence) == (None, None)  # Nobody recognised the text.
+
+
+def test_a_spoken_call_has_a_row_from_the_button_to_what_was_recognised() -> None:
+    (row,) = person(
+        (10.0, "microphone/AAL1", MicrophoneAudio(phase="pressed", delay_s=0.25)),
+        (12.0, "microphone/AAL1", MicrophoneAudio(phase="released")),
+        on_air("microphone.AAL1.1", 10.0, 12.0, is_from_microphone=True),
+        (12.5, "asr/118300", recognised("microphone.AAL1.1", "going around", 0.7)),
+        (12.9, "asr/118300", recognised("microphone.AAL1.1", "another opinion")),
+    ).calls
+    assert (row.way, row.t_s, row.to_air_s, row.length_s) == ("spoken", 9.75, 0.25, 2.0)
+    assert (row.said, row.recognised, row.confidence) == (None, "going around", 0.7)
+    assert (row.answer, row.answered_after_s) == (None, None)
+
+
+def test_a_call_that_was_blocked_and_one_that_never_came_on_the_air_say_so() -> None:
+    never, blocked = person(
+        (10.0, "microphone/AAL1", MicrophoneAudio(phase="pressed")),
+        (20.0, "microphone/AAL1", MicrophoneAudio(phase="pressed")),
+        on_air("microphone.AAL1.1", 20.0, 22.0, is_from_microphone=True, blocked_by=("other",)),
+    ).calls
+    assert (never.t_s, never.call, never.blocked) == (10.0, None, None)
+    assert (blocked.t_s, blocked.blocked) == (20.0, True)
+
+
+def test_the_calls_of_a_script_without_its_person_have_no_row() -> None:
+    found = person(
+        (5.0, "seat/AAL1", SeatPresence(is_taken=True)),
+        (6.0, "seat/AAL1", SeatPresence(is_taken=False)),
+        on_air("ready", 10.0, 12.0, text="ready"),
+    )
+    assert found.calls == []
+
+
+def test_calls_are_written_as_a_table(recorded_run: Path, tmp_path: Path) -> None:
+    summary = person(
+        (10.0, "speech/AAL1", SpokenWords(text="ready")),
+        on_air("seat.AAL1.1", 12.5, 14.0, text="ready"),
+    ).model_dump(mode="json")
+    earlier = {name: value for name, value in summary.items() if name != "calls"}
+    table = tmp_path / "people.csv"
+    write_people_csv(of_people(recorded_run, tmp_path / "run", [summary, earlier]), table)
+    total, row, without = csv.DictReader(table.read_text().splitlines())
+    assert (total["row"], row["row"], without["row"]) == ("total", "call", "total")
+    assert (row["seat"], row["t_s"], row["said"], row["to_air_s"]) == (
+        "AAL1",
+        "10.0",
+        "ready",
+        "2.5",
+    )
 
 
 def of_people(recorded_run: Path, folder: Path, people: Any) -> Run:

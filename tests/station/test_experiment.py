@@ -20,7 +20,13 @@ import pytest
 from airhilt.errors import AirhiltError, RunFolderError, StationError
 from airhilt.library import find
 from airhilt.messages import NasaTlx, Severity
-from airhilt.metrics.summary import IsaRating, PersonReaction, PersonSummary, WorkloadSummary
+from airhilt.metrics.summary import (
+    IsaRating,
+    PersonCall,
+    PersonReaction,
+    PersonSummary,
+    WorkloadSummary,
+)
 from airhilt.options import Options
 from airhilt.record import RunFolder
 from airhilt.station.experiment import Asked, Conductor, Progress
@@ -51,10 +57,15 @@ REACTION = PersonReaction(
     advised="go_around", t_advisory_s=3.0, t_seen_s=3.1, t_heard_s=3.4,
     voice_to_loudspeaker_s=0.1, first_action="go_around", reaction_time_s=1.5, followed=True,
 )  # fmt: skip
+CALL = PersonCall(
+    call="microphone.AAL123.1", way="spoken", frequency_khz=119_100, t_s=4.0, t_tx_s=4.01,
+    to_air_s=0.01, length_s=2.0, recognised="going around", confidence=0.9, blocked=False,
+    answer="Roger.", answered_after_s=1.5,
+)  # fmt: skip
 PERSON = PersonSummary(
     seat="AAL123", seat_time_s=8.0, spoken_calls=3, typed_calls=1, commands=2, asked_to_say_again=0,
     readback_errors=1, press_to_transmit_s=0.01, reaction_time_s=1.5,
-    reactions=[REACTION],
+    calls=[CALL], reactions=[REACTION],
     workload=WorkloadSummary(
         isa_mean=4.0,
         isa=[IsaRating(t_s=2.0, rating=4, answered_after_s=1.0)],
@@ -157,7 +168,7 @@ def test_a_finished_trial_is_not_run_again_and_has_a_row(
     assert Conductor(progress).state()["trial"] == 2
     with pytest.raises(StationError, match="no question"):
         conductor.answer("nasa_tlx", ANSWERS)
-    assert write_tables(experiment, tmp_path) == (1, 0)
+    assert write_tables(experiment, tmp_path) == (1, 0, 0)
     row = pq.read_table(tmp_path / "experiment.parquet").to_pylist()[0]
     assert row["run"] == f"P01/01-{first.name}-2"
     assert row["condition.assistant"] == "reference"
@@ -201,20 +212,23 @@ def test_the_row_of_a_trial_has_the_totals_of_its_person(
     }
 
 
-def test_a_reaction_has_a_row_with_its_trial(recorded_run: Path, tmp_path: Path) -> None:
+def test_a_reaction_and_a_call_have_a_row_with_their_trial(
+    recorded_run: Path, tmp_path: Path
+) -> None:
     experiment = plan(participants=["P01"])
     progress = Progress(experiment, tmp_path, "P01")
     for position, trial in enumerate(progress.trials, 1):
         folder = progress.folder / f"{position:02d}-{trial.name}"
         people = [PERSON.model_dump(mode="json")] if position == 2 else []
         finished(recorded_run, folder, people)
-    assert write_tables(experiment, tmp_path) == (2, 1)
-    row = table(tmp_path / "reactions.parquet")[0]
+    assert write_tables(experiment, tmp_path) == (2, 1, 1)
     of_trial = table(tmp_path / "experiment.parquet")[1]
     names = ("participant", "trial", "scenario", "position", "run", "condition.assistant")
-    assert {name: row[name] for name in names} == {name: of_trial[name] for name in names}
-    assert row["seat"] == "AAL123"
-    assert {name: row[name] for name in PersonReaction.model_fields} == REACTION.model_dump()
+    for kind, told in (("reactions", REACTION), ("calls", CALL)):
+        row = table(tmp_path / f"{kind}.parquet")[0]
+        assert {name: row[name] for name in names} == {name: of_trial[name] for name in names}
+        assert row["seat"] == "AAL123"
+        assert {name: row[name] for name in type(told).model_fields} == told.model_dump()
 
 
 @pytest.mark.parametrize(("seat_time_s", "is_done"), [(0.0, False), (0.5, True), (None, True)])
@@ -259,6 +273,7 @@ def test_an_earlier_version_that_wrote_less_of_a_person_leaves_gaps(
         person["unperceived"],
         person["reactions"][0]["kind"],
         person["workload"],
+        person["calls"],
     )
     finished(recorded_run, progress.folder / f"01-{progress.trials[0].name}", [person])
     write_tables(experiment, tmp_path)
@@ -266,6 +281,7 @@ def test_an_earlier_version_that_wrote_less_of_a_person_leaves_gaps(
     names = ("seat_time_s", "unperceived", "isa_mean", "commands")
     assert [row[f"person.{name}"] for name in names] == [None, None, None, 2]
     assert table(tmp_path / "reactions.parquet")[0]["kind"] is None
+    assert table(tmp_path / "calls.parquet") == []
 
 
 @pytest.mark.parametrize("people", [5, [1], [{}], [{"seat": "a", "reactions": [0]}]])

@@ -72,6 +72,7 @@ def experiment(
     rows = write_tables(plan, folder)
     click.echo(f"{rows.trials} finished trials: {folder / 'experiment.csv'}, experiment.parquet")
     click.echo(f"{rows.reactions} reactions: {folder / 'reactions.csv'}, reactions.parquet")
+    click.echo(f"{rows.calls} calls: {folder / 'calls.csv'}, calls.parquet")
 
 
 def _shown(progress: Progress, trial: Trial) -> str:

@@ -1,5 +1,6 @@
 const SEATS = [["Seat"], ["Calls spoken", "number"], ["Calls typed", "number"], ["Commands", "number"], ["Asked to say again", "number"], ["Readback errors", "number"], ["Readback errors heard", "number"], ["Button to air", "number"], ["Reaction time (median)", "number"], ["Advisories not perceived", "number"]];
 const REACTIONS = [["Time (s)"], ["Seat"], ["Severity"], ["Advised", "text"], ["Seen", "number"], ["Heard", "number"], ["First action", "text"], ["Reaction time, from", "number"], ["Followed", "text"]];
+const CALLS = [["Time (s)"], ["Seat"], ["Call"], ["Frequency", "number"], ["Said", "text"], ["Recognised", "text"], ["Confidence", "number"], ["To the air", "number"], ["Length", "number"], ["Blocked", "text"], ["Answered after", "number"]];
 const WORKLOAD = [["Seat"], ["ISA (mean of 1 to 5)", "number"], ["ISA", "text"], ["Raw TLX (0 to 100)", "number"], ["NASA-TLX", "text"]];
 const since = (row, t) => (known(t) ? seconds(t - row.t_advisory_s, 2) : "no");
 
@@ -14,6 +15,14 @@ function drawPeople() {
     timeButton(row.t_advisory_s), row.seat, html("span", { class: `severity-${row.severity}` }, row.severity), words(row.advised ?? ""),
     since(row, row.t_seen_s), since(row, row.t_heard_s), words(row.first_action ?? "none"),
     known(row.reaction_time_s) ? `${seconds(row.reaction_time_s, 2)}, ${row.counted_from}` : row.is_shared ? "shared" : row.is_real_time === false ? "not in real time" : "", known(row.followed) ? (row.followed ? "yes" : "no") : "",
+  ] })));
+  const calls = data.flatMap((one) => (one.calls ?? []).map((row) => ({ seat: one.seat, ...row }))).sort((a, b) => a.t_s - b.t_s);
+  byId("people-calls-panel").hidden = !calls.length;
+  const some = (value, text) => (known(value) ? text(value) : "");
+  fillTable(byId("people-calls-table"), CALLS, calls.map((row) => ({ t: row.t_s, cells: [
+    timeButton(row.t_s), row.seat, row.way, some(row.frequency_khz, megahertz), row.said ?? "", row.recognised ?? "", some(row.confidence, percent),
+    some(row.to_air_s, (value) => seconds(value, 3)), some(row.length_s, seconds), known(row.blocked) ? (row.blocked ? "yes" : "no") : "never on the air",
+    some(row.answered_after_s, seconds),
   ] })));
   const asked = data.filter((one) => one.workload);
   byId("workload-panel").hidden = !asked.length;

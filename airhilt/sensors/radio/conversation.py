@@ -364,10 +364,11 @@ class RadioConversation:
             call.speaker,
             call.addressed,
             call.said,
-            None if replied_to is None else replied_to.id,
+            None if replied_to is None else replied_to.transmission or replied_to.id,
             None if scripted is None else scripted.declared.id,
             listens_first=again > 0 or scripted is None or scripted.listens_first,
         )
+        call.transmission = utterance.id
         self._on_air[utterance.id] = self._said[utterance.id] = call
         self._transmissions.say(utterance)
 
@@ -402,6 +403,7 @@ class RadioConversation:
     def _recognised(self, call: RadioCall, said: Utterance, on_air: OnAir, is_clear: bool) -> None:
         """Let a call that a person spoke be understood, as it was recognised."""
         call.times_said += 1
+        call.transmission = said.id
         self._said[said.id] = call
         self._line_begun(call.id)
         self._ended_lines.add(call.id)

@@ -33,6 +33,8 @@ class RadioCall:
     needs: tuple[RadioCall | None, ...] = ()
     """Calls that its speaker must have taken before; None stands for one that is never said."""
     times_said: int = 0
+    transmission: str | None = None
+    """Id of the transmission in which it was made last; None: it was not made yet."""
     is_due_again: bool = False
     withdrawn_for: set[str] = field(default_factory=set)
     """Actors that leave undone what they have not done of it yet."""

@@ -1,0 +1,111 @@
+"""The calls of people at seats one by one, from the button to the answer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from airhilt.messages import Message, MicrophoneAudio, SpokenTruth, SpokenWords, Transcript
+from airhilt.metrics.calls import TEXT
+from airhilt.metrics.summary import PersonCall
+from airhilt.units import SECOND_NS
+
+
+@dataclass
+class _Call:
+    way: Literal["spoken", "typed"]
+    since_ns: int
+    """Time at which the button was pressed, or the words came."""
+    told_ns: int
+    """Time at which the run was told."""
+    text: str | None = None
+    """Words that were typed."""
+    said: SpokenTruth | None = None
+    """The call on the air; None if it was not there, or has not ended."""
+    transcript: Transcript | None = None
+    answer: SpokenTruth | None = None
+
+
+class PersonCalls:
+    """Follows the calls of the people at one seat.
+
+    Parameters
+    ----------
+    seat
+        Unit or callsign.
+    """
+
+    def __init__(self, seat: str) -> None:
+        self._seat = seat
+        self._calls: list[_Call] = []
+
+    def type(self, words: SpokenWords) -> None:
+        """Take in that a person has typed a call."""
+        self._calls.append(_Call("typed", words.t_ns, words.t_ns, words.text))
+
+    def press(self, audio: MicrophoneAudio) -> None:
+        """Take in that a person has pressed the button to speak."""
+        pressed_ns = audio.t_ns - round(audio.delay_s * SECOND_NS)
+        self._calls.append(_Call("spoken", pressed_ns, audio.t_ns))
+
+    def take(self, message: Message) -> None:
+        """Receive a published message, which may be about one of the calls."""
+        match message:
+            case SpokenTruth(speaker=speaker) if speaker == self._seat:
+                if (call := self._begun_by(message)) is not None:
+                    call.said = message
+            case SpokenTruth(in_reply_to=str(name)):
+                if (call := self._on_air(name)) is not None and call.answer is None:
+                    call.answer = message
+            case Transcript(id=name, engine=engine) if engine != TEXT:
+                if (call := self._on_air(name)) is not None and call.transcript is None:
+                    call.transcript = message
+
+    def rows(self) -> list[PersonCall]:
+        """Return what is known of each call, in the order in which they were begun."""
+        return [_row(call) for call in sorted(self._calls, key=lambda call: call.since_ns)]
+
+    def _begun_by(self, said: SpokenTruth) -> _Call | None:
+        """Return the call that a transmission of the seat is, None if no person made it."""
+        begun = [
+            call
+            for call in self._calls
+            if call.said is None
+            and (call.way == "spoken") is said.is_from_microphone
+            and call.told_ns <= said.t_tx_ns
+        ]
+        if said.is_from_microphone:
+            return begun[-1] if begun else None  # A press before it did not come on the air.
+        return next((call for call in begun if call.text == said.text), None)
+
+    def _on_air(self, name: str) -> _Call | None:
+        """Return the call that was on the air as a transmission."""
+        return next((call for call in self._calls if call.said and call.said.id == name), None)
+
+
+def _row(call: _Call) -> PersonCall:
+    said, transcript, answer = call.said, call.transcript, call.answer
+    return PersonCall(
+        way=call.way,
+        t_s=call.since_ns / SECOND_NS,
+        said=call.text,
+        recognised=None if transcript is None else transcript.text,
+        confidence=None if transcript is None else transcript.confidence,
+        answer=None if answer is None else answer.text,
+        **({} if said is None else _of_transmission(call.since_ns, said)),
+        answered_after_s=(
+            None if said is None or answer is None else (answer.t_tx_ns - said.t_end_ns) / SECOND_NS
+        ),
+    )
+
+
+def _of_transmission(since_ns: int, said: SpokenTruth) -> dict[str, str | int | float | bool]:
+    """Return the fields of a row that are known once a call was on the air."""
+    return {
+        "call": said.id,
+        "frequency_khz": said.frequency_khz,
+        "t_tx_s": said.t_tx_ns / SECOND_NS,
+        "to_air_s": (said.t_tx_ns - since_ns) / SECOND_NS,
+        "length_s": (said.t_end_ns - said.t_tx_ns) / SECOND_NS,
+        "blocked": bool(said.blocked_by),
+    }
