@@ -957,6 +957,28 @@ class MicrophoneAudio(Message):
         return pcm
 
 
+class SeatListening(Message):
+    """``listening/<seat>``: the frequencies that the person at a seat listens to, from now on.
+
+    Who has just taken a seat listens to all of its frequencies.
+    """
+
+    limit = Limit(size_bytes=1_000, rate_hz=5)
+    frequencies_khz: tuple[Annotated[int, Field(ge=118_000, le=137_000)], ...] = Field(
+        max_length=20, description="empty: to none"
+    )
+
+
+class VoiceConsent(Message):
+    """``consent/<seat>``: answer of the person at a seat who was told what becomes of the voice.
+
+    `SeatInfo` says if the voice is recorded, and so do the options of the run.
+    """
+
+    limit = Limit(size_bytes=500, rate_hz=5)
+    is_given: bool = Field(description="false: the microphone stays closed")
+
+
 class AdvisoryPerceived(Message):
     """``perceived/<seat>``: an advisory reached the person at a seat, as the page of the seat says.
 
@@ -1407,7 +1429,8 @@ class StepReply(Part):
 SEAT_AUDIO = "seat/*/audio"
 """Keys of the sound that the receiver of one seat gets: nobody else hears it."""
 SEAT_KEYS = (
-    "task", "offer", "speech", "microphone", "perceived", "question", "workload", "notice",
+    "task", "offer", "speech", "microphone", "listening", "consent", "perceived", "question",
+    "workload", "notice",
 )  # fmt: skip
 """First parts of the keys between a run and the people at its seats: they have the words of the
 script before they are said, and exactly what people say and do."""
@@ -1440,6 +1463,8 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "command/{actor}": ActorCommand,
     "speech/{seat}": SpokenWords,
     "microphone/{seat}": MicrophoneAudio,
+    "listening/{seat}": SeatListening,
+    "consent/{seat}": VoiceConsent,
     "perceived/{seat}": AdvisoryPerceived,
     "pace": PaceCommand,
     "page": PageRefusal,

@@ -30,6 +30,8 @@ PUBLISHED: Mapping[Role, tuple[str, ...]] = {
         "command/*",
         "speech/*",
         "microphone/*",
+        "listening/*",
+        "consent/*",
         "perceived/*",
         "pace",
         "workload/*",

@@ -30,9 +30,11 @@ from airhilt.messages import (
     PaceCommand,
     PageRefusal,
     PartialTranscript,
+    SeatListening,
     SeatPresence,
     SpokenWords,
     Transcript,
+    VoiceConsent,
     WorkloadAnswer,
 )
 from airhilt.sensors.radio.conversation import FromSeat
@@ -50,6 +52,8 @@ HEARD: Mapping[str, type[Message]] = {
     "command/*": ActorCommand,
     "speech/*": SpokenWords,
     "microphone/*": MicrophoneAudio,
+    "listening/*": SeatListening,
+    "consent/*": VoiceConsent,
     "perceived/*": AdvisoryPerceived,
     "pace": PaceCommand,
     PAGE: PageRefusal,
@@ -57,7 +61,10 @@ HEARD: Mapping[str, type[Message]] = {
     "tts/*": AdvisoryAudio,
 }
 """Messages of the keys that are heard; those on the last are refused, for a voice needs grants."""
-AT_SEATS = (SpokenWords, MicrophoneAudio, AdvisoryPerceived, SeatPresence, WorkloadAnswer)
+AT_SEATS = (
+    SpokenWords, MicrophoneAudio, SeatListening, VoiceConsent, AdvisoryPerceived, SeatPresence,
+    WorkloadAnswer,
+)  # fmt: skip
 """Messages of people at seats."""
 ANSWERS = "worker/*/step"
 """Keys on which programs answer that were not asked."""
@@ -98,6 +105,10 @@ class ExternalPrograms:
         Seats that fly and drive nothing, as parts of keys.
     keeps_voices
         False leaves the voices of people out of the log.
+    listen
+        Takes to which frequencies the person at a seat, a part of keys, listens.
+    consent
+        Takes whether the person at a seat agrees to the use of the voice.
     occupy
         Called with a seat, as a part of keys, and true if a person has taken it, false if left.
     set_pace
@@ -127,6 +138,8 @@ class ExternalPrograms:
         seats: Collection[str],
         units: Collection[str],
         keeps_voices: bool,
+        listen: Callable[[str, SeatListening], None],
+        consent: Callable[[str, VoiceConsent], None],
         occupy: Callable[[str, bool], None],
         set_pace: Callable[[float], None],
         may_pause: bool,
@@ -149,6 +162,8 @@ class ExternalPrograms:
         self._seats = frozenset(seats)
         self._units = units
         self._keeps_voices = keeps_voices
+        self._listen = listen
+        self._consent = consent
         self._occupy = occupy
         self._set_pace = set_pace
         self._may_pause = may_pause
@@ -240,6 +255,10 @@ class ExternalPrograms:
             self._obey(key.split("/")[1], stamped.command)
         elif isinstance(stamped, FromSeat):
             self._take_from_seat(key.split("/")[1], stamped)
+        elif isinstance(stamped, SeatListening):
+            self._listen(key.split("/")[1], stamped)
+        elif isinstance(stamped, VoiceConsent):
+            self._consent(key.split("/")[1], stamped)
         elif isinstance(stamped, SeatPresence):
             self._occupy(key.split("/")[1], stamped.is_taken)
         elif isinstance(stamped, PaceCommand):

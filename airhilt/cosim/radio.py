@@ -76,6 +76,10 @@ class RunRadio:
         """Take what the person at a seat says, typed or spoken."""
         self._conversation.take_from_seat(seat, message)
 
+    def listen(self, seat: str, frequencies_khz: Collection[int]) -> bool:
+        """Take in what the person at a seat listens to; return true if it is something else."""
+        return self._conversation.listen(seat, frequencies_khz)
+
     def occupy(self, seat: str, is_taken: bool) -> None:
         """Take in that a person has taken a seat or left it."""
         self._conversation.occupy(seat, is_taken=is_taken)

@@ -39,7 +39,14 @@ from airhilt.cosim.setup import Setup, set_up
 from airhilt.cosim.workload_questions import WorkloadQuestions
 from airhilt.cosim.world_loop import WorldLoop
 from airhilt.errors import AirhiltError
-from airhilt.messages import Clock, Phase, Severity, WorkerDescription
+from airhilt.messages import (
+    Clock,
+    Phase,
+    SeatListening,
+    Severity,
+    VoiceConsent,
+    WorkerDescription,
+)
 from airhilt.metrics.collector import Collector
 from airhilt.metrics.plans import Plans
 from airhilt.metrics.summary import Summary
@@ -292,6 +299,8 @@ class Simulation:
             seats=[key_chunk(name) for name in self._setup.seats],
             units=[key_chunk(name) for name in self._setup.seats if name not in self._setup.actors],
             keeps_voices=self._setup.options.voice_recording,
+            listen=self._listen,
+            consent=self._take_consent,
             occupy=self._occupy,
             set_pace=self._set_pace,
             may_pause=self._setup.options.pause,
@@ -315,9 +324,30 @@ class Simulation:
             take=self._programs.take,
         )
 
+    def _seat_name(self, seat: str) -> str:
+        """Return the unit or callsign of a seat, which is named as a part of keys."""
+        return next(name for name in self._setup.seats if key_chunk(name) == seat)
+
+    def _listen(self, seat: str, told: SeatListening) -> None:
+        """Take in to which frequencies the person at a seat listens."""
+        if self._radio.listen(seat, told.frequencies_khz):
+            listed = [f"{khz / 1000:.3f} MHz" for khz in sorted(told.frequencies_khz)]
+            text = f"listens to {' and '.join(listed) or 'no frequency'}"
+            self._event("seat", self._seat_name(seat), text)
+
+    def _take_consent(self, seat: str, told: VoiceConsent) -> None:
+        """Take in whether the person at a seat agrees to the use of the voice."""
+        kept = "is" if self._setup.options.voice_recording else "is not"
+        text = (
+            f"agrees to speak; the voice {kept} recorded"
+            if told.is_given
+            else "keeps the microphone closed"
+        )
+        self._event("seat", self._seat_name(seat), text)
+
     def _occupy(self, seat: str, is_taken: bool) -> None:
         """Take in that a person has taken a seat, a part of keys, or has left it."""
-        name = next(name for name in self._setup.seats if key_chunk(name) == seat)
+        name = self._seat_name(seat)
         self._event(
             "seat", name, "a person has it" if is_taken else "nobody is there: its script goes on"
         )

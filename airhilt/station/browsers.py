@@ -16,7 +16,7 @@ from fastapi import WebSocket, WebSocketDisconnect
 from pydantic import ValidationError
 
 from airhilt.errors import first_problem
-from airhilt.messages import MicrophoneAudio, PaceCommand
+from airhilt.messages import MicrophoneAudio, PaceCommand, SeatListening, VoiceConsent
 from airhilt.station.audiences import Audience, SeatViews
 from airhilt.station.changes import MOST_AT_ONCE, Changes, SeatChanges
 from airhilt.station.held_button import HeldButton, what_is_wrong_with
@@ -119,6 +119,8 @@ class Browsers:
         self._run = run
         self._known: dict[str, bool | None] = dict.fromkeys(seats, False)
         """By seat, True if the run knows that it is taken; None: it is to be told in any case."""
+        self._listened: dict[str, frozenset[int]] = {}
+        """Frequencies in kHz by seat, as the run was told that its person listens to them."""
         self._informing = asyncio.Lock()
         """Held while the run is told who has a seat."""
         self._taking = {seat: asyncio.Lock() for seat in seats}
@@ -249,7 +251,9 @@ class Browsers:
         elif wish.answer is not None:
             await asyncio.to_thread(self._run.answer, seat, wish.answer)
         elif wish.tune is not None:
-            self._tune(browser, frozenset(wish.tune))
+            await self._tune(browser, seat, frozenset(wish.tune))
+        elif wish.consent is not None:
+            await asyncio.to_thread(self._run.consent, seat, VoiceConsent(is_given=wish.consent))
         elif wish.pace is not None:
             await self._set_pace(browser, seat, wish.pace)
 
@@ -272,12 +276,17 @@ class Browsers:
         browser.watched = camera if is_shown else None
         await self._watch()
 
-    def _tune(self, browser: _Browser, frequencies_khz: frozenset[int]) -> None:
-        view = self._views.of(self._book.of(browser))
+    async def _tune(self, browser: _Browser, seat: str, frequencies_khz: frozenset[int]) -> None:
+        """Let a browser hear frequencies of its seat; the run is told of others than before."""
+        view = self._views.of(seat)
         own = frozenset() if view is None else view.frequencies_khz
         if frequencies_khz - own:
             self._refuse(browser, "You listen to a frequency that your seat does not have.")
         browser.tuned = frequencies_khz & own
+        if self._listened.get(seat) != browser.tuned:
+            self._listened[seat] = browser.tuned
+            listening = SeatListening(frequencies_khz=tuple(sorted(browser.tuned)))
+            await asyncio.to_thread(self._run.listen, seat, listening)
 
     def _refuse(self, browser: _Browser, why: str) -> None:
         browser.tell("refused", why)
@@ -376,6 +385,8 @@ class Browsers:
         async with self._informing:
             while (seat := self._untold()) is not None:
                 is_taken = not self._book.is_free(seat)
+                if not is_taken:
+                    self._listened.pop(seat, None)
                 await asyncio.to_thread(self._run.occupy, seat, is_taken=is_taken)
                 self._known[seat] = is_taken
 

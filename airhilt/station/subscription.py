@@ -27,8 +27,10 @@ from airhilt.messages import (
     MicrophoneAudio,
     PaceCommand,
     PageRefusal,
+    SeatListening,
     SpokenWords,
     Transmission,
+    VoiceConsent,
     WorkloadAnswer,
     bus_message,
     worker_output,
@@ -194,6 +196,15 @@ class Subscription:
     def speak(self, seat: str, audio: MicrophoneAudio) -> None:
         """Press, feed or release the microphone of a seat."""
         self._session.put(f"{self._prefix}/microphone/{key_chunk(seat)}", audio.model_dump_json())
+
+    def listen(self, seat: str, listening: SeatListening) -> None:
+        """Tell to which frequencies the person at a seat listens."""
+        key = f"{self._prefix}/listening/{key_chunk(seat)}"
+        self._session.put(key, listening.model_dump_json())
+
+    def consent(self, seat: str, consent: VoiceConsent) -> None:
+        """Tell whether the person at a seat agrees to the use of the voice."""
+        self._session.put(f"{self._prefix}/consent/{key_chunk(seat)}", consent.model_dump_json())
 
     def perceive(self, seat: str, perceived: AdvisoryPerceived) -> None:
         """Tell that an advisory has reached the person at a seat."""

@@ -11,7 +11,9 @@ from airhilt.messages import (
     AdvisoryPerceived,
     MicrophoneAudio,
     PaceCommand,
+    SeatListening,
     SpokenWords,
+    VoiceConsent,
     WorkloadAnswer,
 )
 
@@ -46,6 +48,9 @@ class Wish(BaseModel):
         default=None, description="the transmit button is held: sound follows in binary messages"
     )
     release: bool | None = Field(default=None, description="the transmit button is held no more")
+    consent: bool | None = Field(
+        default=None, description="the person agrees to the use of the voice, or does not"
+    )
     perceived: AdvisoryPerceived | None = Field(
         default=None, description="an advisory to the own seat was drawn or is audible"
     )
@@ -86,6 +91,12 @@ class RunLink(Protocol):
 
     def speak(self, seat: str, audio: MicrophoneAudio) -> None:
         """Press, feed or release the microphone of a seat."""
+
+    def listen(self, seat: str, listening: SeatListening) -> None:
+        """Tell to which frequencies the person at a seat listens."""
+
+    def consent(self, seat: str, consent: VoiceConsent) -> None:
+        """Tell whether the person at a seat agrees to the use of the voice."""
 
     def perceive(self, seat: str, perceived: AdvisoryPerceived) -> None:
         """Tell that an advisory has reached the person at a seat."""

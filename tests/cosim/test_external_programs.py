@@ -38,6 +38,8 @@ def programs(
         obey=lambda *_: None,
         take_from_seat=lambda *_: None,
         keeps_voices=True,
+        listen=lambda *_: None,
+        consent=lambda *_: None,
         occupy=lambda *_: None,
         set_pace=lambda _: None,
         may_pause=True,

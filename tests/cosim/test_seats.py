@@ -214,6 +214,65 @@ def test_a_crew_flies_again_by_itself_once_its_person_has_left(tmp_path: Path) -
     assert "AAL123" in [call["speaker"] for call in calls(log)]
 
 
+def listening(t_s: float, *frequencies_khz: int) -> UnregisteredMessage:
+    return message("listening/OPS1", t_s, frequencies_khz=frequencies_khz)
+
+
+def test_what_a_person_listens_to_and_agrees_to_is_in_the_log_and_replays(tmp_path: Path) -> None:
+    """The page tells that all is heard when the seat is taken: that is no event."""
+    given = [
+        taken("OPS1"), listening(1.1, 119_100), listening(5.0), listening(8.0, 119_100),
+        message("consent/OPS1", 9.0, is_given=False), message("consent/OPS1", 10.0, is_given=True),
+    ]  # fmt: skip
+    log = logged(tower(12.0), tmp_path / "run", ["OPS1"], given)
+    events = [one["text"] for one in contents(log, "truth/event") if one["kind"] == "seat"]
+    assert events == [
+        "a person has it", "listens to no frequency", "listens to 119.100 MHz",
+        "keeps the microphone closed", "agrees to speak; the voice is recorded",
+    ]  # fmt: skip
+    heard = [one["frequencies_khz"] for one in contents(log, "listening/OPS1")]
+    assert heard == [[119_100], [], [119_100]]
+    verdict = replay(tmp_path / "run")
+    assert verdict.identical, str(verdict)
+
+
+@pytest.mark.parametrize("is_on_again", [False, True])
+def test_who_has_switched_the_receiver_off_gets_no_call(tmp_path: Path, is_on_again: bool) -> None:
+    """The tower sends OPS1 to the runway at 30 s, and says it again while nobody answers."""
+    given = [taken("OPS1"), listening(2.0)]
+    given += [listening(36.0, 119_100)] if is_on_again else []
+    log = logged(tower(70.0), tmp_path / "run", ["OPS1"], given)
+    outcomes = [one["outcome"] for one in contents(log, "truth/hearing/OPS1")]
+    assert outcomes[0] == "missed"
+    assert ("understood" in outcomes) is is_on_again
+    assert bool(contents(log, "offer/OPS1")) is is_on_again
+
+
+def test_who_takes_the_seat_after_somebody_hears_all_frequencies(tmp_path: Path) -> None:
+    given = [
+        taken("OPS1"), listening(2.0), message("seat/OPS1", 3.0, is_taken=False),
+        message("seat/OPS1", 4.0, is_taken=True),
+    ]  # fmt: skip
+    log = logged(tower(45.0), tmp_path / "run", ["OPS1"], given)
+    assert contents(log, "offer/OPS1")
+
+
+@pytest.mark.parametrize(
+    "told",
+    [
+        message("listening/OPS2", 2.0, frequencies_khz=()),
+        message("consent/OPS2", 2.0, is_given=True),
+    ],
+    ids=["listening", "consent"],
+)
+def test_settings_of_a_seat_that_is_not_left_to_a_person_are_refused(
+    tmp_path: Path, told: UnregisteredMessage
+) -> None:
+    log = logged(tower(4.0), tmp_path / "run", ["OPS1"], [told])
+    refused = [one for one in contents(log, "truth/event") if one["kind"] == "refused"]
+    assert "no seat of this run" in refused[0]["text"]
+
+
 def test_an_aircraft_that_was_not_told_to_land_goes_around_and_says_so(tmp_path: Path) -> None:
     log = logged(tower(110.0), tmp_path / "run", ["AAL123"], [taken("AAL123")])
     (told,) = [one["text"] for one in contents(log, "notice/AAL123")]

@@ -19,8 +19,10 @@ from airhilt.messages import (
     AdvisoryAudio,
     Evidence,
     NasaTlx,
+    SeatListening,
     Severity,
     SpokenWords,
+    VoiceConsent,
 )
 from airhilt.record import Logged
 from airhilt.station import browsers, seat_book
@@ -28,6 +30,7 @@ from airhilt.station.audiences import EVERYBODY
 from airhilt.station.live import LiveRun
 from airhilt.station.page_files import page_version
 from airhilt.station.subscription import Sound
+from devtools import Page
 from microphone import (
     BUTTON,
     microphone_file,
@@ -92,6 +95,42 @@ def test_a_person_hears_only_the_frequencies_of_the_seat_that_are_listened_to(
             ["opened", {"id": "call 119100", "frequency_khz": 119_100}]
         ]
         wait_for_seat(run)
+
+
+def test_the_run_is_told_what_is_listened_to_when_it_changes() -> None:
+    """A page tells it anew after each loss of the connection."""
+    with seat_page() as (run, url):
+        for tuned in ("[119100] [119100] [] [119100]", "[119100]"):
+            with opened(url) as socket:
+                socket.send(json.dumps({"take": "TOWER"}))
+                for frequencies in tuned.split():
+                    socket.send(f'{{"tune": {frequencies}}}')
+                socket.send(json.dumps({"echo": 1.0}))
+                next_of(socket, "echo")
+                socket.send(json.dumps({"leave": "TOWER"}))
+                while run.presence.get(timeout=PATIENCE_S)[1]:
+                    pass
+        heard = [run.settings.get(timeout=PATIENCE_S) for _ in range(4)]
+        assert [one.frequencies_khz for one in heard if isinstance(one, SeatListening)] == [
+            (119_100,), (), (119_100,), (119_100,),
+        ]  # fmt: skip
+        assert run.settings.empty()
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize(("button", "is_given"), [("consent-open", True), ("consent-type", False)])
+def test_the_run_is_told_if_the_person_agrees_to_the_use_of_the_voice(
+    page: Page, seat: tuple[PretendedRun, str], button: str, is_given: bool
+) -> None:
+    run, url = seat
+    sit_down(page, url)
+    page.click("talk-button")
+    page.wait_for("document.getElementById('consent').open")
+    page.click(button)
+    while not isinstance(told := run.settings.get(timeout=PATIENCE_S), VoiceConsent):
+        assert isinstance(told, SeatListening)
+    assert told.is_given is is_given
+    page.open("about:blank")
 
 
 def test_a_page_of_another_version_is_refused_in_words_and_told(

@@ -29,8 +29,10 @@ from airhilt.messages import (
     MicrophoneAudio,
     PaceCommand,
     SeatInfo,
+    SeatListening,
     Severity,
     SpokenWords,
+    VoiceConsent,
     WorkloadAnswer,
 )
 from airhilt.station.address import Address
@@ -181,6 +183,8 @@ class PretendedRun:
 
     def __init__(self, seats: Sequence[SeatInfo] = (TOWER,)) -> None:
         self.done: queue.Queue[Message | Command] = queue.Queue()
+        self.settings: queue.Queue[SeatListening | VoiceConsent] = queue.Queue()
+        """Settings of the radio of a seat, and answers about the voice."""
         self.presence: queue.Queue[tuple[str, bool]] = queue.Queue()
         self.changes, self.sounds = Changes(), Changes()
         self.of_seats = {info.seat: SeatChanges() for info in seats}
@@ -211,6 +215,14 @@ class PretendedRun:
     def speak(self, seat: str, audio: MicrophoneAudio) -> None:
         """Note what a microphone does."""
         self.done.put(audio)
+
+    def listen(self, seat: str, listening: SeatListening) -> None:
+        """Note what is listened to, apart from what is done."""
+        self.settings.put(listening)
+
+    def consent(self, seat: str, consent: VoiceConsent) -> None:
+        """Note an answer about the voice, apart from what is done."""
+        self.settings.put(consent)
 
     def perceive(self, seat: str, perceived: AdvisoryPerceived) -> None:
         """Note that an advisory was perceived."""

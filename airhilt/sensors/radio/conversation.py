@@ -166,6 +166,7 @@ class RadioConversation:
             hearing,
             reaches=self._transmissions.reaches,
             has_person=self._seats.has_person,
+            listens=self._seats.listens,
             publish=self._publish,
             understood=self._understood,
             overheard=self._overheard,
@@ -244,6 +245,16 @@ class RadioConversation:
         else:
             frequency_khz = self._seats.frequency_khz(speaker, message.frequency_khz)
             self._microphones.take(speaker, frequency_khz, message)
+
+    def listen(self, seat: str, frequencies_khz: Collection[int]) -> bool:
+        """Take in what the person at a seat listens to; return true if it is something else.
+
+        Parameters
+        ----------
+        seat
+            Name of the seat as a part of keys.
+        """
+        return self._seats.listen(self._seats.speaker(seat), frequencies_khz)
 
     def occupy(self, seat: str, *, is_taken: bool) -> None:
         """Take in that a person has taken a seat or left it; its script goes on without one.

@@ -47,6 +47,8 @@ class Listeners:
     has_person
         Returns whether a person listens for an actor or a unit. No mistake is drawn for people: a
         call that reaches them counts as heard.
+    listens
+        Returns whether somebody listens to a frequency; people switch their receivers off.
     understood
         Called when a recipient of a call has heard or read it, or has failed to.
     overheard
@@ -62,6 +64,7 @@ class Listeners:
         *,
         reaches: Callable[[OnAir, str], bool],
         has_person: Callable[[str], bool],
+        listens: Callable[[str, int], bool],
         publish: Publish,
         understood: Understood,
         overheard: Understood,
@@ -73,6 +76,7 @@ class Listeners:
         self._hearing = hearing
         self._reaches = reaches
         self._has_person = has_person
+        self._listens = listens
         self._publish = publish
         self._understood = understood
         self._overheard = overheard
@@ -89,7 +93,7 @@ class Listeners:
 
     def _hear(self, call: RadioCall, on_air: OnAir, listener: str) -> None:
         said = on_air.utterance
-        if listener in call.deaf or not self._reaches(on_air, listener):
+        if not self._gets(call, on_air, listener):
             self._understand(call, said, listener, NOTHING, "")
             return
         if self._has_person(listener):
@@ -107,6 +111,14 @@ class Listeners:
             case "missed":
                 understanding = NOTHING
         self._understand(call, said, listener, understanding, heard.text)
+
+    def _gets(self, call: RadioCall, on_air: OnAir, listener: str) -> bool:
+        """Return whether a call comes to a recipient, who then may hear it well or not."""
+        return (
+            listener not in call.deaf
+            and self._reaches(on_air, listener)
+            and self._listens(listener, on_air.utterance.frequency_khz)
+        )
 
     # --- by transcript ----------------------------------------------------------------------
 
@@ -188,7 +200,7 @@ class Listeners:
     ) -> None:
         """Let the recipients of a call that a person spoke take it as it was recognised."""
         for listener in call.recipients():
-            is_heard = listener not in call.deaf and self._reaches(on_air, listener)
+            is_heard = self._gets(call, on_air, listener)
             understanding = (AS_SAID if is_clear else UNCLEAR) if is_heard else NOTHING
             text = said.text if is_heard else ""
             self._understand(call, said, listener, understanding, text, source="transcript")

@@ -50,6 +50,8 @@ class Seats:
         self._now_ns = now_ns
         self._left: set[str] = set()
         """Seats whose person has left them."""
+        self._listening: dict[str, frozenset[int]] = {}
+        """Frequencies in kHz by seat, as its person has chosen them."""
         self._due: list[RadioCall] = []
         """Calls of the script that wait for their person."""
         self._count = 0
@@ -62,6 +64,16 @@ class Seats:
         """
         return name in self.names and name not in self._left
 
+    def listen(self, name: str, frequencies_khz: Collection[int]) -> bool:
+        """Note what the person at a seat listens to; return true if it is something else."""
+        before = self._listening.get(name, frozenset(self._stations.selectable(name)))
+        self._listening[name] = frozenset(frequencies_khz)
+        return self._listening[name] != before
+
+    def listens(self, name: str, frequency_khz: int) -> bool:
+        """Return whether somebody listens to a frequency; who has no person does."""
+        return frequency_khz in self._listening.get(name, {frequency_khz})
+
     def occupy(self, speaker: str, *, is_taken: bool) -> list[RadioCall]:
         """Note that a person has taken a seat or left it; return the calls that the script makes.
 
@@ -71,6 +83,7 @@ class Seats:
             self._left.discard(speaker)
             return []
         self._left.add(speaker)
+        self._listening.pop(speaker, None)
         self.notify(speaker, f"Nobody is at the seat: the script of {speaker} goes on by itself.")
         waiting = [call for call in self._due if call.speaker == speaker and not call.times_said]
         for call in waiting:

@@ -54,10 +54,12 @@ export class Microphone {
     new GamepadButton((event, isDown) => this.#use(event, isDown));
     byId("consent-open").addEventListener("click", () => {
       byId("consent").close();
+      this.#link.send({ consent: true });
       this.#open();
     });
     byId("consent-type").addEventListener("click", () => {
       byId("consent").close();
+      this.#link.send({ consent: false });
       this.#tell("The microphone is closed.");
     });
     this.#draw();
