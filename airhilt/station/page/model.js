@@ -2,6 +2,7 @@
 // events.
 
 import { keepNewest } from "./bounds.js";
+import { personMoments } from "./person.js";
 import { RadarPlots } from "./radar_plots.js";
 import { at, before } from "./series.js";
 import { instruction, known, words } from "./words.js";
@@ -449,6 +450,8 @@ const TOLD = [
   "cameras_lost",
   "command",
   "refused",
+  "seat",
+  "pace",
   "finished",
   "stopped",
 ];
@@ -468,8 +471,9 @@ function momentsOf(run) {
       severity: event.severity,
       text: textOf(event),
     }));
-  const seen = new Set(),
-    all = [...calls, ...others].sort((a, b) => a.t - b.t);
+  const people = personMoments(run.summary?.people),
+    seen = new Set(),
+    all = [...calls, ...others, ...people].sort((a, b) => a.t - b.t);
   return all.filter((one) => {
     const key = `${one.t.toFixed(1)} ${one.text}`;
     return !seen.has(key) && seen.add(key);
