@@ -214,6 +214,14 @@ def test_a_crew_flies_again_by_itself_once_its_person_has_left(tmp_path: Path) -
     assert "AAL123" in [call["speaker"] for call in calls(log)]
 
 
+@pytest.mark.parametrize("words", ["Say again, American one two three", "American one two three"])
+def test_who_asks_for_the_last_call_again_gets_it(tmp_path: Path, words: str) -> None:
+    log = logged(tower(25.0), tmp_path / "run", ["AAL123"], [said("AAL123", 12.0, words)])
+    by_tower = [call["id"] for call in calls(log) if call["speaker"] == "Washington Tower"]
+    again = ["landing.repeat-1"] if words.startswith("Say again") else []
+    assert by_tower == ["landing", *again]
+
+
 def listening(t_s: float, *frequencies_khz: int) -> UnregisteredMessage:
     return message("listening/OPS1", t_s, frequencies_khz=frequencies_khz)
 

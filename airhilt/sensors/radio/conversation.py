@@ -121,7 +121,7 @@ class RadioConversation:
         """Calls that were made, by the ids of their transmissions."""
         self._times_pressed = 0
         self._is_paused = False
-        self._seats = Seats(seats, stations, self._calls, publish, lambda: director.now_ns)
+        self._seats = Seats(seats, stations, self._said, publish, lambda: director.now_ns)
         self._offers = Offers(publish, lambda: director.now_ns)
         self._microphones = Microphones(director, self.press, self._seats.notify)
         self._script = RadioScript(director, lines, once, failed, self._due)

@@ -25,8 +25,8 @@ class Seats:
 
     Parameters
     ----------
-    calls
-        Calls of the script, by id.
+    said
+        Calls by the ids of their transmissions, in the order in which they were made.
 
     Attributes
     ----------
@@ -38,14 +38,14 @@ class Seats:
         self,
         names: Collection[str],
         stations: Stations,
-        calls: Mapping[str, RadioCall],
+        said: Mapping[str, RadioCall],
         publish: Publish,
         now_ns: Callable[[], int],
     ) -> None:
         self.names = frozenset(names)
         self._by_chunk = {key_chunk(name): name for name in names}
         self._stations = stations
-        self._calls = calls
+        self._said = said
         self._publish = publish
         self._now_ns = now_ns
         self._left: set[str] = set()
@@ -159,11 +159,22 @@ class Seats:
         elif call.addressed is None:
             self._finish(call)
         call.is_of_person = True
+        if meant.kind == "say_again":
+            call.asks_for = self._last_to(speaker, frequency_khz)
         call.commands = self._commands(call, meant)
         call.text = text
         if not call.commands and any(one.is_conditional for one in meant.instructions):
             self._tell_of_condition(call)
         return call
+
+    def _last_to(self, name: str, frequency_khz: int) -> RadioCall | None:
+        """Return the last call to somebody on a frequency that no person made."""
+        calls = [
+            call
+            for call in self._said.values()
+            if (call.addressed, call.frequency_khz) == (name, frequency_khz)
+        ]
+        return calls[-1] if calls and not calls[-1].is_of_person else None
 
     def _tell_of_condition(self, call: RadioCall) -> None:
         """Tell the person at a unit that a conditional clearance alone makes nobody move."""
