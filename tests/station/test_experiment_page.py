@@ -39,6 +39,7 @@ ANSWER_ALL = """
         input.click();
     }
 """
+NOTES = "document.getElementById('notes').textContent"
 SUBMIT = "document.getElementById('questions').requestSubmit()"
 
 
@@ -59,7 +60,7 @@ def test_a_participant_answers_the_questions_of_the_plan(
             assert page.evaluate(LOW_CONTRAST) == []
         page.evaluate("document.querySelector('[name=licence][value=private]').click()")
         page.evaluate(SUBMIT)
-        assert page.evaluate("document.getElementById('notes').textContent").endswith(": Rest")
+        assert page.evaluate(NOTES) == "Please answer these as well: “Rest”."
         page.evaluate("document.querySelector('[name=rested][value=\"4\"]').click()")
         page.evaluate(SUBMIT)
         heading(page, "Trial 1 of 1")
@@ -70,9 +71,7 @@ def test_a_participant_answers_the_questions_of_the_plan(
         page.evaluate(SUBMIT)
         page.wait_for("document.querySelectorAll('#items input').length === 1")
         page.evaluate(SUBMIT)
-        assert "How much did you trust it?" in page.evaluate(
-            "document.getElementById('notes').textContent"
-        )
+        assert "How much did you trust it?" in page.evaluate(NOTES)
         page.evaluate(ANSWER_ALL)
         page.evaluate(SUBMIT)
         heading(page, "Questions at the end")
@@ -84,6 +83,53 @@ def test_a_participant_answers_the_questions_of_the_plan(
     assert {"licence": "private", "rested": 4} in kept
     assert {"trust": 50} in kept
     assert {"again": "yes"} in kept
+
+
+CRAMPED = """(() => {
+    const pane = document.querySelector('main').getBoundingClientRect(),
+        boxes = [...document.querySelectorAll('#items label')]
+            .map((label) => [label.textContent.trim(), label.getBoundingClientRect()]);
+    return boxes.filter(([, box], i) => box.left < pane.left || box.right > pane.right
+        || boxes.some(([, other], j) => j > i && other.left < box.right + 4
+            && box.left < other.right + 4 && other.top < box.bottom && box.top < other.bottom))
+        .map(([text]) => text);
+})()"""
+"""Script that returns the answers that touch another one, or lie outside of the page."""
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("width", [1280, 420])
+def test_no_answer_of_a_scale_touches_another_one(page: Page, tmp_path: Path, width: int) -> None:
+    scale = {
+        "type": "scale", "name": "change", "question": "How much did it change?", "steps": 11,
+        "first": -500, "interval": 100, "low": "Much less than in all that I have seen so far",
+        "high": "Much more than in all that I have seen so far",
+    }  # fmt: skip
+    (tmp_path / "plan.json").write_text(json.dumps(PLAN | {"questions": {"before": [scale]}}))
+    options = ["--participant", "P01", "--out", str(tmp_path / "out")]
+    with experimenting(tmp_path / "plan.json", *options) as url:
+        page.open(url, width=width, height=720)
+        heading(page, "Questions before the first trial")
+        assert page.evaluate("document.querySelectorAll('#items label').length") == 11
+        assert page.evaluate(CRAMPED) == []
+        page.open("about:blank")
+
+
+@pytest.mark.browser
+def test_the_page_says_which_answers_cannot_be_read(page: Page, tmp_path: Path) -> None:
+    (tmp_path / "plan.json").write_text(json.dumps(PLAN))
+    options = ["--participant", "P01", "--out", str(tmp_path / "out")]
+    with experimenting(tmp_path / "plan.json", *options) as url:
+        page.open(url)
+        heading(page, "Questions before the first trial")
+        kept = tmp_path / "out" / "P01" / "before.json"
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        kept.write_text('{"rested": 9}')
+        page.wait_for(f"{NOTES}.includes('before.json: rested: found 9')")
+        told = page.evaluate(NOTES)
+        assert told.endswith("move the file away to ask again. Please tell the experimenter.")
+        page.open("about:blank")
+    page.complaints.clear()  # A browser complains of each answer that is an error.
 
 
 def test_a_trial_admits_those_whom_the_page_of_the_experiment_admits(tmp_path: Path) -> None:

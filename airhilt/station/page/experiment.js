@@ -1,4 +1,4 @@
-// The page of a participant: what is to be done now, and the questions after a trial.
+// The page of a participant: what is to be done now, and the questions of the plan.
 
 import { byId, html } from "./dom.js";
 import { onThisHost } from "./neighbours.js";
@@ -18,8 +18,10 @@ async function ask(path, wish) {
           headers: { "Content-Type": "application/json" },
           body: JSON.stringify(wish),
         };
-  const answer = await fetch(path, how),
-    content = await answer.json();
+  const answer = await fetch(path, how).catch(() => {
+    throw new Error("The experiment does not answer.");
+  });
+  const content = await answer.json();
   if (!answer.ok) throw new Error(content.error ?? `the server answers ${answer.status}`);
   return content;
 }
@@ -93,7 +95,8 @@ async function act(path, wish) {
 
 function answer() {
   const { missing, answers } = questionnaire;
-  if (missing.length) note(`Please answer these as well: ${missing.join(", ")}`);
+  if (missing.length)
+    note(`Please answer these as well: ${missing.map((name) => `“${name}”`).join(", ")}.`);
   else act("api/answers", { questionnaire: questionnaire.name, answers });
 }
 
@@ -104,9 +107,9 @@ async function follow() {
       delete byId("notes").dataset.lost;
       note("");
     }
-  } catch {
+  } catch (error) {
     byId("notes").dataset.lost = "true";
-    note("The experiment does not answer. Please tell the experimenter.");
+    note(`${error.message.replace(/\.?$/, ".")} Please tell the experimenter.`);
   }
   document.body.dataset.ready = "true";
   setTimeout(follow, PERIOD_MS);

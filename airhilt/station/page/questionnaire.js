@@ -77,7 +77,7 @@ export class Questionnaire {
       html("legend", {}, ...inWords(title, question)),
       html(
         "div",
-        { class: "scale" },
+        { class: "scale stepped" },
         html("span", { class: "end" }, low),
         html("span", { class: "steps" }, ...numbers.map((n) => this.#button(name, n))),
         html("span", { class: "end" }, high),
