@@ -256,6 +256,18 @@ def test_who_has_switched_the_receiver_off_gets_no_call(tmp_path: Path, is_on_ag
     assert bool(contents(log, "offer/OPS1")) is is_on_again
 
 
+def test_who_reads_calls_gets_none_of_a_frequency_that_is_switched_off(tmp_path: Path) -> None:
+    """The tower clears AAL123 to land at 1 s, and again while nobody answers."""
+    given = [
+        message("seat/AAL123", 0.2, is_taken=True),
+        message("listening/AAL123", 0.4, frequencies_khz=()),
+        message("listening/AAL123", 10.0, frequencies_khz=[119_100]),
+    ]
+    log = logged(tower(40.0), tmp_path / "run", ["AAL123"], given, topology="asr_first")
+    outcomes = [one["outcome"] for one in contents(log, "truth/hearing/AAL123")]
+    assert outcomes == ["missed", "understood"]
+
+
 def test_who_takes_the_seat_after_somebody_hears_all_frequencies(tmp_path: Path) -> None:
     given = [
         taken("OPS1"), listening(2.0), message("seat/OPS1", 3.0, is_taken=False),

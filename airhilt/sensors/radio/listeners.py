@@ -136,7 +136,8 @@ class Listeners:
             if listener == said.speaker or not self._reads(listener):
                 continue
             may_overhear = self._radio.overhearing and not self._has_person(listener)
-            if listener in recipients and (is_blocked or listener in call.deaf):
+            is_off = not self._listens(listener, said.frequency_khz)
+            if listener in recipients and (is_blocked or is_off or listener in call.deaf):
                 self._understand(call, said, listener, NOTHING, "", source="transcript")
             elif listener in recipients:
                 read = partial(self._read, call, said, listener)
