@@ -265,7 +265,7 @@ def test_a_run_that_waits_for_its_seat_stands_at_its_start_until_somebody_has_it
     out, options = tmp_path / "run", ("--seat", "AAL123", "--wait-for-seats")
     with running(brief_file, out, *options) as (process, url):
         with listening(url) as socket:
-            while (clock := clock_of(answer(socket, "changes"))) is None:
+            while (clock := clock_of(answer(socket, "changes"))) is None or clock[2] == "waiting":
                 pass
             assert clock[1:4] == [0.0, "running", "paused"]
             assert has_seat(socket)
