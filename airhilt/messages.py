@@ -960,7 +960,7 @@ class MicrophoneAudio(Message):
 class SeatListening(Message):
     """``listening/<seat>``: the frequencies that the person at a seat listens to, from now on.
 
-    Who has just taken a seat listens to all of its frequencies.
+    A person who has just taken a seat listens to all of its frequencies.
     """
 
     limit = Limit(size_bytes=1_000, rate_hz=5)
@@ -1147,7 +1147,7 @@ class TaskCard(Message):
 class CommandOffer(Message):
     """``offer/<seat>``: a command that the person at a seat may give because of a call.
 
-    It is what the call makes an automaton do. Who gives it does so on ``command/<actor>``.
+    An automaton would carry it out because of the call. The person gives it on ``command/<actor>``.
     """
 
     seat: str

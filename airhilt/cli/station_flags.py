@@ -23,7 +23,7 @@ NEEDED = ("fastapi", "uvicorn", "websockets")
 
 @dataclass(frozen=True)
 class PageOptions:
-    """Where the page of a command is, and who may open it, as the command line says."""
+    """Options of the command line for the page of a command: its address, and who may open it."""
 
     port: int
     host: str

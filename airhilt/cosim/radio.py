@@ -77,7 +77,7 @@ class RunRadio:
         self._conversation.take_from_seat(seat, message)
 
     def listen(self, seat: str, frequencies_khz: Collection[int]) -> bool:
-        """Take in what the person at a seat listens to; return true if it is something else."""
+        """Take in what the person at a seat listens to; return true if that has changed."""
         return self._conversation.listen(seat, frequencies_khz)
 
     def occupy(self, seat: str, is_taken: bool) -> None:

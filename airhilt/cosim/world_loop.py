@@ -141,7 +141,7 @@ class WorldLoop:
     def obey(self, callsign: str, command: Command) -> bool:
         """Let an actor carry out a command, or say that it cannot; return true if it does.
 
-        Nobody else obeys.
+        Nothing happens if there is no such actor, or if it has left the run.
         """
         actor = self._actors.get(callsign)
         if actor is None or actor.body.ended is not None:

@@ -277,7 +277,7 @@ class Browsers:
         await self._watch()
 
     async def _tune(self, browser: _Browser, seat: str, frequencies_khz: frozenset[int]) -> None:
-        """Let a browser hear frequencies of its seat; the run is told of others than before."""
+        """Let a browser hear frequencies of its seat, and tell the run if they have changed."""
         view = self._views.of(seat)
         own = frozenset() if view is None else view.frequencies_khz
         if frequencies_khz - own:

@@ -106,7 +106,7 @@ class Questionnaire(NamedTuple):
     items: Sequence[Scale | Choice]
 
     def check(self, answers: Mapping[str, Answer]) -> None:
-        """Complain about answers that are not one to each item.
+        """Refuse answers unless there is one to each item.
 
         Raises
         ------

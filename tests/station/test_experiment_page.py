@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 import shutil
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 import httpx
@@ -41,6 +43,15 @@ ANSWER_ALL = """
 """
 NOTES = "document.getElementById('notes').textContent"
 SUBMIT = "document.getElementById('questions').requestSubmit()"
+
+
+@contextmanager
+def ended(folder: Path, run: str) -> Iterator[None]:
+    """Stop a run of a folder in the end, also where a test fails."""
+    try:
+        yield
+    finally:
+        StartedRuns(folder).stop(run)
 
 
 def heading(page: Page, text: str) -> None:
@@ -136,7 +147,7 @@ def test_a_trial_admits_those_whom_the_page_of_the_experiment_admits(tmp_path: P
     file, out = tmp_path / "plan.json", tmp_path / "out"
     file.write_text(json.dumps(PLAN | {"questions": {}, "options": {"speech": False}}))
     options = ["--participant", "P01", "--out", str(out), *reachable(tmp_path)]
-    with experimenting(file, *options) as shown:
+    with experimenting(file, *options) as shown, ended(out / "P01", "01-s02a_headon-1"):
         url = httpx.URL(shown).copy_with(host="127.0.0.1")
         page = url.copy_with(query=None)
         with httpx.Client(base_url=page, verify=False, trust_env=False) as client:
@@ -150,4 +161,3 @@ def test_a_trial_admits_those_whom_the_page_of_the_experiment_admits(tmp_path: P
             seat = httpx.URL(trial).copy_with(host="127.0.0.1")
             assert (seat.scheme, seat.params["token"]) == ("https", TOKEN)
             assert "AIRHILT" in client.get(seat).text
-    StartedRuns(out / "P01").stop("01-s02a_headon-1")

@@ -1,4 +1,4 @@
-"""Compliance: actors carry out the calls that they have taken, or people are offered to."""
+"""Compliance: actors carry out the calls that they have taken; people choose if they do."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ class Compliance:
             self._do_later(call, scripted)
 
     def _do_later(self, call: RadioCall, scripted: ScriptedCommand) -> None:
-        """Let an actor act in time; a person is offered that at once, and chooses the time."""
+        """Let an actor carry out a command in time; a person is offered it at once instead."""
         if self._offer(scripted.actor, call.id, scripted.command):
             return
         due_ns = self._director.now_ns + seconds_to_ns(scripted.delay_s)

@@ -247,7 +247,7 @@ class RadioConversation:
             self._microphones.take(speaker, frequency_khz, message)
 
     def listen(self, seat: str, frequencies_khz: Collection[int]) -> bool:
-        """Take in what the person at a seat listens to; return true if it is something else.
+        """Take in what the person at a seat listens to; return true if that has changed.
 
         Parameters
         ----------

@@ -15,7 +15,7 @@ MOST_OFFERS = 5
 
 
 class Offers:
-    """Offers people what a call makes an automaton do; each person decides when, and whether."""
+    """Offers people the commands that an automaton would carry out; they decide if, and when."""
 
     def __init__(self, publish: Publish, now_ns: Callable[[], int]) -> None:
         self._publish = publish
@@ -25,7 +25,7 @@ class Offers:
         self._count = 0
 
     def make(self, seat: str, call: str, command: Command) -> None:
-        """Offer the person at a seat a command of a call; the same one takes the former's place."""
+        """Offer the person at a seat a command of a call; an open offer of the same one is over."""
         self.end(seat, command)
         self._count += 1
         offer = CommandOffer(
@@ -37,12 +37,12 @@ class Offers:
             self._end(old)
 
     def end(self, seat: str, command: Command) -> None:
-        """Take a command away that the person at a seat has given, or is offered anew."""
+        """End the offer of a command that the person at a seat has given, or is offered anew."""
         for offer in [one for one in self._open[seat] if one.command == command]:
             self._end(offer)
 
     def end_all(self, seat: str) -> None:
-        """Take all away, for the person has left: nobody does later what that person was told."""
+        """End all offers of a seat: its person has left, and nobody else carries them out."""
         for offer in list(self._open[seat]):
             self._end(offer)
 

@@ -65,13 +65,13 @@ class Seats:
         return name in self.names and name not in self._left
 
     def listen(self, name: str, frequencies_khz: Collection[int]) -> bool:
-        """Note what the person at a seat listens to; return true if it is something else."""
+        """Note what the person at a seat listens to; return true if that has changed."""
         before = self._listening.get(name, frozenset(self._stations.selectable(name)))
         self._listening[name] = frozenset(frequencies_khz)
         return self._listening[name] != before
 
     def listens(self, name: str, frequency_khz: int) -> bool:
-        """Return whether somebody listens to a frequency; who has no person does."""
+        """Return whether somebody listens to a frequency; all do but people who switch it off."""
         return frequency_khz in self._listening.get(name, {frequency_khz})
 
     def occupy(self, speaker: str, *, is_taken: bool) -> list[RadioCall]:

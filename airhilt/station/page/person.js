@@ -1,4 +1,4 @@
-// What the people at the seats of a recorded run perceived, did first, and answered, on its clock.
+// Moments of a recorded run at which people at seats perceived, acted and answered.
 
 import { known, words } from "./words.js";
 
