@@ -168,7 +168,7 @@ class Seats:
         return call
 
     def _last_to(self, name: str, frequency_khz: int) -> RadioCall | None:
-        """Return the last call to somebody on a frequency that no person made."""
+        """Return the last call to somebody on a frequency; None if a person made it."""
         calls = [
             call
             for call in self._said.values()
