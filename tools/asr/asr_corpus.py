@@ -1,15 +1,16 @@
 """Made-up calls on aeronautical frequencies: texts for training and testing speech.
 
 `Talk` draws calls with all that varies in them: who, where, which numbers, in which phraseology.
-The forms are in ``asr_forms.txt``, plain English is in ``asr_english.txt``. Texts are lower-case
-words without punctuation except the apostrophe, as a transcript has them.
+The forms are in ``asr_forms.txt``, plain English is in ``asr_english.txt``, and the commonest
+English words, of which some calls have a few anywhere, are in ``asr_words.txt``. Texts are
+lower-case words without punctuation except the apostrophe, as a transcript has them.
 """
 
 from __future__ import annotations
 
 import random
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from functools import lru_cache
 from pathlib import Path
 
@@ -57,6 +58,8 @@ TURNS = (
     "sorry|no|disregard that|rather|make that|excuse me|actually"
 ).split("|")
 
+UNEXPECTED_SHARE = 0.12
+"""Share of the calls with words that no form has."""
 LONGEST = 45
 """Most words of a call before its hesitations."""
 _WEIGHT = re.compile(r"([0-9]+): ")
@@ -78,6 +81,13 @@ def forms() -> dict[str, list[str]]:
                 form = line[weight.end() :] if weight else line
                 found.setdefault(kind, []).extend([form] * (int(weight[1]) if weight else 1))
     return found
+
+
+@lru_cache(maxsize=1)
+def common_words() -> tuple[str, ...]:
+    """Return the commonest English words."""
+    lines = (HERE / "asr_words.txt").read_text(encoding="utf-8").splitlines()
+    return tuple(word for line in lines if not line.startswith("#") for word in line.split())
 
 
 class Talk:
@@ -164,7 +174,7 @@ class Talk:
         draw = self._variables.get(name)
         return draw() if draw else str(getattr(self._values, name)())
 
-    def salad(self, words: list[str]) -> str:
+    def salad(self, words: Sequence[str]) -> str:
         """Return words that make no sense together."""
         return " ".join(self._rng.choices(words, k=self._rng.randint(2, 9)))
 
@@ -178,6 +188,8 @@ class Talk:
         while len(text.split()) > LONGEST:
             text = " ".join(" ".join(self._parts(kind, who)).split())
         self.callsign_of_call = callsign if who in text else None
+        if rng.random() < UNEXPECTED_SHARE:
+            text = self._with_unexpected(text, who)
         return self._hesitating(text) if rng.random() < 0.16 else text
 
     def _parts(self, kind: float, who: str) -> list[str]:
@@ -222,6 +234,16 @@ class Talk:
 
     def _farewell(self, share: float) -> str:
         return self._rng.choice(FAREWELLS) if self._rng.random() < share else ""
+
+    def _with_unexpected(self, text: str, who: str) -> str:
+        """Return a call with one to four words more, or instead of one, but none in a callsign."""
+        rng = self._rng
+        before, name, after = text.partition(who)
+        parts = [before.split(), after.split()]
+        words = parts[rng.random() < 0.6]
+        at = rng.randrange(len(words) + 1)
+        words[at : at + (rng.random() < 0.5)] = rng.choices(common_words(), k=rng.randint(1, 4))
+        return " ".join([*parts[0], *filter(None, [name]), *parts[1]])
 
     def _hesitating(self, text: str) -> str:
         """Return a call with a filler, or with words that are said again."""

@@ -32,14 +32,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from airhilt.errors import SpeechError
-from asr_corpus import Talk
+from asr_corpus import Talk, common_words
 from synthesisers import FAMILY, synthesiser
 from synthesisers.synthesiser import CHOICES, Synthesiser, Voice, speak
 
 SHARD = 2_000
 WORDS_PER_MINUTE = (120.0, 220.0)
 """Range of the rates of calls, each drawn evenly."""
-SALAD = 0.06
+SALAD = 0.08
 """Share of calls without sense."""
 CALLS, FEW = 10_000, 3
 """Calls in which words for calls without sense are looked for, and in how many a word must be."""
@@ -78,18 +78,19 @@ def made_up(
     talk = Talk(rng, held_out=held_out_names)
     for _ in range(count):
         if rng.random() < SALAD:
-            yield {"text": talk.salad(_words()), "callsign": None}
+            words = rng.choice((_words(), common_words()))
+            yield {"text": talk.salad(words), "callsign": None}
         else:
             text = talk.call()
             yield {"text": text, "callsign": talk.callsign_of_call}
 
 
 @cache
-def _words() -> list[str]:
+def _words() -> tuple[str, ...]:
     """Return the words of the corpus without invented names, of which each is in few calls."""
     talk = Talk(random.Random(0))
     calls = Counter(word for _ in range(CALLS) for word in set(talk.call().split()))
-    return sorted(word for word, times in calls.items() if times >= FEW)
+    return tuple(sorted(word for word, times in calls.items() if times >= FEW))
 
 
 def _with_pauses(text: str, rng: random.Random) -> str:

@@ -56,7 +56,7 @@ def filters() -> NDArray[np.float32]:
 _WINDOW = np.hanning(WINDOW).astype(np.float32)
 _FILTERS = csr_array(filters())
 """Mel filters as a sparse matrix, whose product stays on one core; NumPy's would use all."""
-_WHITE = np.asarray(_FILTERS.sum(axis=1) / _FILTERS.sum(axis=1).mean(), np.float32)
+WHITE = np.asarray(_FILTERS.sum(axis=1) / _FILTERS.sum(axis=1).mean(), np.float32)
 """Power of white noise in each band, 1 in the mean."""
 
 
@@ -75,7 +75,7 @@ def mel_power(audio: Audio) -> NDArray[np.float32]:
 
 def logarithm(power: NDArray[np.float32], mean: float) -> NDArray[np.float32]:
     """Return the logarithm of mel power of a call of a mean power, with a little white noise."""
-    return np.asarray(np.log(power + FLOOR + QUIET * mean * _WHITE), np.float32)
+    return np.asarray(np.log(power + FLOOR + QUIET * mean * WHITE), np.float32)
 
 
 def is_near_speech(power: NDArray[np.float32]) -> NDArray[np.bool_]:

@@ -46,7 +46,7 @@ WINDOW_FRAMES = 3_000
 """Frames of features that the network computes at a time, half a minute.
 
 A microphone that is stuck for ten minutes takes little memory then."""
-CONTEXT_FRAMES = 960
+CONTEXT_FRAMES = 1_080
 """Frames that the network sees on both sides of a window.
 
 They are more than its convolutions and the means that weigh its channels reach."""
