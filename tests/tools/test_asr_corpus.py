@@ -15,7 +15,7 @@ from airhilt.phraseology.call import Action, Instruction
 from airhilt.phraseology.numbers import Style
 from airhilt.phraseology.say import speak_instruction
 from airhilt.phraseology.telephony import TELEPHONY
-from asr_corpus import Talk
+from asr_corpus import UNEXPECTED_SHARE, Talk, common_words
 from asr_names import Names, held_out_places, is_held_out, places
 from asr_said import Said, transcript
 from paths import ROOT
@@ -44,6 +44,32 @@ def spoken_in(value: object) -> list[str]:
 
 def test_texts_are_lower_case_words_without_punctuation() -> None:
     assert all(re.fullmatch(r"[a-z']+(?: [a-z']+)*", text) for text in texts())
+
+
+def test_some_calls_have_words_that_no_form_has() -> None:
+    common = set(common_words())
+    assert len(common) > 8_000
+    assert {"yesterday", "kitchen", "although"} <= common
+    unheard = common - {word for text in calls_without_unexpected() for word in text.split()}
+    share = sum(not unheard.isdisjoint(text.split()) for text in texts()) / len(texts())
+    assert 0.7 * UNEXPECTED_SHARE < share < 1.1 * UNEXPECTED_SHARE
+
+
+def calls_without_unexpected() -> list[str]:
+    """Return calls of the forms alone."""
+    talk = Talk(random.Random(1))
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr("asr_corpus.UNEXPECTED_SHARE", 0.0)
+        return [talk.call() for _ in range(16_000)]
+
+
+def test_unexpected_words_are_in_no_callsign() -> None:
+    talk = Talk(random.Random(2))
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr("asr_corpus.UNEXPECTED_SHARE", 1.0)
+        patched.setattr("asr_corpus.Talk._hesitating", lambda _, text: text)
+        calls = [(talk.call(), talk._who, talk.callsign_of_call) for _ in range(500)]
+    assert all(who in text for text, who, sign in calls if sign)
 
 
 def test_every_word_of_a_scenario_is_drawn() -> None:

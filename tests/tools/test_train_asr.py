@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -14,8 +15,12 @@ import onnxruntime  # noqa: E402
 
 import train_asr  # noqa: E402
 from airhilt.assistant.asr.engines.embedded import CONTEXT_FRAMES  # noqa: E402
+from airhilt.assistant.asr.features import BINS  # noqa: E402
+from batches import Batches  # noqa: E402
+from mel_shards import MelCalls  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("default")  # torch's own
+torch.set_num_threads(1)
 PIECES = ("_alfa", "_bravo", "_", "a", "b")
 
 
@@ -30,36 +35,45 @@ def trained(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def calls_of(*lengths: int) -> list[train_asr.Utterance]:
-    """Return calls of some lengths, each with a unit of its own."""
-    return [
-        train_asr.Utterance(np.zeros((length, 64), np.float16), (index,), False)
-        for index, length in enumerate(lengths)
-    ]
+def batches_of(lengths: Sequence[int], frames: int, seed: int) -> Batches:
+    """Return batches of calls of some lengths, each with a unit of its own."""
+    calls = MelCalls(
+        torch.randn(sum(lengths), BINS).half(),
+        np.array(lengths),
+        [(index,) for index in range(len(lengths))],
+        np.zeros(len(lengths), np.bool_),
+    )
+    return Batches(calls, torch.ones(1, 500, BINS), frames, seed)
 
 
 def test_a_batch_follows_from_the_seed_and_its_step() -> None:
-    calls = calls_of(*range(100, 300, 5))
-    one, again, other = (
-        train_asr.Batches(calls, 2_000, seed, easy=0, clear=0) for seed in (1, 1, 2)
-    )
-    first = one[7]
-    one[8]
-    assert all(map(torch.equal, first, again[7]))
-    assert not torch.equal(first.features[:1, :90], other[7].features[:1, :90])
+    torch.manual_seed(0)
+    one = batches_of(range(100, 300, 5), 2_000, 1)
+    torch.manual_seed(0)
+    again, other = (batches_of(range(100, 300, 5), 2_000, seed) for seed in (1, 2))
+    first = one.batch(7, 1.0)
+    one.batch(8, 1.0)
+    assert all(map(torch.equal, first, again.batch(7, 1.0)))
+    assert not torch.equal(first.features[:1, :90], other.batch(7, 1.0).features[:1, :90])
 
 
 def test_long_calls_are_drawn_as_often_as_short_ones() -> None:
-    batches = train_asr.Batches(calls_of(*[200] * 60, *[800] * 60), 8_000, 0, easy=0, clear=0)
-    units = torch.cat([batches[step].units for step in range(400)])
+    batches = batches_of([20] * 60 + [80] * 60, 800, 0)
+    units = torch.cat([batches.batch(step, 1.0).units for step in range(150)])
     share = float((units < 60).float().mean())
     assert 0.45 < share < 0.55
 
 
-def test_the_first_batches_of_a_new_training_have_short_calls_only() -> None:
-    batches = train_asr.Batches(calls_of(*[200] * 20, *[800] * 20), 4_000, 0, easy=5, clear=5)
-    assert all(int(batches[step].units.max()) < 20 for step in range(5))
-    assert any(int(batches[step].units.max()) >= 20 for step in range(5, 15))
+def test_a_new_training_begins_with_short_calls_only() -> None:
+    batches = batches_of([200] * 20 + [800] * 20, 4_000, 0)
+    assert all(int(batches.batch(step, 0.01).units.max()) < 20 for step in range(5))
+    assert any(int(batches.batch(step, 0.5).units.max()) >= 20 for step in range(5, 15))
+
+
+def test_some_batches_have_a_call_in_which_nobody_speaks() -> None:
+    batches = batches_of([20] * 20, 200, 0)
+    silent = [bool((batches.batch(step, 1.0).sizes == 0).any()) for step in range(60)]
+    assert 5 < sum(silent) < 35
 
 
 def test_what_is_exported_hears_what_the_network_hears_in_steps_of_30_ms(trained: Path) -> None:

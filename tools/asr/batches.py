@@ -12,6 +12,9 @@ from airhilt.assistant.asr.features import BINS, FLOOR
 from mel_shards import MelCalls
 from mixing import ANY, CLEAR, EASY, Drawn, Mixer
 
+EASY_SHARE, CLEAR_SHARE = 0.05, 0.2
+"""Shares of a training from random weights, at its beginning, in which only short, clear calls are
+drawn, and in which no call has much noise."""
 NEIGHBOURS = 0.02
 """Share of the calls, those of about one length, that a batch is drawn from."""
 EASY_FRAMES = 450
@@ -36,7 +39,7 @@ class Batch(NamedTuple):
 
 
 class Batches:
-    """The batches of a training: each follows from the seed and its step alone.
+    """The batches of a training: each follows from the seed, its step, and its share of the way.
 
     So a training that goes on sees what it would have seen.
 
@@ -48,8 +51,6 @@ class Batches:
         Mel powers of receivers' noise, as `Mixer` takes them.
     frames
         Frames of a batch, about.
-    easy, clear
-        Steps before which only short, clear calls are drawn, and no call has much noise.
     device
         Device of torch on which calls are kept and mixed.
     """
@@ -60,9 +61,6 @@ class Batches:
         noise: Tensor,
         frames: int,
         seed: int,
-        *,
-        easy: float,
-        clear: float,
         device: str = "cpu",
     ) -> None:
         self._calls = calls
@@ -72,19 +70,18 @@ class Batches:
         self._all = order
         self._easy = order[is_short] if is_short.any() else order
         self._frames, self._seed = frames, seed
-        self._easy_steps, self._clear_steps = easy, clear
         silence = torch.full((SILENT_FRAMES[1], BINS), float(np.log(FLOOR)), dtype=torch.float16)
         logarithms = torch.cat([calls.logarithms, silence]).to(device)
         self._mixer = Mixer(logarithms, noise.to(device))
 
-    def __getitem__(self, step: int) -> Batch:
-        """Return the batch of a step.
+    def batch(self, step: int, share: float) -> Batch:
+        """Return the batch of a step that is so far on the way of the training, in [0, 1].
 
         A call is drawn by the chance of its length, and with it others of about that length: as
         many as fill the batch. So each call is drawn as often as any other.
         """
         rng = np.random.default_rng([self._seed, step])
-        easy = step < self._easy_steps
+        easy = share < EASY_SHARE
         chosen = self._choose(self._easy if easy else self._all, rng)
         begins, lengths = self._begins[chosen], self._calls.lengths[chosen]
         is_received = self._calls.is_received[chosen]
@@ -97,7 +94,7 @@ class Batches:
             units.append(())
         is_silent = np.zeros(len(begins), np.bool_)
         is_silent[len(chosen) :] = True
-        sound = EASY if easy else CLEAR if step < self._clear_steps else ANY
+        sound = EASY if easy else CLEAR if share < CLEAR_SHARE else ANY
         features, own = self._mixer.mix(
             Drawn(*map(torch.from_numpy, (begins, lengths, is_received, is_silent))),
             sound,

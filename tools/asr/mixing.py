@@ -24,6 +24,8 @@ from airhilt.assistant.asr.features import (
     WHITE,
 )
 
+CHANGED = 0.7
+"""Share of the calls that each of the common changes is made to."""
 FRAMES_MULTIPLE = 48
 """Frames of which each batch has a multiple, so that all its steps are whole."""
 SPEECH_POWER = 0.01
@@ -47,17 +49,15 @@ TILT = 0.7
 
 
 class Sound(NamedTuple):
-    """Shares of the calls that each change is made to, and whether there is much noise."""
+    """What may be done to calls."""
 
-    changed: float
-    """Share of the calls whose speed, and of those whose timbre, is changed."""
-    masked: float
-    noisy: float
+    is_changed: bool
+    """Whether some get another speed, timbre or room, are masked in part, or have others beneath."""
+    is_noisy: bool
+    """Whether some have much noise."""
 
 
-EASY = Sound(0.0, 0.0, 0.0)
-CLEAR = Sound(0.7, 1.0, 0.0)
-ANY = Sound(0.7, 1.0, 1.0)
+EASY, CLEAR, ANY = Sound(False, False), Sound(True, False), Sound(True, True)
 
 
 @dataclass(frozen=True)
@@ -125,7 +125,7 @@ class Mixer:
     def _at_other_speed(
         self, drawn: Drawn, is_clean: Tensor, sound: Sound, chance: _Chance
     ) -> tuple[Tensor, Tensor]:
-        is_changed = is_clean & chance.of(0.7 * bool(sound.changed))
+        is_changed = is_clean & chance.of(CHANGED * sound.is_changed)
         speed = torch.where(is_changed, chance.between(*SPEED), 1.0)
         lengths = ((drawn.lengths - 1) / speed).long() + 1
         longest = -(-int(lengths.max()) // FRAMES_MULTIPLE) * FRAMES_MULTIPLE
@@ -148,7 +148,7 @@ class Mixer:
         kind = chance.between(0.0, 1.0)
         much, little = chance.between(-4.0, 14.0), chance.between(14.0, 40.0)
         snr_db = torch.where(kind < 0.55, much, torch.where(kind < 0.9, little, torch.inf))
-        if not sound.noisy:
+        if not sound.is_noisy:
             snr_db = chance.between(12.0, 35.0)
         power = SPEECH_POWER / 10.0 ** (snr_db / 10.0)
         power = torch.where(drawn.is_silent, 10.0 ** chance.between(-6.0, -1.0), power)
@@ -182,7 +182,7 @@ class _Chance:
 
 def _in_other_timbre(log: Tensor, is_clean: Tensor, sound: Sound, chance: _Chance) -> Tensor:
     """Return speech of another length of the throat, through another microphone."""
-    share = 0.7 * bool(sound.changed)
+    share = CHANGED * sound.is_changed
     bands = torch.arange(BINS, device=log.device)
     is_warped = is_clean & chance.of(share)
     warp = torch.where(is_warped, chance.between(*WARP), 1.0)
@@ -203,7 +203,7 @@ def _in_other_timbre(log: Tensor, is_clean: Tensor, sound: Sound, chance: _Chanc
 
 def _in_a_room(power: Tensor, is_clean: Tensor, sound: Sound, chance: _Chance) -> Tensor:
     """Return speech with reverberation of 0.05 to 0.4 s, 0 to 15 dB below it."""
-    is_in_room = is_clean & chance.of(0.3 * bool(sound.changed))
+    is_in_room = is_clean & chance.of(0.3 * sound.is_changed)
     decay = 10.0 ** (-6.0 * 0.01 / chance.between(0.05, 0.4))
     late = 10.0 ** (-chance.between(0.0, 15.0) / 10.0) * is_in_room
     heard = power * ((1.0 - decay) * late)[:, None, None]
@@ -215,7 +215,7 @@ def _in_a_room(power: Tensor, is_clean: Tensor, sound: Sound, chance: _Chance) -
 
 def _others(power: Tensor, is_clean: Tensor, sound: Sound, chance: _Chance) -> Tensor:
     """Return another call of the batch far beneath some of the calls."""
-    is_heard = is_clean & chance.of(0.06 * bool(sound.changed))
+    is_heard = is_clean & chance.of(0.06 * sound.is_changed)
     gain = 10.0 ** (chance.between(-28.0, -12.0) / 10.0) * is_heard
     return power.roll(1, 0) * gain[:, None, None]
 
@@ -223,7 +223,7 @@ def _others(power: Tensor, is_clean: Tensor, sound: Sound, chance: _Chance) -> T
 def _gain_controlled(
     power: Tensor, is_own: Tensor, is_clean: Tensor, sound: Sound, chance: _Chance
 ) -> Tensor:
-    is_controlled = is_clean & chance.of(0.7 * bool(sound.changed))
+    is_controlled = is_clean & chance.of(CHANGED * sound.is_changed)
     strength = chance.between(0.2, 0.7) * is_controlled
     kernel = torch.exp(-torch.arange(GAIN_FRAMES, device=power.device) / GAIN_TIME)
     level = power.sum(dim=2)[:, None, :]
@@ -236,7 +236,7 @@ def _gain_controlled(
 
 
 def _masked(features: Tensor, lengths: Tensor, sound: Sound, chance: _Chance) -> Tensor:
-    if not sound.masked:
+    if not sound.is_changed:
         return features
     bands = torch.arange(BINS, device=features.device)[None, None, :]
     begin, size = chance.whole(0, BINS, 2), chance.whole(1, MASK_BINS, 2) * chance.of(0.5, 2)

@@ -48,9 +48,6 @@ AROUND = 16
 HALFWAY, HALFWAY_WEIGHT = 4, 0.3
 """Block after which the pieces are asked for too, and the weight of that loss (intermediate CTC:
 Lee and Watanabe, ICASSP 2021)."""
-EASY_SHARE, CLEAR_SHARE = 0.05, 0.2
-"""Shares of the steps at the beginning in which only short, clear calls are drawn, and in which no
-call has much noise, unless a training begins with weights."""
 LARGE = 10_000
 """Weights from which on a matrix is kept in half precision."""
 
@@ -192,11 +189,8 @@ def train(given: Training) -> None:
     calls = load(given.build / "train", pieces, given.without)
     count = len(calls.lengths)
     print(f"{parameters / 1e6:.2f} M parameters, {len(pieces)} pieces, {count} calls", flush=True)
-    new = given.steps if given.begin_with is None else 0
-    batches = Batches(
-        calls, noise_bank(), given.batch_frames, given.seed,
-        easy=EASY_SHARE * new, clear=CLEAR_SHARE * new, device=given.device,
-    )  # fmt: skip
+    batches = Batches(calls, noise_bank(), given.batch_frames, given.seed, given.device)
+    is_new = given.begin_with is None
     begun = saved = time.time()
     mean = torch.tensor(8.0, device=given.device)
     network.train()
@@ -205,10 +199,11 @@ def train(given: Training) -> None:
         elapsed = (time.time() - begun) / (60.0 * given.minutes)
         if elapsed >= 1.0:
             break
+        share = max(step / given.steps, elapsed)
         for optimiser in optimisers:
             for group in optimiser.param_groups:
-                group["lr"] = _rate(given.rate, step, max(step / given.steps, elapsed))
-        loss = _loss(network, batches[step], given)
+                group["lr"] = _rate(given.rate, step, share)
+        loss = _loss(network, batches.batch(step, share if is_new else 1.0), given)
         network.zero_grad()
         loss.backward()
         nn.utils.clip_grad_norm_(network.parameters(), 1.0)
