@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -77,7 +78,7 @@ def speech(frames: int, seed: int = 0) -> np.ndarray:
     return np.exp(rng.normal(-6.0, 1.5, (frames, BINS))).astype(np.float32)
 
 
-def generator(seed: int) -> torch.Generator:
+def generator(seed: int) -> Any:
     """Return a generator of the processor."""
     return torch.Generator().manual_seed(seed)
 

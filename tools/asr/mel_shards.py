@@ -10,6 +10,7 @@ import time
 import zlib
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import torch
@@ -60,7 +61,7 @@ def prepare(folder: Path) -> None:
         print(f"{target.name} {time.time() - begun:.0f} s", flush=True)
 
 
-def _mel_powers(path: Path) -> dict[str, NDArray[np.generic]]:
+def _mel_powers(path: Path) -> dict[str, Any]:
     """Return the arrays of a shard."""
     profiles = [
         PROFILES[name] for name in ("vhf", "vhf", "vhf_833", "fading", "noisy_cockpit", "line")

@@ -52,7 +52,7 @@ class Sound(NamedTuple):
     """What may be done to calls."""
 
     is_changed: bool
-    """Whether some get another speed, timbre or room, are masked in part, or have others beneath."""
+    """Whether some get another speed, timbre or room, or are masked in part."""
     is_noisy: bool
     """Whether some have much noise."""
 

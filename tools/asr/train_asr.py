@@ -252,9 +252,12 @@ def _loss(network: Recogniser, batch: Batch, given: Training) -> Tensor:
     steps = OUTPUTS * -(-batch.lengths // STRIDE)
     halfway, end = (
         nn.functional.ctc_loss(
-            logits.float().log_softmax(2).transpose(0, 1), units, steps, batch.sizes,
+            logits.float().log_softmax(2).transpose(0, 1),
+            units,
+            steps,
+            batch.sizes,
             zero_infinity=True,
-        )  # fmt: skip
+        )
         for logits in both
     )
     return (1.0 - HALFWAY_WEIGHT) * end + HALFWAY_WEIGHT * halfway
@@ -400,9 +403,7 @@ def add_options(parser: argparse.ArgumentParser, steps: int) -> None:
     parser.add_argument("--bfloat16", action="store_true", help="faster on CUDA and AVX512-BF16")
     parser.add_argument("--adamw", action="store_true", help="without Muon, which needs bfloat16")
     parser.add_argument("--device", default="cpu", help="device of torch, such as cuda")
-    parser.add_argument(
-        "--minutes", type=float, default=math.inf, help="end within so long"
-    )
+    parser.add_argument("--minutes", type=float, default=math.inf, help="end within so long")
 
 
 def main() -> None:
