@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 import torch
+from numpy.typing import NDArray
 from torch import Tensor
 
 from airhilt.assistant.asr.features import BINS, FLOOR
@@ -58,7 +59,7 @@ class Batches:
     def __init__(
         self,
         calls: MelCalls,
-        noise: Tensor,
+        noise: NDArray[np.float32],
         frames: int,
         seed: int,
         device: str = "cpu",
@@ -71,8 +72,8 @@ class Batches:
         self._easy = order[is_short] if is_short.any() else order
         self._frames, self._seed = frames, seed
         silence = torch.full((SILENT_FRAMES[1], BINS), float(np.log(FLOOR)), dtype=torch.float16)
-        logarithms = torch.cat([calls.logarithms, silence]).to(device)
-        self._mixer = Mixer(logarithms, noise.to(device))
+        logarithms = torch.cat([torch.from_numpy(calls.logarithms), silence]).to(device)
+        self._mixer = Mixer(logarithms, torch.from_numpy(noise).to(device))
 
     def batch(self, step: int, share: float) -> Batch:
         """Return the batch of a step that is so far on the way of the training, in [0, 1].
@@ -108,8 +109,8 @@ class Batches:
         )
 
     def _choose(
-        self, drawn_from: np.ndarray[tuple[int], np.dtype[np.int64]], rng: np.random.Generator
-    ) -> np.ndarray[tuple[int], np.dtype[np.int64]]:
+        self, drawn_from: NDArray[np.int64], rng: np.random.Generator
+    ) -> NDArray[np.int64]:
         """Return which calls a batch has."""
         ends = np.cumsum(self._calls.lengths[drawn_from])
         middle = int(np.searchsorted(ends, rng.integers(ends[-1]), side="right"))

@@ -1,10 +1,14 @@
-"""Mel powers of the calls of shards, which `train_asr` trains on.
+"""Turns shards of speech into mel powers, which `train_asr` trains on.
 
-`prepare` makes them once: `NAME.mel.npz` beside each `NAME.npy` of `asr_speech`.
+    python tools/asr/mel_shards.py build/asr/train
+
+`NAME.mel.npz` is written beside each `NAME.npy` of `asr_speech` that has none yet. So it is given
+again when there are new shards.
 """
 
 from __future__ import annotations
 
+import argparse
 import json
 import time
 import zlib
@@ -13,9 +17,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import torch
 from numpy.typing import NDArray
-from torch import Tensor
 
 from airhilt.assistant.asr.features import BINS, FLOOR, mel_power
 from airhilt.assistant.asr.pieces import Pieces
@@ -34,7 +36,7 @@ class MelCalls:
     Attributes
     ----------
     logarithms
-        In half precision, shape (frames of all calls, `BINS`).
+        Shape (frames of all calls, `BINS`).
     lengths
         Frames of each call.
     units
@@ -43,21 +45,22 @@ class MelCalls:
         Which calls went through the whole channel, with noise.
     """
 
-    logarithms: Tensor
+    logarithms: NDArray[np.float16]
     lengths: NDArray[np.int64]
     units: list[tuple[int, ...]]
     is_received: NDArray[np.bool_]
 
 
-def prepare(folder: Path) -> None:
-    """Turn shards of speech into shards of mel powers, those that are not yet."""
-    for path in sorted(folder.glob("*.jsonl"), reverse=True):
-        target = folder / f"{path.stem}.mel.npz"
+def prepare(source: Path) -> None:
+    """Turn shards of speech, or one, into shards of mel powers, those that are not yet."""
+    for path in [source] if source.is_file() else sorted(source.glob("*.jsonl"), reverse=True):
+        target = path.with_name(f"{path.stem}.mel.npz")
         if target.exists() or not path.with_suffix(".npy").exists():
             continue
         begun = time.time()
-        np.savez(folder / f"{path.stem}.tmp.npz", **_mel_powers(path))
-        (folder / f"{path.stem}.tmp.npz").rename(target)
+        unfinished = path.with_name(f"{path.stem}.tmp.npz")
+        np.savez(unfinished, **_mel_powers(path))
+        unfinished.rename(target)
         print(f"{target.name} {time.time() - begun:.0f} s", flush=True)
 
 
@@ -129,7 +132,7 @@ def load(folder: Path, pieces: Pieces, without: str) -> MelCalls:
                 lengths += sizes[chosen].tolist()
                 units += [tuple(texts[each] or ()) for each in index[chosen]]
                 is_received += [received] * int(chosen.sum())
-    logarithms = torch.from_numpy(np.concatenate(parts or [np.empty((0, BINS), np.float16)]))
+    logarithms = np.concatenate(parts or [np.empty((0, BINS), np.float16)])
     return MelCalls(logarithms, np.array(lengths, np.int64), units, np.array(is_received, np.bool_))
 
 
@@ -143,7 +146,7 @@ def speakers_of(lineage: str) -> set[str]:
     return {voice.speaker for voice in voices if voice.lineage == lineage}
 
 
-def noise_bank() -> Tensor:
+def noise_bank() -> NDArray[np.float32]:
     """Return mel powers of a receiver's noise, of power one, shape (kinds, frames, `BINS`)."""
     rng = np.random.default_rng(1)
     bank = []
@@ -151,4 +154,15 @@ def noise_bank() -> Tensor:
     for name in ("vhf", "vhf_833", "vhf"):
         parts = VhfChannel(PROFILES[name]).parts(silence, 0.0, rng)
         bank.append(mel_power(parts.noise) / float(np.mean(parts.noise**2)))
-    return torch.from_numpy(np.stack(bank))
+    return np.stack(bank)
+
+
+def main() -> None:
+    """Prepare a folder or a shard."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("source", type=Path, help="folder of shards, or one shard (.jsonl)")
+    prepare(parser.parse_args().source)
+
+
+if __name__ == "__main__":
+    main()

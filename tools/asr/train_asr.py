@@ -7,7 +7,7 @@ rooms, noise and levels vary anew each time a call is seen (`mixing`). A share o
 went through `airhilt.sensors.radio.channel` (`mel_shards`).
 
     python tools/asr/learn_pieces.py build/asr/pieces.txt
-    python tools/asr/train_asr.py prepare build/asr/train     (as often as there are new shards)
+    python tools/asr/mel_shards.py build/asr/train
     python tools/asr/train_asr.py train build/asr --into build/asr/full --steps 36000
     python tools/asr/train_asr.py export build/asr/full airhilt/assistant/asr/model
 
@@ -33,7 +33,7 @@ from torch import Tensor, nn
 from airhilt.assistant.asr.features import BINS
 from airhilt.assistant.asr.pieces import Pieces
 from batches import Batch, Batches
-from mel_shards import load, noise_bank, prepare
+from mel_shards import load, noise_bank
 
 STRIDE = 6
 """Frames of features to a step inside the network: 60 ms."""
@@ -394,12 +394,20 @@ def _halve(path: Path) -> None:
     onnx.save(model, path)
 
 
-def add_options(parser: argparse.ArgumentParser, steps: int) -> None:
+def add_options(
+    parser: argparse.ArgumentParser,
+    steps: int,
+    *,
+    rate: float = Training.rate,
+    batch_frames: int = Training.batch_frames,
+) -> None:
     """Add the options of a training that are those of `Training`."""
     parser.add_argument("--steps", type=int, default=steps)
-    parser.add_argument("--rate", type=float, default=1.5e-3, help="highest learning rate")
+    parser.add_argument("--rate", type=float, default=rate, help="highest learning rate")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--batch-frames", type=int, default=12_000, help="frames of a batch")
+    parser.add_argument(
+        "--batch-frames", type=int, default=batch_frames, help="frames of a batch"
+    )
     parser.add_argument("--bfloat16", action="store_true", help="faster on CUDA and AVX512-BF16")
     parser.add_argument("--adamw", action="store_true", help="without Muon, which needs bfloat16")
     parser.add_argument("--device", default="cpu", help="device of torch, such as cuda")
@@ -410,8 +418,6 @@ def main() -> None:
     """Read the command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     commands = parser.add_subparsers(dest="command", required=True)
-    one = commands.add_parser("prepare", help="turn speech into features")
-    one.add_argument("folder", type=Path)
     two = commands.add_parser("train", help="train, from the checkpoint if there is one")
     two.add_argument("build", type=Path)
     two.add_argument("--into", type=Path, required=True, help="folder of the checkpoint")
@@ -426,8 +432,6 @@ def main() -> None:
     four.add_argument("target", type=Path)
     given = vars(parser.parse_args())
     match given.pop("command"):
-        case "prepare":
-            prepare(**given)
         case "train":
             train(Training(**given))
         case "export":

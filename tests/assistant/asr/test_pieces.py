@@ -10,7 +10,7 @@ from airhilt.phraseology import LETTERS
 from airhilt.phraseology.numbers import DIGITS, TEENS
 from paths import ROOT
 
-LEARNT = Pieces((ROOT / "tools/asr/begun/pieces.txt").read_text().split())
+LEARNT = Pieces((ROOT / "airhilt/assistant/asr/model/pieces.txt").read_text().split())
 """Pieces of tools/asr/learn_pieces.py."""
 WORDS = st.text(alphabet="abcdefghijklmnopqrstuvwxyz'", min_size=1, max_size=12)
 
