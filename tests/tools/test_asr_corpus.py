@@ -63,6 +63,14 @@ def calls_without_unexpected() -> list[str]:
         return [talk.call() for _ in range(16_000)]
 
 
+def test_no_name_that_is_held_out_is_a_common_word() -> None:
+    rng = random.Random(3)
+    names = Names(rng, held_out=True)
+    fixes = {names.fix() for _ in range(5_000)}
+    assert fixes.isdisjoint(common_words())
+    assert set(held_out_places()).isdisjoint(common_words())
+
+
 def test_unexpected_words_are_in_no_callsign() -> None:
     talk = Talk(random.Random(2))
     with pytest.MonkeyPatch.context() as patched:

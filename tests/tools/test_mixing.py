@@ -16,11 +16,24 @@ from hypothesis import strategies as st  # noqa: E402
 from airhilt.assistant.asr.features import (  # noqa: E402
     BINS,
     FLOOR,
-    LOUD_FRAMES,
+    LONGEST_CLICK_FRAMES,
     is_near_speech,
     normalised,
 )
-from mixing import ANY, EASY, Drawn, Mixer  # noqa: E402
+from mixing import (  # noqa: E402
+    ANY,
+    CLEAR,
+    EASY,
+    SPEECH_POWER,
+    Drawn,
+    Mixer,
+    Sound,
+    _Chance,
+    _gain_controlled,
+    _in_a_room,
+    _in_other_timbre,
+    _others,
+)
 from mixing import is_near_speech as is_near_speech_of_batch  # noqa: E402
 from mixing import normalised as normalised_batch  # noqa: E402
 
@@ -38,7 +51,7 @@ def power_of(rng: np.random.Generator, frames: int) -> np.ndarray:
 
 
 @settings(max_examples=30, deadline=None)
-@given(st.integers(0, 2**32), st.lists(st.integers(LOUD_FRAMES, 600), min_size=1, max_size=5))
+@given(st.integers(0, 2**32), st.lists(st.integers(LONGEST_CLICK_FRAMES, 600), min_size=1, max_size=5))
 def test_a_batch_has_the_features_that_the_recogniser_computes_of_each_call(
     seed: int, lengths: list[int]
 ) -> None:
@@ -55,12 +68,15 @@ def test_a_batch_has_the_features_that_the_recogniser_computes_of_each_call(
         assert np.allclose(features[row, : len(call)].numpy(), normalised(call), atol=1e-3)
 
 
-def mixer_of(calls: list[np.ndarray], noise_power: float = 1.0) -> tuple[Mixer, Drawn]:
-    """Return a mixer of calls, and a batch with all of them, the last of which is silent."""
+def mixer_of(calls: list[np.ndarray], noise: Any = None) -> tuple[Mixer, Drawn]:
+    """Return a mixer of calls, and a batch with all of them, the last of which is silent.
+
+    Without noise, the receiver has none.
+    """
     logarithms = np.concatenate([np.log(call + FLOOR) for call in calls]).astype(np.float16)
     lengths = np.array([len(call) for call in calls])
     begins = np.concatenate([[0], np.cumsum(lengths)[:-1]])
-    noise = torch.full((2, 300, BINS), noise_power)
+    noise = torch.zeros(2, 300, BINS) if noise is None else noise
     is_silent = torch.zeros(len(calls), dtype=torch.bool)
     is_silent[-1] = True
     drawn = Drawn(
@@ -92,7 +108,7 @@ def test_what_is_mixed_follows_from_the_generator() -> None:
 
 def test_easy_calls_keep_their_speed_and_timbre() -> None:
     call = speech(200)
-    mixer, drawn = mixer_of([call, call], noise_power=0.0)
+    mixer, drawn = mixer_of([call, call])
     features, lengths = mixer.mix(drawn, EASY, generator(0))
     assert lengths.tolist() == [200, 200]
     assert np.allclose(features[0, :200].numpy(), normalised(call), atol=0.02)
@@ -116,15 +132,89 @@ def test_a_received_call_has_no_noise_added_and_is_only_masked() -> None:
     is_masked = heard == 0.0
     assert lengths[0] == 200
     assert np.allclose(heard[~is_masked], expected[~is_masked], atol=0.02)
-    assert is_masked.mean() < 0.6
+    assert 0.0 < is_masked.mean() < 0.6
 
 
-def test_a_silent_call_has_the_noise_of_the_receiver_alone() -> None:
+def test_a_silent_call_has_noise_alone_of_any_level() -> None:
     silence = np.zeros((200, BINS), np.float32)
-    mixer, drawn = mixer_of([speech(200), silence], noise_power=0.0)
-    features, _ = mixer.mix(drawn, ANY, generator(0))
-    assert features[0].abs().max() > 1.0
-    assert features[1].abs().max() < 1e-3
+    rng = np.random.default_rng(0)
+    noise = torch.from_numpy(rng.exponential(1.0, (2, 300, BINS)).astype(np.float32))
+    mixer, drawn = mixer_of([silence] * 2, noise)
+    silent = replace(drawn, is_silent=torch.tensor([True, True]))
+    features, _ = mixer.mix(silent, EASY, generator(0))
+    assert features[0].std() > 0.3
+    assert not torch.allclose(features[0], features[1], atol=0.1)
+    quiet, drawn = mixer_of([silence] * 2)
+    assert quiet.mix(drawn, EASY, generator(0))[0].abs().max() < 1e-3
+
+
+@pytest.mark.parametrize(
+    ("sound", "lowest_db", "highest_db"), [(CLEAR, 12.0, 35.0), (EASY, 12.0, 35.0), (ANY, -4.0, 40.0)]
+)
+def test_noise_has_the_ratios_of_a_batch(
+    sound: Sound, lowest_db: float, highest_db: float
+) -> None:
+    drawn = mixer_of([speech(60)] * 300)[1]
+    mixer, _ = mixer_of([speech(60)] * 300, torch.ones(2, 300, BINS))
+    power = mixer._noise_of(60, drawn, sound, _Chance(300, generator(1), torch.device("cpu")))
+    noise = power[:-1].mean(dim=(1, 2)).numpy()
+    ratios_db = 10.0 * np.log10(SPEECH_POWER / noise[noise > 0.0])
+    assert lowest_db <= ratios_db.min() < lowest_db + 2.0
+    assert highest_db - 3.0 < ratios_db.max() <= highest_db
+    assert (noise == 0.0).mean() == pytest.approx(0.1 if sound.is_noisy else 0.0, abs=0.06)
+
+
+def test_timbres_move_the_bands_and_tilt_them() -> None:
+    log = torch.zeros(400, 5, BINS)
+    log[:, :, 30] = 50.0
+    chance = _Chance(400, generator(2), torch.device("cpu"))
+    other = _in_other_timbre(log, torch.ones(400, dtype=torch.bool), ANY, chance)
+    at = other.mean(dim=1).argmax(dim=1)
+    assert at.float().std() > 1.0
+    assert 24 <= at.min() < at.max() <= 37
+    assert other[:, :, 60].std() > 0.3
+    chance = _Chance(400, generator(2), torch.device("cpu"))
+    assert torch.equal(
+        _in_other_timbre(log, torch.zeros(400, dtype=torch.bool), ANY, chance), log
+    )
+
+
+def test_a_room_is_heard_behind_a_sound_and_falls_by_60_db_in_its_time() -> None:
+    power = torch.zeros(300, 80, BINS)
+    power[:, 10] = 1.0
+    chance = _Chance(300, generator(3), torch.device("cpu"))
+    heard = _in_a_room(power, torch.ones(300, dtype=torch.bool), ANY, chance)[:, :, 0]
+    assert not heard[:, :10].any()
+    in_room = heard[heard[:, 12] > 0.0]
+    assert 0.2 < len(in_room) / 300 < 0.4
+    ratios = in_room[:, 13:40] / in_room[:, 12:39]
+    assert torch.allclose(ratios, ratios[:, :1].expand_as(ratios), atol=1e-3)
+    slowest, fastest = float(ratios[:, 0].max()), float(ratios[:, 0].min())
+    assert fastest >= 10.0 ** (-6.0 / 5.0) - 1e-3
+    assert slowest <= 10.0 ** (-6.0 / 40.0) + 1e-3
+    assert (in_room[:, 11:].sum(dim=1) <= 1.0).all()
+
+
+def test_another_call_is_far_beneath_some() -> None:
+    power = torch.ones(500, 3, BINS) * torch.arange(1, 501)[:, None, None]
+    chance = _Chance(500, generator(4), torch.device("cpu"))
+    others = _others(power, torch.ones(500, dtype=torch.bool), ANY, chance)
+    is_heard = others[:, 0, 0] > 0.0
+    assert 0.02 < is_heard.float().mean() < 0.12
+    assert (others[1:][is_heard[1:]] / power[:-1][is_heard[1:]]).max() < 10.0**-1.19
+
+
+def test_a_gain_control_makes_what_is_loud_quieter() -> None:
+    power = torch.ones(200, 200, BINS) * 1e-3
+    power[:, 100:] = 1.0
+    is_own = torch.ones(200, 200, dtype=torch.bool)
+    chance = _Chance(200, generator(5), torch.device("cpu"))
+    heard = _gain_controlled(power, is_own, torch.ones(200, dtype=torch.bool), ANY, chance)
+    step = heard[:, 190, 0] / heard[:, 90, 0]
+    is_controlled = step < 999.0
+    assert 0.6 < is_controlled.float().mean() < 0.8
+    assert (step[is_controlled] < 500.0).all()
+    assert torch.allclose(step[~is_controlled], torch.tensor(1e3), rtol=1e-3)
 
 
 def test_frames_behind_a_call_are_empty() -> None:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -16,8 +18,9 @@ import onnxruntime  # noqa: E402
 import train_asr  # noqa: E402
 from airhilt.assistant.asr.engines.embedded import CONTEXT_FRAMES  # noqa: E402
 from airhilt.assistant.asr.features import BINS  # noqa: E402
+from airhilt.assistant.asr.pieces import Pieces  # noqa: E402
 from batches import Batches  # noqa: E402
-from mel_shards import MelCalls  # noqa: E402
+from mel_shards import MelCalls, load  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("default")  # torch's own
 torch.set_num_threads(1)
@@ -31,7 +34,7 @@ def trained(tmp_path: Path) -> Path:
     network = train_asr.Recogniser(len(PIECES))
     given = train_asr.Training(tmp_path, tmp_path, 0)
     (tmp_path / "pieces.txt").write_text("\n".join(PIECES))
-    train_asr._save(network, train_asr.optimisers_of(network, 1e-3, adamw=False), 0, given, 0)
+    train_asr._save(network, train_asr.optimisers_of(network, 1e-3, adamw=False), 0, 0.0, given, 0)
     return tmp_path
 
 
@@ -74,6 +77,74 @@ def test_some_batches_have_a_call_in_which_nobody_speaks() -> None:
     batches = batches_of([20] * 20, 200, 0)
     silent = [bool((batches.batch(step, 1.0).sizes == 0).any()) for step in range(60)]
     assert 5 < sum(silent) < 35
+
+
+def prepared(folder: Path, lines: list[dict[str, object]], received: list[int]) -> None:
+    """Write a shard whose call of index i has 100 + i frames of the value i, as is received."""
+    folder.mkdir()
+    (folder / "shard.jsonl").write_text("".join(f"{json.dumps(line)}\n" for line in lines))
+    sizes = [100 + index for index in range(len(lines))]
+    np.savez(
+        folder / "shard.mel.npz",
+        clean=np.concatenate([np.full((n, BINS), i, np.float16) for i, n in enumerate(sizes)]),
+        lengths=np.array(sizes),
+        real=np.concatenate(
+            [np.full((50, BINS), index, np.float16) for index in received]
+            or [np.empty((0, BINS), np.float16)]
+        ),
+        real_of=np.array([(index, 50) for index in received], np.int64).reshape(-1, 2),
+    )
+
+
+def line(text: str, lineage: str, speaker: str) -> dict[str, object]:
+    """Return what a shard says of a call."""
+    return {"text": text, "lineage": lineage, "speaker": speaker}
+
+
+def test_a_lineage_leaves_with_all_voices_of_its_speakers(tmp_path: Path) -> None:
+    lines = [
+        line("alfa", "rhvoice", "slt"),
+        line("bravo", "festvox", "slt"),
+        line("alfa bravo", "festvox", "kal"),
+        line("alfa 7", "pico", "a woman"),
+        line("b", "pico", "a woman"),
+    ]
+    prepared(tmp_path / "train", lines, received=[0, 1, 4])
+    pieces = Pieces(list(PIECES))
+    everything = load(tmp_path / "train", pieces, "")
+    left = load(tmp_path / "train", pieces, "rhvoice")
+    assert everything.lengths.tolist() == [100, 101, 102, 104, 50, 50, 50]
+    assert everything.is_received.tolist() == [False] * 4 + [True] * 3
+    assert left.lengths.tolist() == [102, 104, 50]
+    assert [len(units) for units in left.units] == [2, 2, 2]
+    assert left.logarithms[[0, 101, 102, 205, 206, -1], 0].tolist() == [2, 2, 4, 4, 4, 4]
+
+
+def test_time_that_an_interrupted_training_took_counts(tmp_path: Path) -> None:
+    lines = [line("alfa", "pico", "a woman"), line("bravo", "pico", "a woman")]
+    prepared(tmp_path / "train", lines, received=[])
+    (tmp_path / "pieces.txt").write_text("\n".join(PIECES))
+    given = train_asr.Training(tmp_path, tmp_path / "full", 2, batch_frames=300, adamw=True)
+    train_asr.train(given)
+    card = tmp_path / "full" / "training.json"
+    assert json.loads(card.read_text())["steps"] == 2
+    train_asr.train(replace(given, steps=4, minutes=1e-9))
+    assert json.loads(card.read_text())["steps"] == 2
+    train_asr.train(replace(given, steps=3))
+    assert json.loads(card.read_text())["steps"] == 3
+
+
+def test_a_training_without_prepared_calls_is_refused_in_words(tmp_path: Path) -> None:
+    (tmp_path / "train").mkdir()
+    (tmp_path / "pieces.txt").write_text("\n".join(PIECES))
+    with pytest.raises(SystemExit, match=r"no prepared calls.*mel_shards\.py"):
+        train_asr.train(train_asr.Training(tmp_path, tmp_path / "full", 2))
+
+
+def test_the_rate_falls_with_the_way_that_is_done() -> None:
+    rates = [train_asr._rate(1.0, 1_000, share) for share in (0.0, 0.3, 0.6, 0.9, 1.0)]
+    assert rates[0] == rates[1] > rates[2] > rates[3] > rates[4] > 0.0
+    assert train_asr._rate(1.0, 0, 0.0) < 0.01
 
 
 def test_what_is_exported_hears_what_the_network_hears_in_steps_of_30_ms(trained: Path) -> None:

@@ -59,9 +59,9 @@ TURNS = (
 ).split("|")
 
 UNEXPECTED_SHARE = 0.12
-"""Share of the calls with words that no form has."""
+"""Share of the calls with words from anywhere in English."""
 LONGEST = 45
-"""Most words of a call before its hesitations."""
+"""Most words of a call before unexpected ones and hesitations."""
 _WEIGHT = re.compile(r"([0-9]+): ")
 _CHOICE = re.compile(r"\(([^()]*)\)")
 _VARIABLE = re.compile(r"\{(\w+)\}")
@@ -236,7 +236,7 @@ class Talk:
         return self._rng.choice(FAREWELLS) if self._rng.random() < share else ""
 
     def _with_unexpected(self, text: str, who: str) -> str:
-        """Return a call with one to four words more, or instead of one, but none in a callsign."""
+        """Return a call with one to four words more, or instead of one, but none in its callsign."""
         rng = self._rng
         before, name, after = text.partition(who)
         parts = [before.split(), after.split()]

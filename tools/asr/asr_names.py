@@ -16,7 +16,9 @@ from airhilt.phraseology.telephony import TELEPHONY
 from asr_values import DIGITS, LETTERS, PRONOUNCED, TENS
 
 PLACES = Path(__file__).with_name("asr_places.txt")
-WORDS = tuple(Path(__file__).with_name(name) for name in ("asr_forms.txt", "asr_english.txt"))
+WORDS = tuple(
+    Path(__file__).with_name(name) for name in ("asr_forms.txt", "asr_english.txt", "asr_words.txt")
+)
 KNOWN_PLACES = (
     "washington|potomac|kennedy|newark|boston|chicago|atlanta|denver|seattle|miami|dallas|"
     "houston|oakland|san francisco|norcal|socal|los angeles|phoenix|memphis|minneapolis|"

@@ -13,9 +13,10 @@ from airhilt.assistant.asr.features import BINS, FLOOR
 from mel_shards import MelCalls
 from mixing import ANY, CLEAR, EASY, Drawn, Mixer
 
-EASY_SHARE, CLEAR_SHARE = 0.05, 0.2
-"""Shares of a training from random weights, at its beginning, in which only short, clear calls are
-drawn, and in which no call has much noise."""
+EASY_SHARE = 0.05
+"""Part of a training from random weights, at its beginning, that has short, clear calls only."""
+CLEAR_SHARE = 0.2
+"""Part of it in which no call has much noise."""
 NEIGHBOURS = 0.02
 """Share of the calls, those of about one length, that a batch is drawn from."""
 EASY_FRAMES = 450
@@ -23,7 +24,7 @@ EASY_FRAMES = 450
 SILENT_SHARE = 0.3
 """Share of the batches with a call in which nobody speaks."""
 SILENT_FRAMES = (30, 500)
-"""Frames of such a call."""
+"""Fewest and most frames of a call in which nobody speaks; it is no longer than the others."""
 
 
 class Batch(NamedTuple):
@@ -64,7 +65,9 @@ class Batches:
         seed: int,
         device: str = "cpu",
     ) -> None:
-        self._calls = calls
+        self._lengths, self._units, self._is_received = (
+            calls.lengths, calls.units, calls.is_received
+        )  # fmt: skip
         self._begins = np.concatenate([[0], np.cumsum(calls.lengths)])
         order = np.argsort(calls.lengths, kind="stable")
         is_short = (calls.lengths[order] < EASY_FRAMES) & ~calls.is_received[order]
@@ -84,13 +87,14 @@ class Batches:
         rng = np.random.default_rng([self._seed, step])
         easy = share < EASY_SHARE
         chosen = self._choose(self._easy if easy else self._all, rng)
-        begins, lengths = self._begins[chosen], self._calls.lengths[chosen]
-        is_received = self._calls.is_received[chosen]
-        units = [self._calls.units[each] for each in chosen]
+        begins, lengths = self._begins[chosen], self._lengths[chosen]
+        is_received = self._is_received[chosen]
+        units = [self._units[each] for each in chosen]
         has_silence = not easy and rng.random() < SILENT_SHARE
         if has_silence:
             begins = np.append(begins, self._begins[-1])
-            lengths = np.append(lengths, rng.integers(*SILENT_FRAMES))
+            longest = min(SILENT_FRAMES[1], max(SILENT_FRAMES[0], int(lengths.max())))
+            lengths = np.append(lengths, rng.integers(SILENT_FRAMES[0], longest + 1))
             is_received = np.append(is_received, False)
             units.append(())
         is_silent = np.zeros(len(begins), np.bool_)
@@ -112,9 +116,9 @@ class Batches:
         self, drawn_from: NDArray[np.int64], rng: np.random.Generator
     ) -> NDArray[np.int64]:
         """Return which calls a batch has."""
-        ends = np.cumsum(self._calls.lengths[drawn_from])
+        ends = np.cumsum(self._lengths[drawn_from])
         middle = int(np.searchsorted(ends, rng.integers(ends[-1]), side="right"))
-        count = max(1, self._frames // int(self._calls.lengths[drawn_from[middle]]))
+        count = max(1, self._frames // int(self._lengths[drawn_from[middle]]))
         around = max(count, round(NEIGHBOURS * len(drawn_from)))
         begin = min(max(0, middle - around // 2), max(0, len(drawn_from) - around))
         near = drawn_from[begin : begin + around]

@@ -7,7 +7,8 @@ For each lineage of voices a network is trained without it, and without all othe
 speakers, and is scored on the calls of that lineage: those of ``test`` and, if there are any, those
 of ``exam``, which say what they mean. ``build/asr`` has ``pieces.txt``, the language model
 ``language.npz`` (`learn_language`), and the prepared shards in ``train``. The models stay in
-``build/asr/without/LINEAGE/model``, their scores beside them. A training that was interrupted goes
+``build/asr/without/LINEAGE/model``, their scores beside them. Their confidence and the weight of
+their language model are those of a model that was calibrated. A training that was interrupted goes
 on.
 """
 
@@ -21,10 +22,19 @@ from pathlib import Path
 from statistics import mean
 from typing import Any
 
+import airhilt.assistant.asr.engines.embedded
+from calibrate_asr import write_into_card
 from eval_asr import evaluate
 from synthesisers import FAMILY
-from train_asr import Training, add_options, export, train
+from train_asr import export, train
+from training import Training, add_options
 
+SHIPPED = Path(airhilt.assistant.asr.engines.embedded.__file__).parents[1] / "model"
+CALIBRATED = (
+    "word_curve", "lost_words", "callsign_odds", "call_calibration", "least_word_confidence",
+    "best_word_threshold", "language_weight", "piece_reward",
+)  # fmt: skip
+"""Values of a card that `calibrate_asr` fits."""
 MEASURES = ("wer", "callsigns", "items", "acted_upon", "acted_upon_wrongly")
 
 
@@ -34,12 +44,14 @@ def lineages() -> list[str]:
     return sorted({voice.lineage for voice in voices if not voice.is_test_only})
 
 
-def judge(given: Training, limit: int) -> list[dict[str, Any]]:
+def judge(given: Training, limit: int, calibrated: Path) -> list[dict[str, Any]]:
     """Train without a lineage, and return the scores on it."""
     train(given)
     model = given.into / "model"
     export(given.into, model)
     shutil.copy(given.build / "language.npz", model / "language.npz")
+    card = json.loads((calibrated / "card.json").read_text())
+    write_into_card(model, {name: card[name] for name in CALIBRATED})
     numbers = []
     for calls in ("test", "exam"):
         if (given.build / calls).is_dir():
@@ -69,15 +81,22 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("build", type=Path)
     parser.add_argument("--lineage", action="append", help="lineage to leave out; all if not given")
-    parser.add_argument("--limit", type=int, default=150, help="calls of a lineage and set")
+    parser.add_argument("--limit", type=int, default=120, help="calls of a lineage and set")
+    parser.add_argument(
+        "--calibrated", type=Path, default=SHIPPED,
+        help="model whose confidence and weight of the language model all have; that of AIRHILT",
+    )  # fmt: skip
     add_options(parser, steps=6_000)
     given = vars(parser.parse_args())
     build, limit, chosen = given.pop("build"), given.pop("limit"), given.pop("lineage")
+    calibrated = given.pop("calibrated")
     numbers = [
         row
         for lineage in chosen or lineages()
         for row in judge(
-            Training(build, build / "without" / lineage, without=lineage, **given), limit
+            Training(build, build / "without" / lineage, without=lineage, **given),
+            limit,
+            calibrated,
         )
     ]
     for row in means(numbers):

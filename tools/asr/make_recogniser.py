@@ -1,10 +1,10 @@
 """Makes the embedded recogniser from nothing: speech, network, language model and confidence.
 
     python tools/asr/make_recogniser.py build/asr --processes 16 --device cuda --bfloat16
-    python tools/asr/make_recogniser.py build/asr-small --share 0.01 --steps 20 --adamw
+    python tools/asr/make_recogniser.py build/try --share 0.01 --steps 10 --adamw --batch-frames 4000
 
 It runs the other tools of this folder one after another, prints each command, and ends at the first
-one that fails. What an interrupted run has finished is not done again. All synthesisers of
+one that fails. After an interruption, speech that was made is kept, and the training goes on. All synthesisers of
 `SPOKEN` must be installed (`synthesisers/README.md`), and torch, tokenizers, onnx and pyworld. The
 model is in ``MODEL`` of the folder at the end.
 """
@@ -15,26 +15,39 @@ import argparse
 import shlex
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
 from typing import NamedTuple
 
 from asr_speech import stem
-from train_asr import add_options
+from training import add_options, options_of
 
 HERE = Path(__file__).parent
 SECOND_EXAM = HERE.parent / "phraseology_judge" / "second_exam.jsonl"
 MODEL = "model"
+"""Name of the folder of the model."""
 STEPS, RATE, BATCH_FRAMES = 9_000, 2e-3, 48_000
+"""Settings of the training, if no others are given."""
 VARIED_SHARE = 0.8
 """Share of the calls of a varied shard that are spoken again in another voice."""
 LANGUAGE_CALLS = 250_000
+"""Texts of the language model."""
 DEV_CALLS, DEV_SEED, DEV_EXAM_SEED = 40, 991, 992
 """Calls of each synthesiser that confidence is fitted on: made-up ones, and those of an exam."""
 
 
 class Spoken(NamedTuple):
-    """Shards of a synthesiser: so many of so many calls, of which the first ones are varied too."""
+    """Shards of a synthesiser.
+
+    Attributes
+    ----------
+    calls
+        Calls of each shard.
+    varied
+        Shards, the first ones, that are varied too.
+    first_seed
+        Seed of the first shard; the next one has the next.
+    """
 
     synthesiser: str
     voices: str
@@ -69,18 +82,25 @@ class Maker:
 
     def __init__(self, build: Path, share: float) -> None:
         self._build, self._share = build, share
+        self._exam = build / SECOND_EXAM.name
 
     def speak(self, processes: int) -> None:
         """Make the shards of training, and those that confidence is fitted on."""
+        exam = SECOND_EXAM.read_text().splitlines()[: self._scaled(DEV_CALLS)]
+        self._exam.write_text("\n".join(exam) + "\n")
         with ThreadPoolExecutor(processes) as pool:
-            done = [
+            going = [
                 pool.submit(self._shard, each, number)
                 for each in SPOKEN
                 for number in range(each.shards)
             ]
-            done += [pool.submit(self._dev, each) for each in SPOKEN]
-            for each in done:
-                each.result()
+            going += [pool.submit(self._dev, each) for each in SPOKEN]
+            try:
+                for done in as_completed(going):
+                    done.result()
+            except BaseException:
+                pool.shutdown(cancel_futures=True)
+                raise
 
     def train(self, options: list[str]) -> None:
         """Learn the pieces, train the network, learn the language model, fit the confidence."""
@@ -98,7 +118,7 @@ class Maker:
     def _shard(self, spoken: Spoken, number: int) -> None:
         folder, seed = self._build / "train", spoken.first_seed + number
         path = folder / f"{stem(spoken.synthesiser, spoken.voices)}-{seed}-000.jsonl"
-        if not path.exists():
+        if not path.with_suffix(".npy").exists():
             speak(folder, spoken, seed, "--count", self._scaled(spoken.calls))
         run("mel_shards.py", path)
         if number < spoken.varied:
@@ -107,14 +127,11 @@ class Maker:
 
     def _dev(self, spoken: Spoken) -> None:
         folder, begin = self._build / "dev", stem(spoken.synthesiser, spoken.voices)
-        count = self._scaled(DEV_CALLS)
-        if not (folder / f"{begin}-{DEV_SEED}-000.jsonl").exists():
-            speak(folder, spoken, DEV_SEED, "--count", count)
-        texts = self._build / SECOND_EXAM.name
-        texts.write_text("\n".join(SECOND_EXAM.read_text().splitlines()[:count]) + "\n")
-        begin = stem(spoken.synthesiser, spoken.voices, texts.stem)
-        if not (folder / f"{begin}-{DEV_EXAM_SEED}-000.jsonl").exists():
-            speak(folder, spoken, DEV_EXAM_SEED, "--calls", texts)
+        if not (folder / f"{begin}-{DEV_SEED}-000.npy").exists():
+            speak(folder, spoken, DEV_SEED, "--count", self._scaled(DEV_CALLS))
+        begin = stem(spoken.synthesiser, spoken.voices, self._exam.stem)
+        if not (folder / f"{begin}-{DEV_EXAM_SEED}-000.npy").exists():
+            speak(folder, spoken, DEV_EXAM_SEED, "--calls", self._exam)
 
 
 def speak(folder: Path, spoken: Spoken, seed: int, *options: object) -> None:
@@ -143,12 +160,7 @@ def main() -> None:
     build.mkdir(parents=True, exist_ok=True)
     maker = Maker(build, given.pop("share"))
     maker.speak(given.pop("processes"))
-    options = []
-    for name, value in given.items():
-        option = f"--{name.replace('_', '-')}"
-        if value is not False:
-            options += [option] if value is True else [option, str(value)]
-    maker.train(options)
+    maker.train(options_of(given))
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
 import time
 import zlib
 from dataclasses import dataclass
@@ -53,7 +54,10 @@ class MelCalls:
 
 def prepare(source: Path) -> None:
     """Turn shards of speech, or one, into shards of mel powers, those that are not yet."""
-    for path in [source] if source.is_file() else sorted(source.glob("*.jsonl"), reverse=True):
+    paths = [source] if source.is_file() else sorted(source.glob("*.jsonl"), reverse=True)
+    if not paths:
+        sys.exit(f"{source}: no shard (.jsonl with .npy); see tools/asr/asr_speech.py")
+    for path in paths:
         target = path.with_name(f"{path.stem}.mel.npz")
         if target.exists() or not path.with_suffix(".npy").exists():
             continue

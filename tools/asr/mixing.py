@@ -24,16 +24,28 @@ from airhilt.assistant.asr.features import (
     WHITE,
 )
 
-CHANGED = 0.7
+CHANGED_SHARE = 0.7
 """Share of the calls that each of the common changes is made to."""
 FRAMES_MULTIPLE = 48
 """Frames of which each batch has a multiple, so that all its steps are whole."""
 SPEECH_POWER = 0.01
 """Power of the speech of a received call, to which its noise is in proportion."""
-MASKS = 8
-"""Most pieces of time that are masked in a call."""
-MASK_FRAMES, MASK_BINS = 12, 8
-"""Frames and bands of a mask, at most."""
+TIME_MASKS, TIME_MASKED, MASK_FRAMES = 8, 0.3, 11
+"""Pieces of time that may be masked in a call, the share of them that are, and their most frames."""
+BAND_MASKS, BAND_MASKED, MASK_BINS = 2, 0.5, 7
+"""The same of the bands."""
+ROOM_SHARE, REVERBERATION_S, BENEATH_DB = 0.3, (0.05, 0.4), (0.0, 15.0)
+"""Share of the calls in a room, its reverberation time, and how far its sound is beneath speech."""
+OTHER_SHARE, OTHER_DB = 0.06, (-28.0, -12.0)
+"""Share of the calls beneath which another is heard, and its level."""
+SMOOTH_SHARE = 0.25
+"""Share of the calls whose bands are means of three, in which the pitch is not seen."""
+MUCH_SHARE, SOME_SHARE = 0.55, 0.35
+"""Shares of the calls with much noise, and with some; the others have none."""
+MUCH_DB, SOME_DB, CLEAR_DB = (-4.0, 14.0), (14.0, 40.0), (12.0, 35.0)
+"""Signal-to-noise ratios of these, and of the calls of a batch that is not noisy."""
+GAIN_STRENGTH = (0.2, 0.7)
+"""Exponents of an automatic gain control."""
 GAIN_FRAMES, GAIN_TIME = 50, 16.0
 """Frames that a gain control looks back, and its time constant in frames."""
 REVERBERATION_FRAMES = (1, 2, 4, 8, 16, 32)
@@ -49,12 +61,12 @@ TILT = 0.7
 
 
 class Sound(NamedTuple):
-    """What may be done to calls."""
+    """Changes that calls may get."""
 
     is_changed: bool
-    """Whether some get another speed, timbre or room, or are masked in part."""
+    """True if some get another speed, timbre or room, or are masked in part."""
     is_noisy: bool
-    """Whether some have much noise."""
+    """True if some have much noise."""
 
 
 EASY, CLEAR, ANY = Sound(False, False), Sound(True, False), Sound(True, True)
@@ -125,7 +137,7 @@ class Mixer:
     def _at_other_speed(
         self, drawn: Drawn, is_clean: Tensor, sound: Sound, chance: _Chance
     ) -> tuple[Tensor, Tensor]:
-        is_changed = is_clean & chance.of(CHANGED * sound.is_changed)
+        is_changed = is_clean & chance.of(CHANGED_SHARE * sound.is_changed)
         speed = torch.where(is_changed, chance.between(*SPEED), 1.0)
         lengths = ((drawn.lengths - 1) / speed).long() + 1
         longest = -(-int(lengths.max()) // FRAMES_MULTIPLE) * FRAMES_MULTIPLE
@@ -146,10 +158,11 @@ class Mixer:
 
     def _noise_of(self, count: int, drawn: Drawn, sound: Sound, chance: _Chance) -> Tensor:
         kind = chance.between(0.0, 1.0)
-        much, little = chance.between(-4.0, 14.0), chance.between(14.0, 40.0)
-        snr_db = torch.where(kind < 0.55, much, torch.where(kind < 0.9, little, torch.inf))
+        much, some = chance.between(*MUCH_DB), chance.between(*SOME_DB)
+        has_some = kind < MUCH_SHARE + SOME_SHARE
+        snr_db = torch.where(kind < MUCH_SHARE, much, torch.where(has_some, some, torch.inf))
         if not sound.is_noisy:
-            snr_db = chance.between(12.0, 35.0)
+            snr_db = chance.between(*CLEAR_DB)
         power = SPEECH_POWER / 10.0 ** (snr_db / 10.0)
         power = torch.where(drawn.is_silent, 10.0 ** chance.between(-6.0, -1.0), power)
         power = torch.where(drawn.is_received, 0.0, power)
@@ -182,7 +195,7 @@ class _Chance:
 
 def _in_other_timbre(log: Tensor, is_clean: Tensor, sound: Sound, chance: _Chance) -> Tensor:
     """Return speech of another length of the throat, through another microphone."""
-    share = CHANGED * sound.is_changed
+    share = CHANGED_SHARE * sound.is_changed
     bands = torch.arange(BINS, device=log.device)
     is_warped = is_clean & chance.of(share)
     warp = torch.where(is_warped, chance.between(*WARP), 1.0)
@@ -197,15 +210,15 @@ def _in_other_timbre(log: Tensor, is_clean: Tensor, sound: Sound, chance: _Chanc
     tilt = (sizes[:, :, None] * torch.cos(torch.pi * waves * bands / BINS + phases)).sum(dim=1)
     log = log + tilt[:, None, :]
     beside = torch.nn.functional.avg_pool1d(log, 3, 1, 1, count_include_pad=False)
-    is_smooth = (is_clean & chance.of(0.35 * share))[:, None, None]
+    is_smooth = (is_clean & chance.of(SMOOTH_SHARE * sound.is_changed))[:, None, None]
     return torch.where(is_smooth, beside, log)
 
 
 def _in_a_room(power: Tensor, is_clean: Tensor, sound: Sound, chance: _Chance) -> Tensor:
-    """Return speech with reverberation of 0.05 to 0.4 s, 0 to 15 dB below it."""
-    is_in_room = is_clean & chance.of(0.3 * sound.is_changed)
-    decay = 10.0 ** (-6.0 * 0.01 / chance.between(0.05, 0.4))
-    late = 10.0 ** (-chance.between(0.0, 15.0) / 10.0) * is_in_room
+    """Return speech with reverberation, which falls by 60 dB in its time."""
+    is_in_room = is_clean & chance.of(ROOM_SHARE * sound.is_changed)
+    decay = 10.0 ** (-6.0 * 0.01 / chance.between(*REVERBERATION_S))
+    late = 10.0 ** (-chance.between(*BENEATH_DB) / 10.0) * is_in_room
     heard = power * ((1.0 - decay) * late)[:, None, None]
     for frames in REVERBERATION_FRAMES:
         before = torch.nn.functional.pad(heard, (0, 0, frames, 0))[:, : power.shape[1]]
@@ -215,16 +228,16 @@ def _in_a_room(power: Tensor, is_clean: Tensor, sound: Sound, chance: _Chance) -
 
 def _others(power: Tensor, is_clean: Tensor, sound: Sound, chance: _Chance) -> Tensor:
     """Return another call of the batch far beneath some of the calls."""
-    is_heard = is_clean & chance.of(0.06 * sound.is_changed)
-    gain = 10.0 ** (chance.between(-28.0, -12.0) / 10.0) * is_heard
+    is_heard = is_clean & chance.of(OTHER_SHARE * sound.is_changed)
+    gain = 10.0 ** (chance.between(*OTHER_DB) / 10.0) * is_heard
     return power.roll(1, 0) * gain[:, None, None]
 
 
 def _gain_controlled(
     power: Tensor, is_own: Tensor, is_clean: Tensor, sound: Sound, chance: _Chance
 ) -> Tensor:
-    is_controlled = is_clean & chance.of(CHANGED * sound.is_changed)
-    strength = chance.between(0.2, 0.7) * is_controlled
+    is_controlled = is_clean & chance.of(CHANGED_SHARE * sound.is_changed)
+    strength = chance.between(*GAIN_STRENGTH) * is_controlled
     kernel = torch.exp(-torch.arange(GAIN_FRAMES, device=power.device) / GAIN_TIME)
     level = power.sum(dim=2)[:, None, :]
     behind = torch.nn.functional.pad(level, (GAIN_FRAMES - 1, 0))
@@ -239,11 +252,12 @@ def _masked(features: Tensor, lengths: Tensor, sound: Sound, chance: _Chance) ->
     if not sound.is_changed:
         return features
     bands = torch.arange(BINS, device=features.device)[None, None, :]
-    begin, size = chance.whole(0, BINS, 2), chance.whole(1, MASK_BINS, 2) * chance.of(0.5, 2)
+    begin = chance.whole(0, BINS, BAND_MASKS)
+    size = chance.whole(1, MASK_BINS + 1, BAND_MASKS) * chance.of(BAND_MASKED, BAND_MASKS)
     is_band = (bands >= begin[:, :, None]) & (bands < (begin + size)[:, :, None])
     time = torch.arange(features.shape[1], device=features.device)[None, None, :]
-    begin = (chance.between(0.0, 1.0, MASKS) * lengths[:, None]).long()
-    size = chance.whole(1, MASK_FRAMES, MASKS) * chance.of(0.3, MASKS)
+    begin = (chance.between(0.0, 1.0, TIME_MASKS) * lengths[:, None]).long()
+    size = chance.whole(1, MASK_FRAMES + 1, TIME_MASKS) * chance.of(TIME_MASKED, TIME_MASKS)
     is_time = (time >= begin[:, :, None]) & (time < (begin + size)[:, :, None])
     is_masked = is_band.any(dim=1)[:, None, :] | is_time.any(dim=1)[:, :, None]
     return features.masked_fill(is_masked, 0.0)

@@ -21,7 +21,6 @@ import json
 import math
 import shutil
 import time
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -34,6 +33,7 @@ from airhilt.assistant.asr.features import BINS
 from airhilt.assistant.asr.pieces import Pieces
 from batches import Batch, Batches
 from mel_shards import load, noise_bank
+from training import Training, add_options
 
 STRIDE = 6
 """Frames of features to a step inside the network: 60 ms."""
@@ -128,50 +128,6 @@ class Recogniser(nn.Module):
 # --- training ------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Training:
-    """Settings of a training.
-
-    Attributes
-    ----------
-    build
-        Folder with ``pieces.txt`` and the prepared shards in ``train``.
-    into
-        Folder of the checkpoint; a training goes on from the one that is there.
-    batch_frames
-        Frames of a batch, about.
-    without
-        Lineage that is left out; empty for none.
-    begin_with
-        Folder of `keep` whose weights a new training begins with; None: random ones.
-    bfloat16
-        Whether convolutions are computed in bfloat16, which accelerators and processors with
-        AVX512-BF16 do faster.
-    device
-        Device of torch: ``cpu`` or ``cuda``. On an accelerator, the same seed gives weights that
-        differ a little from run to run, because it sums in another order each time.
-    minutes
-        Time in which the training ends, if it is not done before: the learning rate then falls
-        with the time instead of with the steps.
-    adamw
-        Whether AdamW trains all weights, instead of Muon the matrices inside. Muon computes in
-        bfloat16, with which a step takes 12 s on a processor that does not know it.
-    """
-
-    build: Path
-    into: Path
-    steps: int
-    rate: float = 1.5e-3
-    seed: int = 0
-    batch_frames: int = 12_000
-    without: str = ""
-    begin_with: Path | None = None
-    bfloat16: bool = False
-    device: str = "cpu"
-    minutes: float = math.inf
-    adamw: bool = False
-
-
 def train(given: Training) -> None:
     """Train until the steps are done; write a checkpoint every few minutes."""
     torch.set_num_threads(1)
@@ -184,22 +140,27 @@ def train(given: Training) -> None:
         begin_with(network, given.begin_with)
     network.to(given.device)
     optimisers = optimisers_of(network, given.rate, adamw=given.adamw)
-    first = _resume(network, optimisers, given.into / "checkpoint.pt")
+    first, spent_s = _resume(network, optimisers, given.into / "checkpoint.pt")
     parameters = sum(p.numel() for p in network.parameters())
     calls = load(given.build / "train", pieces, given.without)
+    if not len(calls.lengths):
+        raise SystemExit(
+            f"train_asr: {given.build / 'train'} has no prepared calls to train on; make shards "
+            f"with asr_speech.py, and then: python tools/asr/mel_shards.py {given.build / 'train'}"
+        )
     count = len(calls.lengths)
     print(f"{parameters / 1e6:.2f} M parameters, {len(pieces)} pieces, {count} calls", flush=True)
     batches = Batches(calls, noise_bank(), given.batch_frames, given.seed, given.device)
     is_new = given.begin_with is None
     begun = saved = time.time()
+    before_s = spent_s
     mean = torch.tensor(8.0, device=given.device)
     network.train()
     done = first
     for step in range(first, given.steps):
-        elapsed = (time.time() - begun) / (60.0 * given.minutes)
-        if elapsed >= 1.0:
+        share = max(step / given.steps, spent_s / (60.0 * given.minutes))
+        if share >= 1.0:
             break
-        share = max(step / given.steps, elapsed)
         for optimiser in optimisers:
             for group in optimiser.param_groups:
                 group["lr"] = _rate(given.rate, step, share)
@@ -210,14 +171,14 @@ def train(given: Training) -> None:
         for optimiser in optimisers:
             optimiser.step()
         mean += 0.02 * (loss.detach() - mean)
-        done = step + 1
+        done, spent_s = step + 1, before_s + time.time() - begun
         if done % 100 == 0:
             each = (time.time() - begun) / (done - first)
             print(f"step {done}  {each:.3f} s each  loss {mean.item():.3f}", flush=True)
         if time.time() - saved > 240.0:
             saved = time.time()
-            _save(network, optimisers, done, given, count)
-    _save(network, optimisers, done, given, count)
+            _save(network, optimisers, done, spent_s, given, count)
+    _save(network, optimisers, done, spent_s, given, count)
 
 
 def optimisers_of(network: Recogniser, rate: float, *, adamw: bool) -> list[torch.optim.Optimizer]:
@@ -240,7 +201,13 @@ def pieces_of(folder: Path) -> Pieces:
 
 
 def _rate(most: float, step: int, share: float) -> float:
-    """Return the learning rate: a warm-up, then constant, then a cosine from a share of it all."""
+    """Return the learning rate: a warm-up, then constant, then a cosine.
+
+    Parameters
+    ----------
+    share
+        Part of the training that is done.
+    """
     decay = max(0.0, (share - 0.35) / 0.65)
     return most * min(1.0, (step + 1) / 300) * (0.5 * (1 + math.cos(math.pi * decay)) + 0.003)
 
@@ -305,22 +272,25 @@ def keep(folder: Path, target: Path) -> None:
         shutil.copy(folder / name, target / name)
 
 
-def _resume(network: nn.Module, optimisers: list[torch.optim.Optimizer], path: Path) -> int:
-    """Go on from a checkpoint; return the steps that are done, 0 if there is none."""
+def _resume(
+    network: nn.Module, optimisers: list[torch.optim.Optimizer], path: Path
+) -> tuple[int, float]:
+    """Go on from a checkpoint; return the steps that are done and the seconds that they took."""
     if not path.exists():
-        return 0
+        return 0, 0.0
     state = torch.load(path, weights_only=True, map_location="cpu")
     network.load_state_dict(state["network"])
     for optimiser, its_state in zip(optimisers, state["optimisers"], strict=True):
         optimiser.load_state_dict(its_state)
     print(f"goes on from step {state['step']}")
-    return int(state["step"])
+    return int(state["step"]), float(state["seconds"])
 
 
 def _save(
     network: nn.Module,
     optimisers: list[torch.optim.Optimizer],
     step: int,
+    seconds: float,
     given: Training,
     calls: int,
 ) -> None:
@@ -328,15 +298,17 @@ def _save(
         "network": network.state_dict(),
         "optimisers": [optimiser.state_dict() for optimiser in optimisers],
         "step": step,
+        "seconds": seconds,
     }
     path = given.into / "checkpoint.tmp"
     torch.save(state, path)
     path.rename(given.into / "checkpoint.pt")
     card = {
-        "made_by": "tools/asr/learn_pieces.py, asr_speech.py, vary_speech.py, train_asr.py",
+        "made_by": "tools/asr/make_recogniser.py",
         "parameters": sum(p.numel() for p in network.parameters()),
         "calls": calls,
         "steps": step,
+        "seconds": round(seconds),
         "batch_frames": given.batch_frames,
         "rate": given.rate,
         "seed": given.seed,
@@ -394,42 +366,22 @@ def _halve(path: Path) -> None:
     onnx.save(model, path)
 
 
-def add_options(
-    parser: argparse.ArgumentParser,
-    steps: int,
-    *,
-    rate: float = Training.rate,
-    batch_frames: int = Training.batch_frames,
-) -> None:
-    """Add the options of a training that are those of `Training`."""
-    parser.add_argument("--steps", type=int, default=steps)
-    parser.add_argument("--rate", type=float, default=rate, help="highest learning rate")
-    parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument(
-        "--batch-frames", type=int, default=batch_frames, help="frames of a batch"
-    )
-    parser.add_argument("--bfloat16", action="store_true", help="faster on CUDA and AVX512-BF16")
-    parser.add_argument("--adamw", action="store_true", help="without Muon, which needs bfloat16")
-    parser.add_argument("--device", default="cpu", help="device of torch, such as cuda")
-    parser.add_argument("--minutes", type=float, default=math.inf, help="end within so long")
-
-
 def main() -> None:
     """Read the command line."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     commands = parser.add_subparsers(dest="command", required=True)
-    two = commands.add_parser("train", help="train, from the checkpoint if there is one")
-    two.add_argument("build", type=Path)
-    two.add_argument("--into", type=Path, required=True, help="folder of the checkpoint")
-    two.add_argument("--begin-with", type=Path, help="folder with weights to begin with")
-    two.add_argument("--without", default="", help="lineage that is left out")
-    add_options(two, steps=36_000)
-    three = commands.add_parser("export", help="write the ONNX file")
-    three.add_argument("folder", type=Path, help="folder of the checkpoint")
-    three.add_argument("target", type=Path)
-    four = commands.add_parser("keep", help="write the weights for other trainings to begin with")
-    four.add_argument("folder", type=Path, help="folder of the checkpoint")
-    four.add_argument("target", type=Path)
+    training = commands.add_parser("train", help="train, from the checkpoint if there is one")
+    training.add_argument("build", type=Path)
+    training.add_argument("--into", type=Path, required=True, help="folder of the checkpoint")
+    training.add_argument("--begin-with", type=Path, help="folder with weights to begin with")
+    training.add_argument("--without", default="", help="lineage that is left out")
+    add_options(training, steps=36_000)
+    exporting = commands.add_parser("export", help="write the ONNX file")
+    exporting.add_argument("folder", type=Path, help="folder of the checkpoint")
+    exporting.add_argument("target", type=Path)
+    keeping = commands.add_parser("keep", help="write the weights for other trainings to begin with")
+    keeping.add_argument("folder", type=Path, help="folder of the checkpoint")
+    keeping.add_argument("target", type=Path)
     given = vars(parser.parse_args())
     match given.pop("command"):
         case "train":
