@@ -86,9 +86,7 @@ def test_no_more_is_spoken_when_a_synthesiser_fails(
     assert len(ran) < 5
 
 
-def test_it_ends_at_a_tool_that_fails(
-    capfd: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
+def test_it_ends_at_a_tool_that_fails(capfd: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     with pytest.raises(SystemExit, match=r"mel_shards\.py failed"):
         make_recogniser.run("mel_shards.py", "--no-such-option", tmp_path)
     printed = capfd.readouterr().out

@@ -51,7 +51,9 @@ def power_of(rng: np.random.Generator, frames: int) -> np.ndarray:
 
 
 @settings(max_examples=30, deadline=None)
-@given(st.integers(0, 2**32), st.lists(st.integers(LONGEST_CLICK_FRAMES, 600), min_size=1, max_size=5))
+@given(
+    st.integers(0, 2**32), st.lists(st.integers(LONGEST_CLICK_FRAMES, 600), min_size=1, max_size=5)
+)
 def test_a_batch_has_the_features_that_the_recogniser_computes_of_each_call(
     seed: int, lengths: list[int]
 ) -> None:
@@ -149,11 +151,10 @@ def test_a_silent_call_has_noise_alone_of_any_level() -> None:
 
 
 @pytest.mark.parametrize(
-    ("sound", "lowest_db", "highest_db"), [(CLEAR, 12.0, 35.0), (EASY, 12.0, 35.0), (ANY, -4.0, 40.0)]
+    ("sound", "lowest_db", "highest_db"),
+    [(CLEAR, 12.0, 35.0), (EASY, 12.0, 35.0), (ANY, -4.0, 40.0)],
 )
-def test_noise_has_the_ratios_of_a_batch(
-    sound: Sound, lowest_db: float, highest_db: float
-) -> None:
+def test_noise_has_the_ratios_of_a_batch(sound: Sound, lowest_db: float, highest_db: float) -> None:
     drawn = mixer_of([speech(60)] * 300)[1]
     mixer, _ = mixer_of([speech(60)] * 300, torch.ones(2, 300, BINS))
     power = mixer._noise_of(60, drawn, sound, _Chance(300, generator(1), torch.device("cpu")))
@@ -174,9 +175,7 @@ def test_timbres_move_the_bands_and_tilt_them() -> None:
     assert 24 <= at.min() < at.max() <= 37
     assert other[:, :, 60].std() > 0.3
     chance = _Chance(400, generator(2), torch.device("cpu"))
-    assert torch.equal(
-        _in_other_timbre(log, torch.zeros(400, dtype=torch.bool), ANY, chance), log
-    )
+    assert torch.equal(_in_other_timbre(log, torch.zeros(400, dtype=torch.bool), ANY, chance), log)
 
 
 def test_a_room_is_heard_behind_a_sound_and_falls_by_60_db_in_its_time() -> None:

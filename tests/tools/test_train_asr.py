@@ -21,6 +21,7 @@ from airhilt.assistant.asr.features import BINS  # noqa: E402
 from airhilt.assistant.asr.pieces import Pieces  # noqa: E402
 from batches import Batches  # noqa: E402
 from mel_shards import MelCalls, load  # noqa: E402
+from training import Training  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("default")  # torch's own
 torch.set_num_threads(1)
@@ -32,7 +33,7 @@ def trained(tmp_path: Path) -> Path:
     """Return the folder of a network that was saved after no step."""
     torch.manual_seed(0)
     network = train_asr.Recogniser(len(PIECES))
-    given = train_asr.Training(tmp_path, tmp_path, 0)
+    given = Training(tmp_path, tmp_path, 0)
     (tmp_path / "pieces.txt").write_text("\n".join(PIECES))
     train_asr._save(network, train_asr.optimisers_of(network, 1e-3, adamw=False), 0, 0.0, given, 0)
     return tmp_path
@@ -124,7 +125,7 @@ def test_time_that_an_interrupted_training_took_counts(tmp_path: Path) -> None:
     lines = [line("alfa", "pico", "a woman"), line("bravo", "pico", "a woman")]
     prepared(tmp_path / "train", lines, received=[])
     (tmp_path / "pieces.txt").write_text("\n".join(PIECES))
-    given = train_asr.Training(tmp_path, tmp_path / "full", 2, batch_frames=300, adamw=True)
+    given = Training(tmp_path, tmp_path / "full", 2, batch_frames=300, adamw=True)
     train_asr.train(given)
     card = tmp_path / "full" / "training.json"
     assert json.loads(card.read_text())["steps"] == 2
@@ -138,7 +139,7 @@ def test_a_training_without_prepared_calls_is_refused_in_words(tmp_path: Path) -
     (tmp_path / "train").mkdir()
     (tmp_path / "pieces.txt").write_text("\n".join(PIECES))
     with pytest.raises(SystemExit, match=r"no prepared calls.*mel_shards\.py"):
-        train_asr.train(train_asr.Training(tmp_path, tmp_path / "full", 2))
+        train_asr.train(Training(tmp_path, tmp_path / "full", 2))
 
 
 def test_the_rate_falls_with_the_way_that_is_done() -> None:

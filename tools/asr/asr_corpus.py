@@ -236,7 +236,7 @@ class Talk:
         return self._rng.choice(FAREWELLS) if self._rng.random() < share else ""
 
     def _with_unexpected(self, text: str, who: str) -> str:
-        """Return a call with one to four words more, or instead of one, but none in its callsign."""
+        """Return a call with a few words more, or instead of one, but none in its callsign."""
         rng = self._rng
         before, name, after = text.partition(who)
         parts = [before.split(), after.split()]

@@ -112,9 +112,7 @@ class Batches:
             torch.tensor([len(each) for each in units]),
         )
 
-    def _choose(
-        self, drawn_from: NDArray[np.int64], rng: np.random.Generator
-    ) -> NDArray[np.int64]:
+    def _choose(self, drawn_from: NDArray[np.int64], rng: np.random.Generator) -> NDArray[np.int64]:
         """Return which calls a batch has."""
         ends = np.cumsum(self._lengths[drawn_from])
         middle = int(np.searchsorted(ends, rng.integers(ends[-1]), side="right"))

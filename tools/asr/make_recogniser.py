@@ -1,12 +1,12 @@
 """Makes the embedded recogniser from nothing: speech, network, language model and confidence.
 
     python tools/asr/make_recogniser.py build/asr --processes 16 --device cuda --bfloat16
-    python tools/asr/make_recogniser.py build/try --share 0.01 --steps 10 --adamw --batch-frames 4000
+    python tools/asr/make_recogniser.py build/x --share 0.01 --steps 10 --adamw --batch-frames 4000
 
 It runs the other tools of this folder one after another, prints each command, and ends at the first
-one that fails. After an interruption, speech that was made is kept, and the training goes on. All synthesisers of
-`SPOKEN` must be installed (`synthesisers/README.md`), and torch, tokenizers, onnx and pyworld. The
-model is in ``MODEL`` of the folder at the end.
+one that fails. After an interruption, speech that was made is kept, and the training goes on. All
+synthesisers of `SPOKEN` must be installed (`synthesisers/README.md`), and torch, tokenizers, onnx
+and pyworld. The model is in ``MODEL`` of the folder at the end.
 """
 
 from __future__ import annotations

@@ -31,7 +31,7 @@ FRAMES_MULTIPLE = 48
 SPEECH_POWER = 0.01
 """Power of the speech of a received call, to which its noise is in proportion."""
 TIME_MASKS, TIME_MASKED, MASK_FRAMES = 8, 0.3, 11
-"""Pieces of time that may be masked in a call, the share of them that are, and their most frames."""
+"""Pieces of time that may be masked in a call, the share that are, and their most frames."""
 BAND_MASKS, BAND_MASKED, MASK_BINS = 2, 0.5, 7
 """The same of the bands."""
 ROOM_SHARE, REVERBERATION_S, BENEATH_DB = 0.3, (0.05, 0.4), (0.0, 15.0)

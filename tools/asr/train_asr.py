@@ -379,7 +379,9 @@ def main() -> None:
     exporting = commands.add_parser("export", help="write the ONNX file")
     exporting.add_argument("folder", type=Path, help="folder of the checkpoint")
     exporting.add_argument("target", type=Path)
-    keeping = commands.add_parser("keep", help="write the weights for other trainings to begin with")
+    keeping = commands.add_parser(
+        "keep", help="write the weights for other trainings to begin with"
+    )
     keeping.add_argument("folder", type=Path, help="folder of the checkpoint")
     keeping.add_argument("target", type=Path)
     given = vars(parser.parse_args())

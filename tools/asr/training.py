@@ -54,7 +54,6 @@ class Training:
     minutes: float = math.inf
     adamw: bool = False
 
-
     def __post_init__(self) -> None:
         """Refuse a training of no time."""
         if not self.minutes > 0.0:
@@ -72,9 +71,7 @@ def add_options(
     parser.add_argument("--steps", type=int, default=steps)
     parser.add_argument("--rate", type=float, default=rate, help="highest learning rate")
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument(
-        "--batch-frames", type=int, default=batch_frames, help="frames of a batch"
-    )
+    parser.add_argument("--batch-frames", type=int, default=batch_frames, help="frames of a batch")
     parser.add_argument("--bfloat16", action="store_true", help="faster on CUDA and AVX512-BF16")
     parser.add_argument("--adamw", action="store_true", help="without Muon, which needs bfloat16")
     parser.add_argument("--device", default="cpu", help="device of torch, such as cuda")
