@@ -1,7 +1,8 @@
-"""The manifest of a run: SHA-256 and size of each of its files, and a hash of ``run.json`` itself.
+"""The manifest of a run or a sweep: SHA-256 and size of each of its files.
 
-It tells damage from what the run wrote. Whoever changes a file on purpose can change the manifest
-too: only a signature (`airhilt.record.signature`) tells that.
+It is in ``run.json`` or ``sweep.json``, beside a hash of that document itself. It tells damage from
+what was written. Whoever changes a file on purpose can change the manifest too: only a signature
+(`airhilt.record.signature`) tells that.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ from airhilt.files import open_inside, sha256
 
 
 class FileRecord(BaseModel):
-    """A file of the run, as the run wrote it."""
+    """A file of a run or a sweep, as it was written."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     sha256: str
@@ -39,7 +40,7 @@ def manifest(folder: Path, files: Iterable[Path]) -> dict[str, FileRecord]:
 
 
 def digest(document: Mapping[str, Any]) -> str:
-    """Return the SHA-256 of the content of ``run.json`` without its field ``digest``.
+    """Return the SHA-256 of a document with a manifest, without its field ``digest``.
 
     It is taken over JSON with sorted names, without spaces, and with ASCII characters only, so that
     it does not depend on how the file is laid out.
@@ -49,18 +50,33 @@ def digest(document: Mapping[str, Any]) -> str:
     return hashlib.sha256(canonical.encode()).hexdigest()
 
 
-def problem_of(folder: Path, name: str, record: FileRecord) -> str:
-    """Return in words why a file is not the one of the manifest, empty if it is."""
+def digest_problem(name: str, document: Mapping[str, Any]) -> str:
+    """Return in words why a document is not what its ``digest`` says, empty if it is."""
+    try:
+        is_right = digest(document) == document.get("digest")
+    except RecursionError:
+        is_right = False
+    return "" if is_right else f"{name}: damaged or changed: not what its digest says"
+
+
+def problem_of(folder: Path, name: str, record: FileRecord, manifest_name: str = "run.json") -> str:
+    """Return in words why a file is not the one of the manifest, empty if it is.
+
+    Parameters
+    ----------
+    manifest_name
+        Name of the document that has the manifest.
+    """
     place = PurePosixPath(name)
     if place.is_absolute() or ".." in place.parts:
-        return f"{name}: outside of the run folder; the manifest was not written by AIRHILT"
+        return f"{name}: outside of the folder; the manifest was not written by AIRHILT"
     try:
         with open_inside(folder, folder / place) as stream:
             size_bytes = os.fstat(stream.fileno()).st_size
             if record.size_bytes not in (None, size_bytes):
                 return (
-                    f"{name}: damaged or changed: it has {size_bytes} bytes, and run.json says "
-                    f"{record.size_bytes}"
+                    f"{name}: damaged or changed: it has {size_bytes} bytes, and "
+                    f"{manifest_name} says {record.size_bytes}"
                 )
             found = hashlib.file_digest(stream, "sha256").hexdigest()
     except FileNotFoundError:
@@ -69,4 +85,4 @@ def problem_of(folder: Path, name: str, record: FileRecord) -> str:
         return f"{name}: cannot be read: {error.strerror}"
     if found == record.sha256:
         return ""
-    return f"{name}: damaged or changed: its SHA-256 is not that in run.json"
+    return f"{name}: damaged or changed: its SHA-256 is not that in {manifest_name}"

@@ -16,7 +16,7 @@ from airhilt.errors import RunFolderError
 from airhilt.record.folder import RunFolder, RunInfo
 from airhilt.record.latency import RecordedLatencies, read_latencies
 from airhilt.record.log_reader import Logged, LogReader, gaps_text
-from airhilt.record.manifest import FileRecord, digest, problem_of
+from airhilt.record.manifest import FileRecord, digest_problem, problem_of
 from airhilt.text import LONGEST_LINE, readable
 from airhilt.units import SECOND_NS
 
@@ -53,7 +53,7 @@ class Run:
         self.info: RunInfo = folder.info()
         self.log_damage = log_problem(folder, self.info)
         lines = (
-            digest_problem(folder, self.info),
+            info_problem(folder, self.info),
             self.log_damage,
             *(self._problem(path) for path in (folder.latency_path, folder.summary_path)),
         )
@@ -161,7 +161,7 @@ def result_problem(folder: RunFolder, info: RunInfo, path: Path) -> str:
     return f"{name}: not written by the run" if has_manifest else ""
 
 
-def digest_problem(folder: RunFolder, info: RunInfo) -> str:
+def info_problem(folder: RunFolder, info: RunInfo) -> str:
     """Return in words why ``run.json`` is not as the run wrote it, empty if it is.
 
     One of version 0.5 has no hash of itself.
@@ -169,10 +169,10 @@ def digest_problem(folder: RunFolder, info: RunInfo) -> str:
     if not info.digest:
         return ""
     try:
-        found = digest(bounded_json.parse(folder.read(folder.info_path)))
-    except (OSError, ValueError, RecursionError):
-        found = ""
-    return "" if found == info.digest else "run.json: damaged or changed: not what its digest says"
+        document = bounded_json.parse(folder.read(folder.info_path))
+    except (OSError, ValueError):
+        document = {}
+    return digest_problem(folder.info_path.name, document)
 
 
 def log_problem(folder: RunFolder, info: RunInfo) -> str:

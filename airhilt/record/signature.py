@@ -1,7 +1,8 @@
-"""Signatures of runs: Ed25519 (RFC 8032) over the bytes of ``run.json``, which has the manifest.
+"""Signatures of runs and sweeps: Ed25519 (RFC 8032) over the bytes of the file with the manifest.
 
-The signature is ``run.json.sig``: its 64 bytes, as ``openssl pkeyutl -rawin`` reads and writes
-them. Keys are PEM files (PKCS #8, and SubjectPublicKeyInfo).
+The file is ``run.json`` or ``sweep.json``. Its signature is ``run.json.sig`` or ``sweep.json.sig``:
+the 64 bytes, as ``openssl pkeyutl -rawin`` reads and writes them. Keys are PEM files (PKCS #8, and
+SubjectPublicKeyInfo).
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable
 from pathlib import Path
+from typing import Protocol
 
 from cryptography.exceptions import InvalidSignature, UnsupportedAlgorithm
 from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey, Ed25519PublicKey
@@ -23,12 +25,29 @@ from cryptography.hazmat.primitives.serialization import (
 
 from airhilt.errors import SignatureError
 from airhilt.files import is_of_owner_alone, read_file, replace_file, write_new
-from airhilt.record.folder import RunFolder
 
 LARGEST_KEY_BYTES = 1_000_000
 """Size of the largest file that is read as a key."""
 NO_KEY = (ValueError, TypeError, UnsupportedAlgorithm)
 """Exceptions of a file that holds no key, or one that needs a password."""
+
+
+class Signable(Protocol):
+    """A folder of a run or a sweep.
+
+    Attributes
+    ----------
+    info_path
+        The file that is signed, which has the manifest.
+    signature_path
+        Its signature.
+    """
+
+    info_path: Path
+    signature_path: Path
+
+    def read(self, path: Path) -> bytes:
+        """Return the content of one of both files; an `OSError` tells why it cannot be read."""
 
 
 def public_file(private: Path) -> Path:
@@ -131,25 +150,25 @@ def _content(path: Path, read: Callable[[Path], bytes] = _key_file) -> bytes:
         raise SignatureError(f"{path}: cannot be read: {error.strerror}") from None
 
 
-def sign(folder: RunFolder, key: Ed25519PrivateKey) -> None:
-    """Write the signature of a run beside its manifest.
+def sign(folder: Signable, key: Ed25519PrivateKey) -> None:
+    """Write the signature of a run or a sweep beside its manifest.
 
     Raises
     ------
     SignatureError
-        The run is signed already, or the signature cannot be written.
+        It is signed already, or the signature cannot be written.
     """
     path = folder.signature_path
     if path.exists():
-        raise SignatureError(f"{path}: the run is signed already; delete it to sign the run anew")
+        raise SignatureError(f"{path}: signed already; delete this file to sign anew")
     try:
         replace_file(path, key.sign(_content(folder.info_path, folder.read)))
     except OSError as error:
         raise SignatureError(f"{path}: cannot be written: {error.strerror}") from None
 
 
-def is_signed_by(folder: RunFolder, key: Ed25519PublicKey) -> bool:
-    """Return whether the signature of a run is of this key, and of ``run.json`` as it is now."""
+def is_signed_by(folder: Signable, key: Ed25519PublicKey) -> bool:
+    """Return whether a signature is of this key, and of the signed file as it is now."""
     try:
         key.verify(
             _content(folder.signature_path, folder.read), _content(folder.info_path, folder.read)

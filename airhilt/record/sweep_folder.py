@@ -13,12 +13,16 @@ import os
 import uuid
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
 
+from pydantic import TypeAdapter, ValidationError
+
 from airhilt import bounded_json
-from airhilt.errors import AirhiltError
+from airhilt.errors import AirhiltError, first_problem
 from airhilt.files import PARTIAL, make_folder, read_inside, replace_file
+from airhilt.record.folder import RunFolder
+from airhilt.record.manifest import FileRecord, digest, manifest
 from airhilt.record.parquet import LARGEST_BYTES, parse_table
 
 if TYPE_CHECKING:
@@ -40,6 +44,13 @@ GRID = "grid_sha256"
 sweep."""
 
 
+FILES = "files"
+"""Name, in ``sweep.json``, of the manifest: both tables, and the ``run.json`` of each run folder
+that was kept, which has the manifest of that run."""
+MANIFEST = TypeAdapter(dict[str, FileRecord])
+"""Shape of the manifest."""
+
+
 class SweepFolderError(AirhiltError):
     """A sweep folder cannot be written, or does not hold what it must."""
 
@@ -50,6 +61,7 @@ class SweepFolder:
     def __init__(self, path: Path) -> None:
         self.path = path
         self.info_path = path / "sweep.json"
+        self.signature_path = path / "sweep.json.sig"
         self.next_info_path = path / "sweep.next.json"
         self.table_path = path / "sweep.parquet"
         self.machine_path = path / "machine.parquet"
@@ -146,8 +158,8 @@ class SweepFolder:
                 fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except OSError:
                 raise SweepFolderError(
-                    f"{self.path}: another sweep is writing here; wait for it, or choose another "
-                    "folder with --out"
+                    f"{self.path}: another sweep is writing here; wait for its end, or choose "
+                    "another folder"
                 ) from None
             for left in (*self.path.glob(UNFINISHED), *self.parts_path.glob(UNFINISHED)):
                 left.unlink(missing_ok=True)
@@ -173,8 +185,7 @@ class SweepFolder:
             It is damaged.
         """
         try:
-            data = read_inside(self.path, self.info_path, bounded_json.MOST_BYTES)
-            loaded = bounded_json.parse(data)
+            loaded = bounded_json.parse(self.read(self.info_path))
         except OSError as error:
             raise SweepFolderError(f"{self.info_path}: cannot be read: {error.strerror}") from None
         except ValueError as error:
@@ -182,6 +193,29 @@ class SweepFolder:
         if not isinstance(loaded, dict) or loaded.get("format") != FORMAT:
             raise SweepFolderError(f"{self.info_path}: expected a sweep.json of format {FORMAT}")
         return loaded
+
+    def read(self, path: Path) -> bytes:
+        """Return the content of a small file of the sweep: ``sweep.json`` or its signature.
+
+        Raises
+        ------
+        OSError
+            It is not there, cannot be read, is no regular file of this folder, or is too large.
+        """
+        return read_inside(self.path, path, bounded_json.MOST_BYTES)
+
+    def files(self) -> dict[str, FileRecord]:
+        """Return the manifest in ``sweep.json``, empty if it has none.
+
+        Raises
+        ------
+        SweepFolderError
+            It is damaged.
+        """
+        try:
+            return MANIFEST.validate_python(self.info().get(FILES, {}))
+        except ValidationError as error:
+            raise SweepFolderError(f"{self.info_path}: {FILES}: {first_problem(error)}") from None
 
     # --- finished runs ----------------------------------------------------------------------
 
@@ -259,19 +293,34 @@ class SweepFolder:
     def write_tables(self, table: pa.Table, machine: pa.Table, info: Mapping[str, Any]) -> None:
         """Write both tables and their ``sweep.json``, each all or nothing.
 
-        After a kill in between, `table` and `machine` tell that they are not of one sweep.
+        After a kill in between, `table` and `machine` tell that they are not of one sweep. An
+        earlier signature is deleted: it is none of these tables.
 
         Parameters
         ----------
+        machine
+            Its column ``folder`` says which run folders were kept.
         info
-            Content of ``sweep.json``; its ``grid_sha256`` goes into the tables too.
+            Content of ``sweep.json`` but for the manifest; its ``grid_sha256`` goes into the tables
+            too.
         """
+        with _told(self.signature_path):
+            self.signature_path.unlink(missing_ok=True)
         mark = {GRID: str(info[GRID])}
         _write_table(table.replace_schema_metadata(mark), self.table_path)
         _write_table(machine.replace_schema_metadata(mark), self.machine_path)
-        _write_info(self.info_path, info)
+        _write_info(self.info_path, self._sealed(info, machine["folder"].to_pylist()))
         with _told(self.next_info_path):
             self.next_info_path.unlink(missing_ok=True)
+
+    def _sealed(self, info: Mapping[str, Any], kept: Iterable[str | None]) -> dict[str, Any]:
+        """Return the content of ``sweep.json`` with its manifest, and with its own hash."""
+        runs = (self.runs_path / PurePosixPath(name).name for name in kept if name)
+        files = (self.table_path, self.machine_path, *(RunFolder(run).info_path for run in runs))
+        with _told(self.path):
+            records = manifest(self.path, files)
+        sealed = {**info, FILES: {name: record.model_dump() for name, record in records.items()}}
+        return sealed | {"digest": digest(sealed)}
 
     def table(self) -> pa.Table:
         """Return ``sweep.parquet``: parameters and metrics, a row a run.
@@ -296,6 +345,23 @@ class SweepFolder:
                 "again, it makes the tables from the runs that are finished"
             )
         return table
+
+
+def is_sweep(path: Path) -> bool:
+    """Return true for a sweep folder, false for a run folder.
+
+    Raises
+    ------
+    SweepFolderError
+        It is neither.
+    """
+    if SweepFolder(path).is_there:
+        return True
+    if RunFolder(path).info_path.is_file():
+        return False
+    raise SweepFolderError(
+        f"{path}: neither a run nor a sweep; expected a folder with a run.json or a sweep.json"
+    )
 
 
 def _write_info(path: Path, info: Mapping[str, Any]) -> None:

@@ -1,72 +1,90 @@
-"""Says whether a run folder is as its run wrote it, and by whom it is signed."""
+"""Says whether the folder of a run or a sweep is as it was written, and by whom it is signed."""
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
+from collections.abc import Set as AbstractSet
+from contextlib import nullcontext
+from dataclasses import asdict, dataclass, replace
 from fnmatch import fnmatchcase
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any, Literal
+
+from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
 
 from airhilt.errors import RunFolderError, SignatureError
 from airhilt.record.folder import RunFolder, RunInfo
 from airhilt.record.log_reader import LogReader
+from airhilt.record.manifest import digest_problem, problem_of
 from airhilt.record.run import Run
-from airhilt.record.signature import fingerprint, is_signed_by, private_key, public_key, sign
+from airhilt.record.signature import (
+    Signable,
+    fingerprint,
+    is_signed_by,
+    private_key,
+    public_key,
+    sign,
+)
+from airhilt.record.sweep_folder import FILES, SweepFolder, SweepFolderError, is_sweep
 from airhilt.units import SECOND_NS
 
-MADE_AGAIN = ("report.html", "frequency-*.wav", "frequency-*.txt")
-"""Names of the files that commands make from a run, and that no manifest has."""
+MADE_AGAIN = ("report.html", "frequency-*.wav", "frequency-*.txt", "figures/*")
+"""Names of the files that commands make from a run or a sweep, and that no manifest has."""
 DAMAGED, UNFINISHED = 1, 3
-"""Exit codes of a run that is damaged, or not that of the key, and of one without an end."""
+"""Exit codes of what is damaged, or not that of the key, and of what has no end or no manifest."""
 
 
 @dataclass(frozen=True)
 class Verification:
-    """The state of a run folder.
+    """The state of the folder of a run or a sweep.
 
     Attributes
     ----------
     run
         The folder.
+    kind
+        What is in it.
     state
-        ``intact``: each file of the manifest is as the run wrote it. ``unfinished``: there is no
-        manifest, because the run was killed or goes on.
+        ``intact``: each file of the manifest is as it was written. ``unfinished``: a run has no
+        manifest, because it was killed or goes on; a sweep has not written its tables yet.
+        ``unchecked``: a sweep of version 0.5, which has no manifest.
     ended
-        How far an unfinished log can be read, in words; empty for another.
+        How far an unfinished log can be read, in words, or what tables an unfinished sweep has;
+        empty for another.
     files
         Number of files in the manifest.
     problems
         A line for each file that is missing or not as the run wrote it.
     additional
-        Files in the folder that the run did not write.
+        Files in the folder that the run or the sweep did not write.
     made_again
-        Files that can be made again from the run, and were not checked.
+        Files that can be made again from the others, and were not checked.
     signature
         ``unchecked``: there is one, and no key was given.
     key
         Fingerprint of the key that was given, empty without one.
     has_digest
-        False if ``run.json`` has no hash of itself, as version 0.5 wrote none: what it says was not
-        checked, and of the files the log alone.
+        False if ``run.json`` or ``sweep.json`` has no hash of itself, as version 0.5 wrote none:
+        what it says was not checked, and of the files of a run the log alone.
     """
 
     run: str
-    state: Literal["intact", "damaged", "unfinished"]
-    ended: str
-    files: int
-    problems: tuple[str, ...]
-    additional: tuple[str, ...]
-    made_again: tuple[str, ...]
-    signature: Literal["absent", "unchecked", "good", "bad"]
-    key: str
+    kind: Literal["run", "sweep"]
+    state: Literal["intact", "damaged", "unfinished", "unchecked"]
+    ended: str = ""
+    files: int = 0
+    problems: tuple[str, ...] = ()
+    additional: tuple[str, ...] = ()
+    made_again: tuple[str, ...] = ()
+    signature: Literal["absent", "unchecked", "good", "bad"] = "absent"
+    key: str = ""
     has_digest: bool = True
 
     @property
     def exit_code(self) -> int:
-        """0 if the run is intact, and signed by the key if one was given."""
+        """0 if the folder is intact, and signed by the key if one was given."""
         if self.state == "damaged" or (self.key and self.signature != "good"):
             return DAMAGED
-        return UNFINISHED if self.state == "unfinished" else 0
+        return 0 if self.state == "intact" else UNFINISHED
 
     def as_dict(self) -> dict[str, Any]:
         """Return it for JSON."""
@@ -75,99 +93,97 @@ class Verification:
     def __str__(self) -> str:
         match self.state:
             case "intact":
-                head = f"intact: {self.files} files are as the run wrote them"
+                head = f"intact: {self.files} files are as the {self.kind} wrote them"
             case "damaged":
                 head = "damaged"
             case "unfinished":
-                head = f"unfinished: the run was killed, or is still going on; {self.ended}"
+                head = f"unfinished: the {self.kind} was killed, or is still going on; {self.ended}"
+            case "unchecked":
+                head = (
+                    "not checked: sweep.json has no hashes of sweep.parquet and machine.parquet, "
+                    "as in version 0.5"
+                )
         lines = [f"{self.run}: {head}", *(f"  {problem}" for problem in self.problems)]
-        if not self.has_digest:
+        if self.kind == "run" and not self.has_digest:
             lines.append(
                 "run.json has no hash of itself, as in version 0.5, and was not checked; of the "
                 "files, those in its manifest were"
             )
         lines.append(f"signature: {self._signature_text()}")
         if self.additional:
-            lines.append(f"not written by the run: {', '.join(self.additional)}")
+            lines.append(f"not written by the {self.kind}: {', '.join(self.additional)}")
         if self.made_again:
-            lines.append(f"made from the run, and not checked: {', '.join(self.made_again)}")
+            lines.append(
+                f"made from the {self.kind}, and not checked: {', '.join(self.made_again)}"
+            )
         return "\n".join(lines)
 
     def _signature_text(self) -> str:
         match self.signature:
             case "absent":
-                return "none; whoever can change the run can change its manifest too"
+                return f"none; whoever can change the {self.kind} can change its manifest too"
             case "unchecked":
                 return "not checked; give the public key with --key"
             case "good":
                 return f"good, by the key {self.key}"
             case "bad":
-                return f"bad: not by the key {self.key}, or run.json was changed after it"
+                return f"bad: not by the key {self.key}, or {self.kind}.json was changed after it"
 
 
 def verify(path: Path, key: Path | None = None) -> Verification:
-    """Compare every file of a run with its manifest, and its signature with a public key.
+    """Compare every file of a run or a sweep with its manifest, and its signature with a key.
 
     Raises
     ------
-    RunFolderError
-        There is no run.
+    SweepFolderError
+        There is neither a run nor a sweep.
     SignatureError
         The key cannot be read.
     """
-    folder = RunFolder.open(path)
-    signature, mark = _signature(folder, key)
-    try:
-        info = folder.info()
-    except RunFolderError as error:
-        problem = str(error).replace(f"{path}/", "")
-        return Verification(str(path), "damaged", "", 0, (problem,), (), (), signature, mark)
-    problems = _problems(folder, info)
-    is_unfinished = info.phase == "running"
-    others = [] if is_unfinished else _others(folder, info)
-    made_again = [name for name in others if _is_made_again(name)]
-    state: Literal["unfinished", "intact"] = "unfinished" if is_unfinished else "intact"
-    return Verification(
-        str(path),
-        "damaged" if problems else state,
-        _ended(folder) if is_unfinished else "",
-        len(info.files),
-        tuple(problems),
-        tuple(name for name in others if name not in made_again),
-        tuple(made_again),
-        signature,
-        mark,
-        bool(info.digest),
-    )
+    has_sweep = is_sweep(path)
+    signature, mark = _signature(SweepFolder(path) if has_sweep else RunFolder(path), key)
+    found = _sweep(SweepFolder(path)) if has_sweep else _run(RunFolder(path))
+    return replace(found, signature=signature, key=mark)
 
 
-def sign_run(path: Path, key: Path) -> str:
-    """Sign a run that is intact, and return the fingerprint of the key.
+def sign_folder(path: Path, key: Path) -> str:
+    """Sign a run or a sweep that is intact, and return the fingerprint of the key.
 
     Raises
     ------
-    RunFolderError
-        There is no run.
+    SweepFolderError
+        There is neither a run nor a sweep, or a sweep is going on.
     SignatureError
         It is not intact, or signed already, or the key is none.
     """
     signer = private_key(key)
-    found = verify(path)
-    if found.state != "intact":
-        said = f": {found.problems[0]}" if found.problems else ""
-        raise SignatureError(f"{path}: {found.state}{said}; expected a run that is intact")
-    folder = RunFolder.open(path)
-    if not folder.info().digest:
-        raise SignatureError(
-            f"{path}: recorded by an earlier version, whose manifest has its log alone; expected a "
-            "run of this version"
-        )
-    sign(folder, signer)
+    if is_sweep(path):
+        folder = SweepFolder(path)
+        with folder.locked() if folder.parts_path.is_dir() else nullcontext():
+            _sign_intact(folder, signer)
+    else:
+        _sign_intact(RunFolder(path), signer)
     return fingerprint(signer.public_key())
 
 
+def _sign_intact(folder: RunFolder | SweepFolder, signer: Ed25519PrivateKey) -> None:
+    found = verify(folder.path)
+    if found.state != "intact":
+        said = f": {found.problems[0]}" if found.problems else ""
+        state = "not checked" if found.state == "unchecked" else found.state
+        raise SignatureError(
+            f"{folder.path}: {state}{said}; expected a {found.kind} that is intact"
+        )
+    if not found.has_digest:
+        raise SignatureError(
+            f"{folder.path}: recorded by an earlier version, whose manifest has its log alone; "
+            "expected a run of this version"
+        )
+    sign(folder, signer)
+
+
 def _signature(
-    folder: RunFolder, key: Path | None
+    folder: Signable, key: Path | None
 ) -> tuple[Literal["absent", "unchecked", "good", "bad"], str]:
     """Return the state of the signature, and the fingerprint of the key."""
     given = None if key is None else public_key(key)
@@ -177,6 +193,40 @@ def _signature(
     if given is None:
         return "unchecked", mark
     return ("good" if is_signed_by(folder, given) else "bad"), mark
+
+
+# --- runs -----------------------------------------------------------------------------------
+
+
+def _run(folder: RunFolder) -> Verification:
+    """Return the state of a run, without its signature."""
+    path = str(folder.path)
+    try:
+        info = folder.info()
+    except RunFolderError as error:
+        return Verification(path, "run", "damaged", problems=(_below(folder.path, error),))
+    problems = _problems(folder, info)
+    is_unfinished = info.phase == "running"
+    state: Literal["unfinished", "intact"] = "unfinished" if is_unfinished else "intact"
+    additional, made_again = (
+        ((), ()) if is_unfinished else _others(folder.path, _known(folder, info))
+    )
+    return Verification(
+        path,
+        "run",
+        "damaged" if problems else state,
+        _ended(folder) if is_unfinished else "",
+        len(info.files),
+        tuple(problems),
+        additional,
+        made_again,
+        has_digest=bool(info.digest),
+    )
+
+
+def _below(folder: Path, error: Exception) -> str:
+    """Return an error with the names of files as they are below a folder."""
+    return str(error).replace(f"{folder}/", "")
 
 
 def _problems(folder: RunFolder, info: RunInfo) -> list[str]:
@@ -198,15 +248,83 @@ def _ended(folder: RunFolder) -> str:
     return f"its log has messages up to {reader.end_ns / SECOND_NS:.3f} s"
 
 
-def _others(folder: RunFolder, info: RunInfo) -> list[str]:
-    """Return the files in the folder that are not in the manifest."""
-    known = {*info.files, folder.info_path.name, folder.signature_path.name}
-    names = (
-        path.relative_to(folder.path).as_posix()
-        for path in folder.path.rglob("*")
+def _known(folder: RunFolder, info: RunInfo) -> set[str]:
+    return {*info.files, folder.info_path.name, folder.signature_path.name}
+
+
+# --- sweeps ---------------------------------------------------------------------------------
+
+
+def _sweep(folder: SweepFolder) -> Verification:
+    """Return the state of a sweep, without its signature."""
+    path = str(folder.path)
+    if not folder.info_path.is_file():
+        return Verification(path, "sweep", "unfinished", "it has no tables yet")
+    try:
+        info, files = folder.info(), folder.files()
+    except SweepFolderError as error:
+        return Verification(path, "sweep", "damaged", problems=(_below(folder.path, error),))
+    tables = folder.table_path.name, folder.machine_path.name
+    if "digest" not in info and FILES not in info:
+        missing = tuple(f"{name}: missing" for name in tables if not (folder.path / name).is_file())
+        state: Literal["damaged", "unchecked"] = "damaged" if missing else "unchecked"
+        return Verification(path, "sweep", state, problems=missing, has_digest=False)
+    problems = [
+        digest_problem(folder.info_path.name, info),
+        *(f"sweep.json: its manifest has no {name}" for name in tables if name not in files),
+    ]
+    runs = {str(PurePosixPath(name).parent) for name in files if name not in tables}
+    known = {folder.info_path.name, folder.signature_path.name, folder.next_info_path.name, *files}
+    additional, made_again = _others(folder.path, known, {folder.parts_path.name, *runs})
+    for name, record in files.items():
+        problem = problem_of(folder.path, name, record, folder.info_path.name)
+        problems.append(problem)
+        if name not in tables and not problem:
+            run = PurePosixPath(name).parent
+            found = _run(RunFolder(folder.path / run))
+            problems += (f"{run}/{line}" for line in found.problems)
+            additional += tuple(f"{run}/{other}" for other in found.additional)
+            made_again += tuple(f"{run}/{other}" for other in found.made_again)
+    is_unfinished = folder.next_info_path.is_file()
+    problems = [problem for problem in problems if problem]
+    ended: Literal["unfinished", "intact"] = "unfinished" if is_unfinished else "intact"
+    return Verification(
+        path,
+        "sweep",
+        "damaged" if problems else ended,
+        "its tables are of what was run before" if is_unfinished else "",
+        len(files),
+        tuple(problems),
+        additional,
+        made_again,
+    )
+
+
+def _others(
+    folder: Path, known: AbstractSet[str], elsewhere: AbstractSet[str] = frozenset()
+) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Return the files in a folder that no manifest has, and those that can be made again.
+
+    Parameters
+    ----------
+    known
+        Files that the run or the sweep wrote.
+    elsewhere
+        Folders that are left out.
+    """
+    paths = (
+        path.relative_to(folder)
+        for path in folder.rglob("*")
         if path.is_symlink() or not path.is_dir()
     )
-    return sorted(name for name in names if name not in known)
+    others = sorted(
+        path.as_posix()
+        for path in paths
+        if path.as_posix() not in known
+        and elsewhere.isdisjoint(parent.as_posix() for parent in path.parents)
+    )
+    made_again = tuple(name for name in others if _is_made_again(name))
+    return tuple(name for name in others if name not in made_again), made_again
 
 
 def _is_made_again(name: str) -> bool:

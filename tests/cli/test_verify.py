@@ -123,7 +123,7 @@ def test_a_manifest_cannot_name_a_file_elsewhere(airhilt_command: Any, run_copy:
     tamper(run_copy, lambda document: document["files"].update({"../secret.txt": {"sha256": "0"}}))
     code, found = verified(airhilt_command, run_copy)
     assert code == 1
-    assert found["problems"][0].startswith("../secret.txt: outside of the run folder")
+    assert found["problems"][0].startswith("../secret.txt: outside of the folder")
 
 
 def test_a_manifest_with_a_name_that_no_file_can_have_is_named(
@@ -143,7 +143,7 @@ def test_a_manifest_with_a_name_that_no_file_can_have_is_named(
 def test_a_folder_without_a_run_is_a_mistake(airhilt_command: Any, tmp_path: Path) -> None:
     done = airhilt_command("verify", tmp_path)
     assert (done.returncode, done.stdout) == (2, "")
-    assert "no run here" in done.stderr
+    assert "neither a run nor a sweep" in done.stderr
 
 
 # --- signatures -----------------------------------------------------------------------------

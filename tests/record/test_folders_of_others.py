@@ -154,7 +154,7 @@ def test_tables_of_a_sweep_are_written_in_the_place_of_links(tmp_path: Path, out
     folder = SweepFolder(tmp_path / "sweep")
     folder.create()
     lead_out(folder.path, outside, "sweep.parquet", "machine.parquet", "sweep.json")
-    table = pa.table({"key": ["a"], "status": ["finished"]})
+    table = pa.table({"key": ["a"], "status": ["finished"], "folder": [""]})
     folder.write_tables(table, table, {"format": 1, "grid_sha256": "a"})
     assert outside.read_text() == PRECIOUS
     assert folder.table().num_rows == 1

@@ -24,7 +24,7 @@ def folder(tmp_path: Path) -> SweepFolder:
 
 
 def run(key: str, value: float = 0.5) -> pa.Table:
-    return pa.table({"key": [key], "status": ["finished"], "value": [value]})
+    return pa.table({"key": [key], "status": ["finished"], "value": [value], "folder": [""]})
 
 
 SCHEMA = run("").schema
@@ -53,7 +53,7 @@ def test_a_sweep_killed_as_it_began_can_begin_again(tmp_path: Path) -> None:
     begun.create()
     with begun.locked():
         begun.write_tables(run("a"), run("a"), INFO)
-    assert begun.info() == INFO
+    assert begun.info()["grid_sha256"] == "a"
 
 
 @pytest.mark.parametrize("name", ["sweep.json", "notes.txt", "parts/mine.parquet"])
@@ -196,7 +196,7 @@ def test_tables_are_those_of_the_specification_beside_them(
         patch.setattr(sweep_folder, "_write_info", kill)
         with pytest.raises(RuntimeError):
             folder.write_tables(run("b"), run("b"), {"format": 1, "grid_sha256": "b"})
-    assert folder.info() == INFO
+    assert folder.info()["grid_sha256"] == "a"
     for read in (folder.table, folder.machine):
         with pytest.raises(
             AirhiltError, match=r"not of the sweep in sweep\.json; give the command"
@@ -206,7 +206,7 @@ def test_tables_are_those_of_the_specification_beside_them(
 
 def test_what_a_sweep_begins_with_is_not_yet_what_its_tables_are_of(folder: SweepFolder) -> None:
     folder.write_next_info({"format": 1, "grid_sha256": "b"})
-    assert folder.info() == INFO
+    assert folder.info()["grid_sha256"] == "a"
     assert folder.table()["key"].to_pylist() == ["before"]
 
 

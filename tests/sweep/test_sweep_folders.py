@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import shutil
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -14,6 +15,7 @@ import pytest
 from airhilt.child_process import available_cores
 from airhilt.errors import AirhiltError
 from airhilt.record.sweep_folder import SweepFolder
+from airhilt.record.verification import verify
 from airhilt.sweep import engine
 from airhilt.sweep.crashes import SAME_CRASHES
 from airhilt.sweep.engine import SweepObserver, SweepResult, sweep
@@ -254,3 +256,45 @@ def test_runs_share_pictures_where_it_changes_nothing(
     asked = {"scenarios": ["s02a_headon"], "options": {"speech": False, **options}}
     sweep(specification_of(asked, "test"), Work(tmp_path / "sweep"))
     assert [each.options.get("share_pictures", False) for each in client.submitted] == [shares]
+
+
+def test_the_tables_of_a_sweep_are_intact_until_they_are_written_anew(sweeps: Sweeps) -> None:
+    sweeps.run(finishes)
+
+    def looks(request: Request) -> Outcome:
+        assert verify(sweeps.out).state == "unfinished"
+        return finishes(request)
+
+    before = verify(sweeps.out)
+    sweeps.run(looks, seeds=3)
+    after = verify(sweeps.out)
+    assert [before.state, after.state] == ["intact", "intact"]
+    assert before.additional == after.additional == ()
+
+
+def test_a_sweep_joined_from_the_parts_of_two_machines_is_intact(
+    sweeps: Sweeps, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    other = Sweeps(tmp_path / "other", monkeypatch)
+    sweeps.run(finishes, seeds=1)
+    other.run(finishes, seeds=2)
+    for part in SweepFolder(other.out).parts_path.glob("*.parquet"):
+        shutil.copy(part, SweepFolder(sweeps.out).parts_path)
+    client = FakeClient(ends=finishes)
+    sweeps.run(finishes, seeds=2, fake=client)
+    assert client.submitted == []
+    assert sweeps.seeds_of_tables() == (2, [0, 1])
+    assert verify(sweeps.out).state == "intact"
+
+
+def test_a_run_folder_that_a_sweep_keeps_is_in_its_manifest(sweeps: Sweeps) -> None:
+    def keeps(request: Request) -> Outcome:
+        Path(request.folder).mkdir(parents=True)
+        (Path(request.folder) / "run.json").write_text("{}")
+        return finishes(request).model_copy(update={"is_kept": True})
+
+    sweeps.run(keeps, keep="all")
+    folder = SweepFolder(sweeps.out)
+    runs = {f"{name}/run.json" for name in folder.machine()["folder"].to_pylist()}
+    assert folder.files().keys() == {"sweep.parquet", "machine.parquet"} | runs
+    assert len(runs) == 2

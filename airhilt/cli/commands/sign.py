@@ -1,4 +1,4 @@
-"""The command that signs a run."""
+"""The command that signs a run or a sweep."""
 
 from __future__ import annotations
 
@@ -12,10 +12,11 @@ import click
 Examples:
   airhilt keys sign lab.key                     make a key first
   airhilt sign RUN --key lab.key
+  airhilt sign SWEEP --key lab.key
   airhilt verify RUN --key lab.key.pub          what others do
 """
 )
-@click.argument("run_folder", metavar="RUN", type=click.Path(path_type=Path))
+@click.argument("folder", metavar="RUN|SWEEP", type=click.Path(path_type=Path))
 @click.option(
     "--key",
     required=True,
@@ -23,16 +24,17 @@ Examples:
     metavar="PRIVATE",
     help="Private key that `airhilt keys sign` has made.",
 )
-def sign(run_folder: Path, key: Path) -> None:
-    """Sign a run that is intact, so that others can tell that nobody changed it.
+def sign(folder: Path, key: Path) -> None:
+    """Sign a run or a sweep that is intact, so that others can tell that nobody changed it.
 
     The signature is run.json.sig in the run folder. It covers run.json, and by its manifest every
-    file that the run wrote.
+    file that the run wrote. That of a sweep is sweep.json.sig: it covers sweep.json, and by its
+    manifest both tables and the run folders that were kept.
     """
-    from airhilt.record.verification import sign_run
+    from airhilt.record.verification import sign_folder
 
-    mark = sign_run(run_folder, key)
-    click.echo(f"{run_folder}: signed by the key {mark}")
+    mark = sign_folder(folder, key)
+    click.echo(f"{folder}: signed by the key {mark}")
 
 
 COMMAND = sign

@@ -1,4 +1,4 @@
-"""The command that says whether a run is as it was written, and by whom it is signed."""
+"""The command that says whether a run or a sweep is as it was written, and by whom it is signed."""
 
 from __future__ import annotations
 
@@ -15,29 +15,31 @@ from airhilt.cli.output import echo
     epilog="""\b
 Examples:
   airhilt verify runs/s02a_headon-0-20260101T120000
+  airhilt verify SWEEP
   airhilt verify RUN --key lab.key.pub
   airhilt verify RUN --json
 """
 )
-@click.argument("run_folder", metavar="RUN", type=click.Path(path_type=Path))
+@click.argument("folder", metavar="RUN|SWEEP", type=click.Path(path_type=Path))
 @click.option(
     "--key",
     type=click.Path(path_type=Path, dir_okay=False),
     metavar="PUBLIC",
-    help="Public key by which the run must be signed.",
+    help="Public key by which the run or the sweep must be signed.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
-def verify(run_folder: Path, key: Path | None, as_json: bool) -> None:
-    """Say whether every file of a run is as the run wrote it.
+def verify(folder: Path, key: Path | None, as_json: bool) -> None:
+    """Say whether every file of a run is as the run wrote it, or the tables of a sweep.
 
-    Without --key this finds damage. Only a signature tells that nobody changed the run on purpose.
+    Without --key this finds damage. Only a signature tells that nobody changed it on purpose.
 
     Exit code 0: intact, and signed by the key if one is given. 1: damaged, or not signed by the
-    key. 3: unfinished, because the run was killed or is still going on.
+    key. 3: unfinished, because it was killed or is still going on; or a sweep of version 0.5,
+    whose tables cannot be checked.
     """
-    from airhilt.record.verification import verify as verify_run
+    from airhilt.record.verification import verify as verify_folder
 
-    found = verify_run(run_folder, key)
+    found = verify_folder(folder, key)
     if as_json:
         click.echo(json.dumps(found.as_dict(), indent=2))
     else:

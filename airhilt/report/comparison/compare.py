@@ -7,9 +7,9 @@ from pathlib import Path
 from airhilt.errors import AirhiltError
 from airhilt.library import nearest
 from airhilt.metrics.frames import frame_of
-from airhilt.record import RunFolder, open_run
+from airhilt.record import open_run
 from airhilt.record.run import Notice
-from airhilt.record.sweep_folder import SweepFolder
+from airhilt.record.sweep_folder import SweepFolder, is_sweep
 from airhilt.report.comparison.runs import RunComparison, compare_runs
 from airhilt.report.comparison.sweeps import Side, SweepComparison, compare_sides
 from airhilt.report.sweeps.data import parameters_of
@@ -48,11 +48,11 @@ def compare(
         raise AirhiltError(
             "--assistants compares two assistants of one sweep; expected one folder with it"
         )
-    is_sweep = [_is_sweep(folder) for folder in (first, second)]
+    are_sweeps = [is_sweep(folder) for folder in (first, second)]
     names = _name(first, second), _name(second, first)
-    if all(is_sweep):
+    if all(are_sweeps):
         return compare_sides(_side(first, names[0]), _side(second, names[1]))
-    if any(is_sweep):
+    if any(are_sweeps):
         raise AirhiltError(
             f"{first}, {second}: one is a sweep and the other a run; expected two of one kind"
         )
@@ -78,23 +78,6 @@ def _of_assistants(folder: Path, names: tuple[str, str]) -> SweepComparison:
         Side(name, whole.runs[whole.runs["assistant"] == name], whole.parameters) for name in names
     )
     return compare_sides(one, other)
-
-
-def _is_sweep(folder: Path) -> bool:
-    """Return true for a sweep folder, false for a run folder.
-
-    Raises
-    ------
-    AirhiltError
-        It is neither.
-    """
-    if SweepFolder(folder).is_there:
-        return True
-    if RunFolder(folder).info_path.is_file():
-        return False
-    raise AirhiltError(
-        f"{folder}: neither a run nor a sweep; expected a folder with a run.json or a sweep.json"
-    )
 
 
 def _side(folder: Path, name: str) -> Side:

@@ -1,0 +1,242 @@
+"""`airhilt verify` says whether the tables of a sweep are as it wrote them, and who signed them."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+import pytest
+
+from airhilt.record.manifest import digest
+from airhilt.record.sweep_folder import SweepFolder
+from damage import flip, kill
+
+INFO = {"format": 1, "runs": 1, "grid_sha256": "a"}
+KEPT = "runs/first"
+
+
+@pytest.fixture
+def sweep(recorded_run: Path, tmp_path: Path) -> Path:
+    """A sweep of one run, whose folder was kept."""
+    folder = SweepFolder(tmp_path / "sweep")
+    folder.create()
+    shutil.copytree(recorded_run, folder.path / KEPT)
+    write(folder)
+    return folder.path
+
+
+def write(folder: SweepFolder, kept: str = KEPT) -> None:
+    row = {"key": ["a"], "status": ["finished"]}
+    folder.write_tables(pa.table(row), pa.table(row | {"folder": [kept]}), INFO)
+
+
+@pytest.fixture
+def keys(airhilt_command: Any, tmp_path: Path) -> Path:
+    assert airhilt_command("keys", "sign", tmp_path / "lab.key").returncode == 0
+    return tmp_path / "lab.key"
+
+
+@pytest.fixture
+def signed(airhilt_command: Any, keys: Path, sweep: Path) -> Path:
+    done = airhilt_command("sign", sweep, "--key", keys)
+    assert done.returncode == 0, done.stderr
+    return sweep
+
+
+def verified(airhilt_command: Any, *arguments: object) -> tuple[int, dict[str, Any]]:
+    done: subprocess.CompletedProcess[str] = airhilt_command("verify", *arguments, "--json")
+    assert done.stderr == ""
+    return done.returncode, json.loads(done.stdout)
+
+
+def change(sweep: Path, changes: Callable[[dict[str, Any]], object]) -> None:
+    """Change ``sweep.json`` without making its hash right again."""
+    path = sweep / "sweep.json"
+    document = json.loads(path.read_text())
+    changes(document)
+    path.write_text(json.dumps(document))
+
+
+# --- damage ---------------------------------------------------------------------------------
+
+
+def test_a_sweep_as_it_was_written_is_intact(airhilt_command: Any, sweep: Path) -> None:
+    (sweep / "figures").mkdir()
+    (sweep / "figures" / "warnings.svg").write_text("<svg/>")
+    (sweep / KEPT / "report.html").write_text("made later")
+    SweepFolder(sweep).keep(pa.table({"key": ["a"], "status": ["finished"]}))
+    (sweep / "notes.txt").write_text("on a Tuesday")
+    code, found = verified(airhilt_command, sweep)
+    assert (code, found["kind"], found["state"]) == (0, "sweep", "intact")
+    assert (found["problems"], found["files"]) == ([], 3)
+    assert found["made_again"] == ["figures/warnings.svg", f"{KEPT}/report.html"]
+    assert found["additional"] == ["notes.txt"]
+    done = airhilt_command("verify", sweep)
+    assert done.stdout.startswith(f"{sweep}: intact: 3 files are as the sweep wrote them\n")
+
+
+@pytest.mark.parametrize("name", ["sweep.parquet", "machine.parquet", f"{KEPT}/run.json"])
+def test_a_file_that_was_changed_or_is_missing_is_named(
+    airhilt_command: Any, sweep: Path, name: str
+) -> None:
+    flip(sweep / name, 8 * ((sweep / name).stat().st_size // 2))
+    code, found = verified(airhilt_command, sweep)
+    assert (code, found["state"]) == (1, "damaged")
+    changed = f"{name}: damaged or changed: its SHA-256 is not that in sweep.json"
+    assert found["problems"] == [changed]
+    (sweep / name).unlink()
+    assert verified(airhilt_command, sweep)[1]["problems"] == [f"{name}: missing"]
+
+
+def test_damage_of_a_run_that_was_kept_is_that_of_its_sweep(
+    airhilt_command: Any, sweep: Path
+) -> None:
+    (sweep / KEPT / "latency.jsonl").unlink()
+    (sweep / KEPT / "call.wav").write_bytes(b"RIFF")
+    code, found = verified(airhilt_command, sweep)
+    assert (code, found["problems"]) == (1, [f"{KEPT}/latency.jsonl: missing"])
+    assert found["additional"] == [f"{KEPT}/call.wav"]
+
+
+def test_a_run_that_a_limit_ended_is_no_damage(airhilt_command: Any, sweep: Path) -> None:
+    kill(sweep / KEPT)
+    write(SweepFolder(sweep))
+    assert verified(airhilt_command, sweep)[0] == 0
+
+
+@pytest.mark.parametrize(
+    "changes",
+    [
+        lambda document: document.update(runs=7),
+        lambda document: document.pop("digest"),
+        lambda document: document.pop("files"),
+        lambda document: document["files"].pop("sweep.parquet"),
+        lambda document: document.update(files=7),
+        lambda document: document.update(format=7),
+    ],
+)
+def test_a_changed_specification_is_damage(
+    airhilt_command: Any, sweep: Path, changes: Callable[[dict[str, Any]], object]
+) -> None:
+    change(sweep, changes)
+    code, found = verified(airhilt_command, sweep)
+    assert (code, found["state"]) == (1, "damaged")
+    assert found["problems"][0].startswith("sweep.json: ")
+
+
+def test_a_manifest_without_the_tables_is_damage_though_its_hash_is_right(
+    airhilt_command: Any, sweep: Path
+) -> None:
+    def forge(document: dict[str, Any]) -> None:
+        document["files"] = {"../secret.txt": document["files"]["sweep.parquet"]}
+        document["digest"] = digest(document)
+
+    (sweep.parent / "secret.txt").write_text("secret")
+    change(sweep, forge)
+    code, found = verified(airhilt_command, sweep)
+    assert code == 1
+    assert "sweep.json: its manifest has no sweep.parquet" in found["problems"]
+    assert any("../secret.txt: outside of the folder" in line for line in found["problems"])
+
+
+def test_a_sweep_without_hashes_is_not_checked(
+    airhilt_command: Any, sweep: Path, keys: Path
+) -> None:
+    """Earlier versions wrote none."""
+
+    def strip(document: dict[str, Any]) -> None:
+        del document["files"], document["digest"]
+
+    change(sweep, strip)
+    code, found = verified(airhilt_command, sweep)
+    assert (code, found["state"], found["has_digest"]) == (3, "unchecked", False)
+    assert "not checked: sweep.json has no hashes of sweep.parquet and machine.parquet" in (
+        airhilt_command("verify", sweep).stdout
+    )
+    assert verified(airhilt_command, sweep, "--key", f"{keys}.pub")[0] == 1
+    done = airhilt_command("sign", sweep, "--key", keys)
+    assert (done.returncode, "not checked; expected a sweep that is intact" in done.stderr) == (
+        2,
+        True,
+    )
+    (sweep / "machine.parquet").unlink()
+    code, found = verified(airhilt_command, sweep)
+    assert (code, found["problems"]) == (1, ["machine.parquet: missing"])
+
+
+# --- signatures -----------------------------------------------------------------------------
+
+
+def test_a_signed_sweep_is_good_by_its_key_alone(
+    airhilt_command: Any, signed: Path, keys: Path, tmp_path: Path
+) -> None:
+    code, found = verified(airhilt_command, signed, "--key", f"{keys}.pub")
+    assert (code, found["state"], found["signature"]) == (0, "intact", "good")
+    assert found["additional"] == []
+    assert airhilt_command("keys", "sign", tmp_path / "other.key").returncode == 0
+    code, found = verified(airhilt_command, signed, "--key", tmp_path / "other.key.pub")
+    assert (code, found["signature"]) == (1, "bad")
+    done = airhilt_command("sign", signed, "--key", keys)
+    assert (done.returncode, "signed already" in done.stderr) == (2, True)
+
+
+def test_tables_that_were_changed_on_purpose_are_not_genuine(
+    airhilt_command: Any, signed: Path, keys: Path
+) -> None:
+    signature = (signed / "sweep.json.sig").read_bytes()
+    write(SweepFolder(signed), kept="")
+    (signed / "sweep.json.sig").write_bytes(signature)
+    assert verified(airhilt_command, signed)[0] == 0
+    code, found = verified(airhilt_command, signed, "--key", f"{keys}.pub")
+    assert (code, found["state"], found["signature"]) == (1, "intact", "bad")
+
+
+def test_new_tables_end_a_signature(airhilt_command: Any, signed: Path) -> None:
+    write(SweepFolder(signed))
+    assert verified(airhilt_command, signed)[1]["signature"] == "absent"
+
+
+def test_a_sweep_that_goes_on_is_unfinished_and_not_signed(
+    airhilt_command: Any, sweep: Path, keys: Path
+) -> None:
+    SweepFolder(sweep).write_next_info(INFO)
+    code, found = verified(airhilt_command, sweep)
+    assert (code, found["state"]) == (3, "unfinished")
+    done = airhilt_command("sign", sweep, "--key", keys)
+    assert (done.returncode, "unfinished; expected a sweep" in done.stderr) == (2, True)
+    (sweep / "sweep.json").unlink()
+    done = airhilt_command("verify", sweep)
+    assert done.returncode == 3
+    assert "unfinished: the sweep was killed, or is still going on; it has no tables yet" in (
+        done.stdout
+    )
+    assert not (sweep / "sweep.json.sig").exists()
+
+
+def test_a_folder_in_which_a_sweep_begins_is_not_signed(
+    airhilt_command: Any, sweep: Path, keys: Path
+) -> None:
+    with SweepFolder(sweep).locked():
+        done = airhilt_command("sign", sweep, "--key", keys)
+    assert (done.returncode, "another sweep is writing here" in done.stderr) == (2, True)
+    assert airhilt_command("sign", sweep, "--key", keys).returncode == 0
+
+
+def test_a_sweep_that_was_published_without_its_parts_is_signed(
+    airhilt_command: Any, sweep: Path, keys: Path
+) -> None:
+    shutil.rmtree(sweep / "parts")
+    assert airhilt_command("sign", sweep, "--key", keys).returncode == 0
+    assert verified(airhilt_command, sweep, "--key", f"{keys}.pub")[0] == 0
+
+
+def test_a_folder_with_neither_is_not_signed(
+    airhilt_command: Any, tmp_path: Path, keys: Path
+) -> None:
+    done = airhilt_command("sign", tmp_path, "--key", keys)
+    assert (done.returncode, "neither a run nor a sweep" in done.stderr) == (2, True)
