@@ -21,6 +21,8 @@ from paths import DATA
 from shortened import shortened
 from tiny_models import write_xtts, write_yolo
 
+REQUIRED = "AIRHILT_REQUIRE_NETWORK_TESTS"
+"""Environment variable with which these tests fail where they cannot be done."""
 LOOPBACK_UP = """
 import fcntl, os, socket, struct, sys
 with socket.socket() as any_socket:
@@ -48,6 +50,14 @@ def _namespace_problem() -> str:
     tried = ["unshare", "--map-root-user", "--net", sys.executable, "-c", LOOPBACK_UP]
     done = subprocess.run([*tried, "strace", "-o", "/dev/null", "true"], capture_output=True)
     return "" if done.returncode == 0 else "network namespaces or traces are not allowed here"
+
+
+def require_namespaces() -> None:
+    """Skip a test that cannot be done here, or fail it where all have to be done."""
+    if problem := _namespace_problem():
+        if os.environ.get(REQUIRED):
+            pytest.fail(f"{problem}, and {REQUIRED} is set")
+        pytest.skip(problem)
 
 
 def talked_to(scenario: dict[str, Any], folder: Path, home: Path, *flags: str) -> set[str]:
@@ -101,8 +111,7 @@ def kept_by_others(home: Path) -> list[str]:
 def test_a_run_connects_to_nobody_and_leaves_nothing_for_others_to_send(
     tmp_path: Path, flags: tuple[str, ...]
 ) -> None:
-    if problem := _namespace_problem():
-        pytest.skip(problem)
+    require_namespaces()
     scenario = shortened(load("s01a_bad_readback").model_dump(mode="json"), 2.0)
     home = tmp_path / "home"
     home.mkdir()
@@ -173,8 +182,7 @@ def test_a_run_with_an_engine_of_an_extra_connects_to_nobody(
     flags: Callable[[Path], tuple[str, ...]],
     kept: tuple[str, ...],
 ) -> None:
-    if problem := _namespace_problem():
-        pytest.skip(problem)
+    require_namespaces()
     home, model = tmp_path / "home", tmp_path / "model"
     for folder in (home, model):
         folder.mkdir()
@@ -186,3 +194,14 @@ def test_a_run_with_an_engine_of_an_extra_connects_to_nobody(
     addresses = talked_to(few_pictures(scenario), tmp_path, home, *given)
     assert {each for each in addresses if not LOOPBACK.fullmatch(each)} == set()
     assert [path for path in kept_by_others(home) if not path.startswith(kept)] == []
+
+
+def test_where_the_network_has_to_be_tested_a_missing_tool_is_a_failure(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(shutil, "which", lambda _: None)
+    for value, ends in (("", pytest.skip.Exception), ("1", pytest.fail.Exception)):
+        monkeypatch.setenv(REQUIRED, value)
+        with pytest.raises((pytest.skip.Exception, pytest.fail.Exception)) as ended:
+            require_namespaces()
+        assert (ended.type, "needs unshare" in str(ended.value)) == (ends, True)
