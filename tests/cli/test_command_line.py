@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 
 from airhilt import library
+from airhilt.errors import AirhiltError
 from airhilt.record import RunFolder, read_log
 from breadth import mostly_slow
 
@@ -45,6 +46,21 @@ def test_json_prints_the_summary_alone(airhilt_command: Any, encounter_file: Pat
     assert sorted(path.name for path in folder.iterdir()) == [
         "audio", "latency.jsonl", "log.mcap", "report.html", "run.json", "summary.json",
     ]  # fmt: skip
+
+
+def test_before_a_run_begins_a_person_is_told_that_its_folder_is_not_there_yet(
+    airhilt_command: Any, encounter_file: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def begin(*_: object) -> None:
+        raise AirhiltError("begun")
+
+    monkeypatch.setattr("airhilt.cosim.simulation.run", begin)
+    done = airhilt_command("cosim", "--scenario", encounter_file, "--out", "run")
+    assert done.stderr.splitlines() == [
+        "airhilt: getting ready; a run that is killed before its folder is there leaves nothing",
+        "airhilt: begun",
+    ]
+    assert not (encounter_file.parent / "run").exists()
 
 
 def test_what_a_person_reads_names_the_numbers(airhilt_command: Any, encounter_file: Path) -> None:

@@ -21,7 +21,7 @@ from airhilt import child_process, load
 from airhilt.errors import CameraError, RendererError, RendererLost
 from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras import renderer_link, renderer_process
+from airhilt.sensors.cameras import renderer_link, renderer_process, renderer_server
 from airhilt.sensors.cameras.frame import Frame
 from airhilt.sensors.cameras.renderer_link import RendererLink
 from airhilt.sensors.cameras.renderer_process import RendererProcess, probe
@@ -82,6 +82,11 @@ def test_a_process_that_was_stopped_is_given_up_before_its_time_for_pictures(
         os.kill(opened.process_id, signal.SIGSTOP)
         with pytest.raises(RendererLost, match=r"renderer embree was stopped \(SIGSTOP\)"):
             opened.shoot(["field"], bodies, 1)
+
+
+def test_a_frozen_renderer_has_ten_seconds_at_most_and_one_of_a_killed_run_three() -> None:
+    assert child_process.STOPPED_FOR_S + child_process.LOOK_PERIOD_S <= 10.0
+    assert renderer_server.GRACE_S <= 3.0
 
 
 def test_a_process_that_draws_ends_when_its_run_is_killed() -> None:
