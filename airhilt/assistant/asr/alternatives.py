@@ -7,7 +7,7 @@ make as much sense.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
@@ -17,6 +17,8 @@ from numpy.typing import NDArray
 from airhilt.assistant.asr.beam_search import BLANK, HeardUnit, Prior
 from airhilt.assistant.asr.language import END
 from airhilt.assistant.asr.logistic import log_odds_of, probability
+from airhilt.assistant.asr.pieces import Pieces
+from airhilt.assistant.asr.spotting import SAME
 
 LEAST_POSTERIOR = 1e-3
 """Posterior below which a unit is no alternative."""
@@ -48,6 +50,36 @@ class WordCurve:
         """
         heard = self.posterior_slope * log_odds_of(posterior)
         return probability(heard + self.alternatives_slope * against + self.offset)
+
+
+def same_units(pieces: Pieces) -> dict[int, list[int]]:
+    """Return the units that stand for the same digit as a unit, as "fife" for "five"."""
+    found: dict[int, list[int]] = {}
+    for words in SAME:
+        one, other = map(pieces.unit, words)
+        if one is not None and other is not None:
+            found |= {one: [other], other: [one]}
+    return found
+
+
+def with_same(
+    posteriors: NDArray[np.float32], heard: Sequence[HeardUnit], same: Mapping[int, Sequence[int]]
+) -> tuple[NDArray[np.float32], list[HeardUnit]]:
+    """Return posteriors and heard units, to which those add that stand for the same digit.
+
+    They are no alternatives: "niner" is no less sure because it may have been "nine".
+    """
+    added = posteriors.copy()
+    found = []
+    for each in heard:
+        if others := same.get(each.unit):
+            steps = slice(each.begin, each.end)
+            added[steps, each.unit] += added[steps, others].sum(axis=1)
+            added[steps, others] = 0.0
+            surest = each.begin + int(added[steps, each.unit].argmax())
+            each = each._replace(surest=surest, posterior=float(added[surest, each.unit]))
+        found.append(each)
+    return added, found
 
 
 def log_odds(

@@ -14,9 +14,12 @@ from airhilt.assistant.asr.alternatives import (
     LEAST_POSTERIOR,
     WordCurve,
     log_odds,
+    same_units,
+    with_same,
 )
 from airhilt.assistant.asr.beam_search import BLANK, Prior, aligned
 from airhilt.assistant.asr.language import END
+from airhilt.assistant.asr.pieces import Pieces
 
 GO, NO, AROUND, UNITS = 1, 2, 3, 4
 ORDER = 3
@@ -54,6 +57,30 @@ def test_a_word_that_was_heard_well_is_unsure_if_another_makes_far_more_sense() 
     steps = np.array([[0.1, 0.1, 0.8, 0.0], [0.05, 0.0, 0.05, 0.9]], np.float32)
     unlikely, _ = odds(steps, (NO, AROUND), go_before_around)
     assert unlikely < 0.0
+
+
+def test_a_digit_that_may_have_been_said_in_another_way_is_no_less_sure() -> None:
+    pieces = Pieces(["_five", "_fife", "_nine", "_niner", "_go"])
+    same = same_units(pieces)
+    assert same == {1: [2], 2: [1], 3: [4], 4: [3]}
+    steps = np.array([[0.0, 0.6, 0.3, 0.1, 0.0, 0.0], [0.0, 0.0, 0.0, 0.2, 0.5, 0.3]], np.float32)
+    heard = aligned(steps, (1, 4))
+    added, (five, niner) = with_same(steps, heard, same)
+    assert (five.posterior, niner.posterior) == (pytest.approx(0.9), pytest.approx(0.7))
+    assert added.sum(axis=1) == pytest.approx([1.0, 1.0])
+    before, after = (
+        log_odds(*each, alike, ORDER) for each in ((steps, heard), (added, [five, niner]))
+    )
+    assert before == pytest.approx([np.log(0.6 / 0.4), 0.0], abs=1e-3)
+    assert after == pytest.approx([np.log(0.9 / 0.1), np.log(0.7 / 0.3)], abs=1e-3)
+
+
+def test_other_units_stay_as_they_were_heard() -> None:
+    steps = np.array([[0.1, 0.5, 0.4, 0.0], [0.05, 0.0, 0.05, 0.9]], np.float32)
+    heard = aligned(steps, (GO, AROUND))
+    added, kept = with_same(steps, heard, {NO: [GO]})
+    assert np.array_equal(added, steps)
+    assert kept == heard
 
 
 def test_that_nothing_was_said_is_an_alternative() -> None:

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import AliasChoices, BaseModel, ConfigDict, Field, ValidationError
 
-from airhilt.assistant.asr.alternatives import WordCurve, log_odds
+from airhilt.assistant.asr.alternatives import WordCurve, log_odds, same_units, with_same
 from airhilt.assistant.asr.beam_search import BeamSearch, aligned
 from airhilt.assistant.asr.engine import Recognised
 from airhilt.assistant.asr.features import BINS, mel_power, normalised
@@ -142,6 +142,7 @@ class Ctc:
                 f"recogniser {self.name}: {where / 'card.json'} is no model card: "
                 f"{first_problem(error)}; expected it as tools/asr/train_asr.py writes it"
             ) from None
+        self._same = same_units(self._pieces)
         self._word, self._call = card.word_curve, card.call_calibration
         self._lost = card.lost_words
         self._odds = card.callsign_odds
@@ -185,7 +186,7 @@ class Ctc:
 
     def _likeliest(self, posteriors: NDArray[np.float32]) -> list[Emission]:
         units = self._search.units(posteriors)
-        heard = aligned(posteriors, units)
+        posteriors, heard = with_same(posteriors, aligned(posteriors, units), self._same)
         against = log_odds(posteriors, heard, self._search.prior(), self._search.language.order)
         places = self._pieces.words(units)
         words = [heard[first:after] for first, after in places]
