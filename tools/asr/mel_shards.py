@@ -43,7 +43,7 @@ class MelCalls:
     units
         Pieces that are said in each call.
     is_received
-        Which calls went through the whole channel, with noise.
+        Calls that went through the whole channel, with noise, are True.
     """
 
     logarithms: NDArray[np.float16]

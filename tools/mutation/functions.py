@@ -26,7 +26,8 @@ def changed_functions(before: str, after: str, filename: str) -> list[Change] | 
 
 def replace(changes: Sequence[Change]) -> None:
     """Give the functions of this process their changed code; those not yet imported are left."""
-    functions = [each for each in gc.get_objects() if isinstance(each, FunctionType)]
+    # A weak proxy of what is gone has no class that `isinstance` could ask for.
+    functions = [each for each in gc.get_objects() if type(each) is FunctionType]
     for old, new in changes:
         for function in functions:
             if _place(function.__code__) == _place(old):
