@@ -83,7 +83,7 @@ def test_no_more_is_spoken_when_a_synthesiser_fails(
     monkeypatch.setattr(make_recogniser, "run", fail)
     with pytest.raises(SystemExit, match="failed"):
         make_recogniser.Maker(tmp_path, 0.01).speak(1)
-    assert len(ran) < 5
+    assert len(ran) == 1
 
 
 def test_it_ends_at_a_tool_that_fails(capfd: pytest.CaptureFixture[str], tmp_path: Path) -> None:

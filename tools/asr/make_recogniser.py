@@ -15,8 +15,11 @@ import argparse
 import shlex
 import subprocess
 import sys
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor, as_completed
+from functools import partial
 from pathlib import Path
+from threading import Event
 from typing import NamedTuple
 
 from asr_speech import stem
@@ -88,18 +91,28 @@ class Maker:
         """Make the shards of training, and those that confidence is fitted on."""
         exam = SECOND_EXAM.read_text().splitlines()[: self._scaled(DEV_CALLS)]
         self._exam.write_text("\n".join(exam) + "\n")
-        with ThreadPoolExecutor(processes) as pool:
-            going = [
-                pool.submit(self._shard, each, number)
-                for each in SPOKEN
-                for number in range(each.shards)
-            ]
-            going += [pool.submit(self._dev, each) for each in SPOKEN]
+        works = [
+            partial(self._shard, each, number) for each in SPOKEN for number in range(each.shards)
+        ]
+        works += [partial(self._dev, each) for each in SPOKEN]
+        has_failed = Event()
+
+        def do(work: Callable[[], None]) -> None:
+            """Do a work, unless another one has failed."""
+            if has_failed.is_set():
+                return
             try:
-                for done in as_completed(going):
+                work()
+            except BaseException:
+                has_failed.set()
+                raise
+
+        with ThreadPoolExecutor(processes) as pool:
+            try:
+                for done in as_completed([pool.submit(do, work) for work in works]):
                     done.result()
             except BaseException:
-                pool.shutdown(cancel_futures=True)
+                has_failed.set()
                 raise
 
     def train(self, options: list[str]) -> None:
