@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import stat
-import subprocess
 from pathlib import Path
 from typing import Any
 
@@ -13,24 +12,13 @@ import pytest
 from airhilt.record import RunFolder
 from airhilt.record.manifest import FileRecord, digest
 from damage import break_third_chunk, flip, kill
-
-
-@pytest.fixture
-def keys(airhilt_command: Any, tmp_path: Path) -> Path:
-    assert airhilt_command("keys", "sign", tmp_path / "lab.key").returncode == 0
-    return tmp_path / "lab.key"
+from verifying import verified
 
 
 @pytest.fixture
 def signed(airhilt_command: Any, keys: Path, run_copy: Path) -> Path:
     assert airhilt_command("sign", run_copy, "--key", keys).returncode == 0
     return run_copy
-
-
-def verified(airhilt_command: Any, *arguments: object) -> tuple[int, dict[str, Any]]:
-    done: subprocess.CompletedProcess[str] = airhilt_command("verify", *arguments, "--json")
-    assert done.stderr == ""
-    return done.returncode, json.loads(done.stdout)
 
 
 # --- damage ---------------------------------------------------------------------------------

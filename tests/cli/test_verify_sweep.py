@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import shutil
-import subprocess
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -15,6 +14,7 @@ import pytest
 from airhilt.record.manifest import digest
 from airhilt.record.sweep_folder import SweepFolder
 from damage import flip, kill
+from verifying import verified
 
 INFO = {"format": 1, "runs": 1, "grid_sha256": "a"}
 KEPT = "runs/first"
@@ -36,22 +36,10 @@ def write(folder: SweepFolder, kept: str = KEPT) -> None:
 
 
 @pytest.fixture
-def keys(airhilt_command: Any, tmp_path: Path) -> Path:
-    assert airhilt_command("keys", "sign", tmp_path / "lab.key").returncode == 0
-    return tmp_path / "lab.key"
-
-
-@pytest.fixture
 def signed(airhilt_command: Any, keys: Path, sweep: Path) -> Path:
     done = airhilt_command("sign", sweep, "--key", keys)
     assert done.returncode == 0, done.stderr
     return sweep
-
-
-def verified(airhilt_command: Any, *arguments: object) -> tuple[int, dict[str, Any]]:
-    done: subprocess.CompletedProcess[str] = airhilt_command("verify", *arguments, "--json")
-    assert done.stderr == ""
-    return done.returncode, json.loads(done.stdout)
 
 
 def change(sweep: Path, changes: Callable[[dict[str, Any]], object]) -> None:

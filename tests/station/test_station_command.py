@@ -215,7 +215,7 @@ def test_other_machines_reach_no_page_without_tls_and_a_token(
 def test_a_person_chooses_radar_equipment_and_that_voices_are_not_kept(
     page: Page, encounter: Scenario, tmp_path: Path
 ) -> None:
-    """What the scenario has already is ticked, and is not asked for again."""
+    """Equipment that the scenario has is ticked, and is not asked for again."""
     folder = tmp_path / "own"
     folder.mkdir()
     equipped = encounter.model_copy(update={"equipment": ("conflict_alert",)})

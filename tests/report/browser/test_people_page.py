@@ -1,4 +1,4 @@
-"""What a browser shows of the people at the seats of a run."""
+"""The people at the seats of a run, as a browser shows them."""
 
 from __future__ import annotations
 
