@@ -9,10 +9,12 @@ import pytest
 
 import calibrate_asr
 from airhilt.assistant.asr.engines.embedded import Emission
+from airhilt.assistant.asr.lost_words import SILENCE, Gap
 from airhilt.assistant.asr.spotting import Aligned, Odds, SpokenForm
 from eval_asr import SpokenCall
 
 SAID = "american one two three climb alfa"
+END = ""
 
 
 def call(heard: str, posteriors: list[float], callsign: range) -> calibrate_asr.HeardCall:
@@ -22,7 +24,7 @@ def call(heard: str, posteriors: list[float], callsign: range) -> calibrate_asr.
     ]
     words = [each.word for each in path]
     right = calibrate_asr.right_words(SAID, words)
-    return calibrate_asr.HeardCall(SAID, path, right, calibrate_asr.words_beside_lost(SAID, words))
+    return calibrate_asr.HeardCall(SAID, path, right, calibrate_asr.lost_before(SAID, words))
 
 
 @pytest.mark.parametrize(
@@ -41,33 +43,43 @@ def test_a_word_is_right_where_it_was_said_in_whatever_spelling(
 
 
 @pytest.mark.parametrize(
-    ("heard", "beside"),
+    ("heard", "before"),
     [
         (SAID, []),
-        ("american one two three alfa", ["three", "alfa"]),
+        ("american one two three alfa", ["alfa"]),
         ("one two three climb alfa", ["one"]),
-        ("american one two three climb", ["climb"]),
+        ("american one two three climb", [END]),
         ("american one two tree turn alpha", []),
     ],
 )
-def test_a_word_that_is_lost_has_others_beside_it(heard: str, beside: list[str]) -> None:
+def test_a_word_is_lost_before_another_or_before_the_end(heard: str, before: list[str]) -> None:
     words = heard.split()
-    lost = calibrate_asr.words_beside_lost(SAID, words)
-    assert [word for word, is_beside in zip(words, lost, strict=True) if is_beside] == beside
+    lost = calibrate_asr.lost_before(SAID, words)
+    found = [word for word, is_lost in zip([*words, END], lost, strict=True) if is_lost]
+    assert found == before
 
 
-def test_a_word_is_trusted_less_the_more_was_heard_beside_it_where_words_are_lost() -> None:
+def test_a_word_is_trusted_less_where_more_was_heard_before_or_behind_it() -> None:
+    loud = Gap(4.0, 2.0)
     whole = call(SAID, [0.9] * 6, range(0))
     lossy = call("american one two three alfa", [0.9] * 5, range(0))
+    *before, three, alfa = lossy.path
     lossy = lossy._replace(
-        path=[replace(each, unwritten=4.0 * (at > 2)) for at, each in enumerate(lossy.path)]
-    )
+        path=[
+            *before, replace(three, gaps=(SILENCE, loud)), replace(alfa, gaps=(loud, SILENCE)),
+        ]
+    )  # fmt: skip
     curves = calibrate_asr.curves_of([whole, lossy] * 4)
-    quiet, loud = calibrate_asr.confidences_of(
-        curves, [Emission("climb", 0.99, 0), Emission("climb", 0.99, 0, unwritten=4.0)]
+    quiet, *beside = calibrate_asr.confidences_of(
+        curves,
+        [
+            Emission("climb", 0.99, 0),
+            Emission("climb", 0.99, 0, gaps=(loud, SILENCE)),
+            Emission("climb", 0.99, 0, gaps=(SILENCE, loud)),
+        ],
     )
     assert quiet > 0.9
-    assert loud < 0.1
+    assert max(beside) < 0.1
 
 
 def test_the_curve_of_words_leaves_callsigns_of_the_roster_out() -> None:

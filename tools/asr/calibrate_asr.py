@@ -23,6 +23,7 @@ import math
 import random
 from collections.abc import Iterator, Sequence
 from dataclasses import asdict
+from itertools import pairwise
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -75,8 +76,9 @@ class HeardCall(NamedTuple):
     path: list[Emission]
     right: list[bool]
     """True for each word of the path that was said there."""
-    beside_lost: list[bool]
-    """True for each one before or behind which a word was said that the path lacks."""
+    lost: list[bool]
+    """True for each word of the path, and for its end, right before which a word was said that the
+    path lacks."""
 
     def text(self, kept: NDArray[np.bool_]) -> str:
         """Return the words that are kept."""
@@ -257,8 +259,9 @@ def heard_calls(
         for audio in at_ratios(each, index):
             path = engine.path(engine.posteriors(audio), rosters[index])
             words = [word.word for word in path]
-            right, beside_lost = right_words(each.text, words), words_beside_lost(each.text, words)
-            yield HeardCall(each.text, path, right, beside_lost)
+            yield HeardCall(
+                each.text, path, right_words(each.text, words), lost_before(each.text, words)
+            )
 
 
 def at_ratios(call: SpokenCall, seed: int) -> Iterator[Audio]:
@@ -294,15 +297,13 @@ def right_words(reference: str, hypothesis: Sequence[str]) -> list[bool]:
     return right
 
 
-def words_beside_lost(reference: str, hypothesis: Sequence[str]) -> list[bool]:
-    """Return for each recognised word whether one was said right before or behind it, and lost."""
-    beside = [False] * len(hypothesis)
+def lost_before(reference: str, hypothesis: Sequence[str]) -> list[bool]:
+    """Return for each recognised word, and for the end, whether one was lost right before it."""
+    lost = [False] * (len(hypothesis) + 1)
     for chunk in _chunks(reference, hypothesis):
         if chunk.type == "delete":
-            behind = chunk.hyp_start_idx
-            for at in {max(behind - 1, 0), min(behind, len(beside) - 1)}:
-                beside[at] = True
-    return beside
+            lost[chunk.hyp_start_idx] = True
+    return lost
 
 
 def _chunks(reference: str, hypothesis: Sequence[str]) -> list[jiwer.AlignmentChunk]:
@@ -319,20 +320,22 @@ def _spelled(word: str) -> str:
 
 def curves_of(calls: Sequence[HeardCall]) -> Curves:
     """Fit the curves of words, but those of callsigns of the roster."""
-    words = [
-        each
-        for call in calls
-        for each in zip(call.path, call.right, call.beside_lost, strict=True)
-        if not each[0].is_callsign
-    ]
-    path, right, beside_lost = zip(*words, strict=True)
-    heard = [log_odds_of(each.posterior) for each in path]
-    against = [each.against for each in path]
-    unwritten = [log_heard(each.unwritten) for each in path]
-    return Curves(
-        WordCurve(*map(float, fit(np.column_stack([heard, against]), right))),
-        LossCurve(*map(float, fit(np.array(unwritten), beside_lost))),
-    )
+    words, gaps = [], []
+    for call in calls:
+        for each, is_right, lost in zip(call.path, call.right, pairwise(call.lost), strict=True):
+            if not each.is_callsign:
+                words.append((log_odds_of(each.posterior), each.against, is_right))
+                gaps += [
+                    (log_heard(gap.heard), gap.inserted, is_lost)
+                    for gap, is_lost in zip(each.gaps, lost, strict=True)
+                ]
+    return Curves(WordCurve(*_plane(words)), LossCurve(*_plane(gaps)))
+
+
+def _plane(trials: Sequence[tuple[float, float, bool]]) -> tuple[float, ...]:
+    """Return the slopes, and the offset, of how often something happens by two numbers."""
+    x = np.array([each[:2] for each in trials])
+    return tuple(map(float, fit(x, [happened for *_, happened in trials])))
 
 
 def call_calibration(curves: Curves, calls: Sequence[HeardCall], least: float) -> dict[str, float]:

@@ -340,7 +340,7 @@ def export(folder: Path, target: Path) -> None:
     shutil.copy(folder / "pieces.txt", target / "pieces.txt")
     card = json.loads((folder / "training.json").read_text()) | {
         "word_curve": {"posterior_slope": 0.3, "alternatives_slope": 0.4, "offset": -0.5},
-        "lost_words": {"slope": 1.0, "offset": -1.0},
+        "lost_words": {"heard_slope": 0.5, "inserted_slope": 0.2, "offset": -1.0},
         "callsign_odds": {"offset": 0.8, "name": 1.4, "sign": 1.1, "loss": 0.45},
         "call_calibration": {"slope": 1.0, "offset": 0.0},
         "least_word_confidence": 0.0,

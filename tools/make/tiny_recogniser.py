@@ -88,7 +88,7 @@ def main() -> None:
     card = {
         "made_by": "tools/make/tiny_recogniser.py",
         "word_curve": {"posterior_slope": 1.0, "alternatives_slope": 0.0, "offset": 0.0},
-        "lost_words": {"slope": 1.0, "offset": -5.0},
+        "lost_words": {"heard_slope": 1.0, "inserted_slope": 0.0, "offset": -5.0},
         "callsign_odds": {"offset": 0.0, "name": 1.0, "sign": 1.0, "loss": 0.5},
         "call_calibration": as_it_is,
         "least_word_confidence": 0.5,

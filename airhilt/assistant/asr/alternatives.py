@@ -7,19 +7,22 @@ make as much sense.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
 import numpy as np
 from numpy.typing import NDArray
 
-from airhilt.assistant.asr.beam_search import BLANK, HeardUnit, Prior
+from airhilt.assistant.asr.beam_search import BLANK, HeardUnit, Prior, log_likelihood
 from airhilt.assistant.asr.language import END
 from airhilt.assistant.asr.logistic import log_odds_of, probability
 from airhilt.assistant.asr.pieces import Pieces
 from airhilt.assistant.asr.spotting import SAME
 
+SAME_WORDING = (*SAME, ("clear", "cleared"))
+"""Words between which nothing is at stake: digits in two ways, and "cleared to land", which sounds
+like "clear to land" and is read as the same clearance."""
 LEAST_POSTERIOR = 1e-3
 """Posterior below which a unit is no alternative."""
 NO_POSTERIOR = 1e-10
@@ -53,9 +56,9 @@ class WordCurve:
 
 
 def same_units(pieces: Pieces) -> dict[int, list[int]]:
-    """Return the units that stand for the same digit as a unit, as "fife" for "five"."""
+    """Return the units that say the same as a unit, as "fife" for "five"."""
     found: dict[int, list[int]] = {}
-    for words in SAME:
+    for words in SAME_WORDING:
         one, other = map(pieces.unit, words)
         if one is not None and other is not None:
             found |= {one: [other], other: [one]}
@@ -65,7 +68,7 @@ def same_units(pieces: Pieces) -> dict[int, list[int]]:
 def with_same(
     posteriors: NDArray[np.float32], heard: Sequence[HeardUnit], same: Mapping[int, Sequence[int]]
 ) -> tuple[NDArray[np.float32], list[HeardUnit]]:
-    """Return posteriors and heard units, to which those add that stand for the same digit.
+    """Return posteriors and heard units, to which those add that say the same.
 
     They are no alternatives: "niner" is no less sure because it may have been "nine".
     """
@@ -108,7 +111,7 @@ def log_odds(
         before, after = ended[:first], ended[last : at + order]
         likely = {
             unit: float(np.log(max(here[unit], NO_POSTERIOR)))
-            + _log_likelihood(before, (*_with(heard[first:last], each, unit), *after), prior)
+            + log_likelihood(before, (*_with(heard[first:last], each, unit), *after), prior)
             for unit in {*np.flatnonzero(here >= LEAST_POSTERIOR).tolist(), each.unit}
         }
         own = likely.pop(each.unit)
@@ -128,12 +131,3 @@ def _with(heard: Sequence[HeardUnit], changed: HeardUnit, unit: int) -> list[int
             path.append(BLANK)
         path.append(unit if each is changed else each.unit)
     return [unit for unit, _ in groupby(path) if unit != BLANK]
-
-
-def _log_likelihood(before: tuple[int, ...], units: Iterable[int], prior: Prior) -> float:
-    """Return how likely units follow others, by the prior."""
-    total = 0.0
-    for unit in units:
-        total += prior(before, unit)
-        before = (*before, unit)
-    return total

@@ -8,7 +8,7 @@ the sum over all: in a long silence the sum over many places makes up for a poor
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cache
 from typing import NamedTuple
@@ -24,6 +24,15 @@ LEAST_POSTERIOR = 0.01
 _NEVER = -math.inf
 Prior = Callable[[tuple[int, ...], int], float]
 """Log-likelihood of a unit after others, by the language model and the reward."""
+
+
+def log_likelihood(before: tuple[int, ...], units: Iterable[int], prior: Prior) -> float:
+    """Return how likely units follow others, by a prior."""
+    total = 0.0
+    for unit in units:
+        total += prior(before, unit)
+        before = (*before, unit)
+    return total
 
 
 @dataclass(slots=True)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
 LEAST_PROBABILITY = 1e-6
@@ -19,15 +17,3 @@ def log_odds_of(probability: float) -> float:
     """Return the log-odds of a probability, within those of `LEAST_PROBABILITY`."""
     bounded = min(max(probability, LEAST_PROBABILITY), 1.0 - LEAST_PROBABILITY)
     return float(np.log(bounded / (1.0 - bounded)))
-
-
-@dataclass(frozen=True)
-class Logistic:
-    """Logistic curve of a number."""
-
-    slope: float
-    offset: float
-
-    def at(self, x: float) -> float:
-        """Return the probability at a number."""
-        return probability(self.slope * x + self.offset)

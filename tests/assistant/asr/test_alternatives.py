@@ -75,6 +75,12 @@ def test_a_digit_that_may_have_been_said_in_another_way_is_no_less_sure() -> Non
     assert after == pytest.approx([np.log(0.9 / 0.1), np.log(0.7 / 0.3)], abs=1e-3)
 
 
+def test_clear_is_no_other_word_than_cleared() -> None:
+    """Before "to land" they sound alike, and the same clearance is read in both."""
+    same = same_units(Pieces(["_clear", "_cleared", "_cross"]))
+    assert same == {1: [2], 2: [1]}
+
+
 def test_other_units_stay_as_they_were_heard() -> None:
     steps = np.array([[0.1, 0.5, 0.4, 0.0], [0.05, 0.0, 0.05, 0.9]], np.float32)
     heard = aligned(steps, (GO, AROUND))

@@ -156,7 +156,7 @@ def test_a_callsign_of_the_roster_needs_no_calibration(
 def test_words_are_unsure_where_something_was_heard_between_them_that_is_not_written(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    curve = {"slope": 2.0, "offset": 0.0}
+    curve = {"heard_slope": 2.0, "inserted_slope": 0.0, "offset": 0.0}
     engine = with_card(folder, lost_words=curve, least_word_confidence=0.0)
     steps = np.zeros((12, 4), np.float32)
     steps[[1, 9, 11], [2, 1, 3]] = 0.97

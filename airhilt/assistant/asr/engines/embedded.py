@@ -22,8 +22,8 @@ from airhilt.assistant.asr.beam_search import BeamSearch, aligned
 from airhilt.assistant.asr.engine import Recognised
 from airhilt.assistant.asr.features import BINS, mel_power, normalised
 from airhilt.assistant.asr.language import Language
-from airhilt.assistant.asr.logistic import Logistic, log_odds_of
-from airhilt.assistant.asr.lost_words import LossCurve, unwritten
+from airhilt.assistant.asr.logistic import log_odds_of, probability
+from airhilt.assistant.asr.lost_words import SILENCE, Gap, LossCurve, gaps
 from airhilt.assistant.asr.pieces import Pieces
 from airhilt.assistant.asr.spotting import Odds, Spotted, Spotter, is_same
 from airhilt.audio.pcm import Audio
@@ -55,12 +55,15 @@ TRIAL_FRAMES = 12
 
 
 @dataclass(frozen=True)
-class Calibration(Logistic):
+class Calibration:
     """Probability by an estimate of it: a logistic curve over the log-odds of the estimate."""
+
+    slope: float
+    offset: float
 
     def __call__(self, estimate: float) -> float:
         """Return the probability by an estimate in [0, 1]."""
-        return self.at(log_odds_of(estimate))
+        return probability(self.slope * log_odds_of(estimate) + self.offset)
 
 
 class Card(BaseModel):
@@ -101,8 +104,8 @@ class Emission:
     """Least log-odds of its pieces against what else may have been said there."""
     is_callsign: bool = False
     """True if it is of a callsign of the roster."""
-    unwritten: float = 0.0
-    """The more of what was heard right before and right behind it that no word has."""
+    gaps: tuple[Gap, Gap] = (SILENCE, SILENCE)
+    """What was heard right before it and right behind it, and is in no word."""
 
 
 class Ctc:
@@ -187,7 +190,8 @@ class Ctc:
     def _likeliest(self, posteriors: NDArray[np.float32]) -> list[Emission]:
         units = self._search.units(posteriors)
         posteriors, heard = with_same(posteriors, aligned(posteriors, units), self._same)
-        against = log_odds(posteriors, heard, self._search.prior(), self._search.language.order)
+        prior, order = self._search.prior(), self._search.language.order
+        against = log_odds(posteriors, heard, prior, order)
         places = self._pieces.words(units)
         words = [heard[first:after] for first, after in places]
         return [
@@ -196,10 +200,10 @@ class Ctc:
                 min(unit.posterior for unit in word),
                 word[0].begin,
                 min(against[first:after]),
-                unwritten=max(gaps),
+                gaps=beside,
             )
-            for (first, after), word, gaps in zip(
-                places, words, pairwise(unwritten(posteriors, words)), strict=True
+            for (first, after), word, beside in zip(
+                places, words, pairwise(gaps(posteriors, words, prior, order)), strict=True
             )
         ]
 
@@ -256,7 +260,7 @@ def confidence_of(heard: Emission, word: WordCurve, lost: LossCurve) -> float:
     """
     if heard.is_callsign:
         return heard.posterior
-    return min(word(heard.posterior, heard.against), 1.0 - lost(heard.unwritten))
+    return min(word(heard.posterior, heard.against), *(1.0 - lost(gap) for gap in heard.gaps))
 
 
 def with_callsign(path: Sequence[Emission], spotted: Spotted) -> list[Emission]:
