@@ -21,7 +21,7 @@ from airhilt.files import content_sha256
 from airhilt.messages import Event
 from airhilt.record import Logged, Run, RunFolder, RunInfo, open_run, read_log
 from airhilt.record.folder import machine, versions
-from airhilt.record.run import untold
+from airhilt.record.manifest import untold
 from airhilt.scenario import Scenario
 from airhilt.units import SECOND_NS
 

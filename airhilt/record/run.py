@@ -6,8 +6,7 @@ damaged, and from when to when. The rest of the run can be read.
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -16,20 +15,14 @@ from airhilt.errors import RunFolderError
 from airhilt.record.folder import RunFolder, RunInfo
 from airhilt.record.latency import RecordedLatencies, read_latencies
 from airhilt.record.log_reader import Logged, LogReader, gaps_text
-from airhilt.record.manifest import FileRecord, digest_problem, problem_of
-from airhilt.text import LONGEST_LINE, readable
+from airhilt.record.manifest import (
+    FileRecord,
+    Notice,
+    digest_problem,
+    problem_of,
+    tell_damage,
+)
 from airhilt.units import SECOND_NS
-
-Notice = Callable[[str], None]
-"""Tells a person one line."""
-
-
-def untold(_: str) -> None:
-    """Tell nobody, because the result itself says what is damaged."""
-
-
-class DamagedRunWarning(UserWarning):
-    """A file of a run is not as the run wrote it."""
 
 
 class Run:
@@ -138,12 +131,7 @@ def open_run(path: str | Path, notice: Notice | None = None) -> Run:
         There is no run in it, or its ``run.json`` cannot be read.
     """
     run = Run(RunFolder.open(Path(path)))
-    for line in run.damage:
-        text = f"{run.folder.path}: {line}"
-        if notice is None:
-            warnings.warn(readable(text, LONGEST_LINE), DamagedRunWarning, stacklevel=2)
-        else:
-            notice(text)
+    tell_damage(run.folder.path, run.damage, notice)
     return run
 
 

@@ -22,7 +22,15 @@ from airhilt import bounded_json
 from airhilt.errors import AirhiltError, first_problem
 from airhilt.files import PARTIAL, make_folder, read_inside, replace_file
 from airhilt.record.folder import RunFolder
-from airhilt.record.manifest import FileRecord, digest, manifest
+from airhilt.record.manifest import (
+    FileRecord,
+    Notice,
+    digest,
+    digest_problem,
+    manifest,
+    problem_of,
+    tell_damage,
+)
 from airhilt.record.parquet import LARGEST_BYTES, parse_table
 
 if TYPE_CHECKING:
@@ -79,8 +87,15 @@ class SweepFolder:
         return self.info_path.is_file() or self.next_info_path.is_file()
 
     @classmethod
-    def open(cls, path: Path) -> SweepFolder:
-        """Return an existing sweep folder.
+    def open(cls, path: Path, notice: Notice | None = None) -> SweepFolder:
+        """Return an existing sweep folder, and tell what is damaged in it.
+
+        Parameters
+        ----------
+        path
+            The sweep folder.
+        notice
+            Is told each line of `damage`. None warns of it, as Python does.
 
         Raises
         ------
@@ -95,6 +110,7 @@ class SweepFolder:
                     "from the runs that are finished"
                 )
             raise SweepFolderError(f"{path}: no sweep here; expected a folder with a sweep.json")
+        tell_damage(path, folder.damage(), notice)
         return folder
 
     def create(self) -> None:
@@ -216,6 +232,25 @@ class SweepFolder:
             return MANIFEST.validate_python(self.info().get(FILES, {}))
         except ValidationError as error:
             raise SweepFolderError(f"{self.info_path}: {FILES}: {first_problem(error)}") from None
+
+    def damage(self) -> tuple[str, ...]:
+        """Return a line for ``sweep.json`` and each table that is not as the sweep wrote it.
+
+        A sweep of version 0.5 has no hashes, and nothing is said of it.
+
+        Raises
+        ------
+        SweepFolderError
+            ``sweep.json`` cannot be read.
+        """
+        info, files = self.info(), self.files()
+        problems = [digest_problem(self.info_path.name, info)] if "digest" in info else []
+        problems += [
+            problem_of(self.path, table.name, files[table.name], self.info_path.name)
+            for table in (self.table_path, self.machine_path)
+            if table.name in files
+        ]
+        return tuple(filter(None, problems))
 
     # --- finished runs ----------------------------------------------------------------------
 

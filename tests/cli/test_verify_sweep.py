@@ -9,8 +9,10 @@ from pathlib import Path
 from typing import Any
 
 import pyarrow as pa
+import pyarrow.parquet as pq
 import pytest
 
+import airhilt
 from airhilt.record.manifest import digest
 from airhilt.record.sweep_folder import SweepFolder
 from damage import flip, kill
@@ -228,3 +230,43 @@ def test_a_folder_with_neither_is_not_signed(
 ) -> None:
     done = airhilt_command("sign", tmp_path, "--key", keys)
     assert (done.returncode, "neither a run nor a sweep" in done.stderr) == (2, True)
+
+
+# --- readers --------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def changed(sweep: Path) -> Path:
+    """The sweep, whose table somebody has written again with another status."""
+    table = pq.read_table(sweep / "sweep.parquet")
+    row = {"key": ["b"], "status": ["finished"]}
+    pq.write_table(pa.table(row, schema=table.schema), sweep / "sweep.parquet")
+    return sweep
+
+
+def test_a_changed_table_is_told_to_who_reads_it_in_python(changed: Path) -> None:
+    with pytest.warns(UserWarning, match=r"sweep.parquet: damaged or changed"):
+        assert airhilt.read_sweep(changed)["key"].to_list() == ["b"]
+
+
+def test_a_changed_table_is_told_by_commands_that_read_it(
+    airhilt_command: Any, changed: Path, tmp_path: Path
+) -> None:
+    """The comparison then ends with a mistake: this table has no parameters."""
+    told = f"{changed}: sweep.parquet: damaged or changed"
+    done = airhilt_command("report", changed, "--csv", tmp_path / "table.csv")
+    assert done.returncode == 0
+    assert told in done.stderr
+    assert airhilt_command("compare", changed, changed).stderr.count(told) == 1
+
+
+def test_nothing_is_told_of_a_sweep_as_it_was_written(sweep: Path) -> None:
+    assert SweepFolder(sweep).damage() == ()
+    assert airhilt.read_sweep(sweep)["key"].to_list() == ["a"]
+
+
+def test_a_changed_specification_is_told(sweep: Path) -> None:
+    change(sweep, lambda document: document.update(runs=2))
+    assert SweepFolder(sweep).damage() == (
+        "sweep.json: damaged or changed: not what its digest says",
+    )

@@ -13,6 +13,7 @@ import pytest
 
 from airhilt.errors import AirhiltError
 from airhilt.metrics.measures import MISSED
+from airhilt.record.manifest import manifest
 from airhilt.record.sweep_folder import SweepFolder
 from airhilt.report.figures import Figures, embedded
 from airhilt.report.sweeps import write_sweep_report
@@ -255,6 +256,19 @@ def test_a_page_elsewhere_links_to_the_figures_of_the_folder(written: Path, tmp_
     folder = shutil.copytree(written, tmp_path / "sweep")
     sweep = read_sweep_data(SweepFolder.open(folder), tmp_path / "pages" / "page.html")
     assert sweep.link_to(folder / "figures" / "a.svg") == "../sweep/figures/a.svg"
+
+
+def test_a_page_says_that_a_table_was_changed_after_the_sweep(tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path / "sweep", [sweep_row("s01a_x", "reference", 0)])
+    table = folder / "sweep.parquet"
+    document = json.loads((folder / "sweep.json").read_text())
+    files = {name: record.model_dump() for name, record in manifest(folder, [table]).items()}
+    (folder / "sweep.json").write_text(json.dumps(document | {"files": files}))
+    pq.write_table(pq.read_table(table), table, compression="none")
+    told: list[str] = []
+    (note,) = data_of(write_sweep_report(folder, notice=told.append))["notes"]
+    assert note.startswith("Damaged: sweep.parquet: damaged or changed")
+    assert len(told) == 1
 
 
 def test_a_table_that_is_none_of_a_sweep_is_named(tmp_path: Path) -> None:

@@ -61,12 +61,12 @@ def report(folder: Path, out: Path | None, csv: Path | None) -> None:
         if RunFolder(folder).info_path.is_file():
             write_people_csv(open_run(folder, tell), csv)
         else:
-            _write_csv(SweepFolder.open(folder), csv)
+            _write_csv(SweepFolder.open(folder, tell), csv)
         click.echo(csv)
     elif sweep.is_there:
         from airhilt.report.sweeps import write_sweep_report
 
-        click.echo(write_sweep_report(folder, out, _Progress()))
+        click.echo(write_sweep_report(folder, out, _Progress(), tell))
     else:
         from airhilt.report import write_report
 

@@ -8,7 +8,7 @@ from airhilt.errors import AirhiltError
 from airhilt.library import nearest
 from airhilt.metrics.frames import frame_of
 from airhilt.record import open_run
-from airhilt.record.run import Notice
+from airhilt.record.manifest import Notice
 from airhilt.record.sweep_folder import SweepFolder, is_sweep
 from airhilt.report.comparison.runs import RunComparison, compare_runs
 from airhilt.report.comparison.sweeps import Side, SweepComparison, compare_sides
@@ -30,7 +30,7 @@ def compare(
     assistants
         The two assistants, None for two folders.
     notice
-        Is told what is damaged in a run. None warns of it, as Python does.
+        Is told what is damaged in a folder. None warns of it, as Python does.
 
     Raises
     ------
@@ -43,7 +43,7 @@ def compare(
                 f"{first}: expected a second folder to compare it with, or two of its assistants: "
                 "--assistants NAME,NAME"
             )
-        return _of_assistants(first, assistants)
+        return _of_assistants(first, assistants, notice)
     if assistants is not None:
         raise AirhiltError(
             "--assistants compares two assistants of one sweep; expected one folder with it"
@@ -51,7 +51,7 @@ def compare(
     are_sweeps = [is_sweep(folder) for folder in (first, second)]
     names = _name(first, second), _name(second, first)
     if all(are_sweeps):
-        return compare_sides(_side(first, names[0]), _side(second, names[1]))
+        return compare_sides(_side(first, names[0], notice), _side(second, names[1], notice))
     if any(are_sweeps):
         raise AirhiltError(
             f"{first}, {second}: one is a sweep and the other a run; expected two of one kind"
@@ -59,7 +59,7 @@ def compare(
     return compare_runs(open_run(first, notice), open_run(second, notice), names)
 
 
-def _of_assistants(folder: Path, names: tuple[str, str]) -> SweepComparison:
+def _of_assistants(folder: Path, names: tuple[str, str], notice: Notice | None) -> SweepComparison:
     """Return the comparison of two assistants.
 
     Raises
@@ -67,7 +67,7 @@ def _of_assistants(folder: Path, names: tuple[str, str]) -> SweepComparison:
     AirhiltError
         It is no sweep, or the sweep does not have one of them.
     """
-    whole = _side(folder, str(folder))
+    whole = _side(folder, str(folder), notice)
     known = sorted(whole.runs["assistant"].dropna().unique())
     for name in names:
         if name not in known:
@@ -80,8 +80,8 @@ def _of_assistants(folder: Path, names: tuple[str, str]) -> SweepComparison:
     return compare_sides(one, other)
 
 
-def _side(folder: Path, name: str) -> Side:
-    sweep = SweepFolder.open(folder)
+def _side(folder: Path, name: str, notice: Notice | None) -> Side:
+    sweep = SweepFolder.open(folder, notice)
     table = sweep.table()
     parameters = parameters_of(table, str(sweep.table_path))
     runs = frame_of(table)

@@ -136,7 +136,7 @@ def read_sweep_data(folder: SweepFolder, page: Path) -> SweepData:
         columns={each.name: _column_info(each) for each in table.schema},
         parameters=parameters,
         page=page,
-        notes=_notes(table),
+        notes=[*(f"Damaged: {line}." for line in folder.damage()), *_notes(table)],
     )
 
 

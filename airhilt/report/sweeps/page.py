@@ -9,6 +9,7 @@ from typing import Any
 
 from airhilt.errors import AirhiltError
 from airhilt.files import replace_file
+from airhilt.record.manifest import Notice, untold
 from airhilt.record.sweep_folder import SweepFolder
 from airhilt.report.assembly import Assembly
 from airhilt.report.figures import Figures
@@ -22,7 +23,10 @@ SHARED = ("document", "page", "words", "tables")
 
 
 def write_sweep_report(
-    sweep_folder: Path, out: Path | None = None, drawn: Callable[[int], None] = lambda _: None
+    sweep_folder: Path,
+    out: Path | None = None,
+    drawn: Callable[[int], None] = lambda _: None,
+    notice: Notice | None = untold,
 ) -> Path:
     """Write the page of a sweep, by default as ``report.html`` in its folder, and its figures.
 
@@ -34,6 +38,8 @@ def write_sweep_report(
         File to write the page to instead; the figures stay in ``figures`` of the sweep folder.
     drawn
         Called after each figure with the number of those that there are.
+    notice
+        Is told what is damaged; the page says so too.
 
     Returns
     -------
@@ -45,7 +51,7 @@ def write_sweep_report(
     AirhiltError
         There is no sweep, a table is damaged, or the page or a figure cannot be written.
     """
-    folder = SweepFolder.open(sweep_folder)
+    folder = SweepFolder.open(sweep_folder, notice)
     page = out or folder.report_path
     sweep = read_sweep_data(folder, page)
     figures = Figures(drawn)
