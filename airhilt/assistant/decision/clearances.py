@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from airhilt.assistant.decision.guard import Doubt, Guard
 from airhilt.assistant.decision.readback_silence import ReadbackSilence
+from airhilt.assistant.decision.repeats import Repeats
 from airhilt.messages import Transcript, TransmissionOpened
 from airhilt.phraseology import BESIDES, Action, Call, Instruction, differences
 from airhilt.units import SECOND_NS
@@ -85,10 +86,12 @@ class _Addressed:
     doubts: dict[Action, Doubt]
     """Instructions of the call that are in doubt, by their actions."""
     answered: bool = False
+    asked_again_ns: int = 0
+    """End of the last request to say the readback again."""
 
     @property
     def t_end_ns(self) -> int:
-        return self.transcript.t_end_ns
+        return max(self.transcript.t_end_ns, self.asked_again_ns)
 
     def told(self, action: Action) -> Instruction | None:
         """Return the instruction with an action, None if there was none."""
@@ -99,14 +102,18 @@ class Clearances:
     """The clearances about runways that were heard on the frequency.
 
     An instruction of which a slot is in doubt is believed once its readback agrees with it, or once
-    it was said again. Until then it gives no permission and withdraws none.
+    it was said again, with confidence or alike. Until then it gives no permission and withdraws
+    none.
     """
 
     def __init__(self, guard: Guard) -> None:
         self._guard = guard
+        self._repeats = Repeats(guard.tau_asr)
         self._doubts: dict[str, Doubt] = {}
         """The doubt about the last call of or to each callsign."""
         self._addressed: dict[str, _Addressed] = {}
+        self._told: dict[str, _Addressed] = {}
+        """The last call to somebody that had an instruction."""
         self._in_force: dict[str, tuple[Clearance, ...]] = {}
         self._holding: dict[str, str | None] = {}
         self._discrepancies: dict[str, Discrepancy] = {}
@@ -131,7 +138,7 @@ class Clearances:
             each.action: doubt
             for each in said
             if self._is_news(callsign, each)
-            and (doubt := self._guard.doubt(call, each, transcript)) is not None
+            and (doubt := self._repeats.joined(self._guard.doubt(call, each, transcript)))
         }
         if call.match.ambiguous:
             self._suspect(callsign, doubts.values())
@@ -139,9 +146,7 @@ class Clearances:
         if call.kind == "say_again":  # What is in doubt will be said again.
             self._drop_doubts(callsign)
         if call.addressed_first:
-            self._addressed[callsign] = _Addressed(said, call, transcript, dict(doubts))
-            if len(doubts) < len(said):
-                self._settle(callsign)
+            self._address(callsign, _Addressed(said, call, transcript, dict(doubts)))
         elif said:
             said = self._compare(call, callsign, said, transcript, doubts)
         elif (given := self._recent(callsign, transcript.t_tx_ns)) is not None:
@@ -150,6 +155,35 @@ class Clearances:
         if believed:
             self._act_on(callsign, believed, transcript)
         self._suspect(callsign, doubts.values())
+
+    def _address(self, callsign: str, addressed: _Addressed) -> None:
+        """Note a call to somebody, whose readback is awaited.
+
+        Who has read back and is to say it again is told nothing new: another readback of the last
+        instruction is awaited. Until it comes, a call without an instruction, such as the "roger"
+        to the first one, changes nothing. "Say again" before there was an answer is the crew's.
+        """
+        heard = addressed.transcript
+        told = self._told.get(callsign)
+        if (
+            addressed.call.kind == "say_again"
+            and told is not None
+            and told.answered
+            and heard.t_end_ns - told.t_end_ns <= DISCREPANCY_NS
+        ):
+            told.answered = False
+            told.asked_again_ns = heard.t_end_ns
+            self._addressed[callsign] = told
+            return
+        before = self._recent(callsign, heard.t_tx_ns)
+        is_asked = before is not None and before.asked_again_ns > 0 and not before.answered
+        if is_asked and not addressed.instructions:
+            return
+        self._addressed[callsign] = addressed
+        if addressed.instructions:
+            self._told[callsign] = addressed
+        if len(addressed.doubts) < len(addressed.instructions):
+            self._settle(callsign)
 
     def _is_news(self, callsign: str, said: Instruction) -> bool:
         """Return whether an instruction would change what somebody is believed to be cleared to."""
@@ -271,7 +305,7 @@ class Clearances:
             elif given and match:
                 if "runway" not in differences(match, each):
                     continue
-                doubt = self._guard.doubt_of_value(call, each, transcript)
+                doubt = self._repeats.joined(self._guard.doubt_of_value(call, each, transcript))
                 doubt = doubt or self._guard.doubt_of_value(given.call, match, given.transcript)
                 wrong = (callsign, match)
             elif given and each.action in LIFETIME_S:

@@ -87,6 +87,51 @@ def test_a_sure_readback_of_what_was_not_heard_is_asked_for_where_words_are_unsu
     assert mismatches(airfield) == []
 
 
+SAY_AGAIN = (32.0, "American one two three, say again.")
+TWICE_IS_ENOUGH = 0.7
+"""Threshold that one unsure word does not reach, and two that were heard alike do."""
+
+
+def test_the_same_wrong_runway_heard_again_is_told_though_each_call_is_unsure() -> None:
+    again = (36.0, UNSURE_WRONG[1])
+    airfield = field(CLEARED, UNSURE_WRONG, SAY_AGAIN, again, tau_asr=TWICE_IS_ENOUGH).run(50)
+    assert {each.t_ready_ns for each in mismatches(airfield)} == {36 * 10**9}
+    assert questions(airfield) == [(26.0, "AAL123", "runway")]
+
+
+def test_two_wrong_runways_do_not_confirm_each_other() -> None:
+    other = (36.0, "Cleared to land runway one? five, American one two three.")
+    airfield = field(CLEARED, UNSURE_WRONG, SAY_AGAIN, other, tau_asr=TWICE_IS_ENOUGH).run(50)
+    assert mismatches(airfield) == []
+
+
+@pytest.mark.parametrize(
+    "between",
+    [[], [(34.0, "American one two three, roger.")], [(34.0, "American one two three, four?.")]],
+    ids=["nothing", "roger", "something"],
+)
+def test_a_readback_that_was_asked_for_again_belongs_to_the_instruction_before(
+    between: list[tuple[float, str]],
+) -> None:
+    """It comes 35 s after the instruction, later than a readback by itself."""
+    again = (55.0, WRONG[1])
+    airfield = field(CLEARED, UNSURE_WRONG, SAY_AGAIN, *between, again).run(60)
+    (told, *_) = mismatches(airfield)
+    assert told.t_ready_ns == 55 * 10**9
+    assert "01" in told.message
+
+
+def test_the_right_readback_that_was_asked_for_again_is_no_cause_for_alarm() -> None:
+    airfield = field(CLEARED, UNSURE_WRONG, SAY_AGAIN, (36.0, RIGHT[1])).run(60)
+    assert mismatches(airfield) == []
+
+
+def test_after_a_new_instruction_a_readback_belongs_to_that() -> None:
+    changed = (34.0, "American one two three, runway one niner, cleared to land.")
+    airfield = field(CLEARED, UNSURE_WRONG, SAY_AGAIN, changed, (40.0, WRONG[1])).run(60)
+    assert mismatches(airfield) == []
+
+
 def test_with_nobody_else_at_the_runway_it_does_not_matter() -> None:
     assert field(CLEARED, UNSURE_WRONG, is_busy=False).run(40).told == []
 
