@@ -17,6 +17,7 @@ from airhilt.assistant.wording.engines.template import Template
 from airhilt.bus import free_endpoint
 from airhilt.cosim.observer import Observer, Result
 from airhilt.record import read_log
+from breadth import mostly_slow
 from paths import DOCS, EXAMPLES
 from processes import process
 
@@ -55,7 +56,7 @@ def test_without_an_assistant_separation_is_lost(tmp_path: Path) -> None:
     assert result.summary.loss_of_separation
 
 
-@pytest.mark.parametrize("source", ["sdk_worker.py", "decision.md"])
+@pytest.mark.parametrize("source", mostly_slow(["sdk_worker.py", "decision.md"], "decision.md"))
 def test_a_worker_of_the_examples_keeps_separation(source: str, tmp_path: Path) -> None:
     worker: Any
     if source == "decision.md":
@@ -70,6 +71,7 @@ def test_a_worker_of_the_examples_keeps_separation(source: str, tmp_path: Path) 
     assert observer.texts == []
 
 
+@pytest.mark.slow
 def test_the_crews_return_to_their_levels_when_the_conflict_is_over(tmp_path: Path) -> None:
     worker = runpy.run_path(str(EXAMPLES / "sdk_worker.py"))["SimpleWorker"]()
     scenario = load("s02a_headon").model_copy(update={"end_when": ()})
@@ -79,6 +81,7 @@ def test_the_crews_return_to_their_levels_when_the_conflict_is_over(tmp_path: Pa
     assert len(resumed) == 2
 
 
+@pytest.mark.slow
 def test_the_example_in_plain_zenoh_keeps_separation(tmp_path: Path) -> None:
     """The run goes by the wall clock, here 20 times as fast."""
     endpoint, observer = free_endpoint(), Notices()

@@ -8,10 +8,11 @@ import shlex
 import shutil
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from importlib.util import find_spec
+from itertools import chain
 from pathlib import Path
-from typing import NamedTuple
 
 import pytest
 from markdown_it import MarkdownIt
@@ -19,6 +20,7 @@ from markdown_it import MarkdownIt
 from airhilt import library
 from airhilt.bus import free_endpoint
 from airhilt_short import shorten, use_for
+from breadth import mostly_slow
 from paths import DOCS, ROOT, SUPPORT
 from sweep_tables import grid, write_sweep
 
@@ -27,9 +29,11 @@ RUN_PAGES = (ROOT / "README.md", DOCS / "getting-started.md")
 RUN_COMMANDS = ("airhilt", "for", "python examples/")
 LONGEST_S = 300.0
 Cli = Callable[..., subprocess.CompletedProcess[str]]
+RunBlocks = Callable[[Iterable[Sequence[str]]], None]
 
 
-class Example(NamedTuple):
+@dataclass(frozen=True)
+class Example:
     """A block of code of a page."""
 
     page: Path
@@ -70,6 +74,8 @@ def is_possible(command: str) -> bool:
 
 EXAMPLES = [example for page in PAGES for example in examples(page)]
 PYTHON = [example for example in EXAMPLES if example.language == "python"]
+CHEAP_PYTHON = [one for one in PYTHON if not re.search(r"read_sweep\(|snapshot\(", one.text)]
+"""Examples that neither read tables nor draw a picture."""
 
 
 @pytest.fixture(scope="session")
@@ -138,38 +144,65 @@ def as_run(command: str, endpoint: str, work: Path) -> str:
     return f"{command} &" if "--attach" in command else command
 
 
+def blocks_of(page: Path) -> list[list[str]]:
+    """Return the commands of each block of a page."""
+    return [commands(example) for example in EXAMPLES if example.page == page]
+
+
+def first_run(page: Path) -> str:
+    """Return the first command of a page that runs a scenario."""
+    every = chain.from_iterable(blocks_of(page))
+    return next(command for command in every if command.startswith("airhilt cosim"))
+
+
 def newest_run(work: Path, begin: str = "") -> str:
     """Return the newest run folder whose name begins so."""
     folders = work.glob(f"runs/{begin}*/")
     return str(max(folders, key=lambda folder: folder.stat().st_mtime).relative_to(work))
 
 
-@pytest.mark.parametrize("page", RUN_PAGES, ids=lambda page: page.name)
-def test_the_commands_of_a_page_can_be_run(
-    page: Path, environment: dict[str, str], short_scenarios: Path,
+@pytest.fixture
+def run_blocks(
+    environment: dict[str, str], short_scenarios: Path,
     airhilt_command: Cli, monkeypatch: pytest.MonkeyPatch,
-) -> None:  # fmt: skip
-    """A terminal does what needs one: programs beside a run, pages, Ctrl+C, loops."""
-    work, begun = Path(environment["PWD"]), list[str]()
+) -> RunBlocks:  # fmt: skip
+    """Runs commands, each list of them with a port of its own.
+
+    A terminal does what needs one: programs beside a run, pages, Ctrl+C, loops.
+    """
+    work = Path(environment["PWD"])
     monkeypatch.chdir(work)
-    blocks = [commands(example) for example in EXAMPLES if example.page == page]
-    assert any(command.startswith("airhilt cosim") for block in blocks for command in block)
-    for block in blocks:
-        endpoint = free_endpoint()
-        for command in filter(is_possible, block):
-            given = as_run(command, endpoint, work)
-            if given.endswith("&"):
-                begun.append(given)
-            elif begun or not given.startswith("airhilt") or "--no-browser" in given:
-                run("\n".join([*begun, given, "wait"]), environment)
-                begun.clear()
-            else:
-                arguments = shlex.split(given)[1:]
-                with monkeypatch.context() as patch:
-                    patch.setattr(library, "folder", library.folder)
-                    use_for(arguments, short_scenarios)
-                    done = airhilt_command(*arguments)
-                assert done.returncode == 0, f"{given}\n{done.stdout}\n{done.stderr}"
+
+    def run_all(blocks: Iterable[Sequence[str]]) -> None:
+        begun = list[str]()
+        for block in blocks:
+            endpoint = free_endpoint()
+            for command in filter(is_possible, block):
+                given = as_run(command, endpoint, work)
+                if given.endswith("&"):
+                    begun.append(given)
+                elif begun or not given.startswith("airhilt") or "--no-browser" in given:
+                    run("\n".join([*begun, given, "wait"]), environment)
+                    begun.clear()
+                else:
+                    arguments = shlex.split(given)[1:]
+                    with monkeypatch.context() as patch:
+                        patch.setattr(library, "folder", library.folder)
+                        use_for(arguments, short_scenarios)
+                        done = airhilt_command(*arguments)
+                    assert done.returncode == 0, f"{given}\n{done.stdout}\n{done.stderr}"
+
+    return run_all
+
+
+def test_the_first_run_of_the_readme_can_be_run(run_blocks: RunBlocks) -> None:
+    run_blocks([[first_run(ROOT / "README.md")]])
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("page", RUN_PAGES, ids=lambda page: page.name)
+def test_the_commands_of_a_page_can_be_run(page: Path, run_blocks: RunBlocks) -> None:
+    run_blocks(blocks_of(page))
 
 
 @pytest.fixture(scope="session")
@@ -179,7 +212,7 @@ def sweep_folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return write_sweep(out, grid(["s01a_bad_readback"], ["reference", "none"], seeds=2))
 
 
-@pytest.mark.parametrize("example", PYTHON, ids=str)
+@pytest.mark.parametrize("example", mostly_slow(PYTHON, *CHEAP_PYTHON), ids=str)
 def test_the_python_of_a_page_can_be_run(
     example: Example,
     environment: dict[str, str],

@@ -17,6 +17,7 @@ MOST_LINES = 15
 """Lines of code, blank ones not counted."""
 
 
+@pytest.mark.slow
 def test_the_notebook_runs_a_sweep_and_plots_it(
     encounter: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
