@@ -39,6 +39,7 @@ def summary_of(scenario: Scenario, out: Path, rate: str) -> Summary:
     return run(scenario, Options.model_validate({**given, "out": out})).summary
 
 
+@pytest.mark.slow
 def test_only_what_cameras_show_is_left_out_and_everything_else_comes_when_it_did(
     tmp_path: Path,
 ) -> None:

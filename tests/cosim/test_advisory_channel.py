@@ -61,6 +61,7 @@ def test_a_crew_acts_once_it_has_heard_it_to_the_end(folder: Path) -> None:
     assert min(event["t_ns"] for event in reacts if event["subject"] == "AAL123") > told_ns
 
 
+@pytest.mark.slow
 def test_a_replay_is_identical(folder: Path) -> None:
     assert replay(folder).identical
 

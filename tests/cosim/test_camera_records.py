@@ -94,6 +94,7 @@ def test_a_video_of_each_camera_lies_in_the_run_folder(
         assert (file.streams.video[0].frames, file.streams.video[0].average_rate) == (41, 4)
 
 
+@pytest.mark.slow
 def test_a_video_can_be_had_of_a_run_in_which_nobody_looks(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -201,6 +202,7 @@ def test_vision_that_is_lost_leaves_the_numbers_of_before(
     assert vision.recall is not None
 
 
+@pytest.mark.slow
 def test_cameras_are_lost_in_a_replay_at_the_very_moment_at_which_they_were(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -41,6 +41,14 @@ def short() -> Scenario:
     return Scenario.model_validate(document | {"name": "short", "duration_s": 2.0})
 
 
+@pytest.fixture
+def small(short: Scenario) -> Scenario:
+    """The same in pictures that are drawn and looked at in no time."""
+    size = {"width_px": 320, "height_px": 180}
+    cameras = tuple(camera.model_copy(update=size) for camera in short.cameras)
+    return short.model_copy(update={"cameras": cameras})
+
+
 def log_of(scenario: Scenario, out: Path, **options: Any) -> list[Logged]:
     run(scenario, SEEN.model_copy(update={"out": out, **options}))
     return list(read_log(out / "log.mcap"))
@@ -66,9 +74,9 @@ class Notices(Observer):
 
 
 def test_each_picture_is_looked_at_and_told_as_late_as_the_detector_is(
-    short: Scenario, tmp_path: Path
+    small: Scenario, tmp_path: Path
 ) -> None:
-    log = log_of(short, tmp_path / "run", latency="fixed:0.05")
+    log = log_of(small, tmp_path / "run", latency="fixed:0.05")
     frames = [CameraFrame.model_validate_json(each.data) for each in messages(log, "camera/")
               if each.key.endswith("/frame")]  # fmt: skip
     seen = [Detections.model_validate_json(each.data) for each in messages(log, "vision/")]
@@ -84,9 +92,10 @@ def pictures_in_memory() -> list[Frame | KeptPixels]:
     return [each for each in gc.get_objects() if isinstance(each, Frame | KeptPixels)]
 
 
-def test_a_run_leaves_no_picture_in_memory(short: Scenario, tmp_path: Path) -> None:
+@pytest.mark.slow
+def test_a_run_leaves_no_picture_in_memory(small: Scenario, tmp_path: Path) -> None:
     """Something may hold one run for longer than it lasts, on a busy machine; not each of three."""
-    brief = short.model_copy(update={"duration_s": 0.5})
+    brief = small.model_copy(update={"duration_s": 0.5})
     gc.collect()
     before = pictures_in_memory()
     gc.disable()
@@ -101,12 +110,13 @@ def test_a_run_leaves_no_picture_in_memory(short: Scenario, tmp_path: Path) -> N
     assert not left
 
 
+@pytest.mark.slow
 def test_a_run_without_cameras_has_no_pictures_to_look_for_in_memory(
-    short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    small: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     searches: list[None] = []
     monkeypatch.setattr(gc, "collect", lambda: searches.append(None))
-    brief = short.model_copy(update={"duration_s": 0.5})
+    brief = small.model_copy(update={"duration_s": 0.5})
     blind = Options(cameras=False, speech=False, latency="fixed", out=tmp_path / "blind")
     run(brief, blind)
     assert not searches
@@ -114,6 +124,7 @@ def test_a_run_without_cameras_has_no_pictures_to_look_for_in_memory(
     assert searches
 
 
+@pytest.mark.slow
 def test_nobody_is_seen_in_the_fog_that_is_asked_for_and_a_replay_has_it(
     short: Scenario, tmp_path: Path
 ) -> None:
@@ -125,26 +136,27 @@ def test_nobody_is_seen_in_the_fog_that_is_asked_for_and_a_replay_has_it(
     assert replay(tmp_path / "run").identical
 
 
+@pytest.mark.slow
 def test_pictures_wait_for_nobody_and_old_ones_are_dropped_and_counted(
-    short: Scenario, tmp_path: Path
+    small: Scenario, tmp_path: Path
 ) -> None:
     options = SEEN.model_copy(update={"latency": "fixed:0.3", "out": tmp_path / "run"})
-    summary = run(short, options).summary
+    summary = run(small, options).summary
     dropped = [n for key, n in summary.inputs_dropped.items() if "camera/nose" in key]
     assert sum(dropped) > 10
 
 
 @pytest.mark.slow
-def test_a_run_with_cameras_is_the_same_every_time(short: Scenario, tmp_path: Path) -> None:
-    glance = short.model_copy(update={"duration_s": 0.5})
+def test_a_run_with_cameras_is_the_same_every_time(small: Scenario, tmp_path: Path) -> None:
+    glance = small.model_copy(update={"duration_s": 0.5})
     first = log_of(glance, tmp_path / "first")
     assert log_of(glance, tmp_path / "second") == first
 
 
 def test_a_measured_run_with_cameras_is_replayed_to_the_byte(
-    short: Scenario, tmp_path: Path
+    small: Scenario, tmp_path: Path
 ) -> None:
-    brief = short.model_copy(update={"duration_s": 1.0})
+    brief = small.model_copy(update={"duration_s": 1.0})
     log_of(brief, tmp_path / "run", latency="measured")
     assert replay(tmp_path / "run").identical
 
@@ -160,8 +172,9 @@ def test_a_run_with_the_default_renderer_is_replayed_to_the_byte(
     assert replay(tmp_path / "run").identical
 
 
+@pytest.mark.slow
 def test_a_renderer_that_is_killed_costs_the_pictures_and_nothing_else(
-    short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    small: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     opened = []
     open_scene_renderer = vision._open_renderer
@@ -178,7 +191,7 @@ def test_a_renderer_that_is_killed_costs_the_pictures_and_nothing_else(
                 links[0]._process.wait()
 
     monkeypatch.setattr(vision, "_open_renderer", opening)
-    result = run(short, SEEN.model_copy(update={"out": tmp_path / "run"}), Killer())
+    result = run(small, SEEN.model_copy(update={"out": tmp_path / "run"}), Killer())
     monkeypatch.undo()
     assert result.summary.outcome == "finished"
     log = list(read_log(tmp_path / "run" / "log.mcap"))
@@ -189,11 +202,11 @@ def test_a_renderer_that_is_killed_costs_the_pictures_and_nothing_else(
 
 
 def test_without_a_renderer_vision_is_not_evaluated_and_the_run_goes_on(
-    short: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    small: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(vision, "_open_renderer", missing)
     notices = Notices()
-    result = run(short, SEEN.model_copy(update={"out": tmp_path / "run"}), notices)
+    result = run(small, SEEN.model_copy(update={"out": tmp_path / "run"}), notices)
     log = list(read_log(tmp_path / "run" / "log.mcap"))
     assert states_of_vision(log) == [("not evaluated", "no renderer here")]
     assert result.summary.outcome == "finished"

@@ -89,6 +89,7 @@ def test_nothing_of_it_counts_for_the_assistant(equipped: airhilt.Result) -> Non
     assert summary.avoided is not True
 
 
+@pytest.mark.slow
 def test_a_collision_that_equipment_has_averted_does_not_make_the_scenario_a_bad_one(
     tmp_path: Path,
 ) -> None:
@@ -112,6 +113,7 @@ def test_a_scenario_with_unknown_equipment_is_not_valid(
     assert "Traceback" not in done.stderr
 
 
+@pytest.mark.slow
 def test_a_run_with_equipment_is_repeated_by_its_replay(equipped: airhilt.Result) -> None:
     assert replay(equipped.folder).identical
 
@@ -130,6 +132,7 @@ def slow(tmp_path_factory: pytest.TempPathFactory) -> airhilt.Result:
     )  # fmt: skip
 
 
+@pytest.mark.slow
 def test_equipment_is_no_later_if_the_assistant_is(slow: airhilt.Result) -> None:
     log = list(read_log(slow.folder / "log.mcap"))
     assert all(logged.t_ns - alert.advisory.t_ready_ns < SECOND_NS for logged, alert in alerts(log))
@@ -137,6 +140,7 @@ def test_equipment_is_no_later_if_the_assistant_is(slow: airhilt.Result) -> None
     assert replay(slow.folder).identical
 
 
+@pytest.mark.slow
 def test_the_margin_is_from_the_warning_of_the_assistant_to_that_of_the_equipment(
     slow: airhilt.Result,
 ) -> None:

@@ -99,6 +99,7 @@ def test_evidence_that_was_not_given_has_no_age(encounter: Scenario, tmp_path: P
     assert summary.modalities["adsb"] == "off"
 
 
+@pytest.mark.slow
 def test_a_run_with_fewer_modalities_replays(tmp_path: Path) -> None:
     folder = airhilt.run(talking(), out=tmp_path / "run", modalities="adsb", **NO_SENSES).folder
     assert RunFolder(folder).info().options.modalities == "adsb"

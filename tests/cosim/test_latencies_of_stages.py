@@ -21,11 +21,17 @@ def latencies_ns(folder: Path) -> dict[str, set[int]]:
     return found
 
 
+@pytest.fixture(scope="module")
+def warned(encounter: airhilt.Scenario) -> airhilt.Scenario:
+    """The encounter until somebody was warned."""
+    return encounter.model_copy(update={"duration_s": 6.0})
+
+
 def test_only_the_named_stage_takes_the_time_that_is_given_for_it(
-    encounter: airhilt.Scenario, tmp_path: Path
+    warned: airhilt.Scenario, tmp_path: Path
 ) -> None:
     airhilt.run(
-        encounter, speech=False, out=tmp_path / "run", latency="fixed:0.1,decision=fixed:2",
+        warned, speech=False, out=tmp_path / "run", latency="fixed:0.1,decision=fixed:2",
     )  # fmt: skip
     found = latencies_ns(tmp_path / "run")
     assert found["decision"] == {2 * SECOND_NS}
@@ -39,8 +45,8 @@ def test_a_stage_that_is_not_there_is_refused_with_the_nearest(text: str) -> Non
 
 
 def test_with_the_times_of_the_paper_only_steps_that_publish_take_the_language_model(
-    encounter: airhilt.Scenario, tmp_path: Path
+    warned: airhilt.Scenario, tmp_path: Path
 ) -> None:
-    airhilt.run(encounter, speech=False, out=tmp_path / "run", latency="paper")
+    airhilt.run(warned, speech=False, out=tmp_path / "run", latency="paper")
     found = latencies_ns(tmp_path / "run")
     assert found["decision"] == {0, round(DECISION_S * SECOND_NS)}

@@ -37,6 +37,7 @@ def run(scenario: Scenario, folder: Path, *, speech: bool = False) -> tuple[str,
     return sha256(folder / "log.mcap"), summary
 
 
+@pytest.mark.slow
 @linux_only
 def test_runs_are_alike_and_leave_no_descriptors_and_no_shared_memory(
     brief: Scenario, tmp_path: Path

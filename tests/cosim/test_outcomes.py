@@ -23,7 +23,7 @@ TCAS_TOLERANCE_IN_CLIMB_S = 5.0
 """The projection keeps ground speed; an aircraft that climbs 4000 ft on the way gains 4 s."""
 
 
-@pytest.fixture(scope="module", params=mostly_slow(CONFLICTS, "s02a_headon", "s02a_vertical"))
+@pytest.fixture(scope="module", params=mostly_slow(CONFLICTS, "s02a_headon"))
 def pair_of_runs(
     request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory
 ) -> tuple[Summary, Summary, Path]:

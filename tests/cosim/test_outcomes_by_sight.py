@@ -109,7 +109,8 @@ def test_what_is_followed_on_a_runway_with_errors_sends_the_arrival_around(
     assert told[0].t_ns / SECOND_NS - summary.t_window_s < 12.0
 
 
-@pytest.mark.parametrize("name", mostly_slow(IN_THE_AIR, "s02c_intruder_headon"))
+@pytest.mark.slow
+@pytest.mark.parametrize("name", IN_THE_AIR)
 def test_an_intruder_that_is_followed_with_errors_is_missed(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -121,7 +122,8 @@ def test_an_intruder_that_is_followed_with_errors_is_missed(
     assert {w.recipient for w in warnings(tmp_path / "run")} == {"AAL123", "ATC"}
 
 
-@pytest.mark.parametrize("name", mostly_slow(NOMINAL, "s02c_nominal"))
+@pytest.mark.slow
+@pytest.mark.parametrize("name", NOMINAL)
 def test_errors_make_no_alarm_in_normal_traffic(
     name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

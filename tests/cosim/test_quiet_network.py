@@ -98,14 +98,15 @@ def kept_by_others(home: Path) -> list[str]:
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform != "linux", reason="needs network namespaces")
 @pytest.mark.parametrize(
     "flags",
     [
         ("--no-cameras", "--snr", "10"),
-        pytest.param((), marks=pytest.mark.slow),
-        pytest.param(OTHER_ENGINES, marks=pytest.mark.slow),
-        pytest.param(("--no-cameras", "--tts", "flite"), marks=[pytest.mark.slow, NEEDS_FLITE]),
+        (),
+        OTHER_ENGINES,
+        pytest.param(("--no-cameras", "--tts", "flite"), marks=NEEDS_FLITE),
     ],
 )
 def test_a_run_connects_to_nobody_and_leaves_nothing_for_others_to_send(

@@ -64,6 +64,7 @@ def test_without_noise_every_call_is_said_once_and_understood(tmp_path: Path) ->
     assert {one.outcome for one in radio.heard} == {"understood"}
 
 
+@pytest.mark.slow
 def test_in_noise_calls_are_made_again_until_they_are_understood(tmp_path: Path) -> None:
     counts: Counter[str] = Counter()
     for seed in range(3):
@@ -74,6 +75,7 @@ def test_in_noise_calls_are_made_again_until_they_are_understood(tmp_path: Path)
     assert counts.total() > 6
 
 
+@pytest.mark.slow
 def test_a_run_in_noise_is_the_same_every_time_and_replays(tmp_path: Path) -> None:
     first = ran("s02a_nominal", tmp_path / "first", snr_db=0.0, seed=3)
     again = ran("s02a_nominal", tmp_path / "again", snr_db=0.0, seed=3)

@@ -10,6 +10,7 @@ from airhilt import load, run
 from airhilt.cosim.replay import replay
 from airhilt.metrics.summary import Summary
 from airhilt.record import read_log
+from breadth import mostly_slow
 
 
 def go(scenario: str, assistant: str, folder: Path, equipment: tuple[str, ...] = ()) -> Summary:
@@ -31,6 +32,7 @@ def test_surf_a_lets_a_crew_go_around_before_a_driver_who_drives_on(tmp_path: Pa
     assert replay(tmp_path / "run").identical
 
 
+@pytest.mark.slow
 def test_intersection_lights_stop_a_crew_that_takes_off_across_a_landing(tmp_path: Path) -> None:
     summary = go("s01a_intersecting", "runway_status_lights", tmp_path / "run")
     assert summary.avoided
@@ -43,6 +45,6 @@ def test_the_lights_of_the_airport_stop_it_without_an_assistant_too(tmp_path: Pa
     assert not go("s01a_intersecting", "none", tmp_path / "run", lights).collision
 
 
-@pytest.mark.parametrize("assistant", ["surf_a", "runway_status_lights"])
+@pytest.mark.parametrize("assistant", mostly_slow(["surf_a", "runway_status_lights"], "surf_a"))
 def test_where_everybody_holds_short_nobody_is_disturbed(assistant: str, tmp_path: Path) -> None:
     assert go("s01b_nominal", assistant, tmp_path / "run").nuisance_alerts == 0

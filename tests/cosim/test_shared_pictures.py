@@ -35,12 +35,12 @@ def cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def meeting() -> Scenario:
-    """Return a second of two aircraft that fly at each other 3 km apart."""
+    """Return a second of two aircraft that fly at each other 3 km apart, in small pictures."""
     document = load("s02a_headon").model_dump(mode="json")
     for actor in document["actors"]:
         actor["initial"]["position"]["distance_nm"] = 0.8
     for camera in document["cameras"]:
-        camera["rate_hz"] = 8.0
+        camera |= {"rate_hz": 8.0, "width_px": 320, "height_px": 180}
     return Scenario.model_validate(document | {"name": "meeting", "duration_s": 1.0})
 
 
@@ -81,6 +81,7 @@ def drawings(monkeypatch: pytest.MonkeyPatch) -> list[object]:
     return drawn
 
 
+@pytest.mark.slow
 def test_pictures_that_another_program_hears_have_their_pixels(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -108,6 +109,7 @@ class Watching:
         return Step()
 
 
+@pytest.mark.slow
 def test_a_killed_renderer_costs_pictures_that_others_have_drawn_and_nothing_else(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pytest
+
 from airhilt.cosim.observer import Observer
 from airhilt.cosim.replay import replay
 from airhilt.cosim.simulation import run
@@ -23,6 +25,7 @@ class Notices(Observer):
         self.texts.append(text)
 
 
+@pytest.mark.slow
 def test_tcas_warns_both_crews_and_they_pass_without_a_near_collision(tmp_path: Path) -> None:
     notices = Notices()
     options = Options(out=tmp_path / "run", assistant="tcas", latency="fixed", speech=False)
