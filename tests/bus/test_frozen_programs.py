@@ -10,6 +10,7 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, closing, contextmanager
 
+import pytest
 import zenoh
 
 from airhilt.bus.remote_workers import RemoteWorker
@@ -85,6 +86,7 @@ def stop_and_fill(run: subprocess.Popen[bytes], send: Callable[[], None]) -> Non
         time.sleep(0.02)
 
 
+@pytest.mark.slow
 def test_a_program_ends_before_its_run_reads_again() -> None:
     endpoint = free_endpoint()
     with process("-c", RUN, endpoint) as program:
@@ -94,6 +96,7 @@ def test_a_program_ends_before_its_run_reads_again() -> None:
         assert is_done_before_it_reads(program, lambda: close_session(session))
 
 
+@pytest.mark.slow
 def test_a_page_ends_before_its_run_reads_again() -> None:
     endpoint = free_endpoint()
     with process("-c", RUN, endpoint) as program:

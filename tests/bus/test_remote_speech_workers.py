@@ -107,6 +107,7 @@ def test_an_attached_recogniser_gets_every_sample_and_speaks_for_the_run(
     assert replay(result.folder).identical
 
 
+@pytest.mark.slow
 def test_a_recogniser_may_take_a_call_chunk_by_chunk_while_it_lasts(
     short: Scenario, tmp_path: Path
 ) -> None:
@@ -204,6 +205,7 @@ def test_a_replay_needs_the_recorded_voice(voiced: Path) -> None:
         path.write_bytes(kept)
 
 
+@pytest.mark.slow
 def test_without_the_voice_that_died_advisories_are_read(short: Scenario, tmp_path: Path) -> None:
     endpoint = free_endpoint()
     with reference_worker("tts", endpoint) as voice:

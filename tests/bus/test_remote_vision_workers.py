@@ -83,6 +83,7 @@ def test_an_attached_detector_gets_every_pixel_and_looks_for_the_run(
     assert result.summary.modalities["vision"] == "on"
 
 
+@pytest.mark.slow
 def test_the_example_detector_looks_for_the_run(glance: Scenario, tmp_path: Path) -> None:
     endpoint = free_endpoint()
     with process(EXAMPLES / "vision_worker.py", endpoint) as detector:

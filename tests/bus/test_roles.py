@@ -174,6 +174,7 @@ def test_a_worker_with_the_certificate_of_another_role_is_told_so(
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("of", mostly_slow(["observer", "worker", "recorder"], "worker"))
 def test_a_person_with_the_certificate_of_another_role_is_told_so(
     bus: Bus, keys: Path, tmp_path: Path, of: str
