@@ -62,10 +62,8 @@ BLOBS = st.lists(
 )
 
 
-@settings(max_examples=20, deadline=None)
-@given(scenes=st.lists(BLOBS, min_size=2, max_size=4), still=BLOBS)
-def test_it_finds_what_a_look_at_everything_finds(
-    scenes: list[list[Blob]], still: list[Blob]
+def require_what_a_look_at_everything_finds(
+    scenes: Sequence[Sequence[Blob]], still: Sequence[Blob]
 ) -> None:
     gate = Gate(BlobDetector())
     for blobs in scenes:
@@ -73,6 +71,21 @@ def test_it_finds_what_a_look_at_everything_finds(
         assert gate.look(Shot("tower", 0), picture) == Gate(BlobDetector()).look(
             Shot("tower", 0), picture
         )
+
+
+@settings(max_examples=6, deadline=None)
+@given(scenes=st.lists(BLOBS, min_size=2, max_size=3), still=BLOBS)
+def test_it_finds_what_a_look_at_everything_finds(
+    scenes: list[list[Blob]], still: list[Blob]
+) -> None:
+    require_what_a_look_at_everything_finds(scenes, still)
+
+
+@pytest.mark.slow
+@settings(max_examples=50, deadline=None)
+@given(scenes=st.lists(BLOBS, min_size=2, max_size=4), still=BLOBS)
+def test_so_it_does_in_many_pictures(scenes: list[list[Blob]], still: list[Blob]) -> None:
+    require_what_a_look_at_everything_finds(scenes, still)
 
 
 def test_what_vanishes_is_not_found_any_more() -> None:

@@ -163,8 +163,8 @@ def test_nothing_is_said_about_the_aircraft_that_carries_the_camera(folder: Path
 
 
 def test_where_the_own_aircraft_is_stands_beside_pictures_from_aircraft(folder: Path) -> None:
-    pictures = list(country(24))
-    for image, picture in zip(read(folder)["images"], pictures, strict=True):
+    pictures = list(country(6))
+    for image, picture in zip(read(folder)["images"][:6], pictures, strict=True):
         assert picture.carrier is not None
         number = picture.actors.index(picture.carrier) + 1
         assert np.array_equal(mask(image["own_aircraft"]), picture.frame.instance == number)
@@ -214,6 +214,7 @@ def test_pictures_can_all_be_empty(empty_folder: Path) -> None:
     assert not document["annotations"]
 
 
+@pytest.mark.slow
 def test_at_an_airport_things_stand_on_the_ground_and_cameras_too() -> None:
     pictures = list(random_pictures(30, 1, ["kdca"], "embree", SIZE, 0.0))
     assert {picture.airport for picture in pictures} == {"KDCA"}

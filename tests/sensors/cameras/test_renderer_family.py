@@ -55,8 +55,10 @@ NOON = Illumination(np.array((0.0, 0.0, 1.0)), visibility_m=10_000.0, overcast=0
 
 @pytest.fixture
 def glance() -> Scenario:
-    """Half a second of a flight with two cameras."""
-    return load("s02a_headon").model_copy(update={"duration_s": 0.5})
+    """Half a second of a flight with two small cameras."""
+    scenario, size = load("s02a_headon"), {"width_px": 160, "height_px": 90}
+    cameras = tuple(camera.model_copy(update=size) for camera in scenario.cameras)
+    return scenario.model_copy(update={"duration_s": 0.5, "cameras": cameras})
 
 
 def test_a_renderer_of_another_package_draws_a_run(
@@ -74,6 +76,7 @@ def test_a_renderer_of_another_package_draws_a_run(
     assert blue > red
 
 
+@pytest.mark.slow
 def test_a_replay_without_the_renderer_that_drew_says_so_in_one_line(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, glance: Scenario
 ) -> None:
@@ -95,6 +98,7 @@ def test_a_renderer_that_does_not_exist_is_refused_with_the_nearest(
     assert not (tmp_path / "run").exists()
 
 
+@pytest.mark.slow
 def test_auto_is_recorded_as_what_it_took_and_a_replay_takes_that(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, glance: Scenario
 ) -> None:

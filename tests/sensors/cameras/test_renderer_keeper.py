@@ -55,6 +55,7 @@ def bodies(step: int) -> list[BodyState]:
     ]
 
 
+@pytest.mark.slow
 def test_each_run_has_the_pictures_that_a_process_of_its_own_draws(keeper: RendererKeeper) -> None:
     clear = pictures(meeting(CLEAR), None)
     assert pictures(meeting(CLEAR), keeper) == clear
@@ -65,10 +66,10 @@ def test_each_run_has_the_pictures_that_a_process_of_its_own_draws(keeper: Rende
 
 @linux_only
 def test_one_process_draws_for_all_runs_and_nothing_piles_up(keeper: RendererKeeper) -> None:
-    pictures(meeting(CLEAR), keeper)
+    first = pictures(meeting(CLEAR), keeper)
     process_id, before = keeper.link().process_id, held()
-    for weather in (CLEAR, HAZE, CLEAR):
-        pictures(meeting(weather), keeper)
+    clear, haze, again = (pictures(meeting(one), keeper) for one in (CLEAR, HAZE, CLEAR))
+    assert clear == again == first != haze
     assert keeper.link().process_id == process_id
     assert held() == before
 
@@ -117,6 +118,7 @@ def test_the_answer_to_a_question_that_was_interrupted_is_not_taken_for_another(
             process.shoot([NOSE], bodies(5), 5)
 
 
+@pytest.mark.slow
 def test_a_scene_that_cannot_be_opened_does_not_end_the_process(keeper: RendererKeeper) -> None:
     link = keeper.link()
     with pytest.raises(RendererError, match="no renderer named"):

@@ -72,6 +72,7 @@ def test_where_no_process_is_bound_to_cores_all_of_them_count(
     assert processes_for(scenario) == 2
 
 
+@pytest.mark.slow
 def test_a_pool_takes_the_same_pictures_as_one_process(
     scenario: Scenario, names: list[str], pool: RendererPool
 ) -> None:

@@ -72,6 +72,7 @@ def test_a_picture_comes_with_its_truth(process: RendererProcess, bodies: list[B
     assert np.isinf(frame.distance_m[0]).all()
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(not hasattr(os, "waitid"), reason="the system does not tell")
 def test_a_process_that_was_stopped_is_given_up_before_its_time_for_pictures(
     bodies: list[BodyState], monkeypatch: pytest.MonkeyPatch
@@ -148,6 +149,7 @@ def test_a_still_is_written_as_a_png(tmp_path: Path) -> None:
     assert (tmp_path / "still.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.slow
 def test_a_still_between_two_ticks_shows_bodies_further_on() -> None:
     """As the run's own picture of that time does, which a tick is too coarse for."""
     scenario = washington()
@@ -270,6 +272,7 @@ def test_a_renderer_that_hangs_as_it_starts_is_given_up_after_the_time_that_is_t
         RendererProcess(washington(), renderer="embree")
 
 
+@pytest.mark.slow
 def test_a_renderer_that_hangs_as_it_draws_is_given_up_and_says_what_to_do(
     bodies: list[BodyState],
 ) -> None:
@@ -358,6 +361,7 @@ def test_nothing_is_drawn_again_when_nothing_changes(process: RendererProcess) -
     assert again.colour is first.colour
 
 
+@pytest.mark.slow
 def test_the_tail_camera_comes_with_the_mask_of_its_aircraft() -> None:
     mount = {"type": "actor", "actor": "AAL123", "station": "tail"}
     with RendererProcess(washington(mount=mount), renderer="embree") as opened:

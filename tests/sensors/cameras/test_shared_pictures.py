@@ -124,6 +124,7 @@ def test_what_is_found_what_is_drawn_and_what_is_drawn_later_are_what_a_run_alon
     assert shown(found[::-1]) == alone[::-1]
 
 
+@pytest.mark.slow
 def test_a_run_that_leaves_the_others_draws_what_it_would_have_drawn_alone(
     scenario: Scenario, process: RendererProcess
 ) -> None:

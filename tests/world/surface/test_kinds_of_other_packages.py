@@ -143,6 +143,7 @@ def test_a_run_labels_them_and_hears_them_as_their_files_say(tmp_path: Path) -> 
     }  # fmt: skip
 
 
+@pytest.mark.slow
 @pytest.mark.usefixtures("other_package")
 def test_data_sets_have_their_classes_after_the_usual_ones(tmp_path: Path) -> None:
     found = export(scenario_pictures(scenario(), 4, renderer="embree"), tmp_path / "data", {})
@@ -247,7 +248,12 @@ def test_a_kind_that_fails_at_a_command_is_named_and_not_unable(tmp_path: Path) 
     ("method", "body", "told"),
     [
         ("advance", "1 / 0", r"actor 'UAV1' cannot move on at 0\.05 s: ZeroDivisionError"),
-        ("mesh_of", "1 / 0", "kind 'drone': mesh_of failed: ZeroDivisionError"),
+        pytest.param(
+            "mesh_of",
+            "1 / 0",
+            "kind 'drone': mesh_of failed: ZeroDivisionError",
+            marks=pytest.mark.slow,
+        ),
     ],
 )
 def test_a_kind_that_fails_in_a_run_stops_it_with_its_name(
