@@ -79,6 +79,7 @@ def test_who_is_cut_off_for_a_moment_is_told_and_keeps_the_seat(
         assert run.presence.empty()
 
 
+@pytest.mark.slow
 def test_a_call_that_came_while_the_network_was_cut_is_not_played_later(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -100,6 +101,7 @@ def test_a_call_that_came_while_the_network_was_cut_is_not_played_later(
         assert page.evaluate(PIECES) == [0.5, 0.3]
 
 
+@pytest.mark.slow
 def test_the_seat_of_who_stays_away_is_given_back_and_the_page_returns_by_itself(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -138,6 +140,7 @@ def test_a_network_that_is_cut_is_not_taken_for_a_run_that_does_not_keep_up(
         forgive(page)
 
 
+@pytest.mark.slow
 def test_a_page_whose_scripts_are_busy_for_longer_than_the_patience_keeps_its_seat(
     page: Page, monkeypatch: pytest.MonkeyPatch
 ) -> None:

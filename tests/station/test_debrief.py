@@ -88,6 +88,7 @@ def test_a_picture_has_the_boxes_of_the_detector_and_the_true_ones(filmed: Debri
     assert any(there for there in camera["there"])
 
 
+@pytest.mark.slow
 def test_a_picture_is_drawn_again_by_a_renderer_of_this_machine(filmed: Debrief) -> None:
     """The one of the run is none that is installed."""
     camera = filmed.camera("nose-AAL123")

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Sequence
-from typing import Any
+from collections.abc import Iterator, Sequence
 
 import pytest
 
@@ -50,13 +49,19 @@ LONG = """import(new URL('page/model.js', location)).then(({ LiveTrack, Run }) =
 })"""
 
 
-@pytest.fixture
-def station(page: Page) -> Any:
+@pytest.fixture(scope="module")
+def opened(browser: Page) -> Iterator[None]:
+    """The page of a run, which is opened once: its modules are all that is asked."""
     with seat_page() as (_, url):
-        page.open(url)
-        page.wait_for("document.body.dataset.ready")
-        yield page
-        page.open("about:blank")
+        browser.open(url)
+        browser.wait_for("document.body.dataset.ready")
+        yield
+        browser.open("about:blank")
+
+
+@pytest.fixture
+def station(page: Page, opened: None) -> Page:
+    return page
 
 
 def frames(page: Page, messages: Sequence[tuple[float, float]], until_ms: int) -> list[float]:

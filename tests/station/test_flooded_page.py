@@ -11,12 +11,11 @@ from airhilt.messages import SpokenWords, Transcript, Transmission, Word
 from airhilt.record import Logged
 from airhilt.station.calls import MOST_LETTERS, MOST_TRANSCRIPTS
 from airhilt.station.live import LiveRun
+from breadth import mostly_slow
 from devtools import Page
 from stations import PATIENCE_S, PretendedRun, seat_page
 
 pytestmark = pytest.mark.browser
-FLOOD = 6_000
-"""Messages of each kind, all with other names."""
 CALLS = 200
 """Number of calls that are listed."""
 SHOWN = """({
@@ -48,15 +47,15 @@ KEPT = """import(new URL('page/model.js', location)).then(({ Run }) => {
 })"""
 
 
-def flood(run: PretendedRun) -> None:
-    """Let a program publish what no run has so much of."""
+def flood(run: PretendedRun, messages: int) -> None:
+    """Let a program publish what no run has so much of, all of each kind with other names."""
     evidence: dict[str, Any] = {
         "sources": [], "shares": {}, "note": "", "rules": [], "runway": None,
         "time_to_go_s": None, "time_to_loss_s": None, "radio_ids": [], "camera_ids": [],
         "tracks": [], "inconsistencies": [],
     }  # fmt: skip
-    for i in range(FLOOD):
-        name, t_s = f"X{i}", i / FLOOD
+    for i in range(messages):
+        name, t_s = f"X{i}", i / messages
         place = (t_s, 10.0 * i, 10.0 * i, 1000, [100.0, 0.0], 90.0, False, "")
         run.changes.add("state", name, "aircraft", "", *place)
         camera = {"name": name, "carrier": None, "width_px": 640, "height_px": 360}
@@ -74,17 +73,18 @@ def flood(run: PretendedRun) -> None:
         run.seat.add("task", card | {"done": False})
 
 
-def test_a_flooded_page_shows_the_newest_of_all_and_can_be_used(page: Page) -> None:
+@pytest.mark.parametrize("messages", mostly_slow([600, 6_000], 600))
+def test_a_flooded_page_shows_the_newest_of_all_and_can_be_used(page: Page, messages: int) -> None:
     with seat_page() as (run, url):
         run.changes.add("briefing", "TOWER", None, {})
         page.open(url, width=1280, height=720)
         page.wait_for("document.getElementById('state').textContent.startsWith('running')")
         page.click("seat-take")
         page.wait_for("document.body.dataset.seat === 'controller'")
-        flood(run)
+        flood(run, messages)
         run.changes.add("clock", 2.0, "paused", "paused")
         page.wait_for("document.getElementById('state').textContent === 'paused'")
-        newest = f"document.querySelector('#strips [data-callsign=X{FLOOD - 1}]')"
+        newest = f"document.querySelector('#strips [data-callsign=X{messages - 1}]')"
         page.wait_for(f"{newest} && document.getElementById('calls').childElementCount > 1")
         shown = page.evaluate(SHOWN)
         most = {

@@ -60,6 +60,7 @@ def states(socket: ClientConnection, most: int = 40) -> set[str]:
     return set()
 
 
+@pytest.mark.slow
 def test_the_run_goes_on_when_its_page_is_killed(brief_file: Path, tmp_path: Path) -> None:
     with running(brief_file, tmp_path / "run") as (process, url):
         with listening(url) as socket:
@@ -102,6 +103,7 @@ def events(out: Path) -> list[dict[str, Any]]:
     return [json.loads(one.data) for one in messages if one.key == "truth/event"]
 
 
+@pytest.mark.slow
 @pytest.mark.browser
 def test_the_page_follows_the_run_until_somebody_goes_back(
     page: Page, encounter_file: Path, tmp_path: Path
@@ -233,6 +235,7 @@ def has_seat(socket: ClientConnection) -> bool:
     return False
 
 
+@pytest.mark.slow
 def test_who_sits_down_before_the_run_knows_that_the_seat_was_left_comes_after_that_in_its_log(
     brief_file: Path, tmp_path: Path
 ) -> None:
@@ -286,6 +289,7 @@ def clock_of(changes: list[Any]) -> list[Any] | None:
     return next((one for one in reversed(changes) if one[0] == "clock"), None)
 
 
+@pytest.mark.slow
 def test_who_may_take_a_seat_sees_nothing_of_the_truth(
     encounter_file: Path, tmp_path: Path
 ) -> None:
@@ -341,6 +345,7 @@ def is_seen(page: Page, name: str) -> bool:
     return seen
 
 
+@pytest.mark.slow
 @pytest.mark.browser
 def test_a_pilot_flies_by_the_mode_panel_and_sees_instruments_and_traffic(
     page: Page, encounter_file: Path, tmp_path: Path
@@ -368,6 +373,7 @@ def test_a_pilot_flies_by_the_mode_panel_and_sees_instruments_and_traffic(
     assert json.loads(commands[0])["command"]["altitude_ft"] == 36000
 
 
+@pytest.mark.slow
 @pytest.mark.browser
 def test_a_controller_orders_strips_by_keys(
     page: Page, encounter_file: Path, tmp_path: Path

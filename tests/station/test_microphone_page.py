@@ -16,6 +16,7 @@ from airhilt.audio.pcm import SAMPLE_RATE_HZ, from_pcm
 from airhilt.messages import SpokenWords
 from airhilt.station import seat_book
 from airhilt.station.held_button import AHEAD_S, LARGEST_PIECE_BYTES, HeldButton
+from breadth import mostly_slow
 from microphone import (
     BUTTON,
     FAKE,
@@ -174,7 +175,7 @@ def test_what_is_no_sound_is_refused_in_words(seat: tuple[PretendedRun, str], so
 
 
 @pytest.mark.browser
-@pytest.mark.parametrize("is_late", [False, True], ids=["open", "being opened"])
+@pytest.mark.parametrize("is_late", mostly_slow([False, True], True), ids=["open", "being opened"])
 def test_who_leaves_the_seat_has_no_open_microphone(
     seat: tuple[PretendedRun, str], is_late: bool
 ) -> None:

@@ -255,6 +255,7 @@ def test_two_runs_follow_one_clock(page: Page, spoken_run: Path, airport_run: Pa
         assert page.evaluate("document.documentElement.scrollHeight <= innerHeight")
 
 
+@pytest.mark.slow
 def test_the_colours_of_two_runs_are_chosen_in_one_place(
     page: Page, spoken_run: Path, airport_run: Path
 ) -> None:

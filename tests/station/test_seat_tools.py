@@ -310,6 +310,7 @@ def test_a_button_of_a_gamepad_talks_as_the_space_bar_does(
     assert pressed.frequency_khz == 119_100
 
 
+@pytest.mark.slow
 @pytest.mark.browser
 def test_a_station_that_stands_still_is_told_on_the_page_and_so_is_the_end_of_the_run(
     seat: tuple[PretendedRun, str], monkeypatch: pytest.MonkeyPatch

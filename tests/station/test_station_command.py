@@ -70,6 +70,7 @@ def own_scenarios(encounter: Scenario, tmp_path: Path) -> Path:
     return folder
 
 
+@pytest.mark.slow
 def test_a_run_goes_on_without_the_station_and_another_station_stops_it(
     own_scenarios: Path, tmp_path: Path
 ) -> None:
@@ -130,6 +131,7 @@ def test_what_is_not_offered_is_refused_in_words(
         assert [row["name"] for row in answer(client, "api/runs")["recorded"]] == ["one"]
 
 
+@pytest.mark.slow
 @pytest.mark.browser
 def test_a_person_opens_a_debrief_from_the_page(
     page: Page, recorded_run: Path, tmp_path: Path
@@ -146,6 +148,7 @@ def test_a_person_opens_a_debrief_from_the_page(
         page.open("about:blank")
 
 
+@pytest.mark.slow
 def test_runs_and_debriefs_of_a_station_admit_those_whom_it_admits(
     own_scenarios: Path, recorded_run: Path, tmp_path: Path
 ) -> None:
