@@ -94,6 +94,7 @@ def test_help_has_examples(airhilt_command: Any) -> None:
         assert "Examples:" in airhilt_command(command, "--help").stdout
 
 
+@pytest.mark.slow
 def test_doctor_finds_everything(airhilt_command: Any) -> None:
     done = airhilt_command("doctor")
     assert done.returncode == 0, done.stdout
@@ -232,6 +233,7 @@ def start_slow_run(scenario: Path, out: Path) -> subprocess.Popen[bytes]:
     return process
 
 
+@pytest.mark.slow
 def test_a_run_killed_outright_is_readable_up_to_the_last_second(
     airhilt_command: Any, encounter_file: Path
 ) -> None:

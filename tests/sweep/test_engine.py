@@ -132,6 +132,7 @@ def test_the_table_says_units_and_meanings_and_nothing_of_the_machine(done: Swee
     assert all(row["cpu_s"] > 0.0 and row["peak_memory_mb"] > 50.0 for row in machine.values())
 
 
+@pytest.mark.slow
 def test_sampled_runs_are_kept_whole_and_can_be_replayed(done: SweepResult) -> None:
     kept = [row["folder"] for row in done.folder.machine().to_pylist() if row["folder"]]
     assert 1 <= len(kept) == len(list(done.folder.runs_path.iterdir())) <= 3
@@ -160,6 +161,7 @@ def test_one_worker_gives_the_bytes_of_two(
     assert again.folder.table_path.read_bytes() == done.folder.table_path.read_bytes()
 
 
+@pytest.mark.slow
 def test_runs_whose_part_was_damaged_are_done_again(
     done: SweepResult, scenario_file: Path, tmp_path: Path
 ) -> None:
@@ -199,6 +201,7 @@ def test_a_sweep_that_was_killed_goes_on_where_it_was(
     assert table.read_bytes() == done.folder.table_path.read_bytes()
 
 
+@pytest.mark.slow
 def test_runs_in_hand_finish_when_the_user_stops(scenario_file: Path, tmp_path: Path) -> None:
     class Stopping(Noted):
         @property

@@ -332,6 +332,7 @@ def test_an_evaluation_leaves_sweeps_and_tables_and_goes_on_where_it_was(
     assert (tmp_path / "out" / "evaluation.json").read_bytes() == before
 
 
+@pytest.mark.slow
 def test_what_one_sweep_refuses_is_told_before_the_first_one(tmp_path: Path) -> None:
     """Without an assistant, as in the first sweep, nobody asks for the recogniser."""
     chosen = Choice(1, {"cameras": False, "asr": "nonsense"})

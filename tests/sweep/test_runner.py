@@ -16,6 +16,7 @@ from airhilt.sensors.cameras.renderer_process import RendererProcess
 from airhilt.sweep import runner
 from airhilt.sweep.files import NamedFiles, require_planned
 from airhilt.sweep.outcome import Request
+from breadth import mostly_slow
 
 FULL = OSError(28, "No space left on device")
 
@@ -61,7 +62,7 @@ def test_the_cause_of_a_full_disk_is_the_same_in_every_run(
     assert causes.pop().startswith("log.mcap: cannot be written any more: No space left")
 
 
-@pytest.mark.parametrize("strict", [False, True])
+@pytest.mark.parametrize("strict", mostly_slow([False, True], False))
 def test_a_run_whose_renderer_was_killed_is_no_result_of_it(
     strict: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

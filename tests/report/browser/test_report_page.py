@@ -18,6 +18,7 @@ from airhilt.options import Options
 from airhilt.record import RunFolder
 from airhilt.report import write_report
 from airhilt.scenario import Scenario
+from breadth import mostly_slow
 from devtools import Page
 from engine_package import installed
 from radio_folder import busy_radio
@@ -126,8 +127,8 @@ def test_a_filter_hides_the_rows_of_its_kind(page: Page, report: Path) -> None:
     assert page.evaluate(visible) < before
 
 
-@pytest.mark.parametrize("dark", [False, True])
-@pytest.mark.parametrize("width", [360, 768, 1600])
+@pytest.mark.parametrize("dark", mostly_slow([False, True], False))
+@pytest.mark.parametrize("width", mostly_slow([360, 768, 1600], 360))
 @pytest.mark.parametrize("which", ["report", "incursion", "radio"])
 def test_the_page_fits_its_window(
     page: Page, request: pytest.FixtureRequest, which: str, width: int, dark: bool
@@ -318,7 +319,7 @@ def test_a_run_without_radars_has_no_such_section(page: Page, report: Path) -> N
     assert page.evaluate("document.getElementById('radar').hidden")
 
 
-@pytest.mark.parametrize("width", [390, 1280])
+@pytest.mark.parametrize("width", mostly_slow([390, 1280], 390))
 def test_plots_are_drawn_with_rings_and_the_last_turn_has_its_codes(
     page: Page, encounter: Scenario, tmp_path: Path, width: int
 ) -> None:
