@@ -56,7 +56,7 @@ def meeting(
         seed=seed, equipped=equipped,
     )  # fmt: skip
     encounter = Encounter([own, other], meet_s + 40.0, minima=(0.66, 450.0))
-    encounter.cameras = [own.nose(other.body(label, size), seed=seed, **how)]
+    encounter.cameras = [own.nose(other.body(label, size), seed=seed, **({"rate_hz": 4.0} | how))]
     return encounter
 
 
