@@ -24,7 +24,6 @@ from airhilt.errors import RunFolderError
 from airhilt.messages import AdvisoryAudio, Message, Transcript, Transmission
 from airhilt.record import RunFolder, read_log
 from airhilt.scenario import Scenario
-from breadth import mostly_slow
 from paths import EXAMPLES
 from processes import ActsAt, process
 
@@ -142,7 +141,8 @@ def test_a_recogniser_may_take_a_call_chunk_by_chunk_while_it_lasts(
     assert replay(result.folder).identical
 
 
-@pytest.mark.parametrize("number", mostly_slow([signal.SIGKILL, signal.SIGSTOP], signal.SIGSTOP))
+@pytest.mark.slow
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGSTOP])
 def test_a_recogniser_that_dies_or_freezes_is_lost_and_the_run_goes_on(
     short: Scenario, tmp_path: Path, number: signal.Signals
 ) -> None:

@@ -69,6 +69,7 @@ def test_an_attached_worker_knows_the_separation_of_the_scenario(
     assert (outside / "log.mcap").read_bytes() == (inside / "log.mcap").read_bytes()
 
 
+@pytest.mark.slow
 def test_a_worker_that_wakes_by_itself_is_replayed(encounter: Scenario, tmp_path: Path) -> None:
     """In an outage the decision worker carries conflicts on, called by its own alarm."""
     adsb = encounter.adsb.model_copy(update={"outages_s": ((8.0, 20.0),)})
@@ -95,7 +96,8 @@ def test_a_worker_that_wakes_by_itself_is_replayed(encounter: Scenario, tmp_path
     assert replay(folder).identical
 
 
-@pytest.mark.parametrize("strict", mostly_slow([False, True], False))
+@pytest.mark.slow
+@pytest.mark.parametrize("strict", [False, True])
 def test_a_program_without_grants_that_dies_is_noticed_too(
     encounter: Scenario, tmp_path: Path, strict: bool
 ) -> None:
@@ -171,6 +173,7 @@ def test_strict_stops_with_the_cause(brief: Scenario, tmp_path: Path) -> None:
     assert "decision" in info.cause
 
 
+@pytest.mark.slow
 def test_the_example_on_the_sdk_works(encounter: Scenario, tmp_path: Path) -> None:
     endpoint = free_endpoint()
     with process(EXAMPLES / "sdk_worker.py", endpoint) as worker:

@@ -77,6 +77,7 @@ def test_the_run_goes_on_when_its_page_is_killed(brief_file: Path, tmp_path: Pat
     )
 
 
+@pytest.mark.slow
 def test_strangers_and_garbage_are_refused_and_the_page_stays(
     encounter_file: Path, tmp_path: Path
 ) -> None:
