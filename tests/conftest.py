@@ -13,6 +13,7 @@ from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
 
 from airhilt import load, run
 from airhilt.child_process import available_cores
@@ -21,6 +22,7 @@ from airhilt.scenario import Scenario
 from airhilt.world.loading import load_text
 from devtools import BROWSERS, Page, browser_page
 
+settings.register_profile("long", max_examples=20_000)
 WHOLE_RUNS = ("bus", "cli", "cosim", "docs", "sweep")
 """Folders of tests that take long each."""
 Cli = Callable[..., subprocess.CompletedProcess[str]]

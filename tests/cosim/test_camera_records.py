@@ -72,6 +72,7 @@ def test_the_terminal_tells_what_was_seen(
     assert "first seen DAL456 at" in shown
 
 
+@pytest.mark.slow
 def test_pictures_change_nothing_in_the_log(
     finished: Result, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -70,6 +70,7 @@ def test_what_is_not_given_does_not_arrive(tmp_path: Path) -> None:
     assert b'"state":"off"' in given_calls.states[0]
 
 
+@pytest.mark.slow
 def test_the_world_is_the_same_whatever_the_assistant_is_given(tmp_path: Path) -> None:
     def truth(modalities: str) -> Any:
         out = tmp_path / modalities

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 from geographiclib.geodesic import Geodesic
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from airhilt.geodesy.relative_motion import (
@@ -20,8 +20,9 @@ from airhilt.geodesy.relative_motion import (
     time_to_loss_s,
 )
 from airhilt.units import DEGREE
+from breadth import examples
 
-thoroughly = settings(deadline=None, max_examples=300)
+thoroughly = examples(300)
 
 angles = st.floats(0.0, 360.0)
 speeds = st.floats(0.0, 300.0)
@@ -217,7 +218,7 @@ def profiles(draw: Callable[..., Any]) -> VerticalProfile:
 minima = st.builds(Minima, st.floats(500.0, 15_000.0), st.floats(50.0, 400.0))
 
 
-@settings(deadline=None, max_examples=500)
+@examples(500)
 @given(motions, profiles(), profiles(), minima)
 def test_the_time_to_loss_agrees_with_sampling(
     motion: Relative, own: VerticalProfile, other: VerticalProfile, limits: Minima

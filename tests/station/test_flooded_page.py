@@ -124,11 +124,11 @@ def test_the_words_that_are_listed_of_calls_have_a_bound(page: Page) -> None:
         page.open(url)
         page.wait_for("document.getElementById('state').textContent.startsWith('running')")
         live = LiveRun(run.changes)
-        words = tuple(Word(text="word", confidence=1.0) for _ in range(700))
+        words = tuple(Word(text="word", confidence=1.0) for _ in range(400))
         for i in range(CALLS + 20):
             call = {"id": f"{i}", "frequency_khz": 119_100, "t_tx_ns": i, "t_end_ns": i + 1}
             sent = Transmission(**call)
-            heard = Transcript(text="word " * 700, words=words, confidence=1.0, engine="", **call)
+            heard = Transcript(text="word " * 400, words=words, confidence=1.0, engine="", **call)
             live.take(Logged("radio/119100/tx", "", 0, sent.model_dump_json().encode()))
             for _ in range(30 if i == CALLS else 1):
                 live.take(Logged("asr/119100", "", 0, heard.model_dump_json().encode()))

@@ -1,4 +1,4 @@
-"""Parameters of which a few show the behaviour; the others are tried when asked for."""
+"""Parameters and examples of which a few show the behaviour; all are tried when asked for."""
 
 from __future__ import annotations
 
@@ -6,6 +6,10 @@ from collections.abc import Iterable
 from typing import Any
 
 import pytest
+from hypothesis import settings
+
+USUAL_EXAMPLES = 100
+"""Number of examples that Hypothesis tries unless a profile says otherwise."""
 
 
 def mostly_slow(values: Iterable[Any], *quick: Any) -> list[Any]:
@@ -16,6 +20,15 @@ def mostly_slow(values: Iterable[Any], *quick: Any) -> list[Any]:
     every = list(values)
     assert all(value in every for value in quick), f"{quick} are not all among {every}"
     return [value if value in quick else _slow(value) for value in every]
+
+
+def examples(most: int) -> settings:
+    """Return settings of a property: a third of the examples, all with `--hypothesis-profile long`.
+
+    They have no deadline: a busy machine says nothing of the code.
+    """
+    is_long = settings().max_examples > USUAL_EXAMPLES
+    return settings(deadline=None, max_examples=most if is_long else -(-most // 3))
 
 
 def _slow(value: Any) -> Any:

@@ -36,6 +36,7 @@ def test_the_same_words_give_the_same_samples_whatever_was_said_before(espeak: E
     assert espeak.synthesise(CALL, voice).tobytes() == first.tobytes()
 
 
+@pytest.mark.slow
 def test_another_process_gives_the_same_samples(espeak: Espeak) -> None:
     program = (
         "import hashlib; from airhilt.voices.engines.espeak import Espeak; e = Espeak(); "

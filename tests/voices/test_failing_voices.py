@@ -202,6 +202,7 @@ def test_a_replay_knows_what_a_seat_with_a_bad_receiver_heard_of_these_voices(
     assert verdict.identical, verdict.difference
 
 
+@pytest.mark.slow
 def test_a_replay_says_that_a_learned_channel_is_another_one(
     short: Scenario, tmp_path: Path
 ) -> None:

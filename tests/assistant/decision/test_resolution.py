@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from airhilt.assistant.decision.manoeuvres import NONE, Manoeuvre, Paths, paths, separations
@@ -15,6 +15,7 @@ from airhilt.assistant.decision.tracks import Track
 from airhilt.geodesy.relative_motion import Minima, Relative, relative, time_to_loss_s
 from airhilt.messages import Climb, MaintainLevel, Turn
 from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE
+from breadth import examples
 
 STANDARD = Minima(5 * NAUTICAL_MILE, 1000 * FOOT)
 INFRINGED = Minima(5 * NAUTICAL_MILE, 850 * FOOT)
@@ -68,7 +69,7 @@ def sense(recommendation: object) -> str | None:
     return recommendation.sense if isinstance(recommendation, Climb) else None
 
 
-@settings(deadline=None, max_examples=150)
+@examples(150)
 @given(pairs_in_conflict(), st.booleans())
 def test_two_are_never_told_the_same_sense(pair: tuple[Track, Track], strong: bool) -> None:
     resolution = resolve(*pair, [], STANDARD, INFRINGED, strong)
@@ -77,7 +78,7 @@ def test_two_are_never_told_the_same_sense(pair: tuple[Track, Track], strong: bo
     assert resolution.first is not None or resolution.second is not None
 
 
-@settings(deadline=None, max_examples=100)
+@examples(100)
 @given(pairs_in_conflict(clearly_apart), st.booleans())
 def test_whoever_is_clearly_higher_is_never_sent_down_through_the_other(
     pair: tuple[Track, Track], strong: bool
@@ -91,7 +92,7 @@ def test_whoever_is_clearly_higher_is_never_sent_down_through_the_other(
     assert sense(lower) != "climb"
 
 
-@settings(deadline=None, max_examples=100)
+@examples(100)
 @given(pairs_in_conflict())
 def test_it_does_not_matter_who_is_named_first(pair: tuple[Track, Track]) -> None:
     one = resolve(*pair, [], STANDARD, INFRINGED, strong=False)
@@ -118,7 +119,7 @@ def flown_by(own: Track, recommendation: object, origin: Track) -> Paths:
     return paths(motion, own.profile(), [manoeuvre])
 
 
-@settings(deadline=None, max_examples=100)
+@examples(100)
 @given(pairs_in_conflict(), st.booleans())
 def test_what_is_told_is_what_was_computed(pair: tuple[Track, Track], strong: bool) -> None:
     first, second = pair
@@ -206,7 +207,7 @@ def test_the_level_to_stop_at_is_the_next_flight_level_that_keeps_the_minimum() 
     assert (up, down) == (MaintainLevel(altitude_ft=36_000), MaintainLevel(altitude_ft=34_000))
 
 
-@settings(deadline=None, max_examples=60)
+@examples(60)
 @given(pairs_in_conflict(), st.lists(st.tuples(*[st.floats(-30_000.0, 30_000.0)] * 2,
                                                st.sampled_from([34_000.0, 35_000.0, 36_000.0])),
                                      max_size=6))  # fmt: skip

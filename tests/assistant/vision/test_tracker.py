@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from airhilt.assistant.vision.detector import Found
@@ -16,6 +16,7 @@ from airhilt.assistant.vision.tracker import Tracked, Tracker, _Track
 from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.messages import CameraView
 from airhilt.units import SECOND_NS
+from breadth import examples
 from pictures import PERIOD_NS, a, camera_view
 
 VIEW = camera_view()
@@ -57,7 +58,7 @@ def test_findings_keep_their_boxes_and_confidences() -> None:
     assert [one.found for one in told] == sorted(found, key=lambda one: -one.confidence)
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(
     heading=st.floats(0.0, 2.0 * math.pi),
     speed=st.floats(0.0, 120.0),
@@ -78,7 +79,7 @@ def test_one_thing_that_moves_evenly_has_one_track(
     assert ids(follow(Tracker(), scene, range(int(1.3 * rate_hz)), rate_hz)) == {1}
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(
     angle=st.floats(0.5, math.pi - 0.5),
     speed=st.floats(85.0, 150.0),
@@ -139,7 +140,7 @@ def test_what_is_vaguely_expected_does_not_take_what_is_settled() -> None:
     assert [[one.track_id for one in each] for each in told[15:]] == [[1], [1, 2], [1]]
 
 
-@settings(max_examples=40, deadline=None)
+@examples(40)
 @given(
     speed=st.floats(-100.0, 100.0),
     side=st.floats(8.0, 60.0),

@@ -17,7 +17,9 @@ from sweep_tables import grid, sweep_row, write_sweep
 pytestmark = pytest.mark.browser
 
 HOSTILE = "</script><script>alert(1)</script><img src=x onerror=alert(2)>"
-LEFT_OUT = ("warned_in_time", "missed", "lost", "radio_wer", "first_detection_range_m")
+LEFT_OUT = (
+    "warned_in_time", "missed", "lost", "radio_wer", "first_detection_range_m", "nuisance_alerts",
+)  # fmt: skip
 """Columns without which there are fewer figures to draw."""
 
 

@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.sensors.cameras.scene.projected_box import Outline
 from airhilt.shapes.aircraft import aircraft_meshes
 from airhilt.world.flight.aircraft_type import load_aircraft_type
+from breadth import examples
 
 OUTLINE = Outline.of(next(iter(aircraft_meshes(load_aircraft_type("c172p"), coarse=True).values())))
 SUN = np.array((0.3, -0.5, math.sqrt(0.66)))
@@ -23,7 +24,7 @@ views = st.builds(
 )
 
 
-@settings(deadline=None, max_examples=80)
+@examples(80)
 @given(view=views, pose=poses)
 def test_a_body_that_is_left_out_has_no_box_in_the_picture(view: View, pose: Pose) -> None:
     whole, shadow = OUTLINE.box(pose, view), OUTLINE.shadow_box(pose, view, SUN)

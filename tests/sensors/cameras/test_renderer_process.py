@@ -239,6 +239,7 @@ def test_a_renderer_that_can_draw_is_found() -> None:
     probe("embree")
 
 
+@pytest.mark.slow
 def test_the_renderer_imports_nothing_from_the_folder_in_which_it_starts(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import statistics
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from airhilt.commands import (
@@ -25,6 +25,7 @@ from airhilt.world.actors.crew import Crew
 from airhilt.world.actors.reactions import ReactionModel
 from airhilt.world.flight import Aircraft, Atmosphere, InitialCondition, load_aircraft_type
 from airhilt.world.site import ScenarioSite
+from breadth import examples
 
 CLIMB = Climb(sense="climb", altitude_ft=5_600, vertical_rate_fpm=500)
 
@@ -146,7 +147,7 @@ def test_the_end_of_a_conflict_that_it_did_not_follow_is_nothing_to_it(aircraft:
     assert crew_of(aircraft).hear(over()) is None
 
 
-@settings(deadline=None, max_examples=30)
+@examples(30)
 @given(st.integers(0, 2**40), st.integers(0, 5))
 def test_reaction_times_are_the_same_for_the_same_seed_and_advisory(
     aircraft: Aircraft, seed: int, revision: int
@@ -167,7 +168,7 @@ def test_reaction_times_lie_about_their_median(aircraft: Aircraft) -> None:
     assert min(delays) > 0.0
 
 
-@settings(deadline=None, max_examples=30)
+@examples(30)
 @given(st.integers(0, 2**40))
 def test_compliance_0_never_follows_and_1_always_does(aircraft: Aircraft, seed: int) -> None:
     assert crew_of(aircraft, compliance=0.0, seed=seed).hear(advisory()) is None
@@ -179,7 +180,7 @@ def test_compliance_is_how_many_crews_follow(aircraft: Aircraft) -> None:
     assert 0.22 <= statistics.mean(follow) <= 0.38
 
 
-@settings(deadline=None, max_examples=20)
+@examples(20)
 @given(st.integers(0, 2**40))
 def test_whether_a_crew_follows_does_not_change_with_the_revision(
     aircraft: Aircraft, seed: int

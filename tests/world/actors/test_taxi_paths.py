@@ -8,7 +8,7 @@ from itertools import pairwise
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from airhilt.commands import TaxiCommand
@@ -25,6 +25,7 @@ from airhilt.world.actors.taxi_paths import (
 from airhilt.world.loading import load
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.ways import shortened
+from breadth import examples
 
 
 @cache
@@ -50,7 +51,7 @@ def length_m(path: list[tuple[float, float]]) -> float:
 # --- shortened --------------------------------------------------------------------------------
 
 
-@settings(deadline=None, max_examples=50)
+@examples(50)
 @given(legs, st.floats(0.0, 0.99))
 def test_a_way_is_shortened_by_what_was_asked(
     steps: list[tuple[float, float]], part: float
@@ -62,7 +63,7 @@ def test_a_way_is_shortened_by_what_was_asked(
     assert short[:-1] == path[: len(short) - 1]
 
 
-@settings(deadline=None, max_examples=20)
+@examples(20)
 @given(legs, st.floats(1.0, 500.0))
 def test_of_a_way_that_is_too_short_its_beginning_is_left(
     steps: list[tuple[float, float]], more_m: float
@@ -74,7 +75,7 @@ def test_of_a_way_that_is_too_short_its_beginning_is_left(
 # --- final approach ---------------------------------------------------------------------------
 
 
-@settings(deadline=None, max_examples=60)
+@examples(60)
 @given(
     st.sampled_from(["01", "19", "04", "22", "15", "33"]),
     st.floats(-15_000.0, 3_000.0),
@@ -107,7 +108,7 @@ def test_beside_a_direction_is_to_the_right_and_negative_to_the_left() -> None:
 # --- exits ------------------------------------------------------------------------------------
 
 
-@settings(deadline=None, max_examples=40)
+@examples(40)
 @given(st.sampled_from(["01", "19", "04", "22", "15", "33"]), st.floats(50.0, 180.0))
 def test_the_exit_is_the_first_that_a_normal_rollout_makes(runway: str, speed_kt: float) -> None:
     """Touched down 450 m past the threshold, it brakes with 2 m/s2 to what it turns off with."""

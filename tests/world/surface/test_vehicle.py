@@ -6,7 +6,7 @@ import itertools
 import math
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from airhilt.geodesy.local_frame import LocalFrame
@@ -17,6 +17,7 @@ from airhilt.world.surface.alignment import CORNER_CUT_M
 from airhilt.world.surface.kinds import load_kind
 from airhilt.world.surface.vehicle import Vehicle
 from airhilt.world.surface.vehicle_kind import VehicleKind
+from breadth import examples
 
 HERE: Place = (math.radians(38.8521), math.radians(-77.0377))
 GROUND_M = 4.6
@@ -77,7 +78,7 @@ def assert_within_limits(kind: VehicleKind, states: list[SurfaceState]) -> None:
         assert way <= 0.5 * (old + new) * TICK_S * 1.001 + 1e-5 + old * old * TICK_S
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(kind=kinds, heading=headings, steps=st.lists(legs, min_size=1, max_size=7))
 def test_any_path_is_driven_within_the_limits_to_its_very_end(
     kind: str, heading: float, steps: list[tuple[float, float]]
@@ -92,7 +93,7 @@ def test_any_path_is_driven_within_the_limits_to_its_very_end(
     assert body.state.ground_speed_m_s == 0.0
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(
     kind=kinds,
     first=st.lists(legs, min_size=1, max_size=4),
@@ -124,7 +125,7 @@ def test_it_stops_within_a_millimetre_of_the_end() -> None:
     assert body.state.heading_rad == pytest.approx(math.pi / 2.0, abs=1e-9)
 
 
-@settings(max_examples=40, deadline=None)
+@examples(40)
 @given(
     kind=kinds,
     turns=st.lists(st.floats(-math.pi / 2.0, math.pi / 2.0), min_size=1, max_size=5),
@@ -215,7 +216,7 @@ def test_told_to_stop_it_brakes_on_the_path_and_told_to_go_on_it_reaches_the_end
     assert where(body.state)[1] == pytest.approx(300.0, abs=1e-3)
 
 
-@settings(max_examples=30, deadline=None)
+@examples(30)
 @given(stops=st.lists(st.integers(1, 200), min_size=1, max_size=6))
 def test_stopping_and_going_on_at_any_time_keeps_the_limits_and_the_end(stops: list[int]) -> None:
     body = vehicle("snow_plough")

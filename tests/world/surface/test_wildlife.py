@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from airhilt.geodesy.local_frame import LocalFrame
@@ -17,6 +17,7 @@ from airhilt.world.mover import SurfaceState
 from airhilt.world.surface.animal import GREATEST_SPREAD_RAD, AnimalBody
 from airhilt.world.surface.flocks import flock_aloft
 from airhilt.world.surface.kinds import load_kind
+from breadth import examples
 
 HERE: Place = (math.radians(38.8521), math.radians(-77.0377))
 GROUND_M = 4.6
@@ -69,7 +70,7 @@ def watch_for(body: AnimalBody, seconds: float) -> list[SurfaceState]:
     return states
 
 
-@settings(max_examples=40, deadline=None)
+@examples(40)
 @given(kind=on_foot, spot=spots, seed=seeds, run=st.booleans())
 def test_it_walks_or_runs_to_a_place_within_its_limits(
     kind: str, spot: Local, seed: int, run: bool
@@ -89,7 +90,7 @@ def test_it_walks_or_runs_to_a_place_within_its_limits(
         assert after.altitude_m == GROUND_M
 
 
-@settings(max_examples=20, deadline=None)
+@examples(20)
 @given(kind=winged, spot=spots, height=st.floats(10.0, 120.0), seed=seeds)
 def test_birds_fly_within_their_limits(kind: str, spot: Local, height: float, seed: int) -> None:
     body = animal(kind, seed)
@@ -121,7 +122,7 @@ def test_a_flock_takes_off_climbs_and_stays_about_the_place() -> None:
         assert state.height_agl_m == pytest.approx(60.0, abs=2.0)
 
 
-@settings(max_examples=20, deadline=None)
+@examples(20)
 @given(kind=winged, spot=spots, seed=seeds)
 def test_a_bird_that_flies_to_the_ground_lands_there(kind: str, spot: Local, seed: int) -> None:
     body = animal(kind, seed, height_m=40.0, heading_rad=1.0)
@@ -171,7 +172,7 @@ def test_a_running_animal_told_to_stand_comes_to_a_stand() -> None:
     assert where(body.state)[1] < 100.0
 
 
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(kind=on_foot, threat=spots, seed=seeds)
 def test_a_startled_animal_goes_away_from_what_startles_it(
     kind: str, threat: Local, seed: int

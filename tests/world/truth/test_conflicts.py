@@ -7,13 +7,14 @@ from types import SimpleNamespace
 from typing import Any, cast
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from airhilt.geodesy.relative_motion import Minima, VerticalProfile
 from airhilt.units import FOOT, FOOT_PER_MINUTE, NAUTICAL_MILE, SECOND_NS
 from airhilt.world.site import FixedSite
 from airhilt.world.truth.conflicts import profile_of
+from breadth import examples
 from straight import MINIMA, Rolling, Straight, Watch
 
 
@@ -104,7 +105,7 @@ def test_near_the_ground_tcas_says_nothing() -> None:
     assert "loss_of_separation" in watch.told
 
 
-@settings(deadline=None, max_examples=40)
+@examples(40)
 @given(st.floats(0.0, 1.0), st.floats(0.0, 25.0), st.floats(1_000.0, 7_000.0))
 def test_a_pass_between_two_ticks_is_not_stepped_over(
     phase: float, aside_m: float, closing: float
@@ -207,7 +208,7 @@ def test_vertical_separation_far_away_does_not_count() -> None:
     assert truth.first_ns.keys() <= {"tcas_ta", "tcas_ra"}
 
 
-@settings(deadline=None, max_examples=25)
+@examples(25)
 @given(
     st.floats(-3_000.0, 3_000.0),
     st.floats(-1_500.0, 1_500.0),

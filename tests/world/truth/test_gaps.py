@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 from shapely import Polygon, affinity, union_all
 
@@ -14,6 +14,7 @@ from airhilt.units import FOOT
 from airhilt.world.flight import load_aircraft_type
 from airhilt.world.flight.aircraft_type import AircraftType
 from airhilt.world.truth.gaps import corners, gap, radius_m
+from breadth import examples
 from straight import Rolling, Straight
 
 LENGTH_M, SPAN_M, HEIGHT_M = 33.63, 34.32, 12.57
@@ -87,7 +88,7 @@ def test_the_corners_are_nose_tail_sides_and_centre(heading_deg: float) -> None:
 poses = st.tuples(st.floats(-80.0, 80.0), st.floats(-80.0, 80.0), st.floats(0.0, 359.0))
 
 
-@settings(deadline=None, max_examples=60)
+@examples(60)
 @given(poses, poses, st.floats(0.0, 30.0))
 def test_it_does_not_matter_who_is_asked(
     first: tuple[float, float, float], second: tuple[float, float, float], height: float
@@ -97,7 +98,7 @@ def test_it_does_not_matter_who_is_asked(
     assert gap(a, b).vertical_m == pytest.approx(gap(b, a).vertical_m, abs=1e-9)
 
 
-@settings(deadline=None, max_examples=60)
+@examples(60)
 @given(poses, st.floats(0.0, 359.0))
 def test_turning_the_whole_scene_changes_nothing(
     second: tuple[float, float, float], turn: float
@@ -110,7 +111,7 @@ def test_turning_the_whole_scene_changes_nothing(
     assert after == pytest.approx(before, abs=0.05)
 
 
-@settings(deadline=None, max_examples=60)
+@examples(60)
 @given(poses)
 def test_the_circles_around_them_bound_the_distance(second: tuple[float, float, float]) -> None:
     a, b = plane(), plane(*second)
@@ -137,7 +138,7 @@ def test_an_outline_is_as_long_and_as_wide_as_the_aircraft(kind: AircraftType) -
         assert found >= expected - 0.1
 
 
-@settings(deadline=None, max_examples=60)
+@examples(60)
 @given(poses, st.floats(0.0, 30.0), st.sampled_from(TYPES))
 def test_two_touch_just_where_their_outlines_and_their_heights_overlap(
     second: tuple[float, float, float], height: float, kind: AircraftType
@@ -178,7 +179,7 @@ def silhouette(body: Any) -> Polygon:
     return affinity.rotate(whole, -body.state.heading_rad, origin=(0, 0), use_radians=True)
 
 
-@settings(deadline=None, max_examples=30)
+@examples(30)
 @given(poses, st.floats(-20_000.0, 20_000.0), st.floats(-5_000.0, 5_000.0))
 def test_it_does_not_matter_where_on_the_airport_they_are(
     second: tuple[float, float, float], east: float, north: float
