@@ -317,7 +317,7 @@ def test_a_warning_helps_a_person_who_lands_only_if_the_person_reacts(
     assert json.loads((out / "summary.json").read_text())["avoided"] is avoided
 
 
-@pytest.mark.parametrize("left_s", mostly_slow([None, 3.0, 95.0], None))
+@pytest.mark.parametrize("left_s", mostly_slow([None, 3.0, 95.0], None, 3.0))
 def test_a_warning_at_empty_seats_helps_only_once_their_crews_fly_by_themselves(
     tmp_path: Path, left_s: float | None
 ) -> None:
