@@ -44,7 +44,10 @@ def call_end_ns(log: Sequence[Logged], name: str) -> int:
 
 @pytest.mark.parametrize(
     ("scenario", "seat", "line"),
-    [(tower(90.0), "OPS1", "proceed"), (ground(90.0), "DAL456", "taxi")],
+    [
+        (tower(90.0), "OPS1", "proceed"),
+        pytest.param(ground(90.0), "DAL456", "taxi", marks=pytest.mark.slow),
+    ],
     ids=["driver", "pilot at a stand"],
 )
 def test_a_person_goes_where_a_call_has_sent_it_and_when_the_person_chooses(

@@ -83,10 +83,11 @@ def test_the_margin_over_tcas_is_what_the_run_without_assistant_shows(
         assert margin == pytest.approx(expected, abs=tolerance)
 
 
-@pytest.mark.parametrize(("seed", "speech", "duration_s"), mostly_slow(
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("seed", "speech", "duration_s"),
     [(0, False, PASSED_S), (0, True, 300.0), (1, True, 300.0), (2, True, 300.0)],
-    (0, False, PASSED_S),
-))  # fmt: skip
+)
 def test_nothing_is_said_about_nominal_traffic(
     tmp_path: Path, seed: int, speech: bool, duration_s: float
 ) -> None:

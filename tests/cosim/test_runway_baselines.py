@@ -10,7 +10,6 @@ from airhilt import load, run
 from airhilt.cosim.replay import replay
 from airhilt.metrics.summary import Summary
 from airhilt.record import read_log
-from breadth import mostly_slow
 
 
 def go(scenario: str, assistant: str, folder: Path, equipment: tuple[str, ...] = ()) -> Summary:
@@ -45,6 +44,7 @@ def test_the_lights_of_the_airport_stop_it_without_an_assistant_too(tmp_path: Pa
     assert not go("s01a_intersecting", "none", tmp_path / "run", lights).collision
 
 
-@pytest.mark.parametrize("assistant", mostly_slow(["surf_a", "runway_status_lights"], "surf_a"))
+@pytest.mark.slow
+@pytest.mark.parametrize("assistant", ["surf_a", "runway_status_lights"])
 def test_where_everybody_holds_short_nobody_is_disturbed(assistant: str, tmp_path: Path) -> None:
     assert go("s01b_nominal", assistant, tmp_path / "run").nuisance_alerts == 0

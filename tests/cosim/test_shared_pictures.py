@@ -49,6 +49,7 @@ def log_of(out: Path, **options: object) -> bytes:
     return (out / "log.mcap").read_bytes()
 
 
+@pytest.mark.slow
 def test_a_run_that_shares_has_the_log_of_one_that_does_not(
     tmp_path: Path, cache: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -108,7 +108,6 @@ def shown(pictures: Sequence[CameraPicture]) -> list[Shown]:
             for each in pictures]  # fmt: skip
 
 
-@pytest.mark.slow
 def test_what_is_found_what_is_drawn_and_what_is_drawn_later_are_what_a_run_alone_draws(
     scenario: Scenario, process: RendererProcess, monkeypatch: pytest.MonkeyPatch
 ) -> None:
