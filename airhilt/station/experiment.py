@@ -1,11 +1,14 @@
-"""An experiment with one participant at the page: trials, breaks, and questionnaires.
+"""An experiment with people at the page: trials, breaks, and questionnaires.
 
-Each participant has a folder, with a run folder and the answers of each trial. What is finished is
-not run again; what was stopped is begun again in another folder, and stays.
+Each participant has a folder, with a run folder and the answers of each trial. Participants who
+have seats in the same trials share the run folders, in the folder of their team, and each has a
+folder in it for the own answers. What is finished is not run again; what was stopped is begun again
+in another folder, and stays.
 """
 
 from __future__ import annotations
 
+import itertools
 import json
 import threading
 import time
@@ -35,6 +38,8 @@ MOST_ATTEMPTS = 100
 """Largest number of times that a trial is begun."""
 
 
+TOGETHER = "+"
+"""Text between the participants of a team in the name of their folder; no identifier has it."""
 KEPT_ANSWERS = TypeAdapter(Answers)
 
 
@@ -58,13 +63,23 @@ class Progress:
     ----------
     folder
         Folder of the experiment.
+
+    Attributes
+    ----------
+    folder
+        Folder of the runs of the participant, or of the team.
+    number
+        Number of the participant's seat among those of a trial, from 0 on.
     """
 
     def __init__(self, plan: Plan, folder: Path, participant: str) -> None:
+        team = plan.team_of(participant)
         self.plan = plan
         self.participant = participant
-        self.folder = folder / participant
+        self.folder = folder / TOGETHER.join(team)
+        self.number = team.index(participant)
         self.trials = plan.order(participant)
+        self._answers = self.folder if len(team) == 1 else self.folder / participant
 
     def attempts(self, trial: Trial) -> Iterator[str]:
         """Yield the names of the run folders of a trial that may be there, in their order."""
@@ -75,7 +90,7 @@ class Progress:
     def finished_run(self, trial: Trial) -> str | None:
         """Return the name of the run folder of a trial that its participant has done.
 
-        Its run has ended by itself, and somebody had the seat.
+        Its run has ended by itself, and somebody had the seat, or each of its seats.
         """
         for name in self.attempts(trial):
             folder = self.folder / name
@@ -83,7 +98,7 @@ class Progress:
                 return None
             try:
                 run = RunFolder.open(folder)
-                if run.info().phase == "finished" and not _nobody_sat(run):
+                if run.info().phase == "finished" and not _has_untaken_seat(run):
                     return name
             except RunFolderError:
                 continue
@@ -137,7 +152,7 @@ class Progress:
         """Return the NASA-TLX ratings that were given at the seat, None if there are none."""
         try:
             summary = RunFolder(self.folder / run).summary() or {}
-            (person,) = summary["people"]
+            person = summary["people"][self.number]
             return NasaTlx.model_validate(person["workload"]["nasa_tlx"]).model_dump()
         except (RunFolderError, ValueError, LookupError, TypeError):
             return None
@@ -185,7 +200,7 @@ class Progress:
         return not questionnaire.items or self.answers(questionnaire, run) is not None
 
     def _path(self, questionnaire: Questionnaire, run: str) -> Path:
-        return self.folder / ".".join(filter(None, (run, questionnaire.name, "json")))
+        return self._answers / ".".join(filter(None, (run, questionnaire.name, "json")))
 
 
 def _no_answers(path: Path, problem: str) -> RunFolderError:
@@ -195,37 +210,53 @@ def _no_answers(path: Path, problem: str) -> RunFolderError:
     )
 
 
-def _nobody_sat(run: RunFolder) -> bool:
-    """Return true if the summary of a run says that its seats were never taken."""
+def _has_untaken_seat(run: RunFolder) -> bool:
+    """Return true if the summary of a run says that a seat was never taken."""
     try:
         people = (run.summary() or {})["people"]
-        return bool(people) and all(person["seat_time_s"] == 0.0 for person in people)
+        return any(person["seat_time_s"] == 0.0 for person in people)
     except (RunFolderError, LookupError, TypeError):
         return False  # It cannot be known, as of a run of an earlier version.
 
 
 class Conductor:
-    """Leads one participant through the trials.
+    """Leads a participant through the trials, or those who have the seats of a trial together.
 
     Parameters
     ----------
+    team
+        Progress of each of them, in the order of the seats.
     page
         Arguments that the pages of the trials have, as `StartedRuns` takes them.
     """
 
-    def __init__(self, progress: Progress, page: Sequence[str] = PAGE_OF_THIS_MACHINE) -> None:
-        self._progress = progress
-        self._started = StartedRuns(progress.folder, page)
-        self._done = sum(map(progress.is_done, progress.trials))
+    def __init__(
+        self, team: Sequence[Progress], page: Sequence[str] = PAGE_OF_THIS_MACHINE
+    ) -> None:
+        self._team = {progress.participant: progress for progress in team}
+        self._plan, self._trials = team[0].plan, team[0].trials
+        self._started = StartedRuns(team[0].folder, page)
+        self._done = self._trials_done()
         self._rested_since_s = time.monotonic() if self._done else None
         self._lock = threading.Lock()
 
-    def state(self) -> dict[str, Any]:
-        """Return what the page shows: which trial it is, and what is to be done."""
-        with self._lock:
-            return self._state()
+    def state(self, participant: str = "") -> dict[str, Any]:
+        """Return what the page of a participant shows: which trial it is, and what is to be done.
 
-    def begin(self) -> None:
+        Parameters
+        ----------
+        participant
+            Empty: who alone is led; of several, the page lets its reader choose.
+
+        Raises
+        ------
+        AirhiltError
+            Nobody of that name is led, or answers cannot be read.
+        """
+        with self._lock:
+            return self._state(participant)
+
+    def begin(self, participant: str = "") -> None:
         """Start the run of the next trial.
 
         Raises
@@ -234,20 +265,20 @@ class Conductor:
             It is not time for it, or it cannot be run.
         """
         with self._lock:
-            state, trial = self._state(), self._progress.next_trial()
-            if trial is None or state["step"] != "ready" or state["rest_s"] > 0:
+            state, done = self._state(participant), self._trials_done()
+            if state["step"] != "ready" or state["rest_s"] > 0:
                 raise StationError("it is not time for a trial")
-            plan = self._progress.plan
-            given = {**plan.options, **trial.conditions, "seat": (plan.seat,)}
+            plan, trial = self._plan, self._trials[done]
+            given = {**plan.options, **trial.conditions, "seat": plan.all_seats}
             given["wait_for_seats"] = True
             given["pause"] = plan.pause
             given["nasa_tlx"] = plan.nasa_tlx
             given["run_name"] = f"Trial-{state['trial']}"  # It tells a participant nothing.
-            name = self._progress.new_run(trial)
+            name = self._progress(participant).new_run(trial)
             self._started.start(loading.find(trial.scenario), options_of(given), name)
 
-    def answer(self, name: str, answers: Answers) -> None:
-        """Take the answers to a questionnaire.
+    def answer(self, name: str, answers: Answers, participant: str = "") -> None:
+        """Take the answers of a participant to a questionnaire.
 
         Raises
         ------
@@ -255,36 +286,67 @@ class Conductor:
             It is not asked now, or these are not answers to it.
         """
         with self._lock:
-            asked = self._progress.asked()
+            progress = self._progress(participant)
+            asked = progress.asked()
             if asked is None or asked.questionnaire.name != name:
                 raise StationError(f"{readable(name)}: no question of it is open")
-            self._progress.answer(asked, answers)
+            progress.answer(asked, answers)
 
-    def _state(self) -> dict[str, Any]:
-        trials, trial = self._progress.trials, self._progress.next_trial()
-        done = len(trials) if trial is None else trials.index(trial)
+    def _progress(self, participant: str) -> Progress:
+        """Return the progress of a participant; empty: of who alone is led.
+
+        Raises
+        ------
+        StationError
+            Nobody of that name is led.
+        """
+        found = self._team.get(participant)
+        if found is None and not participant and len(self._team) == 1:
+            (found,) = self._team.values()
+        if found is None:
+            raise StationError(
+                f"participant {readable(participant)!r}: not of these trials; expected one of "
+                f"{', '.join(self._team)}"
+            )
+        return found
+
+    def _trials_done(self) -> int:
+        """Return the number of trials that everybody has done: they are the first ones."""
+        team = self._team.values()
+        done = (all(one.is_done(trial) for one in team) for trial in self._trials)
+        return sum(itertools.takewhile(bool, done))
+
+    def _state(self, participant: str) -> dict[str, Any]:
+        trials, done = self._trials, self._trials_done()
         if done > self._done:
             self._done, self._rested_since_s = done, time.monotonic()
-        shown = {
-            "participant": self._progress.participant,
-            "seat": readable(self._progress.plan.seat),
-            "trials": len(trials),
-            "may_pause": self._progress.plan.pause,
+        shown: dict[str, Any] = {"trials": len(trials), "trial": min(done + 1, len(trials))}
+        if not participant and len(self._team) > 1:
+            seats = {name: readable(self._plan.seat_of(name)) for name in self._team}
+            return shown | {"step": "choose", "seats": seats}
+        progress = self._progress(participant)
+        shown |= {
+            "participant": progress.participant,
+            "seat": readable(self._plan.seat_of(progress.participant)),
+            "together": len(self._team) > 1,
+            "may_pause": self._plan.pause,
             "rest_s": 0.0,
             "url": "",
             "said": "",
         }
-        shown["trial"] = min(done + 1, len(trials))
-        asked = self._progress.asked()
+        asked = progress.asked()
         if asked is not None:
             return shown | {"step": "questions", "questions": asked.questionnaire.document()}
-        if trial is None:
+        if progress.next_trial() is None:
             return shown | {"step": "done"}
+        if any(other.asked() is not None for other in self._team.values()):
+            return shown | {"step": "waiting"}
         run = self._last_run()
         row = next((row for row in self._started.rows() if run and row["name"] == run.name), None)
-        if row is not None and row["name"] in self._progress.attempts(trial):
+        if row is not None and row["name"] in progress.attempts(trials[done]):
             if row["state"] != "ended":
-                return shown | {"step": row["state"], "url": row["url"]}
+                own = row["seats"][progress.number]
+                return shown | {"step": row["state"], "url": row["url"], "seat": own}
             shown["said"] = "The last run of this trial did not finish."
         return shown | {"step": "ready", "rest_s": self._rest_s(done)}
 
@@ -293,7 +355,7 @@ class Conductor:
 
     def _rest_s(self, position: int) -> float:
         """Return how much of a break is left before a trial, in s."""
-        plan = self._progress.plan
+        plan = self._plan
         if self._rested_since_s is None or not plan.break_after or position % plan.break_after:
             return 0.0
         return max(plan.break_minutes * 60.0 - (time.monotonic() - self._rested_since_s), 0.0)

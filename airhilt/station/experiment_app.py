@@ -1,15 +1,18 @@
-"""The application of the page of a participant in an experiment."""
+"""The application of the page of the participants in the trials of an experiment."""
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Annotated, Any
 
-from fastapi import FastAPI
+from fastapi import FastAPI, Query
 from pydantic import BaseModel, ConfigDict, Field
 
 from airhilt.station.app import page_app, refuse_in_words
 from airhilt.station.experiment import Conductor
 from airhilt.station.questionnaires import Answers
+
+Participant = Annotated[str, Query(max_length=20)]
+"""Identifier of who looks at the page; empty: who alone is led, or nobody yet."""
 
 
 class GivenAnswers(BaseModel):
@@ -21,22 +24,22 @@ class GivenAnswers(BaseModel):
 
 
 def experiment_app(conductor: Conductor) -> FastAPI:
-    """Return the application that leads a participant through the trials."""
+    """Return the application that leads participants through the trials."""
     app = page_app("experiment.html")
 
     @app.get("/api/experiment")
-    def state() -> dict[str, Any]:
-        return conductor.state()
+    def state(participant: Participant = "") -> dict[str, Any]:
+        return conductor.state(participant)
 
     @app.post("/api/begin")
-    def begin() -> dict[str, Any]:
-        conductor.begin()
-        return conductor.state()
+    def begin(participant: Participant = "") -> dict[str, Any]:
+        conductor.begin(participant)
+        return conductor.state(participant)
 
     @app.post("/api/answers")
-    def answer(given: GivenAnswers) -> dict[str, Any]:
-        conductor.answer(given.questionnaire, given.answers)
-        return conductor.state()
+    def answer(given: GivenAnswers, participant: Participant = "") -> dict[str, Any]:
+        conductor.answer(given.questionnaire, given.answers, participant)
+        return conductor.state(participant)
 
     refuse_in_words(app)
     return app

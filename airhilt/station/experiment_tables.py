@@ -1,9 +1,13 @@
-"""The tables of an experiment: a row a finished trial, and one a reaction and call in it."""
+"""The tables of an experiment: a row a finished trial, and one a reaction and call in it.
+
+Participants who had the seats of a trial together have rows of their own.
+"""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import chain
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -31,7 +35,7 @@ WRITERS = {"parquet": pa.parquet.write_table, "csv": pa.csv.write_csv}
 
 
 class _Rows(NamedTuple):
-    """The row of a finished trial, and those of the reactions and calls in it."""
+    """The row of a participant's finished trial, and those of the reactions and calls in it."""
 
     trial: dict[str, Any]
     reactions: list[dict[str, Any]]
@@ -55,21 +59,22 @@ def write_tables(plan: Plan, folder: Path) -> RowCounts:
         The numbers of a trial are missing, or are not those that its run wrote. Or a table cannot
         be written.
     """
-    found = [rows for name in plan.participants for rows in _rows(Progress(plan, folder, name))]
+    everybody = chain(*plan.teams)
+    found = [rows for name in everybody for rows in _rows(Progress(plan, folder, name))]
     trials = [rows.trial for rows in found]
     reactions = [row for rows in found for row in rows.reactions]
     calls = [row for rows in found for row in rows.calls]
     identity = [pa.field(name, pa.string()) for name in ("participant", "trial", "scenario")]
     identity += [pa.field("position", pa.int64()), pa.field("run", pa.string())]
     identity += [pa.field(f"condition.{name}", pa.string()) for name in plan.conditions]
+    identity.append(pa.field("seat", pa.string()))
     answers = [field for asked in _asked(plan) for field in _answer_fields(asked[0])]
     people = _fields(OF_PEOPLE.columns, "person.")
     try:
         folder.mkdir(parents=True, exist_ok=True)
         _write(folder, TRIALS, trials, [*identity, *answers, *people, *_fields(OF_RUNS.columns)])
-        at_seat = [*identity, pa.field("seat", pa.string())]
-        _write(folder, REACTIONS, reactions, [*at_seat, *_fields(OF_REACTIONS.columns)])
-        _write(folder, CALLS, calls, [*at_seat, *_fields(OF_CALLS.columns)])
+        _write(folder, REACTIONS, reactions, [*identity, *_fields(OF_REACTIONS.columns)])
+        _write(folder, CALLS, calls, [*identity, *_fields(OF_CALLS.columns)])
     except OSError as error:
         raise RunFolderError(f"{folder}: cannot be written: {error.strerror}") from None
     return RowCounts(len(trials), len(reactions), len(calls))
@@ -123,12 +128,12 @@ def _rows(progress: Progress) -> Iterator[_Rows]:
             "trial": trial.name,
             "scenario": trial.scenario,
             "position": position,
-            "run": f"{progress.participant}/{name}",
+            "run": f"{progress.folder.name}/{name}",
             **{f"condition.{key}": _text(value) for key, value in trial.conditions.items()},
         }
         folder = progress.folder / name
         try:
-            rows = _of_summary(open_run(folder, untold).summary())
+            rows = _of_summary(open_run(folder, untold).summary(), progress.number)
         except CANNOT_READ as error:
             raise RunFolderError(
                 f"{folder}: its numbers cannot be read ({first_line(error)}); expected them as a "
@@ -142,14 +147,18 @@ def _rows(progress: Progress) -> Iterator[_Rows]:
         )
 
 
-def _of_summary(summary: Mapping[str, Any]) -> _Rows:
-    """Return what the rows of a trial have of its summary; nothing of a person without a seat."""
+def _of_summary(summary: Mapping[str, Any], seat: int) -> _Rows:
+    """Return what the rows of a trial have of its summary, and of the person at one of its seats.
+
+    It is nothing of a person where the summary has none.
+    """
     rows = _Rows(OF_RUNS.values(summary), [], [])
-    for person in summary.get("people", ()):  # An experiment has one seat.
-        seat = {"seat": person["seat"]}
-        rows.trial.update({f"person.{name}": of for name, of in OF_PEOPLE.values(person).items()})
-        rows.reactions.extend(seat | OF_REACTIONS.values(one) for one in person["reactions"])
-        rows.calls.extend(seat | OF_CALLS.values(one) for one in person.get("calls", ()))
+    for person in summary.get("people", ())[seat : seat + 1]:
+        at = {"seat": person["seat"]}
+        own = {f"person.{name}": value for name, value in OF_PEOPLE.values(person).items()}
+        rows.trial.update(at | own)
+        rows.reactions.extend(at | OF_REACTIONS.values(one) for one in person["reactions"])
+        rows.calls.extend(at | OF_CALLS.values(one) for one in person.get("calls", ()))
     return rows
 
 

@@ -4,12 +4,22 @@ from __future__ import annotations
 
 import itertools
 import math
+from collections import Counter
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, JsonValue, ValidationError, model_validator
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Discriminator,
+    Field,
+    JsonValue,
+    Tag,
+    ValidationError,
+    model_validator,
+)
 
-from airhilt.errors import AirhiltError, first_problem
+from airhilt.errors import AirhiltError, first_problem, shown
 from airhilt.options import options_of
 from airhilt.scenario import loading
 from airhilt.scenario.seats import seats_of
@@ -17,6 +27,12 @@ from airhilt.station.questionnaires import NASA_TLX, Items, Questionnaire
 from airhilt.world.loading import load
 
 Identifier = Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_-]{0,19}$")]
+Team = Annotated[tuple[Identifier, ...], Field(min_length=2, max_length=10)]
+"""Participants who have the seats of one trial together, in the order of the seats."""
+Participant = Annotated[
+    Annotated[Identifier, Tag("identifier")] | Annotated[Team, Tag("team")],
+    Discriminator(lambda given: "team" if isinstance(given, list | tuple) else "identifier"),
+]
 SETTLED = (
     "seat", "wait_for_seats", "out", "overwrite", "pace", "run_name", "endpoint", "attach",
     "pause", "nasa_tlx",
@@ -49,15 +65,27 @@ class OwnQuestions(BaseModel):
 class Plan(BaseModel):
     """An experiment: every participant has each scenario in each combination of the conditions.
 
-    The order is that of a balanced Latin square, a row a participant.
+    The order is that of a balanced Latin square, a row a participant. Where a trial has several
+    seats, a row is that of a team.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     format: Literal[1] = 1
-    participants: tuple[Identifier, ...] = Field(
-        min_length=1, max_length=1000, description="identifiers such as P01, no names of people"
+    participants: tuple[Participant, ...] = Field(
+        min_length=1,
+        max_length=1000,
+        description="identifiers such as P01, no names of people; with seats a list of them for "
+        "each team, in the order of the seats",
     )
-    seat: str = Field(description="seat that participants have: tower, a unit, or a callsign")
+    seat: str | None = Field(
+        default=None, description="seat that participants have: tower, a unit, or a callsign"
+    )
+    seats: tuple[str, ...] | None = Field(
+        default=None,
+        min_length=2,
+        max_length=10,
+        description="in the place of seat: seats that the participants of a team have at once",
+    )
     scenarios: tuple[str, ...] = Field(min_length=1, description="names, or JSON files")
     conditions: dict[str, tuple[JsonValue, ...]] = Field(
         default_factory=dict,
@@ -76,8 +104,7 @@ class Plan(BaseModel):
 
     @model_validator(mode="after")
     def _is_possible(self) -> Plan:
-        if len(set(self.participants)) < len(self.participants):
-            raise ValueError("participants: one is there twice")
+        self._require_a_seat_each()
         for name, values in self.conditions.items():
             if not values:
                 raise ValueError(f"conditions/{name}: expected at least one value")
@@ -88,6 +115,55 @@ class Plan(BaseModel):
         if trials > MOST_TRIALS:
             raise ValueError(f"found {trials:,} trials; expected at most {MOST_TRIALS:,}")
         return self
+
+    def _require_a_seat_each(self) -> None:
+        if (self.seat is None) is (self.seats is None):
+            raise ValueError("expected either seat, of one participant, or seats, of a team")
+        seats = self.seats or (self.seat,)
+        if len(set(seats)) < len(seats):
+            raise ValueError("seats: one is there twice")
+        for one in self.participants:
+            if isinstance(one, str) is (self.seats is not None):
+                expected = "an identifier" if self.seats is None else "a list, for there are seats"
+                raise ValueError(f"participants: found {shown(one)}; expected {expected}")
+        for team in self.teams:
+            if len(team) != len(seats):
+                raise ValueError(
+                    f"participants: found a team of {len(team)}, {', '.join(team)}; expected "
+                    f"{len(seats)}, one for each seat"
+                )
+        if max(Counter(itertools.chain(*self.teams)).values()) > 1:
+            raise ValueError("participants: one is there twice")
+
+    @property
+    def teams(self) -> tuple[tuple[str, ...], ...]:
+        """Participants who have the same trials together: one each where there is one seat."""
+        return tuple((one,) if isinstance(one, str) else one for one in self.participants)
+
+    def team_of(self, participant: str) -> tuple[str, ...]:
+        """Return the team of a participant.
+
+        Raises
+        ------
+        AirhiltError
+            There is no such participant.
+        """
+        for team in self.teams:
+            if participant in team:
+                return team
+        raise AirhiltError(
+            f"participant {participant!r}: not in the plan; expected one of "
+            f"{', '.join(itertools.chain(*self.teams))}"
+        )
+
+    def seat_of(self, participant: str) -> str:
+        """Return the seat of a participant, as the plan has it."""
+        return self.all_seats[self.team_of(participant).index(participant)]
+
+    @property
+    def all_seats(self) -> tuple[str, ...]:
+        """Seats of each trial, in the order of the participants of a team."""
+        return self.seats or (str(self.seat),)
 
     def before(self) -> Questionnaire:
         """Return what is asked before the first trial; it may have no items."""
@@ -123,18 +199,13 @@ class Plan(BaseModel):
         AirhiltError
             There is no such participant.
         """
-        if participant not in self.participants:
-            raise AirhiltError(
-                f"participant {participant!r}: not in the plan; expected one of "
-                f"{', '.join(self.participants)}"
-            )
         trials = self.trials()
         rows = balanced_latin_square(len(trials))
-        row = rows[self.participants.index(participant) % len(rows)]
+        row = rows[self.teams.index(self.team_of(participant)) % len(rows)]
         return [trials[index] for index in row]
 
     def balance(self) -> int:
-        """Return the number of participants of which any multiple makes the order balanced."""
+        """Return the number of teams of which any multiple makes the order balanced."""
         return len(balanced_latin_square(len(self.trials())))
 
     def check(self) -> None:
@@ -147,7 +218,12 @@ class Plan(BaseModel):
         """
         for trial in self.trials():
             options_of({**self.options, **trial.conditions})
-            seats_of([self.seat], load(loading.find(trial.scenario)))
+            seats = seats_of(self.all_seats, load(loading.find(trial.scenario)))
+            if len(seats) < len(self.all_seats):
+                raise AirhiltError(
+                    f"seats: two of {', '.join(self.all_seats)} are the same seat in "
+                    f"{trial.scenario}; expected another seat for each participant"
+                )
 
 
 def balanced_latin_square(size: int) -> list[list[int]]:

@@ -102,6 +102,24 @@ def plan(**given: Any) -> Plan:
     return plan_of(document | given, "plan.json")
 
 
+TEAMS: dict[str, Any] = {
+    "participants": [["P01", "P02"], ["P03", "P04"]],
+    "seats": ["tower", "AAL123"],
+    "seat": None,
+    "scenarios": ["s01b_nominal"],
+}
+"""What a plan has where a controller and a pilot take part together."""
+
+
+def team_plan(**given: Any) -> Plan:
+    return plan(**TEAMS | given)
+
+
+def led(experiment: Plan, folder: Path, participant: str) -> list[Progress]:
+    """Return the progress of each in the team of a participant."""
+    return [Progress(experiment, folder, name) for name in experiment.team_of(participant)]
+
+
 def asking(*items: dict[str, Any]) -> dict[str, Any]:
     """Return what a plan has to ask these items at the end."""
     return {"questions": {"end": items}}
@@ -132,6 +150,25 @@ def test_each_trial_is_equally_often_at_each_place_and_after_each_other(size: in
         ),
         ({"scenarios": ["nowhere"]}, "nowhere"),
         ({"seat": "nobody"}, "nobody of that name"),
+        ({"seat": None}, "expected either seat, of one participant, or seats, of a team"),
+        ({"seats": ["tower", "AAL123"]}, "expected either seat, of one participant, or seats"),
+        ({"participants": [["P01", "P02"]]}, "expected an identifier"),
+        (
+            TEAMS | {"participants": [["P01", "Jo Doe"]]},
+            "participants/0/team/1: String should match",
+        ),
+        (TEAMS | {"participants": ["P01", "P02"]}, "expected a list, for there are seats"),
+        (
+            TEAMS | {"participants": [["P01", "P02", "P03"]]},
+            "a team of 3, P01, P02, P03; expected 2",
+        ),
+        (
+            TEAMS | {"participants": [["P01", "P02"], ["P01", "P03"]]},
+            "participants: one is there tw",
+        ),
+        (TEAMS | {"seats": ["tower", "tower"]}, "seats: one is there twice"),
+        (TEAMS | {"seats": ["tower"]}, "plan.json: seats: .* at least 2 items"),
+        (TEAMS | {"seats": ["tower", "Washington Tower"]}, "are the same seat in s01b_nominal"),
         ({"questions": {"after": []}}, "plan.json: questions/after"),
         (asking(TRUST | {"type": "slider"}), "questions/end/0: .*'scale', 'choice'"),
         (asking(TRUST | {"steps": 1}), "questions/end/0/scale/steps: .*greater than or equal to 2"),
@@ -152,7 +189,7 @@ def test_a_finished_trial_is_not_run_again_and_has_a_row(
 ) -> None:
     experiment = plan(participants=["P01"])
     progress = Progress(experiment, tmp_path, "P01")
-    conductor = Conductor(progress)
+    conductor = Conductor([progress])
     assert conductor.state()["step"] == "ready"
     first, second = progress.trials
     stopped = shutil.copytree(recorded_run, progress.folder / f"01-{first.name}") / "run.json"
@@ -165,7 +202,7 @@ def test_a_finished_trial_is_not_run_again_and_has_a_row(
         conductor.begin()
     conductor.answer("nasa_tlx", ANSWERS)
     assert (progress.is_done(first), progress.is_done(second)) == (True, False)
-    assert Conductor(progress).state()["trial"] == 2
+    assert Conductor([progress]).state()["trial"] == 2
     with pytest.raises(StationError, match="no question"):
         conductor.answer("nasa_tlx", ANSWERS)
     assert write_tables(experiment, tmp_path) == (1, 0, 0)
@@ -241,13 +278,13 @@ def test_a_run_whose_seat_was_never_taken_is_no_finished_trial(
     person = PERSON.model_copy(update={"seat_time_s": seat_time_s})
     finished(recorded_run, progress.folder / name, [person.model_dump(mode="json")])
     assert progress.finished_run(progress.trials[0]) == (name if is_done else None)
-    assert Conductor(progress).state()["step"] == ("questions" if is_done else "ready")
+    assert Conductor([progress]).state()["step"] == ("questions" if is_done else "ready")
 
 
 def test_a_trial_waits_for_its_participant(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     started: list[Options] = []
     monkeypatch.setattr(StartedRuns, "start", lambda _, __, options, ___: started.append(options))
-    Conductor(Progress(plan(participants=["P01"]), tmp_path, "P01")).begin()
+    Conductor([Progress(plan(participants=["P01"]), tmp_path, "P01")]).begin()
     assert started[0].wait_for_seats
 
 
@@ -257,7 +294,7 @@ def test_a_trial_is_paused_only_where_the_plan_lets_it(
 ) -> None:
     started: list[Options] = []
     monkeypatch.setattr(StartedRuns, "start", lambda _, __, options, ___: started.append(options))
-    conductor = Conductor(Progress(plan(participants=["P01"], **given), tmp_path, "P01"))
+    conductor = Conductor([Progress(plan(participants=["P01"], **given), tmp_path, "P01")])
     conductor.begin()
     assert (started[0].pause, conductor.state()["may_pause"]) == (may_pause, may_pause)
 
@@ -312,7 +349,7 @@ def test_the_page_of_a_trial_that_is_over_is_not_that_of_the_next_one(
     kept = progress.folder / ".station"
     kept.mkdir()
     (kept / f"{name}.json").write_text(still_there.model_dump_json())
-    state = Conductor(progress).state()
+    state = Conductor([progress]).state()
     assert (state["trial"], state["step"], state["url"]) == (2, "ready", "")
 
 
@@ -336,7 +373,7 @@ def test_a_participant_is_told_nothing_of_the_scenario(
         lambda _, __, options, name: started.append((options.run_name, name)),
     )
     progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
-    conductor = Conductor(progress)
+    conductor = Conductor([progress])
     conductor.begin()
     assert started == [("Trial-1", "01-s02a_headon-1")]
     assert "headon" not in json.dumps(conductor.state())
@@ -371,7 +408,7 @@ def test_a_trial_whose_record_cannot_be_read_is_begun_again(
 def test_a_break_has_to_be_taken(recorded_run: Path, tmp_path: Path) -> None:
     progress = Progress(plan(break_after=1), tmp_path, "P01")
     shutil.copytree(recorded_run, progress.folder / f"01-{progress.trials[0].name}")
-    conductor = Conductor(progress)
+    conductor = Conductor([progress])
     conductor.answer("nasa_tlx", ANSWERS)
     assert conductor.state()["rest_s"] > 100.0
     with pytest.raises(StationError, match="not time"):
@@ -382,11 +419,11 @@ def test_who_starts_the_page_again_does_not_leave_the_break_out(
     recorded_run: Path, tmp_path: Path
 ) -> None:
     progress = Progress(plan(break_after=1), tmp_path, "P01")
-    assert Conductor(progress).state()["rest_s"] == 0.0
+    assert Conductor([progress]).state()["rest_s"] == 0.0
     name = f"01-{progress.trials[0].name}"
     shutil.copytree(recorded_run, progress.folder / name)
     progress.answer(Asked(NASA_TLX, name), ANSWERS)
-    assert Conductor(progress).state()["rest_s"] > 100.0
+    assert Conductor([progress]).state()["rest_s"] > 100.0
 
 
 @pytest.mark.parametrize(("participants", "is_told"), [(2, False), (3, True), (4, False)])
@@ -414,9 +451,10 @@ def test_the_command_tells_the_order_of_each_participant(
         assert f"{name}.csv" in done.stdout
 
 
-def names_asked(conductor: Conductor) -> list[str]:
-    """Return the names of the items that the page has to ask now."""
-    return [item["name"] for item in conductor.state().get("questions", {"items": []})["items"]]
+def names_asked(conductor: Conductor, participant: str = "") -> list[str]:
+    """Return the names of the items that the page of a participant has to ask now."""
+    asked = conductor.state(participant).get("questions", {"items": []})
+    return [item["name"] for item in asked["items"]]
 
 
 def test_own_questions_are_asked_before_after_each_trial_and_at_the_end(
@@ -424,7 +462,7 @@ def test_own_questions_are_asked_before_after_each_trial_and_at_the_end(
 ) -> None:
     experiment = plan(participants=["P01"], questions=QUESTIONS)
     progress = Progress(experiment, tmp_path, "P01")
-    conductor = Conductor(progress)
+    conductor = Conductor([progress])
     assert names_asked(conductor) == ["licence"]
     with pytest.raises(StationError, match="not time"):
         conductor.begin()
@@ -469,7 +507,7 @@ def test_ratings_that_were_given_at_the_seat_are_not_asked_again(
     workload = PERSON.workload.model_copy(update={"nasa_tlx": NasaTlx.model_validate(ANSWERS)})
     person = PERSON.model_copy(update={"workload": workload}).model_dump(mode="json")
     finished(recorded_run, progress.folder / f"01-{progress.trials[0].name}", [person])
-    assert names_asked(Conductor(progress)) == ["trust"]
+    assert names_asked(Conductor([progress])) == ["trust"]
     write_tables(experiment, tmp_path)
     assert table(tmp_path / "experiment.parquet")[0]["nasa_tlx.raw_tlx"] == 25.0
 
@@ -487,7 +525,7 @@ def test_answers_that_the_items_do_not_take_are_refused_in_words(
     tmp_path: Path, answers: Answers, said: str
 ) -> None:
     progress = Progress(plan(participants=["P01"], questions={"before": [TRUST]}), tmp_path, "P01")
-    conductor = Conductor(progress)
+    conductor = Conductor([progress])
     with pytest.raises(StationError, match=said):
         conductor.answer("before", answers)
     with pytest.raises(StationError, match="no question of it is open"):
@@ -502,14 +540,14 @@ def test_answers_that_no_page_wrote_are_refused_in_words(tmp_path: Path, content
     progress.folder.mkdir()
     (progress.folder / "before.json").write_text(content)
     with pytest.raises(RunFolderError, match=r"before\.json: .*move the file away to ask again"):
-        Conductor(progress).state()
+        Conductor([progress]).state()
 
 
 def test_an_item_that_came_into_the_plan_later_leaves_a_gap(
     recorded_run: Path, tmp_path: Path
 ) -> None:
     progress = Progress(plan(participants=["P01"], questions={"before": [TRUST]}), tmp_path, "P01")
-    Conductor(progress).answer("before", {"trust": 3})
+    Conductor([progress]).answer("before", {"trust": 3})
     later = plan(participants=["P01"], questions={"before": [TRUST, LICENCE]})
     finished(recorded_run, progress.folder / f"01-{progress.trials[0].name}", [])
     write_tables(later, tmp_path)
@@ -527,3 +565,115 @@ def test_the_scales_of_nasa_tlx_are_those_that_the_run_takes() -> None:
     for outside in (-5, 105, 52):
         with pytest.raises(ValueError, match=f"mental_demand: found {outside}; expected 0 to 100"):
             NASA_TLX.check(ratings | {"mental_demand": outside})
+
+
+def test_a_team_has_one_order_of_trials_and_the_next_team_another() -> None:
+    experiment = team_plan()
+    order = {name: [trial.name for trial in experiment.order(name)] for name in
+             ("P01", "P02", "P03", "P04")}  # fmt: skip
+    assert order["P01"] == order["P02"] == ["s01b_nominal-1", "s01b_nominal-2"]
+    assert order["P03"] == order["P04"] == ["s01b_nominal-2", "s01b_nominal-1"]
+
+
+@pytest.mark.parametrize(("teams", "is_told"), [(1, True), (2, False)])
+def test_a_number_of_teams_that_makes_no_balanced_order_is_told(
+    airhilt_command: Cli, tmp_path: Path, teams: int, is_told: bool
+) -> None:
+    path = tmp_path / "plan.json"
+    path.write_text(team_plan(participants=TEAMS["participants"][:teams]).model_dump_json())
+    done = airhilt_command("experiment", path)
+    assert done.returncode == 0
+    assert "P02: s01b_nominal-1, s01b_nominal-2" in done.stdout
+    assert ("not balanced with 1 teams; expected 2, or a multiple" in done.stderr) is is_told
+
+
+def test_a_trial_of_a_team_has_all_its_seats_and_begins_when_each_is_ready(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started: list[Options] = []
+    monkeypatch.setattr(StartedRuns, "start", lambda _, __, options, ___: started.append(options))
+    conductor = Conductor(led(team_plan(questions={"before": [LICENCE]}), tmp_path, "P02"))
+    assert conductor.state()["step"] == "choose"
+    assert conductor.state()["seats"] == {"P01": "tower", "P02": "AAL123"}
+    conductor.answer("before", {"licence": "none"}, "P01")
+    assert conductor.state("P01")["step"] == "waiting"
+    assert conductor.state("P02")["step"] == "questions"
+    with pytest.raises(StationError, match="not time for a trial"):
+        conductor.begin("P01")
+    conductor.answer("before", {"licence": "private"}, "P02")
+    assert [conductor.state(name)["step"] for name in ("P01", "P02")] == ["ready", "ready"]
+    conductor.begin("P02")
+    assert started[0].seat == ("tower", "AAL123")
+    assert started[0].wait_for_seats
+    with pytest.raises(StationError, match="'P03': not of these trials; expected one of P01, P02"):
+        conductor.state("P03")
+
+
+def test_each_of_a_team_is_led_to_the_own_seat(tmp_path: Path) -> None:
+    team = led(team_plan(), tmp_path, "P01")
+    name = f"01-{team[0].trials[0].name}"
+    kept = team[0].folder / ".station"
+    kept.mkdir(parents=True)
+    goes_on = StartedRun(
+        name=name,
+        scenario="s01b_nominal",
+        seats=("Washington Tower", "AAL123"),
+        process=os.getpid(),
+        created_s=psutil.Process().create_time(),
+    )
+    (kept / f"{name}.json").write_text(goes_on.model_dump_json())
+    (kept / f"{name}.txt").write_text("http://127.0.0.1:9\n")
+    conductor = Conductor(team)
+    shown = [conductor.state(name) for name in ("P01", "P02")]
+    assert [one["seat"] for one in shown] == ["Washington Tower", "AAL123"]
+    assert {(one["step"], one["url"]) for one in shown} == {("running", "http://127.0.0.1:9")}
+
+
+def two_people(**controller: Any) -> list[Any]:
+    """Return the summaries of a controller, with these fields, and of a pilot."""
+    at_tower = PERSON.model_copy(
+        update={"seat": "Washington Tower", "calls": [], "reactions": []} | controller
+    )
+    return [one.model_dump(mode="json") for one in (at_tower, PERSON)]
+
+
+def test_each_of_a_team_has_own_rows_and_answers(recorded_run: Path, tmp_path: Path) -> None:
+    experiment = team_plan(questions=QUESTIONS)
+    team = led(experiment, tmp_path, "P01")
+    conductor = Conductor(team)
+    trial = team[0].trials[0]
+    conductor.answer("before", {"licence": "none"}, "P01")
+    conductor.answer("before", {"licence": "private"}, "P02")
+    rated = PERSON.workload.model_copy(update={"nasa_tlx": NasaTlx.model_validate(ANSWERS)})
+    run = tmp_path / "P01+P02" / f"01-{trial.name}"
+    finished(recorded_run, run, two_people(workload=rated, commands=0))
+    assert [names_asked(conductor, name) for name in ("P01", "P02")] == [["trust"], list(ANSWERS)]
+    conductor.answer("nasa_tlx", dict.fromkeys(ANSWERS, 100), "P02")
+    conductor.answer("after_trial", {"trust": 2}, "P02")
+    assert conductor.state("P02")["step"] == "waiting"
+    conductor.answer("after_trial", {"trust": 7}, "P01")
+    assert {conductor.state(name)["trial"] for name in ("P01", "P02")} == {2}
+    assert write_tables(experiment, tmp_path) == (2, 1, 1)
+    names = ("participant", "seat", "run", "before.licence", "nasa_tlx.raw_tlx",
+             "after_trial.trust", "person.commands")  # fmt: skip
+    rows = table(tmp_path / "experiment.parquet")
+    shared = f"P01+P02/{run.name}"
+    assert [[row[name] for name in names] for row in rows] == [
+        ["P01", "Washington Tower", shared, "none", 25.0, 7.0, 0],
+        ["P02", "AAL123", shared, "private", 100.0, 2.0, 2],
+    ]
+    (call,) = table(tmp_path / "calls.parquet")
+    assert (call["participant"], call["seat"], call["call"]) == ("P02", "AAL123", CALL.call)
+    kept = tmp_path / "P01+P02" / "P02" / f"{run.name}.after_trial.json"
+    assert json.loads(kept.read_text()) == {"trust": 2}
+
+
+def test_a_trial_of_a_team_of_which_one_never_sat_is_not_finished(
+    recorded_run: Path, tmp_path: Path
+) -> None:
+    team = led(team_plan(), tmp_path, "P01")
+    trial = team[0].trials[0]
+    finished(recorded_run, team[0].folder / f"01-{trial.name}", two_people(seat_time_s=0.0))
+    assert [one.finished_run(trial) for one in team] == [None, None]
+    finished(recorded_run, team[0].folder / f"01-{trial.name}-2", two_people(seat_time_s=0.5))
+    assert [one.finished_run(trial) for one in team] == [f"01-{trial.name}-2"] * 2

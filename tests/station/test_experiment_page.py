@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+import csv
 import json
 import shutil
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import httpx
 import pytest
 
+from airhilt.library import find
 from airhilt.station.started_runs import StartedRuns
 from devtools import Page
+from microphone import page_with_microphone
+from shortened import shortened
 from stations import PATIENCE_S, TOKEN, experimenting, reachable
 
 LOW_CONTRAST = Path(__file__).with_name("contrast.js").read_text()
-PLAN = {
+PLAN: dict[str, Any] = {
     "participants": ["P01"], "seat": "AAL123", "scenarios": ["s02a_headon"],
     "questions": {
         "before": [
@@ -161,3 +166,63 @@ def test_a_trial_admits_those_whom_the_page_of_the_experiment_admits(tmp_path: P
             seat = httpx.URL(trial).copy_with(host="127.0.0.1")
             assert (seat.scheme, seat.params["token"]) == ("https", TOKEN)
             assert "AIRHILT" in client.get(seat).text
+
+
+def go(page: Page, url: str, participant: str) -> None:
+    """Open the page of a participant of a team, as by its link."""
+    page.open(f"{url}#{participant}", width=1280, height=720)
+    page.wait_for(f"document.getElementById('title').textContent === 'Experiment, {participant}'")
+
+
+@pytest.mark.slow
+@pytest.mark.browser
+def test_a_controller_and_a_pilot_have_a_trial_together(tmp_path: Path) -> None:
+    scenario = json.loads(find("scenarios", "s01b_nominal").read_text())
+    (tmp_path / "short.json").write_text(json.dumps(shortened(scenario, 12.0)))
+    team = {
+        "participants": [["P01", "P02"]], "seats": ["tower", "AAL123"], "seat": None,
+        "scenarios": [str(tmp_path / "short.json")], "nasa_tlx": False,
+        "options": {"speech": False, "cameras": False, "assistant": "none"},
+        "questions": {"after_trial": [PLAN["questions"]["before"][1]]},
+    }  # fmt: skip
+    file, out = tmp_path / "plan.json", tmp_path / "out"
+    file.write_text(json.dumps(PLAN | team))
+    folder, run, offered = out / "P01+P02", "01-short-1", "document.getElementById('seat-name')"
+    with (
+        experimenting(file, "--participant", "P02", "--out", str(out)) as url,
+        ended(folder, run),
+        page_with_microphone() as tower,
+        page_with_microphone() as pilot,
+    ):
+        tower.open(url, width=1280, height=720)
+        heading(tower, "Who are you?")
+        assert tower.evaluate(LOW_CONTRAST) == []
+        tower.evaluate("document.querySelector('#choices a[href=\"#P01\"]').click()")
+        go(pilot, url, "P02")
+        heading(tower, "Trial 1 of 1")
+        tower.click("begin")
+        people = ((tower, "P01", "Washington Tower", "1"), (pilot, "P02", "AAL123", "5"))
+        for page, _, seat, _ in people:
+            page.wait_for("!document.getElementById('open').hidden")
+            page.open(page.evaluate("document.getElementById('open').href"))
+            page.wait_for("document.getElementById('state').textContent === 'paused'")
+            assert page.evaluate(f"[...{offered}.options].map((one) => one.value)") == [seat]
+            page.click("seat-take")
+            page.wait_for("!document.getElementById('say').hidden")
+        for page, participant, _, answer in people:
+            page.wait_for("document.getElementById('state').textContent === 'finished'")
+            go(page, url, participant)
+            heading(page, "Questions after trial 1 of 1")
+            page.evaluate(f"document.querySelector('[value=\"{answer}\"]').click()")
+            page.evaluate(SUBMIT)
+        for page, *_ in people:
+            heading(page, "All trials are done")
+            page.open("about:blank")
+    with (out / "experiment.csv").open() as table:
+        rows = list(csv.DictReader(table))
+    names = ("participant", "seat", "run", "after_trial.rested")
+    assert [[row[name] for name in names] for row in rows] == [
+        ["P01", "Washington Tower", f"P01+P02/{run}", "1"],
+        ["P02", "AAL123", f"P01+P02/{run}", "5"],
+    ]
+    assert all(0.0 < float(row["person.seat_time_s"]) <= 12.0 for row in rows)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import chain
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -24,7 +25,11 @@ Examples:
 """
 )
 @click.argument("plan_file", metavar="PLAN", type=click.Path(path_type=Path, dir_okay=False))
-@click.option("--participant", metavar="ID", help="Open the page that leads this one through.")
+@click.option(
+    "--participant",
+    metavar="ID",
+    help="Open the page that leads this one through, and the others of the same team.",
+)
 @click.option(
     "--out",
     type=click.Path(path_type=Path, file_okay=False),
@@ -36,7 +41,7 @@ Examples:
 def experiment(
     plan_file: Path, participant: str | None, out: Path | None, page: PageOptions
 ) -> None:
-    """Lead participants through trials at a seat, in an order that is counterbalanced.
+    """Lead participants through trials at seats, in an order that is counterbalanced.
 
     Without --participant, the order of each is printed with what is done. The tables are written
     in any case: experiment.csv has a row a finished trial, reactions.csv a row a reaction to an
@@ -58,16 +63,18 @@ def experiment(
         from airhilt.station.experiment_app import experiment_app
         from airhilt.station.server import serve
 
-        progress = Progress(plan, folder, participant)
-        app = experiment_app(Conductor(progress, page.of_another_page()))
+        team = [Progress(plan, folder, name) for name in plan.team_of(participant)]
+        app = experiment_app(Conductor(team, page.of_another_page()))
         serve(app, address, opened=_opened, notice=tell, browser=not page.no_browser)
-    for name in plan.participants if participant is None else (participant,):
+    teams = plan.teams if participant is None else (plan.team_of(participant),)
+    for name in chain(*teams):
         progress = Progress(plan, folder, name)
         click.echo(f"{name}: " + ", ".join(_shown(progress, trial) for trial in progress.trials))
-    if participant is None and len(plan.participants) % plan.balance():
+    if participant is None and len(teams) % plan.balance():
+        led = "participants" if plan.seats is None else "teams"
         tell(
-            f"the order is not balanced with {len(plan.participants)} participants; expected "
-            f"{plan.balance()}, or a multiple"
+            f"the order is not balanced with {len(teams)} {led}; expected {plan.balance()}, or a "
+            "multiple"
         )
     rows = write_tables(plan, folder)
     click.echo(f"{rows.trials} finished trials: {folder / 'experiment.csv'}, experiment.parquet")

@@ -2,6 +2,7 @@
 
 import { Displays } from "./displays.js";
 import { byId, html } from "./dom.js";
+import { addressee } from "./neighbours.js";
 import { Rows } from "./rows.js";
 import { bearing, feet, known, percent, seconds, whole, words } from "./words.js";
 
@@ -22,8 +23,12 @@ export class Seat {
     this.#clock = clock;
     this.#live = live;
     byId("seat").hidden = !run.seats?.length;
+    const seats = run.seats ?? [],
+      named = addressee(); // A page that is for a seat offers no other.
     byId("seat-name").replaceChildren(
-      ...(run.seats ?? []).map((name) => html("option", { value: name }, name)),
+      ...(seats.includes(named) ? [named] : seats).map((name) =>
+        html("option", { value: name }, name),
+      ),
     );
     this.#displays = new Displays(
       run,
