@@ -999,6 +999,24 @@ class AdvisoryPerceived(Message):
     )
 
 
+class CallHeard(Message):
+    """``heard/<seat>``: a transmission is audible at a seat from its beginning, as its page says.
+
+    ``t_ns`` is when the page said so. The page says nothing of what it left out the beginning of,
+    as while its person was transmitting.
+    """
+
+    limit = Limit(size_bytes=500, rate_hz=50)
+    id: str = Field(max_length=200, description="of the transmission")
+    after_s: float = Field(
+        default=0.0,
+        ge=-10.0,
+        le=10.0,
+        description="time from ``t_ns`` until its first sample was audible, by the clock of the "
+        "browser; negative if that was before",
+    )
+
+
 class PaceCommand(Message):
     """``pace``: how fast the time of a run with seats is to pass, as a person asks for."""
 
@@ -1429,8 +1447,8 @@ class StepReply(Part):
 SEAT_AUDIO = "seat/*/audio"
 """Keys of the sound that the receiver of one seat gets: nobody else hears it."""
 SEAT_KEYS = (
-    "task", "offer", "speech", "microphone", "listening", "consent", "perceived", "question",
-    "workload", "notice",
+    "task", "offer", "speech", "microphone", "listening", "consent", "perceived", "heard",
+    "question", "workload", "notice",
 )  # fmt: skip
 """First parts of the keys between a run and the people at its seats: they have the words of the
 script before they are said, and exactly what people say and do."""
@@ -1466,6 +1484,7 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "listening/{seat}": SeatListening,
     "consent/{seat}": VoiceConsent,
     "perceived/{seat}": AdvisoryPerceived,
+    "heard/{seat}": CallHeard,
     "pace": PaceCommand,
     "page": PageRefusal,
     "seat/{seat}": SeatPresence,

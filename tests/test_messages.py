@@ -20,6 +20,7 @@ from airhilt.messages import (
     AdsbReport,
     Advisory,
     AdvisoryPerceived,
+    CallHeard,
     Climb,
     Detection,
     Event,
@@ -177,6 +178,7 @@ EXAMPLES: dict[str, dict[str, Any]] = {
     "AdvisoryPerceived": {
         "id": "s-1", "revision": 2, "recipient": "AAL1", "way": "heard", "after_s": 0.02,
     },
+    "CallHeard": {"id": "microphone.TOWER.1", "after_s": 0.6},
     "PaceCommand": {"factor": 0.5},
     "PageRefusal": {"text": "refused a page of another version"},
     "WorkloadQuestion": {"seat": "TOWER", "number": 1, "scale": "isa"},
@@ -369,7 +371,8 @@ def test_the_schema_has_the_limit_of_every_key_that_others_publish_on() -> None:
     assert limits["advisory/{recipient}"] == {"size_bytes": 32_000, "rate_hz": 50}
     assert {MODELS[key] for key in limits} == {
         *WORKER_OUTPUTS.values(), PartialTranscript, ActorCommand, SpokenWords, MicrophoneAudio,
-        AdvisoryPerceived, PaceCommand, PageRefusal, SeatListening, VoiceConsent, WorkloadAnswer,
+        AdvisoryPerceived, CallHeard, PaceCommand, PageRefusal, SeatListening, VoiceConsent,
+        WorkloadAnswer,
     }  # fmt: skip
 
 

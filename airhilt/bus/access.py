@@ -33,6 +33,7 @@ PUBLISHED: Mapping[Role, tuple[str, ...]] = {
         "listening/*",
         "consent/*",
         "perceived/*",
+        "heard/*",
         "pace",
         "workload/*",
         "page",

@@ -21,6 +21,7 @@ from airhilt.messages import (
     Advisory,
     AdvisoryAudio,
     AdvisoryPerceived,
+    CallHeard,
     Detections,
     DropCause,
     DroppedMessages,
@@ -55,6 +56,7 @@ HEARD: Mapping[str, type[Message]] = {
     "listening/*": SeatListening,
     "consent/*": VoiceConsent,
     "perceived/*": AdvisoryPerceived,
+    "heard/*": CallHeard,
     "pace": PaceCommand,
     PAGE: PageRefusal,
     "workload/*": WorkloadAnswer,
@@ -62,8 +64,8 @@ HEARD: Mapping[str, type[Message]] = {
 }
 """Messages of the keys that are heard; those on the last are refused, for a voice needs grants."""
 AT_SEATS = (
-    SpokenWords, MicrophoneAudio, SeatListening, VoiceConsent, AdvisoryPerceived, SeatPresence,
-    WorkloadAnswer,
+    SpokenWords, MicrophoneAudio, SeatListening, VoiceConsent, AdvisoryPerceived, CallHeard,
+    SeatPresence, WorkloadAnswer,
 )  # fmt: skip
 """Messages of people at seats."""
 ANSWERS = "worker/*/step"

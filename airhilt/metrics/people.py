@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection
 from dataclasses import dataclass, field
+from functools import partial
 from statistics import fmean, median
 from typing import Literal, NamedTuple
 
@@ -17,6 +18,7 @@ from airhilt.messages import (
     Advisory,
     AdvisoryAudio,
     AdvisoryPerceived,
+    CallHeard,
     Event,
     Message,
     MicrophoneAudio,
@@ -168,6 +170,8 @@ class PeopleRecords:
         self._seats = {seat: _Seat(PersonCalls(seat)) for seat in seats}
         self._advisories: dict[Advised, Advisory] = {}
         self._voices_ns: dict[Advised, int] = {}
+        self._heard_ns: dict[str, dict[str, int]] = {}
+        """Times at which calls were audible, by their ids and by seats."""
         self._first_pace = pace
         self._paces: list[tuple[int, str]] = []
         """Times at which the pace changed, and the pace."""
@@ -217,14 +221,16 @@ class PeopleRecords:
                 | SpokenWords()
                 | MicrophoneAudio()
                 | AdvisoryPerceived()
+                | CallHeard()
                 | SeatPresence()
                 | WorkloadAnswer()
             ):
                 at = self._names.get(key.split("/")[1])
                 if at is not None:
-                    self._take_at(self._seats[at], message)
+                    self._take_at(at, message)
 
-    def _take_at(self, seat: _Seat, message: Message) -> None:
+    def _take_at(self, at: str, message: Message) -> None:
+        seat = self._seats[at]
         match message:
             case SeatPresence(is_taken=is_taken, t_ns=t_ns):
                 seat.occupy(t_ns, is_taken=is_taken)
@@ -233,6 +239,9 @@ class PeopleRecords:
             case ActorCommand(command=command, t_ns=t_ns) if seat.person is not None:
                 action = _Action(t_ns, command.action, command, seat.track_deg)
                 seat.person.actions.append(action)
+            case CallHeard(id=call, t_ns=t_ns) if seat.person is not None:
+                heard_ns = t_ns + round(message.after_s * SECOND_NS)
+                self._heard_ns.setdefault(call, {}).setdefault(at, heard_ns)
             case _ if seat.person is not None:
                 self._take_of(seat, seat.person, message)
 
@@ -262,6 +271,12 @@ class PeopleRecords:
         delays_s = [delay_s for person in seat.people for delay_s in person.delays_s]
         reactions = [one for person in seat.people for one in self._reactions(person)]
         times_s = [one.reaction_time_s for one in reactions if one.reaction_time_s is not None]
+        calls = seat.calls.rows(partial(self._heard_after, name))
+        heard_s = [
+            call.to_loudspeaker_s
+            for call in calls
+            if call.way == "spoken" and call.to_loudspeaker_s is not None
+        ]
         return PersonSummary(
             seat=name,
             seat_time_s=seat.taken_until_ns(now_ns) / SECOND_NS,
@@ -272,12 +287,24 @@ class PeopleRecords:
             readback_errors=seat.readback_errors,
             readback_errors_heard=seat.readback_errors_heard,
             press_to_transmit_s=median(delays_s) if delays_s else None,
+            press_to_loudspeaker_s=median(heard_s) if heard_s else None,
             reaction_time_s=median(times_s) if times_s else None,
             unperceived=sum(len(person.told - person.perceived_names) for person in seat.people),
-            calls=seat.calls.rows(),
+            calls=calls,
             reactions=reactions,
             workload=_workload(seat) if seat.questions else None,
         )
+
+    def _heard_after(self, speaker: str, call: str, since_ns: int) -> list[float | None]:
+        """Return how long after a time a call was audible at each seat but the speaker's, in s.
+
+        It is None where time did not pass as on the clock.
+        """
+        return [
+            (heard_ns - since_ns) / SECOND_NS if self._is_real_time(since_ns, heard_ns) else None
+            for seat, heard_ns in self._heard_ns.get(call, {}).items()
+            if seat != speaker
+        ]
 
     def _reactions(self, person: _Person) -> list[PersonReaction]:
         names = person.perceived_names & self._advisories.keys()

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from statistics import median
+from typing import Any, Literal
 
 from airhilt.messages import Message, MicrophoneAudio, SpokenTruth, SpokenWords, Transcript
 from airhilt.metrics.calls import TEXT
 from airhilt.metrics.summary import PersonCall
 from airhilt.units import SECOND_NS
+
+HeardAfter = Callable[[str, int], Sequence[float | None]]
+"""Times in s, by the id of a call on the air and a time in ns, after which other people heard the
+call from its beginning; None where time did not pass as on the clock."""
 
 
 @dataclass
@@ -61,9 +67,16 @@ class PersonCalls:
                 if (call := self._on_air(name)) is not None and call.transcript is None:
                     call.transcript = message
 
-    def rows(self) -> list[PersonCall]:
-        """Return what is known of each call, in the order in which they were begun."""
-        return [_row(call) for call in sorted(self._calls, key=lambda call: call.since_ns)]
+    def rows(self, heard: HeardAfter) -> list[PersonCall]:
+        """Return what is known of each call, in the order in which they were begun.
+
+        Parameters
+        ----------
+        heard
+            Tells how soon other people heard a call.
+        """
+        in_order = sorted(self._calls, key=lambda call: call.since_ns)
+        return [_row(call, heard) for call in in_order]
 
     def _begun_by(self, said: SpokenTruth) -> _Call | None:
         """Return the call that a transmission of the seat is, None if no person made it."""
@@ -83,7 +96,7 @@ class PersonCalls:
         return next((call for call in self._calls if call.said and call.said.id == name), None)
 
 
-def _row(call: _Call) -> PersonCall:
+def _row(call: _Call, heard: HeardAfter) -> PersonCall:
     said, transcript, answer = call.said, call.transcript, call.answer
     return PersonCall(
         way=call.way,
@@ -93,6 +106,7 @@ def _row(call: _Call) -> PersonCall:
         confidence=None if transcript is None else transcript.confidence,
         answer=None if answer is None else answer.text,
         **({} if said is None else _of_transmission(call.since_ns, said)),
+        **({} if said is None else _of_hearing(heard(said.id, call.since_ns))),
         answered_after_s=(
             None if said is None or answer is None else (answer.t_tx_ns - said.t_end_ns) / SECOND_NS
         ),
@@ -108,4 +122,13 @@ def _of_transmission(since_ns: int, said: SpokenTruth) -> dict[str, str | int | 
         "to_air_s": (said.t_tx_ns - since_ns) / SECOND_NS,
         "length_s": (said.t_end_ns - said.t_tx_ns) / SECOND_NS,
         "blocked": bool(said.blocked_by),
+    }
+
+
+def _of_hearing(after_s: Sequence[float | None]) -> dict[str, Any]:
+    """Return the fields of a row about the other people who heard a call."""
+    measured = [one for one in after_s if one is not None]
+    return {
+        "to_loudspeaker_s": median(measured) if measured else None,
+        "heard_at": len(after_s),
     }

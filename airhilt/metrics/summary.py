@@ -160,6 +160,15 @@ class PersonCall(BaseModel):
         default=None,
         description="from t_s to t_tx_s: of a typed call with the wait for a free frequency",
     )
+    to_loudspeaker_s: float | None = Field(
+        default=None,
+        description="from t_s until its first sample was audible to another person; median over "
+        "those who heard it so; null if time did not pass as on the clock",
+    )
+    heard_at: int | None = Field(
+        default=None,
+        description="seats of other people whose pages have sounded it from its beginning",
+    )
     length_s: float | None = Field(default=None, description="time on the air")
     said: str | None = Field(default=None, description="words that were typed; null if spoken")
     recognised: str | None = Field(
@@ -218,6 +227,10 @@ class PersonSummary(BaseModel):
     )
     press_to_transmit_s: float | None = Field(
         description="median time from pressing the button until the station had it"
+    )
+    press_to_loudspeaker_s: float | None = Field(
+        default=None,
+        description="median time from pressing the button until another person could hear it",
     )
     reaction_time_s: float | None = Field(description="median over the advisories")
     unperceived: int = Field(

@@ -32,6 +32,7 @@ RESERVED = frozenset(
         "microphone",
         "page",
         "perceived",
+        "heard",
         "seat",
         "pace",
         "notice",

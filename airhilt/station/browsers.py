@@ -246,6 +246,8 @@ class Browsers:
             await asyncio.to_thread(self._run.fly, seat, wish.fly)
         elif wish.perceived is not None:
             await asyncio.to_thread(self._run.perceive, seat, wish.perceived)
+        elif wish.heard is not None:
+            await asyncio.to_thread(self._run.hear, seat, wish.heard)
         elif wish.press is not None:
             await self._press(browser, seat, wish.press)
         elif wish.answer is not None:

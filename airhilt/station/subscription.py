@@ -23,6 +23,7 @@ from airhilt.messages import (
     ActorCommand,
     AdvisoryAudio,
     AdvisoryPerceived,
+    CallHeard,
     Message,
     MicrophoneAudio,
     PaceCommand,
@@ -210,6 +211,10 @@ class Subscription:
         """Tell that an advisory has reached the person at a seat."""
         key = f"{self._prefix}/perceived/{key_chunk(seat)}"
         self._session.put(key, perceived.model_dump_json())
+
+    def hear(self, seat: str, heard: CallHeard) -> None:
+        """Tell that a transmission is audible to the person at a seat."""
+        self._session.put(f"{self._prefix}/heard/{key_chunk(seat)}", heard.model_dump_json())
 
     def answer(self, seat: str, answer: WorkloadAnswer) -> None:
         """Answer a question about workload."""

@@ -9,6 +9,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 from airhilt.commands import Command
 from airhilt.messages import (
     AdvisoryPerceived,
+    CallHeard,
     MicrophoneAudio,
     PaceCommand,
     SeatListening,
@@ -53,6 +54,9 @@ class Wish(BaseModel):
     )
     perceived: AdvisoryPerceived | None = Field(
         default=None, description="an advisory to the own seat was drawn or is audible"
+    )
+    heard: CallHeard | None = Field(
+        default=None, description="a transmission is audible from its beginning"
     )
     answer: WorkloadAnswer | None = Field(
         default=None, description="to a question about workload at the own seat"
@@ -100,6 +104,9 @@ class RunLink(Protocol):
 
     def perceive(self, seat: str, perceived: AdvisoryPerceived) -> None:
         """Tell that an advisory has reached the person at a seat."""
+
+    def hear(self, seat: str, heard: CallHeard) -> None:
+        """Tell that a transmission is audible to the person at a seat."""
 
     def answer(self, seat: str, answer: WorkloadAnswer) -> None:
         """Answer a question about workload."""

@@ -48,7 +48,7 @@ TRIED = ("advisory/ATC", "command/AAL123", "adsb/a1b2c3", "truth/conflict", "vis
 
 OF_SEATS = {
     "task/TOWER", "offer/OPS1", "speech/TOWER", "microphone/TOWER", "listening/TOWER",
-    "consent/TOWER", "perceived/TOWER",
+    "consent/TOWER", "perceived/TOWER", "heard/TOWER",
     "question/TOWER", "workload/TOWER", "notice/TOWER",
 }  # fmt: skip
 PUBLISHED_BY_RUN = ("truth/state/AAL123", "adsb/d4e5f6", *OF_SEATS, "clock")

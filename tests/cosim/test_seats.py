@@ -282,10 +282,11 @@ def test_who_takes_the_seat_after_somebody_hears_all_frequencies(tmp_path: Path)
     [
         message("listening/OPS2", 2.0, frequencies_khz=()),
         message("consent/OPS2", 2.0, is_given=True),
+        message("heard/OPS2", 2.0, id="line"),
     ],
-    ids=["listening", "consent"],
+    ids=["listening", "consent", "heard"],
 )
-def test_settings_of_a_seat_that_is_not_left_to_a_person_are_refused(
+def test_what_is_told_of_a_seat_that_is_not_left_to_a_person_are_refused(
     tmp_path: Path, told: UnregisteredMessage
 ) -> None:
     log = logged(tower(4.0), tmp_path / "run", ["OPS1"], [told])
@@ -492,6 +493,20 @@ def test_there_is_no_seat_where_nobody_has_a_radio(tmp_path: Path) -> None:
     silent = silent.model_copy(update={"radio": silent.radio.model_copy(update={"lines": ()})})
     with pytest.raises(ScenarioError, match=r"--seat 'AAL123'.*no radio line.*radio/lines"):
         logged(silent, tmp_path / "run", ["AAL123"])
+
+
+def test_the_summary_has_when_a_typed_call_was_audible_at_another_seat(tmp_path: Path) -> None:
+    given = [
+        taken("Washington_Tower"),
+        taken("AAL123"),
+        said("Washington_Tower", 1.0, "All stations, stand by."),
+        message("heard/AAL123", 2.0, id="seat.Washington_Tower.1", after_s=0.5),
+    ]
+    logged(tower(4.0), tmp_path / "run", ["tower", "AAL123"], given)
+    controller, _ = json.loads((tmp_path / "run" / "summary.json").read_text())["people"]
+    (call,) = controller["calls"]
+    assert (call["call"], call["heard_at"]) == ("seat.Washington_Tower.1", 1)
+    assert call["to_loudspeaker_s"] is None  # The run is in virtual time.
 
 
 def is_followed(out: Path, advised: dict[str, Any], command: dict[str, Any]) -> bool:

@@ -17,6 +17,7 @@ from airhilt.messages import (
     Advisory,
     AdvisoryAudio,
     AdvisoryPerceived,
+    CallHeard,
     Event,
     Evidence,
     GoAround,
@@ -451,6 +452,67 @@ def test_a_spoken_call_has_a_row_from_the_button_to_what_was_recognised() -> Non
     assert (row.way, row.t_s, row.to_air_s, row.length_s) == ("spoken", 9.75, 0.25, 2.0)
     assert (row.said, row.recognised, row.confidence) == (None, "going around", 0.7)
     assert (row.answer, row.answered_after_s) == (None, None)
+
+
+TALK = (
+    (10.0, "microphone/AAL1", MicrophoneAudio(phase="pressed", delay_s=0.25)),
+    on_air("microphone.AAL1.1", 10.0, 12.0, is_from_microphone=True),
+)
+"""A call that AAL1 began to speak at 9.75 s."""
+
+
+def of_three(*messages: tuple[float, str, Message]) -> PersonSummary:
+    """Return the summary of AAL1, who speaks, beside people at the tower and in DAL2."""
+    records = PeopleRecords(["AAL1", "Tower", "DAL2"])
+    for seat in ("AAL1", "Tower", "DAL2"):
+        records.take(f"seat/{seat}", SeatPresence(is_taken=True))
+    for t_s, key, message in messages:
+        records.take(key, message.model_copy(update={"t_ns": round(t_s * SECOND)}))
+    return records.summaries(100 * SECOND)[0]
+
+
+def heard(after_s: float = 0.0, call: str = "microphone.AAL1.1") -> CallHeard:
+    return CallHeard(id=call, after_s=after_s)
+
+
+def test_the_delay_between_people_is_from_the_button_to_the_first_audible_sample() -> None:
+    found = of_three(*TALK, (10.5, "heard/Tower", heard(after_s=0.25)))
+    (row,) = found.calls
+    assert (row.to_loudspeaker_s, row.heard_at, found.press_to_loudspeaker_s) == (1.0, 1, 1.0)
+
+
+def test_the_delay_to_several_people_is_the_median() -> None:
+    (row,) = of_three(
+        *TALK, (10.25, "heard/Tower", heard()), (10.75, "heard/DAL2", heard(after_s=0.5))
+    ).calls
+    assert (row.to_loudspeaker_s, row.heard_at) == (1.0, 2)
+
+
+@pytest.mark.parametrize(
+    ("others", "heard_at"),
+    [
+        ([(10.5, "heard/AAL1", heard())], 0),
+        ([(10.5, "heard/Tower", heard(call="another"))], 0),
+        ([(9.0, "seat/Tower", SeatPresence(is_taken=False)), (10.5, "heard/Tower", heard())], 0),
+        ([(10.1, "truth/event", Event(kind="pace", subject="", text="0.5x")),
+          (10.5, "heard/Tower", heard())], 1),
+    ],
+    ids=["the speaker", "another call", "nobody at the seat", "slow motion"],
+)  # fmt: skip
+def test_no_delay_is_measured_of(others: list[tuple[float, str, Message]], heard_at: int) -> None:
+    found = of_three(*TALK, *others)
+    (row,) = found.calls
+    assert (row.to_loudspeaker_s, row.heard_at) == (None, heard_at)
+    assert found.press_to_loudspeaker_s is None
+
+
+def test_a_typed_call_counts_from_its_words_and_in_no_median() -> None:
+    found = of_three(
+        (10.0, "speech/AAL1", SpokenWords(text="ready")),
+        on_air("seat.AAL1.1", 12.5, 14.0, text="ready"),
+        (13.0, "heard/Tower", heard(call="seat.AAL1.1")),
+    )
+    assert (found.calls[0].to_loudspeaker_s, found.press_to_loudspeaker_s) == (3.0, None)
 
 
 def test_a_call_that_was_blocked_and_one_that_never_came_on_the_air_say_so() -> None:

@@ -59,12 +59,13 @@ REACTION = PersonReaction(
 )  # fmt: skip
 CALL = PersonCall(
     call="microphone.AAL123.1", way="spoken", frequency_khz=119_100, t_s=4.0, t_tx_s=4.01,
-    to_air_s=0.01, length_s=2.0, recognised="going around", confidence=0.9, blocked=False,
-    answer="Roger.", answered_after_s=1.5,
+    to_air_s=0.01, to_loudspeaker_s=0.8, heard_at=1, length_s=2.0, recognised="going around",
+    confidence=0.9, blocked=False, answer="Roger.", answered_after_s=1.5,
 )  # fmt: skip
 PERSON = PersonSummary(
     seat="AAL123", seat_time_s=8.0, spoken_calls=3, typed_calls=1, commands=2, asked_to_say_again=0,
-    readback_errors=1, press_to_transmit_s=0.01, reaction_time_s=1.5,
+    readback_errors=1, press_to_transmit_s=0.01, press_to_loudspeaker_s=0.8,
+    reaction_time_s=1.5,
     calls=[CALL], reactions=[REACTION],
     workload=WorkloadSummary(
         isa_mean=4.0,
@@ -238,6 +239,7 @@ def test_the_row_of_a_trial_has_the_totals_of_its_person(
         "readback_errors": 1,
         "readback_errors_heard": 0,
         "press_to_transmit_s": 0.01,
+        "press_to_loudspeaker_s": 0.8,
         "reaction_time_s": 1.5,
         "unperceived": 0,
         "isa_mean": 4.0,

@@ -17,6 +17,7 @@ from airhilt.messages import SpokenWords
 from airhilt.station import seat_book
 from airhilt.station.held_button import AHEAD_S, LARGEST_PIECE_BYTES, HeldButton
 from breadth import mostly_slow
+from loudspeaker import COUNT_PIECES, piece
 from microphone import (
     BUTTON,
     FAKE,
@@ -58,6 +59,16 @@ GRANTED = """(() => {
 })()"""
 """Lets the microphone be granted once `grant` is called; `granted` has the states of its tracks."""
 WORDS = "American one two three, cleared to land"
+SLOW_LOUDSPEAKER = """
+    Object.defineProperty(AudioContext.prototype, 'outputLatency', { get: () => 5.0 });
+    null
+"""
+VOLUME = """(() => {
+    const volume = document.querySelector('#hearing input');
+    volume.value = %s;
+    volume.dispatchEvent(new Event('input'));
+})()"""
+BUSY = "document.getElementById('frequencies').innerText.includes('busy')"
 
 
 @pytest.fixture(scope="module")
@@ -121,6 +132,40 @@ def test_an_advisory_to_the_seat_is_shown_sounded_and_reported_to_the_run(
         run.changes.add("spoken", SPOKEN)
         heard = run.next()
     assert (heard.way, heard.id, heard.revision, heard.recipient) == ("heard", "a-1", 1, "ATC")
+
+
+@pytest.mark.browser
+def test_the_run_is_told_when_the_first_sample_of_a_transmission_is_audible(
+    seat: tuple[PretendedRun, str],
+) -> None:
+    """It is not told of what is not heard from its beginning."""
+    run, url = seat
+    with page_with_microphone(*FAKE) as page:
+        sit_down(page, url)
+        page.evaluate(SLOW_LOUDSPEAKER)
+        page.evaluate(COUNT_PIECES)
+        run.call_on_air("first", piece(0.3), piece(0.5))
+        heard = run.heard.get(timeout=PATIENCE_S)
+        assert heard.id == "first"
+        assert heard.after_s > 4.0  # All but the way to the station.
+        page.evaluate(VOLUME % 0)
+        run.call_on_air("not audible", piece(0.3))
+        page.wait_for("window.pieces.length === 3")
+        page.evaluate(VOLUME % 0.8)
+        run.stream("samples", id="begun before", frequency_khz=119_100, pcm=piece(0.5))
+        page.wait_for("window.pieces.length === 4")
+        open_microphone(page)
+        page.key("keyDown", " ", 32)
+        page.wait_for(f"{BUTTON} === 'On the air'")
+        run.stream("opened", id="while talking", frequency_khz=119_100)
+        page.wait_for(BUSY)
+        page.key("keyUp", " ", 32)
+        run.stream("samples", id="while talking", frequency_khz=119_100, pcm=piece(0.5))
+        page.wait_for("window.pieces.length === 5")
+        run.call_on_air("microphone.TOWER.1", piece(0.3))
+        run.call_on_air("last", piece(0.3))
+        assert run.heard.get(timeout=PATIENCE_S).id == "last"
+        run.call()
 
 
 @pytest.mark.browser

@@ -194,6 +194,12 @@ def test_two_people_hear_each_other_and_block_each_other_when_both_talk(tmp_path
     one_by_one = calls[: is_blocked.index(True)]
     speakers = [speaker for speaker, _ in itertools.groupby(one["speaker"] for one in one_by_one)]
     assert speakers == ["Washington Tower", "AAL123"]
+    people = json.loads((out / "summary.json").read_text())["people"]
+    of_calls = {call["call"]: call for person in people for call in person["calls"]}
+    for call in (of_calls[one["id"]] for one in one_by_one):
+        assert call["heard_at"] == 1
+        assert call["to_loudspeaker_s"] > call["to_air_s"]
+    assert all(person["press_to_loudspeaker_s"] > 0.0 for person in people)
     together = calls[len(one_by_one) :]
     assert {one["speaker"] for one in together} == {"Washington Tower", "AAL123"}
     assert all(one["blocked_by"] for one in together)

@@ -25,6 +25,7 @@ from cryptography.x509.oid import NameOID
 from airhilt.commands import Command
 from airhilt.messages import (
     AdvisoryPerceived,
+    CallHeard,
     Message,
     MicrophoneAudio,
     PaceCommand,
@@ -183,6 +184,7 @@ class PretendedRun:
 
     def __init__(self, seats: Sequence[SeatInfo] = (TOWER,)) -> None:
         self.done: queue.Queue[Message | Command] = queue.Queue()
+        self.heard: queue.Queue[CallHeard] = queue.Queue()
         self.settings: queue.Queue[SeatListening | VoiceConsent] = queue.Queue()
         """Settings of the radio of a seat, and answers about the voice."""
         self.presence: queue.Queue[tuple[str, bool]] = queue.Queue()
@@ -227,6 +229,10 @@ class PretendedRun:
     def perceive(self, seat: str, perceived: AdvisoryPerceived) -> None:
         """Note that an advisory was perceived."""
         self.done.put(perceived)
+
+    def hear(self, seat: str, heard: CallHeard) -> None:
+        """Note that a transmission is audible, apart from what is done."""
+        self.heard.put(heard)
 
     def answer(self, seat: str, answer: WorkloadAnswer) -> None:
         """Note an answer to a question."""

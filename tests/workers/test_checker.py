@@ -283,7 +283,7 @@ def test_a_class_in_the_place_of_a_worker_is_refused() -> None:
 @pytest.mark.parametrize(
     "key",
     ["truth/state/*", "*/118300", "9x/*", "$y/*", "$*/state", "/adsb", "task/*", "speech/TOWER",
-     "microphone/*", "command/*", "workload/*", "question/*", "perceived/*", "notice/*",
+     "microphone/*", "command/*", "workload/*", "question/*", "perceived/*", "heard/*", "notice/*",
      "seat/*/audio", "seat/*/*", "seat/**"],
 )  # fmt: skip
 def test_the_checker_and_a_run_refuse_the_same_inputs(key: str) -> None:

@@ -1,6 +1,6 @@
-const SEATS = [["Seat"], ["Calls spoken", "number"], ["Calls typed", "number"], ["Commands", "number"], ["Asked to say again", "number"], ["Readback errors", "number"], ["Readback errors heard", "number"], ["Button to air", "number"], ["Reaction time (median)", "number"], ["Advisories not perceived", "number"]];
+const SEATS = [["Seat"], ["Calls spoken", "number"], ["Calls typed", "number"], ["Commands", "number"], ["Asked to say again", "number"], ["Readback errors", "number"], ["Readback errors heard", "number"], ["Button to air", "number"], ["Button to another's ear", "number"], ["Reaction time (median)", "number"], ["Advisories not perceived", "number"]];
 const REACTIONS = [["Time (s)"], ["Seat"], ["Severity"], ["Advised", "text"], ["Seen", "number"], ["Heard", "number"], ["First action", "text"], ["Reaction time, from", "number"], ["Followed", "text"]];
-const CALLS = [["Time (s)"], ["Seat"], ["Call"], ["Frequency", "number"], ["Said", "text"], ["Recognised", "text"], ["Confidence", "number"], ["To the air", "number"], ["Length", "number"], ["Blocked", "text"], ["Answered after", "number"]];
+const CALLS = [["Time (s)"], ["Seat"], ["Call"], ["Frequency", "number"], ["Said", "text"], ["Recognised", "text"], ["Confidence", "number"], ["To the air", "number"], ["To another's ear", "number"], ["Length", "number"], ["Blocked", "text"], ["Answered after", "number"]];
 const WORKLOAD = [["Seat"], ["ISA (mean of 1 to 5)", "number"], ["ISA", "text"], ["Raw TLX (0 to 100)", "number"], ["NASA-TLX", "text"]];
 const since = (row, t) => (known(t) ? seconds(t - row.t_advisory_s, 2) : "no");
 
@@ -8,7 +8,7 @@ function drawPeople() {
   byId("people").hidden = !data.length;
   fillTable(byId("people-table"), SEATS, data.map((one) => ({ cells: [
     one.seat, one.spoken_calls, one.typed_calls, one.commands, one.asked_to_say_again, one.readback_errors, one.readback_errors_heard,
-    known(one.press_to_transmit_s) ? seconds(one.press_to_transmit_s, 3) : "", known(one.reaction_time_s) ? seconds(one.reaction_time_s, 2) : "", one.unperceived ?? 0,
+    known(one.press_to_transmit_s) ? seconds(one.press_to_transmit_s, 3) : "", known(one.press_to_loudspeaker_s) ? seconds(one.press_to_loudspeaker_s, 2) : "", known(one.reaction_time_s) ? seconds(one.reaction_time_s, 2) : "", one.unperceived ?? 0,
   ] })));
   const rows = data.flatMap((one) => one.reactions.map((row) => ({ seat: one.seat, ...row }))).sort((a, b) => a.t_advisory_s - b.t_advisory_s);
   fillTable(byId("reactions-table"), REACTIONS, rows.map((row) => ({ t: row.t_advisory_s, cells: [
@@ -21,7 +21,7 @@ function drawPeople() {
   const some = (value, text) => (known(value) ? text(value) : "");
   fillTable(byId("people-calls-table"), CALLS, calls.map((row) => ({ t: row.t_s, cells: [
     timeButton(row.t_s), row.seat, row.way, some(row.frequency_khz, megahertz), row.said ?? "", row.recognised ?? "", some(row.confidence, percent),
-    some(row.to_air_s, (value) => seconds(value, 3)), some(row.length_s, seconds), known(row.blocked) ? (row.blocked ? "yes" : "no") : "never on the air",
+    some(row.to_air_s, (value) => seconds(value, 3)), some(row.to_loudspeaker_s, (value) => seconds(value, 2)), some(row.length_s, seconds), known(row.blocked) ? (row.blocked ? "yes" : "no") : "never on the air",
     some(row.answered_after_s, seconds),
   ] })));
   const asked = data.filter((one) => one.workload);

@@ -24,11 +24,15 @@ export class Loudspeaker {
   // Of each transmission: when its next piece is due, and those that are played.
   #playing = new Map();
   #waiting = new Map(); // pieces of the transmissions that are played when they have ended
+  #begun = new Set(); // transmissions that have begun, and of which no sound has come yet
+  #tell;
   #isWanted = false;
   #silent = html("span", { class: "note", role: "status", hidden: true });
   #volume = html("input", { type: "range", min: 0, max: 1, step: 0.05, value: 0.8 });
 
-  constructor() {
+  /** `tell(id, after)` is told in how many s the first sample of a transmission is audible. */
+  constructor(tell) {
+    this.#tell = tell;
     this.#volume.addEventListener("input", () => this.#setVolume());
     byId("hearing").append(html("label", {}, "Volume", this.#volume), this.#silent);
     for (const gesture of ["pointerup", "keydown"])
@@ -56,8 +60,7 @@ export class Loudspeaker {
   end() {
     this.#isWanted = false;
     this.#context?.suspend();
-    this.#playing.clear();
-    this.#waiting.clear();
+    for (const kept of [this.#playing, this.#waiting, this.#begun]) kept.clear();
     byId("hearing").hidden = true;
   }
 
@@ -67,11 +70,14 @@ export class Loudspeaker {
    */
   take(pieces, { isOwn, isDeaf, isSlow }) {
     for (const [phase, { id, pcm }] of pieces) {
+      const isHeard = !isOwn(id) && !isDeaf && this.#context?.state === "running";
+      if (phase === "opened" && isHeard) this.#begun.add(id);
+      keepNewest(this.#begun, MOST_OPEN);
       if (phase === "closed") this.#close(id);
-      if (pcm && !isOwn(id) && !isDeaf && this.#context?.state === "running") {
+      if (pcm && isHeard) {
         if (isSlow) this.#keep(id, pcm);
         else this.#play(id, pcm);
-      }
+      } else if (pcm) this.#begun.delete(id); // Its beginning is not heard.
     }
   }
 
@@ -94,7 +100,7 @@ export class Loudspeaker {
     const voice =
       url && this.#voice(url, begin + (pulses.length ? pulses.at(-1) + PULSE_S + 0.05 : 0));
     if (!pulses.length && !((await voice) && this.#isOn)) return null;
-    return (context.outputLatency || 0) + (context.baseLatency || 0);
+    return this.#delay;
   }
 
   /**
@@ -118,6 +124,7 @@ export class Loudspeaker {
     line ??= { due: now + Math.max(PIECE_S - buffer.duration, 0) + AHEAD_S, sources: [] };
     const due = Math.max(line.due, now + AHEAD_S);
     line.sources = [...line.sources.slice(-MOST_SOURCES), this.#start(buffer, due)];
+    if (this.#begun.delete(id) && this.#isOn) this.#tell(id, due - now + this.#delay);
     line.due = due + buffer.duration;
     this.#playing.set(id, line);
     keepNewest(this.#playing, MOST_OPEN);
@@ -161,8 +168,12 @@ export class Loudspeaker {
 
   #close(id) {
     for (const pcm of this.#waiting.get(id) ?? []) this.#play(id, pcm, true);
-    this.#waiting.delete(id);
-    this.#playing.delete(id);
+    for (const kept of [this.#playing, this.#waiting, this.#begun]) kept.delete(id);
+  }
+
+  /** Time in s from when a sample is due until it is audible, as far as the browser knows. */
+  get #delay() {
+    return (this.#context.outputLatency || 0) + (this.#context.baseLatency || 0);
   }
 
   /** True unless the volume is down: then nobody hears anything. */

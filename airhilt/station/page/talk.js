@@ -17,7 +17,7 @@ export class Talk {
   #live;
   #own = null;
   #microphone;
-  #loudspeaker = new Loudspeaker();
+  #loudspeaker;
   #advisories;
   #pace;
   #frequencies;
@@ -38,15 +38,13 @@ export class Talk {
       frequency: () => this.#frequencies.transmit,
       delay: (event) => this.#delay(event),
     });
+    this.#loudspeaker = new Loudspeaker((id, after) =>
+      live.send({ heard: { id, after_s: this.#afterArrival(after) } }),
+    );
     this.#advisories = new OwnAdvisories(
       run,
       (perceived) =>
-        live.send({
-          perceived: {
-            ...perceived,
-            after_s: Math.max(-10, Math.min(10, perceived.after_s - this.#roundTrip / 2)),
-          },
-        }),
+        live.send({ perceived: { ...perceived, after_s: this.#afterArrival(perceived.after_s) } }),
       (severity, url) => this.#loudspeaker.warn(severity, url),
     );
     this.#pace = new RunPace(run, (factor) =>
@@ -187,6 +185,11 @@ export class Talk {
     this.#phrases.setSeat(this.#own, info.phraseology);
     if (document.activeElement === byId("seat-take"))
       byId(info.has_sound ? "talk-button" : "words").focus();
+  }
+
+  /** Time from when a message of now is with the server until a time from now, in s. */
+  #afterArrival(after) {
+    return Math.max(-10, Math.min(10, after - this.#roundTrip / 2));
   }
 
   /** Time from an event on the page until a message of now is with the server, in s. */
