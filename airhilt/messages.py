@@ -969,14 +969,21 @@ class SeatListening(Message):
     )
 
 
-class VoiceConsent(Message):
-    """``consent/<seat>``: answer of the person at a seat who was told what becomes of the voice.
+class SeatConsent(Message):
+    """``consent/<seat>``: answer of the person at a seat who was told what becomes of the words.
 
     `SeatInfo` says if the voice is recorded, and so do the options of the run.
     """
 
     limit = Limit(size_bytes=500, rate_hz=5)
-    is_given: bool = Field(description="false: the microphone stays closed")
+    what: Literal["voice", "words"] = Field(
+        default="voice",
+        description="use to which the person agrees or not: of voice and typed words, or of typed "
+        "words alone",
+    )
+    is_given: bool = Field(
+        description="false: the microphone stays closed, or the words are not said"
+    )
 
 
 class AdvisoryPerceived(Message):
@@ -1482,7 +1489,7 @@ BUS_MESSAGES: dict[str, type[Message]] = {
     "speech/{seat}": SpokenWords,
     "microphone/{seat}": MicrophoneAudio,
     "listening/{seat}": SeatListening,
-    "consent/{seat}": VoiceConsent,
+    "consent/{seat}": SeatConsent,
     "perceived/{seat}": AdvisoryPerceived,
     "heard/{seat}": CallHeard,
     "pace": PaceCommand,

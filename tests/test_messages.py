@@ -31,13 +31,13 @@ from airhilt.messages import (
     PartialTranscript,
     RadarPlot,
     Recommendation,
+    SeatConsent,
     SeatListening,
     Severity,
     SpokenWords,
     Status,
     Transcript,
     Turn,
-    VoiceConsent,
     WorkerDescription,
     WorkloadAnswer,
     bus_message,
@@ -184,7 +184,7 @@ EXAMPLES: dict[str, dict[str, Any]] = {
     "WorkloadQuestion": {"seat": "TOWER", "number": 1, "scale": "isa"},
     "WorkloadAnswer": {"question": 1, "isa": 3},
     "SeatListening": {"frequencies_khz": [118_300]},
-    "VoiceConsent": {"is_given": True},
+    "SeatConsent": {"is_given": True},
     "SeatPresence": {"is_taken": True},
     "SeatInfo": {
         "seat": "TOWER", "frequencies_khz": [118_300], "has_sound": True, "is_recognised": True,
@@ -371,7 +371,7 @@ def test_the_schema_has_the_limit_of_every_key_that_others_publish_on() -> None:
     assert limits["advisory/{recipient}"] == {"size_bytes": 32_000, "rate_hz": 50}
     assert {MODELS[key] for key in limits} == {
         *WORKER_OUTPUTS.values(), PartialTranscript, ActorCommand, SpokenWords, MicrophoneAudio,
-        AdvisoryPerceived, CallHeard, PaceCommand, PageRefusal, SeatListening, VoiceConsent,
+        AdvisoryPerceived, CallHeard, PaceCommand, PageRefusal, SeatListening, SeatConsent,
         WorkloadAnswer,
     }  # fmt: skip
 

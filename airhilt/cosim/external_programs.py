@@ -31,11 +31,11 @@ from airhilt.messages import (
     PaceCommand,
     PageRefusal,
     PartialTranscript,
+    SeatConsent,
     SeatListening,
     SeatPresence,
     SpokenWords,
     Transcript,
-    VoiceConsent,
     WorkloadAnswer,
 )
 from airhilt.sensors.radio.conversation import FromSeat
@@ -54,7 +54,7 @@ HEARD: Mapping[str, type[Message]] = {
     "speech/*": SpokenWords,
     "microphone/*": MicrophoneAudio,
     "listening/*": SeatListening,
-    "consent/*": VoiceConsent,
+    "consent/*": SeatConsent,
     "perceived/*": AdvisoryPerceived,
     "heard/*": CallHeard,
     "pace": PaceCommand,
@@ -64,7 +64,7 @@ HEARD: Mapping[str, type[Message]] = {
 }
 """Messages of the keys that are heard; those on the last are refused, for a voice needs grants."""
 AT_SEATS = (
-    SpokenWords, MicrophoneAudio, SeatListening, VoiceConsent, AdvisoryPerceived, CallHeard,
+    SpokenWords, MicrophoneAudio, SeatListening, SeatConsent, AdvisoryPerceived, CallHeard,
     SeatPresence, WorkloadAnswer,
 )  # fmt: skip
 """Messages of people at seats."""
@@ -110,7 +110,7 @@ class ExternalPrograms:
     listen
         Takes to which frequencies the person at a seat, a part of keys, listens.
     consent
-        Takes whether the person at a seat agrees to the use of the voice.
+        Takes whether the person at a seat agrees to the use of the voice, or of typed words.
     occupy
         Called with a seat, as a part of keys, and true if a person has taken it, false if left.
     set_pace
@@ -141,7 +141,7 @@ class ExternalPrograms:
         units: Collection[str],
         keeps_voices: bool,
         listen: Callable[[str, SeatListening], None],
-        consent: Callable[[str, VoiceConsent], None],
+        consent: Callable[[str, SeatConsent], None],
         occupy: Callable[[str, bool], None],
         set_pace: Callable[[float], None],
         may_pause: bool,
@@ -259,7 +259,7 @@ class ExternalPrograms:
             self._take_from_seat(key.split("/")[1], stamped)
         elif isinstance(stamped, SeatListening):
             self._listen(key.split("/")[1], stamped)
-        elif isinstance(stamped, VoiceConsent):
+        elif isinstance(stamped, SeatConsent):
             self._consent(key.split("/")[1], stamped)
         elif isinstance(stamped, SeatPresence):
             self._occupy(key.split("/")[1], stamped.is_taken)

@@ -42,9 +42,9 @@ from airhilt.errors import AirhiltError
 from airhilt.messages import (
     Clock,
     Phase,
+    SeatConsent,
     SeatListening,
     Severity,
-    VoiceConsent,
     WorkerDescription,
 )
 from airhilt.metrics.collector import Collector
@@ -335,15 +335,16 @@ class Simulation:
             text = f"listens to {' and '.join(listed) or 'no frequency'}"
             self._event("seat", self._seat_name(seat), text)
 
-    def _take_consent(self, seat: str, told: VoiceConsent) -> None:
-        """Take in whether the person at a seat agrees to the use of the voice."""
+    def _take_consent(self, seat: str, told: SeatConsent) -> None:
+        """Take in whether the person at a seat agrees to the use of the voice, or of the words."""
         kept = "is" if self._setup.options.voice_recording else "is not"
-        text = (
-            f"agrees to speak; the voice {kept} recorded"
-            if told.is_given
-            else "keeps the microphone closed"
-        )
-        self._event("seat", self._seat_name(seat), text)
+        texts = {
+            ("voice", True): f"agrees to speak; the voice {kept} recorded",
+            ("voice", False): "keeps the microphone closed",
+            ("words", True): "agrees to type; the words are recorded",
+            ("words", False): "does not agree to type",
+        }
+        self._event("seat", self._seat_name(seat), texts[told.what, told.is_given])
 
     def _occupy(self, seat: str, is_taken: bool) -> None:
         """Take in that a person has taken a seat, a part of keys, or has left it."""

@@ -16,7 +16,7 @@ from fastapi import WebSocket, WebSocketDisconnect
 from pydantic import ValidationError
 
 from airhilt.errors import first_problem
-from airhilt.messages import MicrophoneAudio, PaceCommand, SeatListening, VoiceConsent
+from airhilt.messages import MicrophoneAudio, PaceCommand, SeatListening
 from airhilt.station.audiences import Audience, SeatViews
 from airhilt.station.changes import MOST_AT_ONCE, Changes, SeatChanges
 from airhilt.station.held_button import HeldButton, what_is_wrong_with
@@ -255,7 +255,7 @@ class Browsers:
         elif wish.tune is not None:
             await self._tune(browser, seat, frozenset(wish.tune))
         elif wish.consent is not None:
-            await asyncio.to_thread(self._run.consent, seat, VoiceConsent(is_given=wish.consent))
+            await asyncio.to_thread(self._run.consent, seat, wish.consent)
         elif wish.pace is not None:
             await self._set_pace(browser, seat, wish.pace)
 

@@ -28,10 +28,10 @@ from airhilt.messages import (
     MicrophoneAudio,
     PaceCommand,
     PageRefusal,
+    SeatConsent,
     SeatListening,
     SpokenWords,
     Transmission,
-    VoiceConsent,
     WorkloadAnswer,
     bus_message,
     worker_output,
@@ -203,8 +203,8 @@ class Subscription:
         key = f"{self._prefix}/listening/{key_chunk(seat)}"
         self._session.put(key, listening.model_dump_json())
 
-    def consent(self, seat: str, consent: VoiceConsent) -> None:
-        """Tell whether the person at a seat agrees to the use of the voice."""
+    def consent(self, seat: str, consent: SeatConsent) -> None:
+        """Tell whether the person at a seat agrees to the use of the voice, or of typed words."""
         self._session.put(f"{self._prefix}/consent/{key_chunk(seat)}", consent.model_dump_json())
 
     def perceive(self, seat: str, perceived: AdvisoryPerceived) -> None:

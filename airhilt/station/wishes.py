@@ -12,9 +12,9 @@ from airhilt.messages import (
     CallHeard,
     MicrophoneAudio,
     PaceCommand,
+    SeatConsent,
     SeatListening,
     SpokenWords,
-    VoiceConsent,
     WorkloadAnswer,
 )
 
@@ -49,8 +49,8 @@ class Wish(BaseModel):
         default=None, description="the transmit button is held: sound follows in binary messages"
     )
     release: bool | None = Field(default=None, description="the transmit button is held no more")
-    consent: bool | None = Field(
-        default=None, description="the person agrees to the use of the voice, or does not"
+    consent: SeatConsent | None = Field(
+        default=None, description="to the use of the voice, or of typed words"
     )
     perceived: AdvisoryPerceived | None = Field(
         default=None, description="an advisory to the own seat was drawn or is audible"
@@ -99,8 +99,8 @@ class RunLink(Protocol):
     def listen(self, seat: str, listening: SeatListening) -> None:
         """Tell to which frequencies the person at a seat listens."""
 
-    def consent(self, seat: str, consent: VoiceConsent) -> None:
-        """Tell whether the person at a seat agrees to the use of the voice."""
+    def consent(self, seat: str, consent: SeatConsent) -> None:
+        """Tell whether the person at a seat agrees to the use of the voice, or of typed words."""
 
     def perceive(self, seat: str, perceived: AdvisoryPerceived) -> None:
         """Tell that an advisory has reached the person at a seat."""

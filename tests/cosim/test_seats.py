@@ -231,12 +231,15 @@ def test_what_a_person_listens_to_and_agrees_to_is_in_the_log_and_replays(tmp_pa
     given = [
         taken("OPS1"), listening(1.1, 119_100), listening(5.0), listening(8.0, 119_100),
         message("consent/OPS1", 9.0, is_given=False), message("consent/OPS1", 10.0, is_given=True),
+        message("consent/OPS1", 11.0, what="words", is_given=False),
+        message("consent/OPS1", 11.5, what="words", is_given=True),
     ]  # fmt: skip
     log = logged(tower(12.0), tmp_path / "run", ["OPS1"], given)
     events = [one["text"] for one in contents(log, "truth/event") if one["kind"] == "seat"]
     assert events == [
         "a person has it", "listens to no frequency", "listens to 119.100 MHz",
         "keeps the microphone closed", "agrees to speak; the voice is recorded",
+        "does not agree to type", "agrees to type; the words are recorded",
     ]  # fmt: skip
     heard = [one["frequencies_khz"] for one in contents(log, "listening/OPS1")]
     assert heard == [[119_100], [], [119_100]]

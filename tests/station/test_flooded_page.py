@@ -13,6 +13,7 @@ from airhilt.station.calls import MOST_LETTERS, MOST_TRANSCRIPTS
 from airhilt.station.live import LiveRun
 from breadth import mostly_slow
 from devtools import Page
+from microphone import SAY
 from stations import PATIENCE_S, PretendedRun, seat_page
 
 pytestmark = pytest.mark.browser
@@ -28,8 +29,6 @@ SHOWN = """({
     cards: document.querySelectorAll('#tasks > li').length,
     events: document.getElementById('events').options.length,
 })"""
-SAY = "document.getElementById('words').value && document.getElementById('say-button').click()"
-"""Says what is in the field, if there is anything."""
 KEPT = """import(new URL('page/model.js', location)).then(({ Run }) => {
     const none = { tracks: [], calls: [], events: [], advisories: [], spoken: [], cameras: [] };
     const run = new Run({ ...none, scenario: { name: '' } });

@@ -22,6 +22,7 @@ from airhilt.station.connection import RunConnection
 from airhilt.station.subscription import Subscription
 from airhilt.station.wishes import Claimed
 from devtools import Page
+from microphone import SAY
 from stations import TOWER, PretendedRun, running, seat_page
 
 PATIENCE_S = 90.0
@@ -327,7 +328,7 @@ def test_a_person_takes_a_seat_and_says_what_the_script_has(
         words = page.evaluate("document.querySelector('#tasks button').textContent")
         page.evaluate("document.querySelector('#tasks button').click()")
         assert page.evaluate("document.getElementById('words').value") == words
-        page.evaluate("document.getElementById('say-button').click()")
+        page.evaluate(SAY)
         page.wait_for("document.querySelector('#calls button')")
         page.wait_for("!document.querySelector('#tasks button')")
         page.open("about:blank")

@@ -21,6 +21,7 @@ from loudspeaker import COUNT_PIECES, piece
 from microphone import (
     BUTTON,
     FAKE,
+    SAY,
     microphone_file,
     open_microphone,
     page_with_microphone,
@@ -178,7 +179,7 @@ def test_who_is_denied_the_microphone_is_told_and_can_type(
         open_microphone(page)
         assert "Type what you want to say" in page.evaluate(STATE)
         page.evaluate("document.getElementById('words').value = 'hello'")
-        page.click("say-button")
+        page.evaluate(SAY)
     assert run.next() == SpokenWords(text="hello")
 
 
@@ -230,7 +231,7 @@ def test_who_leaves_the_seat_has_no_open_microphone(
         page.evaluate(GRANTED)
         if is_late:
             page.click("talk-button")
-            page.click("consent-open")
+            page.click("consent-agree")
         else:
             page.evaluate("window.grant()")
             open_microphone(page)

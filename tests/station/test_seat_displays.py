@@ -19,6 +19,7 @@ from airhilt.station.browsers import Browsers
 from airhilt.station.pictures import Picture
 from devtools import Page
 from loudspeaker import COUNT_PIECES, PIECES, piece
+from microphone import SAY
 from stations import PATIENCE_S, TOWER, PretendedRun, seat_page
 
 pytestmark = pytest.mark.browser
@@ -106,7 +107,7 @@ def seated(
 def commands(run: PretendedRun, page: Page) -> list[str]:
     """Return the actions of the commands that the page has sent so far."""
     page.evaluate("document.getElementById('words').value = 'over'")
-    page.evaluate("document.getElementById('say-button').click()")
+    page.evaluate(SAY)
     actions = []
     while not isinstance(wish := run.next(), SpokenWords):
         actions.append(wish.action)
@@ -379,7 +380,7 @@ def test_words_that_could_not_be_said_stay_in_the_field(page: Page) -> None:
     with seated(page, "TOWER") as run:
         page.evaluate(f"{words} = 'American 123, hold.'")
         page.evaluate(f"{closed}; null")
-        page.click("say-button")
+        page.evaluate(SAY)
         page.wait_for(
             "document.getElementById('seat-state').textContent.includes('Nothing was said')"
         )
@@ -409,12 +410,12 @@ def test_words_that_were_lost_with_the_connection_are_given_back_and_those_heard
     with seated(page, "TOWER") as run:
         monkeypatch.setattr(Browsers, "_do", do_until_it_ends)
         page.evaluate(f"{words} = 'American 123, hold.'")
-        page.evaluate("document.getElementById('say-button').click()")
+        page.evaluate(SAY)
         page.wait_for(f"{told}.includes('before the station had heard your last words')")
         page.wait_for("document.getElementById('link').hidden")
         assert page.evaluate(f"{told}.includes('say them again')")
         assert page.evaluate(words) == "American 123, hold."
-        page.evaluate("document.getElementById('say-button').click()")
+        page.evaluate(SAY)
         assert run.next().text == "American 123, hold."
         page.wait_for("!document.getElementById('link').hidden")
         page.wait_for("document.getElementById('link').hidden")
@@ -490,11 +491,7 @@ def test_words_that_were_lost_come_before_those_that_are_typed_meanwhile(
 ) -> None:
     words = "document.getElementById('words').value"
     with seated(page, "TOWER") as run, lost_at("say", monkeypatch):
-        page.evaluate(f"""(() => {{
-            {words} = 'American 123, hold.';
-            document.getElementById('say-button').click();
-            {words} = 'Delta 45';
-        }})()""")
+        page.evaluate(f"{words} = 'American 123, hold.'; {SAY}; {words} = 'Delta 45'")
         page.wait_for(f"{words} !== 'Delta 45'")
         assert page.evaluate(words) == "American 123, hold. Delta 45"
         assert run.done.empty()

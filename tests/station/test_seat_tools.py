@@ -19,10 +19,10 @@ from airhilt.messages import (
     AdvisoryAudio,
     Evidence,
     NasaTlx,
+    SeatConsent,
     SeatListening,
     Severity,
     SpokenWords,
-    VoiceConsent,
 )
 from airhilt.record import Logged
 from airhilt.station import browsers, seat_book
@@ -33,6 +33,7 @@ from airhilt.station.subscription import Sound
 from devtools import Page
 from microphone import (
     BUTTON,
+    SAY,
     microphone_file,
     open_microphone,
     page_with_microphone,
@@ -117,19 +118,72 @@ def test_the_run_is_told_what_is_listened_to_when_it_changes() -> None:
         assert run.settings.empty()
 
 
+ASKED = "document.getElementById('consent').open"
+WORDS = "document.getElementById('words').value"
+
+
+def consent(run: PretendedRun) -> SeatConsent:
+    """Return the next answer about voice or words."""
+    while not isinstance(told := run.settings.get(timeout=PATIENCE_S), SeatConsent):
+        assert isinstance(told, SeatListening)
+    return told
+
+
+def leave(page: Page) -> None:
+    page.evaluate("document.getElementById('consent').close()")
+    page.click("seat-take")
+    page.wait_for("document.getElementById('say').hidden")
+
+
 @pytest.mark.browser
-@pytest.mark.parametrize(("button", "is_given"), [("consent-open", True), ("consent-type", False)])
+@pytest.mark.parametrize(
+    ("button", "is_given"), [("consent-agree", True), ("consent-decline", False)]
+)
 def test_the_run_is_told_if_the_person_agrees_to_the_use_of_the_voice(
     page: Page, seat: tuple[PretendedRun, str], button: str, is_given: bool
 ) -> None:
     run, url = seat
     sit_down(page, url)
     page.click("talk-button")
-    page.wait_for("document.getElementById('consent').open")
+    page.wait_for(ASKED)
     page.click(button)
-    while not isinstance(told := run.settings.get(timeout=PATIENCE_S), VoiceConsent):
-        assert isinstance(told, SeatListening)
-    assert told.is_given is is_given
+    assert consent(run) == SeatConsent(what="voice", is_given=is_given)
+    page.evaluate(f"{WORDS} = 'Ready.'")
+    page.click("say-button")
+    assert page.evaluate(ASKED) is not is_given  # Who lets the voice be used may type.
+    if is_given:
+        assert run.next() == SpokenWords(text="Ready.")
+    leave(page)
+    page.open("about:blank")
+
+
+@pytest.mark.browser
+def test_who_only_types_is_asked_once_before_anything_is_said(
+    page: Page, seat: tuple[PretendedRun, str]
+) -> None:
+    run, url = seat
+    sit_down(page, url)
+    page.evaluate(f"{WORDS} = 'Ready.'")
+    page.click("say-button")
+    assert page.evaluate(ASKED)
+    assert "kept as text" in page.evaluate("document.getElementById('consent').innerText")
+    page.click("consent-decline")
+    assert consent(run) == SeatConsent(what="words", is_given=False)
+    assert page.evaluate(WORDS) == "Ready."
+    page.click("say-button")
+    page.click("consent-agree")
+    assert consent(run) == SeatConsent(what="words", is_given=True)
+    assert run.next() == SpokenWords(text="Ready.")
+    page.evaluate(f"{WORDS} = 'Ready again.'")
+    page.click("say-button")
+    assert run.next() == SpokenWords(text="Ready again.")
+    leave(page)
+    page.click("seat-take")  # The next person has not agreed to anything.
+    page.wait_for("!document.getElementById('talk').hidden")
+    page.evaluate(f"{WORDS} = 'Ready.'")
+    page.click("say-button")
+    assert page.evaluate(ASKED)
+    leave(page)
     page.open("about:blank")
 
 
@@ -165,7 +219,7 @@ def test_a_phrase_is_chosen_and_the_workload_is_rated(seat: tuple[PretendedRun, 
         page.wait_for(f"{hold}.some((one) => one.title === 'Ops one, hold position.')")
         page.evaluate(f"{hold}.find((one) => one.title === 'Ops one, hold position.').click()")
         page.press("Enter", 13)
-        page.click("say-button")
+        page.evaluate(SAY)
         assert run.next() == SpokenWords(text="Ops one, hold position.")
         run.seat.add("question", 1, "isa", 0.0)
         page.wait_for("!document.getElementById('isa').hidden")

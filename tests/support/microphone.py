@@ -19,6 +19,12 @@ PAUSE_S = 5.0
 """Silence after the words, before they come again."""
 FAKE = ("--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream")
 BUTTON = "document.getElementById('talk-button').textContent"
+SAY = """(() => {
+    document.getElementById('say-button').click();
+    const consent = document.getElementById('consent');
+    if (consent.open) document.getElementById('consent-agree').click();
+})()"""
+"""Script that says what is typed, and agrees to that if it is asked."""
 SAID = """new Promise((done) => {
     let last = null;
     const look = setInterval(() => {
@@ -67,7 +73,7 @@ def open_microphone(page: Page) -> None:
     """Consent to the microphone, and wait until it can be used or is refused."""
     page.click("talk-button")
     page.wait_for("document.getElementById('consent').open")
-    page.click("consent-open")
+    page.click("consent-agree")
     told = "document.getElementById('talk-state').textContent.includes('Type')"
     page.wait_for(f"{BUTTON} === 'Hold to talk' || {told}")
 

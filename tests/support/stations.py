@@ -29,11 +29,11 @@ from airhilt.messages import (
     Message,
     MicrophoneAudio,
     PaceCommand,
+    SeatConsent,
     SeatInfo,
     SeatListening,
     Severity,
     SpokenWords,
-    VoiceConsent,
     WorkloadAnswer,
 )
 from airhilt.station.address import Address
@@ -185,7 +185,7 @@ class PretendedRun:
     def __init__(self, seats: Sequence[SeatInfo] = (TOWER,)) -> None:
         self.done: queue.Queue[Message | Command] = queue.Queue()
         self.heard: queue.Queue[CallHeard] = queue.Queue()
-        self.settings: queue.Queue[SeatListening | VoiceConsent] = queue.Queue()
+        self.settings: queue.Queue[SeatListening | SeatConsent] = queue.Queue()
         """Settings of the radio of a seat, and answers about the voice."""
         self.presence: queue.Queue[tuple[str, bool]] = queue.Queue()
         self.changes, self.sounds = Changes(), Changes()
@@ -222,7 +222,7 @@ class PretendedRun:
         """Note what is listened to, apart from what is done."""
         self.settings.put(listening)
 
-    def consent(self, seat: str, consent: VoiceConsent) -> None:
+    def consent(self, seat: str, consent: SeatConsent) -> None:
         """Note an answer about the voice, apart from what is done."""
         self.settings.put(consent)
 

@@ -3,6 +3,7 @@
 import { Advisories } from "./advisories.js";
 import { Cameras } from "./cameras.js";
 import { Clock, FollowingClock } from "./clock.js";
+import { Consent } from "./consent.js";
 import { byId, html } from "./dom.js";
 import { connectKeys, timeKeys } from "./keys.js";
 import { Latencies } from "./latencies.js";
@@ -82,8 +83,9 @@ async function begin() {
   });
   clock.listen(() => panes.forEach((pane) => pane.draw()));
   clock.animate(() => plan.draw());
-  const seat = live ? new Seat(run, live, clock, cameras) : null;
-  const talk = live ? new Talk(run, live) : null;
+  const consent = live ? new Consent((wish) => live.send(wish)) : null;
+  const seat = live ? new Seat(run, live, clock, cameras, consent) : null;
+  const talk = live ? new Talk(run, live, consent) : null;
   if (live) for (const pane of [transcript, seat]) pane.hearOnly(() => talk.heard);
   live?.connect({
     plan,

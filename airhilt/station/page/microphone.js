@@ -19,8 +19,10 @@ const AUDIO = {
 };
 const CONSENT =
   "What you say while you hold the button goes to this run. It is recognised, and everybody in the run hears it.";
-const RECORDED = "It is recorded in the folder of the run, as sound and as text.";
-const NOT_RECORDED = "Its sound is not recorded. The words are, as they were recognised.";
+const RECORDED =
+  "It is recorded in the folder of the run, as sound and as text. What you type is kept there too.";
+const NOT_RECORDED =
+  "Its sound is not recorded. The words are, as they were recognised, and so is what you type.";
 
 export class Microphone {
   #link;
@@ -31,8 +33,8 @@ export class Microphone {
   #held = false;
 
   /**
-   * `link` has send(wish), sendSound(buffer), unsent(), isThere(), frequency(), and delay(event),
-   * the time since an event in s.
+   * `link` has send(wish), sendSound(buffer), unsent(), isThere(), frequency(), consent, and
+   * delay(event), the time since an event in s.
    */
   constructor(link) {
     this.#link = link;
@@ -52,16 +54,6 @@ export class Microphone {
     window.addEventListener("keydown", (event) => this.#key(event, true), { capture: true });
     window.addEventListener("keyup", (event) => this.#key(event, false), { capture: true });
     new GamepadButton((event, isDown) => this.#use(event, isDown));
-    byId("consent-open").addEventListener("click", () => {
-      byId("consent").close();
-      this.#link.send({ consent: true });
-      this.#open();
-    });
-    byId("consent-type").addEventListener("click", () => {
-      byId("consent").close();
-      this.#link.send({ consent: false });
-      this.#tell("The microphone is closed.");
-    });
     this.#draw();
   }
 
@@ -129,9 +121,11 @@ export class Microphone {
   }
 
   #ask() {
-    byId("consent-text").textContent =
-      `${CONSENT} ${this.#info.voice_is_recorded ? RECORDED : NOT_RECORDED}`;
-    byId("consent").showModal();
+    const text = `${CONSENT} ${this.#info.voice_is_recorded ? RECORDED : NOT_RECORDED}`;
+    this.#link.consent.ask("voice", text, (isGiven) => {
+      if (isGiven) this.#open();
+      else this.#tell("The microphone is closed.");
+    });
   }
 
   async #open() {

@@ -7,6 +7,8 @@ import { Rows } from "./rows.js";
 import { bearing, feet, known, percent, seconds, whole, words } from "./words.js";
 
 const MOST_TASKS = 50; // cards at a time, the newest
+const CONSENT =
+  "What you type goes to this run. It is said on the radio for everybody in the run, and kept as text in the folder of the run.";
 
 export class Seat {
   #run;
@@ -17,9 +19,11 @@ export class Seat {
   #rows = new Rows(byId("tasks"));
   #displays;
   #clock;
+  #consent;
 
-  constructor(run, live, clock, cameras) {
+  constructor(run, live, clock, cameras, consent) {
     this.#run = run;
+    this.#consent = consent;
     this.#clock = clock;
     this.#live = live;
     byId("seat").hidden = !run.seats?.length;
@@ -50,7 +54,11 @@ export class Seat {
     });
     byId("say").addEventListener("submit", (event) => {
       event.preventDefault();
-      this.#say();
+      if (!byId("words").value.trim()) return;
+      this.#consent.ask("words", CONSENT, (isGiven) => {
+        if (isGiven) this.#say();
+        else this.refuse("Nothing was said.");
+      });
     });
     this.setSeats({});
   }
@@ -205,7 +213,6 @@ export class Seat {
 
   #say() {
     const text = byId("words").value.trim();
-    if (!text) return;
     byId("words").value = "";
     this.refuse("");
     this.#live.wish({ say: { text } }, { lost: (wasSent) => this.#takeBack(text, wasSent) });

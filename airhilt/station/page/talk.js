@@ -15,6 +15,7 @@ const CUT = "Your call was cut"; // how the run, or the station, tells that a ca
 export class Talk {
   #run;
   #live;
+  #consent;
   #own = null;
   #microphone;
   #loudspeaker;
@@ -27,9 +28,10 @@ export class Talk {
   #isBehind = false; // what comes was sent while the connection was lost
   #asked = null; // when the echo was asked for that ends this
 
-  constructor(run, live) {
+  constructor(run, live, consent) {
     this.#run = run;
     this.#live = live;
+    this.#consent = consent;
     this.#microphone = new Microphone({
       send: (wish) => live.send(wish),
       sendSound: (buffer) => live.sendSound(buffer),
@@ -37,6 +39,7 @@ export class Talk {
       isThere: () => live.isThere,
       frequency: () => this.#frequencies.transmit,
       delay: (event) => this.#delay(event),
+      consent,
     });
     this.#loudspeaker = new Loudspeaker((id, after) =>
       live.send({ heard: { id, after_s: this.#afterArrival(after) } }),
@@ -118,6 +121,7 @@ export class Talk {
       return;
     }
     this.#own = own;
+    this.#consent.forget();
     if (own) {
       this.#loudspeaker.begin();
       this.#takeActive();
