@@ -6,13 +6,17 @@ import csv
 import json
 import shutil
 import time
+from base64 import b64decode
 from collections.abc import Iterator
 from contextlib import contextmanager
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 import httpx
+import numpy as np
 import pytest
+from PIL import Image
 
 from airhilt.library import find
 from airhilt.station.started_runs import StartedRuns
@@ -129,6 +133,43 @@ def test_no_answer_of_a_scale_touches_another_one(page: Page, tmp_path: Path, wi
         assert page.evaluate("document.querySelectorAll('#items label').length") == 11
         assert page.evaluate(CRAMPED) == []
         page.open("about:blank")
+
+
+SLIDER = "document.querySelector('#items input')"
+
+
+def places(page: Page) -> int:
+    """Return how many different columns of pixels the middle of the first slider has."""
+    x, y, width, height = page.evaluate(
+        f"(({{x, y, width, height}}) => [x, y, width, height])({SLIDER}.getBoundingClientRect())"
+    )
+    clip = {"x": x + 0.1 * width, "y": y, "width": 0.8 * width, "height": height, "scale": 1}
+    shot = b64decode(page.call("Page.captureScreenshot", clip=clip)["data"])
+    pixels = np.asarray(Image.open(BytesIO(shot)).convert("RGB"))
+    return len(np.unique(pixels, axis=1)[0])
+
+
+@pytest.mark.browser
+def test_a_slider_shows_no_answer_before_there_is_one(page: Page, tmp_path: Path) -> None:
+    asked = {"before": PLAN["questions"]["after_trial"]}
+    (tmp_path / "plan.json").write_text(json.dumps(PLAN | {"questions": asked}))
+    options = ["--participant", "P01", "--out", str(tmp_path / "out")]
+    with experimenting(tmp_path / "plan.json", *options) as url:
+        for dark in (True, False):
+            page.open(url, dark=dark)
+            heading(page, "Questions before the first trial")
+            assert places(page) == 1
+            assert page.evaluate(f"{SLIDER}.getAttribute('aria-valuetext')") == "not answered"
+        page.evaluate(SUBMIT)
+        assert "How much did you trust it?" in page.evaluate(NOTES)
+        page.evaluate(f"{SLIDER}.focus()")
+        page.press("ArrowRight", 39)
+        assert places(page) > 1
+        assert page.evaluate(f"{SLIDER}.getAttribute('aria-valuetext')") is None
+        page.evaluate(SUBMIT)
+        heading(page, "Trial 1 of 1")
+        page.open("about:blank")
+    assert json.loads((tmp_path / "out" / "P01" / "before.json").read_text()) == {"trust": 51}
 
 
 @pytest.mark.browser

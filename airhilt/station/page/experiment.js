@@ -37,7 +37,7 @@ const QUESTIONNAIRES = {
   before: [() => "Questions before the first trial", "Please answer each question."],
   nasa_tlx: [
     afterTrial,
-    "How was the trial that you have just done? Move each slider to where it fits.",
+    "How was the trial that you have just done? Click on each line where it fits.",
   ],
   after_trial: [afterTrial, "Please answer each question about the trial that you have just done."],
   end: [() => "Questions at the end", "Please answer each question."],

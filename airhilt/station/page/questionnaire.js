@@ -52,12 +52,14 @@ export class Questionnaire {
       step: interval,
       value: first + Math.floor((steps - 1) / 2) * interval,
       class: "untouched",
+      "aria-valuetext": "not answered",
       "aria-label": title ? `${title}. ${question}` : question,
     });
     for (const event of ["input", "click"])
       input.addEventListener(event, () => {
         this.#answers[name] = Number(input.value);
         input.classList.remove("untouched");
+        input.removeAttribute("aria-valuetext");
       });
     return html(
       "label",

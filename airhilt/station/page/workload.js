@@ -82,7 +82,7 @@ export class Workload {
   #give() {
     const { missing } = this.#tlx;
     if (missing.length)
-      byId("tlx-state").textContent = `Move or click these as well: ${missing.join(", ")}.`;
+      byId("tlx-state").textContent = `Click on these lines as well: ${missing.join(", ")}.`;
     else this.#close({ nasa_tlx: this.#tlx.answers });
   }
 
