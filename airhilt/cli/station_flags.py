@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, TypeVar, cast
 
 import click
+from click.core import ParameterSource
 
 from airhilt.errors import StationError
 from airhilt.station.address import DEFAULT_HOST, DEFAULT_PORT, Address
@@ -96,6 +97,26 @@ def station_options(command: F) -> F:
     ):  # fmt: skip
         decorated = option(decorated)
     return cast("F", decorated)
+
+
+def refuse_page_options(missing: str) -> None:
+    """Complain about the options of a page that the current command does not open.
+
+    Parameters
+    ----------
+    missing
+        Options without which it opens none.
+
+    Raises
+    ------
+    click.UsageError
+        One was given.
+    """
+    context = click.get_current_context()
+    for field in fields(PageOptions):
+        if context.get_parameter_source(field.name) is ParameterSource.COMMANDLINE:
+            flag = f"--{field.name.replace('_', '-')}"
+            raise click.UsageError(f"{flag} would do nothing without {missing}")
 
 
 def _check_certificate(certificate: Path | None, key: Path | None) -> None:

@@ -6,6 +6,8 @@ import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
+import pytest
+
 Cli = Callable[..., subprocess.CompletedProcess[str]]
 
 
@@ -32,3 +34,28 @@ def test_an_open_address_is_refused_before_the_run_is_read(
     done = airhilt_command("view", recorded_run, "--host", "0.0.0.0", "--no-browser")
     assert done.returncode == 2
     assert "other machines can reach it" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("options", "told"),
+    [
+        (["--host", "0.0.0.0"], "--host would do nothing without --view or --seat"),
+        (["--no-browser"], "--no-browser would do nothing without --view or --seat"),
+        (["--port", "8420"], "--port would do nothing without --view or --seat"),
+    ],
+)
+def test_options_of_a_page_are_refused_in_a_run_without_one(
+    airhilt_command: Cli, tmp_path: Path, options: list[str], told: str
+) -> None:
+    done = airhilt_command("cosim", "--scenario=s02a_headon", f"--out={tmp_path / 'run'}", *options)
+    assert done.returncode == 2
+    assert told in done.stderr
+    assert not (tmp_path / "run").exists()
+
+
+def test_options_of_a_page_are_refused_where_no_participant_is_led(
+    airhilt_command: Cli, tmp_path: Path
+) -> None:
+    done = airhilt_command("experiment", tmp_path / "plan.json", "--host", "0.0.0.0")
+    assert done.returncode == 2
+    assert "--host would do nothing without --participant" in done.stderr

@@ -11,7 +11,7 @@ import click
 from airhilt.cli.notices import tell
 from airhilt.cli.output import echo_json
 from airhilt.cli.parameters import allow_path_option
-from airhilt.cli.station_flags import PageOptions, station_options
+from airhilt.cli.station_flags import PageOptions, refuse_page_options, station_options
 
 if TYPE_CHECKING:
     from airhilt.options import Options
@@ -75,6 +75,8 @@ def cosim(
     from airhilt.world.loading import load
 
     options = options_given(context)
+    if not view and not options.seat:
+        refuse_page_options("--view or --seat")
     loaded = load(scenario, allowed)
     with ExitStack() as stack:
         if view or options.seat:

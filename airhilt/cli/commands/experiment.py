@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from airhilt.cli.notices import tell
-from airhilt.cli.station_flags import PageOptions, station_options
+from airhilt.cli.station_flags import PageOptions, refuse_page_options, station_options
 
 if TYPE_CHECKING:
     from airhilt.station.experiment import Progress
@@ -50,6 +50,8 @@ def experiment(
     from airhilt.configuration import read_configuration
     from airhilt.station.plan import plan_of
 
+    if participant is None:
+        refuse_page_options("--participant")
     plan = plan_of(read_configuration(plan_file), str(plan_file))
     plan.check()
     folder = (out or Path("experiments") / plan_file.stem).resolve()
