@@ -39,6 +39,8 @@ from airhilt.units import SECOND_NS, seconds_to_ns
 FOLLOWED_WITHIN_S = 30.0
 """Time from perceiving an advisory in which the advised action counts as following it, in s: an
 assumption. TCAS asks crews for 5 s (ICAO Doc 8168, volume III), controllers take longer."""
+NEXT_WITHIN_S = 30.0
+"""Time after a call in which that of another person may be the answer, in s: as for readbacks."""
 Advised = tuple[str, int, str]
 """Id, revision and recipient of an advisory."""
 
@@ -170,6 +172,8 @@ class PeopleRecords:
         self._seats = {seat: _Seat(PersonCalls(seat)) for seat in seats}
         self._advisories: dict[Advised, Advisory] = {}
         self._voices_ns: dict[Advised, int] = {}
+        self._on_air: list[SpokenTruth] = []
+        """Calls of everybody, if there are seats."""
         self._heard_ns: dict[str, dict[str, int]] = {}
         """Times at which calls were audible, by their ids and by seats."""
         self._first_pace = pace
@@ -191,6 +195,8 @@ class PeopleRecords:
                 self._seats[error.reader].readback_errors += 1
             if error.giver in self._seats:
                 self._seats[error.giver].readback_errors_heard += 1
+        if self._seats and isinstance(message, SpokenTruth):
+            self._on_air.append(message)
         for seat in self._seats.values():
             seat.calls.take(message)
         match message:
@@ -271,7 +277,7 @@ class PeopleRecords:
         delays_s = [delay_s for person in seat.people for delay_s in person.delays_s]
         reactions = [one for person in seat.people for one in self._reactions(person)]
         times_s = [one.reaction_time_s for one in reactions if one.reaction_time_s is not None]
-        calls = seat.calls.rows(partial(self._heard_after, name))
+        calls = seat.calls.rows(partial(self._heard_after, name), self._next_call)
         heard_s = [
             call.to_loudspeaker_s
             for call in calls
@@ -305,6 +311,21 @@ class PeopleRecords:
             for seat, heard_ns in self._heard_ns.get(call, {}).items()
             if seat != speaker
         ]
+
+    def _next_call(self, said: SpokenTruth) -> SpokenTruth | None:
+        """Return the next call on the frequency, None unless another person made it soon."""
+        later = (
+            one
+            for one in self._on_air
+            if one.frequency_khz == said.frequency_khz and one.t_tx_ns >= said.t_end_ns
+        )
+        found = min(later, default=None, key=lambda one: one.t_tx_ns)
+        if found is None or found.t_tx_ns > said.t_end_ns + round(NEXT_WITHIN_S * SECOND_NS):
+            return None
+        seat = self._seats.get(found.speaker)
+        if seat is None or found.speaker == said.speaker or not seat.calls.made(found.id):
+            return None
+        return found
 
     def _reactions(self, person: _Person) -> list[PersonReaction]:
         names = person.perceived_names & self._advisories.keys()

@@ -17,6 +17,11 @@ HeardAfter = Callable[[str, int], Sequence[float | None]]
 call from its beginning; None where time did not pass as on the clock."""
 
 
+NextCall = Callable[[SpokenTruth], SpokenTruth | None]
+"""Call of another person that came next after one on the air, perhaps as an answer; None: none
+did."""
+
+
 @dataclass
 class _Call:
     way: Literal["spoken", "typed"]
@@ -67,16 +72,22 @@ class PersonCalls:
                 if (call := self._on_air(name)) is not None and call.transcript is None:
                     call.transcript = message
 
-    def rows(self, heard: HeardAfter) -> list[PersonCall]:
+    def made(self, name: str) -> bool:
+        """Return true if a person made the call that was on the air as a transmission."""
+        return self._on_air(name) is not None
+
+    def rows(self, heard: HeardAfter, next_call: NextCall) -> list[PersonCall]:
         """Return what is known of each call, in the order in which they were begun.
 
         Parameters
         ----------
         heard
             Tells how soon other people heard a call.
+        next_call
+            Tells which call of another person came next.
         """
         in_order = sorted(self._calls, key=lambda call: call.since_ns)
-        return [_row(call, heard) for call in in_order]
+        return [_row(call, heard, next_call) for call in in_order]
 
     def _begun_by(self, said: SpokenTruth) -> _Call | None:
         """Return the call that a transmission of the seat is, None if no person made it."""
@@ -96,8 +107,9 @@ class PersonCalls:
         return next((call for call in self._calls if call.said and call.said.id == name), None)
 
 
-def _row(call: _Call, heard: HeardAfter) -> PersonCall:
+def _row(call: _Call, heard: HeardAfter, next_call: NextCall) -> PersonCall:
     said, transcript, answer = call.said, call.transcript, call.answer
+    then = None if said is None else next_call(said)
     return PersonCall(
         way=call.way,
         t_s=call.since_ns / SECOND_NS,
@@ -109,6 +121,10 @@ def _row(call: _Call, heard: HeardAfter) -> PersonCall:
         **({} if said is None else _of_hearing(heard(said.id, call.since_ns))),
         answered_after_s=(
             None if said is None or answer is None else (answer.t_tx_ns - said.t_end_ns) / SECOND_NS
+        ),
+        next_call=None if then is None else then.id,
+        next_call_after_s=(
+            None if said is None or then is None else (then.t_tx_ns - said.t_end_ns) / SECOND_NS
         ),
     )
 

@@ -184,6 +184,14 @@ class PersonCall(BaseModel):
     answered_after_s: float | None = Field(
         default=None, description="from the end of the call to the beginning of that answer"
     )
+    next_call: str | None = Field(
+        default=None,
+        description="id of the next transmission on the frequency, if another person made it "
+        "within 30 s: perhaps the answer of that person",
+    )
+    next_call_after_s: float | None = Field(
+        default=None, description="from the end of the call to the beginning of that transmission"
+    )
 
 
 class IsaRating(BaseModel):

@@ -506,6 +506,39 @@ def test_no_delay_is_measured_of(others: list[tuple[float, str, Message]], heard
     assert found.press_to_loudspeaker_s is None
 
 
+def reply(t_s: float, **more: Any) -> list[tuple[float, str, Message]]:
+    """Return a call that somebody at the tower types, and as it is on the air."""
+    given = {"speaker": "Tower", "addressed": "AAL1", "text": "roger"} | more
+    return [
+        (t_s, "speech/Tower", SpokenWords(text="roger")),
+        on_air("seat.Tower.1", t_s, t_s + 1.0, **given),
+    ]
+
+
+def test_a_call_names_the_call_of_another_person_that_came_next() -> None:
+    (row,) = of_three(*TALK, *reply(13.5)).calls
+    assert (row.next_call, row.next_call_after_s) == ("seat.Tower.1", 1.5)
+    assert (row.answer, row.answered_after_s) == (None, None)  # Nobody knows if it is one.
+
+
+@pytest.mark.parametrize(
+    "then",
+    [
+        reply(42.5),
+        reply(13.5, frequency_khz=121_700),
+        reply(11.5),
+        [on_air("readback", 12.5, 13.0, speaker="UAL9"), *reply(13.5)],
+        [on_air("landing", 13.5, 14.5, speaker="Tower")],
+        [(13.0, "speech/AAL1", SpokenWords(text="x")), on_air("seat.AAL1.1", 13.0, 14.0, text="x")],
+    ],
+    ids=["late", "elsewhere", "at the same time", "somebody between", "the script", "the same"],
+)
+def test_no_other_call_may_be_the_answer_of_another_person(
+    then: list[tuple[float, str, Message]],
+) -> None:
+    assert of_three(*TALK, *then).calls[0].next_call is None
+
+
 def test_a_typed_call_counts_from_its_words_and_in_no_median() -> None:
     found = of_three(
         (10.0, "speech/AAL1", SpokenWords(text="ready")),
