@@ -12,7 +12,9 @@
     python tools/bench.py frames            memory of a renderer's process over 10,000 pictures
     python tools/bench.py sight             whole runs with cameras against real time
     python tools/bench.py many              runs one after the other in a process: CPU, memory
-    python tools/bench.py page             frames a second of the page that follows 20 aircraft
+    python tools/bench.py page              frames a second of the page that follows 20 aircraft
+    python tools/bench.py seat              the page of a controller beside 20 aircraft: frames
+    python tools/bench.py seat --minutes 120    and memory of run, server and page each minute
     python tools/bench.py soak              two simulated hours with speech: memory, time
     python tools/bench.py sweep             overhead of a sweep, gain of a second worker
     python tools/bench.py startup           from the command to the first simulated second
@@ -27,6 +29,8 @@ from __future__ import annotations
 import argparse
 import importlib
 import json
+from collections.abc import Iterable
+from typing import Any
 
 import standard_output
 
@@ -55,13 +59,21 @@ def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("name", choices=[*BENCHMARKS, "bluesky", "procedures"])
+    parser.add_argument("name", choices=[*BENCHMARKS, "bluesky", "procedures", "seat"])
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.add_argument("--bluesky-python", default="python3", metavar="PYTHON")
     parser.add_argument("--seeds", type=int, default=20, help="seeds of each procedure")
+    parser.add_argument("--minutes", type=float, default=1.0, help="time at the seat")
     given = parser.parse_args()
     if given.name == "procedures":
-        print_procedures(given.seeds, as_json=given.json)
+        from benchmarks.procedures import rows
+
+        print_rows(rows(given.seeds), as_json=given.json)
+        return
+    if given.name == "seat":
+        from benchmarks.seat import looks
+
+        print_rows(looks(given.minutes), as_json=given.json)
         return
     numbers = measured(given.name, given.bluesky_python)
     if given.json:
@@ -82,12 +94,10 @@ def measured(name: str, bluesky_python: str) -> dict[str, float]:
     return numbers
 
 
-def print_procedures(seeds: int, *, as_json: bool) -> None:
-    """Print how well the procedures are flown, line by line as they are."""
-    from benchmarks.procedures import rows
-
+def print_rows(rows: Iterable[Any], *, as_json: bool) -> None:
+    """Print the rows of a benchmark, line by line as they are measured."""
     done = []
-    for row in rows(seeds):
+    for row in rows:
         done.append(row._asdict())
         if not as_json:
             print(row, flush=True)

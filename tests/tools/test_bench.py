@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import sys
 
+from airhilt.scenario.seats import seats_of
 from airhilt.world.checks import check
 from benchmarks.process_tree import cpu_s
+from benchmarks.seat import sector_scenario
 from benchmarks.soak import soak_scenario
 from benchmarks.traffic import fifty_scenario
 
@@ -20,6 +22,13 @@ def test_the_scenario_of_the_soak_has_calls_to_its_end() -> None:
     scenario = soak_scenario(120.0)
     check(scenario, "soak")
     assert [line.at_s for line in scenario.radio.lines] == [3.0, 23.0, 43.0, 63.0, 83.0, 103.0]
+
+
+def test_the_scenario_of_the_seat_has_twenty_aircraft_and_a_controller() -> None:
+    scenario = sector_scenario(1200.0)
+    check(scenario, "sector")
+    assert len(scenario.actors) == 20
+    assert seats_of(["tower"], scenario) == ("Potomac Approach",)
 
 
 def test_the_cpu_time_of_a_command_is_also_that_of_what_outlives_it() -> None:
