@@ -13,7 +13,7 @@ from airhilt.world.flight.state import AircraftState
 class StandIn:
     """An airframe, autopilot or ground law that answers what it is told to, and keeps what it gets.
 
-    ``got`` has the arguments of the last call of each method.
+    ``got`` has the arguments of the last call of each method, and ``named`` those by name.
     """
 
     wheelbase_m = 15.0
@@ -21,10 +21,11 @@ class StandIn:
     def __init__(self, **answers: float) -> None:
         self.answers = answers
         self.got: dict[str, tuple[Any, ...]] = {}
+        self.named: dict[str, dict[str, Any]] = {}
 
     def __getattr__(self, name: str) -> Callable[..., Any]:
-        def call(*arguments: Any, **_: Any) -> float:
-            self.got[name] = arguments
+        def call(*arguments: Any, **named: Any) -> float:
+            self.got[name], self.named[name] = arguments, named
             return self.answers.get(name, 0.0)
 
         return call
