@@ -31,7 +31,7 @@ WORDS = frozenset(
      "winds", "surface"}
 ) - {"able"}  # fmt: skip
 """Words that the grammar knows. "Able" is none without its "when": that may be what is lost."""
-_RUNWAY = re.compile(rf"(?<!\S)(?:runway )?{RUNWAY}(?= [a-z])")
+_RUNWAY = re.compile(rf"(?<!\S)(?:runway )?{RUNWAY}")
 _SMALL = COURTESIES | {"and", "the", "a", "that", "this", "it"}
 """Words that may be put in between a runway and its side."""
 _SIDES = frozenset({"left", "right", "centre"})

@@ -7,7 +7,7 @@ from listed_forms import KNOWN, forms
 
 LOST_UNSEEN = frozenset(
     {"not", "don't", "did", "you", "was", "that", "plan", "told", "ready", "anticipate", "once",
-     "after", "behind"}
+     "after", "behind", "when", "vehicle"}
 )  # fmt: skip
 """Words whose loss nobody could tell."""
 

@@ -160,6 +160,8 @@ def test_for_is_four_only_where_it_completes_a_runway(words: str, runway: str | 
         ("runway 15 and the a that rime", False),  # Five words on, it is the runway's no more.
         ("runway 15 cleared", False),
         ("runway 15 left cleared", False),
+        ("runway 15 left", False),
+        ("hold short of 15 right |", False),
         ("runway 15 and left turn", False),
     ],
 )

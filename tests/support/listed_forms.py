@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
@@ -70,13 +71,39 @@ def in_words(said: Instruction, status: str = "") -> str:
         number.get("kt"), said.named,
         f"{said.frequency_khz / 1000:.3f}" if said.frequency_khz else None, said.squawk,
         said.approach, said.variant, "now" if said.immediate else None,
+        f"mach {said.mach:g}" if said.mach else None,
+        f"[{said.condition}]" if said.condition else None,
+        f"[{said.until}]" if said.until else None,
+        f"~{said.confidence:.2g}" if said.confidence < 1.0 else None,
     ]  # fmt: skip
     return " ".join(part for part in parts if part)
 
 
 def all_of(call: Call) -> list[str]:
-    """Return the instructions of a call as the list writes them, in order of their words."""
+    """Return what a call says as the list writes it, in order of its words."""
     return sorted(
         [in_words(each) for each in call.instructions]
         + [in_words(each, "expect") for each in call.expected]
+        + [f"({each})" for each in _besides(call)]
+    )
+
+
+def _besides(call: Call) -> Iterator[str]:
+    """Yield what a call says besides its instructions."""
+    if call.kind not in ("instruction", "readback"):
+        yield call.kind
+    yield from call.traffic
+    if call.wind is not None:
+        gust = "" if call.wind.gust_kt is None else f" gusts {call.wind.gust_kt:g}"
+        from_deg = call.wind.direction_deg
+        direction = "variable" if from_deg is None else f"{from_deg:g}"
+        yield f"wind {direction} at {call.wind.speed_kt:g}{gust}"
+    if call.pressure_hpa is not None:
+        yield f"{call.pressure_hpa:.1f} hPa"
+    if call.position is not None:
+        yield f"at {call.position}"
+    yield from (
+        name
+        for name in ("distress", "urgency", "emergency_descent", "corrected", "negative")
+        if getattr(call, name)
     )
