@@ -9,8 +9,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from airhilt.phraseology import AIRLINES, TAU_ASR, TELEPHONY, parse_call, tokens
-from airhilt.phraseology.callsign_repair import INTRODUCING, VALUED
+from airhilt.phraseology.callsign_repair import INTRODUCING, VALUED, similarity
 from airhilt.phraseology.hits import STATIONS
+from airhilt.phraseology.hits import is_spoken_of as spoken_of
 from airhilt.phraseology.spoken_forms import joined
 
 KNOWN = ("AAL123", "DAL456", "AFR7", "ACA88", "N12")
@@ -349,3 +350,154 @@ def test_the_speaker_may_correct_the_callsign_by_no() -> None:
     call = parse_call("delta no united nine one four runway two eight cleared to land", ("UAL914",))
     assert call.callsign == "UAL914"
     assert [each.action for each in call.instructions] == ["cleared_to_land"]
+
+
+# --- scores ---------------------------------------------------------------------------------
+
+ON_FREQUENCY = (
+    "AAL123", "DAL456", "AFR7", "N172SP", "KLM68R", "G-ABCD", "BAW1602", "UAE3", "SWA5",
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("said", "callsign", "score"),
+    [
+        ("american one two three", "AAL123", 1.0),
+        ("american one two three heavy", "AAL123", 1.0),
+        ("air france seven", "AFR7", 1.0),
+        ("speedbird sixteen zero two", "BAW1602", 1.0),
+        ("speed bird sixteen zero two", "BAW1602", 1.0),
+        ("november one seven two sierra papa", "N172SP", 1.0),
+        ("cessna one seven two sierra papa", "N172SP", 1.0),
+        ("golf alfa bravo charlie delta", "G-ABCD", 1.0),
+        ("k l m six eight romeo", "KLM68R", 1.0),
+        ("emirates three", "UAE3", 1.0),
+        # Abbreviated by the rules, filled with zeros, in full without "november".
+        ("emirates zero zero three", "UAE3", 0.9),
+        ("emirates zero three", "UAE3", 0.9),
+        ("cessna two sierra papa", "N172SP", 0.9),
+        ("november two sierra papa", "N172SP", 0.9),
+        ("november sierra papa", "N172SP", 0.9),
+        ("golf charlie delta", "G-ABCD", 0.9),
+        ("golf bravo charlie delta", "G-ABCD", 0.9),
+        ("one seven two sierra papa", "N172SP", 0.9),
+        ("banana one seven two sierra papa", "N172SP", 0.9),
+        ("speedbird sixteen oh two", "BAW1602", 0.9),  # "Oh" was corrected.
+        # A misspelt airline: 0.95 of the likeness of eight letters of which one is lost.
+        ("amercan one two three", "AAL123", 0.95 * 7 / 8),
+        # A right number without a name, the last three signs of a registration.
+        ("one two three", "AAL123", 0.75),
+        ("sixteen zero two", "BAW1602", 0.75),
+        ("six eight romeo", "KLM68R", 0.75),
+        ("two sierra papa", "N172SP", 0.75),
+        ("banana two sierra papa", "N172SP", 0.75),
+        ("alfa bravo charlie delta", "G-ABCD", 0.75),
+        # Another word before it, one digit, other digits behind it.
+        ("banana one two three", "AAL123", 0.63),
+        ("banana seven", "AFR7", 0.63),
+        ("american one two three four", "AAL123", 0.63),
+        ("banana one two three four", "AAL123", 0.63),
+        ("one two three four", "AAL123", 0.63),
+        # One sign of three wrong, missing or added.
+        ("american one two four", "AAL123", 0.62),
+        ("american one three", "AAL123", 0.62),
+        ("speedbird sixteen zero three", "BAW1602", 0.62),
+        ("speedbird sixteen zero", "BAW1602", 0.62),
+        ("november one seven two sierra quebec", "N172SP", 0.62),
+        ("november one seven two sierra", "N172SP", 0.62),
+        ("golf alfa bravo charlie echo", "G-ABCD", 0.62),
+        ("k l m six eight", "KLM68R", 0.62),
+        # A letter behind it may belong to another callsign; digits, to a distance or a runway.
+        ("american one two three alfa", "AAL123", 0.7),
+        ("american one two three five miles", "AAL123", 0.9),
+        ("american one two three three six right cleared to land", "AAL123", 0.9),
+        ("american one two three three six left line up", "AAL123", 0.9),
+        ("american one two three three seven right cleared to land", "AAL123", 0.63),
+        ("american one two three three six right turn", "AAL123", 0.63),
+        # Another's name, or a number that fits none.
+        ("united one two three", None, 0.5),
+        ("cessna one two three", None, 0.5),
+        ("banana one two four", None, 0.5),
+        ("seven", None, 0.5),
+        ("united one two three five", None, 0.0),
+        ("air france eight", None, 0.3),
+        ("sierra papa", None, 0.0),
+        ("maintain one two three knots", None, 0.0),
+        ("one two three knots", None, 0.0),
+        ("heading one two three", None, 0.0),
+        ("climb flight level one two three", None, 0.0),
+    ],
+)
+def test_the_score_says_what_of_a_callsign_was_said(
+    said: str, callsign: str | None, score: float
+) -> None:
+    """As the table of docs/phraseology.md has it."""
+    match = parse_call(f"{said}, hold position", ON_FREQUENCY).match
+    assert (match.callsign, match.score) == (callsign, pytest.approx(score))
+
+
+@pytest.mark.parametrize(
+    ("said", "is_ambiguous"),
+    [
+        ("american one two three", False),
+        ("american one two three or one two four", True),
+        ("american one two three or delta four five six", True),
+        ("american one two three or one", False),
+        ("american one two three and delta four five six", False),
+        ("cessna one two three", True),
+    ],
+)
+def test_who_is_named_beside_another_is_ambiguous(said: str, is_ambiguous: bool) -> None:
+    match = parse_call(f"{said}, hold position", ON_FREQUENCY).match
+    assert match.ambiguous is is_ambiguous
+    scores = [each.score for each in match.candidates]
+    assert scores == sorted(scores, reverse=True)
+
+
+@pytest.mark.parametrize(
+    ("words", "is_spoken_of"),
+    [
+        ("follow | via", True),
+        ("we follow |", False),
+        ("will following |", False),
+        ("who follow |", True),
+        ("behind the landing |", True),
+        ("behind a cessna |", True),
+        ("behind the big |", False),
+        ("behind traffic behind |", False),
+        ("after traffic after |", False),
+        ("behind traffic after |", True),
+        ("flight following |", False),
+        ("request flight following | climb", False),
+        ("traffic departing |", False),
+        ("traffic departing | climb", True),
+        ("aircraft departing |", True),
+        ("wake turbulence from |", True),
+        ("passing | climb", True),
+        ("the |", False),
+        ("heavy heavy | climb", False),
+        ("| climb", False),
+    ],
+)
+def test_words_before_a_callsign_show_whether_somebody_else_is_meant(
+    words: str, is_spoken_of: bool
+) -> None:
+    texts = words.split()
+    at = texts.index("|")
+    assert spoken_of(texts, at, at + 1) is is_spoken_of
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "expected"),
+    [
+        ("", "", 1.0), ("a", "", 0.0), ("abc", "abc", 1.0), ("abc", "abd", 2 / 3),
+        ("abc", "ab", 2 / 3), ("abc", "xabc", 0.75), ("abc", "acb", 1 / 3), ("abcd", "wxyz", 0.0),
+        ("kitten", "sitting", 4 / 7),
+    ],
+)  # fmt: skip
+def test_similarity_is_the_part_that_need_not_be_edited(
+    first: str, second: str, expected: float
+) -> None:
+    """By the distance of Levenshtein: three edits make a sitting of a kitten."""
+    assert similarity(first, second) == pytest.approx(expected)
+    assert similarity(second, first) == pytest.approx(expected)
