@@ -1,0 +1,170 @@
+"""A radio whose actors only note what they are told to do, and the lines that are said on it."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from types import SimpleNamespace
+from typing import Any, TypeVar
+
+from airhilt.messages import HearingTruth, Message, SpokenTruth, Transcript
+from airhilt.scenario.failures import apply_failures
+from airhilt.scenario.models import Scenario
+from airhilt.sensors.radio.backends import RadioBackend, TextRadio
+from airhilt.sensors.radio.conversation import RadioConversation
+from airhilt.sensors.radio.hearing import Heard, HearingModel
+from airhilt.sensors.radio.stations import Stations
+from airhilt.sim import Director, Priority, Virtual
+from airhilt.units import FOOT, SECOND_NS, seconds_to_ns
+from airhilt.world.loading import load
+from airhilt.world.site import FixedSite, ScenarioSite
+
+W = TypeVar("W", bound="World")
+
+TOWER, KHZ = "Washington Centre", 134_325
+CLIMB = {"action": "altitude", "altitude_ft": 33000}
+
+
+def line(name: str, at_s: float, speaker: str, to: str, text: str, **more: Any) -> dict[Any, Any]:
+    return {
+        "id": name, "at_s": at_s, "speaker": speaker, "to": to, "frequency_khz": KHZ,
+        "text": text, **more,
+    }  # fmt: skip
+
+
+CLEARANCE = line(
+    "clearance", 10, TOWER, "AAL123",
+    "American one two three, climb and maintain flight level three three zero.",
+    commands=[{"actor": "AAL123", "delay_s": 2.0, "command": CLIMB}],
+)  # fmt: skip
+READBACK = line(
+    "readback", 16, "AAL123", TOWER,
+    "Climb and maintain flight level three three zero, American one two three.",
+)  # fmt: skip
+
+
+class World:
+    """A radio with a director, and actors that only note what they are told to do."""
+
+    def __init__(
+        self,
+        *lines: dict[Any, Any],
+        failures: list[Any] | tuple[Any, ...] = (),
+        heard: dict[tuple[str, str], Heard] | None = None,
+        hearing: HearingModel | None = None,
+        seats: Collection[str] = (),
+        backend: RadioBackend | None = None,
+        **radio: Any,
+    ) -> None:
+        document = load("s02a_nominal").model_dump(mode="json")
+        document["radio"] |= {"lines": list(lines), **radio}
+        document |= {"failures": list(failures), "end_when": [], "conflict": None}
+        document["perturbations"] = []
+        self.scenario = Scenario.model_validate(document)
+        self.director = Director(Virtual())
+        self.published: list[Any] = []
+        self.done: list[Any] = []
+        self.microphones: list[tuple[float, str | None]] = []
+        self.begun: list[tuple[float, str]] = []
+        high = FixedSite(0.68, -1.34, altitude_m=33_000 * FOOT)
+        self.actors = {
+            actor.callsign: SimpleNamespace(
+                actor=actor,
+                category="aircraft",
+                bound_runway=None,
+                body=SimpleNamespace(ended=None, state=high),
+            )
+            for actor in self.scenario.actors
+        }
+        self.conversation = RadioConversation(
+            self.director,
+            self.scenario,
+            apply_failures(self.scenario),
+            Stations(self.actors, ScenarioSite.of(self.scenario), self.scenario.radio.lines),
+            backend or TextRadio(self.scenario.radio.words_per_minute),
+            7,
+            set(),
+            line_begun=lambda line: self.begun.append((self.now_s, line)),
+            once=self.once,
+            publish=self.publish,
+            do=self.do,
+            failed=lambda happening: None,
+            microphone_stuck=lambda actor, text: self.microphones.append((self.now_s, actor)),
+            microphones_free=lambda: self.microphones.append((self.now_s, None)),
+            hearing=hearing if heard is None else Scripted(heard),
+            seats=seats,
+        )
+        self.conversation.start()
+
+    def publish(
+        self,
+        key: str,
+        message: Message,
+        *,
+        raw: bytes | None = None,
+    ) -> None:
+        self.published.append(message)
+        if isinstance(message, Transcript) and self.gives_transcripts:
+            self.conversation.take(key, message, b"")
+
+    gives_transcripts = True
+
+    def once(self, condition: Any, action: Any) -> None:
+        del condition
+        self.director.at(self.director.now_ns, action, Priority.SCRIPT)
+
+    def do(self, callsign: str, command: Any) -> None:
+        self.done.append((callsign, command, self.now_s))
+
+    @property
+    def now_s(self) -> float:
+        return self.director.now_ns / SECOND_NS
+
+    def run(self: W) -> W:
+        self.director.run()
+        return self
+
+    def run_until(self: W, end_s: float) -> W:
+        self.director.at(seconds_to_ns(end_s), self.director.stop, Priority.OBSERVE)
+        self.director.run()
+        self.conversation.close()
+        return self
+
+    def said(self) -> list[str]:
+        return [one.id for one in self.published if isinstance(one, SpokenTruth)]
+
+    def spoken(self, name: str) -> SpokenTruth:
+        return next(
+            one for one in self.published if isinstance(one, SpokenTruth) and one.id == name
+        )
+
+    def hearings(self, actor: str) -> list[Any]:
+        return [
+            (one.id, one.outcome)
+            for one in self.published
+            if isinstance(one, HearingTruth) and one.actor == actor
+        ]
+
+
+class Scripted(HearingModel):
+    """Hears each transmission as told, everything else well."""
+
+    def __init__(self, heard: dict[tuple[str, str], Heard]) -> None:
+        super().__init__(0)
+        object.__setattr__(self, "_heard", heard)
+
+    __slots__ = ("_heard",)
+    _heard: dict[tuple[str, str], Heard]
+
+    def listen(self, transmission: str, listener: str, text: str, snr_db: float | None) -> Heard:
+        return self._heard.get((transmission, listener), Heard("understood", text))
+
+
+class Sharp(HearingModel):
+    """Understands all that is above 0 dB, and nothing of what is below."""
+
+    def listen(self, transmission: str, listener: str, text: str, snr_db: float | None) -> Heard:
+        is_loud = snr_db is None or snr_db >= 0.0
+        return Heard("understood", text) if is_loud else Heard("unsure", text)
+
+
+MISSED, UNSURE = Heard("missed", ""), Heard("unsure", "...")
