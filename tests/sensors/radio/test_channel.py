@@ -19,8 +19,12 @@ from airhilt.sensors.radio.channel import (
     Channel,
     Other,
     VhfChannel,
+    _band,
     _even_out,
+    _fading,
+    _surroundings,
     active,
+    with_voice,
 )
 from airhilt.sensors.radio.on_air import OnAir, Utterance
 from airhilt.voices.engines.espeak import Espeak
@@ -307,3 +311,108 @@ def test_what_is_no_audio_is_refused(bad: Audio, says: str) -> None:
 def test_a_ratio_that_is_no_number_is_refused() -> None:
     with pytest.raises(SpeechError, match="no number"):
         VhfChannel(PROFILES["vhf"]).transmit(speech(), float("nan"), np.random.default_rng(0))
+
+
+# --- its parts ----------------------------------------------------------------------------------
+
+
+def tone(hz: float, seconds: float = 2.0) -> Audio:
+    t = np.arange(round(seconds * SAMPLE_RATE_HZ)) / SAMPLE_RATE_HZ
+    return np.sin(2 * np.pi * hz * t).astype(np.float32)
+
+
+@pytest.mark.parametrize(
+    ("hz", "expected_db"),
+    [(1_000.0, 0.0), (300.0, -3.01), (3_400.0, -3.01), (150.0, -36.1), (6_800.0, -36.1)],
+)
+def test_the_band_is_that_of_a_butterworth_filter_of_the_sixth_order(
+    hz: float, expected_db: float
+) -> None:
+    """Half of the power at its edges, and 36 dB an octave beyond them."""
+    middle = slice(SAMPLE_RATE_HZ // 2, 3 * SAMPLE_RATE_HZ // 2)
+    heard, said = _band(tone(hz), PROFILES["vhf"])[middle], tone(hz)[middle]
+    assert decibels(power(heard) / power(said)) == pytest.approx(expected_db, abs=0.3)
+
+
+def test_the_band_delays_nothing() -> None:
+    said = speech()
+    lags = np.correlate(_band(said, PROFILES["line"])[4_000:20_000], said[4_000:20_000], "same")
+    assert lags.argmax() == 8_000
+
+
+@pytest.mark.parametrize(("background", "corner_hz"), [("cockpit", 400.0), ("tower", 900.0)])
+def test_the_noise_around_a_microphone_is_low(
+    background: BackgroundNoise, corner_hz: float
+) -> None:
+    """By 6 dB at its corner, and by 12 dB an octave beyond; a cockpit hums at 400 Hz besides."""
+    count = 8 * SAMPLE_RATE_HZ
+    noise = _surroundings(count, background, np.random.default_rng(4))
+    assert power(noise) == pytest.approx(1.0, rel=1e-3)
+    spectrum = np.abs(np.fft.rfft(noise)) ** 2
+    hz = np.fft.rfftfreq(count, 1 / SAMPLE_RATE_HZ)
+
+    def density_db(at_hz: float) -> float:
+        around = (np.abs(hz - at_hz) < 60.0) & (np.abs(hz - 400.0) > 20.0)
+        return decibels(float(spectrum[around].mean()))
+
+    low_db = density_db(70.0)
+    for octaves in (1.0, 2.0, 4.0):
+        expected_db = -20.0 * np.log10(1.0 + octaves**2)
+        near_dc_db = -20.0 * np.log10(1.0 + (70.0 / corner_hz) ** 2)
+        loss_db = density_db(octaves * corner_hz) - low_db
+        assert loss_db == pytest.approx(expected_db - near_dc_db, abs=1.2)
+    hum = spectrum[np.abs(hz - 400.0) <= 6.0].sum() / spectrum.sum()
+    # A sine of 0.3 of the noise's deviation has 0.045 of its power.
+    assert hum == pytest.approx(0.047 if background == "cockpit" else 0.011, abs=0.006)
+    assert spectrum[0] < 1e-6 * spectrum.max()
+
+
+def test_fading_swings_by_its_depth_about_half_of_it_down() -> None:
+    gains_db = 20.0 * np.log10(
+        _fading(120 * SAMPLE_RATE_HZ, PROFILES["fading"], np.random.default_rng(2))
+    )
+    assert gains_db.mean() == pytest.approx(-4.0, abs=0.4)
+    assert -12.0 <= gains_db.min() < -8.0
+    assert 0.0 < gains_db.max() <= 4.0
+    spectrum = np.abs(np.fft.rfft(gains_db[:: SAMPLE_RATE_HZ // 50] - gains_db.mean()))
+    hz = np.fft.rfftfreq(120 * 50, 1 / 50)
+    peaks = sorted(float(at) for at in hz[np.argsort(spectrum)[-3:]])
+    assert peaks == pytest.approx([0.4 * 0.3, 0.3, 1.7 * 0.3], abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ("snr_db", "tail_rms"), [(None, 0.0316), (20.0, 0.0316), (10.0, 0.0562), (-15.0, 0.1)]
+)
+def test_the_squelch_tail_is_the_louder_the_more_noise_there_is(
+    snr_db: float | None, tail_rms: float
+) -> None:
+    """By half of the ratio, from the level of speech on."""
+    profile = replace(PROFILES["vhf"], squelch_tail_s=4.0, low_hz=1.0, high_hz=1e6)
+    said = speech()
+    heard = VhfChannel(profile).transmit(said, snr_db, np.random.default_rng(0))
+    tail = heard[len(said) + 100 :]
+    assert np.sqrt(power(tail)) == pytest.approx(tail_rms, rel=0.02)
+
+
+@pytest.mark.parametrize("wet", [0.0, 0.25, 1.0])
+def test_the_voice_is_mixed_at_its_usual_level(wet: float) -> None:
+    said = speech()
+    heard = np.full(len(said) + 50, 0.2, np.float32)
+    mixed = with_voice(heard, said, wet)
+    voice = said * np.float32(0.1 / np.sqrt(power(said[active(said)])))
+    assert mixed[: len(said)] == pytest.approx(wet * 0.2 + (1.0 - wet) * voice, abs=1e-6)
+    assert mixed[len(said) :] == pytest.approx([wet * 0.2] * 50)
+
+
+def test_speech_is_active_where_its_frames_have_more_than_a_fortieth_of_its_power() -> None:
+    """15.9 dB below active speech a pause begins (ITU-T P.56)."""
+    frame = SAMPLE_RATE_HZ // 50
+    loud, levels = [1.0] * 50, {0.17: True, 0.15: False, 0.0: False}
+    for level, is_active in levels.items():
+        said = np.repeat(np.array([*loud, level, *loud], np.float32), frame)
+        found = active(said)
+        assert found[::frame][50] == is_active
+        assert found[: 50 * frame].all()
+        assert found[51 * frame :].all()
+    assert not active(np.zeros(1_000, np.float32)).any()
+    assert len(active(np.ones(frame + 7, np.float32))) == frame + 7

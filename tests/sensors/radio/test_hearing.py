@@ -11,6 +11,7 @@ from airhilt.sensors.radio.hearing import (
     MISHEARD_SHARE,
     UNDERSTOOD_HALF_DB,
     HearingModel,
+    _misheard,
     probability_noticed,
     probability_understood,
 )
@@ -84,3 +85,34 @@ def test_each_call_and_listener_is_drawn_by_itself_and_again_the_same() -> None:
     assert drawn(1, "AAL123") == drawn(1, "AAL123")
     assert drawn(1, "AAL123") != drawn(1, "DAL456")
     assert drawn(1, "AAL123") != drawn(2, "AAL123")
+
+
+@pytest.mark.parametrize(
+    ("draw", "heard"),
+    [
+        (0.0, "Climb nine left, then two"),
+        (0.33, "Climb nine left, then two"),
+        (0.34, "Climb five right, then two"),
+        (0.67, "Climb five left, then three"),
+        (0.999, "Climb five left, then three"),
+        (1.0, "Climb five left, then three"),
+    ],
+)
+def test_each_word_that_sounds_like_another_is_as_likely_to_be_misheard(
+    draw: float, heard: str
+) -> None:
+    assert _misheard("Climb five left, then two", draw) == heard
+
+
+def test_words_that_sound_like_no_others_are_not_misheard() -> None:
+    assert _misheard("Good morning", 0.5) is None
+
+
+def test_the_curves_are_as_steep_as_those_of_plomp_and_mimpen() -> None:
+    """18 % a decibel at the middle; 6 dB lower, as many calls are noticed as are understood."""
+    steep = probability_understood(0.5) - probability_understood(-0.5)
+    assert steep == pytest.approx(0.18, abs=0.005)
+    for snr_db in (-8.0, -3.0, 0.0, 4.0):
+        assert probability_noticed(snr_db - 6.0) == pytest.approx(probability_understood(snr_db))
+        below = probability_understood(-snr_db)
+        assert below == pytest.approx(1.0 - probability_understood(snr_db))
