@@ -61,7 +61,7 @@ def test_later_ones_correct_it_by_the_gains_of_an_alpha_beta_tracker(
     mode: str, alpha: float
 ) -> None:
     """Range by 0.67 and 0.25; altitude by alpha^2 / (2 - alpha) as well (Benedict and Bordner)."""
-    named = {"mode": mode, "icao24": OTHER if mode == "S" else None}
+    named: dict[str, Any] = {"mode": mode, "icao24": OTHER if mode == "S" else None}
     track = track_of(
         reply(0.0, 9000.0, **named),
         reply(1.0, 8800.0, **named),

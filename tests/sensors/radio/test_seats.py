@@ -170,7 +170,7 @@ def test_who_comes_back_has_the_seat_again() -> None:
     for at_s, is_taken in ((2.0, False), (4.0, True)):
         world.at(
             at_s,
-            lambda is_taken=is_taken: world.conversation.occupy(  # type: ignore[misc]
+            lambda is_taken=is_taken: world.conversation.occupy(
                 key_chunk(TOWER), is_taken=is_taken
             ),
         )
