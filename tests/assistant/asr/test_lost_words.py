@@ -8,7 +8,8 @@ import pytest
 from airhilt.assistant.asr.alternatives import LARGEST_LOG_ODDS
 from airhilt.assistant.asr.beam_search import HeardUnit
 from airhilt.assistant.asr.language import END
-from airhilt.assistant.asr.lost_words import SILENCE, Gap, LossCurve, gaps
+from airhilt.assistant.asr.logistic import log_odds_of, probability
+from airhilt.assistant.asr.lost_words import SILENCE, Gap, LossCurve, gaps, log_heard
 
 TURN, CLIMB, BREATH, UNITS = 1, 2, 3, 4
 ORDER = 3
@@ -97,3 +98,26 @@ def test_a_word_is_lost_the_likelier_the_more_was_heard_and_the_more_sense_it_wo
     assert lost == sorted(lost)
     assert curve(SILENCE) < 0.01 < 0.5 < lost[-1]
     assert Gap(0.0, -LARGEST_LOG_ODDS) == SILENCE
+
+
+@pytest.mark.parametrize(("step", "counted"), [(0.0625, 0.0625), (0.046875, 0.0)])
+def test_a_step_counts_from_a_twentieth_on(step: float, counted: float) -> None:
+    assert heard(posteriors(step)) == [counted]
+
+
+def test_gaps_of_far_less_than_a_tenth_of_a_step_differ_no_more() -> None:
+    assert log_heard(0.0) == pytest.approx(np.log(0.1))
+    assert log_heard(0.9) == pytest.approx(0.0)
+    assert log_heard(0.001) - log_heard(0.0) < 0.01
+    curve = LossCurve(heard_slope=1.3, inserted_slope=0.5, offset=-1.1)
+    assert curve(Gap(0.9, 0.0)) == pytest.approx(probability(-1.1))
+    assert curve(Gap(9.9, 2.0)) == pytest.approx(probability(1.3 * np.log(10.0) + 1.0 - 1.1))
+
+
+def test_probabilities_and_log_odds_are_inverse_down_to_one_in_a_million() -> None:
+    for odds in (-5.0, -1.0, 0.0, 2.0):
+        assert log_odds_of(probability(odds)) == pytest.approx(odds)
+    assert probability(0.0) == 0.5
+    assert log_odds_of(0.9) == pytest.approx(np.log(9.0))
+    for beyond, bound in ((0.0, 1e-6), (1.0, 1.0 - 1e-6), (1e-9, 1e-6)):
+        assert log_odds_of(beyond) == pytest.approx(np.log(bound / (1.0 - bound)))

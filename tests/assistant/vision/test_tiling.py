@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
+import itertools
+from typing import Any
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.assistant.vision.detector import Found, Shot
+from airhilt.assistant.vision.detector import GRID_PX, Found, Shot
 from airhilt.assistant.vision.gating import Gate
-from airhilt.assistant.vision.tiling import OVERLAP_PX, TILE_PX, Piece, Tile, merged, tiles_of
+from airhilt.assistant.vision.tiling import (
+    OVERLAP_PX,
+    TILE_PX,
+    Piece,
+    Tile,
+    merged,
+    pieces_of,
+    tiles_of,
+)
 from pictures import BlobDetector, background, with_blobs
 
 
@@ -55,3 +66,77 @@ def test_different_things_side_by_side_stay_two() -> None:
     blobs = [("truck", (600, 300, 640, 330)), ("truck", (642, 300, 682, 330))]
     found = Gate(BlobDetector()).look(Shot("tower", 0), with_blobs(flat, blobs))
     assert sorted(one.box for one in found) == [box for _, box in blobs]
+
+
+@pytest.mark.parametrize("length", [1281, 1300, 1600, 1920, 2560, 3840, 4096])
+def test_tiles_begin_on_the_grid_and_overlap_by_128_px_at_least(length: int) -> None:
+    tiles = [tile for tile in tiles_of((100, length)) if tile.top == 0]
+    lefts = [tile.left for tile in tiles]
+    assert lefts[0] == 0
+    assert all(left % GRID_PX == 0 for left in lefts)
+    for tile, after in itertools.pairwise(tiles):
+        assert tile.left + tile.width - after.left >= OVERLAP_PX
+    assert length - GRID_PX < tiles[-1].left + TILE_PX < length + GRID_PX
+    assert tiles[-1].left + tiles[-1].width == length
+    # No more than there must be, and evenly.
+    steps = [after - left for left, after in itertools.pairwise(lefts)]
+    assert max(steps) - min(steps) <= 2 * GRID_PX
+    assert len(tiles) <= -(-(length - TILE_PX) // (TILE_PX - OVERLAP_PX - 2 * GRID_PX)) + 1
+
+
+@pytest.mark.parametrize(
+    ("box", "is_cut"),
+    [
+        ((0.5, 100.0, 50.0, 120.0), True),
+        ((1.5, 100.0, 50.0, 120.0), False),
+        ((100.0, 0.5, 150.0, 20.0), True),
+        ((100.0, 1.5, 150.0, 20.0), False),
+        ((600.0, 100.0, 639.5, 120.0), True),
+        ((600.0, 100.0, 638.5, 120.0), False),
+        ((100.0, 600.0, 150.0, 639.5), True),
+        ((100.0, 600.0, 150.0, 638.5), False),
+    ],
+)
+def test_a_finding_is_cut_where_its_tile_ends_and_the_picture_does_not(
+    box: tuple[float, float, float, float], is_cut: bool
+) -> None:
+    found = Found("truck", 0.9, box)
+    inner = Tile(320, 640, 640, 640)
+    (piece,) = pieces_of([found], inner, (1280, 1920))
+    assert piece.is_cut is is_cut
+    left, top, right, bottom = box
+    assert piece.found.box == (left + 640, top + 320, right + 640, bottom + 320)
+    (whole,) = pieces_of([found], Tile(0, 0, 640, 640), (640, 640))
+    assert not whole.is_cut
+
+
+def test_a_whole_finding_is_kept_before_a_surer_one_that_an_edge_cuts() -> None:
+    whole, cut = (
+        Found("truck", 0.5, (600, 300, 640, 330)),
+        Found("truck", 0.9, (600, 300, 638, 330)),
+    )
+    assert merged([Piece(cut, is_cut=True), Piece(whole, is_cut=False)]) == [whole]
+
+
+@pytest.mark.parametrize(("right_px", "label", "count"), [(670, "truck", 2), (650, "truck", 1),
+                                                          (650, "bird", 2)])  # fmt: skip
+def test_pieces_of_one_class_are_one_if_they_share_most_of_the_smaller(
+    right_px: int, label: Any, count: int
+) -> None:
+    """Seven tenths of it; of different classes, more must overlap."""
+    large, small = (500, 300, 640, 330), (right_px - 40, 300, right_px, 330)
+    found = [Piece(Found("truck", 0.9, large), False), Piece(Found(label, 0.5, small), False)]
+    assert len(merged(found)) == count
+
+
+@pytest.mark.parametrize(
+    ("place", "is_in"),
+    [((640, 320), True), ((1279.9, 959.9), True), ((1280, 500), False), ((700, 960), False),
+     ((639.9, 500), False), ((700, 319.9), False)],
+)  # fmt: skip
+def test_a_tile_holds_the_places_from_its_first_pixel_to_its_last(
+    place: tuple[float, float], is_in: bool
+) -> None:
+    tile = Tile(320, 640, 640, 640)
+    assert tile.holds(place) is is_in
+    assert tile.box == (640, 320, 1280, 960)
