@@ -23,7 +23,7 @@ class CallOrder:
     def take(self, transcript: Transcript) -> tuple[Transcript, ...]:
         """Return the transcripts to act on now: the given one, and those of later calls again.
 
-        None if it is so late that it cannot be put back into its place.
+        There are none if it is so late that it cannot be put back into its place.
         """
         newest_ns = self._calls[-1].t_tx_ns if self._calls else 0
         if transcript.t_tx_ns < newest_ns - REMEMBERED_NS:

@@ -12,10 +12,12 @@ import pytest
 from airfield import BRIEFING, FIELD, NORTH, charted, degrees
 from airhilt.assistant.decision.aerodrome import Aerodrome, Vector, Way
 from airhilt.assistant.decision.approach import Approach
+from airhilt.assistant.decision.call_order import CallOrder
 from airhilt.assistant.decision.clarifications import Clarifications
 from airhilt.assistant.decision.clearances import Clearances
 from airhilt.assistant.decision.guard import Doubt, Guard
 from airhilt.assistant.decision.intruder_advice import evasion
+from airhilt.assistant.decision.leaving import leaving_s
 from airhilt.assistant.decision.line_of_sight import GroundFix, PictureGeometry
 from airhilt.assistant.decision.loss_prediction import SeparationStandard, predict
 from airhilt.assistant.decision.mobiles import Mobile, use_of
@@ -305,3 +307,80 @@ def test_an_error_of_position_to_one_side_is_that_of_one_axis(
     )
     strip = SimpleNamespace(margin_m=lambda _: 50.0)
     assert _cannot_stop(cast(Any, obstacle), cast(Any, strip), 0.67, 0.0) is cannot
+
+
+# --- leaving a runway -----------------------------------------------------------------------
+
+
+def leaves(
+    speed_m_s: float, kind: str | None = None, *, landed: bool = False, follows: bool = True
+) -> float | None:
+    """Return the time until somebody with 300 m of runway ahead has left it."""
+    mobile = SimpleNamespace(speed_m_s=speed_m_s, landed=landed)
+    obstacle = SimpleNamespace(mobile=mobile, way=Way(0.0, 300.0))
+    comes = SimpleNamespace(strip="01/19", direction="01")
+    own = None
+    if kind is not None:
+        own = SimpleNamespace(kind=kind, strip="01/19", direction="01" if follows else "19")
+    return leaving_s(cast(Any, obstacle), cast(Any, own), cast(Any, comes))
+
+
+@pytest.mark.parametrize(
+    ("speed_m_s", "given", "expected_s"),
+    [
+        (30.0, {"kind": "departure"}, 45.0 / 1.8),  # It lifts off at 75 m/s.
+        (80.0, {"kind": "departure"}, 0.0),
+        (30.0, {"kind": "departure", "follows": False}, None),  # It comes the other way.
+        (1.4, {}, None),
+        (1.6, {}, 300.0 / 1.6),
+        (10.0, {}, 30.0),
+        (40.0, {"landed": True}, 7.5),  # Straight on is faster than braking to turn off.
+        (9.0, {"landed": True}, 1.0 / 1.8 + 12.0),
+        (6.0, {"landed": True}, 12.0),
+        (9.0, {"kind": "rollout", "landed": True}, 1.0 / 1.8 + 12.0),
+    ],
+)
+def test_who_is_on_a_runway_has_left_it_once_it_is_across_has_turned_off_or_is_in_the_air(
+    speed_m_s: float, given: dict[str, Any], expected_s: float | None
+) -> None:
+    found = leaves(speed_m_s, **given)
+    assert found == (None if expected_s is None else pytest.approx(expected_s))
+
+
+# --- the order of calls ---------------------------------------------------------------------
+
+
+def began(t_s: float, name: str | None = None) -> Transcript:
+    return call("words", t_s).model_copy(update={"id": name or f"at {t_s}"})
+
+
+def ids(transcripts: tuple[Transcript, ...]) -> list[str]:
+    return [each.id for each in transcripts]
+
+
+def test_later_calls_are_acted_upon_again_after_one_that_came_late() -> None:
+    order = CallOrder()
+    assert ids(order.take(began(10.0))) == ["at 10.0"]
+    assert ids(order.take(began(20.0))) == ["at 20.0"]
+    assert ids(order.take(began(15.0))) == ["at 15.0", "at 20.0"]
+    assert ids(order.take(began(5.0))) == ["at 5.0", "at 10.0", "at 15.0", "at 20.0"]
+    assert ids(order.take(began(20.0, "other"))) == ["other"]
+
+
+@pytest.mark.parametrize(("late_s", "is_taken"), [(60.0, True), (60.1, False)])
+def test_a_call_that_is_over_a_minute_late_is_left_out(late_s: float, is_taken: bool) -> None:
+    order = CallOrder()
+    order.take(began(100.0))
+    assert bool(order.take(began(100.0 - late_s))) is is_taken
+
+
+def test_a_call_is_known_again_for_a_minute_by_its_frequency_and_its_id() -> None:
+    order = CallOrder()
+    first = began(10.0)
+    order.take(first)
+    assert order.earlier(first) == first
+    assert order.earlier(first.model_copy(update={"frequency_khz": 121_500})) is None
+    order.take(began(70.0))
+    assert order.earlier(first) == first
+    order.take(began(70.1))
+    assert order.earlier(first) is None
