@@ -95,11 +95,9 @@ def _horizontal_interval(motion: Relative, volume: Volume) -> Interval | None:
     # Modified tau is within the limit where s^2 + tau (s . v) <= DMOD^2, a parabola in time.
     half_b = closing + 0.5 * volume.tau_s * speed_squared
     rest = motion.distance_m**2 + volume.tau_s * closing - volume.dmod_m**2
-    discriminant = half_b**2 - speed_squared * rest
-    begin_s = inside[0]
-    if discriminant >= 0.0:
-        begin_s = min(begin_s, (-half_b - math.sqrt(discriminant)) / speed_squared)
-    return begin_s, inside[1]
+    # It holds where two come within DMOD, so that it does from its first root on until they part.
+    discriminant = max(half_b**2 - speed_squared * rest, 0.0)
+    return (-half_b - math.sqrt(discriminant)) / speed_squared, inside[1]
 
 
 def _vertical_interval(gap: Gap, zthr_m: float) -> Interval | None:

@@ -218,6 +218,18 @@ def test_older_instruments_than_the_last_ones_say_nothing() -> None:
         assert unit.judge(t * SECOND_NS) == []  # It is 10,000 ft below.
 
 
+@pytest.mark.parametrize(("rate_fpm", "is_told"), [(0, False), (6000, True), (-6000, False)])
+def test_the_own_altitude_is_carried_on_by_its_rate(rate_fpm: int, is_told: bool) -> None:
+    """From 3,000 ft below; after 25 s it is at the level of the intruder, or twice as far."""
+    unit = TcasUnit("AAL1", OWN, Coordination(), filters_misses=False)
+    unit.take_instruments(instruments(0.0, 7_000, rate_fpm))
+    told: list[Alert] = []
+    for t in range(26):
+        unit.take_reply(reply(float(t), 5500.0 - 200.0 * t))
+        told += unit.judge(t * SECOND_NS)
+    assert bool(told) is is_told
+
+
 def test_head_on_there_is_traffic_and_then_a_resolution() -> None:
     """Level 6 from 10,000 ft on: 45 s, which 1 NM widens to 9,366 m, and 30 s, to 6,346 m with
     0.8 NM, at 200 m/s. There is a cycle a second."""

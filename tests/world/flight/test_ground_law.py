@@ -167,9 +167,11 @@ def test_in_a_crosswind_the_nose_may_point_off_the_track_by_a_degree_and_a_half(
     straight.follow_line(state, 0.0, (crab_deg - kept_deg) * DEGREE, slipping=False)
     assert steered._slip == pytest.approx(kept_deg * DEGREE, rel=1e-3)
     assert straight._slip == 0.0
-    slow = law(StandIn())
-    slow.follow_line(state_at(speed_m_s=9.9, heading_rad=crab_deg * DEGREE % math.tau), 0.0, 0.0)
-    assert slow._slip == 0.0
+    for speed_m_s, may_slip in ((9.9, False), (10.1, True)):
+        rolling = law(StandIn())
+        at = state_at(speed_m_s=speed_m_s, heading_rad=crab_deg * DEGREE % math.tau)
+        rolling.follow_line(at, 0.0, 0.0)
+        assert (rolling._slip != 0.0) is may_slip
 
 
 @pytest.mark.parametrize(
