@@ -239,7 +239,7 @@ def test_a_number_with_more_digits_than_its_word_allows_is_two(text: str, split:
 
 
 def test_nobody_knows_where_the_first_of_two_numbers_ends() -> None:
-    words = split_numbers(Words("level 34010 minutes".split(), [1.0, 0.8, 0.9]))
+    words = split_numbers(Words(["level", "34010", "minutes"], [1.0, 0.8, 0.9]))
     assert words.confidences == pytest.approx([1.0, 0.6, 0.8, 0.9])
-    runway = split_numbers(Words("check 299224 right cleared".split(), [1.0, 0.8, 1.0, 1.0]))
+    runway = split_numbers(Words(["check", "299224", "right", "cleared"], [1.0, 0.8, 1.0, 1.0]))
     assert runway.confidences == pytest.approx([1.0, 0.6, 0.6, 1.0, 1.0])

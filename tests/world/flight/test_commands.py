@@ -41,8 +41,9 @@ class Flight:
         at = state_at((initial.latitude_rad, initial.longitude_rad), altitude_m=3_000.0,
                       track_rad=1.0, speed_m_s=130.0)._replace(**state)  # fmt: skip
         self.airframe.state = lambda: at  # type: ignore[attr-defined]
-        parts = cast(Any, (self.airframe, self.autopilot, self.ground))
-        self.control = FlightControl(AircraftSystems(B737, *parts, 0.05), initial, 30.0)
+        airframe, autopilot = cast(Any, self.airframe), cast(Any, self.autopilot)
+        systems = AircraftSystems(B737, airframe, autopilot, cast(Any, self.ground), 0.05)
+        self.control = FlightControl(systems, initial, 30.0)
         self.en_route = EnRouteCommands(self.control)
         self.procedures = ProcedureCommands(self.control)
 
