@@ -228,6 +228,86 @@ def test_words_that_mean_nothing_to_the_phraseology_do_not_reach_the_model() -> 
     assert beside.schema() == without.schema()
 
 
+def test_the_question_has_calls_tracks_and_alerts_in_round_numbers() -> None:
+    given = call("American one two three, climb flight level two zero zero", 40, "c-0", 0.876)
+    moving = report("AAL123", -77.123456, 90.4, 59.0).model_copy(
+        update={"latitude_deg": 39.54321, "ground_speed_kt": 480.6, "vertical_rate_fpm": 63.7}
+    )
+    timed = Alert(**{**vars(CAUTION), "evidence": Evidence(sources=(), time_to_go_s=12.6)})
+    loss = Alert(**{**vars(CAUTION), "id": "sep-1",
+                    "evidence": Evidence(sources=(), time_to_loss_s=31.4)})  # fmt: skip
+    about = situation([CAUTION, timed, loss], given, READBACK, moving)
+    document = json.loads(about.question())
+    assert document["t_s"] == 60
+    assert document["runways"] == ["01"]
+    assert document["radio"] == [
+        {"id": "r1", "age_s": 20, "to": "AAL123", "kind": "instruction",
+         "says": ["altitude climb 20000 ft"], "confidence": 0.88},
+        {"id": "r2", "age_s": 10, "by": "AAL123", "kind": "readback", "says": ["go_around"],
+         "confidence": 1.0},
+    ]  # fmt: skip
+    assert document["tracks"] == [
+        {"callsign": "AAL123", "latitude_deg": 39.5432, "longitude_deg": -77.1235,
+         "altitude_ft": 20_000.0, "speed_kt": 481, "track_deg": 90, "climb_fpm": 64},
+    ]  # fmt: skip
+    alert = {"kind": "runway_conflict", "severity": "CAUTION", "traffic": ["AAL123", "DAL456"],
+             "runway": None, "actions": {"AAL123": "go_around"}}  # fmt: skip
+    assert document["rules"] == [
+        {"id": "runway-1", "time_left_s": 13, **alert},
+        {"id": "sep-1", "time_left_s": 31, **alert},
+    ]
+    assert json.loads(situation([CAUTION]).question())["rules"][0]["time_left_s"] is None
+
+
+@pytest.mark.parametrize(("count", "given"), [(3, 3), (20, 20), (25, 20)])
+def test_the_question_has_the_last_12_calls_and_20_tracks_at_most(count: int, given: int) -> None:
+    tracks = [
+        report("AAL123", -77.0, 90.0, 59.0).model_copy(update={"icao24": f"b0{n:04x}"})
+        for n in range(count)
+    ]
+    calls = [call("American one two three, go around", 20 + n, f"c-{n}") for n in range(count)]
+    about = situation([], *tracks, *calls)
+    document = json.loads(about.question())
+    assert len(document["tracks"]) == given
+    ages = [each["age_s"] for each in document["radio"]]
+    assert ages == [40 - n for n in range(count)][-12:]
+    assert [each["id"] for each in document["radio"]] == [f"r{n + 1}" for n in range(len(ages))]
+
+
+@pytest.mark.parametrize(
+    ("age_s", "tracks", "calls"), [(15.0, 1, 1), (15.1, 0, 1), (119.9, 0, 1), (121.1, 0, 0)]
+)
+def test_tracks_are_given_for_15_s_and_calls_for_two_minutes_from_their_end(
+    age_s: float, tracks: int, calls: int
+) -> None:
+    slices = Slices()
+    heard = call("American one two three, go around", 200 - age_s)
+    for message in (BRIEFING, report("AAL123", -77.0, 90.0, 200 - age_s), heard):
+        slices.receive(Received(message, 0, 0))
+    request = slices.request(200 * SECOND_NS)
+    assert (len(request.tracks), len(request.radio)) == (tracks, calls)
+    assert request.ts_ms == 200_000
+
+
+def test_a_call_is_given_as_it_was_heard_and_by_whom() -> None:
+    slices = Slices()
+    for message in (BRIEFING, CLEARED, READBACK.model_copy(update={"id": "c-2"})):
+        slices.receive(Received(message, 0, 0))
+    to, by = slices.request(60 * SECOND_NS).radio
+    assert (to.turn_id, to.ts_ms, to.end_ms, to.frequency_khz) == ("c-1", 50_000, 51_000, 118_300)
+    assert (to.addressed_callsign, to.speaker) == ("UAL7", None)
+    assert (by.addressed_callsign, by.speaker) == (None, "AAL123")
+    assert slices.callsigns() == NAMES
+
+
+def test_who_has_adsb_and_is_not_on_the_roster_is_known_too() -> None:
+    slices = Slices()
+    other = report("AAL123", -77.0, 90.0, 0.0).model_copy(update={"callsign": "BAW9"})
+    for message in (BRIEFING, other):
+        slices.receive(Received(message, 0, 0))
+    assert slices.callsigns() == ("AAL123", "BAW9", "DAL456", "UAL7")
+
+
 # --- the engine -----------------------------------------------------------------------------
 
 

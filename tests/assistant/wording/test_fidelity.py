@@ -88,3 +88,47 @@ def test_an_address_stands_for_a_callsign_that_is_not_known() -> None:
 def test_who_is_told_what_is_not_swapped_for_the_controller() -> None:
     swapped = CONTROLLER_S.replace("go around", "x").replace("hold position", "go around")
     assert "actions" in changed(CONTROLLER_S, swapped.replace("x", "hold position"), CONTROLLER)
+
+
+@pytest.mark.parametrize(
+    ("rule", "reworded", "refusal"),
+    [
+        (GO_AROUND, GO_AROUND.removeprefix("AAL123 "), "begins with no callsign; expected AAL123"),
+        (READBACK, f"AAL123 {READBACK}", "begins with AAL123; expected none"),
+        (GO_AROUND, GO_AROUND.replace("19L", "19R"), "changes the runways: 19R; expected 19L"),
+        (GO_AROUND, GO_AROUND.replace("on runway 19L", "ahead"),
+         "changes the runways: none; expected 19L"),
+        ("AAL123 traffic UAL7, 12 s to go", "AAL123 traffic UAL7, runway 19, 12 s to go",
+         "changes the runways: 19; expected none"),
+        (GO_AROUND, GO_AROUND.replace("UAL7", "traffic"),
+         "changes the callsigns: AAL123; expected AAL123, UAL7"),
+        (READBACK, READBACK.replace("for UAL7", "by UAL7"),
+         "changes the callsigns: by UAL7, by AAL123, DAL9; expected for UAL7, by AAL123, DAL9"),
+        (GO_AROUND, GO_AROUND.replace("go around", "hold position"),
+         "changes the actions: AAL123 hold_position; expected AAL123 go_around"),
+        (GO_AROUND, GO_AROUND.replace("go around, ", ""),
+         "changes the actions: none; expected AAL123 go_around"),
+        (CLIMB, CLIMB.replace("climb", "descend"),
+         "AAL123 altitude descend 5000.0 1500 feet 5000 feet"),
+        (GO_AROUND, GO_AROUND.replace("12 s", "120 s"),
+         "changes the numbers: 120 second; expected 12 second"),
+        (GO_AROUND, GO_AROUND.replace(", 12 s to go", ""),
+         "changes the numbers: none; expected 12 second"),
+        (GO_AROUND, f"{GO_AROUND}, caution, advisory",
+         "changes the severity: advisory, caution; expected warning"),
+        (GO_AROUND, f"{GO_AROUND}, we all very much hope it helps somehow",
+         "words of its own: all, helps, hope, much, somehow; expected"),
+        ("AAL123 has not read back, traffic UAL7", "AAL123 has read back, traffic UAL7",
+         "another number of 'not' than the rule's message"),
+    ],
+)  # fmt: skip
+def test_a_refusal_says_what_was_changed_and_what_was_expected(
+    rule: str, reworded: str, refusal: str
+) -> None:
+    assert refusal in changed(rule, reworded)
+
+
+@pytest.mark.parametrize(("length", "is_refused"), [(200, False), (201, True)])
+def test_a_message_has_200_characters_at_most(length: int, is_refused: bool) -> None:
+    reworded = GO_AROUND + "," * (length - len(GO_AROUND))
+    assert ("more than 200" in changed(GO_AROUND, reworded)) is is_refused
