@@ -1,0 +1,205 @@
+"""The outcome of a run and its advisories, from what monitors say was so."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any, cast
+
+import pytest
+
+from airhilt.messages import Advisory, Evidence, Severity
+from airhilt.metrics.advisories import AdvisoryRecords
+from airhilt.metrics.outcome import Outcome
+from airhilt.metrics.summary import RunwayIncursion
+from airhilt.units import SECOND_NS
+from airhilt.world.truth.conflicts import Approach, PairTruth
+
+PAIR = ("AAL1", "DAL2")
+
+
+def approach(horizontal_m: float, vertical_m: float = 0.0, t_s: float = 10.0) -> Approach:
+    return Approach(round(t_s * SECOND_NS), horizontal_m, vertical_m)
+
+
+def outcome(pairs: dict[Any, PairTruth], pair: Any = None, incursions: Any = None) -> Outcome:
+    monitor = SimpleNamespace(pairs=pairs)
+    runways = (
+        None if incursions is None else SimpleNamespace(incursions=dict(enumerate(incursions)))
+    )
+    return Outcome(cast(Any, monitor), cast(Any, runways), pair)
+
+
+def incursion(category: str = "A", user: Any = "AAL1", intruder: str = "DAL2",
+              closest_m: float | None = 30.0) -> Any:  # fmt: skip
+    closest = None if closest_m is None else SimpleNamespace(slant_m=closest_m)
+    return SimpleNamespace(
+        t_ns=5 * SECOND_NS, runway="01", user=user, intruder=intruder, category=category,
+        closest=closest,
+    )  # fmt: skip
+
+
+def test_without_a_conflict_the_pair_that_came_nearest_counts() -> None:
+    pairs = {
+        ("A", "B"): PairTruth(closest=approach(900.0, t_s=10.0)),
+        ("A", "C"): PairTruth(closest=approach(300.0, 400.0, t_s=20.0)),
+        ("B", "C"): PairTruth(),
+    }
+    found = outcome(pairs).closest_approach
+    assert found is not None
+    assert (found.t_s, found.horizontal_m, found.vertical_m) == (20.0, 300.0, 400.0)
+    assert outcome({("A", "B"): PairTruth()}).closest_approach is None
+    assert outcome({}).closest_approach is None
+
+
+def test_of_the_annotated_pair_the_approach_in_the_conflict_window_counts() -> None:
+    truth = PairTruth(closest=approach(100.0), closest_in_window=approach(700.0, t_s=30.0))
+    nearer = PairTruth(closest=approach(1.0))
+    found = outcome({PAIR: truth, ("X", "Y"): nearer}, PAIR).closest_approach
+    assert found is not None
+    assert (found.t_s, found.horizontal_m) == (30.0, 700.0)
+    assert outcome({PAIR: PairTruth(closest=approach(100.0))}, PAIR).closest_approach is None
+    assert outcome({}, PAIR).pair_truth is None
+
+
+def test_the_worst_of_all_incursions_counts_and_each_is_told() -> None:
+    both = outcome({}, None, [incursion("C"), incursion("B", None, "OPS1", None)])
+    assert both.worst_category() == "B"
+    first, second = both.incursions()
+    assert (first.t_s, first.runway, first.closest_m) == (5.0, "01", 30.0)
+    assert (second.user, second.intruder, second.closest_m) == (None, "OPS1", None)
+    assert outcome({}, None, []).worst_category() is None
+    assert outcome({}).incursions() == []
+
+
+@pytest.mark.parametrize(
+    ("category", "names", "was_warned", "avoided"),
+    [
+        ("A", PAIR, True, False),
+        ("B", PAIR, True, False),
+        ("C", PAIR, True, True),
+        ("C", PAIR, False, None),
+        ("A", ("AAL1", "OPS1"), True, True),
+    ],
+)
+def test_a_serious_incursion_of_the_pair_was_not_avoided(
+    category: str, names: tuple[str, str], was_warned: bool, avoided: bool | None
+) -> None:
+    found = outcome({}, PAIR, [incursion(category, *names)])
+    assert found.avoided(was_warned) is avoided
+    assert found.came_about("runway_incursion") is (avoided is False)
+
+
+def test_what_came_about_is_that_or_worse() -> None:
+    lost = outcome({PAIR: PairTruth(first_ns={"nmac": 1})}, PAIR)
+    assert lost.happened("nmac")
+    assert not lost.happened("collision")
+    assert lost.came_about("nmac")
+    assert not lost.came_about("collision")
+    assert lost.avoided(was_warned=True) is False
+
+
+# --- advisories ---------------------------------------------------------------------------------
+
+
+def advisory(**given: Any) -> Advisory:
+    usual = {
+        "t_ns": 100 * SECOND_NS, "t_ready_ns": 0, "id": "a", "revision": 0, "recipients": ("AAL1",),
+        "kind": "runway_conflict",
+        "severity": Severity.CAUTION, "recipient": "AAL1", "traffic": ("AAL1",),
+        "evidence": Evidence(sources=("radio",)), "message": "x", "active": True,
+    }  # fmt: skip
+    return Advisory.model_validate(usual | given)
+
+
+def records(
+    pair: Any = PAIR, seen_ns: dict[str, int] | None = None, loss_s: float | None = None
+) -> AdvisoryRecords:
+    callsigns = {name: name for name in ("AAL1", "DAL2", "OPS1")} | {"abc123": "AAL1"}
+    monitor = SimpleNamespace(time_to_loss_s=lambda _: loss_s)
+    seen = seen_ns or {}
+    return AdvisoryRecords(
+        callsigns, pair, cast(Any, monitor), lambda name, since_ns: seen.get(name, -1) >= since_ns
+    )
+
+
+@pytest.mark.parametrize(
+    ("traffic", "sources", "concerns"),
+    [
+        (PAIR, ("adsb",), True),
+        (("AAL1", "DAL2", "OPS1"), ("adsb",), True),
+        (("abc123", "DAL2"), ("adsb",), True),
+        (("AAL1",), ("radio",), True),
+        (("AAL1",), ("adsb",), False),
+        (("AAL1", "unidentified"), ("radio",), True),
+        (("AAL1", "OPS1"), ("radio",), False),
+        (("unidentified",), ("radio",), False),
+    ],
+)
+def test_an_advisory_concerns_the_pair_if_it_names_both_or_one_and_nobody_else(
+    traffic: tuple[str, ...], sources: tuple[str, ...], concerns: bool
+) -> None:
+    told = advisory(traffic=traffic, evidence=Evidence(sources=sources))
+    assert records().warns_of_conflict(told) is concerns
+
+
+@pytest.mark.parametrize(("seen_s", "concerns"), [(90.0, True), (89.9, False), (None, False)])
+def test_what_rests_on_cameras_must_have_been_seen_in_the_last_10_s(
+    seen_s: float | None, concerns: bool
+) -> None:
+    seen = {} if seen_s is None else {"DAL2": round(seen_s * SECOND_NS)}
+    told = advisory(evidence=Evidence(sources=("vision", "radio")))
+    assert records(seen_ns=seen).warns_of_conflict(told) is concerns
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [{"active": False}, {"kind": "clarification"}, {"severity": Severity.ADVISORY},
+     {"recipient": "UAL9"}],
+)  # fmt: skip
+def test_nobody_is_warned_by_what_is_over_asked_mild_or_for_a_stranger(
+    changed: dict[str, Any],
+) -> None:
+    assert records().warns_of_conflict(advisory())
+    assert records().warns_of_conflict(advisory(recipient="ATC"))
+    assert not records().warns_of_conflict(advisory(**changed))
+
+
+@pytest.mark.parametrize(
+    ("loss_s", "pair", "count"),
+    [(300.0, PAIR, 0), (301.0, PAIR, 1), (None, PAIR, 1), (10.0, None, 1)],
+)
+def test_a_loss_of_separation_within_5_min_is_no_nuisance(
+    loss_s: float | None, pair: Any, count: int
+) -> None:
+    told = records(pair, loss_s=loss_s)
+    told.add(advisory(kind="loss_of_separation", traffic=("AAL1", "OPS1"),
+                      evidence=Evidence(sources=("adsb",))))  # fmt: skip
+    assert told.nuisance_alerts([]) == count
+
+
+def test_an_alert_about_an_incursion_or_the_pair_is_no_nuisance_and_a_question_none() -> None:
+    real = RunwayIncursion(t_s=1.0, runway="01", user="AAL1", intruder="OPS1", category="C",
+                           closest_m=None)  # fmt: skip
+    told = records()
+    told.add(advisory(id="a", traffic=PAIR))
+    told.add(advisory(id="b", traffic=("AAL1", "OPS1"), evidence=Evidence(sources=("adsb",))))
+    told.add(advisory(id="c", kind="clarification", traffic=("OPS1",)))
+    told.add(advisory(id="d", traffic=("OPS1", "DAL2"), severity=Severity.ADVISORY))
+    assert told.nuisance_alerts([real]) == 0
+    assert told.nuisance_alerts([]) == 1
+    assert told.clarifications() == 1
+    assert [each.nuisance for each in told.summaries([])] == [False, True, False, True]
+
+
+def test_each_revision_counts_once_and_the_gravest_of_all() -> None:
+    told = records()
+    assert told.add(advisory(severity=Severity.CAUTION))
+    assert not told.add(advisory(severity=Severity.WARNING))
+    assert told.add(advisory(revision=1, severity=Severity.WARNING, t_ns=120 * SECOND_NS))
+    assert told.add(advisory(revision=2, severity=Severity.INFO, active=False))
+    told.add_voice("a", 105 * SECOND_NS)
+    told.add_voice("a", 125 * SECOND_NS)
+    told.add_voice("b", 1)
+    (summary,) = told.summaries([])
+    assert (summary.t_first_s, summary.t_spoken_s) == (100.0, 105.0)
+    assert (summary.severity, summary.revisions) == (Severity.WARNING, 3)
