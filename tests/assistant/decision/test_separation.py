@@ -36,6 +36,23 @@ def test_random_losses_are_warned_of_in_time_though_nobody_reacts(
     assert numbers["warning_late_for_the_manoeuvre"] == []
 
 
+@pytest.mark.parametrize("track_deg", [0.0, 90.0, 180.0])
+def test_a_loss_is_told_three_two_and_one_minutes_ahead_whatever_the_direction(
+    track_deg: float,
+) -> None:
+    """Two that meet after 230 s lose 5 NM at 480 knots each some 19 s before."""
+    encounter = head_on(160.0, track_deg=track_deg + 180.0)
+    encounter.flights[0] = Flight("AAL123", "a1b2c3", track_deg, 30.7, 35_000.0)
+    first: dict[Severity, float] = {}
+    for t_s, advisory in encounter.fly().told:
+        if advisory.recipient == "ATC":
+            first.setdefault(advisory.severity, t_s)
+    lost_s = (61.4 - 5.0) / (960.0 / 3600.0)
+    ahead_s = [lost_s - t_s for t_s in first.values()]
+    assert list(first) == [Severity.ADVISORY, Severity.CAUTION, Severity.WARNING]
+    assert ahead_s == pytest.approx([180.0, 120.0, 60.0], abs=3.0)
+
+
 def climbs_through(target_ft: float, seed: int) -> Encounter:
     """One climbs through the level of another, which it meets on the way."""
     encounter = head_on(300.0, seed)

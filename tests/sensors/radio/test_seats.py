@@ -329,15 +329,19 @@ def recognised(text: str, confidence: float = 1.0, *, seat: str = TOWER) -> Seat
     world.microphone(12.0, seat, "pressed")
     world.microphone(13.0, seat, "samples", 0.5)
     world.microphone(14.0, seat, "released")
-    name = f"microphone.{key_chunk(seat)}.1"
-    transcript = Transcript(
-        t_ns=0, id=name, frequency_khz=KHZ, t_tx_ns=12 * SECOND_NS, t_end_ns=14 * SECOND_NS,
-        text=text, confidence=confidence, engine="test",
+    words = transcript(text, confidence, seat)
+    for at_s in (15.0, 16.0):  # Only the first time counts.
+        world.at(at_s, lambda: world.conversation.take(f"asr/{KHZ}", words, b""))
+    return world.run_until(60.0)
+
+
+def transcript(text: str, confidence: float, seat: str = TOWER) -> Transcript:
+    """Return what was recognised of what a seat said from 12 s to 14 s."""
+    return Transcript(
+        t_ns=0, id=f"microphone.{key_chunk(seat)}.1", frequency_khz=KHZ, text=text,
+        t_tx_ns=12 * SECOND_NS, t_end_ns=14 * SECOND_NS, confidence=confidence, engine="test",
         words=tuple(Word(text=each, confidence=confidence) for each in text.split()),
     )  # fmt: skip
-    for at_s in (15.0, 16.0):  # Only the first time counts.
-        world.at(at_s, lambda: world.conversation.take(f"asr/{KHZ}", transcript, b""))
-    return world.run_until(60.0)
 
 
 def test_what_was_recognised_surely_is_done() -> None:
@@ -361,6 +365,19 @@ def test_who_is_not_sure_of_what_was_recognised_asks_again(text: str, confidence
     assert world.done == []
     assert world.hearings("AAL123")[0][1] == "unsure"
     assert any("say-again" in name for name in world.said())
+
+
+def test_without_a_task_words_that_name_nobody_are_for_the_only_crew_on_the_frequency() -> None:
+    """With several crews there, they are for none of them."""
+    for others, outcomes in (((), ["unsure"]), (("DAL456",), [])):
+        crews = [line(f"hello-{name}", 50, name, TOWER, "Hello.") for name in ("AAL123", *others)]
+        world = Seated(*crews, seats=[TOWER], backend=Sounding(160.0))
+        world.microphone(12.0, TOWER, "pressed")
+        world.microphone(14.0, TOWER, "released")
+        words = transcript("climb flight level three three zero", 1.0)
+        world.at(15.0, lambda world=world: world.conversation.take(f"asr/{KHZ}", words, b""))
+        world.run_until(40.0)
+        assert [outcome for _, outcome in world.hearings("AAL123")] == outcomes
 
 
 @pytest.mark.parametrize(
