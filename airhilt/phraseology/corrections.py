@@ -182,6 +182,8 @@ class Corrections:
             part = (
                 Words(part.texts[size:], part.confidences[size:]) if size > 1 or is_anew else part
             )
+        elif marker == "correction":
+            part = Words(part.texts[1:], part.confidences[1:])
         new = self._read(part)
         if is_anew:
             kept = [i for i, each in enumerate(new.instructions) if each not in withdrawn]
@@ -193,7 +195,7 @@ class Corrections:
             if _corrects_itself(content.instructions[-1], new):
                 _replace(content, new)
                 return
-            corrected = _corrected(content.instructions[-1], " ".join(part.texts[1:]))
+            corrected = _corrected(content.instructions[-1], " ".join(part.texts))
             if corrected is not None:
                 content.instructions[-1] = corrected
             elif new.instructions:

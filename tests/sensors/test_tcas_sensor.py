@@ -118,6 +118,30 @@ def test_range_and_bearing_have_the_errors_of_tcas() -> None:
     assert np.std(bearings) == pytest.approx(9.0, rel=0.1)
 
 
+class Extreme:
+    """Draws the middle of whatever is random, but the greatest of what has a greatest value."""
+
+    def random(self) -> float:
+        return 0.5
+
+    def standard_normal(self, count: int) -> np.ndarray:
+        return np.zeros(count)
+
+    def uniform(self, least: float, greatest: float) -> float:
+        assert least in (0.0, -greatest)
+        return greatest
+
+
+def test_the_range_to_one_transponder_is_wrong_by_125_ft_at_most(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The bias of RTCA DO-185B."""
+    sky = Sky()
+    true_m = Antenna(*sky.own.body.state[:3]).to(sky.other.body.state).range_m
+    monkeypatch.setattr("airhilt.sensors.tcas.stream", lambda *_: Extreme())
+    assert sky.go(3.0)[0].range_m - true_m == pytest.approx(125.0 * FOOT, abs=0.06)
+
+
 def test_mode_s_says_who_replies_and_its_altitude_in_steps_of_25_ft() -> None:
     reply = Sky().go()[0]
     assert (reply.mode, reply.icao24, reply.altitude_ft) == ("S", "a4d5e6", 35_025)
@@ -131,9 +155,10 @@ def test_mode_c_does_not_say_who_replies_and_has_steps_of_100_ft() -> None:
 
 
 def test_mode_c_reaches_less_far_than_mode_s() -> None:
-    assert Sky(20.0).go()
-    assert not Sky(20.0, mode="C").go()
-    assert not Sky(40.0).go()
+    """30 NM and 14 NM."""
+    for reach_nm, mode in ((30.0, "S"), (14.0, "C")):
+        assert Sky(reach_nm - 0.2, mode=mode).go(20.0)
+        assert not Sky(reach_nm + 0.2, mode=mode).go(20.0)
 
 
 def test_an_aircraft_without_a_transponder_does_not_reply() -> None:

@@ -95,6 +95,9 @@ def test_who_flies_what_is_asked_cuts_the_corner_on_a_circle_and_comes_out_on_th
     assert max(rate for _, rate in flights) < 1.25 * greatest
     assert min(rate for _, rate in flights) > -0.25 * greatest
     assert track / DEGREE == pytest.approx(turn_deg, abs=0.5)
+    half = len([None for at, _ in flights if at < abs(turn_deg * DEGREE) / 2.0])
+    rolls_out = next(at for at, rate in flights[half:] if rate < 0.5 * greatest)
+    assert (abs(turn_deg * DEGREE) - rolls_out) / greatest == pytest.approx(ROLL_LEAD_S, abs=0.5)
 
 
 @pytest.mark.parametrize(
