@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any, TypeVar
 
 import numpy as np
@@ -375,7 +376,8 @@ def test_without_a_task_words_that_name_nobody_are_for_the_only_crew_on_the_freq
         world.microphone(12.0, TOWER, "pressed")
         world.microphone(14.0, TOWER, "released")
         words = transcript("climb flight level three three zero", 1.0)
-        world.at(15.0, lambda world=world: world.conversation.take(f"asr/{KHZ}", words, b""))
+        take = partial(world.conversation.take, f"asr/{KHZ}", words, b"")
+        world.at(15.0, take)
         world.run_until(40.0)
         assert [outcome for _, outcome in world.hearings("AAL123")] == outcomes
 
