@@ -16,7 +16,7 @@ from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.intruder_advice import evasion
 from airhilt.assistant.decision.intruders import IntruderConfig, IntruderWatch
 from airhilt.assistant.decision.line_of_sight import Ray
-from airhilt.assistant.decision.standing import _across, may_stand
+from airhilt.assistant.decision.standing import _across, may_stand, stays_in_place
 from airhilt.geodesy.relative_motion import Minima
 from airhilt.messages import Climb, Severity, Turn
 from airhilt.units import DEGREE, FOOT, SECOND_NS
@@ -282,3 +282,92 @@ def test_a_conflict_is_over_once_it_has_been_quiet_for_long_enough() -> None:
     told.stays_open(at(12.0), 5.0)
     assert told.rises(Severity.CAUTION, at(13.0), 0.0)  # It has come back.
     assert not told.rises(Severity.CAUTION, at(14.0), 0.0)
+
+
+# --- what stays in its place ----------------------------------------------------------------
+
+
+def stays(
+    *, speed_m_s: float = 100.0, seconds: float = 10.0, label: str = "aircraft", size: float = 0.1,
+    azimuth_deg: float = 30.0, **changed: Any,
+) -> bool:  # fmt: skip
+    """Return whether what turns away as if it stood 1 km off, 30 degrees right of ahead, stays.
+
+    The camera flies north at 100 m/s, 50 m/s of which are across the line of sight.
+    """
+    views = [
+        SimpleNamespace(latitude_deg=degrees, longitude_deg=8.0, height_m=1000.0)
+        for degrees in (0.0, speed_m_s * seconds / 6_335_439.0 / DEGREE)
+    ]
+    ray = Ray(math.sin(azimuth_deg * DEGREE), math.cos(azimuth_deg * DEGREE), 0.0)
+    observations = [
+        SimpleNamespace(
+            t_ns=round(t_s * SECOND_NS), ray=ray, size_rad=(size, size / 2.0),
+            geometry=SimpleNamespace(view=view),
+        )
+        for t_s, view in zip((0.0, seconds), views, strict=True)
+    ]  # fmt: skip
+    track = SimpleNamespace(observations=observations, last=observations[-1], label=label)
+    usual = {"turning_rad_s": (0.05, 0.0), "closing": 0.0, "closing_error": 0.0, "size_rad": size}
+    return stays_in_place(cast("Any", track), approach(**(usual | changed)))
+
+
+@pytest.mark.parametrize(
+    ("label", "size", "is_standing"),
+    [
+        ("aircraft", 0.081, True), ("aircraft", 0.079, False),
+        ("bird", 0.021, True), ("bird", 0.019, False),
+    ],
+)  # fmt: skip
+def test_what_is_larger_than_an_aircraft_or_a_flock_where_it_would_stand_stays(
+    label: str, size: float, is_standing: bool
+) -> None:
+    assert stays(label=label, size=size) is is_standing
+    assert stays(label=label, size=size, azimuth_deg=-30.0, turning_rad_s=(-0.05, 0.0)) is (
+        is_standing
+    )
+
+
+def test_the_less_exactly_its_turning_is_known_the_nearer_it_may_be() -> None:
+    """Two standard deviations of 0.005 make 1000 m 833 m."""
+    assert stays(size=0.097, turning_error=0.005)
+    assert not stays(size=0.095, turning_error=0.005)
+
+
+@pytest.mark.parametrize(
+    ("outward", "error", "is_standing"),
+    [(0.05, 0.0, True), (-0.05, 0.0, False), (0.0, 0.0, False),
+     (0.051, 0.025, True), (0.049, 0.025, False)],
+)  # fmt: skip
+def test_what_stays_turns_away_from_the_course(
+    outward: float, error: float, is_standing: bool
+) -> None:
+    assert stays(size=0.4, turning_rad_s=(outward, 0.0), turning_error=error) is is_standing
+
+
+@pytest.mark.parametrize(
+    ("sideward", "error", "is_standing"),
+    [(0.0124, 0.0, True), (0.0126, 0.0, False), (-0.0124, 0.0, True), (-0.0126, 0.0, False),
+     (0.0274, 0.005, True), (0.0276, 0.005, False)],
+)  # fmt: skip
+def test_it_turns_hardly_to_the_side_of_that(
+    sideward: float, error: float, is_standing: bool
+) -> None:
+    """A quarter of the turning away, and three standard deviations."""
+    assert stays(turning_rad_s=(0.05, sideward), turning_error=error) is is_standing
+
+
+@pytest.mark.parametrize(
+    ("closing", "error", "is_standing"),
+    [(0.108, 0.0, True), (0.1085, 0.0, False), (0.138, 0.01, True), (0.1385, 0.01, False)],
+)
+def test_it_grows_no_faster_than_the_camera_comes_nearer(
+    closing: float, error: float, is_standing: bool
+) -> None:
+    """At 86.6 m/s along 1 km, and a quarter more, with three standard deviations."""
+    assert stays(closing=closing, closing_error=error) is is_standing
+
+
+def test_from_a_camera_that_does_not_move_nothing_is_known_to_stay() -> None:
+    assert not stays(speed_m_s=0.0)
+    assert not stays(seconds=0.0)
