@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pandas as pd
 import pytest
 
-from airhilt.metrics.measures import AVOIDED, NOMINAL_NUISANCE, NUISANCE
+from airhilt.metrics.estimates import mean_of, rate_of, share_of
+from airhilt.metrics.measures import AVOIDED, LEAD, MEASURES, NOMINAL_NUISANCE, NUISANCE
 
 RUNS = pd.DataFrame(
     {
@@ -28,3 +30,40 @@ def test_the_time_of_a_run_whose_alerts_nobody_counted_is_not_counted_either() -
 def test_a_share_is_one_of_the_runs_that_have_a_value() -> None:
     found = AVOIDED.estimate(RUNS)
     assert (found.n, found.value) == (3, pytest.approx(200 / 3))
+
+
+TEN = pd.DataFrame(
+    {
+        "nominal": [False] * 10,
+        "duration_s": np.linspace(900.0, 1800.0, 10),
+        "nuisance_alerts": [0, 1, 2, 0, 3, 1, 0, 0, 5, 1],
+        "lead_before_closest_approach_s": np.linspace(5.0, 60.0, 10) ** 1.2,
+        "avoided": [True] * 7 + [False] * 3,
+    }
+)
+
+
+def test_each_number_has_the_interval_of_its_kind_unless_none_is_asked_for() -> None:
+    """Shares in percent, rates by the hour."""
+    leads = TEN["lead_before_closest_approach_s"].to_numpy()
+    alerts, hours = TEN["nuisance_alerts"].to_numpy(float), TEN["duration_s"].to_numpy() / 3600.0
+    assert LEAD.estimate(TEN) == mean_of(leads)
+    assert LEAD.estimate(TEN, with_interval=False) == mean_of(leads, with_interval=False)
+    assert NUISANCE.estimate(TEN) == rate_of(alerts, hours)
+    assert NUISANCE.estimate(TEN, with_interval=False) == rate_of(alerts, hours, False)
+    assert AVOIDED.estimate(TEN) == share_of([True] * 7 + [False] * 3).times(100.0)
+    for each in (LEAD, NUISANCE, AVOIDED):
+        found = each.estimate(TEN)
+        assert None not in (found.low, found.high)
+
+
+def test_without_the_column_or_without_values_nothing_is_known() -> None:
+    for each in MEASURES:
+        assert each.estimate(pd.DataFrame({"duration_s": [1.0], "nominal": [True]})).n == 0
+    assert NOMINAL_NUISANCE.estimate(TEN).n == 0
+
+
+def test_a_table_needs_the_columns_that_a_number_is_made_of() -> None:
+    for each in MEASURES:
+        assert each.columns == [each.column, "nominal", "duration_s"]
+    assert LEAD.label == "Lead before closest approach (s)"

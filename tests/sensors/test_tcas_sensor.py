@@ -119,7 +119,10 @@ def test_range_and_bearing_have_the_errors_of_tcas() -> None:
 
 
 class Extreme:
-    """Draws the middle of whatever is random, but the greatest of what has a greatest value."""
+    """Draws the middle of whatever is random, but an end of what has two."""
+
+    def __init__(self, *, is_least: bool = False) -> None:
+        self.is_least = is_least
 
     def random(self) -> float:
         return 0.5
@@ -129,7 +132,7 @@ class Extreme:
 
     def uniform(self, least: float, greatest: float) -> float:
         assert least in (0.0, -greatest)
-        return greatest
+        return least if self.is_least else greatest
 
 
 def test_the_range_to_one_transponder_is_wrong_by_125_ft_at_most(
@@ -140,6 +143,11 @@ def test_the_range_to_one_transponder_is_wrong_by_125_ft_at_most(
     true_m = Antenna(*sky.own.body.state[:3]).to(sky.other.body.state).range_m
     monkeypatch.setattr("airhilt.sensors.tcas.stream", lambda *_: Extreme())
     assert sky.go(3.0)[0].range_m - true_m == pytest.approx(125.0 * FOOT, abs=0.06)
+
+
+def test_no_range_is_less_than_none(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("airhilt.sensors.tcas.stream", lambda *_: Extreme(is_least=True))
+    assert Sky(0.0).go(3.0)[0].range_m == 0.0
 
 
 def test_mode_s_says_who_replies_and_its_altitude_in_steps_of_25_ft() -> None:

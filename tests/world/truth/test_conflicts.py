@@ -364,10 +364,11 @@ def test_tcas_speaks_of_one_that_climbs_to_the_own_level_and_not_of_one_that_cli
     names: tuple[int, int],
 ) -> None:
     """It climbs with 2,000 ft/min, and is 2,000 ft away a minute before the two pass."""
-    for below_ft, speaks in ((-2_000.0, True), (2_000.0, False)):
+    for below_ft, told_s in ((-2_000.0, [60.0 - 48.0, 60.0 - 35.0]), (2_000.0, [])):
         pair = head_on(60.0, altitude_ft=35_000.0 + below_ft, rate_fpm=2_000.0)
         told = Watch(*(pair[at] for at in names)).fly(70.0).told
-        assert ("tcas_ra" in told) is speaks
+        spoken_s = [told[name] for name in ("tcas_ta", "tcas_ra") if name in told]
+        assert spoken_s == pytest.approx(told_s, abs=1.5)
 
 
 @pytest.mark.parametrize(("above_ft", "is_nmac"), [(99.5, True), (100.5, False), (-99.5, True),
