@@ -139,16 +139,15 @@ def test_two_fixes_together_are_weighed_by_their_covariances() -> None:
     )
 
 
-@pytest.mark.parametrize(("seconds", "share"), [(2.0, 1.0), (0.5, 0.0)])
-def test_what_drives_has_its_velocity_once_it_was_seen_for_a_second(
-    seconds: float, share: float
-) -> None:
+def velocity_after(seconds: float, speed: float, error_px: float = 0.0, seed: int = 1) -> Vector:
+    """Return the measured velocity of a truck that drives 0.6 east and 0.8 north."""
+
     def drives(t_s: float) -> tuple[tuple[float, float, float], float]:
-        return (6.0 * t_s, 80.0 + 8.0 * t_s, 0.0), 0.0
+        return (0.6 * speed * t_s, 80.0 + 0.8 * speed * t_s, 0.0), 0.0
 
     camera = Camera(
         "c", FIELD, standing((0.0, 0.0, 30.0), 0.0, -20.0), [Body("truck", *TRUCK, drives)],
-        error_px=0.0,
+        error_px=error_px, seed=seed,
     )  # fmt: skip
     pictures = [camera.detections(k * SECOND_NS // 8) for k in range(round(8 * seconds) + 1)]
     observations = [
@@ -158,9 +157,22 @@ def test_what_drives_has_its_velocity_once_it_was_seen_for_a_second(
     seen = SimpleNamespace(
         tracks=(SimpleNamespace(last=observations[-1], observations=observations),)
     )
-    assert velocity_of(cast(Any, seen), AERODROME) == pytest.approx(
-        (6.0 * share, 8.0 * share), abs=0.5
-    )
+    return velocity_of(cast(Any, seen), AERODROME)
+
+
+@pytest.mark.parametrize(("seconds", "share"), [(2.0, 1.0), (1.0, 1.0), (0.875, 0.0), (0.0, 0.0)])
+def test_what_drives_has_its_velocity_once_it_was_seen_for_a_second(
+    seconds: float, share: float
+) -> None:
+    velocity = velocity_after(seconds, 10.0)
+    assert velocity == pytest.approx((6.0 * share, 8.0 * share), abs=0.5 * share)
+
+
+def test_what_stands_seldom_has_a_velocity_by_the_errors_of_its_boxes() -> None:
+    """Its errors are more than two standard deviations together in one of e squared cases."""
+    measured = [velocity_after(2.0, 0.0, 1.0, seed) for seed in range(40)]
+    assert sum(each != (0.0, 0.0) for each in measured) <= 12
+    assert velocity_after(2.0, 10.0, 1.0) == pytest.approx((6.0, 8.0), abs=1.5)
 
 
 @pytest.mark.parametrize("vertical_ft", [450.0, 1000.0])
