@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import time
 from collections.abc import Callable
 from typing import Any
 
@@ -69,7 +70,7 @@ def model(monkeypatch: pytest.MonkeyPatch) -> Model:
     def of(*replies: Reply) -> tuple[LanguageModel, Scripted]:
         scripted = Scripted(*replies)
         monkeypatch.setattr(language_model, "HttpService", scripted)
-        monkeypatch.setattr(language_model.time, "monotonic", lambda: scripted.clock_s)
+        monkeypatch.setattr(time, "monotonic", lambda: scripted.clock_s)
         settings = LanguageModelSettings("http://localhost/v1", "small", deadline_s=5.0, seed=7)
         return LanguageModel(settings), scripted
 

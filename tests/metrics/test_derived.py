@@ -118,7 +118,8 @@ def test_the_first_detection_is_that_of_an_actor_of_the_conflict() -> None:
     assert [conflict(name, **given) for name in names] == [8.0, 500.0, 10.0]
     assert [of(name, conflict_actors=[], **given) for name in names] == [5.0, 100.0, 9.0]
     assert [of(name, **given) for name in names] == [5.0, 100.0, 9.0]
-    for none in ({}, {"vision": None}, {"vision": {"first_detections": []}}):
+    nothing: list[dict[str, Any]] = [{}, {"vision": None}, {"vision": {"first_detections": []}}]
+    for none in nothing:
         assert [conflict(name, **none) for name in names] == [None] * 3
 
 

@@ -178,6 +178,17 @@ def test_a_vehicle_in_the_way_counts_once_the_arrival_is_near(
     assert watch.incurred == incursions
 
 
+@pytest.mark.parametrize("phase", ["glide", "flare", "rollout"])
+@pytest.mark.parametrize(("speed_kt", "uses"), [(4.0, True), (1.0, False), (-60.0, False)])
+def test_who_hovers_or_moves_back_does_not_use_a_runway(
+    phase: str, speed_kt: float, uses: bool
+) -> None:
+    """A metre a second is 1.9 knots."""
+    landing = airliner(10.0, phase, speed_kt=speed_kt)
+    incurred = Watch({"A": landing, "OPS": vehicle(800.0)}).look().incurred
+    assert incurred == ([("A", "OPS")] if uses else [])
+
+
 def test_what_lies_behind_a_landing_is_not_in_its_way() -> None:
     rolling = airliner(1_200.0, "rollout", speed_kt=60.0)
     assert Watch({"A": rolling, "OPS": vehicle(300.0)}).look().incurred == []
