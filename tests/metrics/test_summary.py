@@ -578,6 +578,13 @@ def test_where_the_voice_is_lost_what_waits_for_it_is_read_at_once() -> None:
     assert followed.take(advisory(9.0)).summary().t_first_warning_s == 9.0
 
 
+@pytest.mark.parametrize(("modality", "state"), [("tts", "on"), ("tts", "off"), ("asr", "lost")])
+def test_what_else_changes_leaves_it_waiting_for_its_voice(modality: str, state: Any) -> None:
+    followed = told_aloud().take(advisory(9.0))
+    followed.take(Status(t_ns=12 * SECOND_NS, modality=modality, state=state))
+    assert followed.summary().t_first_warning_s is None
+
+
 def test_the_margin_over_tcas_is_counted_from_the_voice() -> None:
     followed = told_aloud().take(advisory(0.0))
     followed.watch.fly(3.0)

@@ -20,7 +20,7 @@ from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE, SECOND_NS
 
 assert BRIEFING.airport is not None
 AERODROME = Aerodrome(BRIEFING.airport)
-EDGE_M = HOLD_M - AERODROME.strip_of("01").margin_m(ACCURATE_NACP)
+EDGE_M = HOLD_M - AERODROME.strips[0].margin_m(ACCURATE_NACP)
 """Distance from the centre line at which the area of a runway begins."""
 FAST_M_S = 130.0 * KNOT
 
@@ -244,7 +244,8 @@ def test_they_are_red_while_somebody_is_ahead_for_more_than_3_s_or_cannot_but_en
 
 
 def crossing_m(axis: Axis) -> float:
-    point = AERODROME.crossing(AERODROME.strip_of("01"), AERODROME.strip_of("15"))
+    first, second = AERODROME.strips
+    point = AERODROME.crossing(first, second)
     assert point is not None
     return next(
         direction.along_m(point)
