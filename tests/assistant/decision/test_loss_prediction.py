@@ -116,6 +116,32 @@ def test_a_conflict_is_over_only_if_straight_flight_stays_clear(
             assert distance_m > 0.98 * RULES.horizontal_m
 
 
+@pytest.mark.parametrize(
+    ("apart_m", "aside_m", "speed_m_s", "is_over"),
+    [
+        (9200.0, 0.0, -100.0, False),  # They draw apart, from within the minimum.
+        (9320.0, 0.0, -100.0, True),
+        (9320.0, 0.0, 100.0, False),
+        (20_000.0, 9400.0, 100.0, False),  # They pass with little room.
+        (-20_000.0, 9400.0, 100.0, True),
+        (44_200.0, 9400.0, 100.0, False),  # A turn would lead one to the other in 180 s.
+        (44_400.0, 9400.0, 100.0, True),
+        (9320.0, 0.0, 0.0, True),
+        (9200.0, 0.0, 0.0, False),
+    ],
+)
+def test_it_is_over_once_they_are_past_each_other_or_too_far_apart(
+    apart_m: float, aside_m: float, speed_m_s: float, is_over: bool
+) -> None:
+    """Of 9,260 m they are to stay apart, and 200 m/s are 36 km in three minutes."""
+    two = (
+        track("a1", 0.0, 0.0, velocity=(speed_m_s, 0.0)),
+        track("b2", apart_m, aside_m, velocity=(-speed_m_s, 0.0)),
+    )
+    assert predicted(*two).is_over is is_over
+    assert predicted(*two, is_on_ground=True).is_over
+
+
 def test_two_that_are_near_each_other_are_not_past_each_other() -> None:
     assert not predicted(track("a1", 0, 0), track("b2", 9000, 0)).is_over
     assert predicted(track("a1", 0, 0), track("b2", 9300, 0, velocity=(10.0, 0.0))).is_over
