@@ -37,6 +37,18 @@ def test_it_is_led_to_the_line_by_0_4_m_s_for_each_metre_and_by_8_ft_s_at_most(
     assert airframe.got["set_nose_wheel"] == pytest.approx((0.0,), abs=1e-9)
 
 
+@pytest.mark.parametrize("right_m", [900.0, -900.0])
+@pytest.mark.parametrize("speed_m_s", [0.3, 2.0, 4.6])
+def test_taxiing_slowly_it_is_led_to_the_line_at_30_degrees_at_most(
+    right_m: float, speed_m_s: float
+) -> None:
+    """Whoever points there already is not steered."""
+    airframe = StandIn()
+    heading = 1.0 - math.copysign(30.0 * DEGREE, right_m)
+    law(airframe).follow_line(state_at(speed_m_s=speed_m_s, track_rad=heading), right_m, 1.0)
+    assert airframe.got["set_nose_wheel"] == pytest.approx((0.0,), abs=1e-9)
+
+
 def test_while_it_taxies_the_nose_wheel_is_turned_alike_at_any_speed() -> None:
     angles: list[float] = []
     for speed_m_s in (2.0, 4.0, 8.0):
