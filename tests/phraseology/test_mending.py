@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from airhilt.phraseology import CLEARANCES, TAU_ASR, parse_call, tokens
-from airhilt.phraseology.mending import FITS, candidates
+from airhilt.phraseology.mending import FITS, candidates, mend_by_sound
 from airhilt.phraseology.sounds import likeness, sign_of, spelled_sounds
 
 KNOWN = ("DAL456", "N172SP")
@@ -54,6 +54,21 @@ def test_a_word_that_sounds_like_the_one_that_fits_is_taken_for_it(said: str, me
 def test_where_no_other_fits_a_word_stays(said: str) -> None:
     assert tokens(f"delta four five six {said}")[2:] == tokens(said)
     assert parse_call(f"delta four five six {said}", KNOWN).instructions == ()
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "is_mended"),
+    [("then", "", True), ("", "", False), ("", "by", False), ("direct", "", False),
+     ("then", "by", True)],
+)  # fmt: skip
+def test_the_first_word_and_the_name_of_a_fix_may_sound_like_anything(
+    before: str, after: str, is_mended: bool
+) -> None:
+    words = [*before.split(), "clime", "flight", "level", "350", *after.split()]
+    confidences = [1.0] * len(words)
+    mend_by_sound(words, confidences)
+    assert ("climb" in words) is is_mended
+    assert (min(confidences) < 1.0) is is_mended
 
 
 def test_words_of_the_phraseology_are_never_replaced() -> None:
