@@ -169,6 +169,28 @@ def test_one_outside_the_zone_is_not(other: Track) -> None:
     assert predicted(*near, zone=ZONE).is_over == predicted(*near).is_over
 
 
+@pytest.mark.parametrize(
+    ("north_m", "east_m", "above_ft", "is_in"),
+    [
+        (0.0, 0.0, 2499.5, True), (0.0, 0.0, 2500.5, False), (0.0, 0.0, -10.0, True),
+        (9250.0, 0.0, 2000.0, True), (9270.0, 0.0, 2000.0, False),
+        (0.0, -9250.0, 2000.0, True), (0.0, 9270.0, 2000.0, False),
+    ],
+)  # fmt: skip
+def test_the_zone_of_a_tower_reaches_2_500_ft_up_and_5_nm_around(
+    north_m: float, east_m: float, above_ft: float, is_in: bool
+) -> None:
+    """As class D does (FAA AIM, 3-2-5)."""
+    assert BRIEFING.airport is not None
+    zone = TrafficZone.of(BRIEFING.airport)
+    assert zone is not None
+    altitude_m = (BRIEFING.airport.elevation_ft + above_ft) * FOOT
+    place = displaced((zone.latitude_rad, zone.longitude_rad), north_m, east_m, 0.0)
+    flies = Track("a1", "A1", 0, *place, altitude_m, 0.0, 0.0, 0.0)
+    assert zone.contains(flies) is is_in
+    assert TrafficZone.of(BRIEFING.airport.model_copy(update={"runways": ()})) is None
+
+
 def test_two_that_would_lose_separation_in_the_zone_are() -> None:
     one = track("a1", -15_000.0, 0.0, 500.0, (100.0, 0.0))
     other = track("b2", 15_000.0, 0.0, 500.0, (-100.0, 0.0))

@@ -15,6 +15,7 @@ from airhilt.assistant.decision.approach import Approach
 from airhilt.assistant.decision.call_order import CallOrder
 from airhilt.assistant.decision.clarifications import Clarifications
 from airhilt.assistant.decision.clearances import Clearances
+from airhilt.assistant.decision.findings import NotReadBack
 from airhilt.assistant.decision.guard import Doubt, Guard
 from airhilt.assistant.decision.intruder_advice import evasion
 from airhilt.assistant.decision.leaving import leaving_s
@@ -30,7 +31,9 @@ from airhilt.assistant.decision.visual_tracks import Observation
 from airhilt.messages import (
     AdsbReport,
     AirportBriefing,
+    CancelTakeoff,
     Climb,
+    GoAround,
     HoldPosition,
     Severity,
     TcasReply,
@@ -303,6 +306,42 @@ def test_who_can_stop_short_of_the_pavement_with_firm_braking_is_told_to(
     nobody = SimpleNamespace(use=lambda _: None)
     told = advice(mobile, cast(Any, threat), Severity.WARNING, cast(Any, nobody), cast(Any, None))
     assert told == (HoldPosition(runway="01") if share > 1.0 else None)
+
+
+URGENT = NotReadBack("DAL456", Instruction("hold_short", "01"), "AAL123")
+GO_AROUND, CANCEL = GoAround(runway="01"), CancelTakeoff(runway="01")
+
+
+@pytest.mark.parametrize(
+    ("kind", "severity", "threat", "time_s", "told"),
+    [
+        ("arrival", Severity.WARNING, {}, 60.0, GO_AROUND),
+        ("arrival", Severity.CAUTION, {}, 20.0, None),
+        ("arrival", Severity.CAUTION, {"kind": "readback_mismatch"}, 34.9, GO_AROUND),
+        ("arrival", Severity.CAUTION, {"kind": "readback_mismatch"}, 35.1, None),
+        ("arrival", Severity.CAUTION, {"finding": URGENT}, 60.0, GO_AROUND),
+        ("departure", Severity.WARNING, {}, 0.0, CANCEL),
+        ("departure", Severity.CAUTION, {}, 0.0, None),
+        ("departure", Severity.CAUTION, {"kind": "readback_mismatch"}, 0.0, None),
+        ("departure", Severity.CAUTION, {"finding": URGENT}, 0.0, CANCEL),
+        ("rollout", Severity.WARNING, {}, 0.0, None),
+    ],
+)
+def test_who_uses_a_runway_is_told_to_go_around_or_to_stop_only_when_it_is_urgent(
+    kind: str, severity: Severity, threat: dict[str, Any], time_s: float, told: Any
+) -> None:
+    use = SimpleNamespace(
+        kind=kind, direction=SimpleNamespace(ident="01"), time_to_threshold_s=lambda _: time_s
+    )
+    mobile = SimpleNamespace(t_ns=0, on_ground=kind != "arrival")
+    given = SimpleNamespace(**({"finding": None, "kind": "runway_conflict"} | threat))
+    situation = SimpleNamespace(use=lambda _: use)
+    config = SimpleNamespace(caution_s=35.0)
+    found = advice(*(cast(Any, each) for each in (mobile, given, severity, situation, config)))
+    assert found == told
+    mobile.on_ground = False
+    found = advice(*(cast(Any, each) for each in (mobile, given, severity, situation, config)))
+    assert found == (told if kind == "arrival" else None)
 
 
 @pytest.mark.parametrize(("margin_m", "cannot"), [(0.5, True), (-0.5, False)])
