@@ -325,6 +325,25 @@ def test_the_closest_distance_makes_the_category(above_ft: float, category: str)
     assert watch.categories == [category]
 
 
+@pytest.mark.parametrize("first", ["alone", "over"])
+def test_of_several_incursions_each_is_followed_by_itself(first: str) -> None:
+    """One is followed on though an earlier one is in nobody's way, or is over."""
+    plane, car, other = arrival(25.0), vehicle(800.0), vehicle(700.0)
+    if first == "alone":
+        other = Performing(Body(900.0, runway="15"), category="wildlife")
+    watch = Watch({"X": other, "A": plane, "OPS": car}).look()
+    if first == "over":
+        other.body.ended = "left"
+    plane.body.phase = "go_around"
+    for along_m in (0.0, 800.0, 2_000.0):
+        plane.body.along_m, plane.body.height_m = along_m, 60.0 * FOOT + CAR.height_m
+        watch.look()
+    found = {each.intruder: each.category for each in watch.monitor.incursions.values()}
+    assert list(found) == ["X", "OPS"]
+    assert found["OPS"] == "A"
+    assert found["X"] == ("D" if first == "alone" else "C")
+
+
 def test_once_the_user_has_stopped_nothing_comes_nearer() -> None:
     plane, car = airliner(500.0, "rollout", speed_kt=60.0), vehicle(1_400.0)
     watch = Watch({"A": plane, "OPS": car}).look()
