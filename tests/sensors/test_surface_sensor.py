@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections import defaultdict
 from pathlib import Path
 from typing import Any
@@ -133,6 +134,13 @@ def test_positions_have_the_accuracy_that_they_state(flown: Path) -> None:
         assert len(errors) > 20
         assert max(errors) < 2.0 * accuracy_m
         assert 0.0 < sum(errors) / len(errors) < accuracy_m
+
+
+def test_speeds_are_in_tenths_of_a_knot_neither_finer_nor_coarser(flown: Path) -> None:
+    arrival = [track for track in tracks_in(flown) if track.callsign == "AAL123"]
+    tenths = [round(10.0 * track.ground_speed_kt) for track in arrival]
+    assert [track.ground_speed_kt for track in arrival] == pytest.approx([t / 10 for t in tenths])
+    assert math.gcd(*tenths) == 1
 
 
 def test_an_arrival_is_shown_with_its_height_from_five_miles_on(flown: Path) -> None:
