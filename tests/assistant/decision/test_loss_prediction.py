@@ -133,7 +133,7 @@ def test_a_conflict_is_over_only_if_straight_flight_stays_clear(
 def test_it_is_over_once_they_are_past_each_other_or_too_far_apart(
     apart_m: float, aside_m: float, speed_m_s: float, is_over: bool
 ) -> None:
-    """Of 9,260 m they are to stay apart, and 200 m/s are 36 km in three minutes."""
+    """The two are to stay 9,260 m apart, and 200 m/s are 36 km in three minutes."""
     two = (
         track("a1", 0.0, 0.0, velocity=(speed_m_s, 0.0)),
         track("b2", apart_m, aside_m, velocity=(-speed_m_s, 0.0)),

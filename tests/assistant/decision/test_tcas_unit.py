@@ -92,7 +92,7 @@ def test_the_latest_reply_says_whether_it_is_on_the_ground_and_has_tcas() -> Non
 def test_the_miss_distance_is_found_from_the_acceleration_of_the_range(
     miss_m: float, speed_m_s: float
 ) -> None:
-    """Of who passes straight on; less what the jitter of the ranges may have added."""
+    """The miss of one that passes straight on, less what jitter of the ranges may have added."""
     ranges = [math.hypot(miss_m, speed_m_s * (t - 50.0)) for t in range(31)]
     replies = [reply(float(t), range_m) for t, range_m in enumerate(ranges)]
     found = track_of(*replies).miss_distance_m()

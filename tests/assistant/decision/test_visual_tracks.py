@@ -22,7 +22,7 @@ from airhilt.units import DEGREE, FOOT, KNOT, SECOND_NS
 
 HERE = (38.85 * DEGREE, -77.04 * DEGREE)
 FOCAL_PX = 320.0
-"""Of 640 pixels over 90 degrees."""
+"""The focal length of 640 pixels over 90 degrees."""
 
 
 def view(height_m: float = 30.0, carrier: str | None = None, **given: Any) -> CameraView:
