@@ -46,7 +46,7 @@ async function begin() {
       ? run.title
       : [named, run.scenario.description].filter((text) => text).join(": ");
   byId("subtitle").title = run.scenario.description;
-  byId("state").textContent = run.phase;
+  byId("state").textContent = run.live ? "connecting" : run.phase;
   run.notes.forEach(note);
 
   const plan = new Plan(run, clock),

@@ -92,9 +92,11 @@ def test_no_pair_that_meets_within_the_time_is_left_out(
         for step in range(11):
             t_s = REACH.time_s * step / 10.0
             apart_m = abs(one[0] + one[2] * t_s - other[0] - other[2] * t_s)
-            up_m = abs(one[1] + one[3] * t_s - other[1] - other[3] * t_s)
-            if apart_m < 0.99 * REACH.horizontal_m and up_m < REACH.vertical_m - 1.0:
-                assert (f"00000{first}", f"00000{second}") in together
+            pair = (f"00000{first}", f"00000{second}")
+            below_m, above_m = (tracks[icao24].profile().at(t_s) for icao24 in pair)
+            is_level = abs(below_m - above_m) < REACH.vertical_m - 1.0
+            if apart_m < 0.99 * REACH.horizontal_m and is_level:
+                assert pair in together
 
 
 def test_only_pairs_with_news_are_looked_at() -> None:
