@@ -23,6 +23,8 @@ from airhilt.world.loading import load_text
 from devtools import BROWSERS, Page, browser_page
 
 settings.register_profile("long", max_examples=20_000)
+settings.register_profile("repeatable", derandomize=True)
+settings.load_profile("repeatable")
 WHOLE_RUNS = ("bus", "cli", "cosim", "docs", "sweep")
 """Folders of tests that take long each."""
 Cli = Callable[..., subprocess.CompletedProcess[str]]

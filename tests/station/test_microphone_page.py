@@ -14,7 +14,6 @@ from websockets.sync.client import ClientConnection, connect
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, from_pcm
 from airhilt.messages import SpokenWords
-from airhilt.station import seat_book
 from airhilt.station.held_button import AHEAD_S, LARGEST_PIECE_BYTES, HeldButton
 from breadth import mostly_slow
 from loudspeaker import COUNT_PIECES, piece
@@ -30,8 +29,9 @@ from microphone import (
     talk,
 )
 from seats import voice
-from stations import PATIENCE_S, PretendedRun, seat_page
+from stations import PATIENCE_S, PretendedRun, seat_page, seats_given_back_at_once
 
+SAY_PLACE = "document.getElementById('say-button').getBoundingClientRect().y"
 STATE = "document.getElementById('talk-state').textContent"
 ADVISORY = {
     "t": 1.0, "equipment": "", "id": "a-1", "revision": 1, "severity": "WARNING", "active": True,
@@ -79,15 +79,9 @@ def served() -> Iterator[tuple[PretendedRun, str]]:
 
 
 @pytest.fixture
-def seat(
-    served: tuple[PretendedRun, str], monkeypatch: pytest.MonkeyPatch
-) -> Iterator[tuple[PretendedRun, str]]:
-    """The page of a seat, which is free again when the next test begins."""
-    monkeypatch.setattr(seat_book, "HOLD_S", 0.0)
-    yield served
-    presence, is_taken = served[0].presence, False
-    while is_taken or not presence.empty():
-        _, is_taken = presence.get(timeout=PATIENCE_S)
+def seat(served: tuple[PretendedRun, str]) -> Iterator[tuple[PretendedRun, str]]:
+    with seats_given_back_at_once(served[0]):
+        yield served
 
 
 @pytest.mark.browser
@@ -176,8 +170,10 @@ def test_who_is_denied_the_microphone_is_told_and_can_type(
     run, url = seat
     with page_with_microphone("--deny-permission-prompts") as page:
         sit_down(page, url)
+        before = page.evaluate(SAY_PLACE)
         open_microphone(page)
         assert "Type what you want to say" in page.evaluate(STATE)
+        assert page.evaluate(SAY_PLACE) == before  # It does not move under the hand.
         page.evaluate("document.getElementById('words').value = 'hello'")
         page.evaluate(SAY)
     assert run.next() == SpokenWords(text="hello")

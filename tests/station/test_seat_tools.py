@@ -25,7 +25,7 @@ from airhilt.messages import (
     SpokenWords,
 )
 from airhilt.record import Logged
-from airhilt.station import browsers, seat_book
+from airhilt.station import browsers
 from airhilt.station.audiences import EVERYBODY
 from airhilt.station.live import LiveRun
 from airhilt.station.page_files import page_version
@@ -40,7 +40,7 @@ from microphone import (
     playing,
     sit_down,
 )
-from stations import PATIENCE_S, TOWER, PretendedRun, seat_page
+from stations import PATIENCE_S, TOWER, PretendedRun, seat_page, seats_given_back_at_once
 
 ROSTER = {"AAL123": "aircraft", "OPS1": "vehicle"}
 GAMEPAD = """
@@ -58,11 +58,9 @@ def served() -> Iterator[tuple[PretendedRun, str]]:
 
 
 @pytest.fixture
-def seat(
-    served: tuple[PretendedRun, str], monkeypatch: pytest.MonkeyPatch
-) -> tuple[PretendedRun, str]:
-    monkeypatch.setattr(seat_book, "HOLD_S", 0.0)
-    return served
+def seat(served: tuple[PretendedRun, str]) -> Iterator[tuple[PretendedRun, str]]:
+    with seats_given_back_at_once(served[0]):
+        yield served
 
 
 def opened(url: str, version: str = "") -> ClientConnection:
@@ -75,11 +73,6 @@ def next_of(socket: ClientConnection, kind: str) -> list[list[object]]:
         pass
     found: list[list[object]] = message[kind]
     return found
-
-
-def wait_for_seat(run: PretendedRun) -> None:
-    while not run.presence.get(timeout=PATIENCE_S)[1]:
-        pass
 
 
 def test_a_person_hears_only_the_frequencies_of_the_seat_that_are_listened_to(
@@ -95,7 +88,6 @@ def test_a_person_hears_only_the_frequencies_of_the_seat_that_are_listened_to(
         assert next_of(socket, "sounds") == [
             ["opened", {"id": "call 119100", "frequency_khz": 119_100}]
         ]
-        wait_for_seat(run)
 
 
 def test_the_run_is_told_what_is_listened_to_when_it_changes() -> None:
@@ -236,7 +228,6 @@ def test_a_phrase_is_chosen_and_the_workload_is_rated(seat: tuple[PretendedRun, 
         assert run.next().nasa_tlx == NasaTlx(**dict.fromkeys(NasaTlx.model_fields, 50))
         page.wait_for("!document.getElementById('tlx-dialog').open")
         run.seat.add("answered", 2)
-        wait_for_seat(run)
 
 
 @pytest.mark.browser
@@ -249,7 +240,6 @@ def test_an_advisory_is_not_told_to_be_heard_where_the_loudspeaker_is_down() -> 
             page.evaluate(f"document.querySelector('#hearing input[max]').value = '{volume}'")
             warn(run, f"at-{volume}")
             told[volume] = [run.next().way for _ in range(1 if volume == "0" else 2)]
-        wait_for_seat(run)
     assert told["0"] == ["seen"]
     assert sorted(told["0.5"]) == ["heard", "seen"]
 
@@ -265,7 +255,6 @@ def test_a_voice_without_a_tone_is_told_to_be_heard_only_if_it_sounds() -> None:
         for name in ("missing", "there"):
             warn(run, name, Severity.ADVISORY, samples=len(voice.pcm) // 2)
         told = [run.next() for _ in range(3)]
-        wait_for_seat(run)
     assert sorted((one.id, one.way) for one in told) == [
         ("missing", "seen"), ("there", "heard"), ("there", "seen"),
     ]  # fmt: skip
@@ -297,7 +286,6 @@ def test_an_advisory_that_nobody_speaks_has_its_tone_and_is_heard_then(
         warn(run, "unspoken", Severity(severity), has_voice=False)
         told = [run.next() for _ in range(2 if tones else 1)]
         sounded = page.evaluate("window.tones.map(({ value }) => value)")
-        wait_for_seat(run)
     assert sounded == tones
     assert sorted(one.way for one in told) == (["heard", "seen"] if tones else ["seen"])
 
@@ -318,7 +306,6 @@ def test_an_advisory_whose_voice_was_lost_has_its_tone_then_and_no_other_one_aga
         heard = run.next()
         assert (heard.id, heard.way) == ("waiting", "heard")
         assert page.evaluate("window.tones.length") == 6
-        wait_for_seat(run)
 
 
 def warn(
@@ -359,7 +346,6 @@ def test_a_button_of_a_gamepad_talks_as_the_space_bar_does(
         page.wait_for(f"{BUTTON} === 'On the air'")
         page.evaluate("window.pads[0].buttons[2].pressed = false")
         page.wait_for(f"{BUTTON} === 'Hold to talk'")
-        wait_for_seat(run)
         pressed, _ = run.call()
     assert pressed.frequency_khz == 119_100
 

@@ -21,6 +21,24 @@ ARGUMENTS = (
     "--hide-scrollbars", "--remote-debugging-pipe",
 )  # fmt: skip
 PATIENCE_S = 120.0
+RESTING_PLACE = f"""(element) => new Promise((found, failed) => {{
+    const due = performance.now() + {PATIENCE_S * 1000.0};
+    let before = null;
+    const look = () => {{
+        const {{ x, y, width, height }} = element.getBoundingClientRect(),
+            place = [x + width / 2, y + height / 2],
+            isOnTop = element.contains(document.elementFromPoint(...place));
+        if (isOnTop && String(place) === before) found(place);
+        else if (performance.now() > due) failed(new Error(`nobody can click on ${{element.id}}`));
+        else requestAnimationFrame(look);
+        before = isOnTop ? String(place) : null;
+    }};
+    look();
+}})"""
+"""Function of a page that finds where an element is, once it moves no more and nothing covers it.
+
+A browser tells a click by what it has drawn: an element that has just come is not there yet.
+"""
 
 
 class Page:
@@ -95,16 +113,10 @@ class Page:
         self.call("Input.dispatchKeyEvent", type=kind, key=key, windowsVirtualKeyCode=code)
 
     def click(self, name: str) -> None:
-        """Click on the element with an id, as a person does."""
-        place = self.evaluate(
-            f"(({{x, y, width, height}}) => [x + width / 2, y + height / 2])"
-            f"(document.getElementById({name!r}).getBoundingClientRect())"
-        )
+        """Click on the element with an id, as a person does: where it has come to rest."""
+        x, y = self.evaluate(f"({RESTING_PLACE})(document.getElementById({name!r}))")
         for kind in ("mousePressed", "mouseReleased"):
-            self.call(
-                "Input.dispatchMouseEvent",
-                type=kind, x=place[0], y=place[1], button="left", clickCount=1,
-            )  # fmt: skip
+            self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
 
     def _receive(self) -> dict[str, Any]:
         due = time.monotonic() + PATIENCE_S

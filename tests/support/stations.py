@@ -16,6 +16,7 @@ from typing import Any
 
 import httpx
 import psutil
+import pytest
 from cryptography import x509
 from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.hazmat.primitives.hashes import SHA256
@@ -36,6 +37,7 @@ from airhilt.messages import (
     SpokenWords,
     WorkloadAnswer,
 )
+from airhilt.station import seat_book
 from airhilt.station.address import Address
 from airhilt.station.app import live_app
 from airhilt.station.audiences import SeatViews, heard_by
@@ -285,6 +287,17 @@ class PretendedRun:
             pcm += audio.pcm
         assert (pressed.phase, audio.phase) == ("pressed", "released")
         return pressed, pcm
+
+
+@contextmanager
+def seats_given_back_at_once(run: PretendedRun) -> Iterator[None]:
+    """Let nobody keep a seat who is gone, and wait at the end until all seats are free."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(seat_book, "HOLD_S", 0.0)
+        yield
+        is_taken = dict.fromkeys(run.of_seats, False)
+        while any(is_taken.values()) or not run.presence.empty():
+            is_taken |= [run.presence.get(timeout=PATIENCE_S)]
 
 
 @contextmanager
