@@ -142,6 +142,8 @@ class Call:
     """True if it begins with "negative" or says "unable"."""
     acknowledged: bool = False
     """True if it says roger, wilco or the like."""
+    asks_again: bool = False
+    """True if it asks for words again: "say again", "confirm", "verify", "read back"."""
     position: str | None = None
     """Position that the speaker reports, in words."""
     traffic: tuple[str, ...] = ()

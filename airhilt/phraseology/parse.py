@@ -44,6 +44,11 @@ _SAY_AGAIN = re.compile(
     r"(?<!i )say (?:that |it |all )?again|words twice|say your last|repeat (?:that|your)"
     r"|(?:did not|didn) (?:copy|get|understand|catch)|unreadable|say (?:callsign|call sign)"
 )
+_CONFIRM = re.compile(
+    r"(?<!\S)(?:confirm|verify|read (?:it|that) back|readback(?! (?:is )?correct))(?!\S)"
+)
+"""Requests to say what was said: ICAO Annex 10 volume II, 5.2.1.5.8, and "verify" of the FAA's
+Pilot/Controller Glossary."""
 _READY = re.compile(r"(?<!report )ready(?: (?:for|to)(?!\S)|$| (?=\|))|fully ready|would like")
 _PLACES = re.compile(
     r"(?<!\S)(?:[0-9]{1,2} (?:nautical )?miles? (?:final|out|(?:to the )?(?:north|south|east|west)"
@@ -150,6 +155,8 @@ def _call(naming: Naming, rest: Words, content: Content, named: float) -> Call:
         corrected=corrects or "correction" in present,
         negative="negative" in first or "unable" in present,
         acknowledged=not _ACKNOWLEDGED.isdisjoint(present),
+        asks_again=kind == "say_again"
+        or (not content.instructions and bool(_CONFIRM.search(text))),
         position=place[0] if place else None,
         traffic=tuple(content.traffic),
         wind=wind_of(text) if present & _WINDY else None,

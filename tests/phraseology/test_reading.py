@@ -342,6 +342,28 @@ def test_a_call_tells_more_than_instructions() -> None:
     assert parse_call("Wilco, American 123", KNOWN).acknowledged
 
 
+@pytest.mark.parametrize(
+    ("words", "is_asked"),
+    [
+        ("say again", True),
+        ("confirm runway", True),
+        ("confirm cleared to land runway 19", True),
+        ("verify you are holding short", True),
+        ("read back", True),
+        ("read that back", True),
+        ("readback correct", False),
+        ("readback is correct", False),
+        ("read back hold short runway 19", False),
+        ("confirmed", False),
+        ("cleared to land runway 19", False),
+        ("wind calm", False),
+    ],
+)
+def test_words_may_be_asked_for_again(words: str, is_asked: bool) -> None:
+    """A call that gives an instruction asks for none."""
+    assert call_to(words).asks_again is is_asked
+
+
 # --- confidence ------------------------------------------------------------------------------
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from airhilt.assistant.decision.guard import Doubt, Guard
 from airhilt.assistant.decision.readback_silence import ReadbackSilence
-from airhilt.assistant.decision.repeats import Repeats
+from airhilt.assistant.decision.repeats import RememberingGuard
 from airhilt.messages import Transcript, TransmissionOpened
 from airhilt.phraseology import BESIDES, Action, Call, Instruction, differences
 from airhilt.units import SECOND_NS
@@ -85,6 +85,8 @@ class _Addressed:
     transcript: Transcript
     doubts: dict[Action, Doubt]
     """Instructions of the call that are in doubt, by their actions."""
+    values: dict[Action, Doubt | None]
+    """Doubts about their runways, by their actions."""
     answered: bool = False
     asked_again_ns: int = 0
     """End of the last request to say the readback again."""
@@ -107,13 +109,12 @@ class Clearances:
     """
 
     def __init__(self, guard: Guard) -> None:
-        self._guard = guard
-        self._repeats = Repeats(guard.tau_asr)
+        self._guard = RememberingGuard(guard)
         self._doubts: dict[str, Doubt] = {}
         """The doubt about the last call of or to each callsign."""
         self._addressed: dict[str, _Addressed] = {}
-        self._told: dict[str, _Addressed] = {}
-        """The last call to somebody that had an instruction."""
+        self._read_back: dict[str, _Addressed] = {}
+        """What somebody has read back, if nothing else was said since."""
         self._in_force: dict[str, tuple[Clearance, ...]] = {}
         self._holding: dict[str, str | None] = {}
         self._discrepancies: dict[str, Discrepancy] = {}
@@ -137,20 +138,26 @@ class Clearances:
         doubts = {
             each.action: doubt
             for each in said
-            if self._is_news(callsign, each)
-            and (doubt := self._repeats.joined(self._guard.doubt(call, each, transcript)))
+            if (doubt := self._guard.doubt(call, each, transcript)) is not None
+            and self._is_news(callsign, each)
         }
         if call.match.ambiguous:
             self._suspect(callsign, doubts.values())
             return
-        if call.kind == "say_again":  # What is in doubt will be said again.
+        if call.asks_again:  # What is in doubt will be said again.
             self._drop_doubts(callsign)
         if call.addressed_first:
-            self._address(callsign, _Addressed(said, call, transcript, dict(doubts)))
+            values = {
+                each.action: self._guard.doubt_of_value(call, each, transcript) for each in said
+            }
+            self._address(callsign, _Addressed(said, call, transcript, dict(doubts), values))
         elif said:
             said = self._compare(call, callsign, said, transcript, doubts)
-        elif (given := self._recent(callsign, transcript.t_tx_ns)) is not None:
-            given.answered = True
+        else:
+            if (given := self._recent(callsign, transcript.t_tx_ns)) is not None:
+                given.answered = True
+            if not call.acknowledged:
+                self._read_back.pop(callsign, None)
         believed = tuple(each for each in said if each.action not in doubts)
         if believed:
             self._act_on(callsign, believed, transcript)
@@ -159,29 +166,27 @@ class Clearances:
     def _address(self, callsign: str, addressed: _Addressed) -> None:
         """Note a call to somebody, whose readback is awaited.
 
-        Who has read back and is to say it again is told nothing new: another readback of the last
-        instruction is awaited. Until it comes, a call without an instruction, such as the "roger"
-        to the first one, changes nothing. "Say again" before there was an answer is the crew's.
+        Who has just read back, and is asked for it again, is told nothing new: another readback of
+        the same instruction is awaited. Until it comes, a call without an instruction, such as the
+        "roger" to the first one, changes nothing. "Say again" at any other time is about other
+        words, or is the crew's: nothing is awaited after it until there is another instruction.
         """
-        heard = addressed.transcript
-        told = self._told.get(callsign)
-        if (
-            addressed.call.kind == "say_again"
-            and told is not None
-            and told.answered
-            and heard.t_end_ns - told.t_end_ns <= DISCREPANCY_NS
-        ):
-            told.answered = False
-            told.asked_again_ns = heard.t_end_ns
-            self._addressed[callsign] = told
+        call, end_ns = addressed.call, addressed.transcript.t_end_ns
+        told = self._read_back.get(callsign)
+        if call.asks_again:
+            if told is not None and end_ns - told.t_end_ns <= DISCREPANCY_NS:
+                told.answered, told.asked_again_ns = False, end_ns
+                self._addressed[callsign] = told
+            else:
+                self._addressed.pop(callsign, None)
             return
-        before = self._recent(callsign, heard.t_tx_ns)
-        is_asked = before is not None and before.asked_again_ns > 0 and not before.answered
-        if is_asked and not addressed.instructions:
-            return
+        if told is not None and not addressed.instructions:
+            given = self._recent(callsign, addressed.transcript.t_tx_ns)
+            if given is told and not told.answered:
+                return
+        if addressed.instructions or not call.acknowledged:
+            self._read_back.pop(callsign, None)
         self._addressed[callsign] = addressed
-        if addressed.instructions:
-            self._told[callsign] = addressed
         if len(addressed.doubts) < len(addressed.instructions):
             self._settle(callsign)
 
@@ -214,7 +219,9 @@ class Clearances:
     def unanswered(self, t_ns: int) -> Iterator[Unanswered]:
         """Yield the instructions to keep off a runway whose readback is late."""
         for callsign, addressed in self._addressed.items():
-            if addressed.answered or t_ns - addressed.t_end_ns > DISCREPANCY_NS:
+            is_asked_again = addressed.asked_again_ns > 0
+            is_old = t_ns - addressed.t_end_ns > DISCREPANCY_NS
+            if addressed.answered or is_asked_again or is_old:
                 continue
             given = [
                 each
@@ -305,8 +312,8 @@ class Clearances:
             elif given and match:
                 if "runway" not in differences(match, each):
                     continue
-                doubt = self._repeats.joined(self._guard.doubt_of_value(call, each, transcript))
-                doubt = doubt or self._guard.doubt_of_value(given.call, match, given.transcript)
+                doubt = self._guard.doubt_of_value(call, each, transcript)
+                doubt = doubt or given.values[each.action]
                 wrong = (callsign, match)
             elif given and each.action in LIFETIME_S:
                 doubt = own or self._doubt_of_rest(given, callsign, each)
@@ -321,6 +328,7 @@ class Clearances:
                 doubts[each.action] = replace(doubt, is_answered=True)
         if given:
             given.answered = True
+            self._read_back[callsign] = given
         return tuple(complete)
 
     def _doubt_of_name(self, action: Action, addressed: str, own: Doubt | None) -> Doubt | None:

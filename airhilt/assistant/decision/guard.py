@@ -59,6 +59,42 @@ class Doubt:
     transcript: Transcript
     is_answered: bool
 
+    @classmethod
+    def of(
+        cls, call: Call, said: Instruction, transcript: Transcript, slot: Slot, confidence: float
+    ) -> Doubt | None:
+        """Return the doubt about a slot of a call, None if that is nobody's on the frequency."""
+        callsign = call.match.callsign
+        if callsign is None:
+            return None
+        return cls(callsign, slot, confidence, said, transcript, not call.addressed_first)
+
+
+def slots(call: Call, said: Instruction) -> dict[Slot, float]:
+    """Return the slots of an instruction with their confidences, the first to be asked for first.
+
+    The last one is its runway or its level.
+    """
+    return {
+        "callsign": AMBIGUOUS if call.match.ambiguous else call.match.score,
+        "action": said.action_heard,
+        value_slot(said): _value(said),
+    }
+
+
+def value_slot(said: Instruction) -> Slot:
+    """Return the slot of the value of an instruction: its runway, or its level."""
+    return "runway" if said.altitude_ft is None else "altitude"
+
+
+def _value(said: Instruction) -> float:
+    """Return the confidence in the runway or the level of an instruction.
+
+    One that is not named makes no sense of its own: only its words count.
+    """
+    is_named = said.runway is not None or said.altitude_ft is not None
+    return said.details_confidence if is_named else said.details_heard
+
 
 @dataclass(frozen=True, slots=True)
 class Guard:
@@ -68,42 +104,14 @@ class Guard:
 
     def is_certain(self, said: Instruction) -> bool:
         """Return whether the words of an instruction or a report are certain, whoever said them."""
-        return min(said.action_heard, said.details_heard, self._value(said)) >= self.tau_asr
+        return min(said.action_heard, said.details_heard, _value(said)) >= self.tau_asr
 
     def doubt(self, call: Call, said: Instruction, transcript: Transcript) -> Doubt | None:
         """Return the first slot of an instruction that is in doubt, None if there is none."""
-        name = AMBIGUOUS if call.match.ambiguous else call.match.score
-        return (
-            self._doubt("callsign", name, call, said, transcript)
-            or self._doubt("action", said.action_heard, call, said, transcript)
-            or self.doubt_of_value(call, said, transcript)
-        )
-
-    def doubt_of_value(self, call: Call, said: Instruction, transcript: Transcript) -> Doubt | None:
-        """Return the doubt about the runway or the level of an instruction, None if there is none.
-
-        An instruction and its readback that agree in the callsign and the action settle these.
-        """
-        slot: Slot = "runway" if said.altitude_ft is None else "altitude"
-        return self._doubt(slot, self._value(said), call, said, transcript)
-
-    @staticmethod
-    def _value(said: Instruction) -> float:
-        """Return the confidence in the runway or the level of an instruction.
-
-        One that is not named makes no sense of its own: only its words count.
-        """
-        is_named = said.runway is not None or said.altitude_ft is not None
-        return said.details_confidence if is_named else said.details_heard
-
-    def _doubt(
-        self, slot: Slot, confidence: float, call: Call, said: Instruction, transcript: Transcript
-    ) -> Doubt | None:
-        callsign = call.match.callsign
-        if callsign is None or confidence >= self.tau_asr:
-            return None
-        is_answered = not call.addressed_first
-        return Doubt(callsign, slot, confidence, said, transcript, is_answered)
+        for slot, confidence in slots(call, said).items():
+            if confidence < self.tau_asr:
+                return Doubt.of(call, said, transcript, slot, confidence)
+        return None
 
     def doubt_of_rest(
         self, callsign: str, missing: Instruction, transcript: Transcript

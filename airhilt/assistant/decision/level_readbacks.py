@@ -9,7 +9,7 @@ from airhilt.assistant.decision.air_tracks import AirTracks
 from airhilt.assistant.decision.findings import LevelMisread
 from airhilt.assistant.decision.guard import Doubt, Guard, call_of
 from airhilt.assistant.decision.loss_prediction import SeparationStandard
-from airhilt.assistant.decision.repeats import Repeats
+from airhilt.assistant.decision.repeats import RememberingGuard
 from airhilt.assistant.decision.tracks import Track
 from airhilt.geodesy.relative_motion import relative
 from airhilt.messages import RosterEntry, Transcript
@@ -43,8 +43,7 @@ class LevelReadbacks:
 
     def __init__(self, tracks: AirTracks, guard: Guard) -> None:
         self._tracks = tracks
-        self._guard = guard
-        self._repeats = Repeats(guard.tau_asr)
+        self._guard = RememberingGuard(guard)
         self._ceilings_ft: dict[str, float] = {}
         self._clearances: dict[str, _Clearance] = {}
         self._doubts: dict[str, Doubt] = {}
@@ -74,13 +73,13 @@ class LevelReadbacks:
             return None
         if said is None or said.altitude_ft is None:
             return None
-        doubt = self._repeats.joined(self._guard.doubt(call, said, transcript))
+        doubt = self._guard.doubt(call, said, transcript)
         if call.match.ambiguous:
             if doubt is not None:
                 self._doubts[track.callsign] = doubt
             return None
         if call.addressed_first:
-            value = self._repeats.joined(self._guard.doubt_of_value(call, said, transcript))
+            value = self._guard.doubt_of_value(call, said, transcript)
             told = _Clearance(said, transcript.t_end_ns, value, transcript.id)
             self._clearances[track.callsign] = told
             self._set_doubt(track, doubt)
@@ -90,7 +89,7 @@ class LevelReadbacks:
         if given is not None and transcript.t_tx_ns - given.t_end_ns > window_ns:
             given = None
         if given is not None:
-            doubt = self._repeats.joined(self._guard.doubt_of_value(call, said, transcript))
+            doubt = self._guard.doubt_of_value(call, said, transcript)
         return self._read_back(t_ns, track, said, transcript.id, given, doubt, config)
 
     def _read_back(

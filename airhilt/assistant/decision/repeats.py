@@ -1,64 +1,106 @@
 """What was heard twice alike is surer than what was heard once.
 
 A crew that is asked to confirm says the same words again. They are wrong only if both calls were
-heard wrongly. Calls of one voice do not err quite independently, and nearly so: of words that were
-heard alike at two ratios of signal and noise, with confidences of 0.5 to 0.8 each, 89 % of 269 were
-right in one test and 92 % of 63 in another, and independence gives 90 %. No more than two calls are
-joined, because no more were measured.
+heard wrongly. That takes the errors of two calls of one voice for independent, which they nearly
+are: see docs/decision.md, "Words in doubt". No more than two calls are joined, because no more were
+measured.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
+from typing import NamedTuple
 
-from airhilt.assistant.decision.guard import Doubt, Slot
-from airhilt.phraseology import Action
+from airhilt.assistant.decision.guard import Doubt, Guard, Slot, slots, value_slot
+from airhilt.messages import Transcript
+from airhilt.phraseology import Action, Call, Instruction
 from airhilt.units import SECOND_NS
 
 REMEMBERED_NS = 120 * SECOND_NS
-"""Time for which a call that was in doubt makes another surer, in ns, as long as it matters."""
+"""Greatest time between two calls that are joined, in ns: as long as a doubt matters."""
+_Key = tuple[str, bool, Action, Slot]
+"""Callsign, whether it came first (a controller's call), action and slot."""
 
 
-class Repeats:
-    """Joins the confidences of a slot that was heard alike in two calls.
+class _Heard(NamedTuple):
+    """How surely a slot was heard in a call."""
 
-    Callsigns are left out, whose confidence is that of a choice among those on the frequency. So
-    are values that made no sense in both calls, however well they were heard.
+    value: tuple[str | None, float | None]
+    """Runway, and level in ft, of the instruction."""
+    confidence: float
+    is_of_hearing: bool
+    """True if it has that confidence for its words, not because it makes no sense."""
+    transcript_id: str
+    t_end_ns: int
 
-    Parameters
-    ----------
-    tau_asr
-        Confidence from which a slot is in doubt no more.
+
+class RememberingGuard:
+    """The guard, which joins the confidences of a slot that was heard alike in two calls.
+
+    Each slot is joined by itself, and with calls of the same side alone: whether a readback agrees
+    with its instruction is another question. Callsigns are left out, whose confidence is that of a
+    choice among those on the frequency. So are values that made no sense in both calls, however
+    well they were heard. Another value in between begins anew.
     """
 
-    def __init__(self, tau_asr: float) -> None:
-        self._tau_asr = tau_asr
-        self._heard: dict[tuple[str, Action, Slot], list[Doubt]] = {}
-        """Doubts about the same value, the oldest first."""
+    def __init__(self, guard: Guard) -> None:
+        self._guard = guard
+        self._heard: dict[_Key, list[_Heard]] = {}
+        """What was heard of the same value, the oldest first."""
 
-    def joined(self, doubt: Doubt | None) -> Doubt | None:
-        """Return a doubt with the confidence of both calls, None if there is none any more."""
-        if doubt is None or doubt.slot == "callsign":
+    def doubt(self, call: Call, said: Instruction, transcript: Transcript) -> Doubt | None:
+        """Return the first slot of an instruction that is in doubt, None if there is none."""
+        callsign, *rest = slots(call, said)
+        if (doubt := self._doubt_in(callsign, call, said, transcript)) is not None:
             return doubt
-        key = (doubt.callsign, doubt.said.action, doubt.slot)
-        earlier = [each for each in self._heard.get(key, ()) if _is_repeated(each, doubt)]
-        self._heard[key] = [*earlier, doubt]
-        surest = max((each.confidence for each in earlier), default=0.0)
-        confidence = 1.0 - (1.0 - surest) * (1.0 - doubt.confidence)
-        return None if confidence >= self._tau_asr else replace(doubt, confidence=confidence)
+        doubts = [self._doubt_in(slot, call, said, transcript) for slot in rest]
+        return next((each for each in doubts if each is not None), None)
+
+    def doubt_of_value(self, call: Call, said: Instruction, transcript: Transcript) -> Doubt | None:
+        """Return the doubt about the runway or the level of an instruction, None if there is none.
+
+        An instruction and its readback that agree in the callsign and the action settle these.
+        """
+        return self._doubt_in(value_slot(said), call, said, transcript)
+
+    def doubt_of_rest(
+        self, callsign: str, missing: Instruction, transcript: Transcript
+    ) -> Doubt | None:
+        """Return the doubt that a call had an instruction that was not heard, as the guard does."""
+        return self._guard.doubt_of_rest(callsign, missing, transcript)
+
+    def _doubt_in(
+        self, slot: Slot, call: Call, said: Instruction, transcript: Transcript
+    ) -> Doubt | None:
+        confidence = slots(call, said)[slot]
+        if slot != "callsign" and call.match.callsign is not None:
+            key = (call.match.callsign, call.addressed_first, said.action, slot)
+            is_of_hearing = slot == "action" or said.details_heard <= confidence
+            confidence = self._joined(
+                key,
+                _Heard(
+                    (said.runway, said.altitude_ft),
+                    confidence,
+                    is_of_hearing,
+                    transcript.id,
+                    transcript.t_end_ns,
+                ),
+            )
+        if confidence >= self._guard.tau_asr:
+            return None
+        return Doubt.of(call, said, transcript, slot, confidence)
+
+    def _joined(self, key: _Key, heard: _Heard) -> float:
+        """Remember what was heard, and return the confidence in it and an earlier call together."""
+        before = [each for each in self._heard.get(key, ()) if _is_repeated(each, heard)]
+        self._heard[key] = [*before, heard]
+        by_words = (e.confidence for e in before if e.is_of_hearing or heard.is_of_hearing)
+        return 1.0 - (1.0 - max(by_words, default=0.0)) * (1.0 - heard.confidence)
 
 
-def _is_repeated(earlier: Doubt, doubt: Doubt) -> bool:
-    """Return whether a call a moment ago said the same, and not both are without sense."""
-    one, other = earlier.said, doubt.said
+def _is_repeated(one: _Heard, other: _Heard) -> bool:
+    """Return whether another call, not long before or after, had the same value."""
     return (
-        earlier.transcript.id != doubt.transcript.id
-        and doubt.transcript.t_end_ns - earlier.transcript.t_end_ns <= REMEMBERED_NS
-        and (one.runway, one.altitude_ft) == (other.runway, other.altitude_ft)
-        and (_is_of_hearing(earlier) or _is_of_hearing(doubt))
+        one.transcript_id != other.transcript_id
+        and one.value == other.value
+        and abs(one.t_end_ns - other.t_end_ns) <= REMEMBERED_NS
     )
-
-
-def _is_of_hearing(doubt: Doubt) -> bool:
-    """Return whether the words of a slot are in doubt, and not what they say."""
-    return doubt.slot == "action" or doubt.said.details_heard <= doubt.confidence

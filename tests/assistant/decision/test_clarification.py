@@ -105,6 +105,65 @@ def test_two_wrong_runways_do_not_confirm_each_other() -> None:
     assert mismatches(airfield) == []
 
 
+@pytest.mark.parametrize("first", [UNSURE_CLEARED[1], CLEARED[1]], ids=["unsure", "sure"])
+def test_an_instruction_that_was_heard_twice_alike_makes_its_readback_wrong(first: str) -> None:
+    told = [(14.0, first), (20.0, UNSURE_CLEARED[1])]
+    airfield = field(*told, WRONG, tau_asr=TWICE_IS_ENOUGH).run(40)
+    assert {each.t_ready_ns for each in mismatches(airfield)} == {26 * 10**9}
+    assert questions(airfield) == []
+
+
+@pytest.mark.parametrize(
+    "asking",
+    ["say again", "confirm runway", "confirm cleared to land runway zero one", "verify runway",
+     "read back runway"],
+)  # fmt: skip
+def test_a_readback_may_be_asked_for_again_in_several_words(asking: str) -> None:
+    asked = (32.0, f"American one two three, {asking}.")
+    right = field(CLEARED, UNSURE_WRONG, asked, (36.0, RIGHT[1])).run(60)
+    assert mismatches(right) == []
+    wrong = field(CLEARED, UNSURE_WRONG, asked, (55.0, WRONG[1])).run(60)
+    assert "01" in mismatches(wrong)[0].message
+
+
+@pytest.mark.parametrize("asked_s", [(32.0, 58.0), (58.0,)])
+def test_each_time_it_is_asked_for_a_readback_has_half_a_minute(asked_s: tuple[float, ...]) -> None:
+    asked = [(t_s, SAY_AGAIN[1]) for t_s in asked_s]
+    airfield = field(CLEARED, UNSURE_WRONG, *asked, (80.0, WRONG[1])).run(90)
+    assert {each.t_ready_ns for each in mismatches(airfield)} == {80 * 10**9}
+
+
+@pytest.mark.parametrize(("asked_s", "is_told"), [(139.0, True), (141.0, False)])
+def test_two_minutes_after_an_instruction_its_readback_is_not_asked_for_any_more(
+    asked_s: float, is_told: bool
+) -> None:
+    asked, again = (asked_s, SAY_AGAIN[1]), (asked_s + 6.0, WRONG[1])
+    airfield = field(CLEARED, RIGHT, asked, again).run(150)
+    assert bool(mismatches(airfield)) is is_told
+
+
+HOLD = (20.0, "American one two three, hold short of runway zero one.")
+HOLDS = (26.0, "Holding short of runway zero one, American one two three.")
+
+
+@pytest.mark.parametrize(
+    "between",
+    [
+        [(60.0, "Ground, American one two three, request taxi via alpha.")],
+        [(60.0, "American one two three, request taxi via alpha.")],
+        [(60.0, "American one two three, wind two seven zero at eight.")],
+        [],
+    ],
+    ids=["request", "request that begins with the callsign", "information", "nothing"],
+)
+def test_say_again_of_something_else_is_no_missing_readback(
+    between: list[tuple[float, str]],
+) -> None:
+    answer = (70.0, "American one two three, request taxi via alpha.")
+    airfield = field(HOLD, HOLDS, *between, (64.0, SAY_AGAIN[1]), answer).run(100)
+    assert mismatches(airfield) == []
+
+
 @pytest.mark.parametrize(
     "between",
     [[], [(34.0, "American one two three, roger.")], [(34.0, "American one two three, four?.")]],

@@ -9,7 +9,7 @@ from airhilt.assistant.decision.guard import Guard
 from airhilt.assistant.decision.level_readbacks import LevelReadbacks
 from airhilt.assistant.decision.loss_prediction import SeparationStandard
 from airhilt.messages import AdsbReport, RosterEntry
-from airhilt.units import SECOND_NS
+from airhilt.units import FOOT, SECOND_NS
 from decisions import transcript
 
 CONFIG = SeparationStandard()
@@ -28,11 +28,23 @@ def report(callsign: str, longitude_deg: float, track_deg: float, altitude_ft: f
 
 
 @pytest.fixture
-def readbacks() -> LevelReadbacks:
-    """Two fly towards each other, 3,000 ft apart; the lower one is told to climb by 2,000 ft."""
+def tracks() -> AirTracks:
+    """Two that fly towards each other, 3,000 ft apart."""
     tracks = AirTracks()
     tracks.take_report(report("AAL123", -78.0, 90.0, 31_000.0), 0)
     tracks.take_report(report("DAL456", -76.0, 270.0, 34_000.0), 0)
+    return tracks
+
+
+@pytest.fixture
+def unheard(tracks: AirTracks) -> LevelReadbacks:
+    """Nothing was said yet. One unsure word is in doubt, and two that were heard alike are not."""
+    return LevelReadbacks(tracks, Guard(0.7))
+
+
+@pytest.fixture
+def readbacks(tracks: AirTracks) -> LevelReadbacks:
+    """The lower one is told to climb by 2,000 ft."""
     followed = LevelReadbacks(tracks, Guard())
     assert is_misread(followed, "climb", CLIMB, 20.0) is False
     return followed
@@ -83,3 +95,37 @@ def test_a_level_above_the_ceiling_of_the_aircraft_is_no_wrong_readback_but_doub
         [RosterEntry(callsign="AAL123", category="aircraft", type="B738", ceiling_ft=ceiling_ft)]
     )
     assert is_misread(readbacks, "readback", WRONG, 26.0) is misread
+
+
+OTHER = "Climb and maintain flight level three five? zero, American one two three."
+UNSURE_CLIMB = "American one two three, climb and maintain flight level three three? zero."
+
+
+@pytest.mark.parametrize(
+    ("calls", "misread"),
+    [
+        ([CLIMB, UNSURE, UNSURE], [False, False, True]),
+        ([CLIMB, OTHER, UNSURE], [False, False, False]),
+        ([UNSURE_CLIMB, WRONG], [False, False]),
+        ([UNSURE_CLIMB, UNSURE_CLIMB, WRONG], [False, False, True]),
+    ],
+    ids=["a readback twice alike", "two levels", "an instruction", "an instruction twice alike"],
+)
+def test_a_level_that_is_heard_twice_alike_is_believed(
+    unheard: LevelReadbacks, calls: list[str], misread: list[bool]
+) -> None:
+    found = [
+        is_misread(unheard, f"call {number}", text, 20.0 + 6.0 * number)
+        for number, text in enumerate(calls)
+    ]
+    assert found == misread
+
+
+def test_a_level_that_nobody_gave_is_expected_once_it_was_heard_twice(
+    unheard: LevelReadbacks, tracks: AirTracks
+) -> None:
+    expected = []
+    for number in range(2):
+        is_misread(unheard, f"call {number}", UNSURE, 20.0 + 6.0 * number)
+        expected.append(tracks[b"AAL123".hex()[-6:]].cleared_m)
+    assert expected == [None, pytest.approx(34_000.0 * FOOT)]
