@@ -129,6 +129,7 @@ def read_sweep(
     """Return the runs of a sweep as a pandas data frame, a row a run.
 
     Python warns of a table that is not as the sweep wrote it.
+
     The columns are those of docs/sweep-columns.md. ``attrs`` of the data frame has their ``units``
     and ``descriptions`` by name.
 

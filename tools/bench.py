@@ -53,6 +53,9 @@ BENCHMARKS = {
 }
 """Module of `benchmarks` that has the function of a name."""
 
+LONGEST_MINUTES = 1440
+"""Longest time at the seat, in minutes: a day."""
+
 
 def main() -> None:
     """Run one benchmark."""
@@ -63,7 +66,7 @@ def main() -> None:
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     parser.add_argument("--bluesky-python", default="python3", metavar="PYTHON")
     parser.add_argument("--seeds", type=int, default=20, help="seeds of each procedure")
-    parser.add_argument("--minutes", type=float, default=1.0, help="time at the seat")
+    parser.add_argument("--minutes", type=_minutes, default=1.0, help="time at the seat")
     given = parser.parse_args()
     if given.name == "procedures":
         from benchmarks.procedures import rows
@@ -81,6 +84,15 @@ def main() -> None:
         return
     for name, value in numbers.items():
         print(f"{name:32} {value:10.3f}")
+
+
+def _minutes(text: str) -> float:
+    minutes = float(text)
+    if not 0.0 < minutes <= LONGEST_MINUTES:
+        raise argparse.ArgumentTypeError(
+            f"{text}: expected more than 0 and up to {LONGEST_MINUTES}"
+        )
+    return minutes
 
 
 def measured(name: str, bluesky_python: str) -> dict[str, float]:

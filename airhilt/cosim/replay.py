@@ -20,8 +20,8 @@ from airhilt.errors import RunFolderError, first_problem
 from airhilt.files import content_sha256
 from airhilt.messages import Event
 from airhilt.record import Logged, Run, RunFolder, RunInfo, open_run, read_log
+from airhilt.record.damage import untold
 from airhilt.record.folder import machine, versions
-from airhilt.record.manifest import untold
 from airhilt.scenario import Scenario
 from airhilt.units import SECOND_NS
 

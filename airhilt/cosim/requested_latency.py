@@ -9,7 +9,7 @@ from airhilt.cosim.latency_presets import PRESETS
 from airhilt.errors import AirhiltError
 from airhilt.library import nearest
 from airhilt.record import open_run
-from airhilt.record.manifest import untold
+from airhilt.record.damage import untold
 from airhilt.scenario import Scenario
 from airhilt.sim import LatencySpec, parse_latency
 from airhilt.workers.pool import EQUIPMENT

@@ -31,7 +31,7 @@ from airhilt.messages import (
 )
 from airhilt.metrics.compliance import complies
 from airhilt.metrics.person_calls import PersonCalls
-from airhilt.metrics.readbacks import Readbacks
+from airhilt.metrics.readbacks import ANSWERED_WITHIN_NS, Readbacks
 from airhilt.metrics.summary import IsaRating, PersonReaction, PersonSummary, WorkloadSummary
 from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.units import SECOND_NS, seconds_to_ns
@@ -39,8 +39,6 @@ from airhilt.units import SECOND_NS, seconds_to_ns
 FOLLOWED_WITHIN_S = 30.0
 """Time from perceiving an advisory in which the advised action counts as following it, in s: an
 assumption. TCAS asks crews for 5 s (ICAO Doc 8168, volume III), controllers take longer."""
-NEXT_WITHIN_S = 30.0
-"""Time after a call in which that of another person may be the answer, in s: as for readbacks."""
 Advised = tuple[str, int, str]
 """Id, revision and recipient of an advisory."""
 
@@ -320,7 +318,7 @@ class PeopleRecords:
             if one.frequency_khz == said.frequency_khz and one.t_tx_ns >= said.t_end_ns
         )
         found = min(later, default=None, key=lambda one: one.t_tx_ns)
-        if found is None or found.t_tx_ns > said.t_end_ns + round(NEXT_WITHIN_S * SECOND_NS):
+        if found is None or found.t_tx_ns - said.t_end_ns > ANSWERED_WITHIN_NS:
             return None
         seat = self._seats.get(found.speaker)
         if seat is None or found.speaker == said.speaker or not seat.calls.made(found.id):

@@ -11,7 +11,7 @@ from airhilt.phraseology.call import Call, Instruction
 from airhilt.phraseology.readbacks import differences
 
 ANSWERED_WITHIN_NS = 30_000_000_000
-"""Time after an instruction in which a call counts as its readback, in ns: an assumption."""
+"""Time after a call in which another one may be its answer, in ns: an assumption."""
 
 
 class ReadbackError(NamedTuple):

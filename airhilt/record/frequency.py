@@ -18,8 +18,8 @@ from airhilt.files import replace_file
 from airhilt.messages import SpokenTruth, Transcript, Transmission
 from airhilt.quantities import LONGEST_RUN_S
 from airhilt.record.audio import MessageWithSound, audio_file, recorded_pcm
+from airhilt.record.damage import Notice, untold
 from airhilt.record.folder import RunFolder
-from airhilt.record.manifest import Notice, untold
 from airhilt.record.run import Run, open_run
 from airhilt.text import LONGEST_LINE, readable
 from airhilt.units import SECOND_NS

@@ -10,36 +10,13 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import warnings
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path, PurePosixPath
 from typing import Any
 
 from pydantic import BaseModel, ConfigDict
 
 from airhilt.files import open_inside, sha256
-from airhilt.text import LONGEST_LINE, readable
-
-Notice = Callable[[str], None]
-"""Tells a person one line."""
-
-
-def untold(_: str) -> None:
-    """Tell nobody, because the result itself says what is damaged."""
-
-
-class DamageWarning(UserWarning):
-    """A file of a run or a sweep is not as it was written."""
-
-
-def tell_damage(folder: Path, damage: Iterable[str], notice: Notice | None) -> None:
-    """Tell each line of what is damaged in a folder; without a notice Python warns of it."""
-    for line in damage:
-        text = f"{folder}: {line}"
-        if notice is None:
-            warnings.warn(readable(text, LONGEST_LINE), DamageWarning, stacklevel=3)
-        else:
-            notice(text)
 
 
 class FileRecord(BaseModel):

@@ -12,16 +12,11 @@ from typing import Any
 
 from airhilt import bounded_json
 from airhilt.errors import RunFolderError
+from airhilt.record.damage import Notice, tell_damage
 from airhilt.record.folder import RunFolder, RunInfo
 from airhilt.record.latency import RecordedLatencies, read_latencies
 from airhilt.record.log_reader import Logged, LogReader, gaps_text
-from airhilt.record.manifest import (
-    FileRecord,
-    Notice,
-    digest_problem,
-    problem_of,
-    tell_damage,
-)
+from airhilt.record.manifest import FileRecord, digest_problem, problem_of
 from airhilt.units import SECOND_NS
 
 

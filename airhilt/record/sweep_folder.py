@@ -21,15 +21,14 @@ from pydantic import TypeAdapter, ValidationError
 from airhilt import bounded_json
 from airhilt.errors import AirhiltError, first_problem
 from airhilt.files import PARTIAL, make_folder, read_inside, replace_file
+from airhilt.record.damage import Notice, tell_damage
 from airhilt.record.folder import RunFolder
 from airhilt.record.manifest import (
     FileRecord,
-    Notice,
     digest,
     digest_problem,
     manifest,
     problem_of,
-    tell_damage,
 )
 from airhilt.record.parquet import LARGEST_BYTES, parse_table
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from airhilt.errors import RunFolderError
 from airhilt.files import replace_file
 from airhilt.record import Run, open_run
-from airhilt.record.manifest import Notice, untold
+from airhilt.record.damage import Notice, untold
 from airhilt.report.assembly import Assembly
 from airhilt.report.data import read_run
 from airhilt.report.sections import GuardedContent, load_sections

@@ -20,7 +20,7 @@ from airhilt.files import replace_file
 from airhilt.messages import NasaTlx
 from airhilt.metrics.columns import OF_CALLS, OF_PEOPLE, OF_REACTIONS, OF_RUNS, Column
 from airhilt.record import open_run
-from airhilt.record.manifest import untold
+from airhilt.record.damage import untold
 from airhilt.report.unread import CANNOT_READ
 from airhilt.station.experiment import Asked, Progress
 from airhilt.station.plan import Plan

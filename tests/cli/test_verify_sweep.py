@@ -13,6 +13,7 @@ import pyarrow.parquet as pq
 import pytest
 
 import airhilt
+from airhilt.record.damage import DamageWarning
 from airhilt.record.manifest import digest
 from airhilt.record.sweep_folder import SweepFolder
 from damage import flip, kill
@@ -245,8 +246,17 @@ def changed(sweep: Path) -> Path:
 
 
 def test_a_changed_table_is_told_to_who_reads_it_in_python(changed: Path) -> None:
-    with pytest.warns(UserWarning, match=r"sweep.parquet: damaged or changed"):
+    """The warning names the line that reads it."""
+    with pytest.warns(DamageWarning, match=r"sweep.parquet: damaged or changed") as told:
         assert airhilt.read_sweep(changed)["key"].to_list() == ["b"]
+    assert [each.filename for each in told] == [__file__]
+
+
+def test_a_change_of_what_depends_on_the_machine_is_told(sweep: Path) -> None:
+    flip(sweep / "machine.parquet", 100)
+    assert SweepFolder(sweep).damage() == (
+        "machine.parquet: damaged or changed: its SHA-256 is not that in sweep.json",
+    )
 
 
 def test_a_changed_table_is_told_by_commands_that_read_it(

@@ -482,9 +482,11 @@ def test_the_delay_between_people_is_from_the_button_to_the_first_audible_sample
 
 
 def test_the_delay_to_several_people_is_the_median() -> None:
+    """Each is told of once: by the first that a page says of a call."""
     (row,) = of_three(
-        *TALK, (10.25, "heard/Tower", heard()), (10.75, "heard/DAL2", heard(after_s=0.5))
-    ).calls
+        *TALK, (10.25, "heard/Tower", heard()), (10.75, "heard/DAL2", heard(after_s=0.5)),
+        (11.5, "heard/Tower", heard()),
+    ).calls  # fmt: skip
     assert (row.to_loudspeaker_s, row.heard_at) == (1.0, 2)
 
 

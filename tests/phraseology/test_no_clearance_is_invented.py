@@ -95,6 +95,18 @@ def test_what_is_denied_asked_expected_or_somebody_elses_is_no_clearance(text: s
 
 @pytest.mark.parametrize(
     "text",
+    ["{} of runway 01", "runway 01 is {}", "report {} of runway 01", "you are {}", "{} runway 01",
+     "{} to land runway 01", "{} for takeoff runway 01", "{} to cross runway 01",
+     "{} across runway 01", "{} for the option runway 01", "traffic is {}, cross runway 01"],
+)  # fmt: skip
+def test_clear_and_cleared_are_the_same_clearance_or_none(text: str) -> None:
+    """They sound alike, and the recogniser takes them for one word."""
+    for call in ("American 123, " + text, text + ", American 123"):
+        assert clearances(call.format("clear")) == clearances(call.format("cleared"))
+
+
+@pytest.mark.parametrize(
+    "text",
     [
         "runway 01, line up and wait, traffic landing runway 33",
         "number two, follow the Cessna on short final, cleared to land runway 01",

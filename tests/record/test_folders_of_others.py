@@ -13,7 +13,7 @@ import pytest
 from airhilt.errors import RunFolderError
 from airhilt.files import make_folder, read_inside, replace_file
 from airhilt.record import RunFolder, open_run
-from airhilt.record.manifest import untold
+from airhilt.record.damage import untold
 from airhilt.record.sweep_folder import SweepFolder
 from airhilt.station.started_runs import StartedRun, StartedRuns
 from damage import kill

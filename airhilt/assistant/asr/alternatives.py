@@ -22,7 +22,7 @@ from airhilt.assistant.asr.spotting import SAME
 
 SAME_WORDING = (*SAME, ("clear", "cleared"))
 """Words between which nothing is at stake: digits in two ways, and "cleared to land", which sounds
-like "clear to land" and is read as the same clearance."""
+like "clear to land" and is read as the same clearance. "Clear of" is no clearance with either."""
 LEAST_POSTERIOR = 1e-3
 """Posterior below which a unit is no alternative."""
 NO_POSTERIOR = 1e-10

@@ -8,7 +8,7 @@ from airhilt.errors import AirhiltError
 from airhilt.library import nearest
 from airhilt.metrics.frames import frame_of
 from airhilt.record import open_run
-from airhilt.record.manifest import Notice
+from airhilt.record.damage import Notice
 from airhilt.record.sweep_folder import SweepFolder, is_sweep
 from airhilt.report.comparison.runs import RunComparison, compare_runs
 from airhilt.report.comparison.sweeps import Side, SweepComparison, compare_sides

@@ -1,6 +1,6 @@
-const SEATS = [["Seat"], ["Calls spoken", "number"], ["Calls typed", "number"], ["Commands", "number"], ["Asked to say again", "number"], ["Readback errors", "number"], ["Readback errors heard", "number"], ["Button to air", "number"], ["Button to another's ear", "number"], ["Reaction time (median)", "number"], ["Advisories not perceived", "number"]];
+const SEATS = [["Seat"], ["Calls spoken", "number"], ["Calls typed", "number"], ["Commands", "number"], ["Asked to say again", "number"], ["Readback errors", "number"], ["Readback errors heard", "number"], ["Button to air", "number"], ["Button to another loudspeaker", "number"], ["Reaction time (median)", "number"], ["Advisories not perceived", "number"]];
 const REACTIONS = [["Time (s)"], ["Seat"], ["Severity"], ["Advised", "text"], ["Seen", "number"], ["Heard", "number"], ["First action", "text"], ["Reaction time, from", "number"], ["Followed", "text"]];
-const CALLS = [["Time (s)"], ["Seat"], ["Call"], ["Frequency", "number"], ["Said", "text"], ["Recognised", "text"], ["Confidence", "number"], ["To the air", "number"], ["To another's ear", "number"], ["Length", "number"], ["Blocked", "text"], ["Answered after", "number"]];
+const CALLS = [["Time (s)"], ["Seat"], ["Call"], ["Frequency", "number"], ["Said", "text"], ["Recognised", "text"], ["Confidence", "number"], ["To the air", "number"], ["To another loudspeaker", "number"], ["Length", "number"], ["Blocked", "text"], ["Answered after", "number"]];
 const WORKLOAD = [["Seat"], ["ISA (mean of 1 to 5)", "number"], ["ISA", "text"], ["Raw TLX (0 to 100)", "number"], ["NASA-TLX", "text"]];
 const since = (row, t) => (known(t) ? seconds(t - row.t_advisory_s, 2) : "no");
 

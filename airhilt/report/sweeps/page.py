@@ -9,7 +9,7 @@ from typing import Any
 
 from airhilt.errors import AirhiltError
 from airhilt.files import replace_file
-from airhilt.record.manifest import Notice, untold
+from airhilt.record.damage import Notice, untold
 from airhilt.record.sweep_folder import SweepFolder
 from airhilt.report.assembly import Assembly
 from airhilt.report.figures import Figures

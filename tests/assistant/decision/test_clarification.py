@@ -52,6 +52,12 @@ def test_a_readback_that_is_wrong_where_it_is_unsure_is_asked_for_and_not_told()
     assert asked.message.startswith("confirm runway of AAL123")
 
 
+def test_a_readback_that_differs_from_an_unsure_instruction_is_asked_for_and_not_told() -> None:
+    airfield = field(UNSURE_CLEARED, WRONG).run(40)
+    assert questions(airfield) == [(26.0, "AAL123", "runway")]
+    assert mismatches(airfield) == []
+
+
 def test_said_again_with_confidence_it_is_told() -> None:
     airfield = field(CLEARED, UNSURE_WRONG, (34.0, WRONG[1])).run(40)
     assert {each.t_ready_ns for each in mismatches(airfield)} == {34 * 10**9}
@@ -164,6 +170,32 @@ def test_say_again_of_something_else_is_no_missing_readback(
     assert mismatches(airfield) == []
 
 
+LINES_UP = "Lining up runway zero one, American one two three."
+INFORMATION = "American one two three, wind two seven zero at eight."
+
+
+@pytest.mark.parametrize(
+    ("since", "is_of_readback"),
+    [
+        ([], True),
+        ([(38.0, "American one two three, roger.")], True),
+        ([(38.0, "Roger, American one two three.")], True),
+        ([(38.0, "Tower, American one two three, request taxi via alpha.")], False),
+        ([(38.0, INFORMATION)], False),
+        ([(32.0, SAY_AGAIN[1]), (38.0, HOLDS[1])], True),
+        ([(32.0, SAY_AGAIN[1]), (38.0, HOLDS[1]), (42.0, INFORMATION)], False),
+    ],
+    ids=["nothing", "roger", "roger of the crew", "a request", "information", "the readback again",
+         "information after the readback again"],
+)  # fmt: skip
+def test_say_again_is_about_the_readback_only_if_nothing_was_said_since(
+    since: list[tuple[float, str]], is_of_readback: bool
+) -> None:
+    """Another clearance after it is a wrong readback then, and otherwise none that is known."""
+    calls = [HOLD, HOLDS, *since, (50.0, SAY_AGAIN[1]), (56.0, LINES_UP)]
+    assert bool(mismatches(field(*calls).run(65))) is is_of_readback
+
+
 @pytest.mark.parametrize(
     "between",
     [[], [(34.0, "American one two three, roger.")], [(34.0, "American one two three, four?.")]],
@@ -201,9 +233,10 @@ def test_a_callsign_is_asked_about_once_a_minute_at_most() -> None:
     assert len(questions(airfield)) == 1
 
 
-def test_a_crew_that_asks_for_it_again_is_not_overtaken_by_the_question() -> None:
-    say_again = (26.0, "Say again, American one two three.")
-    assert questions(field(UNSURE_CLEARED, say_again).run(45)) == []
+@pytest.mark.parametrize("asking", ["Say again", "Confirm runway"])
+def test_a_crew_that_asks_for_it_again_is_not_overtaken_by_the_question(asking: str) -> None:
+    asked = (26.0, f"{asking}, American one two three.")
+    assert questions(field(UNSURE_CLEARED, asked).run(45)) == []
 
 
 def crossing(*calls: tuple[float, str]) -> Airfield:

@@ -139,7 +139,7 @@ def test_what_makes_no_sense_makes_none_twice(guard: RememberingGuard) -> None:
 
 
 def test_callsigns_are_not_joined(guard: RememberingGuard) -> None:
-    text = "Cleared to land runway one niner, American? one? two? three?."
+    text = "Cleared to land runway one? niner, American? one? two? three?."
     for name in ("first", "second"):
         found = doubt(guard, heard(text, 0.7, name))
         assert found is not None
