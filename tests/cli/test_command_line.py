@@ -133,7 +133,7 @@ def test_doctor_finds_everything(airhilt_command: Any) -> None:
         ),
         (("cosim",), "--scenario"),
         (("replay", "nowhere"), "no run here"),
-        (("report", "nowhere"), "no run here"),
+        (("report", "nowhere"), "neither a run nor a sweep"),
         (
             ("worker", "decision", "--connect", "tcp/127.0.0.1:9", "--patience", "0.3"),
             "start the run first",

@@ -50,20 +50,20 @@ def report(folder: Path, out: Path | None, csv: Path | None) -> None:
 
     The figures of a sweep are in its folder too, under figures, as SVG and as PDF.
     """
-    from airhilt.record import RunFolder, open_run
-    from airhilt.record.sweep_folder import SweepFolder
+    from airhilt.record import open_run
+    from airhilt.record.sweep_folder import SweepFolder, is_sweep
     from airhilt.report.people_csv import write_people_csv
 
-    sweep = SweepFolder(folder)
+    if csv is not None and out is not None:
+        raise click.UsageError("--out, --csv: expected one of them")
+    has_runs = is_sweep(folder)
     if csv is not None:
-        if out is not None:
-            raise click.UsageError("--out, --csv: expected one of them")
-        if RunFolder(folder).info_path.is_file():
-            write_people_csv(open_run(folder, tell), csv)
-        else:
+        if has_runs:
             _write_csv(SweepFolder.open(folder, tell), csv)
+        else:
+            write_people_csv(open_run(folder, tell), csv)
         click.echo(csv)
-    elif sweep.is_there:
+    elif has_runs:
         from airhilt.report.sweeps import write_sweep_report
 
         click.echo(write_sweep_report(folder, out, _Progress(), tell))
