@@ -156,7 +156,7 @@ class Clearances:
         else:
             if (given := self._recent(callsign, transcript.t_tx_ns)) is not None:
                 given.answered = True
-            if not call.acknowledged:
+            if _tells_something(call):
                 self._read_back.pop(callsign, None)
         believed = tuple(each for each in said if each.action not in doubts)
         if believed:
@@ -184,7 +184,7 @@ class Clearances:
             given = self._recent(callsign, addressed.transcript.t_tx_ns)
             if given is told and not told.answered:
                 return
-        if addressed.instructions or not call.acknowledged:
+        if addressed.instructions or _tells_something(call):
             self._read_back.pop(callsign, None)
         self._addressed[callsign] = addressed
         if len(addressed.doubts) < len(addressed.instructions):
@@ -379,3 +379,8 @@ class Clearances:
             for reader, each in self._discrepancies.items()
             if callsign not in (reader, each.addressed)
         }
+
+
+def _tells_something(call: Call) -> bool:
+    """Return whether a call without an instruction has words of its own that were understood."""
+    return call.kind != "unknown" and not call.acknowledged

@@ -180,13 +180,14 @@ INFORMATION = "American one two three, wind two seven zero at eight."
         ([], True),
         ([(38.0, "American one two three, roger.")], True),
         ([(38.0, "Roger, American one two three.")], True),
+        ([(38.0, "American one two three.")], True),
         ([(38.0, "Tower, American one two three, request taxi via alpha.")], False),
         ([(38.0, INFORMATION)], False),
         ([(32.0, SAY_AGAIN[1]), (38.0, HOLDS[1])], True),
         ([(32.0, SAY_AGAIN[1]), (38.0, HOLDS[1]), (42.0, INFORMATION)], False),
     ],
-    ids=["nothing", "roger", "roger of the crew", "a request", "information", "the readback again",
-         "information after the readback again"],
+    ids=["nothing", "roger", "roger of the crew", "a roger that is not heard", "a request",
+         "information", "the readback again", "information after the readback again"],
 )  # fmt: skip
 def test_say_again_is_about_the_readback_only_if_nothing_was_said_since(
     since: list[tuple[float, str]], is_of_readback: bool
