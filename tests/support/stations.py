@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import collections
 import queue
 import signal
 import subprocess
@@ -119,16 +120,21 @@ def running(
         command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True
     )
     assert process.stderr is not None
+    # A run stands still once nobody reads what it tells.
+    reader = threading.Thread(target=collections.deque, args=(process.stderr, 0))
     with process.stderr:
         try:
-            yield process, url_of(process.stderr)
+            url = url_of(process.stderr)
+            reader.start()
+            yield process, url
         finally:
             if process.poll() is None:
                 for child in psutil.Process(process.pid).children():
                     child.kill()
                 process.send_signal(signal.SIGINT)
-            process.stderr.read()
             process.wait(timeout=PATIENCE_S)
+            if reader.ident is not None:
+                reader.join()
 
 
 def url_of(told: Iterable[str]) -> str:
