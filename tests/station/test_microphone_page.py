@@ -237,6 +237,27 @@ def test_who_leaves_the_seat_has_no_open_microphone(
         page.wait_for("window.granted.length && window.granted.every((one) => one !== 'live')")
 
 
+@pytest.mark.browser
+def test_a_microphone_that_is_granted_late_does_not_open_for_the_next_person(
+    seat: tuple[PretendedRun, str],
+) -> None:
+    run, url = seat
+    with page_with_microphone(*FAKE) as page:
+        sit_down(page, url)
+        page.evaluate(GRANTED)
+        page.click("talk-button")
+        page.click("consent-agree")
+        while "consent to voice" not in run.deeds:
+            run.settings.get(timeout=PATIENCE_S)
+        page.click("seat-take")
+        page.wait_for("document.getElementById('talk').hidden")
+        page.click("seat-take")
+        page.wait_for("!document.getElementById('talk').hidden")
+        page.evaluate("window.grant()")
+        page.wait_for("window.granted.length && window.granted.every((one) => one !== 'live')")
+        assert page.evaluate(BUTTON) == "Open the microphone"
+
+
 def test_who_leaves_the_page_while_talking_is_released(seat: tuple[PretendedRun, str]) -> None:
     run, url = seat
     with sitting(url) as socket:

@@ -142,11 +142,112 @@ def test_the_run_is_told_if_the_person_agrees_to_the_use_of_the_voice(
     assert consent(run) == SeatConsent(what="voice", is_given=is_given)
     page.evaluate(f"{WORDS} = 'Ready.'")
     page.click("say-button")
-    assert page.evaluate(ASKED) is not is_given  # Who lets the voice be used may type.
-    if is_given:
+    if is_given:  # Who lets the voice be used may type.
+        assert run.next() == SpokenWords(text="Ready.")
+    else:
+        page.wait_for(ASKED)
+    leave(page)
+    page.open("about:blank")
+
+
+def hold_key(page: Page, key: str, code: int) -> None:
+    """Press a key, hold it for a while, and let it go."""
+    page.key("keyDown", key, code)
+    page.wait_for(ASKED)
+    for _ in range(3):
+        page.key("keyDown", key, code, repeats=True)
+    page.key("keyUp", key, code)
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize(("key", "code"), [(" ", 32), ("Enter", 13)])
+def test_a_key_that_was_held_before_the_question_does_not_answer_it(
+    page: Page, seat: tuple[PretendedRun, str], key: str, code: int
+) -> None:
+    """The words of the question have the focus, so that they are read aloud, and no button."""
+    run, url = seat
+    run.deeds.clear()
+    sit_down(page, url)
+    if key == "Enter":
+        page.evaluate(f"{WORDS} = 'Ready.'; document.getElementById('words').focus()")
+    hold_key(page, key, code)
+    page.wait_for(ASKED)
+    assert page.evaluate("document.activeElement.id") == "consent-text"
+    assert run.deeds == []
+    page.press("Tab", 9)
+    page.press(key, code)
+    assert consent(run).is_given
+    if key == "Enter":
         assert run.next() == SpokenWords(text="Ready.")
     leave(page)
     page.open("about:blank")
+
+
+@pytest.mark.browser
+def test_who_agrees_to_typing_is_asked_before_the_microphone_opens(
+    page: Page, seat: tuple[PretendedRun, str]
+) -> None:
+    run, url = seat
+    run.deeds.clear()
+    sit_down(page, url)
+    page.evaluate(f"{WORDS} = 'Ready.'")
+    page.click("say-button")
+    page.click("consent-agree")
+    assert consent(run) == SeatConsent(what="words", is_given=True)
+    assert run.next() == SpokenWords(text="Ready.")
+    assert run.deeds == ["consent to words", "say"]
+    page.click("talk-button")
+    page.wait_for(ASKED)
+    leave(page)
+    page.open("about:blank")
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("is_recorded", [True, False])
+def test_the_question_says_if_the_voice_is_recorded(page: Page, is_recorded: bool) -> None:
+    tower = TOWER.model_copy(update={"voice_is_recorded": is_recorded})
+    with seat_page(PretendedRun((tower,))) as (_, url):
+        sit_down(page, url)
+        page.click("talk-button")
+        page.wait_for(ASKED)
+        text = page.evaluate("document.getElementById('consent').innerText")
+        assert ("recorded in the folder" in text) is is_recorded
+        assert ("sound is not recorded" in text) is not is_recorded
+        page.open("about:blank")
+
+
+@pytest.mark.browser
+def test_consent_that_the_station_has_not_heard_is_asked_for_again(
+    page: Page, seat: tuple[PretendedRun, str]
+) -> None:
+    run, url = seat
+    run.deeds.clear()
+    sit_down(page, url)
+    page.evaluate(f"{WORDS} = 'Ready.'")
+    page.click("say-button")
+    page.wait_for(ASKED)
+    page.evaluate(
+        "Object.defineProperty(WebSocket.prototype, 'readyState',"
+        " { get: () => 3, configurable: true }); null"
+    )
+    page.click("consent-agree")
+    page.wait_for("document.getElementById('seat-state').textContent.includes('Nothing was said')")
+    page.evaluate("delete WebSocket.prototype.readyState")
+    page.open(url, width=1280, height=720)
+    assert run.deeds == []
+
+
+@pytest.mark.browser
+def test_nobody_talks_or_types_once_the_run_is_over(page: Page) -> None:
+    with seat_page() as (run, url):
+        sit_down(page, url)
+        page.click("talk-button")
+        page.wait_for(ASKED)
+        run.changes.add("clock", 9.0, "finished", "realtime")
+        for name in ("talk", "say"):
+            page.wait_for(f"document.getElementById({name!r}).hidden")
+        assert not page.evaluate(ASKED)
+        page.open("about:blank")
 
 
 @pytest.mark.browser
@@ -157,12 +258,13 @@ def test_who_only_types_is_asked_once_before_anything_is_said(
     sit_down(page, url)
     page.evaluate(f"{WORDS} = 'Ready.'")
     page.click("say-button")
-    assert page.evaluate(ASKED)
+    page.wait_for(ASKED)
     assert "kept as text" in page.evaluate("document.getElementById('consent').innerText")
     page.click("consent-decline")
     assert consent(run) == SeatConsent(what="words", is_given=False)
     assert page.evaluate(WORDS) == "Ready."
     page.click("say-button")
+    page.wait_for(ASKED)
     page.click("consent-agree")
     assert consent(run) == SeatConsent(what="words", is_given=True)
     assert run.next() == SpokenWords(text="Ready.")
@@ -174,7 +276,7 @@ def test_who_only_types_is_asked_once_before_anything_is_said(
     page.wait_for("!document.getElementById('talk').hidden")
     page.evaluate(f"{WORDS} = 'Ready.'")
     page.click("say-button")
-    assert page.evaluate(ASKED)
+    page.wait_for(ASKED)
     leave(page)
     page.open("about:blank")
 

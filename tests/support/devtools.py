@@ -108,9 +108,13 @@ class Page:
         for kind in ("keyDown", "keyUp"):
             self.key(kind, key, code)
 
-    def key(self, kind: str, key: str, code: int) -> None:
-        """Press a key (``keyDown``) or let it go (``keyUp``)."""
-        self.call("Input.dispatchKeyEvent", type=kind, key=key, windowsVirtualKeyCode=code)
+    def key(self, kind: str, key: str, code: int, *, repeats: bool = False) -> None:
+        """Press a key (``keyDown``) or let it go (``keyUp``); one that is held repeats."""
+        text = {"Enter": "\r", " ": " "}.get(key, "") if kind == "keyDown" else ""
+        self.call(
+            "Input.dispatchKeyEvent",
+            type=kind, key=key, windowsVirtualKeyCode=code, autoRepeat=repeats, text=text,
+        )  # fmt: skip
 
     def click(self, name: str) -> None:
         """Click on the element with an id, as a person does: where it has come to rest."""

@@ -50,6 +50,8 @@ from airhilt.station.subscription import Sound
 from airhilt.station.wishes import Claimed
 
 PATIENCE_S = 60.0
+FREED_WITHIN_S = 10.0
+"""Time in which a seat is free whose page is closed, in s; it is not after a test that failed."""
 TOKEN = "0123456789abcdef0123456789abcdef"
 TOWER = SeatInfo(
     seat="TOWER", recipients=("TOWER", "ATC"), frequencies_khz=(119_100,), has_sound=True,
@@ -193,6 +195,8 @@ class PretendedRun:
     def __init__(self, seats: Sequence[SeatInfo] = (TOWER,)) -> None:
         self.done: queue.Queue[Message | Command] = queue.Queue()
         self.heard: queue.Queue[CallHeard] = queue.Queue()
+        self.deeds: list[str] = []
+        """Names of what a person said and agreed to, in their order."""
         self.settings: queue.Queue[SeatListening | SeatConsent] = queue.Queue()
         """Settings of the radio of a seat, and answers about the voice."""
         self.presence: queue.Queue[tuple[str, bool]] = queue.Queue()
@@ -220,10 +224,12 @@ class PretendedRun:
 
     def say(self, seat: str, words: SpokenWords) -> None:
         """Note words that were typed."""
+        self.deeds.append("say")
         self.done.put(words)
 
     def speak(self, seat: str, audio: MicrophoneAudio) -> None:
         """Note what a microphone does."""
+        self.deeds.append(audio.phase)
         self.done.put(audio)
 
     def listen(self, seat: str, listening: SeatListening) -> None:
@@ -232,6 +238,7 @@ class PretendedRun:
 
     def consent(self, seat: str, consent: SeatConsent) -> None:
         """Note an answer about the voice, apart from what is done."""
+        self.deeds.append(f"consent to {consent.what}" if consent.is_given else "no consent")
         self.settings.put(consent)
 
     def perceive(self, seat: str, perceived: AdvisoryPerceived) -> None:
@@ -303,7 +310,7 @@ def seats_given_back_at_once(run: PretendedRun) -> Iterator[None]:
         yield
         is_taken = dict.fromkeys(run.of_seats, False)
         while any(is_taken.values()) or not run.presence.empty():
-            is_taken |= [run.presence.get(timeout=PATIENCE_S)]
+            is_taken |= [run.presence.get(timeout=FREED_WITHIN_S)]
 
 
 @contextmanager

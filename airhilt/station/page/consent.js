@@ -3,52 +3,107 @@
 
 import { byId } from "./dom.js";
 
+const LOGGED = "What you do at the seat, and what it shows you, is logged.";
 const QUESTIONS = {
-  voice: { title: "Your voice", agree: "Open the microphone", decline: "Only type" },
-  words: { title: "What you type", agree: "Agree and say it", decline: "Do not say it" },
+  voice: {
+    title: "Your voice",
+    agree: "Open the microphone",
+    decline: "Only type",
+    text: (isRecorded) =>
+      "What you say while you hold the button goes to this run: it is recognised, everybody in the run hears it, and its programs get it. " +
+      (isRecorded
+        ? "It is recorded in the folder of the run, as sound and as text. What you type is said to everybody too, and kept as text. "
+        : "Its sound is not recorded. The words are, as they were recognised, and so is what you type, which is said to everybody too. ") +
+      LOGGED,
+  },
+  words: {
+    title: "What you type",
+    agree: "Agree and say it",
+    decline: "Do not say it",
+    text: () =>
+      "What you type goes to this run. It is said on the radio for everybody in the run, its programs get it, and it is kept as text in the folder of the run. " +
+      LOGGED,
+  },
 };
 
 export class Consent {
-  #send;
+  #wish;
   #given = new Set();
   #asked = null;
+  #isSent = false; // an answer is on its way, and the station has not heard it
+  #next = null; // what is asked after that
+  #pressed = new Set(); // keys that went down while a question was there
 
-  /** `send(wish)` tells the run what was answered. */
-  constructor(send) {
-    this.#send = send;
+  /** `wish(wish, answers)` sends what was answered; see `Wishes`. */
+  constructor(wish) {
+    this.#wish = wish;
     byId("consent-agree").addEventListener("click", () => this.#answer(true));
     byId("consent-decline").addEventListener("click", () => this.#answer(false));
+    for (const type of ["keydown", "keyup"])
+      window.addEventListener(type, (event) => this.#key(event), { capture: true });
   }
 
   /**
-   * Asks for consent to the use of what ("voice" or "words"), of which a text tells, and calls
-   * `then(isGiven)`; not if the question is put away. Who lets the voice be used may type.
+   * Asks for consent to the use of what ("voice" or "words"), and calls `then(isGiven)` once the
+   * station has heard the answer, or `lost()` if it may not have. Nothing is called if the question
+   * is put away. Who lets the voice be used may type. `isRecorded` tells if sound is.
    */
-  ask(what, text, then) {
+  ask(what, { isRecorded = true, then, lost }) {
     if (this.#given.has(what) || this.#given.has("voice")) {
       then(true);
       return;
     }
-    const { title, agree, decline } = QUESTIONS[what];
+    if (this.#isSent) {
+      this.#next = () => this.ask(what, { isRecorded, then, lost });
+      return;
+    }
+    const { title, agree, decline, text } = QUESTIONS[what];
     byId("consent-title").textContent = title;
-    byId("consent-text").textContent = text;
+    byId("consent-text").textContent = text(isRecorded);
     byId("consent-agree").textContent = agree;
     byId("consent-decline").textContent = decline;
-    this.#asked = { what, then };
+    this.#asked = { what, then, lost };
+    this.#pressed.clear();
     byId("consent").showModal();
   }
 
   /** Forgets what was agreed to: whoever has a seat next is asked again. */
   forget() {
     this.#given.clear();
+    this.#isSent = false;
+    this.#next = null;
     byId("consent").close();
   }
 
+  /** Lets no key answer that was held before the question was there. */
+  #key(event) {
+    if (!byId("consent").open) return;
+    const isNew = event.type === "keydown" ? !event.repeat : this.#pressed.has(event.key);
+    if (isNew) this.#pressed.add(event.key);
+    else event.preventDefault();
+  }
+
   #answer(isGiven) {
-    const { what, then } = this.#asked;
+    const { what, then, lost } = this.#asked;
     byId("consent").close();
-    if (isGiven) this.#given.add(what);
-    this.#send({ consent: { what, is_given: isGiven } });
-    then(isGiven);
+    this.#isSent = true;
+    this.#wish(
+      { consent: { what, is_given: isGiven } },
+      {
+        heard: () => {
+          if (isGiven) this.#given.add(what);
+          this.#answered(() => then(isGiven));
+        },
+        lost: () => this.#answered(lost),
+      },
+    );
+  }
+
+  #answered(then) {
+    const next = this.#next;
+    this.#isSent = false;
+    this.#next = null;
+    then();
+    next?.();
   }
 }

@@ -99,7 +99,7 @@ export class Live {
     this.#socket.onclose = (event) => {
       this.#panes.talk.lost();
       this.#wishes.lost();
-      if (this.#isOver) {
+      if (this.#run.isOver) {
         this.#tell();
         return;
       }
@@ -134,18 +134,14 @@ export class Live {
     const isOpen = this.#socket.readyState === WebSocket.OPEN,
       isOpening = this.#socket.readyState === WebSocket.CONNECTING,
       silentMs = performance.now() - this.#heard;
-    this.#isSilent = isOpen && !this.#isOver && silentMs > SILENT_MS;
+    this.#isSilent = isOpen && !this.#run.isOver && silentMs > SILENT_MS;
     this.#lag.draw(isOpen && !this.#isSilent, this.#heard);
     if (this.#isSilent) {
       this.#panes.talk.lost();
       this.#warn(this.#panes.seat.own ? `${SILENT}, ${SILENT_AT_SEAT}` : `${SILENT}.`);
     }
-    if (!this.#isOver && ((isOpen && silentMs > DEAD_MS) || (isOpening && silentMs > SILENT_MS)))
+    if (!this.#run.isOver && ((isOpen && silentMs > DEAD_MS) || (isOpening && silentMs > SILENT_MS)))
       this.#open();
-  }
-
-  get #isOver() {
-    return ["finished", "stopped", "gone"].includes(this.#run.phase);
   }
 
   /** Shows large what keeps the page from following the run; nothing if it does. */
@@ -161,7 +157,7 @@ export class Live {
     this.#warn("");
     byId("state").textContent =
       PHASES[phase] ?? (pace === "paused" ? "paused" : `running, ${PACES[pace] ?? pace}`);
-    if (!this.#isOver) return;
+    if (!this.#run.isOver) return;
     byId("link").hidden = false;
     byId("pace").hidden = true;
     byId("link-text").textContent = ending(this.#run);
@@ -229,6 +225,7 @@ export class Live {
       this.#lag.told();
     }
     if (this.#run.pace !== pace || this.#run.phase !== phase) this.#clock.paced();
+    if (this.#run.isOver) for (const pane of [this.#panes.seat, this.#panes.talk]) pane.end();
     for (const kind of changed) this.#undrawn.add(kind);
     this.#drawing ??= setTimeout(
       () => this.#drawLists(),

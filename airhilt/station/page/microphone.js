@@ -17,12 +17,6 @@ const AUDIO = {
   noiseSuppression: false,
   autoGainControl: true,
 };
-const CONSENT =
-  "What you say while you hold the button goes to this run. It is recognised, and everybody in the run hears it.";
-const RECORDED =
-  "It is recorded in the folder of the run, as sound and as text. What you type is kept there too.";
-const NOT_RECORDED =
-  "Its sound is not recorded. The words are, as they were recognised, and so is what you type.";
 
 export class Microphone {
   #link;
@@ -31,6 +25,7 @@ export class Microphone {
   #stream = null;
   #isOpening = false;
   #held = false;
+  #sitting = 0; // number of the people who have left
 
   /**
    * `link` has send(wish), sendSound(buffer), unsent(), isThere(), frequency(), consent, and
@@ -64,7 +59,10 @@ export class Microphone {
   /** Takes in what the run says of the seat; null without a seat. */
   setInfo(info) {
     this.#info = info;
-    if (!info) this.#close();
+    if (!info) {
+      this.#sitting++;
+      this.#close();
+    }
     byId("talk").hidden = !info;
     byId("talk-button").disabled = !info?.has_sound;
     if (info && !info.has_sound) this.#tell("This run has no sound. Type what you want to say.");
@@ -121,10 +119,13 @@ export class Microphone {
   }
 
   #ask() {
-    const text = `${CONSENT} ${this.#info.voice_is_recorded ? RECORDED : NOT_RECORDED}`;
-    this.#link.consent.ask("voice", text, (isGiven) => {
-      if (isGiven) this.#open();
-      else this.#tell("The microphone is closed.");
+    this.#link.consent.ask("voice", {
+      isRecorded: this.#info.voice_is_recorded,
+      then: (isGiven) => {
+        if (isGiven) this.#open();
+        else this.#tell("The microphone is closed.");
+      },
+      lost: () => this.#tell("The microphone is closed: the connection is lost."),
     });
   }
 
@@ -147,13 +148,14 @@ export class Microphone {
 
   async #connect() {
     if (!navigator.mediaDevices) throw new DOMException("not secure", "SecurityError");
+    const sitting = this.#sitting;
     const stream = await navigator.mediaDevices.getUserMedia({ audio: AUDIO });
     const { context, source } = connected(stream),
       node = await listening(context);
-    if (!this.#info) {
+    if (this.#sitting !== sitting) {
       end(stream, context);
       return;
-    } // The seat was left meanwhile.
+    } // The seat was left meanwhile: who has it now has not agreed.
     node.port.onmessage = ({ data }) => this.#take(data);
     source.connect(node);
     stream.getTracks()[0].addEventListener("ended", () => {

@@ -237,6 +237,11 @@ export class Run {
     this.#actors = 0;
   }
 
+  /** True once a live run goes on no more. */
+  get isOver() {
+    return ["finished", "stopped", "gone"].includes(this.phase);
+  }
+
   /** The events that one may jump to, in the order of their times. */
   get moments() {
     return (this.#moments ??= momentsOf(this));

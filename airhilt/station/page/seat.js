@@ -7,8 +7,6 @@ import { Rows } from "./rows.js";
 import { bearing, feet, known, percent, seconds, whole, words } from "./words.js";
 
 const MOST_TASKS = 50; // cards at a time, the newest
-const CONSENT =
-  "What you type goes to this run. It is said on the radio for everybody in the run, and kept as text in the folder of the run.";
 
 export class Seat {
   #run;
@@ -54,10 +52,14 @@ export class Seat {
     });
     byId("say").addEventListener("submit", (event) => {
       event.preventDefault();
-      if (!byId("words").value.trim()) return;
-      this.#consent.ask("words", CONSENT, (isGiven) => {
-        if (isGiven) this.#say();
-        else this.refuse("Nothing was said.");
+      const text = byId("words").value.trim();
+      if (!text) return;
+      this.#consent.ask("words", {
+        then: (isGiven) => {
+          if (isGiven) this.#say(text);
+          else this.refuse("Nothing was said.");
+        },
+        lost: () => this.refuse("Nothing was said: the connection is lost. Say it when it is there again."),
       });
     });
     this.setSeats({});
@@ -96,7 +98,7 @@ export class Seat {
     byId("seat-hint").textContent = this.#own
       ? ""
       : "Who takes a seat speaks and acts there, and sees what that seat sees. Until then its calls wait.";
-    byId("say").hidden = !this.#own;
+    byId("say").hidden = !this.#own || this.#run.isOver;
     this.#displays.setSeat(this.#own);
     // Nobody at a seat goes back in time.
     if (this.#own && !this.#clock.following) this.#clock.follow();
@@ -110,6 +112,11 @@ export class Seat {
   /** Shows why something was not done. */
   refuse(text) {
     byId("seat-state").textContent = text;
+  }
+
+  /** Takes in that the run is over: nobody hears what is typed. */
+  end() {
+    byId("say").hidden = true;
   }
 
   /** Forgets what the former seat has shown, and what was typed there and not sent. */
@@ -211,9 +218,8 @@ export class Seat {
     );
   }
 
-  #say() {
-    const text = byId("words").value.trim();
-    byId("words").value = "";
+  #say(text) {
+    if (byId("words").value.trim() === text) byId("words").value = "";
     this.refuse("");
     this.#live.wish({ say: { text } }, { lost: (wasSent) => this.#takeBack(text, wasSent) });
   }

@@ -141,6 +141,13 @@ export class Talk {
       this.#advisories.takeAdvisory(row);
   }
 
+  /** Takes in that the run is over: nobody hears what is said, and nothing is asked any more. */
+  end() {
+    this.#workload.clear();
+    this.#microphone.setInfo(null);
+    this.#consent.forget();
+  }
+
   /** Forgets the advisories of the former seat. */
   forget() {
     this.#advisories.clear();
@@ -167,8 +174,6 @@ export class Talk {
       if (kind === "answered") this.#workload.answered(rest[0]);
     }
     if (changes?.some(([kind]) => kind === "call")) this.#phrases.heard();
-    if (changes && ["finished", "stopped", "gone"].includes(this.#run.phase))
-      this.#workload.clear();
     if (sounds && this.#own) this.#frequencies.take(sounds);
     if (sounds && this.#own && !this.#isBehind)
       this.#loudspeaker.take(sounds, {
@@ -181,7 +186,7 @@ export class Talk {
 
   /** Takes in what has to be known of the seat; the space bar is not to give it back at once. */
   #prepare(info) {
-    this.#microphone.setInfo(info);
+    this.#microphone.setInfo(this.#run.isOver ? null : info);
     this.#pace.setInfo(info);
     this.#advisories.setSpoken(info.spoken_from);
     this.#takeActive(); // What is in force and nobody speaks sounds now.

@@ -24,6 +24,8 @@ export class Transcript {
     this.#clock = clock;
     // An advisory or a question above the list takes room from it.
     new ResizeObserver(() => this.#keepInView()).observe(this.#list);
+    for (const type of ["wheel", "pointerdown", "keydown"]) // Somebody reads what was said before.
+      this.#list.addEventListener(type, () => (this.#shown = null), { passive: true });
     this.redraw();
   }
 
@@ -66,7 +68,8 @@ export class Transcript {
     this.#current = names;
     for (const { item } of this.#items) item.removeAttribute("aria-current");
     for (const { item } of shown) item.setAttribute("aria-current", "true");
-    this.#shown = shown.at(-1)?.item ?? null;
+    const kept = this.#clock.live ? this.#items.find(({ call }) => call === last?.call) : null;
+    this.#shown = (shown.at(-1) ?? kept)?.item ?? null;
     this.#keepInView();
   }
 
