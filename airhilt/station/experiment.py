@@ -24,6 +24,7 @@ from airhilt.messages import NasaTlx
 from airhilt.options import options_of
 from airhilt.record import RunFolder
 from airhilt.scenario import loading
+from airhilt.scenario.seats import seats_of
 from airhilt.station.plan import Plan, Trial
 from airhilt.station.questionnaires import NASA_TLX, Answers, Questionnaire
 from airhilt.station.started_runs import (
@@ -33,6 +34,7 @@ from airhilt.station.started_runs import (
     StartedRuns,
 )
 from airhilt.text import readable
+from airhilt.world.loading import load
 
 MOST_ATTEMPTS = 100
 """Largest number of times that a trial is begun."""
@@ -68,8 +70,11 @@ class Progress:
     ----------
     folder
         Folder of the runs of the participant, or of the team.
-    number
-        Number of the participant's seat among those of a trial, from 0 on.
+
+    Raises
+    ------
+    RunFolderError
+        The folder of the team is there with its participants in another order.
     """
 
     def __init__(self, plan: Plan, folder: Path, participant: str) -> None:
@@ -77,9 +82,47 @@ class Progress:
         self.plan = plan
         self.participant = participant
         self.folder = folder / TOGETHER.join(team)
-        self.number = team.index(participant)
         self.trials = plan.order(participant)
+        self._number = team.index(participant)
+        self._seats: dict[str, tuple[str, ...]] = {}
         self._answers = self.folder if len(team) == 1 else self.folder / participant
+        _refuse_another_order(team, self.folder)
+
+    def seat(self, trial: Trial) -> str:
+        """Return the unit or callsign whose seat the participant has in a trial."""
+        return self._all_seats(trial)[self._number]
+
+    def require_same_seats(self, trial: Trial, name: str, had: Sequence[str]) -> None:
+        """Complain about a run of a trial in which the seats were others than in the plan.
+
+        Parameters
+        ----------
+        name
+            Name of the run folder.
+        had
+            Seats that it had, in the order of the participants.
+
+        Raises
+        ------
+        RunFolderError
+            They were others, or in another order: who had which seat is not known.
+        """
+        seats = self._all_seats(trial)
+        if tuple(had) != seats:
+            were = "its seats were" if len(seats) > 1 else "its seat was"
+            raise RunFolderError(
+                f"{self.folder / name}: {were} {readable(', '.join(had))}; expected "
+                f"{', '.join(seats)}, as the plan has them now; put them back in the plan, or run "
+                "the changed plan in another folder"
+            )
+
+    def _all_seats(self, trial: Trial) -> tuple[str, ...]:
+        """Return the units and callsigns of the seats of a trial, in the order of the team."""
+        found = self._seats.get(trial.scenario)
+        if found is None:
+            found = seats_of(self.plan.all_seats, load(loading.find(trial.scenario)))
+            self._seats[trial.scenario] = found
+        return found
 
     def attempts(self, trial: Trial) -> Iterator[str]:
         """Yield the names of the run folders of a trial that may be there, in their order."""
@@ -91,6 +134,11 @@ class Progress:
         """Return the name of the run folder of a trial that its participant has done.
 
         Its run has ended by itself, and somebody had the seat, or each of its seats.
+
+        Raises
+        ------
+        RunFolderError
+            Its seats were others than those of the plan.
         """
         for name in self.attempts(trial):
             folder = self.folder / name
@@ -98,10 +146,14 @@ class Progress:
                 return None
             try:
                 run = RunFolder.open(folder)
-                if run.info().phase == "finished" and not _has_untaken_seat(run):
-                    return name
+                is_finished = run.info().phase == "finished"
             except RunFolderError:
                 continue
+            times_s = _seat_times_s(run) if is_finished else None
+            if times_s:
+                self.require_same_seats(trial, name, list(times_s))
+            if is_finished and 0.0 not in (times_s or {}).values():
+                return name
         return None
 
     def new_run(self, trial: Trial) -> str:
@@ -152,7 +204,7 @@ class Progress:
         """Return the NASA-TLX ratings that were given at the seat, None if there are none."""
         try:
             summary = RunFolder(self.folder / run).summary() or {}
-            person = summary["people"][self.number]
+            person = summary["people"][self._number]  # A finished run has the seats of the plan.
             return NasaTlx.model_validate(person["workload"]["nasa_tlx"]).model_dump()
         except (RunFolderError, ValueError, LookupError, TypeError):
             return None
@@ -210,13 +262,34 @@ def _no_answers(path: Path, problem: str) -> RunFolderError:
     )
 
 
-def _has_untaken_seat(run: RunFolder) -> bool:
-    """Return true if the summary of a run says that a seat was never taken."""
+def _seat_times_s(run: RunFolder) -> dict[str, float | None]:
+    """Return how long each seat of a run was taken, in s, in the order of the team.
+
+    It is None where an earlier version did not tell, and there are no seats where the summary
+    does not tell of any.
+    """
     try:
         people = (run.summary() or {})["people"]
-        return any(person["seat_time_s"] == 0.0 for person in people)
-    except (RunFolderError, LookupError, TypeError):
-        return False  # It cannot be known, as of a run of an earlier version.
+        return {str(person["seat"]): person.get("seat_time_s") for person in people}
+    except (RunFolderError, LookupError, TypeError, AttributeError):
+        return {}
+
+
+def _refuse_another_order(team: Sequence[str], folder: Path) -> None:
+    """Complain if there is a folder of the same team in another order.
+
+    Raises
+    ------
+    RunFolderError
+        There is one: the trials in it would count as not done.
+    """
+    found = folder.parent.glob(f"*{TOGETHER}*") if len(team) > 1 else ()
+    for other in found:
+        if other != folder and sorted(other.name.split(TOGETHER)) == sorted(team):
+            raise RunFolderError(
+                f"{other}: of {', '.join(team)} in another order; expected the order of the "
+                "folder in the plan; put it back there"
+            )
 
 
 class Conductor:
@@ -343,9 +416,10 @@ class Conductor:
             return shown | {"step": "waiting"}
         run = self._last_run()
         row = next((row for row in self._started.rows() if run and row["name"] == run.name), None)
-        if row is not None and row["name"] in progress.attempts(trials[done]):
+        if run and row is not None and run.name in progress.attempts(trials[done]):
             if row["state"] != "ended":
-                own = row["seats"][progress.number]
+                progress.require_same_seats(trials[done], run.name, run.seats)
+                own = readable(progress.seat(trials[done]))
                 return shown | {"step": row["state"], "url": row["url"], "seat": own}
             shown["said"] = "The last run of this trial did not finish."
         return shown | {"step": "ready", "rest_s": self._rest_s(done)}

@@ -56,8 +56,8 @@ def write_tables(plan: Plan, folder: Path) -> RowCounts:
     Raises
     ------
     RunFolderError
-        The numbers of a trial are missing, or are not those that its run wrote. Or a table cannot
-        be written.
+        The numbers of a trial are missing, or are not those that its run wrote, or are of other
+        seats. Or a table cannot be written.
     """
     everybody = chain(*plan.teams)
     found = [rows for name in everybody for rows in _rows(Progress(plan, folder, name))]
@@ -133,7 +133,7 @@ def _rows(progress: Progress) -> Iterator[_Rows]:
         }
         folder = progress.folder / name
         try:
-            rows = _of_summary(open_run(folder, untold).summary(), progress.number)
+            rows = _of_summary(open_run(folder, untold).summary(), progress.seat(trial))
         except CANNOT_READ as error:
             raise RunFolderError(
                 f"{folder}: its numbers cannot be read ({first_line(error)}); expected them as a "
@@ -147,14 +147,14 @@ def _rows(progress: Progress) -> Iterator[_Rows]:
         )
 
 
-def _of_summary(summary: Mapping[str, Any], seat: int) -> _Rows:
+def _of_summary(summary: Mapping[str, Any], seat: str) -> _Rows:
     """Return what the rows of a trial have of its summary, and of the person at one of its seats.
 
     It is nothing of a person where the summary has none.
     """
     rows = _Rows(OF_RUNS.values(summary), [], [])
-    for person in summary.get("people", ())[seat : seat + 1]:
-        at = {"seat": person["seat"]}
+    for person in (one for one in summary.get("people", ()) if one["seat"] == seat):
+        at = {"seat": seat}
         own = {f"person.{name}": value for name, value in OF_PEOPLE.values(person).items()}
         rows.trial.update(at | own)
         rows.reactions.extend(at | OF_REACTIONS.values(one) for one in person["reactions"])

@@ -323,7 +323,7 @@ def test_an_earlier_version_that_wrote_less_of_a_person_leaves_gaps(
     assert table(tmp_path / "calls.parquet") == []
 
 
-@pytest.mark.parametrize("people", [5, [1], [{}], [{"seat": "a", "reactions": [0]}]])
+@pytest.mark.parametrize("people", [5, [1], [{}], [{"seat": "AAL123", "reactions": [0]}]])
 def test_people_that_no_run_writes_are_refused_in_words(
     recorded_run: Path, tmp_path: Path, people: Any
 ) -> None:
@@ -611,20 +611,25 @@ def test_a_trial_of_a_team_has_all_its_seats_and_begins_when_each_is_ready(
         conductor.state("P03")
 
 
-def test_each_of_a_team_is_led_to_the_own_seat(tmp_path: Path) -> None:
-    team = led(team_plan(), tmp_path, "P01")
-    name = f"01-{team[0].trials[0].name}"
-    kept = team[0].folder / ".station"
+def goes_on(progress: Progress) -> None:
+    """Let the first trial of a team go on, in the process of the tests."""
+    name = f"01-{progress.trials[0].name}"
+    kept = progress.folder / ".station"
     kept.mkdir(parents=True)
-    goes_on = StartedRun(
+    started = StartedRun(
         name=name,
         scenario="s01b_nominal",
         seats=("Washington Tower", "AAL123"),
         process=os.getpid(),
         created_s=psutil.Process().create_time(),
     )
-    (kept / f"{name}.json").write_text(goes_on.model_dump_json())
+    (kept / f"{name}.json").write_text(started.model_dump_json())
     (kept / f"{name}.txt").write_text("http://127.0.0.1:9\n")
+
+
+def test_each_of_a_team_is_led_to_the_own_seat(tmp_path: Path) -> None:
+    team = led(team_plan(), tmp_path, "P01")
+    goes_on(team[0])
     conductor = Conductor(team)
     shown = [conductor.state(name) for name in ("P01", "P02")]
     assert [one["seat"] for one in shown] == ["Washington Tower", "AAL123"]
@@ -679,3 +684,62 @@ def test_a_trial_of_a_team_of_which_one_never_sat_is_not_finished(
     assert [one.finished_run(trial) for one in team] == [None, None]
     finished(recorded_run, team[0].folder / f"01-{trial.name}-2", two_people(seat_time_s=0.5))
     assert [one.finished_run(trial) for one in team] == [f"01-{trial.name}-2"] * 2
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        (
+            TEAMS | {"seats": ["AAL123", "tower"]},
+            "its seats were Washington Tower, AAL123; expected AAL123, Washington Tower, as the",
+        ),
+        (TEAMS | {"seats": ["tower", "OPS1"]}, "expected Washington Tower, OPS1, as the plan"),
+    ],
+)
+def test_a_trial_that_had_other_seats_is_refused(
+    recorded_run: Path, tmp_path: Path, given: dict[str, Any], said: str
+) -> None:
+    """The plan was changed: who is a pilot in it now had the seat of the controller then."""
+    team = led(team_plan(), tmp_path, "P01")
+    name = f"01-{team[0].trials[0].name}"
+    finished(recorded_run, team[0].folder / name, two_people())
+    changed = plan(**given)
+    with pytest.raises(RunFolderError, match=rf"P01\+P02/{name}: .*{said}"):
+        Conductor(led(changed, tmp_path, "P01"))
+    with pytest.raises(RunFolderError, match=said):
+        write_tables(changed, tmp_path)
+
+
+def test_a_trial_of_a_participant_who_had_another_seat_is_refused(
+    recorded_run: Path, tmp_path: Path
+) -> None:
+    progress = Progress(plan(participants=["P01"], scenarios=["s01b_nominal"]), tmp_path, "P01")
+    name = f"01-{progress.trials[0].name}"
+    finished(recorded_run, progress.folder / name, [PERSON.model_dump(mode="json")])
+    changed = plan(participants=["P01"], scenarios=["s01b_nominal"], seat="tower")
+    with pytest.raises(RunFolderError, match="its seat was AAL123; expected Washington Tower"):
+        write_tables(changed, tmp_path)
+
+
+def test_a_trial_that_goes_on_with_other_seats_is_refused(tmp_path: Path) -> None:
+    goes_on(led(team_plan(), tmp_path, "P01")[0])
+    changed = team_plan(seats=["AAL123", "tower"])
+    with pytest.raises(RunFolderError, match=r"its seats were .* put them back"):
+        Conductor(led(changed, tmp_path, "P01")).state("P01")
+
+
+def test_a_team_in_another_order_than_its_folder_is_refused(
+    airhilt_command: Cli, tmp_path: Path
+) -> None:
+    (tmp_path / "out" / "P01+P02").mkdir(parents=True)
+    (tmp_path / "out" / "P03").mkdir()
+    changed = team_plan(participants=[["P02", "P01"], ["P03", "P04"]])
+    said = r"P01\+P02: of P02, P01 in another order; expected the order of the folder in the plan"
+    for participant in ("P01", "P02"):
+        with pytest.raises(RunFolderError, match=said):
+            Progress(changed, tmp_path / "out", participant)
+    assert Progress(changed, tmp_path / "out", "P03").folder.name == "P03+P04"
+    (tmp_path / "plan.json").write_text(changed.model_dump_json())
+    done = airhilt_command("experiment", tmp_path / "plan.json", "--out", tmp_path / "out")
+    assert done.returncode == 2
+    assert "another order" in done.stderr
