@@ -330,7 +330,7 @@ class Conductor:
             return self._state(participant)
 
     def begin(self, participant: str = "") -> None:
-        """Start the run of the next trial.
+        """Start the run of the next trial, unless somebody of the team has just begun it.
 
         Raises
         ------
@@ -339,6 +339,8 @@ class Conductor:
         """
         with self._lock:
             state, done = self._state(participant), self._trials_done()
+            if state["step"] in ("starting", "running"):
+                return
             if state["step"] != "ready" or state["rest_s"] > 0:
                 raise StationError("it is not time for a trial")
             plan, trial = self._plan, self._trials[done]

@@ -743,3 +743,15 @@ def test_a_team_in_another_order_than_its_folder_is_refused(
     done = airhilt_command("experiment", tmp_path / "plan.json", "--out", tmp_path / "out")
     assert done.returncode == 2
     assert "another order" in done.stderr
+
+
+def test_who_begins_a_trial_that_has_begun_is_led_to_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Both of a team press the button: the slower one does not know yet that it has begun."""
+    team = led(team_plan(), tmp_path, "P01")
+    monkeypatch.setattr(StartedRuns, "start", lambda *_: goes_on(team[0]))
+    conductor = Conductor(team)
+    for name in ("P01", "P02"):
+        conductor.begin(name)  # The folder of a second run would be there already.
+    assert [conductor.state(name)["step"] for name in ("P01", "P02")] == ["running"] * 2
