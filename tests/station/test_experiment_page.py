@@ -215,6 +215,137 @@ def go(page: Page, url: str, participant: str) -> None:
     page.wait_for(f"document.getElementById('title').textContent === 'Experiment, {participant}'")
 
 
+HELD = """
+    window.held = [];
+    window.answering = fetch;
+    window.fetch = async (path, ...more) => {
+        const answer = await answering(path, ...more);
+        if (path.includes('P02')) await new Promise((release) => held.push(release));
+        return answer;
+    };
+"""
+"""Script that keeps answers of the server to P02 until `held` releases them."""
+REFUSING = """
+    window.answering = fetch;
+    window.fetch = async (path, ...more) => path.includes('api/begin')
+        ? new Response('{"error": "it is not time for a trial"}', { status: 400 })
+        : answering(path, ...more);
+"""
+WRITTEN = """
+    window.written = 0;
+    const observer = new MutationObserver((records) => { written += records.length; });
+    for (const place of document.querySelectorAll('[role=status], [role=alert]'))
+        observer.observe(place, { subtree: true, childList: true, characterData: true });
+"""
+SOME_SECONDS = "new Promise((done) => setTimeout(done, 2500))"
+"""Script that lasts until the page has asked again, twice or more."""
+TITLE = "document.getElementById('title').textContent"
+CHECKED = "document.querySelectorAll('#items :checked').length"
+ASKS = "!document.getElementById('questions').hidden"
+
+
+def team_file(folder: Path) -> Path:
+    """Return the file of a plan in which P01 and P02 are a team, and have questions before."""
+    team = {"participants": [["P01", "P02"]], "seats": ["tower", "AAL123"], "seat": None}
+    file = folder / "plan.json"
+    file.write_text(json.dumps(PLAN | team | {"scenarios": ["s01b_nominal"]}))
+    return file
+
+
+def turn_to(page: Page, participant: str) -> None:
+    """Look at the page of another participant of the team, in the same tab."""
+    page.evaluate(f"location.hash = '#{participant}'")
+    page.wait_for(f"{TITLE} === 'Experiment, {participant}' && {ASKS}")
+
+
+@pytest.mark.browser
+def test_answers_that_are_chosen_stay_with_their_participant(page: Page, tmp_path: Path) -> None:
+    options = ["--participant", "P01", "--out", str(tmp_path / "out")]
+    with experimenting(team_file(tmp_path), *options) as url:
+        go(page, url, "P01")
+        page.evaluate("document.querySelector('[name=licence][value=private]').click()")
+        page.evaluate("document.querySelector('[name=rested][value=\"4\"]').click()")
+        turn_to(page, "P02")
+        assert page.evaluate(CHECKED) == 0
+        page.evaluate(SUBMIT)
+        assert page.evaluate(NOTES).startswith("Please answer these as well")
+        turn_to(page, "P01")
+        assert page.evaluate(NOTES) == ""
+        assert page.evaluate(CHECKED) == 2
+        page.evaluate(SUBMIT)
+        heading(page, "Trial 1 of 1")
+        turn_to(page, "P02")
+        page.evaluate("location.hash = '#P0X'")
+        page.wait_for(f"{NOTES}.includes('P0X')")
+        texts = [page.evaluate(f"document.getElementById({name!r}).textContent")
+                 for name in ("title", "step", "step-text")]  # fmt: skip
+        assert texts == ["Experiment", "", ""]
+        assert not page.evaluate(ASKS)
+        page.open("about:blank")
+    page.complaints.clear()  # A browser complains of each answer that is an error.
+    kept = json.loads((tmp_path / "out" / "P01+P02" / "P01" / "before.json").read_text())
+    assert kept == {"licence": "private", "rested": 4}
+
+
+@pytest.mark.browser
+def test_a_slow_answer_is_not_shown_on_the_page_of_another_participant(
+    page: Page, tmp_path: Path
+) -> None:
+    options = ["--participant", "P01", "--out", str(tmp_path / "out")]
+    with experimenting(team_file(tmp_path), *options) as url:
+        go(page, url, "P01")
+        page.evaluate(HELD)
+        page.evaluate("location.hash = '#P02'")
+        page.wait_for("held.length")
+        assert not page.evaluate(ASKS)
+        turn_to(page, "P01")
+        page.evaluate("held.forEach((release) => release())")
+        page.evaluate("new Promise((done) => setTimeout(done, 100))")
+        assert page.evaluate(TITLE) == "Experiment, P01"
+        page.open("about:blank")
+
+
+@pytest.mark.browser
+def test_a_refusal_goes_when_the_step_changes(
+    page: Page, recorded_run: Path, tmp_path: Path
+) -> None:
+    (tmp_path / "plan.json").write_text(json.dumps(PLAN | {"questions": {}}))
+    options = ["--participant", "P01", "--out", str(tmp_path / "out")]
+    with experimenting(tmp_path / "plan.json", *options) as url:
+        page.open(url)
+        heading(page, "Trial 1 of 1")
+        page.evaluate(REFUSING)
+        page.click("begin")
+        page.wait_for(f"{NOTES} === 'it is not time for a trial'")
+        page.evaluate(SOME_SECONDS)
+        assert page.evaluate(NOTES) == "it is not time for a trial"
+        shutil.copytree(recorded_run, tmp_path / "out" / "P01" / "01-s02a_headon-1")
+        heading(page, "Questions after trial 1 of 1")
+        assert page.evaluate(NOTES) == ""
+        page.open("about:blank")
+
+
+@pytest.mark.browser
+def test_a_page_writes_again_only_what_has_changed(page: Page, tmp_path: Path) -> None:
+    """A screen reader reads aloud what is written where it listens."""
+    (tmp_path / "plan.json").write_text(json.dumps(PLAN))
+    options = ["--participant", "P01", "--out", str(tmp_path / "out")]
+    with experimenting(tmp_path / "plan.json", *options) as url:
+        page.open(url)
+        heading(page, "Questions before the first trial")
+        page.evaluate(WRITTEN)
+        page.evaluate(SOME_SECONDS)
+        assert page.evaluate("written") == 0
+        page.evaluate("window.answering = fetch; window.fetch = () => Promise.reject(new Error())")
+        page.wait_for(f"{NOTES}.startsWith('The experiment does not answer.')")
+        page.evaluate("written = 0")
+        page.evaluate(SOME_SECONDS)
+        assert page.evaluate("written") == 0
+        page.evaluate("window.fetch = answering")
+        page.wait_for(f"{NOTES} === ''")
+        page.open("about:blank")
+
+
 @pytest.mark.slow
 @pytest.mark.browser
 def test_a_controller_and_a_pilot_have_a_trial_together(tmp_path: Path) -> None:

@@ -7,8 +7,26 @@ import { Questionnaire } from "./questionnaire.js";
 import { connectTheme } from "./theme.js";
 
 const PERIOD_MS = 1000;
-const questionnaire = new Questionnaire(byId("items"));
-let shown = ""; // participant, trial and name of the questionnaire that is shown
+const NOTHING = { step: "nothing" }; // of a participant who is not known, or not yet
+const drafts = new Map(); // questionnaires with answers that are not sent, by what they ask whom
+let draft = null; // the one that is shown
+let shown = ""; // participant, trial, step and questionnaire that are shown
+let asked = 0; // number of requests
+let answered = 0; // number of the last request whose answer is shown
+
+/**
+ * Counts a request. Returns a function that says, when the answer comes, if it is to be shown: not
+ * on the page of another participant, nor after the answer to a later request.
+ */
+function turn() {
+  const whose = addressee(),
+    number = ++asked;
+  return () => {
+    if (whose !== addressee() || number < answered) return false;
+    answered = number;
+    return true;
+  };
+}
 
 async function ask(path, wish) {
   const how =
@@ -28,7 +46,15 @@ async function ask(path, wish) {
   return content;
 }
 
-const note = (text) => byId("notes").replaceChildren(...(text ? [html("p", {}, text)] : []));
+// What is written is read aloud, so that only what has changed is written.
+function write(id, text) {
+  if (byId(id).textContent !== text) byId(id).textContent = text;
+}
+
+function note(text) {
+  if (byId("notes").textContent !== text)
+    byId("notes").replaceChildren(...(text ? [html("p", {}, text)] : []));
+}
 
 const afterTrial = ({ trial, trials }) => `Questions after trial ${trial} of ${trials}`;
 
@@ -45,6 +71,8 @@ const QUESTIONNAIRES = {
 
 function titleOf(state) {
   switch (state.step) {
+    case "nothing":
+      return "";
     case "questions":
       return QUESTIONNAIRES[state.questions.name][0](state);
     case "choose":
@@ -58,6 +86,8 @@ function titleOf(state) {
 
 function textOf({ step, seat, together, said, questions, rest_s: rest, may_pause: mayPause }) {
   switch (step) {
+    case "nothing":
+      return "";
     case "ready":
       return rest > 0
         ? `Take a break. The next trial can begin in ${Math.ceil(rest / 60)} min.`
@@ -79,18 +109,32 @@ function textOf({ step, seat, together, said, questions, rest_s: rest, may_pause
 
 function show(state) {
   const { step, participant, trial, seat, seats, url, questions, rest_s: rest } = state;
-  byId("title").textContent = ["Experiment", participant].filter(Boolean).join(", ");
-  byId("step").textContent = titleOf(state);
-  byId("step-text").textContent = textOf(state);
+  const now = JSON.stringify([participant, trial, step, questions?.name]);
+  if (now !== shown) note("");
+  shown = now;
+  write("title", ["Experiment", participant].filter(Boolean).join(", "));
+  write("step", titleOf(state));
+  write("step-text", textOf(state));
   byId("begin").hidden = step !== "ready";
   byId("begin").disabled = rest > 0;
   byId("open").hidden = step !== "running";
   byId("open").href = url ? onThisHost(url, seat) : "#";
   showChoices(seats ?? {});
-  const asked = questions ? `${participant} ${trial} ${questions.name}` : "";
-  if (questions && asked !== shown) questionnaire.begin(questions);
-  shown = asked;
-  byId("questions").hidden = !asked;
+  byId("questions").hidden = !questions;
+  if (questions) showQuestions(JSON.stringify([participant, trial, questions]), questions);
+}
+
+/** Shows questions; `key` is what they ask whom. Answers that are not sent yet stay. */
+function showQuestions(key, questions) {
+  if (draft?.key === key) return;
+  draft = drafts.get(key);
+  if (!draft) {
+    const place = html("div", { class: "items" });
+    draft = { key, place, questionnaire: new Questionnaire(place) };
+    draft.questionnaire.begin(questions);
+    drafts.set(key, draft);
+  }
+  byId("items").replaceChildren(draft.place);
 }
 
 function showChoices(seats) {
@@ -104,30 +148,45 @@ function showChoices(seats) {
   );
 }
 
-async function act(path, wish) {
+async function act(path, wish, taken = () => {}) {
+  const isToBeShown = turn(),
+    before = shown;
   try {
-    show(await ask(path, wish));
+    const state = await ask(path, wish);
+    taken();
+    if (!isToBeShown()) return;
+    show(state);
     note("");
   } catch (error) {
-    note(error.message);
+    if (shown === before) note(error.message); // Else it is of a step that is over.
   }
 }
 
 function answer() {
-  const { missing, answers } = questionnaire;
+  if (!draft) return; // The answers have just been taken.
+  const { key, questionnaire } = draft,
+    { name, missing, answers } = questionnaire;
   if (missing.length)
-    note(`Please answer these as well: ${missing.map((name) => `“${name}”`).join(", ")}.`);
-  else act("api/answers", { questionnaire: questionnaire.name, answers });
+    note(`Please answer these as well: ${missing.map((one) => `“${one}”`).join(", ")}.`);
+  else
+    act("api/answers", { questionnaire: name, answers }, () => {
+      drafts.delete(key);
+      if (draft?.key === key) draft = null;
+    });
 }
 
 async function look() {
+  const isToBeShown = turn();
   try {
-    show(await ask("api/experiment"));
+    const state = await ask("api/experiment");
+    if (!isToBeShown()) return;
+    show(state);
     if (byId("notes").dataset.lost) {
       delete byId("notes").dataset.lost;
       note("");
     }
   } catch (error) {
+    if (!isToBeShown()) return;
     byId("notes").dataset.lost = "true";
     note(`${error.message.replace(/\.?$/, ".")} Please tell the experimenter.`);
   }
@@ -140,7 +199,10 @@ async function follow() {
 }
 
 connectTheme(() => {});
-addEventListener("hashchange", look);
+addEventListener("hashchange", () => {
+  show(NOTHING);
+  look();
+});
 byId("begin").addEventListener("click", () => act("api/begin", {}));
 byId("questions").addEventListener("submit", (event) => {
   event.preventDefault();
