@@ -1,4 +1,4 @@
-"""How a person is told what is damaged in a run or a sweep."""
+"""Notices and warnings of what is damaged in a run or a sweep."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ from airhilt.station.browsers import Browsers
 from airhilt.station.pictures import Picture
 from devtools import Page
 from loudspeaker import COUNT_PIECES, PIECES, piece
-from microphone import SAY
+from microphone import NO_CONNECTION, SAY
 from stations import PATIENCE_S, TOWER, PretendedRun, seat_page
 
 pytestmark = pytest.mark.browser
@@ -439,13 +439,6 @@ def lost_at(kind: str, monkeypatch: pytest.MonkeyPatch, *, is_done: bool = False
         yield
 
 
-NO_CONNECTION = """(() => {
-    const there = Object.getOwnPropertyDescriptor(WebSocket.prototype, 'readyState');
-    const set = (one) => Object.defineProperty(WebSocket.prototype, 'readyState', one);
-    set({ get: () => 3, configurable: true });
-    window.connect = () => { set(there); };
-})()"""
-"""Closes the connection for the page, until it calls `connect`."""
 IS_BACK = "document.getElementById('link').hidden"
 
 

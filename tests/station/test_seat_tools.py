@@ -33,6 +33,7 @@ from airhilt.station.subscription import Sound
 from devtools import Page
 from microphone import (
     BUTTON,
+    NO_CONNECTION,
     SAY,
     microphone_file,
     open_microphone,
@@ -121,6 +122,14 @@ def consent(run: PretendedRun) -> SeatConsent:
     return told
 
 
+def want_to_say(page: Page, url: str) -> None:
+    """Sit down, and have words in the field about which the page asks."""
+    sit_down(page, url)
+    page.evaluate(f"{WORDS} = 'Ready.'")
+    page.click("say-button")
+    page.wait_for(ASKED)
+
+
 def leave(page: Page) -> None:
     page.evaluate("document.getElementById('consent').close()")
     page.click("seat-take")
@@ -189,9 +198,7 @@ def test_who_agrees_to_typing_is_asked_before_the_microphone_opens(
 ) -> None:
     run, url = seat
     run.deeds.clear()
-    sit_down(page, url)
-    page.evaluate(f"{WORDS} = 'Ready.'")
-    page.click("say-button")
+    want_to_say(page, url)
     page.click("consent-agree")
     assert consent(run) == SeatConsent(what="words", is_given=True)
     assert run.next() == SpokenWords(text="Ready.")
@@ -222,19 +229,19 @@ def test_consent_that_the_station_has_not_heard_is_asked_for_again(
 ) -> None:
     run, url = seat
     run.deeds.clear()
-    sit_down(page, url)
-    page.evaluate(f"{WORDS} = 'Ready.'")
-    page.click("say-button")
-    page.wait_for(ASKED)
-    page.evaluate(
-        "Object.defineProperty(WebSocket.prototype, 'readyState',"
-        " { get: () => 3, configurable: true }); null"
-    )
+    want_to_say(page, url)
+    page.evaluate(f"{NO_CONNECTION}; null")
     page.click("consent-agree")
     page.wait_for("document.getElementById('seat-state').textContent.includes('Nothing was said')")
-    page.evaluate("delete WebSocket.prototype.readyState")
-    page.open(url, width=1280, height=720)
+    page.evaluate("connect()")
+    page.click("say-button")
+    page.wait_for(ASKED)
     assert run.deeds == []
+    page.click("consent-agree")
+    assert consent(run) == SeatConsent(what="words", is_given=True)
+    assert run.next() == SpokenWords(text="Ready.")
+    leave(page)
+    page.open("about:blank")
 
 
 @pytest.mark.browser
@@ -255,10 +262,7 @@ def test_who_only_types_is_asked_once_before_anything_is_said(
     page: Page, seat: tuple[PretendedRun, str]
 ) -> None:
     run, url = seat
-    sit_down(page, url)
-    page.evaluate(f"{WORDS} = 'Ready.'")
-    page.click("say-button")
-    page.wait_for(ASKED)
+    want_to_say(page, url)
     assert "kept as text" in page.evaluate("document.getElementById('consent').innerText")
     page.click("consent-decline")
     assert consent(run) == SeatConsent(what="words", is_given=False)

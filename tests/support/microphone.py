@@ -34,6 +34,13 @@ SAID = """new Promise((done) => {
     }, 20);
 })"""
 """True as soon as something has been said and 0.7 s have passed since."""
+NO_CONNECTION = """(() => {
+    const there = Object.getOwnPropertyDescriptor(WebSocket.prototype, 'readyState');
+    const set = (one) => Object.defineProperty(WebSocket.prototype, 'readyState', one);
+    set({ get: () => 3, configurable: true });
+    window.connect = () => { set(there); };
+})()"""
+"""Closes the connection for the page, until it calls `connect`."""
 
 
 def microphone_file(path: Path, text: str) -> Path:

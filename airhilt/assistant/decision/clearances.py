@@ -114,7 +114,7 @@ class Clearances:
         """The doubt about the last call of or to each callsign."""
         self._addressed: dict[str, _Addressed] = {}
         self._read_back: dict[str, _Addressed] = {}
-        """What somebody has read back, if nothing else was said since."""
+        """Instructions that were read back, if nothing else was said since, by callsign."""
         self._in_force: dict[str, tuple[Clearance, ...]] = {}
         self._holding: dict[str, str | None] = {}
         self._discrepancies: dict[str, Discrepancy] = {}

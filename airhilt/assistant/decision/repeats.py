@@ -22,7 +22,7 @@ _Key = tuple[str, bool, Action, Slot]
 
 
 class _Heard(NamedTuple):
-    """How surely a slot was heard in a call."""
+    """Confidence with which a slot was heard in a call."""
 
     value: tuple[str | None, float | None]
     """Runway, and level in ft, of the instruction."""
@@ -45,7 +45,7 @@ class RememberingGuard:
     def __init__(self, guard: Guard) -> None:
         self._guard = guard
         self._heard: dict[_Key, list[_Heard]] = {}
-        """What was heard of the same value, the oldest first."""
+        """Calls with the same value, the oldest first."""
 
     def doubt(self, call: Call, said: Instruction, transcript: Transcript) -> Doubt | None:
         """Return the first slot of an instruction that is in doubt, None if there is none."""
