@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass, field
-from itertools import pairwise
+from dataclasses import dataclass
 
 from airhilt.messages import AdsbReport, Detections, Message, Modality, Transcript
 from airhilt.metrics.summary import STALE_S, EvidenceAge
@@ -16,50 +16,112 @@ CONTINUOUS: tuple[Modality, ...] = ("adsb", "vision")
 """Modalities that observe all the time; calls come when they come."""
 
 
-@dataclass(slots=True)
-class _Evidence:
-    """The observations of one modality.
+@dataclass(frozen=True, slots=True)
+class _Ages:
+    """How old evidence was over times that are past; nothing else of them is kept."""
 
-    Attributes
-    ----------
-    arrivals
-        Time at which each was published, and time at which it was observed, in ns.
+    stale_ns: int = 0
+    longest_ns: int = 0
+    whole_ns: int = 0
+    age_ns2: float = 0.0
+    """Integral of the age over the time."""
+
+    def and_during(self, begin_ns: int, end_ns: int, newest_ns: int) -> _Ages:
+        """Return these and a time in which the newest observation that was judged stayed."""
+        if end_ns <= begin_ns:
+            return self
+        youngest_ns, oldest_ns = begin_ns - newest_ns, end_ns - newest_ns
+        stale_from_ns = max(begin_ns, newest_ns + seconds_to_ns(STALE_S))
+        return _Ages(
+            self.stale_ns + max(end_ns - stale_from_ns, 0),
+            max(self.longest_ns, oldest_ns),
+            self.whole_ns + end_ns - begin_ns,
+            self.age_ns2 + (end_ns - begin_ns) * (youngest_ns + oldest_ns) / 2.0,
+        )
+
+    def evidence_age(self) -> EvidenceAge:
+        whole_ns = self.whole_ns
+        return EvidenceAge(
+            mean_s=self.age_ns2 / whole_ns / SECOND_NS if whole_ns else 0.0,
+            max_s=self.longest_ns / SECOND_NS,
+            stale_share=self.stale_ns / whole_ns if whole_ns else 0.0,
+        )
+
+
+class _Arrivals:
+    """Observations that no step has had: when each was published, and when it was made, in ns."""
+
+    def __init__(self) -> None:
+        self._waiting: deque[tuple[int, int]] = deque()
+
+    def add(self, t_ns: int, observed_ns: int) -> None:
+        self._waiting.append((t_ns, observed_ns))
+
+    def take(self, t_start_ns: int) -> Iterator[int]:
+        """Yield when what a step has was observed, and forget it."""
+        while self._waiting and self._waiting[0][0] <= t_start_ns:
+            yield self._waiting.popleft()[1]
+
+    def observed_ns(self) -> list[int]:
+        return [observed_ns for _, observed_ns in self._waiting]
+
+
+class _Stream:
+    """What comes all the time: a decision rests on the newest observation.
+
+    Before the first decision nothing was judged: the age counts from the first observation.
     """
 
-    arrivals: list[tuple[int, int]] = field(default_factory=list)
-    taken: int = 0
-    """Number of those that decisions had."""
-    newest_ns: int | None = None
-    judged: list[tuple[int, int]] = field(default_factory=list)
-    """End of each step, and the newest observation that it had."""
-    answered: list[tuple[int, int]] = field(default_factory=list)
-    """Observation time of each call, and end of the step that had it."""
+    def __init__(self, first_ns: int) -> None:
+        self.arrivals = _Arrivals()
+        self._ages = _Ages()
+        self._since_ns = first_ns
+        """End of the last step that had observations."""
+        self._newest_ns = first_ns
+        self._is_judged = False
 
     def step(self, t_start_ns: int, end_ns: int) -> None:
         """Let a step have what had arrived."""
-        while self.taken < len(self.arrivals) and self.arrivals[self.taken][0] <= t_start_ns:
-            observed_ns = self.arrivals[self.taken][1]
-            self.newest_ns = max(observed_ns, self.newest_ns or 0)
-            self.answered.append((observed_ns, end_ns))
-            self.taken += 1
-        if self.newest_ns is not None:
-            self.judged.append((end_ns, self.newest_ns))
+        taken = list(self.arrivals.take(t_start_ns))
+        self._is_judged |= bool(taken)
+        if self._is_judged:
+            self._ages = self._ages.and_during(self._since_ns, end_ns, self._newest_ns)
+            self._since_ns = max(self._since_ns, end_ns)
+            self._newest_ns = max((self._newest_ns, *taken))
 
-    def observed_ns(self, end_ns: int) -> Iterator[tuple[int, int, int]]:
-        """Yield begin and end of each time, and the newest observation that was judged by then.
+    def age(self, now_ns: int) -> EvidenceAge:
+        """Return how old the evidence was until now."""
+        return self._ages.and_during(self._since_ns, now_ns, self._newest_ns).evidence_age()
 
-        Before the first decision nothing was: the age counts from the first observation.
-        """
-        first_ns = self.arrivals[0][1]
-        times = [(first_ns, first_ns), *self.judged, (end_ns, 0)]
-        for (begin_ns, newest_ns), (next_ns, _) in pairwise(times):
-            if next_ns > begin_ns:
-                yield begin_ns, next_ns, newest_ns
 
-    def waiting_ns(self, end_ns: int) -> Iterator[tuple[int, int]]:
-        """Yield when each call had ended, and when a decision that had it was made."""
-        unanswered = ((observed_ns, end_ns) for _, observed_ns in self.arrivals[self.taken :])
-        yield from (*self.answered, *unanswered)
+class _Calls:
+    """What comes when it comes: a call is evidence until a decision has had it."""
+
+    def __init__(self) -> None:
+        self.arrivals = _Arrivals()
+        self._answered: list[tuple[int, int]] = []
+        """End of each call, and end of the step that had it."""
+
+    def step(self, t_start_ns: int, end_ns: int) -> None:
+        """Let a step have what had arrived."""
+        self._answered += ((said_ns, end_ns) for said_ns in self.arrivals.take(t_start_ns))
+
+    def age(self, now_ns: int) -> EvidenceAge:
+        """Return how old the evidence was until now."""
+        unanswered = ((said_ns, now_ns) for said_ns in self.arrivals.observed_ns())
+        waits_ns = sorted((*self._answered, *unanswered))
+        stale_ns, done_ns = 0, 0
+        for ended_ns, judged_ns in waits_ns:
+            begin_ns = max(ended_ns + seconds_to_ns(STALE_S), done_ns)
+            stale_ns += max(judged_ns - begin_ns, 0)
+            done_ns = max(done_ns, judged_ns)
+        lengths_ns = [judged_ns - ended_ns for ended_ns, judged_ns in waits_ns]
+        whole_ns = now_ns - waits_ns[0][0]
+        return EvidenceAge(
+            mean_s=sum(lengths_ns) / len(lengths_ns) / SECOND_NS,
+            max_s=max(lengths_ns) / SECOND_NS,
+            stale_share=stale_ns / whole_ns if whole_ns > 0 else 0.0,
+        )
 
 
 class EvidenceAges:
@@ -76,10 +138,12 @@ class EvidenceAges:
     def __init__(self, deciders: Collection[str], given: Collection[str] = MODALITIES) -> None:
         self._deciders = frozenset(deciders)
         self._given = frozenset(given)
-        self._evidence: dict[Modality, _Evidence] = {}
+        self._evidence: dict[Modality, _Stream | _Calls] = {}
 
     def take(self, message: Message) -> None:
         """Note an observation; other messages are ignored."""
+        if not self._deciders:
+            return
         match message:
             case AdsbReport(t_adsb_in_ns=observed_ns):
                 self._add("adsb", message.t_ns, observed_ns)
@@ -89,7 +153,11 @@ class EvidenceAges:
                 self._add("asr", message.t_ns, observed_ns)
 
     def _add(self, modality: Modality, t_ns: int, observed_ns: int) -> None:
-        self._evidence.setdefault(modality, _Evidence()).arrivals.append((t_ns, observed_ns))
+        evidence = self._evidence.get(modality)
+        if evidence is None:
+            evidence = _Stream(observed_ns) if modality in CONTINUOUS else _Calls()
+            self._evidence[modality] = evidence
+        evidence.arrivals.add(t_ns, observed_ns)
 
     def step(self, record: StepRecord) -> None:
         """Note a finished step of a worker."""
@@ -99,44 +167,8 @@ class EvidenceAges:
 
     def statistics(self, now_ns: int) -> dict[Modality, EvidenceAge]:
         """Return the ages of each modality that observed something while somebody decided."""
-        if not self._deciders:
-            return {}
         return {
-            modality: _of_stream(evidence, now_ns)
-            if modality in CONTINUOUS
-            else _of_calls(evidence, now_ns)
+            modality: evidence.age(now_ns)
             for modality, evidence in sorted(self._evidence.items())
             if modality in self._given
         }
-
-
-def _of_stream(evidence: _Evidence, now_ns: int) -> EvidenceAge:
-    stale_ns, age_ns2, longest_ns, whole_ns = 0, 0.0, 0, 0
-    for begin_ns, end_ns, newest_ns in evidence.observed_ns(now_ns):
-        youngest_ns, oldest_ns = begin_ns - newest_ns, end_ns - newest_ns
-        stale_from_ns = max(begin_ns, newest_ns + seconds_to_ns(STALE_S))
-        stale_ns += max(end_ns - stale_from_ns, 0)
-        age_ns2 += (end_ns - begin_ns) * (youngest_ns + oldest_ns) / 2.0
-        longest_ns = max(longest_ns, oldest_ns)
-        whole_ns += end_ns - begin_ns
-    return EvidenceAge(
-        mean_s=age_ns2 / whole_ns / SECOND_NS if whole_ns else 0.0,
-        max_s=longest_ns / SECOND_NS,
-        stale_share=stale_ns / whole_ns if whole_ns else 0.0,
-    )
-
-
-def _of_calls(evidence: _Evidence, now_ns: int) -> EvidenceAge:
-    stale_ns, done_ns = 0, 0
-    waits_ns = sorted(evidence.waiting_ns(now_ns))
-    for ended_ns, judged_ns in waits_ns:
-        begin_ns = max(ended_ns + seconds_to_ns(STALE_S), done_ns)
-        stale_ns += max(judged_ns - begin_ns, 0)
-        done_ns = max(done_ns, judged_ns)
-    lengths_ns = [judged_ns - ended_ns for ended_ns, judged_ns in waits_ns]
-    whole_ns = now_ns - waits_ns[0][0]
-    return EvidenceAge(
-        mean_s=sum(lengths_ns) / len(lengths_ns) / SECOND_NS,
-        max_s=max(lengths_ns) / SECOND_NS,
-        stale_share=stale_ns / whole_ns if whole_ns > 0 else 0.0,
-    )

@@ -107,3 +107,24 @@ def test_ages_count_from_the_first_observation_and_not_from_its_arrival() -> Non
     ages.take(report(1.0, 3.0))
     ages.step(step(3.0, 1.0))
     assert ages.statistics(seconds_to_ns(4))["adsb"].mean_s == pytest.approx(1.5)
+
+
+def test_no_time_counts_twice_where_a_quick_worker_overtakes_a_slow_one() -> None:
+    ages = EvidenceAges(["slow", "quick"])
+    ages.take(report(0.0, 0.0))
+    ages.step(step(0.0, 8.0, worker="slow"))
+    ages.step(step(0.0, 2.0, worker="quick"))
+    ages.step(step(9.0, 1.0, worker="quick"))
+    age = ages.statistics(seconds_to_ns(10))["adsb"]
+    assert age.mean_s == pytest.approx(5.0)
+    assert age.stale_share == pytest.approx(0.5)
+
+
+def test_telling_the_ages_changes_nothing() -> None:
+    ages = EvidenceAges(["decision"])
+    ages.take(report(0.0, 0.0))
+    ages.take(call(0.0, 1.0))
+    ages.step(step(0.0, 1.0))
+    early = ages.statistics(seconds_to_ns(3))
+    assert ages.statistics(seconds_to_ns(9)) != early
+    assert ages.statistics(seconds_to_ns(3)) == early
