@@ -2,6 +2,7 @@
 // own track up.
 
 import { byId, onSize } from "./dom.js";
+import { overlap } from "./labels.js";
 import { METRE_PER_NM, SEVERITIES } from "./model.js";
 import { INK } from "./primary_flight_display.js";
 import { whole } from "./words.js";
@@ -126,7 +127,8 @@ export class NavigationDisplay {
   }
 
   #runways(view) {
-    const { pen } = this.#size;
+    const { pen } = this.#size,
+      taken = [];
     for (const runway of this.#run.airport?.runways ?? []) {
       pen.beginPath();
       runway.pavement.forEach(([east, north], i) => {
@@ -143,16 +145,26 @@ export class NavigationDisplay {
           [ox, oy] = this.#pixel(view, ...runway.ends.find((one) => one !== end).start),
           long = Math.hypot(px - ox, py - oy);
         if (long > 30)
-          this.#text(
-            end.ident,
-            px + ((px - ox) / long) * 12,
-            py + ((py - oy) / long) * 12,
-            INK.dim,
-            11,
-            "center",
-          );
+          this.#ident(end.ident, px, py, (px - ox) / long, (py - oy) / long, taken);
       }
     }
+  }
+
+  /**
+   * Writes the number of a runway off its end, which is at a pixel, in a direction: farther off
+   * where those of others are.
+   */
+  #ident(ident, x, y, dx, dy, taken) {
+    const boxes = [12, 26, 40].map((far) => [
+      x + dx * far - 10,
+      y + dy * far - 7,
+      x + dx * far + 10,
+      y + dy * far + 7,
+    ]);
+    const box = boxes.find((one) => !taken.some((other) => overlap(one, other)));
+    if (!box) return;
+    taken.push(box);
+    this.#text(ident, (box[0] + box[2]) / 2, (box[1] + box[3]) / 2, INK.dim, 11, "center");
   }
 
   #compass({ x, y, reach }, shown) {
