@@ -2,6 +2,7 @@
 
     python tools/bench.py headon            one encounter against bare JSBSim and real time
     python tools/bench.py fifty             fifty aircraft: real-time factor and memory
+    python tools/bench.py crowd             100 and 500 aircraft: CPU time of a simulated second
     python tools/bench.py terminal          2 aircraft, 2 vehicles and a deer at an airport
     python tools/bench.py airport           20 aircraft and 20 vehicles at an airport
     python tools/bench.py procedures        every procedure, type and weather, over 20 seeds
@@ -37,6 +38,7 @@ import standard_output
 BENCHMARKS = {
     "headon": "traffic",
     "fifty": "traffic",
+    "crowd": "traffic",
     "terminal": "traffic",
     "airport": "traffic",
     "phraseology": "calls",

@@ -9,7 +9,11 @@ from airhilt.world.checks import check
 from benchmarks.process_tree import cpu_s
 from benchmarks.seat import sector_scenario
 from benchmarks.soak import soak_scenario
-from benchmarks.traffic import fifty_scenario
+from benchmarks.traffic import crowd_scenario, fifty_scenario
+
+
+def test_the_scenario_of_a_crowd_is_one_that_flies() -> None:
+    check(crowd_scenario(30, 1.0), "crowd")
 
 
 def test_the_scenario_of_fifty_is_one_that_flies() -> None:

@@ -1,7 +1,8 @@
-"""Runs without cameras: one encounter, fifty aircraft, a terminal, a busy airport, BlueSky."""
+"""Runs without cameras: one encounter, many aircraft, a terminal, a busy airport, BlueSky."""
 
 from __future__ import annotations
 
+import math
 import resource
 import statistics
 import subprocess
@@ -106,6 +107,51 @@ def fifty() -> dict[str, float]:
         summary = run(fifty_scenario(), out=Path(scratch) / "run").summary
     peak_kib = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return {"real_time_factor": summary.real_time_factor, "peak_memory_mb": peak_kib / 1024.0}
+
+
+def crowd_scenario(count: int, duration_s: float) -> Scenario:
+    """Return 737s on ten levels that fly to the east, spread evenly over 150 nautical miles."""
+    document = fifty_scenario().model_dump(mode="json")
+    template = document["actors"][0]
+    document |= {"name": "crowd", "duration_s": duration_s}
+    document["actors"] = [
+        template
+        | {
+            "callsign": f"TST{index}",
+            "icao24": f"{0xABC000 + index:06x}",
+            "initial": template["initial"]
+            | {
+                "position": _spread(index, count),
+                "altitude_ft": 29_000 + 1000.0 * (index % 10),
+            },
+            "route": [{"type": "from_centre", "bearing_deg": 90.0, "distance_nm": 500.0}],
+        }
+        for index in range(count)
+    ]
+    return Scenario.model_validate(document)
+
+
+def _spread(index: int, count: int) -> dict[str, object]:
+    """Return one of a number of places that are equally dense in a circle (Vogel, 1979)."""
+    return {
+        "type": "from_centre",
+        "bearing_deg": math.degrees(index * math.pi * (3.0 - math.sqrt(5.0))) % 360.0,
+        "distance_nm": 150.0 * math.sqrt((index + 0.5) / count),
+    }
+
+
+def crowd() -> dict[str, float]:
+    """Run a hundred aircraft, and five hundred."""
+    numbers = {}
+    for count in (100, 500):
+        with tempfile.TemporaryDirectory() as scratch:
+            begun = time.process_time()
+            run(crowd_scenario(count, 1.0), out=Path(scratch) / "short", report=False)
+            between = time.process_time()
+            run(crowd_scenario(count, 21.0), out=Path(scratch) / "long", report=False)
+            longer_s = (time.process_time() - between) - (between - begun)
+        numbers[f"cpu_s_per_simulated_s_of_{count}"] = longer_s / 20.0
+    return numbers
 
 
 def terminal_scenario() -> Scenario:
