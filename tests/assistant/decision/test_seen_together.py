@@ -190,9 +190,13 @@ def test_what_any_camera_takes_for_birds_is_birds(labels: tuple[Any, Any], are_b
     )
 
 
-@pytest.mark.parametrize(("height_m", "is_aloft"), [(2.0, False), (12.0, True)])
-def test_what_is_low_may_stand_on_the_ground(height_m: float, is_aloft: bool) -> None:
-    place = (20.0, 200.0, height_m)
+@pytest.mark.parametrize(("above_m", "is_aloft"), [(-0.1, False), (0.1, True)])
+def test_what_is_low_may_stand_on_the_ground(above_m: float, is_aloft: bool) -> None:
+    """In the air is what is higher than 4 m and two standard deviations of its height."""
+    (high,) = above(camera(flock(), towards=FLYING), east_of(flock(), towards=FLYING))
+    least_m = 4.0 + 2.0 * high.places[0].height_error_m
+    # What is told is the middle of the flock.
+    place = (20.0, 200.0, least_m - FLOCK[2] / 2.0 + above_m)
     birds = flock(place)
     found = above(camera(birds, towards=place), east_of(birds, towards=place))
     assert bool(found) is is_aloft
