@@ -59,8 +59,8 @@ CROSS, HOLD = Instruction("cross", "01"), Instruction("hold_short", "01")
             "altitude of A heard as 'altitude 31000 ft', 46% certain",
         ),
         (
-            Unclear("A", "action", Instruction("report_in_sight", None), 0.5, "B"),
-            "action of A heard as 'report in sight', 50% certain",
+            Unclear("A", "action", Instruction("visual_separation", None), 0.5, "B"),
+            "action of A heard as 'visual separation', 50% certain",
         ),
         (
             OpposedClearances(("A", "B"), ("01", "19")),

@@ -74,7 +74,7 @@ def test_nobody_climbs_or_descends_faster_than_32_576_ft_min(apart_s: float) -> 
 
 def test_the_place_that_was_known_first_is_kept_while_reports_of_it_arrive() -> None:
     known = AdsbConsistency()
-    elsewhere = {"north_m": 50_000.0, "callsign": "DAL456"}
+    elsewhere: dict[str, Any] = {"north_m": 50_000.0, "callsign": "DAL456"}
     assert known.contradiction(report(), at(0.0)) == ()
     for t_s in (0.5, 6.0, 12.0):
         assert known.contradiction(report(t_s=t_s, **elsewhere), at(t_s)) == (

@@ -127,7 +127,9 @@ def encounter(*, azimuth_deg: float = 0.0, carrier: str = "AAL123", **changed: A
     azimuth = azimuth_deg * DEGREE
     last = SimpleNamespace(t_ns=5 * SECOND_NS, ray=Ray(math.sin(azimuth), math.cos(azimuth), 0.0))
     seen = Approach(0.05, 0.0, 0.0, (0.0, 0.0), 0.0, 0.01)._replace(**changed)
-    return _Encounter(carrier, cast(Any, SimpleNamespace(last=last)), seen, Severity.CAUTION)
+    return _Encounter(
+        carrier, cast(Any, SimpleNamespace(last=last, label="airplane")), seen, Severity.CAUTION
+    )
 
 
 @pytest.mark.parametrize(
@@ -145,7 +147,7 @@ def encounter(*, azimuth_deg: float = 0.0, carrier: str = "AAL123", **changed: A
     ],
 )
 def test_two_are_past_each_other_at_the_latest_time_by_the_errors_within_three_minutes(
-    changed: dict[str, float], minimum_m: float, past_s: float
+    changed: dict[str, Any], minimum_m: float, past_s: float
 ) -> None:
     past_ns = encounter(**changed).past_ns(Minima(minimum_m, 100.0))
     assert past_ns / SECOND_NS == pytest.approx(past_s)
@@ -162,7 +164,6 @@ def test_a_new_track_within_4_degrees_of_one_before_is_the_same(
     azimuth_deg: float, carrier: str, is_same: bool
 ) -> None:
     watch = Watch().watch
-    watch._minima_from = lambda _: MINIMA  # type: ignore[method-assign]
     other, known = watch._new(encounter(azimuth_deg=90.0)), watch._new(encounter())
     again = encounter(azimuth_deg=azimuth_deg, carrier=carrier)
     assert watch._known(again) is (known if is_same else None)
@@ -194,7 +195,7 @@ def test_the_time_to_contact_is_that_of_the_moment_at_which_it_is_told() -> None
         (told,) = Watch(nose(ahead(22.0))).sees(0.0, 2.0).told(2.0, t_s)
         contact_s = told.evidence.time_to_closest_approach_s
         assert contact_s == pytest.approx(22.0 - t_s, abs=0.5)
-        assert told.finding.contact_s == contact_s  # type: ignore[union-attr]
+        assert told.finding.contact_s == contact_s
 
 
 def test_two_that_come_nearer_are_two_alerts_of_which_the_more_urgent_is_the_first() -> None:
@@ -236,7 +237,7 @@ def test_for_all_that_come_nearer_the_time_at_which_they_are_past_is_estimated_a
     seen = Watch(nose(ahead(22.0), other)).sees(0.0, 2.0)
     assert len(seen.told(2.0, 2.5)) == 2
     before = [each.past_ns for each in seen.watch._ongoing]
-    seen.watch._grade = lambda *_: None  # type: ignore[method-assign]
+    seen.watch._grade = lambda *_: None
     seen.sees(2.125, 4.0).told(4.0)
     for each, past_ns in zip(seen.watch._ongoing, before, strict=True):
         assert each.past_ns != past_ns

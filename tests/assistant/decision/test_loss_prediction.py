@@ -231,10 +231,10 @@ def test_a_prediction_rests_on_the_words_too_if_a_level_was_read_back() -> None:
 )
 def test_allowances_are_not_negative_and_not_as_large_as_the_minima(name: str, most: float) -> None:
     for value in (0.0, most):
-        assert getattr(SeparationConfig(**{name: value}), name) == value  # type: ignore[arg-type]
+        assert getattr(SeparationConfig(**{name: value}), name) == value
     for value in (-0.1, most + 0.1):
         with pytest.raises(ValueError, match=name):
-            SeparationConfig(**{name: value})  # type: ignore[arg-type]
+            SeparationConfig(**{name: value})
 
 
 @pytest.mark.parametrize("is_told", [False, True])

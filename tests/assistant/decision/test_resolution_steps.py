@@ -45,8 +45,10 @@ def head_on(first_ft: float, second_ft: float, *, first: Any = (), second: Any =
     )
 
 
-def told(*pair: Track, strong: bool = False, others: tuple[Track, ...] = ()) -> tuple[Any, Any]:
-    found = resolve(*pair, others, STANDARD, INFRINGED, strong)
+def told(
+    first: Track, second: Track, *, strong: bool = False, others: tuple[Track, ...] = ()
+) -> tuple[Any, Any]:
+    found = resolve(first, second, others, STANDARD, INFRINGED, strong)
     return found.first, found.second
 
 

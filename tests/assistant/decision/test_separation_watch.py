@@ -74,7 +74,7 @@ def test_it_is_told_once_a_severity_has_held_for_a_second() -> None:
     assert {alert.traffic for _, alert in sky.told} == {("A00001", "A00002")}
     for t_s, alert in sky.told:
         assert alert.evidence.time_to_loss_s == pytest.approx(169.7 - t_s, abs=0.5)
-        assert alert.finding.time_to_loss_s == alert.evidence.time_to_loss_s  # type: ignore
+        assert alert.finding.time_to_loss_s == alert.evidence.time_to_loss_s
 
 
 def test_crews_are_told_from_a_caution_on_and_what_to_do() -> None:
@@ -93,7 +93,7 @@ def test_a_warning_that_comes_first_is_not_told_at_the_stronger_rate() -> None:
     """Nobody has had a chance to do it at the usual one."""
     ((_, warning),) = Sky(50.0).flies(0, 5).told
     assert warning.severity is Severity.WARNING
-    assert {told.vertical_rate_fpm for told in warning.recommendations.values()} == {1500.0}  # type: ignore[union-attr]
+    assert {told.vertical_rate_fpm for told in warning.recommendations.values()} == {1500.0}
 
 
 def test_without_reports_it_goes_on_from_where_they_were() -> None:

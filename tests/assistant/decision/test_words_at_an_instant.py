@@ -95,7 +95,9 @@ def test_who_does_not_read_back_to_hold_is_told_with_who_uses_the_runway() -> No
     field.situation.take_opening(opened)
     field.hears(10.0, "Delta four five six, hold short runway zero one.")
     (told,) = said(field, "readback_missing")
-    assert told.finding == NotReadBack("DAL456", told.finding.given, "AAL123")  # type: ignore[union-attr]
+    assert isinstance(told.finding, NotReadBack)
+    assert (told.finding.callsign, told.finding.traffic) == ("DAL456", "AAL123")
+    assert (told.finding.given.action, told.finding.given.runway) == ("hold_short", "01")
     assert (told.parties, told.traffic, told.runway) == (("DAL456",), ("DAL456", "AAL123"), "01")
     assert (told.severity, told.kind) == (Severity.CAUTION, "readback_mismatch")
     assert told.radio_ids == ("at 10",)
