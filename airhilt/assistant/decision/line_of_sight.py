@@ -202,8 +202,6 @@ class LineOfSight(NamedTuple):
         across_m = math.sqrt(slant2_m2) * self.error_rad
         if along_m > GREATEST_SHARE_OF_RANGE * range_m:
             return None
-        if level < 1e-6:
-            return GroundFix(self.place, along_m**2, along_m**2, 0.0)
         east, north = self.ray.east / level, self.ray.north / level
         a2, c2 = along_m**2, across_m**2
         return GroundFix(

@@ -11,7 +11,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from airhilt.assistant.decision.approach import Approach, _line, _variance_ratio
+from airhilt.assistant.decision.approach import (
+    Approach,
+    _line,
+    _variance_ratio,
+    approach_of,
+)
 from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.intruder_advice import evasion
 from airhilt.assistant.decision.intruders import IntruderConfig, IntruderWatch
@@ -111,6 +116,46 @@ def test_errors_that_last_raise_the_variance(misfit: tuple[float, ...], ratio: f
     assert _variance_ratio(np.array(misfit)) == pytest.approx(ratio)
 
 
+def nears(times_s: list[float], *, contact_s: float = 20.0, focal_px: float = 1000.0) -> Any:
+    """Return the approach of what is met after a time, and is 0.01 rad wide at time 0."""
+    observations = [
+        SimpleNamespace(
+            t_ns=round(t_s * SECOND_NS), is_whole=True, ray=Ray(0.0, 1.0, 0.0),
+            size_rad=(0.0, 0.01 * contact_s / (contact_s - t_s)),
+            geometry=SimpleNamespace(focal_px=focal_px),
+        )
+        for t_s in times_s
+    ]  # fmt: skip
+    return approach_of(cast(Any, observations))
+
+
+@pytest.mark.parametrize(
+    ("times_s", "is_told"),
+    [
+        ([0.0, 0.2, 0.4, 0.6, 0.75], True), ([0.0, 0.2, 0.4, 0.6, 0.74], False),
+        ([0.0, 0.3, 0.6, 0.9], False),
+    ],
+)  # fmt: skip
+def test_five_pictures_within_three_quarters_of_a_second_tell_a_growth(
+    times_s: list[float], is_told: bool
+) -> None:
+    assert (nears(times_s) is not None) is is_told
+
+
+@pytest.mark.parametrize("focal_px", [1000.0, 4000.0])
+def test_errors_of_the_size_that_last_are_those_of_2_px_in_the_first_and_the_last_picture(
+    focal_px: float,
+) -> None:
+    """The slope of 1 / size between the two is wrong by what either makes of its 1 / size."""
+    times_s = [0.25 * n for n in range(17)]
+    found = nears(times_s, focal_px=focal_px)
+    first, last = 1.0 / 0.01, 0.8 / 0.01
+    wrong = [value**2 * 2.0 / focal_px for value in (first, last)]
+    assert found.lasting_error == pytest.approx(math.hypot(*wrong) / 4.0 / last)
+    assert found.closing == pytest.approx(1.0 / 16.0)
+    assert found.size_rad == pytest.approx(0.01 / (1.0 - 3.5 / 20.0))  # The median of five.
+
+
 # --- how grave it is ------------------------------------------------------------------------
 
 
@@ -150,6 +195,7 @@ def test_the_nearer_it_passes_the_graver_it_is(sizes: float, severity: Severity 
 def test_what_recedes_or_is_past_is_nothing() -> None:
     assert grade(approach(closing=-0.05)) is None
     assert grade(approach(closing=0.05, closing_error=0.051)) is None
+    assert grade(approach(), age_s=20.0) is Severity.WARNING
     assert grade(approach(), age_s=20.1) is None
 
 

@@ -129,3 +129,60 @@ def test_a_level_that_nobody_gave_is_expected_once_it_was_heard_twice(
         is_misread(unheard, f"call {number}", UNSURE, 20.0 + 6.0 * number)
         expected.append(tracks[b"AAL123".hex()[-6:]].cleared_m)
     assert expected == [None, pytest.approx(34_000.0 * FOOT)]
+
+
+# --- who is near a level ----------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("other_ft", "rate_fpm", "is_near"),
+    [
+        # Between 31,000 ft and 34,000 ft, or within 1,000 ft of either.
+        (35_000.0, 0.0, False), (34_990.0, 0.0, True), (30_010.0, 0.0, True),
+        (30_000.0, 0.0, False), (32_500.0, 0.0, True),
+        (36_000.0, -1_100.0, True), (36_000.0, -900.0, False),  # Where it is after a minute.
+        (29_000.0, 1_100.0, True), (34_000.0, 1_100.0, False),
+    ],
+)  # fmt: skip
+def test_traffic_is_near_the_levels_that_a_climb_leads_through(
+    other_ft: float, rate_fpm: float, is_near: bool
+) -> None:
+    tracks = AirTracks()
+    tracks.take_report(report("AAL123", -78.0, 90.0, 31_000.0), 0)
+    other = report("DAL456", -76.0, 270.0, other_ft)
+    tracks.take_report(other.model_copy(update={"vertical_rate_fpm": rate_fpm}), 0)
+    followed = LevelReadbacks(tracks, Guard())
+    is_misread(followed, "climb", CLIMB, 0.0)
+    assert is_misread(followed, "readback", WRONG, 0.0) is is_near
+
+
+@pytest.mark.parametrize(
+    ("longitude_deg", "track_deg", "is_near"),
+    [
+        (-77.9, 90.0, True),  # As fast ahead, within 5 NM.
+        (-77.85, 90.0, False),
+        (-76.0, 270.0, True),
+        (-74.65, 270.0, True),  # 290 km, less 5 NM, at 494 m/s: within ten minutes.
+        (-74.35, 270.0, False),
+        (-78.2, 270.0, False),  # They are past each other.
+    ],
+)
+def test_traffic_comes_within_the_minimum_in_ten_minutes(
+    longitude_deg: float, track_deg: float, is_near: bool
+) -> None:
+    tracks = AirTracks()
+    tracks.take_report(report("AAL123", -78.0, 90.0, 31_000.0), 0)
+    tracks.take_report(report("DAL456", longitude_deg, track_deg, 34_000.0), 0)
+    followed = LevelReadbacks(tracks, Guard())
+    is_misread(followed, "climb", CLIMB, 0.0)
+    assert is_misread(followed, "readback", WRONG, 0.0) is is_near
+
+
+def test_one_that_is_far_away_does_not_hide_another() -> None:
+    tracks = AirTracks()
+    tracks.take_report(report("AAL123", -78.0, 90.0, 31_000.0), 0)
+    tracks.take_report(report("UAL7", -60.0, 90.0, 34_000.0), 0)
+    tracks.take_report(report("DAL456", -76.0, 270.0, 34_000.0), 0)
+    followed = LevelReadbacks(tracks, Guard())
+    is_misread(followed, "climb", CLIMB, 0.0)
+    assert is_misread(followed, "readback", WRONG, 0.0)

@@ -220,6 +220,89 @@ def test_the_chance_of_being_inside_is_that_of_the_error() -> None:
     assert within == pytest.approx(1.0 - math.exp(-0.5), abs=0.1)
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_two_positions_may_be_one_within_three_standard_deviations_and_6_m(seed: int) -> None:
+    """By the distance of Mahalanobis, with 6 m between the ends of one thing."""
+    rng = np.random.default_rng(seed)
+    spreads = [axes @ axes.T for axes in rng.normal(size=(2, 2, 2)) * 8.0]
+    here = rng.normal(size=2) * 50.0
+    together = spreads[0] + spreads[1] + 36.0 * np.eye(2)
+    for azimuth in np.linspace(0.0, math.tau, 7):
+        way = np.array([math.sin(azimuth), math.cos(azimuth)])
+        one_sigma_m = 1.0 / math.sqrt(way @ np.linalg.inv(together) @ way)
+        for sigmas, is_same in ((2.99, True), (3.01, False)):
+            there = here + sigmas * one_sigma_m * way
+            first, second = (
+                GroundFix(Vector(*point), spread[0, 0], spread[1, 1], spread[0, 1])
+                for point, spread in zip((here, there), spreads, strict=True)
+            )
+            assert bool(first.is_same(second)) is is_same
+            assert bool(second.is_same(first)) is is_same
+
+
+def line(place: tuple[float, float, float], ray: Ray, error_rad: float) -> LineOfSight:
+    return LineOfSight(Vector(*place[:2]), place[2], ray, error_rad)
+
+
+def test_a_place_along_a_line_of_sight_errs_by_its_range() -> None:
+    found = line((10.0, 20.0, 5.0), Ray(0.6, 0.0, 0.8), 0.01).at(200.0)
+    assert found.point == pytest.approx((130.0, 20.0))
+    assert found.height_m == pytest.approx(165.0)
+    assert found.error_m == found.height_error_m == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize(("apart_m", "size_m", "meets"), [(4.2, 0.0, True), (4.3, 0.0, False),
+                                                          (4.3, 0.1, True)])  # fmt: skip
+def test_lines_of_sight_that_pass_each_other_meet_halfway(
+    apart_m: float, size_m: float, meets: bool
+) -> None:
+    """100 m along one and 50 m along the other, at right angles, with 1 m of error on each."""
+    first = line((0.0, 0.0, 7.0), Ray(1.0, 0.0, 0.0), 0.01)
+    second = line((100.0, -50.0, 7.0 + apart_m), Ray(0.0, 1.0, 0.0), 0.02)
+    for pair in ((first, second), (second, first)):
+        found = meeting(*pair, size_m)
+        assert (found is not None) is meets
+        if found is not None:
+            assert found.point == pytest.approx((100.0, 0.0))
+            assert found.height_m == pytest.approx(7.0 + apart_m / 2.0)
+            assert found.error_m == found.height_error_m == pytest.approx(math.sqrt(2.0))
+
+
+def test_the_error_of_a_meeting_grows_the_flatter_the_angle_and_the_steeper_the_lines() -> None:
+    """Errors of 1 m each at 30 degrees are sqrt(2) / sin 30; a slope of 0.6 makes height of it."""
+    slant = line((0.0, 0.0, 0.0), Ray(0.8, 0.0, 0.6), 0.01)
+    found = meeting(slant, line((80.0, -50.0, 60.0), Ray(0.0, 1.0, 0.0), 0.02), 0.0)
+    assert found is not None
+    assert (found.error_m, found.height_error_m) == pytest.approx(
+        (math.sqrt(2.0), math.hypot(math.sqrt(2.0), 0.6 * math.sqrt(2.0)))
+    )
+    angle = 30.0 * DEGREE
+    ray = Ray(math.cos(angle), math.sin(angle), 0.0)
+    other = line((100.0 - 50.0 * ray.east, -50.0 * ray.north, 0.0), ray, 0.02)
+    found = meeting(line((0.0, 0.0, 0.0), Ray(1.0, 0.0, 0.0), 0.01), other, 0.0)
+    assert found is not None
+    assert found.point == pytest.approx((100.0, 0.0))
+    assert found.error_m == pytest.approx(2.0 * math.sqrt(2.0))
+
+
+@pytest.mark.parametrize(
+    ("angle_deg", "meets"), [(0.9, False), (1.1, True), (178.9, True), (179.1, False)]
+)
+def test_nearly_parallel_lines_of_sight_give_no_place(angle_deg: float, meets: bool) -> None:
+    ray = Ray(math.cos(angle_deg * DEGREE), math.sin(angle_deg * DEGREE), 0.0)
+    other = line((100.0 - 50.0 * ray.east, -50.0 * ray.north, 0.0), ray, 1e-4)
+    found = meeting(line((0.0, 0.0, 0.0), Ray(1.0, 0.0, 0.0), 1e-4), other, 0.0)
+    assert (found is not None) is meets
+
+
+def test_what_is_behind_a_camera_is_met_by_no_line_of_sight() -> None:
+    ahead, back = Ray(1.0, 0.0, 0.0), Ray(-1.0, 0.0, 0.0)
+    other = line((100.0, -50.0, 0.0), Ray(0.0, 1.0, 0.0), 0.01)
+    assert meeting(line((0.0, 0.0, 0.0), ahead, 0.01), other, 0.0) is not None
+    assert meeting(line((0.0, 0.0, 0.0), back, 0.01), other, 0.0) is None
+    assert meeting(other, line((0.0, 0.0, 0.0), back, 0.01), 0.0) is None
+
+
 @given(
     east=st.floats(-200.0, 200.0), north=st.floats(300.0, 900.0), up=st.floats(0.0, 150.0),
 )  # fmt: skip
@@ -251,3 +334,33 @@ def test_a_box_at_the_edge_may_go_on() -> None:
     box = camera.box(camera.bodies[0], 0.0)
     assert PictureGeometry(camera.view(0.0)).touches_edge(box)
     assert not PictureGeometry(camera.view(0.0)).touches_edge((10.0, 10.0, 20.0, 20.0))
+
+
+@pytest.mark.parametrize(
+    ("box", "touches"),
+    [
+        ((1.1, 1.1, 638.9, 358.9), False),
+        ((1.0, 1.1, 638.9, 358.9), True),
+        ((1.1, 1.0, 638.9, 358.9), True),
+        ((1.1, 1.1, 639.0, 358.9), True),
+        ((1.1, 1.1, 638.9, 359.0), True),
+    ],
+)
+def test_the_edge_is_a_pixel_wide(box: tuple[float, float, float, float], touches: bool) -> None:
+    camera = camera_at((0.0, 0.0, 5.0), 0.0, 0.0, still("truck", (0.0, 50.0, 0.0), CUBE))
+    assert PictureGeometry(camera.view(0.0)).touches_edge(box) is touches
+
+
+@pytest.mark.parametrize(
+    ("x_px", "y_px", "share"), [(320.0, 180.0, 1.0), (640.0, 180.0, 0.5), (320.0, 500.0, 0.5)]
+)
+def test_a_box_is_smaller_in_angle_the_farther_from_the_middle(
+    x_px: float, y_px: float, share: float
+) -> None:
+    """At 45 degrees from the middle a pixel is half of what it is there."""
+    camera = camera_at(
+        (0.0, 0.0, 5.0), 0.0, 0.0, still("truck", (0.0, 50.0, 0.0), CUBE), fov_deg=90.0
+    )
+    box = (x_px - 2.0, y_px - 1.0, x_px + 2.0, y_px + 1.0)
+    found = PictureGeometry(camera.view(0.0)).angular_size(box)
+    assert found == pytest.approx((share * 4.0 / 320.0, share * 2.0 / 320.0))

@@ -224,3 +224,20 @@ def test_a_prediction_rests_on_the_words_too_if_a_level_was_read_back() -> None:
     assert (evidence.sources, evidence.radio_ids) == (("adsb", "radio"), ("call-1",))
     assert evidence.shares == {}
     assert evidence.tracks == ("a1", "b2")
+
+
+@pytest.mark.parametrize(
+    ("name", "most"), [("vertical_tolerance_ft", 500.0), ("hysteresis_m", 5000.0)]
+)
+def test_allowances_are_not_negative_and_not_as_large_as_the_minima(name: str, most: float) -> None:
+    for value in (0.0, most):
+        assert getattr(SeparationConfig(**{name: value}), name) == value
+    for value in (-0.1, most + 0.1):
+        with pytest.raises(ValueError, match=name):
+            SeparationConfig(**{name: value})
+
+
+@pytest.mark.parametrize("is_told", [False, True])
+def test_hysteresis_is_added_to_the_horizontal_minimum_alone(is_told: bool) -> None:
+    found = SeparationStandard().infringed_by(is_told)
+    assert found == pytest.approx((9260.0 + 180.0 * is_told, 925.0 * FOOT))

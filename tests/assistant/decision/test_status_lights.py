@@ -162,6 +162,12 @@ def test_they_are_seen_from_100_m(entry_m: float, sees: bool) -> None:
     assert entrance(waits(800.0, entry_m), arrival(-1000.0)) is sees
 
 
+@pytest.mark.parametrize(("beside_m", "sees"), [(0.5, True), (-0.5, False)])
+def test_who_is_right_beside_the_pavement_still_has_them_ahead(beside_m: float, sees: bool) -> None:
+    viewer = target(800.0, WIDTH_M / 2.0 + beside_m, turned_deg=-90.0, number=9)
+    assert entrance(viewer, arrival(-1000.0)) is sees
+
+
 def test_who_is_on_the_runway_looks_away_or_has_not_moved_has_none_ahead() -> None:
     for viewer in (
         target(800.0, 0.0, turned_deg=-90.0, number=9),
@@ -174,7 +180,7 @@ def test_who_is_on_the_runway_looks_away_or_has_not_moved_has_none_ahead() -> No
 
 @pytest.mark.parametrize(
     ("entry_m", "speed_m_s", "disregards"),
-    [(31.0, 5.0, True), (31.5, 5.0, False), (5.0, 1.9, False), (5.0, 2.1, True)],
+    [(31.0, 5.0, True), (31.5, 5.0, False), (5.0, 1.9, False), (5.0, 2.0, True)],
 )
 def test_who_moves_and_cannot_stop_before_the_area_disregards_them(
     entry_m: float, speed_m_s: float, disregards: bool

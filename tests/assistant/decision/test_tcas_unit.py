@@ -293,7 +293,8 @@ def test_who_does_not_follow_is_told_to_increase_5_s_later() -> None:
 
 
 @pytest.mark.parametrize(("rate_fpm", "note"), [(-250, "monitor vertical speed"),
-                                                (-1000, "level off, level off")])  # fmt: skip
+                                                (-1000, "level off, level off"),
+                                                (-3000, "level off, level off")])  # fmt: skip
 def test_who_need_only_not_descend_is_told_to_level_off_or_to_stay(
     rate_fpm: int, note: str
 ) -> None:
@@ -308,6 +309,18 @@ def test_who_need_only_not_descend_is_told_to_level_off_or_to_stay(
     level = recommended(flight)[0]
     assert isinstance(level, MaintainLevel)
     assert level.altitude_ft == 100.0 * round((now_ft - lost_ft) / 100.0)
+
+
+@pytest.mark.parametrize(("away_m_s", "is_increased"), [(-0.5, True), (0.5, False)])
+def test_nothing_is_increased_against_who_draws_away_however_slowly(
+    away_m_s: float, is_increased: bool
+) -> None:
+    """Two that fly abreast at one altitude, a few metres apart, of which one does not follow."""
+    flight = Flight()
+    for t in range(12):
+        flight.hears(float(t), 12.0 - 0.5 * min(t, 5) + away_m_s * max(t - 5, 0))
+    assert "climb, climb" in flight.notes()
+    assert ("increase climb, increase climb" in flight.notes()) is is_increased
 
 
 # --- its end ------------------------------------------------------------------------------------
@@ -346,6 +359,37 @@ def test_with_the_track_the_advisory_is_gone() -> None:
     for t in range(23, 40):
         flight.hears(float(t), None)
     assert 28.0 < ended_s(flight.told) <= 30.0
+
+
+def test_the_hold_of_an_advisory_begins_soon_after_the_run_as_well_as_late() -> None:
+    """It draws away from the fourth second on, as soon as there is an advisory."""
+    for begin_s in (0.0, 1000.0):
+        flight = Flight()
+        for t in range(20):
+            flight.hears(begin_s + t, 900.0 + 10.0 * abs(t - 3), 10_800)
+        assert ended_s(flight.told) - begin_s == pytest.approx(13.5, abs=1.5)
+
+
+def test_who_has_not_gone_since_the_end_is_not_announced_again_but_is_resolved_again() -> None:
+    """It slows down until it closes within 45 s, and not within 30 s: traffic, but no threat."""
+    flight, range_m = Flight(), 9000.0
+    for t in range(60):
+        flight.hears(float(t), range_m)
+        range_m -= 200.0 if t < 25 else 60.0
+    assert [(alert.id, alert.evidence.note) for _, alert in flight.told] == [
+        ("AAL1-1", "traffic, traffic"),
+        ("AAL1-1", "climb, climb"),
+        ("AAL1-1", "clear of conflict"),
+        ("AAL1-2", "climb, climb"),
+    ]
+
+
+def test_who_comes_back_after_all_was_well_is_announced_again() -> None:
+    flight = Flight()
+    for t in range(240):
+        flight.hears(float(t), 7000.0 + 6500.0 * math.cos(math.tau * t / 160.0))
+    traffic = [alert.id for _, alert in flight.told if alert.evidence.note == "traffic, traffic"]
+    assert traffic == ["AAL1-1", "AAL1-2"]
 
 
 # --- with others --------------------------------------------------------------------------------
@@ -392,4 +436,17 @@ def test_the_filter_keeps_a_resolution_back_from_who_passes_beyond_dmod(
     flight = Flight(filters_misses=True)
     for t in range(32):
         flight.hears(float(t), math.hypot(miss_m, 9000.0 - 200.0 * t))
+    assert max((alert.severity for _, alert in flight.told), key=lambda each: each.rank) is severity
+
+
+@pytest.mark.parametrize(("above_ft", "severity"), [(0, Severity.CAUTION),
+                                                    (550, Severity.WARNING)])  # fmt: skip
+def test_the_filter_judges_the_miss_distance_in_the_plane(
+    above_ft: int, severity: Severity
+) -> None:
+    """Of the same ranges, those of somebody higher are a little less in the plane: of 1,491 m,
+    which is beyond the 0.8 NM of level 6, 168 m of height leave 1,481 m."""
+    flight = Flight(filters_misses=True)
+    for t in range(32):
+        flight.hears(float(t), math.hypot(2710.0, 9000.0 - 200.0 * t), 10_000 + above_ft)
     assert max((alert.severity for _, alert in flight.told), key=lambda each: each.rank) is severity

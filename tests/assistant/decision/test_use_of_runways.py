@@ -94,6 +94,8 @@ def kind(*place: float | None, **given: Any) -> str | None:
         (500.0, 121.0, 20.0, -700.0, None),
         (-3000.0, 0.0, 405.0, -700.0, "arrival"),  # 150 m above a path of 5 degrees.
         (-3000.0, 0.0, 420.0, -700.0, None),
+        (500.0, 0.0, 149.95, -700.0, "arrival"),
+        (500.0, 0.0, 150.05, -700.0, None),
         (-3000.0, 0.0, 160.0, -101.0, "arrival"),
         (-3000.0, 0.0, 160.0, -99.0, None),  # It neither descends nor is low.
         (-300.0, 0.0, 59.0, 0.0, "arrival"),
@@ -187,6 +189,18 @@ def test_speeds_are_means_of_about_one_second_and_of_five() -> None:
     assert one.speed_m_s / KNOT == one.slow_speed_m_s / KNOT == pytest.approx(20.0)
 
 
+def test_who_was_a_vehicle_once_is_one_and_keeps_its_callsign() -> None:
+    one = mobile(0.0, emitter_category="C2")
+    one.update(report(5.0, emitter_category=None, callsign=None, t_adsb_in_ns=SECOND_NS), at(5.0))
+    assert one.is_vehicle
+    assert one.callsign == "AAL123"
+    other = mobile(0.0, emitter_category=None, callsign=None)
+    assert other.callsign == "a1b2c3"
+    other.update(report(5.0, emitter_category="C1", t_adsb_in_ns=SECOND_NS), at(5.0))
+    assert other.is_vehicle
+    assert other.callsign == "AAL123"
+
+
 @pytest.mark.parametrize(("slower_m_s", "travelled_m"), [(0.49, 120.0), (0.51, 0.0)])
 def test_who_brakes_is_not_carried_on(slower_m_s: float, travelled_m: float) -> None:
     one = mobile(0.0)
@@ -248,6 +262,8 @@ def use(kind: Any, along_m: float, speed_m_s: float) -> Use:
         ("arrival", -700.0, 70.0, 1000.0,
          1100.0 / 70.0 + (70.0 - math.sqrt(4900.0 - 3.6 * 600.0)) / 1.8),
         ("arrival", -700.0, 70.0, 1800.0, None),  # It has stopped before.
+        ("arrival", 600.0, 50.0, 900.0, (50.0 - math.sqrt(2500.0 - 3.6 * 300.0)) / 1.8),
+        ("arrival", -5.0, 0.5, 0.0, 5.0),  # Nobody comes slower than 1 m/s.
         ("rollout", 600.0, 50.0, 900.0, (50.0 - math.sqrt(2500.0 - 3.6 * 300.0)) / 1.8),
         ("rollout", 600.0, 50.0, 1290.0, (50.0 - math.sqrt(2500.0 - 3.6 * 690.0)) / 1.8),
         ("rollout", 600.0, 50.0, 1300.0, None),

@@ -393,3 +393,23 @@ def test_an_observation_at_the_edge_of_a_picture_is_not_whole() -> None:
     assert whole.size_rad == pytest.approx((6.0 / FOCAL_PX, 3.0 / FOCAL_PX), rel=1e-3)
     assert (whole.ray.elevation_rad, whole.ray.azimuth_rad) == pytest.approx((0.0, 0.0), abs=1e-9)
     assert not Observation.of(0, geometry, cut, 0.5).is_whole
+
+
+def test_what_has_no_number_is_not_taken_for_what_has_one() -> None:
+    places = [(number, box(100.0 + 200.0 * index, 200.0)) for index, number in enumerate((None, 0))]
+    found = tuple(
+        Detection(label="truck", confidence=0.5, track_id=number, hits=1, box=place)
+        for number, place in places
+    )
+    both = shown(0.0, None).model_copy(update={"detections": found})
+    assert len(list(followed(both))) == 2
+
+
+@pytest.mark.parametrize(("cameras", "is_allowed"), [(0, False), (1, True), (100, True),
+                                                     (101, False)])  # fmt: skip
+def test_as_many_cameras_may_be_asked_for_as_there_can_be(cameras: int, is_allowed: bool) -> None:
+    if is_allowed:
+        assert SightConfig(cameras=cameras).cameras == cameras
+    else:
+        with pytest.raises(ValueError, match="cameras"):
+            SightConfig(cameras=cameras)
