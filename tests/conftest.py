@@ -22,8 +22,10 @@ from airhilt.scenario import Scenario
 from airhilt.world.loading import load_text
 from devtools import BROWSERS, Page, browser_page
 
-settings.register_profile("long", max_examples=20_000)
-settings.register_profile("repeatable", derandomize=True)
+# Without deadlines: a busy machine says nothing of the code.
+settings.register_profile("long", max_examples=20_000, deadline=None)
+settings.register_profile("new", deadline=None)
+settings.register_profile("repeatable", derandomize=True, deadline=None)
 settings.load_profile("repeatable")
 WHOLE_RUNS = ("bus", "cli", "cosim", "docs", "sweep")
 """Folders of tests that take long each."""

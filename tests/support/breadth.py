@@ -23,12 +23,9 @@ def mostly_slow(values: Iterable[Any], *quick: Any) -> list[Any]:
 
 
 def examples(most: int) -> settings:
-    """Return settings of a property: a third of the examples, all with `--hypothesis-profile long`.
-
-    They have no deadline: a busy machine says nothing of the code.
-    """
+    """Return settings of a property: a third of the examples, all with `--hypothesis-profile long`."""
     is_long = settings().max_examples > USUAL_EXAMPLES
-    return settings(deadline=None, max_examples=most if is_long else -(-most // 3))
+    return settings(max_examples=most if is_long else -(-most // 3))
 
 
 def _slow(value: Any) -> Any:
