@@ -137,18 +137,6 @@ def test_transponders_are_located_out_to_five_miles(distance_nm: float, is_seen:
     assert {track.kind for track in watch.go()} == ({"secondary"} if is_seen else set())
 
 
-@pytest.mark.parametrize(
-    ("equipped", "height_ft", "is_seen"),
-    [(False, 199, True), (False, 201, False), (True, 2_499, True), (True, 2_501, False)],
-)
-def test_the_radar_sees_up_to_200_ft_and_transponders_are_located_up_to_2_500_ft(
-    equipped: bool, height_ft: float, is_seen: bool
-) -> None:
-    watch = Watch()
-    watch.add(AIRCRAFT, watch.out_from_runway_01(1.0), height_ft, equipped=equipped)
-    assert bool(watch.go()) is is_seen
-
-
 @pytest.mark.parametrize(("kind", "is_seen"), [("deer", True), ("coyote", False)])
 def test_what_echoes_as_one_square_metre_is_seen_and_a_coyote_is_not(
     kind: str, is_seen: bool
