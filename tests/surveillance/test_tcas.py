@@ -188,11 +188,15 @@ def test_a_projection_follows_those_who_change_their_altitude(up: float, who: st
 def test_a_projection_knows_heights_above_the_ground() -> None:
     """The ground is at 5,000 ft: the limits of 1,000 ft, and of 380 ft for who has landed."""
     ground_m = 5_000 * FOOT
-    at_900_ft, at_1600_ft, at_300_ft = (level(ground_m + ft * FOOT) for ft in (900, 1_600, 300))
-    projection = tcas.project(head_on(100.0), at_900_ft, at_900_ft, ground_m)
-    assert projection.traffic_s is not None
-    assert projection.resolution_s is None
-    assert tcas.project(head_on(100.0), at_1600_ft, at_300_ft, ground_m) == (None, None)
+
+    def projected(own_ft: float, other_ft: float) -> tcas.Projection:
+        own, other = (level(ground_m + feet * FOOT) for feet in (own_ft, other_ft))
+        return tcas.project(head_on(100.0), own, other, ground_m)
+
+    assert (projected(900, 900).traffic_s is None, projected(900, 900).resolution_s) == (False, None)
+    assert projected(1_001, 1_001).resolution_s is not None
+    assert projected(1_100, 370) == (None, None)
+    assert projected(1_100, 390).traffic_s is not None
 
 
 def test_a_projection_goes_20_minutes_ahead() -> None:
