@@ -151,17 +151,6 @@ def test_it_does_not_matter_where_the_other_comes_from(
         assert found == pytest.approx(expected, abs=0.01)
 
 
-@settings(deadline=None)
-@given(st.floats(10.0, 150.0), st.floats(50.0, 1_000.0), st.floats(0.0, math.tau))
-def test_who_just_touches_the_least_distance_is_told_or_not_but_never_an_error(
-    in_s: float, speed_kt: float, angle_rad: float
-) -> None:
-    """The two edges of the time are one then, but for rounding."""
-    grazing = turned(meets(in_s, speed_kt, 0.66), angle_rad)
-    found = time_to_violation_s(grazing, LEVEL, WARNING.volume)
-    assert found is None or found >= 0.0
-
-
 def test_a_manoeuvre_looks_3_min_ahead_and_an_alert_ends_after_5_s() -> None:
     """The lookahead and hysteresis times of DAIDALUS's configuration for DO-365B."""
     assert (LOOK_AHEAD_S, HYSTERESIS_S) == (180.0, 5.0)
