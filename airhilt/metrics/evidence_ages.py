@@ -69,25 +69,21 @@ class _Arrivals:
 class _Stream:
     """What comes all the time: a decision rests on the newest observation.
 
-    Before the first decision nothing was judged: the age counts from the first observation.
+    Before the first decision that has one, the age counts from the first observation.
     """
 
     def __init__(self, first_ns: int) -> None:
         self.arrivals = _Arrivals()
         self._ages = _Ages()
         self._since_ns = first_ns
-        """End of the last step that had observations."""
+        """End of the last step."""
         self._newest_ns = first_ns
-        self._is_judged = False
 
     def step(self, t_start_ns: int, end_ns: int) -> None:
         """Let a step have what had arrived."""
-        taken = list(self.arrivals.take(t_start_ns))
-        self._is_judged |= bool(taken)
-        if self._is_judged:
-            self._ages = self._ages.and_during(self._since_ns, end_ns, self._newest_ns)
-            self._since_ns = max(self._since_ns, end_ns)
-            self._newest_ns = max((self._newest_ns, *taken))
+        self._ages = self._ages.and_during(self._since_ns, end_ns, self._newest_ns)
+        self._since_ns = max(self._since_ns, end_ns)
+        self._newest_ns = max((self._newest_ns, *self.arrivals.take(t_start_ns)))
 
     def age(self, now_ns: int) -> EvidenceAge:
         """Return how old the evidence was until now."""

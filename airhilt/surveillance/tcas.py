@@ -75,7 +75,7 @@ _ABOVE = _row(7, (48, 1.30, 1200), (35, 1.10, 800), 700)
 TRAFFIC_INHIBITED_BELOW_M = 500 * FOOT
 """Height below which the traffic advisory is not announced, in m."""
 RESOLUTION_INHIBITED_BELOW_M = 1000 * FOOT
-"""Height below which no resolution advisory is given, in m."""
+"""Height below which no resolution advisory is given, in m: that of sensitivity level 2."""
 INTRUDER_ON_GROUND_BELOW_M = 380 * FOOT
 """Height below which an intruder counts as on the ground, in m, if `OWN_LOW_M` applies."""
 OWN_LOW_M = 1700 * FOOT
@@ -84,7 +84,7 @@ OWN_LOW_M = 1700 * FOOT
 
 def sensitivity_level(altitude_m: float, height_m: float) -> SensitivityLevel:
     """Return the sensitivity level for an own pressure altitude and height above ground, in m."""
-    if height_m < 1000 * FOOT:
+    if height_m < RESOLUTION_INHIBITED_BELOW_M:
         return _LEVEL_2
     if height_m < 2350 * FOOT:
         return _LEVEL_3
@@ -154,14 +154,13 @@ def alert_at(motion: RangeMotion, gap_m: float, gap_rate_m_s: float, own: Own) -
     if own.height_m < OWN_LOW_M and own.intruder_height_m < INTRUDER_ON_GROUND_BELOW_M:
         return None
     row = sensitivity_level(own.altitude_m, own.height_m)
-    for name, thresholds in (("tcas_ra", row.resolution), ("tcas_ta", row.traffic)):
-        if thresholds is None:
-            continue
-        if name == "tcas_ra" and own.height_m < RESOLUTION_INHIBITED_BELOW_M:
-            continue
-        if range_test(motion, thresholds) and _altitude_test(gap_m, gap_rate_m_s, thresholds):
-            return "tcas_ra" if name == "tcas_ra" else "tcas_ta"
-    return None
+
+    def is_met(thresholds: Thresholds) -> bool:
+        return range_test(motion, thresholds) and _altitude_test(gap_m, gap_rate_m_s, thresholds)
+
+    if row.resolution is not None and is_met(row.resolution):
+        return "tcas_ra"
+    return "tcas_ta" if is_met(row.traffic) else None
 
 
 class Projection(NamedTuple):

@@ -128,3 +128,24 @@ def test_telling_the_ages_changes_nothing() -> None:
     early = ages.statistics(seconds_to_ns(3))
     assert ages.statistics(seconds_to_ns(9)) != early
     assert ages.statistics(seconds_to_ns(3)) == early
+
+
+def test_steps_before_the_first_observation_arrives_change_nothing() -> None:
+    """An observation of 1 s arrives at 3 s, and a step has it from 5 s to 6 s."""
+    for early in ((), (step(0.0, 2.0), step(2.0, 3.0))):
+        ages = EvidenceAges(["decision"])
+        ages.take(report(1.0, 3.0))
+        for record in (*early, step(5.0, 1.0)):
+            ages.step(record)
+        age = ages.statistics(seconds_to_ns(11))["adsb"]
+        assert (age.mean_s, age.max_s, age.stale_share) == pytest.approx((5.0, 10.0, 0.5))
+
+
+def test_calls_have_waited_for_their_mean_and_for_their_longest_time() -> None:
+    ages = EvidenceAges(["decision"])
+    for end_s, wait_s in ((10.0, 1.0), (30.0, 3.0), (50.0, 8.0)):
+        ages.take(call(end_s, end_s))
+        ages.step(step(end_s, wait_s))
+    age = ages.statistics(seconds_to_ns(60))["asr"]
+    assert (age.mean_s, age.max_s) == pytest.approx((4.0, 8.0))
+    assert age.stale_share == pytest.approx(3.0 / 50.0)

@@ -277,6 +277,20 @@ def test_what_the_next_person_does_is_no_reaction_of_the_one_who_has_left() -> N
     ]  # fmt: skip
 
 
+def test_who_is_told_again_to_have_the_seat_is_the_same_person() -> None:
+    """As when the page is loaded anew."""
+    found = person(
+        at_seat(1.0, is_taken=True),
+        (10.0, "advisory/AAL1", advisory(GoAround(runway="01"))),
+        (10.0, "perceived/AAL1", perceived("seen")),
+        at_seat(11.0, is_taken=True),
+        (12.0, "command/AAL1", GO_AROUND),
+    )
+    assert [(one.t_seen_s, one.reaction_time_s, one.followed) for one in found.reactions] == [
+        (10.0, 2.0, True)
+    ]
+
+
 def test_who_has_not_perceived_an_advisory_does_not_react_to_it() -> None:
     found = reaction(
         at_seat(1.0, is_taken=True),
@@ -555,9 +569,11 @@ def test_a_call_that_was_blocked_and_one_that_never_came_on_the_air_say_so() -> 
         (10.0, "microphone/AAL1", MicrophoneAudio(phase="pressed")),
         (20.0, "microphone/AAL1", MicrophoneAudio(phase="pressed")),
         on_air("microphone.AAL1.1", 20.0, 22.0, is_from_microphone=True, blocked_by=("other",)),
+        (22.5, "asr/118300", recognised("microphone.AAL1.1", "going around")),
     ).calls
     assert (never.t_s, never.call, never.blocked) == (10.0, None, None)
     assert (blocked.t_s, blocked.blocked) == (20.0, True)
+    assert (never.recognised, blocked.recognised) == (None, "going around")
 
 
 def test_the_calls_of_a_script_without_its_person_have_no_row() -> None:

@@ -29,7 +29,7 @@ from airhilt.messages import (
 from airhilt.metrics.advisories import AdvisoryRecords
 from airhilt.metrics.collector import Collector
 from airhilt.metrics.plans import Plans
-from airhilt.metrics.summary import LatencyStatistics, Summary, severest
+from airhilt.metrics.summary import LatencyStatistics, PersonSummary, Summary, severest
 from airhilt.phraseology.say import speak_callsign
 from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import RadioLine, ScriptedCommand
@@ -395,6 +395,13 @@ def test_one_climb_follows_another_from_where_it_then_is() -> None:
     assert feet(at, 65, 105, 300) == [32_000, 31_000, 31_000]
 
 
+def test_a_descent_is_still_planned_after_a_climb_that_was_carried_out() -> None:
+    """At 85 s it is level after the climb, and the line at 90 s lets it descend from 95 s on."""
+    there = VerticalProfile(33_000 * FOOT, 0.0)
+    at = plans((20.0, 33_000), (90.0, 31_000)).altitude_at("AA", 85 * SECOND_NS, there)
+    assert feet(at, 10, 50, 90, 400) == [33_000, 32_000, 31_000, 31_000]
+
+
 def test_nothing_is_planned_for_others() -> None:
     assert feet(plans((20.0, 33_000)).altitude_at("BB", 0, LEVEL), 500) == [31_000]
 
@@ -696,3 +703,15 @@ def test_no_number_of_a_summary_can_be_changed_by_mistake(model: type[BaseModel]
     made = model.model_construct()
     with pytest.raises(ValidationError, match="frozen"):
         setattr(made, next(iter(model.model_fields)), None)
+
+
+@pytest.mark.parametrize("model", [Summary, PersonSummary])
+def test_what_an_older_version_did_not_count_is_none(model: type[BaseModel]) -> None:
+    """Numbers of things that were added later are 0 in summaries that have not got them."""
+    added = {
+        name: field.default
+        for name, field in model.model_fields.items()
+        if field.annotation is int and not field.is_required()
+    }
+    assert added
+    assert set(added.values()) == {0}

@@ -437,11 +437,29 @@ def test_the_score_says_what_of_a_callsign_was_said(
 
 
 @pytest.mark.parametrize(
+    ("unit", "callsign"),
+    [
+        ("Tower", "DAL456"),
+        ("Lake City Tower", "DAL456"),
+        ("Salt Lake City Tower", "DAL456"),
+        ("The Salt Lake City Tower", "AAL123"),
+    ],
+)
+def test_who_calls_a_unit_by_a_name_of_up_to_four_words_is_named_behind_it(
+    unit: str, callsign: str
+) -> None:
+    """Otherwise the speaker is who is named at the end."""
+    call = parse_call(f"{unit}, Delta four five six, good day American one two three", KNOWN)
+    assert call.callsign == callsign
+
+
+@pytest.mark.parametrize(
     ("said", "is_ambiguous"),
     [
         ("american one two three", False),
         ("american one two three or one two four", True),
         ("american one two three or delta four five six", True),
+        ("american one two three or two four", True),
         ("american one two three or one", False),
         ("american one two three and delta four five six", False),
         ("cessna one two three", True),

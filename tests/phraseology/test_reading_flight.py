@@ -224,3 +224,23 @@ def test_a_slip_of_the_tongue_is_corrected_wherever_it_is() -> None:
 def test_a_level_for_later_is_not_that_of_the_call() -> None:
     assert call_to("when ready climb to flight level three one zero").altitude is None
     assert call_to("climb to flight level three one zero").altitude_ft == 31_000.0
+
+
+@pytest.mark.parametrize(
+    ("text", "station", "khz", "confidence"),
+    [
+        ("contact tower one one eight decimal three", "tower", 118_300, 1.0),
+        ("contact tower eighteen three", "tower", 118_300, 0.85),
+        ("contact eighteen three", None, 118_300, 0.75),
+        ("contact tower one eighteen three", "tower", 118_300, 0.85),
+        ("monitor ground decimal nine", "ground", 121_900, 0.85),
+        ("contact tower", "tower", None, 0.6),
+    ],
+)
+def test_a_frequency_may_lack_its_hundred_or_its_point_but_not_for_certain(
+    text: str, station: str | None, khz: int | None, confidence: float
+) -> None:
+    """The band begins with a 1 everywhere, and ground control has 121 MHz."""
+    contact = only(text)
+    assert (contact.position, contact.frequency_khz) == (station, khz)
+    assert contact.confidence == pytest.approx(confidence)

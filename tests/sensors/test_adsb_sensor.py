@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import statistics
 from dataclasses import dataclass, field
 from typing import Any, cast
 
@@ -136,6 +137,46 @@ def test_a_report_leaves_the_receiver_one_latency_after_the_squitter(run: Run) -
         assert report.t_ns == report.t_adsb_out_ns
     assert [step.seq for step in run.steps] == list(range(len(run.steps)))
     assert all(step.worker == "adsb" and step.finished for step in run.steps)
+
+
+def test_a_receiver_takes_about_50_ms_where_latencies_are_drawn() -> None:
+    """They are lognormal, with a deviation of 0.3 of their logarithm."""
+    run = Run(seconds=300.0, latency="lognormal").go()
+    logarithms = [math.log((r.t_adsb_out_ns - r.t_adsb_in_ns) / SECOND_NS) for r in run.reports]
+    assert len(logarithms) > 1_000
+    mean = statistics.fmean(logarithms)
+    assert math.exp(mean) == pytest.approx(0.050, rel=0.05)
+    assert statistics.stdev(logarithms) == pytest.approx(0.3, rel=0.1)
+
+
+def test_a_latency_that_only_a_result_has_is_that_of_a_report() -> None:
+    reports = Run(seconds=10.0, latency="on_output:0.2").go().reports
+    assert reports
+    assert {report.t_adsb_out_ns - report.t_adsb_in_ns for report in reports} == {200_000_000}
+
+
+def test_in_an_outage_of_the_scenario_nothing_is_received() -> None:
+    times = [r.t_adsb_in_ns / SECOND_NS for r in Run(seconds=20.0, outages_s=[[5.5, 8.0]]).go().reports]
+    assert [t for t in times if 5.5 <= t < 8.0] == []
+    assert [t for t in times if 4.5 <= t < 5.5]
+    assert [t for t in times if 8.0 <= t < 9.0]
+
+
+@pytest.mark.parametrize(("away_nm", "is_heard"), [(11.6, True), (12.1, False)])
+def test_an_antenna_is_as_high_as_the_scenario_says(away_nm: float, is_heard: bool) -> None:
+    """50 ft hear an antenna of 2 m, 6.6 ft, at 1.23 times the sum of the roots: 11.85 NM."""
+    position = {"type": "geodetic", "lat_deg": 38.9 + away_nm / 60.0, "lon_deg": -77.0}
+    run = Run(5.0, receivers=[{"name": "R", "position": position, "antenna_height_ft": 50.0}])
+    for body in run.aircraft.values():
+        body.on_ground, body.state = True, on_the_ground()
+    assert bool(run.go().reports) is is_heard
+
+
+@pytest.mark.parametrize(("away_nm", "is_heard"), [(49.8, True), (50.2, False)])
+def test_a_receiver_hears_as_far_as_the_scenario_says(away_nm: float, is_heard: bool) -> None:
+    position = {"type": "geodetic", "lat_deg": 38.9 + away_nm * 1852.0 / 111_019.0, "lon_deg": -77.0}
+    run = Run(5.0, receivers=[{"name": "R", "position": position, "range_nm": 50.0}])
+    assert bool(run.go().reports) is is_heard
 
 
 def test_a_report_that_the_end_of_the_run_cuts_off_is_unfinished() -> None:
@@ -330,10 +371,8 @@ def test_reports_from_the_ground_have_no_altitude_and_reports_from_the_air_do() 
     assert {report.on_ground for report in named} == {True, False}
 
 
-def test_callsigns_of_those_who_stand_come_every_ten_seconds(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    run = grounded(seconds=200.0)
+def squitters_of(run: Run, monkeypatch: pytest.MonkeyPatch) -> list[tuple[str, str, float]]:
+    """Return all squitters of a run: their type, the address, and the time in s."""
     sent = []
     receive = run.sensor._receive
 
@@ -347,6 +386,38 @@ def test_callsigns_of_those_who_stand_come_every_ten_seconds(
 
     monkeypatch.setattr(run.sensor, "_receive", record)
     run.go()
+    return sent
+
+
+@pytest.mark.parametrize(
+    ("name", "least_s", "most_s"),
+    [
+        ("PositionSquitter", 0.4, 0.6),
+        ("VelocitySquitter", 0.4, 0.6),
+        ("IdentificationSquitter", 4.8, 5.2),
+    ],
+)
+def test_in_the_air_squitters_come_at_the_intervals_of_do_260b(
+    name: str, least_s: float, most_s: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """2.2.3.3. The first one comes within the shortest interval, and the draws fill the range."""
+    sent = squitters_of(Run(seconds=300.0), monkeypatch)
+    assert {each for each, _, _ in sent} == {
+        "PositionSquitter", "VelocitySquitter", "IdentificationSquitter",
+    }  # fmt: skip
+    for icao24 in {icao24 for _, icao24, _ in sent}:
+        times = [t for what, who, t in sent if (what, who) == (name, icao24)]
+        gaps = [b - a for a, b in itertools.pairwise(times)]
+        assert 0.0 <= times[0] <= least_s
+        assert least_s <= min(gaps) < least_s + 0.1 * (most_s - least_s)
+        assert most_s - 0.1 * (most_s - least_s) < max(gaps) <= most_s
+
+
+def test_callsigns_of_those_who_stand_come_every_ten_seconds(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    run = grounded(seconds=200.0)
+    sent = squitters_of(run, monkeypatch)
     assert {name for name, _, _ in sent} == {"SurfacePositionSquitter", "IdentificationSquitter"}
     for icao24 in {icao24 for _, icao24, _ in sent}:
         times = [t for name, who, t in sent if "Ident" in name and who == icao24 and t > 45.0]

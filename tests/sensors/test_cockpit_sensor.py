@@ -136,11 +136,11 @@ def test_every_type_of_aircraft_shows_gear_and_flaps(name: str) -> None:
 
 
 def shown_at(**state: float) -> CockpitInstruments:
-    """Return the instruments of an aircraft in a state."""
+    """Return the instruments of an aircraft in a state, which is to climb to FL 101."""
     still = dict.fromkeys(AircraftState._fields, 0.0)
     aircraft = SimpleNamespace(
-        state=AircraftState(**{**still, **state}), gear=0.0, flaps=0.0, on_ground=False,
-        phase="en_route", target_altitude_m=0.0, target_speed_m_s=0.0,
+        state=AircraftState(**{**still, **state}), gear=0.254, flaps=1 / 3,
+        on_ground=False, phase="en_route", target_altitude_m=10_100 * FOOT, target_speed_m_s=251 * KNOT,
     )  # fmt: skip
     return instruments_of("N1", cast(Aircraft, aircraft), None)
 
@@ -155,10 +155,20 @@ def test_a_radio_altimeter_shows_heights_up_to_2500_ft(
     assert shown_at(height_agl_m=height_ft * 762.0 / 2500.0).radio_height_ft == shown_ft
 
 
-@pytest.mark.parametrize("degrees", [-12.5, 0.0, 3.0])
+@pytest.mark.parametrize("degrees", [-12.5, 0.0, 3.0, 7.1])
 def test_an_attitude_is_shown_in_degrees(degrees: float) -> None:
     shown = shown_at(pitch_rad=math.radians(degrees), roll_rad=math.radians(2.0 * degrees))
     assert (shown.pitch_deg, shown.roll_deg) == (degrees, 2.0 * degrees)
+
+
+def test_an_attitude_is_shown_to_a_tenth_of_a_degree() -> None:
+    shown = shown_at(pitch_rad=math.radians(1.26), roll_rad=math.radians(-3.14))
+    assert (shown.pitch_deg, shown.roll_deg) == (1.3, -3.1)
+
+
+@pytest.mark.parametrize(("degrees", "shown_deg"), [(359.94, 359.9), (359.96, 0.0), (0.04, 0.0)])
+def test_a_heading_is_less_than_360_degrees(degrees: float, shown_deg: float) -> None:
+    assert shown_at(heading_rad=math.radians(degrees)).heading_deg == shown_deg
 
 
 def test_instruments_show_the_units_of_a_cockpit_to_the_step_that_their_names_say() -> None:
@@ -174,7 +184,8 @@ def test_instruments_show_the_units_of_a_cockpit_to_the_step_that_their_names_sa
     assert shown.vertical_speed_fpm == 984
     assert shown.track_deg == pytest.approx(306.87, abs=0.1)
     assert shown.heading_deg == pytest.approx(271.26, abs=0.1)
-    assert (shown.selected_altitude_ft, shown.selected_airspeed_kt) == (0, 0)
+    assert (shown.selected_altitude_ft, shown.selected_airspeed_kt) == (10_100, 251)
+    assert (shown.gear, shown.flaps) == (0.25, 0.33)
 
 
 def test_a_vehicle_shows_its_driver_where_it_is(tmp_path: Path) -> None:

@@ -27,7 +27,7 @@ from airhilt.sensors.radar import SENSOR
 from airhilt.shapes.sizes import Dimensions
 from airhilt.sim import Director, Priority, Virtual, parse_latency
 from airhilt.surveillance.radar import RADARS, Antenna
-from airhilt.units import DEGREE, FOOT, SECOND_NS
+from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, SECOND_NS
 from airhilt.world.loading import load_text
 from airhilt.world.mover import SurfaceState, carried_on
 from airhilt.world.site import ScenarioSite
@@ -171,6 +171,58 @@ def test_the_beam_passes_targets_in_the_order_of_their_azimuths() -> None:
     assert published == sorted(published)
     for plot in watch.plots:
         assert 0 <= plot.t_ns - plot.t_plot_ns <= 150_000_000
+
+
+@pytest.mark.parametrize("kind", ["terminal", "en_route"])
+def test_plots_are_published_at_the_ends_of_32_sectors_of_a_turn(kind: str) -> None:
+    """As a radar tells of the sectors that it crosses in EUROCONTROL ASTERIX category 034."""
+    watch = Watch(kind)
+    watch.add(40.0, 50.0, 35_000.0)
+    watch.add(160.0, 50.0, 35_000.0, index=1)
+    sectors = [plot.t_ns / SECOND_NS / TURN_S[kind] * 32 for plot in watch.go(100.0).plots]
+    assert len(sectors) > 10
+    assert sectors == pytest.approx([round(each) for each in sectors], abs=1e-6)
+
+
+def test_ranges_and_azimuths_have_the_steps_of_asterix() -> None:
+    """Category 048, item I048/040: 1/256 NM and 360/65536 degrees."""
+    watch = Watch()
+    watch.add(40.0, 30.0, 20_000.0, speed_m_s=123.0)
+    for plot in watch.go(200.0).plots:
+        for steps in (plot.range_m * 256.0 / 1852.0, plot.azimuth_deg * 65536.0 / 360.0):
+            assert steps == pytest.approx(round(steps), abs=1e-6)
+
+
+@pytest.mark.parametrize(("beyond_m", "is_seen"), [(9_500.0, True), (11_000.0, False)])
+def test_what_taxies_is_seen_while_its_middle_is_above_the_horizon(
+    beyond_m: float, is_seen: bool
+) -> None:
+    """A middle of 6.25 m is 10,300 m behind the horizon of the antenna, and its top 14,600 m."""
+    watch = Watch(antenna_height_ft=30.0)
+    horizon_m = math.sqrt(2.0 * 4.0 / 3.0 * 6_378_137.0 * 30.0 * FOOT)
+    away_nm = (horizon_m + beyond_m) / NAUTICAL_MILE
+    ground_ft = watch.site.ground_m / FOOT
+    watch.add(0.0, away_nm, ground_ft, speed_m_s=0.0, on_ground=True)
+    assert bool(watch.go(60.0).plots) is is_seen
+
+
+@pytest.mark.parametrize(("elevation_deg", "is_seen"), [(29.5, True), (30.5, False)])
+def test_the_cone_of_silence_begins_at_30_degrees(elevation_deg: float, is_seen: bool) -> None:
+    watch = Watch()
+    height_ft = 6.0 * NAUTICAL_MILE * math.tan(elevation_deg * DEGREE) / FOOT
+    antenna_ft = watch.site.ground_m / FOOT + 75.0
+    watch.add(90.0, 6.0, antenna_ft + height_ft, speed_m_s=0.0)
+    assert bool(watch.go(30.0).plots) is is_seen
+
+
+def test_a_target_that_the_beam_has_not_reached_hides_none_behind_it() -> None:
+    """Whichever is first in the scenario, both are plotted in each turn."""
+    watch = Watch()
+    for index, bearing in enumerate((10.0, 190.0)):
+        watch.add(bearing, 30.0, 20_000.0, index=index, speed_m_s=0.001)
+    azimuths = [plot.azimuth_deg for plot in watch.go(20 * TURN_S["terminal"]).plots]
+    assert sum(azimuth < 100.0 for azimuth in azimuths) >= 17
+    assert sum(azimuth > 100.0 for azimuth in azimuths) >= 17
 
 
 def test_a_moving_target_is_measured_at_the_instant_at_which_the_beam_passes() -> None:

@@ -61,6 +61,7 @@ class Sky:
         self.own = Acting(own, Body(self.state(0.0, 35_000.0)))
         self.other = Acting(other, Body(self.state(distance_nm, altitude_ft)))
         self.subscribed: frozenset[str] = frozenset()
+        self.age_ns = 0
         self.replies: list[TcasReply] = []
 
     def state(self, north_nm: float, altitude_ft: float) -> SurfaceState:
@@ -85,7 +86,7 @@ class Sky:
             actors={OWN: self.own, OTHER: self.other},  # type: ignore[dict-item]
             latency=parse_latency("fixed"),
             seed=seed,
-            state_at_ns=lambda: director.now_ns,
+            state_at_ns=lambda: director.now_ns - self.age_ns,
             publish=self.publish,
             step_done=lambda _: None,
             subscribed=self.subscribed,
@@ -116,6 +117,31 @@ def test_range_and_bearing_have_the_errors_of_tcas() -> None:
     bearings = [(reply.bearing_deg - 270.0 + 180.0) % 360.0 - 180.0 for reply in replies]
     assert np.mean(bearings) == pytest.approx(0.0, abs=1.0)
     assert np.std(bearings) == pytest.approx(9.0, rel=0.1)
+
+
+def test_ranges_and_bearings_come_in_tenths() -> None:
+    for reply in Sky().go(100.0):
+        for value in (10.0 * reply.range_m, 10.0 * reply.bearing_deg):
+            assert value == pytest.approx(round(value), abs=1e-6)
+    assert any(reply.range_m % 1.0 for reply in Sky().go())
+    assert any(reply.bearing_deg % 1.0 for reply in Sky().go())
+
+
+def test_a_range_is_that_of_the_instant_and_not_that_of_the_tick_before() -> None:
+    """With 200 m/s, four tenths of a second are 80 m."""
+    ranges = []
+    for age_ns in (0, 400_000_000):
+        sky = Sky()
+        sky.age_ns = age_ns
+        sky.other.body.state = sky.other.body.state._replace(velocity_north_m_s=200.0)
+        ranges.append([reply.range_m for reply in sky.go(20.0)])
+    assert np.array(ranges[1]) - np.array(ranges[0]) == pytest.approx(80.0, abs=1.0)
+
+
+def test_wheels_below_the_elevation_of_the_ground_are_on_it() -> None:
+    sky = Sky(2.0)
+    sky.other.body.state = sky.state(2.0, sky.site.ground_m / FOOT - 3.0)
+    assert sky.go(20.0)
 
 
 class Extreme:

@@ -129,7 +129,50 @@ def test_the_position_error_drifts_and_does_not_jump() -> None:
     assert np.std(steps) < 0.25 * np.std(errors)
 
 
-@pytest.mark.parametrize(("nacp", "limit_nm"), [(2, 4), (3, 2), (4, 1), (5, 0.5), (6, 0.3),
+class Constant:
+    """Draws the same number of standard deviations each time."""
+
+    def __init__(self, sigmas: float) -> None:
+        self.sigmas = sigmas
+
+    def standard_normal(self) -> float:
+        return self.sigmas
+
+
+@pytest.mark.parametrize("seconds", [6.0, 60.0, 120.0])
+def test_a_position_error_fades_within_a_minute_and_keeps_its_size(seconds: float) -> None:
+    """What is left of the old one and what is new have the variance of the category together."""
+    sigma_m = 92.6 / math.sqrt(-2.0 * math.log(0.05))
+    for sigmas in (0.0, 1.0):
+        sender = transponder(nacp=8)
+        before_m = sender._position_error(0)
+        sender.generator = Constant(sigmas)  # type: ignore[assignment]
+        after_m = sender._position_error(round(seconds * SECOND_NS))
+        kept = math.exp(-seconds / 60.0)
+        new_m = sigmas * sigma_m * math.sqrt(1.0 - kept**2)
+        assert after_m == pytest.approx([kept * each + new_m for each in before_m], rel=1e-4)
+
+
+@pytest.mark.parametrize(("nacp", "limit_m"), [(9, 30.0), (10, 10.0), (11, 3.0)])
+def test_position_errors_are_in_proportion_to_the_metres_of_their_categories(
+    nacp: int, limit_m: float
+) -> None:
+    """DO-260B gives the limits of the categories from 9 on in m."""
+    coarse, fine = (transponder(each)._position_error(0) for each in (1, nacp))
+    assert np.array(coarse) / np.array(fine) == pytest.approx(18_520.0 / limit_m)
+
+
+def test_the_finest_velocities_are_within_30_cm_s() -> None:
+    """A draw of a thousand standard deviations, to be told from the steps of a knot."""
+    sender = transponder(nacv=4)
+    sender.generator = Constant(1_000.0)  # type: ignore[assignment]
+    still = replace(HERE, velocity_north_m_s=0.0, velocity_east_m_s=0.0)
+    sigma_m_s = 0.3 / math.sqrt(-2.0 * math.log(0.05))
+    speed_kt = sender.velocity(still).ground_speed_kt
+    assert speed_kt * KNOT == pytest.approx(1_000.0 * sigma_m_s * math.sqrt(2.0), abs=0.6)
+
+
+@pytest.mark.parametrize(("nacp", "limit_nm"), [(0, 20), (2, 4), (3, 2), (4, 1), (5, 0.5), (6, 0.3),
                                                 (7, 0.1), (8, 0.05)])  # fmt: skip
 def test_position_errors_are_in_proportion_to_the_nautical_miles_of_their_categories(
     nacp: int, limit_nm: float
@@ -204,6 +247,42 @@ def test_after_a_minute_of_silence_a_position_takes_a_pair_again(
     assert second.position_deg == pytest.approx((47.0, 8.0), abs=1e-3)
 
 
+@pytest.mark.parametrize(
+    ("on_surface", "apart_ns", "is_decoded"),
+    [
+        (False, 10 * SECOND_NS, True),
+        (False, 10 * SECOND_NS + 1, False),
+        (True, 25 * SECOND_NS, True),
+        (True, 25 * SECOND_NS + 1, False),
+    ],
+)
+def test_a_pair_is_decoded_together_up_to_its_longest_time(
+    on_surface: bool, apart_ns: int, is_decoded: bool
+) -> None:
+    """DO-260B, A.1.7.7 and A.1.7.8: 10 s in the air; 25 s on the surface above 25 kt."""
+    sender, station = transponder(nacp=11), receiver()
+    station.decode(sender, sender.velocity(HERE), 0)
+    encode = sender.surface_position if on_surface else sender.position
+    assert station.decode(sender, encode(HERE, 0), 0) is None
+    assert (station.decode(sender, encode(HERE, apart_ns), apart_ns) is not None) is is_decoded
+
+
+@pytest.mark.parametrize(
+    ("silent_ns", "is_followed"), [(60 * SECOND_NS, True), (60 * SECOND_NS + 1, False)]
+)
+def test_a_position_of_a_minute_before_is_a_reference_and_an_older_one_is_none(
+    silent_ns: int, is_followed: bool
+) -> None:
+    """The time counts from the last position, not from the pair before it."""
+    sender, station = transponder(nacp=11), receiver()
+    station.decode(sender, sender.velocity(HERE), 0)
+    for t_ns in (0, 1, 30 * SECOND_NS):
+        station.decode(sender, sender.position(HERE, t_ns), t_ns)
+    late_ns = 30 * SECOND_NS + silent_ns
+    decoded = station.decode(sender, sender.position(HERE, late_ns), late_ns)
+    assert (decoded is not None) is is_followed
+
+
 def test_callsign_and_category_are_known_once_an_identification_came_through() -> None:
     sender, station = transponder(), receiver()
     station.decode(sender, sender.identification(), 0)
@@ -231,6 +310,16 @@ def test_a_receiver_hears_what_is_above_the_radio_horizon(
         away = nautical_miles * NAUTICAL_MILE / 6.37e6
         state = replace(HERE, latitude_rad=HERE.latitude_rad + away, altitude_m=altitude_ft * FOOT)
         assert station.in_view(state) == heard
+
+
+@pytest.mark.parametrize(("away_m", "heard"), [(5_750.0, True), (5_950.0, False)])
+def test_an_antenna_on_the_ground_hears_one_of_2_m_within_5_8_km(
+    away_m: float, heard: bool
+) -> None:
+    """The root of twice the height and 4/3 of the Earth's radius."""
+    station = Receiver("field", FixedSite(47.0 * DEGREE, 8.0 * DEGREE, 400.0), EVERYWHERE, 400.0)
+    there = replace(HERE, latitude_rad=HERE.latitude_rad + away_m / 6.37e6, altitude_m=400.0)
+    assert station.in_view(there) is heard
 
 
 # --- on the surface -------------------------------------------------------------------------
@@ -315,6 +404,21 @@ def test_who_stands_says_so_and_keeps_its_heading() -> None:
     squitter = transponder(nacv=0).surface_position(STANDING, 0)
     assert squitter.movement.ground_speed_kt == 0.0
     assert squitter.movement.track_deg == pytest.approx(1.0 / DEGREE, abs=1.41)
+
+
+@pytest.mark.parametrize(("speed_m_s", "told_kt"), [(0.049, 0.0), (0.051, 0.0625)])
+def test_a_navigation_unit_takes_less_than_5_cm_s_for_a_standstill(
+    speed_m_s: float, told_kt: float
+) -> None:
+    sender = transponder()
+    sender.generator = Constant(0.0)  # type: ignore[assignment]
+    assert sender.surface_position(taxiing(speed_m_s), 0).movement.ground_speed_kt == told_kt
+
+
+def test_a_speed_on_the_surface_is_never_below_a_standstill() -> None:
+    sender = transponder(nacv=1)
+    sender.generator = Constant(-10.0)  # type: ignore[assignment]
+    assert sender.surface_position(taxiing(5.0), 0).movement.ground_speed_kt == 0.0
 
 
 def test_a_surface_report_needs_no_velocity_squitter_and_has_no_altitude() -> None:

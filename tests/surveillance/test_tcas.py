@@ -21,6 +21,7 @@ from airhilt.surveillance.tcas_resolution import (
     Resolution,
     Sense,
     Vertical,
+    is_insufficient,
     may_weaken,
     select,
     separation_m,
@@ -36,6 +37,7 @@ ALOFT = tcas.Own(HIGH, HIGH, HIGH)
     ("altitude_ft", "height_ft", "level", "traffic", "resolution"),
     [
         (900, 900, 2, (20, 0.30, 850), None),
+        (999, 999, 2, (20, 0.30, 850), None),
         (6_000, 900, 2, (20, 0.30, 850), None),
         (2_000, 1_000, 3, (25, 0.33, 850), (15, 0.20, 600)),
         (2_000, 2_349, 3, (25, 0.33, 850), (15, 0.20, 600)),
@@ -47,6 +49,7 @@ ALOFT = tcas.Own(HIGH, HIGH, HIGH)
         (19_999, 9_000, 6, (45, 1.00, 850), (30, 0.80, 600)),
         (20_000, 20_000, 7, (48, 1.30, 850), (35, 1.10, 700)),
         (41_999, 41_000, 7, (48, 1.30, 850), (35, 1.10, 700)),
+        (42_000, 41_000, 7, (48, 1.30, 1200), (35, 1.10, 800)),
         (42_001, 42_001, 7, (48, 1.30, 1200), (35, 1.10, 800)),
     ],
 )
@@ -67,6 +70,25 @@ def test_sensitivity_levels_are_those_of_the_table(
     assert row.level == level
     assert row.traffic == published(traffic)
     assert row.resolution == published(resolution)
+
+
+@pytest.mark.parametrize(
+    ("altitude_ft", "height_ft", "alim_ft"),
+    [
+        (2_000, 1_000, 300),
+        (3_000, 2_350, 300),
+        (5_000, 5_000, 350),
+        (10_000, 9_000, 400),
+        (20_000, 20_000, 600),
+        (42_001, 42_001, 700),
+    ],
+)
+def test_advisories_aim_at_the_separation_of_the_table(
+    altitude_ft: int, height_ft: int, alim_ft: int
+) -> None:
+    """ALIM in table 2, from level 3 on."""
+    row = tcas.sensitivity_level(altitude_ft * FOOT, height_ft * FOOT)
+    assert row.alim_m == pytest.approx(alim_ft * FOOT)
 
 
 def head_on(seconds: float, closing_m_s: float = 500.0) -> Relative:
@@ -125,7 +147,7 @@ def test_traffic_that_will_be_co_altitude_in_time_counts_and_that_which_leaves_d
 
 @pytest.mark.parametrize(
     ("height_ft", "said"),
-    [(499, None), (501, "tcas_ta"), (999, "tcas_ta"), (1_001, "tcas_ra")],
+    [(499, None), (500, "tcas_ta"), (999, "tcas_ta"), (1_000, "tcas_ra")],
 )
 def test_near_the_ground_advisories_are_inhibited(height_ft: int, said: str | None) -> None:
     height = height_ft * FOOT
@@ -135,7 +157,7 @@ def test_near_the_ground_advisories_are_inhibited(height_ft: int, said: str | No
 
 @pytest.mark.parametrize(
     ("own_ft", "intruder_ft", "said"),
-    [(1_600, 300, None), (1_600, 400, "tcas_ra"), (1_800, 300, "tcas_ra")],
+    [(1_600, 300, None), (1_699, 379, None), (1_699, 380, "tcas_ra"), (1_700, 379, "tcas_ra")],
 )
 def test_an_intruder_on_the_ground_is_none(own_ft: int, intruder_ft: int, said: str | None) -> None:
     own = tcas.Own(own_ft * FOOT, own_ft * FOOT, intruder_ft * FOOT)
@@ -148,8 +170,43 @@ def level(altitude_m: float) -> Callable[..., Any]:
 
 def test_a_projection_tells_when_it_would_speak_if_nobody_did_anything() -> None:
     projection = tcas.project(head_on(100.0), level(HIGH), level(HIGH), ground_m=0.0)
-    assert projection.traffic_s == pytest.approx(52.0, abs=1.0)
-    assert projection.resolution_s == pytest.approx(65.0, abs=1.0)
+    assert projection == (52.0, 65.0)
+
+
+@pytest.mark.parametrize("up", [1.0, -1.0])
+@pytest.mark.parametrize("who", ["own", "other"])
+def test_a_projection_follows_those_who_change_their_altitude(up: float, who: str) -> None:
+    """They are 4,000 ft apart and will be at one altitude a moment before they meet."""
+
+    def changing(time_s: float) -> float:
+        return HIGH - up * 4_000 * FOOT * (1.0 - time_s / 99.9)
+
+    own, other = (changing, level(HIGH)) if who == "own" else (level(HIGH), changing)
+    assert tcas.project(head_on(100.0), own, other, ground_m=0.0) == (52.0, 65.0)
+
+
+def test_a_projection_knows_heights_above_the_ground() -> None:
+    """The ground is at 5,000 ft: the limits of 1,000 ft, and of 380 ft for who has landed."""
+    ground_m = 5_000 * FOOT
+
+    def projected(own_ft: float, other_ft: float) -> tcas.Projection:
+        own, other = (level(ground_m + feet * FOOT) for feet in (own_ft, other_ft))
+        return tcas.project(head_on(100.0), own, other, ground_m)
+
+    assert (projected(900, 900).traffic_s is None, projected(900, 900).resolution_s) == (False, None)
+    assert projected(1_001, 1_001).resolution_s is not None
+    assert projected(1_100, 370) == (None, None)
+    assert projected(1_100, 390).traffic_s is not None
+
+
+def test_a_projection_goes_20_minutes_ahead() -> None:
+    assert tcas.project(head_on(1_247.0), level(HIGH), level(HIGH), 0.0) == (1_199.0, None)
+    assert tcas.project(head_on(1_248.0), level(HIGH), level(HIGH), 0.0) == (None, None)
+
+
+def test_two_that_keep_their_distance_are_not_told() -> None:
+    abreast = Relative(2.0 * NAUTICAL_MILE, 0.0, 0.0, 0.0)
+    assert tcas.alert(abreast, 0.0, 0.0, ALOFT) is None
 
 
 def test_a_projection_of_two_that_stay_apart_is_silent() -> None:
@@ -178,6 +235,33 @@ def test_the_sense_that_does_not_cross_the_intruder_is_chosen_if_it_gives_alim()
     assert crossing > other > alim_m
     chosen = select(own, intruder, 35.0, alim_m, required=None, may_descend=True)
     assert chosen == Resolution("climb", RATE_M_S)
+
+
+def test_a_crew_responds_after_5_s() -> None:
+    """ICAO Annex 10, volume IV, 4.4.2; then it climbs for 20 s, and changes with a quarter of g."""
+    still, rate_m_s = Vertical(HIGH, 0.0), 1500.0 * 0.3048 / 60.0
+    gained_m = rate_m_s * 20.0 - rate_m_s**2 / (2.0 * 0.25 * 9.80665)
+    above_m = separation_m(still, still, Resolution("climb", RATE_M_S), 25.0, RESPONSE_S)
+    assert above_m == pytest.approx(gained_m)
+
+
+@pytest.mark.parametrize("sense", ["climb", "descend"])
+def test_an_advisory_that_is_carried_out_is_insufficient_if_it_gives_less_than_alim(
+    sense: Sense,
+) -> None:
+    """Level at first, it reaches 1,500 ft/min with a quarter of g, from now on."""
+    level_off, first = Vertical(HIGH, 0.0), Resolution(sense, RATE_M_S)
+    rate_m_s = 1500.0 * 0.3048 / 60.0
+    gained_m = rate_m_s * 20.0 - rate_m_s**2 / (2.0 * 0.25 * 9.80665)
+    assert not is_insufficient(level_off, level_off, first, 20.0, gained_m - 0.01)
+    assert is_insufficient(level_off, level_off, first, 20.0, gained_m + 0.01)
+
+
+def test_an_advisory_that_gives_alim_exactly_is_sufficient() -> None:
+    own, intruder = Vertical(1_000.0, 0.0), Vertical(800.0, 0.0)
+    assert not is_insufficient(own, intruder, Resolution("climb", 0.0), 20.0, 200.0)
+    assert select(own, intruder, 20.0, 200.0, required=None, may_descend=True).rate_m_s == 0.0
+    assert may_weaken(own, intruder, "climb", 20.0, 200.0)
 
 
 def test_a_first_climb_is_with_1_500_ft_min_and_an_increased_one_with_2_500() -> None:

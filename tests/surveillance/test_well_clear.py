@@ -5,11 +5,15 @@ from __future__ import annotations
 import math
 
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from airhilt.geodesy.relative_motion import Relative
 from airhilt.surveillance.well_clear import (
     CORRECTIVE,
+    HYSTERESIS_S,
     LEVELS,
+    LOOK_AHEAD_S,
     PREVENTIVE,
     WARNING,
     AlertLevel,
@@ -118,3 +122,35 @@ def test_the_times_of_the_levels_are_those_of_do_365b(level: AlertLevel, earlies
     assert level.earliest_s == earliest_s
     assert level.alert_s == (25.0 if level is WARNING else 55.0)
     assert level.volume.zthr_m == (700 if level is PREVENTIVE else 450) * FOOT
+
+
+def turned(motion: Relative, angle_rad: float) -> Relative:
+    """Return a motion with all of it turned about the own place."""
+    cos, sin = math.cos(angle_rad), math.sin(angle_rad)
+    north, east = motion.north_m, motion.east_m
+    v_north, v_east = motion.velocity_north_m_s, motion.velocity_east_m_s
+    return Relative(
+        cos * north - sin * east, sin * north + cos * east,
+        cos * v_north - sin * v_east, sin * v_north + cos * v_east,
+    )  # fmt: skip
+
+
+@settings(deadline=None)
+@given(st.floats(5.0, 150.0), st.floats(50.0, 1_000.0), st.floats(0.0, 0.6),
+       st.floats(0.0, math.tau))  # fmt: skip
+def test_it_does_not_matter_where_the_other_comes_from(
+    in_s: float, speed_kt: float, miss_nm: float, angle_rad: float
+) -> None:
+    motion = meets(in_s, speed_kt, miss_nm)
+    found, expected = (
+        time_to_violation_s(each, LEVEL, WARNING.volume)
+        for each in (turned(motion, angle_rad), motion)
+    )
+    assert (found is None) == (expected is None)
+    if found is not None and expected is not None:
+        assert found == pytest.approx(expected, abs=0.01)
+
+
+def test_a_manoeuvre_looks_3_min_ahead_and_an_alert_ends_after_5_s() -> None:
+    """The lookahead and hysteresis times of DAIDALUS's configuration for DO-365B."""
+    assert (LOOK_AHEAD_S, HYSTERESIS_S) == (180.0, 5.0)

@@ -25,13 +25,24 @@ def changed_functions(before: str, after: str, filename: str) -> list[Change] | 
 
 
 def replace(changes: Sequence[Change]) -> None:
-    """Give the functions of this process their changed code; those not yet imported are left."""
+    """Give the functions of this process their changed code; those not yet imported are left.
+
+    A function that another one has returned already, such as a closure of a table, is changed too.
+    """
     # A weak proxy of what is gone has no class that `isinstance` could ask for.
     functions = [each for each in gc.get_objects() if type(each) is FunctionType]
-    for old, new in changes:
+    for old, new in _with_inner(changes):
         for function in functions:
             if _place(function.__code__) == _place(old):
                 function.__code__ = new
+
+
+def _with_inner(changes: Sequence[Change]) -> Iterator[Change]:
+    """Yield changes, and those of the functions within that have the same variables of others."""
+    for old, new in changes:
+        yield old, new
+        pairs = zip(_inner(old), _inner(new), strict=False)
+        yield from _with_inner([(a, b) for a, b in pairs if a.co_freevars == b.co_freevars])
 
 
 def _changes(old: CodeType, new: CodeType) -> Iterator[Change]:

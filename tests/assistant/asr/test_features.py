@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
-from airhilt.assistant.asr.features import BINS, mel_power, normalised
+from airhilt.assistant.asr.features import BINS, is_near_speech, mel_power, normalised
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 
 
@@ -71,3 +73,93 @@ def test_silence_has_no_features() -> None:
     features = normalised(mel_power(np.zeros(SAMPLE_RATE_HZ, np.float32)))
     assert features.shape == (101, BINS)
     assert np.abs(features).max() < 1e-3
+
+
+def reference_power(audio: Audio) -> NDArray[np.float64]:
+    """Return the mel power of each hundredth of a second, band by band as the books have it."""
+    low, high = 2595.0 * np.log10(1.0 + np.array([150.0, 3_900.0]) / 700.0)
+    edges_hz = 700.0 * (10.0 ** (np.linspace(low, high, 66) / 2595.0) - 1.0)
+    mels = 2595.0 * np.log10(1.0 + np.arange(257) * (16_000 / 512) / 700.0)
+    edges = 2595.0 * np.log10(1.0 + edges_hz / 700.0)
+    frames = []
+    for middle in range(0, len(audio) + 1, 160):
+        window = np.zeros(400)
+        for at in range(400):
+            if 0 <= middle - 200 + at < len(audio):
+                window[at] = audio[middle - 200 + at]
+        spectrum = np.abs(np.fft.fft(window * np.hanning(400), 512)[:257]) ** 2
+        frames.append([
+            np.sum(spectrum * np.interp(mels, edges[band : band + 3], [0.0, 1.0, 0.0]))
+            for band in range(64)
+        ])  # fmt: skip
+    return np.array(frames)
+
+
+def test_a_spectrum_has_64_mel_bands_of_25_ms_each_10_ms_within_the_band_of_a_radio() -> None:
+    """150 to 3,900 Hz, with Hann windows: the network of the recogniser was trained with that."""
+    call = bursts(1)[:2_000] + 0.01 * np.random.default_rng(3).standard_normal(2_000)
+    found = mel_power(call.astype(np.float32))
+    expected = reference_power(call)
+    assert found.shape == (13, 64)
+    np.testing.assert_allclose(found, expected, rtol=1e-3, atol=1e-6 * expected.max())
+
+
+def test_a_call_longer_than_half_a_minute_has_the_spectrum_of_its_parts() -> None:
+    rng = np.random.default_rng(4)
+    long = (0.1 * rng.standard_normal(31 * SAMPLE_RATE_HZ)).astype(np.float32)
+    whole, part = mel_power(long), mel_power(long[28 * SAMPLE_RATE_HZ :])
+    assert len(whole) == 3_101
+    np.testing.assert_allclose(whole[2_810:], part[10:], rtol=1e-3, atol=1e-7)
+
+
+def test_features_are_logarithms_above_a_floor_without_their_means() -> None:
+    """White noise 30 dB below the mean power of the call, as much as each band has of it."""
+    power = mel_power(bursts(1)[:3_000])
+    of_white = reference_power(np.eye(1, 400, 200).ravel())[1]
+    white = of_white / of_white.mean()
+    expected = np.log(power + 1e-7 + 1e-3 * power.mean() * white)
+    expected -= expected.mean(axis=0)
+    np.testing.assert_allclose(normalised(power), expected, atol=0.02)
+
+
+def levels(count: int, level: float, *louder: tuple[int, int, float]) -> NDArray[np.float32]:
+    """Return the power of frames of one level, but for those from one to another."""
+    power = np.full((count, BINS), level, np.float32)
+    for begin, end, power_there in louder:
+        power[begin:end] = power_there
+    return power
+
+
+def test_a_quarter_of_a_second_on_both_sides_of_speech_is_no_pause() -> None:
+    """The levels are means of five frames: two frames more than the speech are loud."""
+    near = np.flatnonzero(is_near_speech(levels(1_000, 1e-5, (400, 500, 1e-2))))
+    assert (near[0], near[-1], len(near)) == (400 - 2 - 25, 499 + 2 + 25, 154)
+
+
+@pytest.mark.parametrize(("frames", "is_speech"), [(5, False), (6, True)])
+def test_a_sound_of_less_than_a_tenth_of_a_second_is_a_click(frames: int, is_speech: bool) -> None:
+    """The means of five frames make it four frames longer."""
+    power = levels(1_000, 1e-5, (400, 500, 1e-2), (800, 800 + frames, 1e-2))
+    assert is_near_speech(power)[803] == is_speech
+
+
+@pytest.mark.parametrize(("frames", "has_pauses"), [(45, False), (46, True)])
+def test_speech_of_less_than_half_a_second_shows_no_pauses(frames: int, has_pauses: bool) -> None:
+    near = is_near_speech(levels(1_000, 1e-5, (400, 400 + frames, 1e-2)))
+    assert near.all() != has_pauses
+
+
+@pytest.mark.parametrize(("range_db", "has_pauses"), [(5.9, False), (6.1, True)])
+def test_less_than_6_db_between_loud_and_quiet_are_noise(
+    range_db: float, has_pauses: bool
+) -> None:
+    loud = 1e-3 * 10.0 ** (range_db / 10.0)
+    near = is_near_speech(levels(1_000, 1e-3, (400, 600, loud)))
+    assert near.all() != has_pauses
+
+
+def test_what_is_above_the_middle_in_db_is_loud() -> None:
+    """Between -50 and -20 dB that is -35 dB."""
+    power = levels(1_000, 1e-5, (400, 500, 1e-2), (700, 740, 10**-3.6), (850, 890, 10**-3.4))
+    near = is_near_speech(power)
+    assert (near[450], near[720], near[870]) == (True, False, True)
