@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import collections
+import json
 import queue
 import signal
 import subprocess
@@ -23,6 +24,7 @@ from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.hazmat.primitives.hashes import SHA256
 from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
 from cryptography.x509.oid import NameOID
+from websockets.sync.client import ClientConnection, connect
 
 from airhilt.commands import Command
 from airhilt.messages import (
@@ -185,6 +187,32 @@ def asked(
             return await client.get(path, headers=headers)
 
     return asyncio.run(ask())
+
+
+@contextmanager
+def browser(url: str, identity: str, shown_seat: str | None = None) -> Iterator[ClientConnection]:
+    """Connect as a page does, by its identity and the seat whose view it shows already."""
+    shown = "" if shown_seat is None else f"&shown={shown_seat}"
+    place = f"{url.replace('http', 'ws')}api/live?browser={identity}{shown}"
+    with connect(place, proxy=None) as socket:
+        yield socket
+
+
+def wish(socket: ClientConnection, **wished: Any) -> None:
+    """Send what a browser wishes, such as `take="TOWER"`."""
+    socket.send(json.dumps(wished))
+
+
+def agree(socket: ClientConnection, what: str = "voice", *, is_given: bool = True) -> None:
+    """Answer the question whether the voice may be used, or typed words."""
+    wish(socket, consent={"what": what, "is_given": is_given})
+
+
+def answer(socket: ClientConnection, kind: str) -> Any:
+    """Return the next message of a kind."""
+    while kind not in (message := json.loads(socket.recv(timeout=PATIENCE_S))):
+        pass
+    return message[kind]
 
 
 class PretendedRun:
