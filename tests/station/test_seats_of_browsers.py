@@ -567,3 +567,35 @@ def test_nobody_at_a_seat_pauses_a_run_that_has_no_pause() -> None:
         agree(own, "words")
         own.send(json.dumps({"say": {"text": "hello"}}))
         assert run.next().text == "hello"
+
+
+@pytest.mark.parametrize("after_s", ["1e300", "-1e300", "10.1", "-10.1", "NaN", "Infinity"])
+@pytest.mark.parametrize(
+    "wished",
+    [
+        '{"heard": {"id": "a", "after_s": %s}}',
+        '{"perceived": {"id": "a", "revision": 0, "recipient": "ATC", "way": "heard", '
+        '"after_s": %s}}',
+    ],
+    ids=["heard", "perceived"],
+)
+def test_a_time_at_which_nothing_can_have_been_audible_is_refused_in_words(
+    wished: str, after_s: str
+) -> None:
+    with seat_page() as (run, url), browser(url, "a") as own:
+        take(own)
+        own.send(wished % after_s)
+        with suppress(ConnectionClosed):
+            for _ in own:
+                pass
+        assert "after_s: Input should be" in (own.close_reason or "")
+        assert (run.heard.empty(), run.done.empty()) == (True, True)
+        assert "after_s" in run.told[-1]
+
+
+@pytest.mark.parametrize("after_s", [-10.0, 0.6, 10.0])
+def test_a_time_at_which_a_call_can_have_been_audible_is_passed_on(after_s: float) -> None:
+    with seat_page() as (run, url), browser(url, "a") as own:
+        take(own)
+        own.send(json.dumps({"heard": {"id": "a", "after_s": after_s}}))
+        assert run.heard.get(timeout=PATIENCE_S).after_s == after_s

@@ -71,6 +71,7 @@ def cosim(
     """Run a scenario and leave a run folder."""
     from airhilt.cli.progress import ProgressLine, print_summary
     from airhilt.cli.run_flags import options_given
+    from airhilt.cosim.setup import check_given
     from airhilt.cosim.simulation import run
     from airhilt.world.loading import load
 
@@ -78,9 +79,12 @@ def cosim(
     if not view and not options.seat:
         refuse_page_options("--view or --seat")
     loaded = load(scenario, allowed)
+    if view or options.seat:
+        options = _for_page(loaded, options)
+    check_given(loaded, options)
     with ExitStack() as stack:
         if view or options.seat:
-            options = _with_page(loaded, options, stack, page)
+            _serve_page(loaded, options, stack, page)
         tell("getting ready; a run that is killed before its folder is there leaves nothing")
         with ProgressLine(scenario) as progress:
             result = run(loaded, options, progress)
@@ -91,25 +95,27 @@ def cosim(
             print_summary(result.summary, result.folder)
 
 
-def _with_page(
-    scenario: Scenario, options: Options, stack: ExitStack, page: PageOptions
-) -> Options:
-    """Serve the page of a run until the stack is closed, and return options with its endpoint.
-
-    The person in an aircraft sees its instruments.
-    """
+def _for_page(scenario: Scenario, options: Options) -> Options:
+    """Return options of a run with a page: with an endpoint, and instruments of its pilots."""
     from airhilt.bus.session import free_endpoint
-    from airhilt.cli.live_page import live_page
     from airhilt.scenario.seats import seats_of
 
-    page.address()  # The process of the page would complain too late.
     if options.endpoint is None and options.tls is None:
         options = options.model_copy(update={"endpoint": free_endpoint()})
     seats = seats_of(options.seat, scenario)
     if any(actor.callsign in seats for actor in scenario.actors):
         options = options.model_copy(update={"cockpit": True})
-    stack.enter_context(live_page(options.endpoint, options.tls, seats, page.arguments()))
     return options
+
+
+def _serve_page(scenario: Scenario, options: Options, stack: ExitStack, page: PageOptions) -> None:
+    """Serve the page of a run until the stack is closed."""
+    from airhilt.cli.live_page import live_page
+    from airhilt.scenario.seats import seats_of
+
+    page.address()  # The process of the page would complain too late.
+    seats = seats_of(options.seat, scenario)
+    stack.enter_context(live_page(options.endpoint, options.tls, seats, page.arguments()))
 
 
 COMMAND = cosim
