@@ -13,6 +13,7 @@ import json
 import threading
 import time
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -25,6 +26,7 @@ from airhilt.options import options_of
 from airhilt.record import RunFolder
 from airhilt.scenario import loading
 from airhilt.scenario.seats import seats_of
+from airhilt.station.file_cache import FileCache
 from airhilt.station.plan import Plan, Trial
 from airhilt.station.questionnaires import NASA_TLX, Answers, Questionnaire
 from airhilt.station.started_runs import (
@@ -43,6 +45,8 @@ MOST_ATTEMPTS = 100
 TOGETHER = "+"
 """Text between the participants of a team in the name of their folder; no identifier has it."""
 KEPT_ANSWERS = TypeAdapter(Answers)
+_SeatTimes = dict[str, float | None]
+"""Times by seat, in s."""
 
 
 class Asked(NamedTuple):
@@ -85,6 +89,8 @@ class Progress:
         self.trials = plan.order(participant)
         self._number = team.index(participant)
         self._seats: dict[str, tuple[str, ...]] = {}
+        self._times_s = FileCache[_SeatTimes | None]()
+        self._kept_answers = FileCache[Answers | None]()
         self._answers = self.folder if len(team) == 1 else self.folder / participant
         _refuse_another_order(team, self.folder)
 
@@ -144,17 +150,23 @@ class Progress:
             folder = self.folder / name
             if not folder.exists():
                 return None
-            try:
-                run = RunFolder.open(folder)
-                is_finished = run.info().phase == "finished"
-            except RunFolderError:
-                continue
-            times_s = _seat_times_s(run) if is_finished else None
+            times_s = self._times_of(RunFolder(folder))
             if times_s:
                 self.require_same_seats(trial, name, list(times_s))
-            if is_finished and 0.0 not in (times_s or {}).values():
+            if times_s is not None and 0.0 not in times_s.values():
                 return name
         return None
+
+    def _times_of(self, run: RunFolder) -> _SeatTimes | None:
+        """Return how long the seats of a run were taken, None if it has not ended by itself."""
+
+        def read() -> _SeatTimes | None:
+            try:
+                return _seat_times_s(run) if run.info().phase == "finished" else None
+            except RunFolderError:
+                return None
+
+        return self._times_s.get(read, run.info_path, run.summary_path)
 
     def new_run(self, trial: Trial) -> str:
         """Return the name of a run folder that is not there yet.
@@ -184,6 +196,11 @@ class Progress:
             The file of the answers cannot be read, or has an answer that the item does not take. An
             item without an answer is none: it may have come into the plan later.
         """
+        read = partial(self._read_answers, questionnaire, run)
+        rated = RunFolder(self.folder / run).summary_path
+        return self._kept_answers.get(read, self._path(questionnaire, run), rated)
+
+    def _read_answers(self, questionnaire: Questionnaire, run: str) -> Answers | None:
         path = self._path(questionnaire, run)
         try:
             found = KEPT_ANSWERS.validate_json(read_inside(self.folder, path, LARGEST_RECORD_BYTES))
@@ -262,7 +279,7 @@ def _no_answers(path: Path, problem: str) -> RunFolderError:
     )
 
 
-def _seat_times_s(run: RunFolder) -> dict[str, float | None]:
+def _seat_times_s(run: RunFolder) -> _SeatTimes:
     """Return how long each seat of a run was taken, in s, in the order of the team.
 
     It is None where an earlier version did not tell, and there are no seats where the summary
@@ -417,12 +434,12 @@ class Conductor:
         if any(other.asked() is not None for other in self._team.values()):
             return shown | {"step": "waiting"}
         run = self._last_run()
-        row = next((row for row in self._started.rows() if run and row["name"] == run.name), None)
-        if run and row is not None and run.name in progress.attempts(trials[done]):
-            if row["state"] != "ended":
+        if run is not None and run.name in progress.attempts(trials[done]):
+            if (doing := self._started.state(run)) != "ended":
                 progress.require_same_seats(trials[done], run.name, run.seats)
                 own = readable(progress.seat(trials[done]))
-                return shown | {"step": row["state"], "url": row["url"], "seat": own}
+                url = self._started.url(run) if doing == "running" else ""
+                return shown | {"step": doing, "url": url, "seat": own}
             shown["said"] = "The last run of this trial did not finish."
         return shown | {"step": "ready", "rest_s": self._rest_s(done)}
 

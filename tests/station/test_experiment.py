@@ -17,7 +17,9 @@ import psutil
 import pyarrow.parquet as pq
 import pytest
 
+from airhilt import files
 from airhilt.errors import AirhiltError, RunFolderError, StationError
+from airhilt.files import open_inside
 from airhilt.library import find
 from airhilt.messages import NasaTlx, Severity
 from airhilt.metrics.summary import (
@@ -743,6 +745,38 @@ def test_a_team_in_another_order_than_its_folder_is_refused(
     done = airhilt_command("experiment", tmp_path / "plan.json", "--out", tmp_path / "out")
     assert done.returncode == 2
     assert "another order" in done.stderr
+
+
+def test_a_page_that_looks_again_reads_only_what_has_changed(
+    recorded_run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read: list[str] = []
+
+    def noted(folder: Path, path: Path) -> Any:
+        read.append(path.name)
+        return open_inside(folder, path)
+
+    monkeypatch.setattr(files, "open_inside", noted)
+    progress = Progress(plan(participants=["P01"], questions=QUESTIONS), tmp_path, "P01")
+    conductor = Conductor([progress])
+    first, second = (f"{at:02d}-{one.name}" for at, one in enumerate(progress.trials, 1))
+    conductor.answer("before", {"licence": "none"})
+    finished(recorded_run, progress.folder / first, [PERSON.model_dump(mode="json")])
+    conductor.answer("nasa_tlx", ANSWERS)
+    conductor.answer("after_trial", {"trust": 5})
+    running = shutil.copytree(recorded_run, progress.folder / second) / "run.json"
+    running.write_text(json.dumps(json.loads(running.read_text()) | {"phase": "running"}))
+    assert conductor.state()["step"] == "ready"
+    read.clear()
+    for _ in range(3):
+        assert conductor.state()["step"] == "ready"
+    assert read == []
+    running.write_text(json.dumps(json.loads(running.read_text()) | {"phase": "finished"}))
+    assert conductor.state()["step"] == "questions"
+    assert set(read) <= {"run.json", "summary.json", f"{second}.nasa_tlx.json"}
+    assert read.count("run.json") == 1
+    (progress.folder / "before.json").unlink()
+    assert conductor.state()["questions"]["name"] == "before"
 
 
 def test_who_begins_a_trial_that_has_begun_is_led_to_it(
