@@ -108,6 +108,8 @@ class Browsers:
         Is told of what is refused: some of each seat, and some of all browsers without one.
     views
         What may be seen at each seat; a browser without one sees only what everybody may.
+    agreed
+        Use of voice and words to which who takes a seat has agreed before, by seat.
     """
 
     def __init__(
@@ -118,11 +120,12 @@ class Browsers:
         sounds: Changes | None = None,
         notice: Callable[[str], None] = lambda _: None,
         views: SeatViews | None = None,
+        agreed: Mapping[str, str] = MappingProxyType({}),
     ) -> None:
         self._book = SeatBook[_Browser](seats)
         self._views = views or SeatViews(seats)
         self._refusals = Refusals(notice)
-        self._consents = Consents()
+        self._consents = Consents(agreed)
         self._changes = changes
         self._of_seats = seats
         self._sounds = sounds or Changes()
@@ -400,6 +403,8 @@ class Browsers:
                 if why is None and browser in self._browsers:
                     self._of_seats[seat].forget_notices()
                     await self._move(browser, seat)
+                    if (before := self._consents.before(seat)) is not None:
+                        await asyncio.to_thread(self._run.consent, seat, before)
                 else:
                     await self._inform()  # The claim is withdrawn.
         if why is not None:

@@ -75,7 +75,9 @@ class Conductor:
             given["nasa_tlx"] = plan.nasa_tlx
             given["run_name"] = f"Trial-{state['trial']}"  # It tells a participant nothing.
             name = self._progress(participant).runs.new_run(trial)
-            self._started.start(loading.find(trial.scenario), options_of(given), name)
+            agreed = {one.seat(trial): one.agreed(trial) for one in self._team.values()}
+            scenario = loading.find(trial.scenario)
+            self._started.start(scenario, options_of(given), name, agreed)
 
     def answer(self, name: str, answers: Answers, participant: str = "") -> None:
         """Take the answers of a participant to a questionnaire.

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections.abc import Mapping
+from types import MappingProxyType
 
 from airhilt.messages import SeatConsent
 
@@ -13,10 +14,18 @@ NO_WORDS = "Nothing was said: you have not agreed to the use of what you type."
 
 
 class Consents:
-    """Keeps what the person at each seat agrees to, until the seat is left."""
+    """Keeps what the person at each seat agrees to, until the seat is left.
 
-    def __init__(self) -> None:
-        self._given: defaultdict[str, set[str]] = defaultdict(set)
+    Parameters
+    ----------
+    agreed
+        Use of voice and words, in the words of `SeatConsent`, to which who takes a seat has agreed
+        before, by seat.
+    """
+
+    def __init__(self, agreed: Mapping[str, str] = MappingProxyType({})) -> None:
+        self._before = agreed
+        self._given = {seat: {use} for seat, use in agreed.items()}
 
     def take(self, seat: str, answer: SeatConsent) -> None:
         """Take in an answer.
@@ -24,17 +33,23 @@ class Consents:
         Consent to the use of the voice covers typed words, so who declines the use of words
         declines that of the voice too.
         """
-        given = self._given[seat]
+        given = self._given.setdefault(seat, set())
         if answer.is_given:
             given.add(answer.what)
         else:
             given -= {answer.what} if answer.what == "voice" else {"words", "voice"}
 
     def forget(self, *seats: str | None) -> None:
-        """Forget what was agreed to at seats; None stands for no seat."""
+        """Forget what was agreed to at seats, but not before; None stands for no seat."""
         for seat in seats:
             if seat is not None:
-                self._given.pop(seat, None)
+                self._given[seat] = {self._before[seat]} if seat in self._before else set()
+
+    def before(self, seat: str) -> SeatConsent | None:
+        """Return to what who takes a seat has agreed before, None if to nothing."""
+        if seat not in self._before:
+            return None
+        return SeatConsent.model_validate({"what": self._before[seat], "is_given": True})
 
     def given_at(self, seat: str | None) -> tuple[str, ...]:
         """Return what the person at a seat agrees to, in the words of `SeatConsent`."""

@@ -10,7 +10,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import NamedTuple
 
+from airhilt.options import options_of
 from airhilt.station.answer_files import AnswerFiles
+from airhilt.station.consent_question import Use, consent_question, use_of
 from airhilt.station.plan import Plan, Trial
 from airhilt.station.questionnaires import Answers, Questionnaire
 from airhilt.station.trial_order import order_of
@@ -98,7 +100,20 @@ class Progress:
             due.append(Asked(self.plan.end()))
         elif (run := self.runs.finished_run(trial)) is not None:
             due += [Asked(questionnaire, run) for questionnaire in self.plan.after_trial()]
+        elif self.plan.ask_consent:
+            due.append(self._consent(trial))
         return next((asked for asked in due if not self._is_answered(asked)), None)
+
+    def agreed(self, trial: Trial) -> Use | None:
+        """Return to what use of voice and words the participant agrees in a trial, None if to none.
+
+        It is asked once for all trials in which voices are recorded, and once for all others.
+        """
+        return use_of(self.answers(self._consent(trial))) if self.plan.ask_consent else None
+
+    def _consent(self, trial: Trial) -> Asked:
+        options = options_of({**self.plan.options, **trial.conditions})
+        return Asked(consent_question(is_recorded=options.voice_recording))
 
     def is_done(self, trial: Trial) -> bool:
         """Return true if a trial has been run, and its questions answered."""

@@ -10,11 +10,12 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Literal
 
 import psutil
@@ -72,13 +73,22 @@ class StartedRuns:
         self._children: list[subprocess.Popen[bytes]] = []
         self._records = FileCache[StartedRun]()
 
-    def start(self, scenario: Path, options: Options, name: str | None = None) -> str:
+    def start(
+        self,
+        scenario: Path,
+        options: Options,
+        name: str | None = None,
+        agreed: Mapping[str, str | None] = MappingProxyType({}),
+    ) -> str:
         """Start a run in real time, and return its name, which is that of its folder.
 
         Parameters
         ----------
         name
             Name of the run; None: that of the scenario, the seed and the time.
+        agreed
+            Uses of voice and words to which the people at seats have agreed already, by seat; None
+            for nothing.
 
         Raises
         ------
@@ -94,6 +104,7 @@ class StartedRuns:
         given = options.model_copy(update={"out": self.folder / name, "pace": "realtime"})
         command = [sys.executable, "-m", "airhilt", "cosim", f"--scenario={scenario}"]
         command += ["--view", *self._page, *arguments_of(given)]
+        command += [f"--agreed={seat}={use}" for seat, use in agreed.items() if use is not None]
         try:
             make_folder(self.folder / KEPT)
             replace_file(self._output(name), b"")

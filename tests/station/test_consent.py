@@ -247,6 +247,38 @@ def test_the_run_has_the_answer_before_what_it_lets_through() -> None:
     assert run.deeds == ["consent to voice", "pressed", *["samples"] * 3, "released"]
 
 
+def test_who_has_agreed_before_need_not_be_asked_at_the_seat_and_the_run_is_told() -> None:
+    with (
+        seat_page(PretendedRun(TWO), agreed={"TOWER": "voice"}) as (run, url),
+        browser(url, "a") as own,
+    ):
+        for _ in range(2):
+            take(run, own)
+            while answer(own, "consent") != ["voice"]:
+                pass
+            assert run.settings.get(timeout=PATIENCE_S) == SeatConsent(what="voice", is_given=True)
+            call(own)
+            assert run.call()[1] == 3 * PIECE
+            agree(own, is_given=False)
+            call(own)
+            assert refusals(own) == [NO_VOICE]
+            assert run.settings.get(timeout=PATIENCE_S) == SeatConsent(what="voice", is_given=False)
+            leave(run, own)
+        take(run, own, "GROUND")
+        call(own)
+        assert refusals(own) == [NO_VOICE]
+
+
+def test_a_page_that_is_loaded_again_need_not_ask_who_has_agreed_before() -> None:
+    with seat_page(agreed={"TOWER": "words"}) as (run, url):
+        with browser(url, "a") as own:
+            take(run, own)
+        with browser(url, "a") as back:
+            while answer(back, "seats") != {"TOWER": "yours"}:
+                pass
+            assert answer(back, "consent") == ["words"]
+
+
 def test_without_a_seat_nothing_is_agreed_to() -> None:
     consents = Consents()
     given: Any = SeatConsent(what="voice", is_given=True)

@@ -103,6 +103,7 @@ def plan(**given: Any) -> Plan:
         "seat": "AAL123",
         "scenarios": ["s02a_headon"],
         "conditions": {"assistant": ["reference", "none"]},
+        "ask_consent": False,
     }
     return plan_of(document | given, "plan.json")
 
@@ -289,7 +290,7 @@ def test_a_run_whose_seat_was_never_taken_is_no_finished_trial(
 
 def test_a_trial_waits_for_its_participant(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     started: list[Options] = []
-    monkeypatch.setattr(StartedRuns, "start", lambda _, __, options, ___: started.append(options))
+    monkeypatch.setattr(StartedRuns, "start", lambda _, __, options, *___: started.append(options))
     Conductor([Progress(plan(participants=["P01"]), tmp_path, "P01")]).begin()
     assert started[0].wait_for_seats
 
@@ -299,7 +300,7 @@ def test_a_trial_is_paused_only_where_the_plan_lets_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, given: dict[str, bool], may_pause: bool
 ) -> None:
     started: list[Options] = []
-    monkeypatch.setattr(StartedRuns, "start", lambda _, __, options, ___: started.append(options))
+    monkeypatch.setattr(StartedRuns, "start", lambda _, __, options, *___: started.append(options))
     conductor = Conductor([Progress(plan(participants=["P01"], **given), tmp_path, "P01")])
     conductor.begin()
     assert (started[0].pause, conductor.state()["may_pause"]) == (may_pause, may_pause)
@@ -376,7 +377,7 @@ def test_a_participant_is_told_nothing_of_the_scenario(
     monkeypatch.setattr(
         StartedRuns,
         "start",
-        lambda _, __, options, name: started.append((options.run_name, name)),
+        lambda _, __, options, name, ___: started.append((options.run_name, name)),
     )
     progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
     conductor = Conductor([progress])
@@ -597,7 +598,7 @@ def test_a_trial_of_a_team_has_all_its_seats_and_begins_when_each_is_ready(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     started: list[Options] = []
-    monkeypatch.setattr(StartedRuns, "start", lambda _, __, options, ___: started.append(options))
+    monkeypatch.setattr(StartedRuns, "start", lambda _, __, options, *___: started.append(options))
     conductor = Conductor(led(team_plan(questions={"before": [LICENCE]}), tmp_path, "P02"))
     assert conductor.state()["step"] == "choose"
     assert conductor.state()["seats"] == {"P01": "tower", "P02": "AAL123"}
@@ -613,6 +614,80 @@ def test_a_trial_of_a_team_has_all_its_seats_and_begins_when_each_is_ready(
     assert started[0].wait_for_seats
     with pytest.raises(StationError, match="'P03': not of these trials; expected one of P01, P02"):
         conductor.state("P03")
+
+
+def consented(conductor: Conductor, use: str, participant: str, *, is_recorded: bool) -> None:
+    """Answer the question of consent, which is the one that is open."""
+    name = "consent" if is_recorded else "consent_unrecorded"
+    state = conductor.state(participant)
+    assert (state["step"], state["questions"]["name"]) == ("questions", name)
+    (item,) = state["questions"]["items"]
+    assert ("is not recorded" in item["question"]) is not is_recorded
+    conductor.answer(name, {"use": use}, participant)
+
+
+def test_a_trial_begins_when_each_of_a_team_was_asked_for_consent_and_has_the_answers(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started: list[Any] = []
+    monkeypatch.setattr(StartedRuns, "start", lambda *given: started.append(given[-1]))
+    questions = {"before": [LICENCE]}
+    conductor = Conductor(led(team_plan(ask_consent=True, questions=questions), tmp_path, "P01"))
+    for name in ("P01", "P02"):
+        conductor.answer("before", {"licence": "none"}, name)
+    consented(conductor, "Voice and typed words", "P01", is_recorded=True)
+    assert conductor.state("P01")["step"] == "waiting"
+    with pytest.raises(StationError, match="not time for a trial"):
+        conductor.begin("P01")
+    consented(conductor, "Neither: ask me at the seat", "P02", is_recorded=True)
+    conductor.begin("P01")
+    assert started == [{"Washington Tower": "voice", "AAL123": None}]
+
+
+def test_consent_is_asked_once_unless_other_trials_record_voices_or_not(
+    recorded_run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started: list[Any] = []
+    monkeypatch.setattr(StartedRuns, "start", lambda *given: started.append(given[-1]))
+    experiment = plan(
+        participants=["P01"], ask_consent=True, nasa_tlx=False,
+        conditions={"voice_recording": [True, False], "assistant": ["reference", "none"]},
+    )  # fmt: skip
+    progress = Progress(experiment, tmp_path, "P01")
+    asked = 0
+    for position, trial in enumerate(progress.trials, 1):
+        conductor = Conductor([progress])
+        if conductor.state()["step"] == "questions":
+            is_recorded = trial.conditions["voice_recording"] is True
+            use = "Voice and typed words" if is_recorded else "Typed words alone"
+            consented(conductor, use, "", is_recorded=is_recorded)
+            asked += 1
+        conductor.begin()
+        finished(recorded_run, progress.runs.folder / f"{position:02d}-{trial.name}", [])
+    uses = {True: "voice", False: "words"}
+    assert started == [
+        {"AAL123": uses[bool(trial.conditions["voice_recording"])]} for trial in progress.trials
+    ]
+    assert (asked, Conductor([progress]).state()["step"]) == (2, "done")
+
+
+def test_a_run_of_a_trial_is_told_who_has_agreed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    commands: list[list[str]] = []
+
+    def begin(command: list[str], **_: Any) -> Any:
+        commands.append(command)
+        raise OSError("no process in this test")
+
+    monkeypatch.setattr(subprocess, "Popen", begin)
+    with pytest.raises(OSError, match="no process"):
+        StartedRuns(tmp_path).start(
+            find("scenarios", "s01b_nominal"), Options(seat=("tower", "AAL123")), "run",
+            {"Washington Tower": "voice", "AAL123": None},
+        )  # fmt: skip
+    given = [one for one in commands[0] if one.startswith("--agreed")]
+    assert given == ["--agreed=Washington Tower=voice"]
 
 
 def goes_on(progress: Progress) -> None:

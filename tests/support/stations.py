@@ -10,10 +10,11 @@ import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import httpx
@@ -343,12 +344,15 @@ def seats_given_back_at_once(run: PretendedRun) -> Iterator[None]:
 
 @contextmanager
 def seat_page(
-    run: PretendedRun | None = None, *, has_seats: bool = True
+    run: PretendedRun | None = None,
+    *,
+    has_seats: bool = True,
+    agreed: Mapping[str, str] = MappingProxyType({}),
 ) -> Iterator[tuple[PretendedRun, str]]:
     """Serve the page of a pretended run in this process; yield the run and the URL."""
     run, urls, is_over = run or PretendedRun(), queue.Queue[str](), threading.Event()
     seats, views = (run.of_seats, run.views) if has_seats else ({}, SeatViews())
-    browsers = Browsers(run.changes, run, seats, run.sounds, run.told.append, views)
+    browsers = Browsers(run.changes, run, seats, run.sounds, run.told.append, views, agreed)
     thread = threading.Thread(
         target=serve,
         args=(live_app(run, browsers), Address(port=0)),  # type: ignore[arg-type]
