@@ -283,7 +283,7 @@ def test_a_key_tells_the_class_of_its_messages_unless_it_has_several(
 @pytest.mark.parametrize(
     ("model", "field"),
     [(AdsbReport, "latitude_deg"), (AdsbReport, "altitude_ft"), (ActorTruth, "altitude_m"),
-     (Transcript, "confidence")],
+     (Transcript, "confidence"), (CallHeard, "after_s"), (AdvisoryPerceived, "after_s")],
 )  # fmt: skip
 def test_a_number_that_is_none_is_refused(model: type[Any], field: str, value: str) -> None:
     text = json.dumps(EXAMPLES[model.__name__] | {field: "HERE"}).replace('"HERE"', value)
@@ -343,6 +343,11 @@ def test_severities_rise_from_info_to_warning() -> None:
         (Event, "kind", "party"),
         (WorkerDescription, "name", "My Worker"),
         (WorkerDescription, "inputs", []),
+        (CallHeard, "after_s", 1e300),
+        (CallHeard, "after_s", 10.1),
+        (CallHeard, "after_s", -10.1),
+        (AdvisoryPerceived, "after_s", 10.1),
+        (AdvisoryPerceived, "after_s", -10.1),
     ],
 )
 def test_what_cannot_be_is_refused(

@@ -273,15 +273,19 @@ def _radio(radio: RadioStatistics) -> str:
 
 
 def _recognition_rows(summary: Summary) -> list[tuple[str, str]]:
-    """Return a row on speech recognition, if there was any."""
+    """Return a row on speech recognition, if there was any.
+
+    Where no callsign or no slot was said, there is no share of them.
+    """
     radio, after_end = summary.radio, summary.latencies["asr_after_end"]
     if radio.wer is None:
         return []
-    parts = [
-        f"word error rate {_percent(radio.wer)}",
-        f"callsigns {_percent(radio.callsign_accuracy)}",
-        f"slots {_percent(radio.slot_accuracy)}",
-    ]
+    shares = {
+        "word error rate": radio.wer,
+        "callsigns": radio.callsign_accuracy,
+        "slots": radio.slot_accuracy,
+    }
+    parts = [f"{name} {_percent(share)}" for name, share in shares.items() if share is not None]
     if after_end.p95_s is not None:
         parts.append(f"p95 {_latency(after_end.p95_s)} after the end")
     return [("recognition", ", ".join(parts))]

@@ -20,6 +20,8 @@ F = TypeVar("F", bound=Callable[..., Any])
 FILE = click.Path(path_type=Path, dir_okay=False)
 NEEDED = ("fastapi", "uvicorn", "websockets")
 """Packages of the extra ``station``."""
+USES = ("voice", "words")
+"""Uses to which a person at a seat may agree, as `SeatConsent` has them."""
 
 
 @dataclass(frozen=True)
@@ -97,6 +99,33 @@ def station_options(command: F) -> F:
     ):  # fmt: skip
         decorated = option(decorated)
     return cast("F", decorated)
+
+
+def agreed_option(command: F) -> F:
+    """Add the option that says to what people at seats have agreed, as a parameter ``agreed``."""
+    option: Any = click.option(
+        "--agreed",
+        multiple=True,
+        metavar="SEAT=USE",
+        callback=lambda _, __, given: dict(map(_agreed, given)),
+        help="The person at this seat has agreed already to a use: voice (and typed words), or "
+        "words alone; may be given again. Without it the page asks.",
+    )
+    return cast("F", option(command))
+
+
+def _agreed(given: str) -> tuple[str, str]:
+    """Return a seat, and the use of voice or words to which its person has agreed.
+
+    Raises
+    ------
+    click.BadParameter
+        It is none.
+    """
+    seat, _, use = given.rpartition("=")
+    if not seat or use not in USES:
+        raise click.BadParameter(f"{given!r}; expected SEAT={', or SEAT='.join(USES)}")
+    return seat, use
 
 
 def refuse_page_options(missing: str) -> None:

@@ -103,6 +103,21 @@ class Setup:
         )
 
 
+def check_given(given: Scenario, options: Options) -> None:
+    """Check what can be checked of a run before anything is begun, started or drawn.
+
+    Raises
+    ------
+    AirhiltError
+        Something that was given is wrong.
+    """
+    check_options(options, given)
+    _require_not_measured(options, requested_latency(options.latency, given, options.seed))
+    parse_pace(options.pace or "virtual")
+    if options.out is not None:
+        RunFolder(options.out).require_free(options.overwrite)
+
+
 def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
     """Settle what a run needs, and put everybody where they begin.
 

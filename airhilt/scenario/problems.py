@@ -106,11 +106,23 @@ def _described(error: Any, model: type[BaseModel]) -> Problem:
             return Problem(
                 f"{path}/{field}", f"found {context['tag']!r}, expected {', '.join(known)}{tail}"
             )
+        case "model_type" | "model_attributes_type" | "dict_type":
+            return Problem(
+                path, f"found {found}, expected a JSON object{_with_fields(path, model)}"
+            )
+        case "tuple_type" | "list_type":
+            return Problem(path, f"found {found}, expected a JSON list")
         case "literal_error":
             return Problem(path, f"found {found}, expected {context['expected']}")
         case _:
             message = str(error["msg"])
             return Problem(path, f"found {found}: {message[0].lower()}{message[1:]}")
+
+
+def _with_fields(path: str, model: type[BaseModel]) -> str:
+    """Return in words which fields a document has to have, if a path is its top."""
+    names = [name for name, field in model.model_fields.items() if field.is_required()]
+    return f" with the fields {', '.join(names)}" if names and not path else ""
 
 
 def short_json(value: Any) -> str:

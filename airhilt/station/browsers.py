@@ -16,9 +16,16 @@ from fastapi import WebSocket, WebSocketDisconnect
 from pydantic import ValidationError
 
 from airhilt.errors import first_problem
-from airhilt.messages import MicrophoneAudio, PaceCommand, SeatListening
+from airhilt.messages import (
+    MicrophoneAudio,
+    PaceCommand,
+    SeatConsent,
+    SeatListening,
+    SpokenWords,
+)
 from airhilt.station.audiences import Audience, SeatViews
 from airhilt.station.changes import MOST_AT_ONCE, Changes, SeatChanges
+from airhilt.station.consents import NO_VOICE, NO_WORDS, Consents
 from airhilt.station.held_button import HeldButton, what_is_wrong_with
 from airhilt.station.page_files import page_version
 from airhilt.station.refusals import Refusals
@@ -75,6 +82,8 @@ class _Browser:
         """Its transmit button, while it is held."""
         self.pressed_at = ""
         """Seat at which its button was pressed last."""
+        self.is_voice_refused = False
+        """True if it was told that the sound that comes now is refused."""
         self.unsent: deque[str] = deque()
 
     def tell(self, kind: str, what: Any) -> None:
@@ -99,6 +108,8 @@ class Browsers:
         Is told of what is refused: some of each seat, and some of all browsers without one.
     views
         What may be seen at each seat; a browser without one sees only what everybody may.
+    agreed
+        Use of voice and words to which who takes a seat has agreed before, by seat.
     """
 
     def __init__(
@@ -109,10 +120,12 @@ class Browsers:
         sounds: Changes | None = None,
         notice: Callable[[str], None] = lambda _: None,
         views: SeatViews | None = None,
+        agreed: Mapping[str, str] = MappingProxyType({}),
     ) -> None:
         self._book = SeatBook[_Browser](seats)
         self._views = views or SeatViews(seats)
         self._refusals = Refusals(notice)
+        self._consents = Consents(agreed)
         self._changes = changes
         self._of_seats = seats
         self._sounds = sounds or Changes()
@@ -186,7 +199,10 @@ class Browsers:
         self._browsers.append(browser)
         self._empty_since_s = None
         await self._give_back(browser)
+        if browser.shown_seat != (seat := self._book.of(browser)):
+            self._consents.forget(seat)  # The page was loaded again: it asks again.
         self._tell_seats()
+        self._tell_consent(browser)
         sending = asyncio.create_task(self._send(socket, browser, begin))
         listening = asyncio.create_task(self._listen(socket, browser))
         try:
@@ -233,6 +249,7 @@ class Browsers:
         elif wish.leave is not None:
             await asyncio.shield(self._to_the_end(self._leave(browser)))
         elif wish.release is not None:
+            browser.is_voice_refused = False
             await self._release(browser)  # It was let go, perhaps by a page that has left the seat.
         elif (seat := self._book.of(browser)) is None:
             self._refuse(browser, "You have no seat. Take one first.")
@@ -241,7 +258,7 @@ class Browsers:
 
     async def _do_at_seat(self, browser: _Browser, seat: str, wish: Wish) -> None:
         if wish.say is not None:
-            await asyncio.to_thread(self._run.say, seat, wish.say)
+            await self._say(browser, seat, wish.say)
         elif wish.fly is not None:
             await asyncio.to_thread(self._run.fly, seat, wish.fly)
         elif wish.perceived is not None:
@@ -255,7 +272,7 @@ class Browsers:
         elif wish.tune is not None:
             await self._tune(browser, seat, frozenset(wish.tune))
         elif wish.consent is not None:
-            await asyncio.to_thread(self._run.consent, seat, wish.consent)
+            await self._take_consent(browser, seat, wish.consent)
         elif wish.pace is not None:
             await self._set_pace(browser, seat, wish.pace)
 
@@ -299,9 +316,42 @@ class Browsers:
         source = "of browsers without a seat" if seat is None else f"at the seat {readable(seat)}"
         self._refusals.tell(what, source)
 
-    # --- the microphone ---------------------------------------------------------------------
+    # --- voice and words --------------------------------------------------------------------
+
+    async def _take_consent(self, browser: _Browser, seat: str, consent: SeatConsent) -> None:
+        """Keep what a person agrees to while it has the seat, and tell the run.
+
+        A call of a person who does not let the voice be used any more ends.
+        """
+        self._consents.take(seat, consent)
+        self._tell_consent(browser)
+        if not self._consents.admits_voice(seat):
+            await self._release(browser)
+        await asyncio.to_thread(self._run.consent, seat, consent)
+
+    def _tell_consent(self, browser: _Browser) -> None:
+        """Tell a browser what its person agrees to, as far as this station knows."""
+        browser.tell("consent", self._consents.given_at(self._book.of(browser)))
+
+    async def _say(self, browser: _Browser, seat: str, words: SpokenWords) -> None:
+        if self._consents.admits_words(seat):
+            await asyncio.to_thread(self._run.say, seat, words)
+        else:
+            self._refuse(browser, NO_WORDS)
+            self._tell_consent(browser)
+
+    def _refuse_voice(self, browser: _Browser) -> None:
+        """Refuse what is spoken, once for each call."""
+        if not browser.is_voice_refused:
+            browser.is_voice_refused = True
+            self._refuse(browser, NO_VOICE)
+            self._tell_consent(browser)
 
     async def _press(self, browser: _Browser, seat: str, pressed: Pressed) -> None:
+        browser.is_voice_refused = False
+        if not self._consents.admits_voice(seat):
+            self._refuse_voice(browser)
+            return
         browser.button, browser.pressed_at = HeldButton(), seat
         audio = MicrophoneAudio(
             phase="pressed", frequency_khz=pressed.frequency_khz, delay_s=pressed.delay_s
@@ -309,8 +359,15 @@ class Browsers:
         await asyncio.to_thread(self._run.speak, seat, audio)
 
     async def _hear(self, browser: _Browser, pcm: bytes) -> None:
-        """Pass on the sound of a microphone; what comes after its release is left out."""
-        if browser.button is None:
+        """Pass on the sound of a microphone; what comes after its release is left out.
+
+        So is what comes after the seat was left.
+        """
+        seat = self._book.of(browser)
+        is_admitted = self._consents.admits_voice(seat)
+        if seat is not None and not is_admitted:
+            self._refuse_voice(browser)
+        if browser.button is None or not is_admitted:
             return
         if not browser.button.admits(pcm):
             await self._release(browser)
@@ -346,6 +403,8 @@ class Browsers:
                 if why is None and browser in self._browsers:
                     self._of_seats[seat].forget_notices()
                     await self._move(browser, seat)
+                    if (before := self._consents.before(seat)) is not None:
+                        await asyncio.to_thread(self._run.consent, seat, before)
                 else:
                     await self._inform()  # The claim is withdrawn.
         if why is not None:
@@ -374,10 +433,12 @@ class Browsers:
         It has the other one before anything is waited for, so that nobody else can take it.
         """
         left = self._book.move(browser, seat)
+        self._consents.forget(left, seat)
         browser.tuned, browser.seen_of_seat = frozenset(), 0
         if left is not None:
             browser.watched = None
         self._tell_seats()
+        self._tell_consent(browser)
         await self._inform()
         if left is not None:
             await self._watch()
@@ -432,11 +493,14 @@ class Browsers:
             self._to_the_end(self._expire(hold))
         else:
             self._book.move(back, hold.seat)
+            self._consents.forget(hold.seat)  # Its page was told that it had no seat.
+            self._tell_consent(back)
 
     async def _expire(self, hold: Hold) -> None:
         """Give a seat back whose browser has not come back."""
         await asyncio.sleep(hold.seconds)
         if self._book.expire(hold):
+            self._consents.forget(hold.seat)
             self._tell_seats()
             await self._inform()
 

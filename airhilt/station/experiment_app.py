@@ -8,7 +8,7 @@ from fastapi import FastAPI, Query
 from pydantic import BaseModel, ConfigDict, Field
 
 from airhilt.station.app import page_app, refuse_in_words
-from airhilt.station.experiment import Conductor
+from airhilt.station.conductor import Conductor
 from airhilt.station.questionnaires import Answers
 
 Participant = Annotated[str, Query(max_length=20)]

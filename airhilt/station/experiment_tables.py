@@ -22,7 +22,7 @@ from airhilt.metrics.columns import OF_CALLS, OF_PEOPLE, OF_REACTIONS, OF_RUNS, 
 from airhilt.record import open_run
 from airhilt.record.damage import untold
 from airhilt.report.unread import CANNOT_READ
-from airhilt.station.experiment import Asked, Progress
+from airhilt.station.participant_progress import Asked, Progress
 from airhilt.station.plan import Plan
 from airhilt.station.questionnaires import NASA_TLX, Questionnaire, Scale
 
@@ -110,7 +110,7 @@ def _answers(progress: Progress, run: str) -> dict[str, Any]:
     """Return what the row of a trial has of the answers of its participant."""
     found: dict[str, Any] = {}
     for asked in _asked(progress.plan, run):
-        answers: dict[str, Any] = dict(progress.answers(*asked) or {})
+        answers: dict[str, Any] = dict(progress.answers(asked) or {})
         if asked.questionnaire == NASA_TLX and len(answers) == len(NASA_TLX.items):
             answers["raw_tlx"] = NasaTlx(**answers).raw_tlx
         found |= {f"{asked.questionnaire.name}.{name}": value for name, value in answers.items()}
@@ -120,7 +120,7 @@ def _answers(progress: Progress, run: str) -> dict[str, Any]:
 def _rows(progress: Progress) -> Iterator[_Rows]:
     """Yield the rows of the finished trials of a participant."""
     for position, trial in enumerate(progress.trials, 1):
-        name = progress.finished_run(trial)
+        name = progress.runs.finished_run(trial)
         if name is None:
             continue
         identity = {
@@ -128,10 +128,10 @@ def _rows(progress: Progress) -> Iterator[_Rows]:
             "trial": trial.name,
             "scenario": trial.scenario,
             "position": position,
-            "run": f"{progress.folder.name}/{name}",
+            "run": f"{progress.runs.folder.name}/{name}",
             **{f"condition.{key}": _text(value) for key, value in trial.conditions.items()},
         }
-        folder = progress.folder / name
+        folder = progress.runs.folder / name
         try:
             rows = _of_summary(open_run(folder, untold).summary(), progress.seat(trial))
         except CANNOT_READ as error:

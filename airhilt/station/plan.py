@@ -1,4 +1,4 @@
-"""``plan.json``: an experiment with people, and the order of the trials of each participant."""
+"""``plan.json``: an experiment with people, its participants, trials and questions."""
 
 from __future__ import annotations
 
@@ -97,6 +97,11 @@ class Plan(BaseModel):
     break_after: int = Field(default=0, ge=0, description="trials between breaks; 0: no break")
     break_minutes: float = Field(default=5.0, gt=0.0, le=120.0, description="least time of a break")
     pause: bool = Field(default=False, description="let participants pause and slow the trials")
+    ask_consent: bool = Field(
+        default=True,
+        description="ask before the first trial if voice and typed words may be used; false: the "
+        "seat asks for it when somebody speaks or types",
+    )
     nasa_tlx: bool = Field(default=True, description="ask NASA-TLX at the end of each trial")
     questions: OwnQuestions = Field(
         default_factory=OwnQuestions, description="more questions, on the page of the experiment"
@@ -191,23 +196,6 @@ class Plan(BaseModel):
             for number, combination in enumerate(combinations, 1)
         ]
 
-    def order(self, participant: str) -> list[Trial]:
-        """Return the trials of a participant, in their order.
-
-        Raises
-        ------
-        AirhiltError
-            There is no such participant.
-        """
-        trials = self.trials()
-        rows = balanced_latin_square(len(trials))
-        row = rows[self.teams.index(self.team_of(participant)) % len(rows)]
-        return [trials[index] for index in row]
-
-    def balance(self) -> int:
-        """Return the number of teams of which any multiple makes the order balanced."""
-        return len(balanced_latin_square(len(self.trials())))
-
     def check(self) -> None:
         """Complain about a trial that cannot be run.
 
@@ -224,19 +212,6 @@ class Plan(BaseModel):
                     f"seats: two of {', '.join(self.all_seats)} are the same seat in "
                     f"{trial.scenario}; expected another seat for each participant"
                 )
-
-
-def balanced_latin_square(size: int) -> list[list[int]]:
-    """Return rows of 0 to ``size`` - 1 in which each number follows each other equally often.
-
-    There are ``size`` rows, twice as many if ``size`` is odd (Williams 1949, Aust. J. Chem. 2,
-    149).
-    """
-    first = [0]
-    for step in range(1, size):
-        first.append((step + 1) // 2 if step % 2 else size - step // 2)
-    rows = [[(number + shift) % size for number in first] for shift in range(size)]
-    return rows if size % 2 == 0 else [*rows, *(row[::-1] for row in rows)]
 
 
 def plan_of(document: Any, origin: str) -> Plan:

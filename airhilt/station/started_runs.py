@@ -10,10 +10,12 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from datetime import UTC, datetime
+from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any, Literal
 
 import psutil
@@ -23,6 +25,7 @@ from airhilt.errors import StationError
 from airhilt.files import make_folder, open_inside, read_inside, replace_file
 from airhilt.options import Options, arguments_of
 from airhilt.scenario.seats import seats_of
+from airhilt.station.file_cache import FileCache
 from airhilt.text import LONGEST_LINE, readable
 from airhilt.world.loading import load
 
@@ -68,14 +71,24 @@ class StartedRuns:
         self.folder = folder
         self._page = page
         self._children: list[subprocess.Popen[bytes]] = []
+        self._records = FileCache[StartedRun]()
 
-    def start(self, scenario: Path, options: Options, name: str | None = None) -> str:
+    def start(
+        self,
+        scenario: Path,
+        options: Options,
+        name: str | None = None,
+        agreed: Mapping[str, str | None] = MappingProxyType({}),
+    ) -> str:
         """Start a run in real time, and return its name, which is that of its folder.
 
         Parameters
         ----------
         name
             Name of the run; None: that of the scenario, the seed and the time.
+        agreed
+            Uses of voice and words to which the people at seats have agreed already, by seat; None
+            for nothing.
 
         Raises
         ------
@@ -91,6 +104,7 @@ class StartedRuns:
         given = options.model_copy(update={"out": self.folder / name, "pace": "realtime"})
         command = [sys.executable, "-m", "airhilt", "cosim", f"--scenario={scenario}"]
         command += ["--view", *self._page, *arguments_of(given)]
+        command += [f"--agreed={seat}={use}" for seat, use in agreed.items() if use is not None]
         try:
             make_folder(self.folder / KEPT)
             replace_file(self._output(name), b"")
@@ -135,9 +149,12 @@ class StartedRuns:
         found = []
         for path in (self.folder / KEPT).glob("*.json"):
             with suppress(OSError, ValidationError):  # One that is being written, or is foreign.
-                data = read_inside(self.folder, path, LARGEST_RECORD_BYTES)
-                found.append(StartedRun.model_validate_json(data))
+                found.append(self._records.get(partial(self._read, path), path))
         return sorted(found, key=lambda run: run.created_s, reverse=True)
+
+    def _read(self, path: Path) -> StartedRun:
+        data = read_inside(self.folder, path, LARGEST_RECORD_BYTES)
+        return StartedRun.model_validate_json(data)
 
     def state(self, run: StartedRun) -> State:
         """Return how a run is doing."""

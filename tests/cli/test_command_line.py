@@ -63,6 +63,28 @@ def test_before_a_run_begins_a_person_is_told_that_its_folder_is_not_there_yet(
     assert not (encounter_file.parent / "run").exists()
 
 
+@pytest.mark.parametrize(
+    ("option", "value", "what"),
+    [
+        ("--latency", "bogus", "latency 'bogus': expected measured"),
+        ("--pace", "-3", "pace '-3': expected"),
+        ("--out", "taken", "holds files that are no run"),
+        ("--asr", "bogus", "bogus"),
+    ],
+)
+def test_a_bad_option_is_refused_before_anything_is_begun(
+    airhilt_command: Any, encounter_file: Path, option: str, value: str, what: str
+) -> None:
+    taken = encounter_file.parent / "taken"
+    taken.mkdir()
+    (taken / "notes").touch()
+    for page in ((), ("--view", "--no-browser")):
+        done = airhilt_command("cosim", "--scenario", encounter_file, option, value, *page)
+        (line,) = done.stderr.splitlines()
+        assert what in line
+        assert (done.returncode, done.stdout) == (2, "")
+
+
 def test_what_a_person_reads_names_the_numbers(airhilt_command: Any, encounter_file: Path) -> None:
     done = airhilt_command("cosim", "--scenario", encounter_file, "--out", "run")
     assert done.returncode == 0, done.stderr

@@ -630,11 +630,13 @@ def test_an_advisory_on_the_frequency_is_spoken_from_when_the_call_begins_that_i
 # --- with a radio ---------------------------------------------------------------------------
 
 
-def call(heard: str | None = None, snr_db: float | None = None) -> list[Any]:
+def call(
+    heard: str | None = None, snr_db: float | None = None, said: str | None = None
+) -> list[Any]:
     times = {"id": "a", "frequency_khz": 134_325, "t_tx_ns": 0, "t_end_ns": SECOND_NS}
-    text = f"{SPOKEN}, maintain flight level three five zero"
-    said = SpokenTruth(**times, speaker="Centre", addressed=FIRST, text=text, snr_db=snr_db)
-    messages = [said, Transmission(**times, samples=16_000, snr_db=snr_db)]
+    text = said or f"{SPOKEN}, maintain flight level three five zero"
+    truth = SpokenTruth(**times, speaker="Centre", addressed=FIRST, text=text, snr_db=snr_db)
+    messages = [truth, Transmission(**times, samples=16_000, snr_db=snr_db)]
     if heard is not None:
         transcript = Transcript(
             t_ns=round(1.25 * SECOND_NS), **times, text=heard, confidence=0.9, engine="embedded"
@@ -676,6 +678,17 @@ def test_the_terminal_tells_how_well_speech_was_recognised(
     shown = " ".join(capsys.readouterr().out.split())
     assert "radio 1 transmission" in shown
     assert "word error rate 0.0 %, callsigns 100.0 %, slots 100.0 %, p95 250 ms after" in shown
+
+
+def test_the_terminal_gives_no_share_of_what_was_not_said(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    followed = FollowedRun()
+    for message in call("hello", said="hello"):
+        followed.take(message)
+    print_summary(followed.summary(), tmp_path)
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "recognition word error rate 0.0 %, p95 250 ms after" in shown
 
 
 def test_the_terminal_says_nothing_of_recognition_where_there_was_none(

@@ -54,6 +54,9 @@ def test_there_are_shipped_scenarios_of_the_family_s02a() -> None:
 @pytest.mark.parametrize(
     ("path", "value", "where", "what"),
     [
+        ("weather", [], "weather", "found [], expected a JSON object"),
+        ("actors/0", "x", "actors/0", 'found "x", expected a JSON object'),
+        ("actors", {}, "actors", "found {}, expected a JSON list"),
         ("durations", 5, "durations", "unknown field; did you mean 'duration_s'?"),
         ("actors/0/calsign", "X1", "actors/0/calsign", "unknown field; did you mean 'callsign'?"),
         ("actors/0/initial/altitude", 1, "actors/0/initial/altitude", "did you mean 'altitude_ft'"),
@@ -76,6 +79,16 @@ def test_what_is_wrong_with_a_field_is_told_with_its_path(
     message = complaint(changed(HEAD_ON, path, value))
     assert f"test.json: {where}: " in message
     assert what in message
+
+
+@pytest.mark.parametrize("document", [[], 3, "x", None])
+def test_a_document_that_is_no_object_is_refused_with_the_fields_of_a_scenario(
+    document: Any,
+) -> None:
+    assert complaint(document) == (
+        f"test.json: (top): found {json.dumps(document)}, expected a JSON object with the fields "
+        "name, title, family, scene, duration_s, actors"
+    )
 
 
 @pytest.mark.parametrize(

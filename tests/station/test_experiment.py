@@ -17,7 +17,9 @@ import psutil
 import pyarrow.parquet as pq
 import pytest
 
+from airhilt import files
 from airhilt.errors import AirhiltError, RunFolderError, StationError
+from airhilt.files import open_inside
 from airhilt.library import find
 from airhilt.messages import NasaTlx, Severity
 from airhilt.metrics.summary import (
@@ -29,11 +31,13 @@ from airhilt.metrics.summary import (
 )
 from airhilt.options import Options
 from airhilt.record import RunFolder
-from airhilt.station.experiment import Asked, Conductor, Progress
+from airhilt.station.conductor import Conductor
 from airhilt.station.experiment_tables import write_tables
-from airhilt.station.plan import Plan, balanced_latin_square, plan_of
+from airhilt.station.participant_progress import Asked, Progress
+from airhilt.station.plan import Plan, plan_of
 from airhilt.station.questionnaires import NASA_TLX, Answers
 from airhilt.station.started_runs import StartedRun, StartedRuns
+from airhilt.station.trial_order import balanced_latin_square, order_of
 
 Cli = Callable[..., subprocess.CompletedProcess[str]]
 ANSWERS: Answers = {
@@ -99,6 +103,7 @@ def plan(**given: Any) -> Plan:
         "seat": "AAL123",
         "scenarios": ["s02a_headon"],
         "conditions": {"assistant": ["reference", "none"]},
+        "ask_consent": False,
     }
     return plan_of(document | given, "plan.json")
 
@@ -193,11 +198,11 @@ def test_a_finished_trial_is_not_run_again_and_has_a_row(
     conductor = Conductor([progress])
     assert conductor.state()["step"] == "ready"
     first, second = progress.trials
-    stopped = shutil.copytree(recorded_run, progress.folder / f"01-{first.name}") / "run.json"
+    stopped = shutil.copytree(recorded_run, progress.runs.folder / f"01-{first.name}") / "run.json"
     stopped.write_text(json.dumps(json.loads(stopped.read_text()) | {"phase": "stopped"}))
     assert conductor.state()["step"] == "ready"
-    assert progress.new_run(first) == f"01-{first.name}-2"
-    shutil.copytree(recorded_run, progress.folder / f"01-{first.name}-2")
+    assert progress.runs.new_run(first) == f"01-{first.name}-2"
+    shutil.copytree(recorded_run, progress.runs.folder / f"01-{first.name}-2")
     assert conductor.state()["step"] == "questions"
     with pytest.raises(StationError, match="not time"):
         conductor.begin()
@@ -226,7 +231,7 @@ def test_the_row_of_a_trial_has_the_totals_of_its_person(
     unadvised = ignored.model_copy(update={"t_seen_s": None, "t_heard_s": 5.0, "followed": None})
     person = PERSON.model_copy(update={"reactions": [REACTION, ignored, unadvised]})
     name = f"01-{progress.trials[0].name}"
-    finished(recorded_run, progress.folder / name, [person.model_dump(mode="json")])
+    finished(recorded_run, progress.runs.folder / name, [person.model_dump(mode="json")])
     write_tables(experiment, tmp_path)
     row = table(tmp_path / "experiment.parquet")[0]
     own = {key.removeprefix("person."): row[key] for key in row if key.startswith("person.")}
@@ -257,7 +262,7 @@ def test_a_reaction_and_a_call_have_a_row_with_their_trial(
     experiment = plan(participants=["P01"])
     progress = Progress(experiment, tmp_path, "P01")
     for position, trial in enumerate(progress.trials, 1):
-        folder = progress.folder / f"{position:02d}-{trial.name}"
+        folder = progress.runs.folder / f"{position:02d}-{trial.name}"
         people = [PERSON.model_dump(mode="json")] if position == 2 else []
         finished(recorded_run, folder, people)
     assert write_tables(experiment, tmp_path) == (2, 1, 1)
@@ -278,14 +283,14 @@ def test_a_run_whose_seat_was_never_taken_is_no_finished_trial(
     progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
     name = f"01-{progress.trials[0].name}"
     person = PERSON.model_copy(update={"seat_time_s": seat_time_s})
-    finished(recorded_run, progress.folder / name, [person.model_dump(mode="json")])
-    assert progress.finished_run(progress.trials[0]) == (name if is_done else None)
+    finished(recorded_run, progress.runs.folder / name, [person.model_dump(mode="json")])
+    assert progress.runs.finished_run(progress.trials[0]) == (name if is_done else None)
     assert Conductor([progress]).state()["step"] == ("questions" if is_done else "ready")
 
 
 def test_a_trial_waits_for_its_participant(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     started: list[Options] = []
-    monkeypatch.setattr(StartedRuns, "start", lambda _, __, options, ___: started.append(options))
+    monkeypatch.setattr(StartedRuns, "start", lambda _, __, options, *___: started.append(options))
     Conductor([Progress(plan(participants=["P01"]), tmp_path, "P01")]).begin()
     assert started[0].wait_for_seats
 
@@ -295,7 +300,7 @@ def test_a_trial_is_paused_only_where_the_plan_lets_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, given: dict[str, bool], may_pause: bool
 ) -> None:
     started: list[Options] = []
-    monkeypatch.setattr(StartedRuns, "start", lambda _, __, options, ___: started.append(options))
+    monkeypatch.setattr(StartedRuns, "start", lambda _, __, options, *___: started.append(options))
     conductor = Conductor([Progress(plan(participants=["P01"], **given), tmp_path, "P01")])
     conductor.begin()
     assert (started[0].pause, conductor.state()["may_pause"]) == (may_pause, may_pause)
@@ -314,7 +319,7 @@ def test_an_earlier_version_that_wrote_less_of_a_person_leaves_gaps(
         person["workload"],
         person["calls"],
     )
-    finished(recorded_run, progress.folder / f"01-{progress.trials[0].name}", [person])
+    finished(recorded_run, progress.runs.folder / f"01-{progress.trials[0].name}", [person])
     write_tables(experiment, tmp_path)
     row = table(tmp_path / "experiment.parquet")[0]
     names = ("seat_time_s", "unperceived", "isa_mean", "commands")
@@ -329,7 +334,7 @@ def test_people_that_no_run_writes_are_refused_in_words(
 ) -> None:
     experiment = plan(participants=["P01"])
     progress = Progress(experiment, tmp_path, "P01")
-    finished(recorded_run, progress.folder / f"01-{progress.trials[0].name}", people)
+    finished(recorded_run, progress.runs.folder / f"01-{progress.trials[0].name}", people)
     with pytest.raises(RunFolderError, match="its numbers cannot be read"):
         write_tables(experiment, tmp_path)
 
@@ -339,7 +344,7 @@ def test_the_page_of_a_trial_that_is_over_is_not_that_of_the_next_one(
 ) -> None:
     progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
     name = f"01-{progress.trials[0].name}"
-    shutil.copytree(recorded_run, progress.folder / name)
+    shutil.copytree(recorded_run, progress.runs.folder / name)
     progress.answer(Asked(NASA_TLX, name), ANSWERS)
     still_there = StartedRun(
         name=name,
@@ -348,7 +353,7 @@ def test_the_page_of_a_trial_that_is_over_is_not_that_of_the_next_one(
         process=os.getpid(),
         created_s=psutil.Process().create_time(),
     )
-    kept = progress.folder / ".station"
+    kept = progress.runs.folder / ".station"
     kept.mkdir()
     (kept / f"{name}.json").write_text(still_there.model_dump_json())
     state = Conductor([progress]).state()
@@ -372,7 +377,7 @@ def test_a_participant_is_told_nothing_of_the_scenario(
     monkeypatch.setattr(
         StartedRuns,
         "start",
-        lambda _, __, options, name: started.append((options.run_name, name)),
+        lambda _, __, options, name, ___: started.append((options.run_name, name)),
     )
     progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
     conductor = Conductor([progress])
@@ -387,7 +392,7 @@ def test_numbers_that_a_run_did_not_write_do_not_enter_the_table(
     experiment = plan(participants=["P01"])
     progress = Progress(experiment, tmp_path, "P01")
     name = f"01-{progress.trials[0].name}"
-    numbers = shutil.copytree(recorded_run, progress.folder / name) / "summary.json"
+    numbers = shutil.copytree(recorded_run, progress.runs.folder / name) / "summary.json"
     numbers.write_text(numbers.read_text().replace('"duration_s": 8.0', '"duration_s": 80.0'))
     with pytest.raises(RunFolderError, match=r"summary\.json: damaged or changed"):
         write_tables(experiment, tmp_path)
@@ -402,14 +407,14 @@ def test_a_trial_whose_record_cannot_be_read_is_begun_again(
 ) -> None:
     progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
     first = progress.trials[0]
-    folder = shutil.copytree(recorded_run, progress.folder / f"01-{first.name}")
+    folder = shutil.copytree(recorded_run, progress.runs.folder / f"01-{first.name}")
     (folder / "run.json").write_bytes(content)
-    assert progress.finished_run(first) is None
+    assert progress.runs.finished_run(first) is None
 
 
 def test_a_break_has_to_be_taken(recorded_run: Path, tmp_path: Path) -> None:
     progress = Progress(plan(break_after=1), tmp_path, "P01")
-    shutil.copytree(recorded_run, progress.folder / f"01-{progress.trials[0].name}")
+    shutil.copytree(recorded_run, progress.runs.folder / f"01-{progress.trials[0].name}")
     conductor = Conductor([progress])
     conductor.answer("nasa_tlx", ANSWERS)
     assert conductor.state()["rest_s"] > 100.0
@@ -423,7 +428,7 @@ def test_who_starts_the_page_again_does_not_leave_the_break_out(
     progress = Progress(plan(break_after=1), tmp_path, "P01")
     assert Conductor([progress]).state()["rest_s"] == 0.0
     name = f"01-{progress.trials[0].name}"
-    shutil.copytree(recorded_run, progress.folder / name)
+    shutil.copytree(recorded_run, progress.runs.folder / name)
     progress.answer(Asked(NASA_TLX, name), ANSWERS)
     assert Conductor([progress]).state()["rest_s"] > 100.0
 
@@ -471,7 +476,7 @@ def test_own_questions_are_asked_before_after_each_trial_and_at_the_end(
     conductor.answer("before", {"licence": "private"})
     assert conductor.state()["step"] == "ready"
     for position, trial in enumerate(progress.trials, 1):
-        finished(recorded_run, progress.folder / f"{position:02d}-{trial.name}", [])
+        finished(recorded_run, progress.runs.folder / f"{position:02d}-{trial.name}", [])
         assert names_asked(conductor) == list(ANSWERS)
         conductor.answer("nasa_tlx", ANSWERS)
         assert names_asked(conductor) == ["trust"]
@@ -487,14 +492,14 @@ def test_own_questions_are_asked_before_after_each_trial_and_at_the_end(
         ["private", 25.0, 1.0, "with"],
         ["private", 25.0, 2.0, "with"],
     ]
-    kept = json.loads((progress.folder / "before.json").read_text())
+    kept = json.loads((progress.runs.folder / "before.json").read_text())
     assert kept == {"licence": "private"}
 
 
 def test_what_is_not_answered_yet_is_empty_in_the_table(recorded_run: Path, tmp_path: Path) -> None:
     experiment = plan(participants=["P01"], questions=QUESTIONS)
     progress = Progress(experiment, tmp_path, "P01")
-    finished(recorded_run, progress.folder / f"01-{progress.trials[0].name}", [])
+    finished(recorded_run, progress.runs.folder / f"01-{progress.trials[0].name}", [])
     write_tables(experiment, tmp_path)
     row = table(tmp_path / "experiment.parquet")[0]
     asked = ("before.licence", "after_trial.trust", "end.preferred", "nasa_tlx.effort")
@@ -508,7 +513,7 @@ def test_ratings_that_were_given_at_the_seat_are_not_asked_again(
     progress = Progress(experiment, tmp_path, "P01")
     workload = PERSON.workload.model_copy(update={"nasa_tlx": NasaTlx.model_validate(ANSWERS)})
     person = PERSON.model_copy(update={"workload": workload}).model_dump(mode="json")
-    finished(recorded_run, progress.folder / f"01-{progress.trials[0].name}", [person])
+    finished(recorded_run, progress.runs.folder / f"01-{progress.trials[0].name}", [person])
     assert names_asked(Conductor([progress])) == ["trust"]
     write_tables(experiment, tmp_path)
     assert table(tmp_path / "experiment.parquet")[0]["nasa_tlx.raw_tlx"] == 25.0
@@ -539,8 +544,8 @@ def test_answers_that_the_items_do_not_take_are_refused_in_words(
 def test_answers_that_no_page_wrote_are_refused_in_words(tmp_path: Path, content: str) -> None:
     """They are not asked again by themselves: the answers of a person would be lost."""
     progress = Progress(plan(participants=["P01"], questions={"before": [TRUST]}), tmp_path, "P01")
-    progress.folder.mkdir()
-    (progress.folder / "before.json").write_text(content)
+    progress.runs.folder.mkdir()
+    (progress.runs.folder / "before.json").write_text(content)
     with pytest.raises(RunFolderError, match=r"before\.json: .*move the file away to ask again"):
         Conductor([progress]).state()
 
@@ -551,7 +556,7 @@ def test_an_item_that_came_into_the_plan_later_leaves_a_gap(
     progress = Progress(plan(participants=["P01"], questions={"before": [TRUST]}), tmp_path, "P01")
     Conductor([progress]).answer("before", {"trust": 3})
     later = plan(participants=["P01"], questions={"before": [TRUST, LICENCE]})
-    finished(recorded_run, progress.folder / f"01-{progress.trials[0].name}", [])
+    finished(recorded_run, progress.runs.folder / f"01-{progress.trials[0].name}", [])
     write_tables(later, tmp_path)
     row = table(tmp_path / "experiment.parquet")[0]
     assert (row["before.trust"], row["before.licence"]) == (3.0, None)
@@ -571,7 +576,7 @@ def test_the_scales_of_nasa_tlx_are_those_that_the_run_takes() -> None:
 
 def test_a_team_has_one_order_of_trials_and_the_next_team_another() -> None:
     experiment = team_plan()
-    order = {name: [trial.name for trial in experiment.order(name)] for name in
+    order = {name: [trial.name for trial in order_of(experiment, name)] for name in
              ("P01", "P02", "P03", "P04")}  # fmt: skip
     assert order["P01"] == order["P02"] == ["s01b_nominal-1", "s01b_nominal-2"]
     assert order["P03"] == order["P04"] == ["s01b_nominal-2", "s01b_nominal-1"]
@@ -593,7 +598,7 @@ def test_a_trial_of_a_team_has_all_its_seats_and_begins_when_each_is_ready(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     started: list[Options] = []
-    monkeypatch.setattr(StartedRuns, "start", lambda _, __, options, ___: started.append(options))
+    monkeypatch.setattr(StartedRuns, "start", lambda _, __, options, *___: started.append(options))
     conductor = Conductor(led(team_plan(questions={"before": [LICENCE]}), tmp_path, "P02"))
     assert conductor.state()["step"] == "choose"
     assert conductor.state()["seats"] == {"P01": "tower", "P02": "AAL123"}
@@ -611,10 +616,84 @@ def test_a_trial_of_a_team_has_all_its_seats_and_begins_when_each_is_ready(
         conductor.state("P03")
 
 
+def consented(conductor: Conductor, use: str, participant: str, *, is_recorded: bool) -> None:
+    """Answer the question of consent, which is the one that is open."""
+    name = "consent" if is_recorded else "consent_unrecorded"
+    state = conductor.state(participant)
+    assert (state["step"], state["questions"]["name"]) == ("questions", name)
+    (item,) = state["questions"]["items"]
+    assert ("is not recorded" in item["question"]) is not is_recorded
+    conductor.answer(name, {"use": use}, participant)
+
+
+def test_a_trial_begins_when_each_of_a_team_was_asked_for_consent_and_has_the_answers(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started: list[Any] = []
+    monkeypatch.setattr(StartedRuns, "start", lambda *given: started.append(given[-1]))
+    questions = {"before": [LICENCE]}
+    conductor = Conductor(led(team_plan(ask_consent=True, questions=questions), tmp_path, "P01"))
+    for name in ("P01", "P02"):
+        conductor.answer("before", {"licence": "none"}, name)
+    consented(conductor, "Voice and typed words", "P01", is_recorded=True)
+    assert conductor.state("P01")["step"] == "waiting"
+    with pytest.raises(StationError, match="not time for a trial"):
+        conductor.begin("P01")
+    consented(conductor, "Neither: ask me at the seat", "P02", is_recorded=True)
+    conductor.begin("P01")
+    assert started == [{"Washington Tower": "voice", "AAL123": None}]
+
+
+def test_consent_is_asked_once_unless_other_trials_record_voices_or_not(
+    recorded_run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    started: list[Any] = []
+    monkeypatch.setattr(StartedRuns, "start", lambda *given: started.append(given[-1]))
+    experiment = plan(
+        participants=["P01"], ask_consent=True, nasa_tlx=False,
+        conditions={"voice_recording": [True, False], "assistant": ["reference", "none"]},
+    )  # fmt: skip
+    progress = Progress(experiment, tmp_path, "P01")
+    asked = 0
+    for position, trial in enumerate(progress.trials, 1):
+        conductor = Conductor([progress])
+        if conductor.state()["step"] == "questions":
+            is_recorded = trial.conditions["voice_recording"] is True
+            use = "Voice and typed words" if is_recorded else "Typed words alone"
+            consented(conductor, use, "", is_recorded=is_recorded)
+            asked += 1
+        conductor.begin()
+        finished(recorded_run, progress.runs.folder / f"{position:02d}-{trial.name}", [])
+    uses = {True: "voice", False: "words"}
+    assert started == [
+        {"AAL123": uses[bool(trial.conditions["voice_recording"])]} for trial in progress.trials
+    ]
+    assert (asked, Conductor([progress]).state()["step"]) == (2, "done")
+
+
+def test_a_run_of_a_trial_is_told_who_has_agreed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    commands: list[list[str]] = []
+
+    def begin(command: list[str], **_: Any) -> Any:
+        commands.append(command)
+        raise OSError("no process in this test")
+
+    monkeypatch.setattr(subprocess, "Popen", begin)
+    with pytest.raises(OSError, match="no process"):
+        StartedRuns(tmp_path).start(
+            find("scenarios", "s01b_nominal"), Options(seat=("tower", "AAL123")), "run",
+            {"Washington Tower": "voice", "AAL123": None},
+        )  # fmt: skip
+    given = [one for one in commands[0] if one.startswith("--agreed")]
+    assert given == ["--agreed=Washington Tower=voice"]
+
+
 def goes_on(progress: Progress) -> None:
     """Let the first trial of a team go on, in the process of the tests."""
     name = f"01-{progress.trials[0].name}"
-    kept = progress.folder / ".station"
+    kept = progress.runs.folder / ".station"
     kept.mkdir(parents=True)
     started = StartedRun(
         name=name,
@@ -680,10 +759,10 @@ def test_a_trial_of_a_team_of_which_one_never_sat_is_not_finished(
 ) -> None:
     team = led(team_plan(), tmp_path, "P01")
     trial = team[0].trials[0]
-    finished(recorded_run, team[0].folder / f"01-{trial.name}", two_people(seat_time_s=0.0))
-    assert [one.finished_run(trial) for one in team] == [None, None]
-    finished(recorded_run, team[0].folder / f"01-{trial.name}-2", two_people(seat_time_s=0.5))
-    assert [one.finished_run(trial) for one in team] == [f"01-{trial.name}-2"] * 2
+    finished(recorded_run, team[0].runs.folder / f"01-{trial.name}", two_people(seat_time_s=0.0))
+    assert [one.runs.finished_run(trial) for one in team] == [None, None]
+    finished(recorded_run, team[0].runs.folder / f"01-{trial.name}-2", two_people(seat_time_s=0.5))
+    assert [one.runs.finished_run(trial) for one in team] == [f"01-{trial.name}-2"] * 2
 
 
 @pytest.mark.parametrize(
@@ -702,7 +781,7 @@ def test_a_trial_that_had_other_seats_is_refused(
     """The plan was changed: who is a pilot in it now had the seat of the controller then."""
     team = led(team_plan(), tmp_path, "P01")
     name = f"01-{team[0].trials[0].name}"
-    finished(recorded_run, team[0].folder / name, two_people())
+    finished(recorded_run, team[0].runs.folder / name, two_people())
     changed = plan(**given)
     with pytest.raises(RunFolderError, match=rf"P01\+P02/{name}: .*{said}"):
         Conductor(led(changed, tmp_path, "P01"))
@@ -715,7 +794,7 @@ def test_a_trial_of_a_participant_who_had_another_seat_is_refused(
 ) -> None:
     progress = Progress(plan(participants=["P01"], scenarios=["s01b_nominal"]), tmp_path, "P01")
     name = f"01-{progress.trials[0].name}"
-    finished(recorded_run, progress.folder / name, [PERSON.model_dump(mode="json")])
+    finished(recorded_run, progress.runs.folder / name, [PERSON.model_dump(mode="json")])
     changed = plan(participants=["P01"], scenarios=["s01b_nominal"], seat="tower")
     with pytest.raises(RunFolderError, match="its seat was AAL123; expected Washington Tower"):
         write_tables(changed, tmp_path)
@@ -738,11 +817,43 @@ def test_a_team_in_another_order_than_its_folder_is_refused(
     for participant in ("P01", "P02"):
         with pytest.raises(RunFolderError, match=said):
             Progress(changed, tmp_path / "out", participant)
-    assert Progress(changed, tmp_path / "out", "P03").folder.name == "P03+P04"
+    assert Progress(changed, tmp_path / "out", "P03").runs.folder.name == "P03+P04"
     (tmp_path / "plan.json").write_text(changed.model_dump_json())
     done = airhilt_command("experiment", tmp_path / "plan.json", "--out", tmp_path / "out")
     assert done.returncode == 2
     assert "another order" in done.stderr
+
+
+def test_a_page_that_looks_again_reads_only_what_has_changed(
+    recorded_run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read: list[str] = []
+
+    def noted(folder: Path, path: Path) -> Any:
+        read.append(path.name)
+        return open_inside(folder, path)
+
+    monkeypatch.setattr(files, "open_inside", noted)
+    progress = Progress(plan(participants=["P01"], questions=QUESTIONS), tmp_path, "P01")
+    conductor = Conductor([progress])
+    first, second = (f"{at:02d}-{one.name}" for at, one in enumerate(progress.trials, 1))
+    conductor.answer("before", {"licence": "none"})
+    finished(recorded_run, progress.runs.folder / first, [PERSON.model_dump(mode="json")])
+    conductor.answer("nasa_tlx", ANSWERS)
+    conductor.answer("after_trial", {"trust": 5})
+    running = shutil.copytree(recorded_run, progress.runs.folder / second) / "run.json"
+    running.write_text(json.dumps(json.loads(running.read_text()) | {"phase": "running"}))
+    assert conductor.state()["step"] == "ready"
+    read.clear()
+    for _ in range(3):
+        assert conductor.state()["step"] == "ready"
+    assert read == []
+    running.write_text(json.dumps(json.loads(running.read_text()) | {"phase": "finished"}))
+    assert conductor.state()["step"] == "questions"
+    assert set(read) <= {"run.json", "summary.json", f"{second}.nasa_tlx.json"}
+    assert read.count("run.json") == 1
+    (progress.runs.folder / "before.json").unlink()
+    assert conductor.state()["questions"]["name"] == "before"
 
 
 def test_who_begins_a_trial_that_has_begun_is_led_to_it(

@@ -19,15 +19,17 @@ import pytest
 from PIL import Image
 
 from airhilt.library import find
+from airhilt.record import open_run
 from airhilt.station.started_runs import StartedRuns
 from devtools import Page
 from microphone import page_with_microphone
+from seats import contents
 from shortened import shortened
 from stations import PATIENCE_S, TOKEN, experimenting, reachable
 
 LOW_CONTRAST = Path(__file__).with_name("contrast.js").read_text()
 PLAN: dict[str, Any] = {
-    "participants": ["P01"], "seat": "AAL123", "scenarios": ["s02a_headon"],
+    "participants": ["P01"], "seat": "AAL123", "scenarios": ["s02a_headon"], "ask_consent": False,
     "questions": {
         "before": [
             {"type": "choice", "name": "licence", "question": "Which licence have you?",
@@ -51,6 +53,8 @@ ANSWER_ALL = """
     }
 """
 NOTES = "document.getElementById('notes').textContent"
+ASKED = "document.getElementById('consent').open"
+SAID = "document.getElementById('words').value === ''"
 SUBMIT = "document.getElementById('questions').requestSubmit()"
 
 
@@ -353,7 +357,7 @@ def test_a_controller_and_a_pilot_have_a_trial_together(tmp_path: Path) -> None:
     (tmp_path / "short.json").write_text(json.dumps(shortened(scenario, 12.0)))
     team = {
         "participants": [["P01", "P02"]], "seats": ["tower", "AAL123"], "seat": None,
-        "scenarios": [str(tmp_path / "short.json")], "nasa_tlx": False,
+        "scenarios": [str(tmp_path / "short.json")], "nasa_tlx": False, "ask_consent": True,
         "options": {"speech": False, "cameras": False, "assistant": "none"},
         "questions": {"after_trial": [PLAN["questions"]["before"][1]]},
     }  # fmt: skip
@@ -371,6 +375,11 @@ def test_a_controller_and_a_pilot_have_a_trial_together(tmp_path: Path) -> None:
         assert tower.evaluate(LOW_CONTRAST) == []
         tower.evaluate("document.querySelector('#choices a[href=\"#P01\"]').click()")
         go(pilot, url, "P02")
+        for page, use in ((tower, "Voice and typed words"), (pilot, "Neither: ask me at the seat")):
+            heading(page, "Your voice and your words")
+            assert page.evaluate(LOW_CONTRAST) == []
+            page.evaluate(f"document.querySelector('[value=\"{use}\"]').click()")
+            page.evaluate(SUBMIT)
         heading(tower, "Trial 1 of 1")
         tower.click("begin")
         people = ((tower, "P01", "Washington Tower", "1"), (pilot, "P02", "AAL123", "5"))
@@ -381,6 +390,11 @@ def test_a_controller_and_a_pilot_have_a_trial_together(tmp_path: Path) -> None:
             assert page.evaluate(f"[...{offered}.options].map((one) => one.value)") == [seat]
             page.click("seat-take")
             page.wait_for("!document.getElementById('say').hidden")
+            page.evaluate("document.getElementById('words').value = 'Hello.'")
+            page.click("say-button")
+            page.wait_for(f"{ASKED} || {SAID}")
+            assert page.evaluate(ASKED) is (page is pilot)
+            page.evaluate("document.getElementById('consent').close()")
         for page, participant, _, answer in people:
             page.wait_for("document.getElementById('state').textContent === 'finished'")
             go(page, url, participant)
@@ -398,3 +412,9 @@ def test_a_controller_and_a_pilot_have_a_trial_together(tmp_path: Path) -> None:
         ["P02", "AAL123", f"P01+P02/{run}", "5"],
     ]
     assert all(0.0 < float(row["person.seat_time_s"]) <= 12.0 for row in rows)
+    agreed = [
+        (one["subject"], one["text"])
+        for one in contents(list(open_run(folder / run).messages()), "truth/event")
+        if "agree" in one["text"]
+    ]
+    assert agreed == [("Washington Tower", "agrees to speak; the voice is recorded")]

@@ -29,7 +29,7 @@ from microphone import (
     talk,
 )
 from seats import voice
-from stations import PATIENCE_S, PretendedRun, seat_page, seats_given_back_at_once
+from stations import PATIENCE_S, PretendedRun, agree, seat_page, seats_given_back_at_once
 
 SAY_PLACE = "document.getElementById('say-button').getBoundingClientRect().y"
 STATE = "document.getElementById('talk-state').textContent"
@@ -183,6 +183,7 @@ def test_who_is_denied_the_microphone_is_told_and_can_type(
 def sitting(url: str) -> Iterator[ClientConnection]:
     with connect(url.replace("http", "ws") + "api/live", proxy=None) as socket:
         socket.send(json.dumps({"take": "TOWER"}))
+        agree(socket)
         yield socket
 
 

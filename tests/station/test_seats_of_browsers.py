@@ -7,16 +7,16 @@ import json
 import threading
 import time
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager, suppress
+from contextlib import ExitStack, suppress
 
 import pytest
 from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import ClientConnection, connect
+from websockets.sync.client import ClientConnection
 
 from airhilt.messages import SpokenWords
 from airhilt.station import browsers, seat_book
 from airhilt.station.wishes import Claimed
-from stations import PATIENCE_S, TOWER, PretendedRun, seat_page
+from stations import PATIENCE_S, TOWER, PretendedRun, agree, answer, browser, seat_page
 
 TWO = (TOWER, TOWER.model_copy(update={"seat": "GROUND"}))
 
@@ -27,21 +27,8 @@ def seat() -> Iterator[tuple[PretendedRun, str]]:
         yield seat
 
 
-@contextmanager
-def browser(url: str, identity: str) -> Iterator[ClientConnection]:
-    place = f"{url.replace('http', 'ws')}api/live?browser={identity}"
-    with connect(place, proxy=None) as socket:
-        yield socket
-
-
 def take(socket: ClientConnection) -> None:
     socket.send(json.dumps({"take": "TOWER"}))
-
-
-def answer(socket: ClientConnection, kind: str) -> object:
-    while kind not in (message := json.loads(socket.recv(timeout=PATIENCE_S))):
-        pass
-    return message[kind]
 
 
 def test_who_comes_back_at_once_has_the_seat_again_and_nobody_else_gets_it(
@@ -110,6 +97,7 @@ def test_who_has_no_seat_does_not_use_up_what_is_told_of_a_seat() -> None:
 def test_a_button_that_is_let_go_after_the_seat_was_left_is_not_refused() -> None:
     with seat_page() as (run, url), browser(url, "a") as own:
         take(own)
+        agree(own)
         own.send(json.dumps({"press": {}}))
         own.send(PIECE)
         own.send(json.dumps({"leave": "TOWER"}))
@@ -227,6 +215,7 @@ PIECE = bytes(3_200)
 def test_who_is_on_the_air_is_refused_another_seat_and_the_call_goes_on() -> None:
     with seat_page(PretendedRun(TWO)) as (run, url), browser(url, "a") as own:
         take(own)
+        agree(own)
         own.send(json.dumps({"press": {}}))
         own.send(PIECE)
         for seat in ("GROUND", "TOWER"):
@@ -243,6 +232,7 @@ def test_who_is_on_the_air_is_refused_another_seat_and_the_call_goes_on() -> Non
 def test_who_leaves_the_seat_while_on_the_air_ends_the_call() -> None:
     with seat_page(PretendedRun(TWO)) as (run, url), browser(url, "a") as own:
         take(own)
+        agree(own)
         own.send(json.dumps({"press": {}}))
         own.send(PIECE)
         own.send(json.dumps({"leave": "TOWER"}))
@@ -258,6 +248,7 @@ def test_who_is_on_the_air_keeps_seat_and_call_when_somebody_else_claims_the_sea
         browser(url, "b") as other,
     ):
         take(own)
+        agree(own)
         own.send(json.dumps({"press": {}}))
         own.send(PIECE)
         while run.done.qsize() < 2:
@@ -405,6 +396,7 @@ def test_a_seat_is_free_again_when_its_browser_could_not_be_served(
         with browser(url, "a") as own:
             take(own)
             assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", True)
+            agree(own)
             own.send(json.dumps({"say": {"text": "hello"}}))
             with suppress(ConnectionClosed):
                 for _ in own:
@@ -572,5 +564,38 @@ def test_nobody_at_a_seat_pauses_a_run_that_has_no_pause() -> None:
         for factor in (0.0, 0.5, 1.0):
             own.send(json.dumps({"pace": {"factor": factor}}))
             assert answer(own, "refused") == "This run has no pause and no slow motion."
+        agree(own, "words")
         own.send(json.dumps({"say": {"text": "hello"}}))
         assert run.next().text == "hello"
+
+
+@pytest.mark.parametrize("after_s", ["1e300", "-1e300", "10.1", "-10.1", "NaN", "Infinity"])
+@pytest.mark.parametrize(
+    "wished",
+    [
+        '{"heard": {"id": "a", "after_s": %s}}',
+        '{"perceived": {"id": "a", "revision": 0, "recipient": "ATC", "way": "heard", '
+        '"after_s": %s}}',
+    ],
+    ids=["heard", "perceived"],
+)
+def test_a_time_at_which_nothing_can_have_been_audible_is_refused_in_words(
+    wished: str, after_s: str
+) -> None:
+    with seat_page() as (run, url), browser(url, "a") as own:
+        take(own)
+        own.send(wished % after_s)
+        with suppress(ConnectionClosed):
+            for _ in own:
+                pass
+        assert "after_s: Input should be" in (own.close_reason or "")
+        assert (run.heard.empty(), run.done.empty()) == (True, True)
+        assert "after_s" in run.told[-1]
+
+
+@pytest.mark.parametrize("after_s", [-10.0, 0.6, 10.0])
+def test_a_time_at_which_a_call_can_have_been_audible_is_passed_on(after_s: float) -> None:
+    with seat_page() as (run, url), browser(url, "a") as own:
+        take(own)
+        own.send(json.dumps({"heard": {"id": "a", "after_s": after_s}}))
+        assert run.heard.get(timeout=PATIENCE_S).after_s == after_s

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import asyncio
 import collections
+import json
 import queue
 import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import httpx
@@ -23,6 +25,7 @@ from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.hazmat.primitives.hashes import SHA256
 from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
 from cryptography.x509.oid import NameOID
+from websockets.sync.client import ClientConnection, connect
 
 from airhilt.commands import Command
 from airhilt.messages import (
@@ -187,6 +190,32 @@ def asked(
     return asyncio.run(ask())
 
 
+@contextmanager
+def browser(url: str, identity: str, shown_seat: str | None = None) -> Iterator[ClientConnection]:
+    """Connect as a page does, by its identity and the seat whose view it shows already."""
+    shown = "" if shown_seat is None else f"&shown={shown_seat}"
+    place = f"{url.replace('http', 'ws')}api/live?browser={identity}{shown}"
+    with connect(place, proxy=None) as socket:
+        yield socket
+
+
+def wish(socket: ClientConnection, **wished: Any) -> None:
+    """Send what a browser wishes, such as `take="TOWER"`."""
+    socket.send(json.dumps(wished))
+
+
+def agree(socket: ClientConnection, what: str = "voice", *, is_given: bool = True) -> None:
+    """Answer the question whether the voice may be used, or typed words."""
+    wish(socket, consent={"what": what, "is_given": is_given})
+
+
+def answer(socket: ClientConnection, kind: str) -> Any:
+    """Return the next message of a kind."""
+    while kind not in (message := json.loads(socket.recv(timeout=PATIENCE_S))):
+        pass
+    return message[kind]
+
+
 class PretendedRun:
     """A run of which there is only its page, with a seat or more; notes what browsers do."""
 
@@ -315,12 +344,15 @@ def seats_given_back_at_once(run: PretendedRun) -> Iterator[None]:
 
 @contextmanager
 def seat_page(
-    run: PretendedRun | None = None, *, has_seats: bool = True
+    run: PretendedRun | None = None,
+    *,
+    has_seats: bool = True,
+    agreed: Mapping[str, str] = MappingProxyType({}),
 ) -> Iterator[tuple[PretendedRun, str]]:
     """Serve the page of a pretended run in this process; yield the run and the URL."""
     run, urls, is_over = run or PretendedRun(), queue.Queue[str](), threading.Event()
     seats, views = (run.of_seats, run.views) if has_seats else ({}, SeatViews())
-    browsers = Browsers(run.changes, run, seats, run.sounds, run.told.append, views)
+    browsers = Browsers(run.changes, run, seats, run.sounds, run.told.append, views, agreed)
     thread = threading.Thread(
         target=serve,
         args=(live_app(run, browsers), Address(port=0)),  # type: ignore[arg-type]

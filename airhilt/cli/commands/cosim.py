@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,7 +12,12 @@ import click
 from airhilt.cli.notices import tell
 from airhilt.cli.output import echo_json
 from airhilt.cli.parameters import allow_path_option
-from airhilt.cli.station_flags import PageOptions, refuse_page_options, station_options
+from airhilt.cli.station_flags import (
+    PageOptions,
+    agreed_option,
+    refuse_page_options,
+    station_options,
+)
 
 if TYPE_CHECKING:
     from airhilt.options import Options
@@ -56,6 +62,7 @@ Examples:
     help="Print summary.json on standard output, everything else on standard error.",
 )
 @click.option("--view", is_flag=True, help="Show the run in the browser as it goes on.")
+@agreed_option
 @station_options
 @click.pass_context
 def cosim(
@@ -65,22 +72,31 @@ def cosim(
     allowed: tuple[Path, ...],
     as_json: bool,
     view: bool,
+    agreed: dict[str, str],
     page: PageOptions,
     **_: object,
 ) -> None:
     """Run a scenario and leave a run folder."""
     from airhilt.cli.progress import ProgressLine, print_summary
     from airhilt.cli.run_flags import options_given
+    from airhilt.cosim.setup import check_given
     from airhilt.cosim.simulation import run
     from airhilt.world.loading import load
 
     options = options_given(context)
     if not view and not options.seat:
         refuse_page_options("--view or --seat")
+    if agreed and not options.seat:
+        raise click.UsageError("--agreed would do nothing without --seat")
     loaded = load(scenario, allowed)
+    if view or options.seat:
+        options = _for_page(loaded, options)
+        page.address()  # The process of the page would complain too late.
+    check_given(loaded, options)
+    told = _agreed_arguments(loaded, options, agreed)
     with ExitStack() as stack:
         if view or options.seat:
-            options = _with_page(loaded, options, stack, page)
+            _serve_page(loaded, options, stack, [*page.arguments(), *told])
         tell("getting ready; a run that is killed before its folder is there leaves nothing")
         with ProgressLine(scenario) as progress:
             result = run(loaded, options, progress)
@@ -91,25 +107,46 @@ def cosim(
             print_summary(result.summary, result.folder)
 
 
-def _with_page(
-    scenario: Scenario, options: Options, stack: ExitStack, page: PageOptions
-) -> Options:
-    """Serve the page of a run until the stack is closed, and return options with its endpoint.
-
-    The person in an aircraft sees its instruments.
-    """
+def _for_page(scenario: Scenario, options: Options) -> Options:
+    """Return options of a run with a page: with an endpoint, and instruments of its pilots."""
     from airhilt.bus.session import free_endpoint
-    from airhilt.cli.live_page import live_page
     from airhilt.scenario.seats import seats_of
 
-    page.address()  # The process of the page would complain too late.
     if options.endpoint is None and options.tls is None:
         options = options.model_copy(update={"endpoint": free_endpoint()})
     seats = seats_of(options.seat, scenario)
     if any(actor.callsign in seats for actor in scenario.actors):
         options = options.model_copy(update={"cockpit": True})
-    stack.enter_context(live_page(options.endpoint, options.tls, seats, page.arguments()))
     return options
+
+
+def _serve_page(
+    scenario: Scenario, options: Options, stack: ExitStack, arguments: Sequence[str]
+) -> None:
+    """Serve the page of a run, with arguments of `airhilt view`, until the stack is closed."""
+    from airhilt.cli.live_page import live_page
+    from airhilt.scenario.seats import seats_of
+
+    seats = seats_of(options.seat, scenario)
+    stack.enter_context(live_page(options.endpoint, options.tls, seats, arguments))
+
+
+def _agreed_arguments(scenario: Scenario, options: Options, agreed: Mapping[str, str]) -> list[str]:
+    """Return the arguments of `airhilt view` that tell who has agreed to a use of voice and words.
+
+    Raises
+    ------
+    AirhiltError
+        Somebody has no seat in the run.
+    """
+    from airhilt.scenario.seats import seats_of
+
+    seats = seats_of(options.seat, scenario)
+    found = {seat: use for name, use in agreed.items() for seat in seats_of([name], scenario)}
+    for seat in found:
+        if seat not in seats:
+            raise click.UsageError(f"--agreed {seat!r}: expected a seat that --seat names")
+    return [f"--agreed={seat}={use}" for seat, use in found.items()]
 
 
 COMMAND = cosim

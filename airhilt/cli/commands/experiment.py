@@ -12,7 +12,7 @@ from airhilt.cli.notices import tell
 from airhilt.cli.station_flags import PageOptions, refuse_page_options, station_options
 
 if TYPE_CHECKING:
-    from airhilt.station.experiment import Progress
+    from airhilt.station.participant_progress import Progress
     from airhilt.station.plan import Trial
 
 
@@ -56,8 +56,10 @@ def experiment(
     plan.check()
     folder = (out or Path("experiments") / plan_file.stem).resolve()
 
-    from airhilt.station.experiment import Conductor, Progress
+    from airhilt.station.conductor import Conductor
     from airhilt.station.experiment_tables import write_tables
+    from airhilt.station.participant_progress import Progress
+    from airhilt.station.trial_order import balance_of
 
     if participant is not None:
         address = page.address()
@@ -72,10 +74,10 @@ def experiment(
     for name in chain(*teams):
         progress = Progress(plan, folder, name)
         click.echo(f"{name}: " + ", ".join(_shown(progress, trial) for trial in progress.trials))
-    if participant is None and len(teams) % plan.balance():
+    if participant is None and len(teams) % balance_of(plan):
         led = "participants" if plan.seats is None else "teams"
         tell(
-            f"the order is not balanced with {len(teams)} {led}; expected {plan.balance()}, or a "
+            f"the order is not balanced with {len(teams)} {led}; expected {balance_of(plan)}, or a "
             "multiple"
         )
     rows = write_tables(plan, folder)

@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING
 import click
 
 from airhilt.cli.notices import tell
-from airhilt.cli.station_flags import PageOptions, station_options
+from airhilt.cli.station_flags import PageOptions, agreed_option, station_options
+from airhilt.errors import StationError
+from airhilt.text import readable
 
 if TYPE_CHECKING:
     from airhilt.station.address import Address
@@ -49,6 +51,7 @@ Examples:
     help="A seat of the run that a browser may take: tower, ground, the name of another unit, or a "
     "callsign; may be given again. The truth is not shown then.",
 )
+@agreed_option
 @station_options
 def view(
     run_folder: Path | None,
@@ -56,6 +59,7 @@ def view(
     connect: str | None,
     tls: Path | None,
     seats: tuple[str, ...],
+    agreed: dict[str, str],
     page: PageOptions,
 ) -> None:
     """Show a run in the browser: traffic, radio, advisories and cameras on one clock.
@@ -67,13 +71,15 @@ def view(
     is_live = connect is not None or tls is not None
     if (run_folder is None) != is_live:
         raise click.UsageError("expected a run folder, or --connect ENDPOINT")
+    if agreed and not seats:
+        raise click.UsageError("--agreed would do nothing without --seat")
     if seats and not is_live:
         raise click.UsageError("--seat would do nothing for a run folder")
     address, browser = page.address(), not page.no_browser
     if run_folder is not None:
         _show_recorded([run_folder, *([] if other is None else [other])], address, browser)
     else:
-        _show_live(connect, tls, seats, address, browser)
+        _show_live(connect, tls, seats, agreed, address, browser)
 
 
 def _show_recorded(run_folders: Sequence[Path], address: Address, browser: bool) -> None:
@@ -95,6 +101,7 @@ def _show_live(
     connect: str | None,
     tls: Path | None,
     asked: tuple[str, ...],
+    agreed: dict[str, str],
     address: Address,
     browser: bool,
 ) -> None:
@@ -112,6 +119,11 @@ def _show_live(
         connection = RunConnection(connect, "operator" if asked else "observer", tls=tls)
         stack.callback(connection.close)
         seats = connection.seats(asked, tell)
+        for seat in set(agreed).difference(seats):
+            raise StationError(
+                f"--agreed {readable(seat)!r}: expected the name of a seat, as the run has it: "
+                f"{readable(', '.join(seats))}"
+            )
         changes, sounds = Changes(), Changes(MOST_SOUNDS)
         of_seats = {seat: SeatChanges() for seat in seats}
         views = SeatViews(seats)
@@ -125,7 +137,7 @@ def _show_live(
             tell(text)
             subscription.log_refusal(text)
 
-        browsers = Browsers(changes, subscription, of_seats, sounds, refused, views)
+        browsers = Browsers(changes, subscription, of_seats, sounds, refused, views, agreed)
         serve(
             live_app(subscription, browsers),
             address,

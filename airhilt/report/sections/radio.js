@@ -38,7 +38,7 @@ function radioTiles() {
   const noise = known(r.hallucinated) ? `, noise alone gave words ${counted(r.hallucinated, "time")}` : "";
   return [calls,
     tile("Word error rate", percent(r.wer), known(r.snr_db) ? `at ${decibels(r.snr_db)}` : "", `${counted(r.words, "word")} in ${counted(r.calls, "call")}, by ${list(engines)}${noise}`),
-    tile("Callsigns and slots right", percent(r.callsign_accuracy), `${percent(r.slot_accuracy)} of slots`, `callsigns of the roster; ${counted(r.false_slots || 0, "slot")} not said`),
+    tile("Callsigns and slots right", percent(r.callsign_accuracy), known(r.slot_accuracy) ? `${percent(r.slot_accuracy)} of slots` : "no slot was said", `callsigns of the roster; ${counted(r.false_slots || 0, "slot")} not said`),
     tile("Transcript after the end", duration(late && late.p95_s), late && late.n ? `median ${duration(late.p50_s)}` : "", "95th percentile, from the end of a call"),
   ];
 }

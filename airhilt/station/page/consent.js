@@ -1,5 +1,6 @@
 // What the person at a seat agrees to: the use of the voice, or of typed words alone. It is asked
 // before anything of it goes to the run, and once: what was agreed to at a seat is not asked again.
+// The station keeps the answers, and refuses what was not agreed to.
 
 import { byId } from "./dom.js";
 
@@ -65,6 +66,11 @@ export class Consent {
     this.#asked = { what, then, lost };
     this.#pressed.clear();
     byId("consent").showModal();
+  }
+
+  /** Takes in what the station knows to be agreed to at the seat. */
+  take(given) {
+    this.#given = new Set(given);
   }
 
   /** Forgets what was agreed to: whoever has a seat next is asked again. */

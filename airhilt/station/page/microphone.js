@@ -70,6 +70,11 @@ export class Microphone {
       this.#tell("No recogniser takes part: only people understand you.");
   }
 
+  /** Closes the microphone of a person who does not let the voice be used. */
+  shut() {
+    if (this.#node) this.#close();
+  }
+
   /** Begins to transmit. */
   press(event) {
     if (this.#held || !this.#node) return;

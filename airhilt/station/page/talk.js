@@ -154,8 +154,9 @@ export class Talk {
   }
 
   /** Takes in a message of the server. */
-  take({ own, changes, sounds, echo, refused }) {
+  take({ own, changes, sounds, echo, refused, consent }) {
     this.#catchUp(echo);
+    if (consent) this.#takeConsent(consent);
     const told = [
       refused ?? "",
       ...(own ?? []).filter(([kind]) => kind === "notice").map(([, , text]) => text),
@@ -182,6 +183,12 @@ export class Talk {
         isSlow: Number.parseFloat(this.#run.pace) < 1,
       });
     if (echo !== undefined) this.#roundTrip = (performance.now() - echo) / 1000;
+  }
+
+  /** Takes in what the station knows to be agreed to: without it, the next press asks again. */
+  #takeConsent(given) {
+    this.#consent.take(given);
+    if (!given.includes("voice")) this.#microphone.shut();
   }
 
   /** Takes in what has to be known of the seat; the space bar is not to give it back at once. */

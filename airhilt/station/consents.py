@@ -1,0 +1,64 @@
+"""The consent of the people at the seats of a run to the use of their voices and typed words."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from airhilt.messages import SeatConsent
+
+NO_VOICE = "Your call was cut: you have not agreed to the use of your voice."
+"""Reason for which what is spoken is refused; a page whose call is cut ends it."""
+NO_WORDS = "Nothing was said: you have not agreed to the use of what you type."
+"""Reason for which what is typed is refused."""
+
+
+class Consents:
+    """Keeps what the person at each seat agrees to, until the seat is left.
+
+    Parameters
+    ----------
+    agreed
+        Use of voice and words, in the words of `SeatConsent`, to which who takes a seat has agreed
+        before, by seat.
+    """
+
+    def __init__(self, agreed: Mapping[str, str] = MappingProxyType({})) -> None:
+        self._before = agreed
+        self._given = {seat: {use} for seat, use in agreed.items()}
+
+    def take(self, seat: str, answer: SeatConsent) -> None:
+        """Take in an answer.
+
+        Consent to the use of the voice covers typed words, so who declines the use of words
+        declines that of the voice too.
+        """
+        given = self._given.setdefault(seat, set())
+        if answer.is_given:
+            given.add(answer.what)
+        else:
+            given -= {answer.what} if answer.what == "voice" else {"words", "voice"}
+
+    def forget(self, *seats: str | None) -> None:
+        """Forget what was agreed to at seats, but not before; None stands for no seat."""
+        for seat in seats:
+            if seat is not None:
+                self._given[seat] = {self._before[seat]} if seat in self._before else set()
+
+    def before(self, seat: str) -> SeatConsent | None:
+        """Return to what who takes a seat has agreed before, None if to nothing."""
+        if seat not in self._before:
+            return None
+        return SeatConsent.model_validate({"what": self._before[seat], "is_given": True})
+
+    def given_at(self, seat: str | None) -> tuple[str, ...]:
+        """Return what the person at a seat agrees to, in the words of `SeatConsent`."""
+        return () if seat is None else tuple(sorted(self._given.get(seat, ())))
+
+    def admits_voice(self, seat: str | None) -> bool:
+        """Return true if what the person at a seat speaks may be used."""
+        return "voice" in self.given_at(seat)
+
+    def admits_words(self, seat: str | None) -> bool:
+        """Return true if what the person at a seat types may be used."""
+        return bool(self.given_at(seat))

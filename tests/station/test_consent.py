@@ -1,0 +1,340 @@
+"""Consent to the use of voice and words: the server refuses what a person has not agreed to."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from websockets.sync.client import ClientConnection
+
+from airhilt.messages import SeatConsent, SpokenWords
+from airhilt.station import browsers, seat_book
+from airhilt.station.consents import NO_VOICE, NO_WORDS, Consents
+from devtools import Page
+from microphone import BUTTON, FAKE, open_microphone, page_with_microphone, sit_down
+from stations import PATIENCE_S, TOWER, PretendedRun, agree, answer, browser, seat_page, wish
+
+PIECE = bytes(3_200)
+"""A piece of sound, of 0.1 s."""
+TWO = (TOWER, TOWER.model_copy(update={"seat": "GROUND"}))
+
+
+def take(run: PretendedRun, socket: ClientConnection, seat: str = "TOWER") -> None:
+    wish(socket, take=seat)
+    while run.presence.get(timeout=PATIENCE_S) != (seat, True):
+        pass
+
+
+def leave(run: PretendedRun, socket: ClientConnection, seat: str = "TOWER") -> None:
+    wish(socket, leave=seat)
+    while run.presence.get(timeout=PATIENCE_S) != (seat, False):
+        pass
+
+
+def sit_and_agree(run: PretendedRun, socket: ClientConnection) -> None:
+    """Take the seat, agree to the use of the voice, and wait until the station knows it."""
+    take(run, socket)
+    agree(socket)
+    while answer(socket, "consent") != ["voice"]:
+        pass
+
+
+def call(socket: ClientConnection) -> None:
+    """Press the button, speak for 0.3 s, and let it go."""
+    wish(socket, press={})
+    for _ in range(3):
+        socket.send(PIECE)
+    wish(socket, release=True)
+
+
+def refusals(socket: ClientConnection) -> list[str]:
+    """Return what is refused of all that was wished until now."""
+    wish(socket, watch="none")  # It is refused after all that, and marks the end.
+    told = []
+    while "camera" not in (text := str(answer(socket, "refused"))):
+        told.append(text)
+    return told
+
+
+@pytest.mark.parametrize("is_recorded", [True, False])
+def test_a_voice_that_is_not_agreed_to_is_refused_and_never_reaches_the_run(
+    is_recorded: bool,
+) -> None:
+    """Also where voices are not recorded: the words are, and everybody hears it."""
+    run = PretendedRun([TOWER.model_copy(update={"voice_is_recorded": is_recorded})])
+    with seat_page(run) as (_, url), browser(url, "a") as own:
+        take(run, own)
+        call(own)
+        assert refusals(own) == [NO_VOICE]
+        agree(own, is_given=False)
+        call(own)
+        assert refusals(own) == [NO_VOICE]
+        agree(own, "words")
+        call(own)
+        assert refusals(own) == [NO_VOICE]
+        assert run.done.empty()
+        agree(own)
+        call(own)
+        assert run.call()[1] == 3 * PIECE
+        assert refusals(own) == []
+    assert [text for text in run.told if "camera" not in text] == [
+        f"refused a wish of a browser: {NO_VOICE}"
+    ] * 3
+
+
+def test_sound_without_a_call_is_refused_too_unless_it_is_agreed_to() -> None:
+    with seat_page() as (run, url), browser(url, "a") as own:
+        take(run, own)
+        for _ in range(3):
+            own.send(PIECE)
+        assert refusals(own) == [NO_VOICE]
+        agree(own)
+        own.send(PIECE)
+        assert refusals(own) == []
+        assert run.done.empty()
+
+
+@pytest.mark.parametrize(
+    ("answers", "is_said"),
+    [
+        ([], False),
+        ([("words", True)], True),
+        ([("words", False)], False),
+        ([("voice", True)], True),
+        ([("voice", True), ("voice", False)], False),
+        ([("words", True), ("voice", False)], True),
+        ([("voice", True), ("words", False)], False),
+    ],
+)
+def test_words_are_said_if_their_use_or_that_of_the_voice_is_agreed_to(
+    answers: list[tuple[str, bool]], is_said: bool
+) -> None:
+    with seat_page() as (run, url), browser(url, "a") as own:
+        take(run, own)
+        for what, is_given in answers:
+            agree(own, what, is_given=is_given)
+        wish(own, say={"text": "hello"})
+        assert refusals(own) == ([] if is_said else [NO_WORDS])
+        said = [] if run.done.empty() else [run.next()]
+        assert said == [SpokenWords(text="hello")] * is_said
+
+
+def test_who_takes_consent_back_while_speaking_ends_the_call() -> None:
+    with seat_page() as (run, url), browser(url, "a") as own:
+        take(run, own)
+        agree(own)
+        wish(own, press={})
+        own.send(PIECE)
+        agree(own, is_given=False)
+        assert run.call()[1] == PIECE
+        own.send(PIECE)
+        assert refusals(own) == [NO_VOICE]
+        assert run.done.empty()
+
+
+def test_commands_and_answers_need_no_consent() -> None:
+    with seat_page() as (run, url), browser(url, "a") as own:
+        take(run, own)
+        wish(own, pace={"factor": 0.5})
+        assert run.next().factor == 0.5
+
+
+def test_consent_is_over_when_the_seat_is_left_by_whomever_it_is_taken_then() -> None:
+    with seat_page() as (run, url), browser(url, "a") as own, browser(url, "b") as other:
+        take(run, own)
+        agree(own)
+        leave(run, own)
+        for next_person in (own, other):
+            take(run, next_person)
+            call(next_person)
+            assert refusals(next_person) == [NO_VOICE]
+            leave(run, next_person)
+        assert run.done.empty()
+
+
+def test_consent_at_one_seat_is_none_at_another() -> None:
+    with (
+        seat_page(PretendedRun(TWO)) as (run, url),
+        browser(url, "a") as own,
+        browser(url, "b") as other,
+    ):
+        take(run, own)
+        take(run, other, "GROUND")
+        agree(own)
+        call(other)
+        assert refusals(other) == [NO_VOICE]
+        leave(run, other, "GROUND")
+        take(run, own, "GROUND")  # It leaves the tower.
+        call(own)
+        assert refusals(own) == [NO_VOICE]
+        assert run.done.empty()
+
+
+@pytest.mark.parametrize(("shown_seat", "is_kept"), [("TOWER", True), (None, False)])
+def test_consent_outlasts_a_lost_connection_but_not_a_page_that_is_loaded_again(
+    shown_seat: str | None, is_kept: bool
+) -> None:
+    with seat_page() as (run, url), browser(url, "b") as other:
+        with browser(url, "a") as own:
+            sit_and_agree(run, own)
+        for _ in range(2):  # The second time, since the connection has ended.
+            while answer(other, "seats") != {"TOWER": "taken"}:
+                pass
+        with browser(url, "a", shown_seat) as back:
+            assert answer(back, "seats") == {"TOWER": "yours"}
+            assert answer(back, "consent") == ["voice"] * is_kept
+            call(back)
+            assert refusals(back) == [NO_VOICE] * (not is_kept)
+            assert run.done.qsize() == (5 if is_kept else 0)
+
+
+def test_consent_is_over_when_the_page_was_told_that_it_has_no_seat() -> None:
+    """It comes back before its old connection has ended, and asks its person again."""
+    with seat_page() as (run, url), browser(url, "a") as old:
+        sit_and_agree(run, old)
+        with browser(url, "a", "TOWER") as back:
+            assert answer(back, "seats") == {"TOWER": "taken"}
+            old.close()
+            while answer(back, "seats") != {"TOWER": "yours"}:
+                pass
+            call(back)
+            assert refusals(back) == [NO_VOICE]
+
+
+def test_a_page_that_comes_back_over_a_cut_network_need_not_ask_again(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(browsers, "SILENT_S", -1.0)
+    with seat_page() as (run, url), browser(url, "a") as old:
+        sit_and_agree(run, old)
+        with browser(url, "a", "TOWER") as back:
+            assert answer(back, "seats") == {"TOWER": "yours"}
+            old.send(PIECE)  # The old connection has no seat any more.
+            call(back)
+            assert run.call()[1] == 3 * PIECE
+
+
+def test_consent_is_over_when_nobody_came_back(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(seat_book, "HOLD_S", 0.0)
+    with seat_page() as (run, url):
+        with browser(url, "a") as own:
+            sit_and_agree(run, own)
+        assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", False)
+        with browser(url, "a", "TOWER") as back:
+            take(run, back)
+            call(back)
+            assert refusals(back) == [NO_VOICE]
+
+
+def test_a_page_is_told_what_the_station_knows_to_be_agreed_to() -> None:
+    with seat_page() as (run, url), browser(url, "a") as own:
+        assert answer(own, "consent") == []
+        take(run, own)
+        assert answer(own, "consent") == []
+        for what, expected in (("words", ["words"]), ("voice", ["voice", "words"])):
+            agree(own, what)
+            assert answer(own, "consent") == expected
+        wish(own, leave="TOWER")
+        assert answer(own, "consent") == []
+
+
+def test_the_run_has_the_answer_before_what_it_lets_through() -> None:
+    with seat_page() as (run, url), browser(url, "a") as own:
+        take(run, own)
+        agree(own)
+        call(own)
+        run.call()
+    assert run.deeds == ["consent to voice", "pressed", *["samples"] * 3, "released"]
+
+
+def test_who_has_agreed_before_need_not_be_asked_at_the_seat_and_the_run_is_told() -> None:
+    with (
+        seat_page(PretendedRun(TWO), agreed={"TOWER": "voice"}) as (run, url),
+        browser(url, "a") as own,
+    ):
+        for _ in range(2):
+            take(run, own)
+            while answer(own, "consent") != ["voice"]:
+                pass
+            assert run.settings.get(timeout=PATIENCE_S) == SeatConsent(what="voice", is_given=True)
+            call(own)
+            assert run.call()[1] == 3 * PIECE
+            agree(own, is_given=False)
+            call(own)
+            assert refusals(own) == [NO_VOICE]
+            assert run.settings.get(timeout=PATIENCE_S) == SeatConsent(what="voice", is_given=False)
+            leave(run, own)
+        take(run, own, "GROUND")
+        call(own)
+        assert refusals(own) == [NO_VOICE]
+
+
+def test_a_page_that_is_loaded_again_need_not_ask_who_has_agreed_before() -> None:
+    with seat_page(agreed={"TOWER": "words"}) as (run, url):
+        with browser(url, "a") as own:
+            take(run, own)
+        with browser(url, "a") as back:
+            while answer(back, "seats") != {"TOWER": "yours"}:
+                pass
+            assert answer(back, "consent") == ["words"]
+
+
+def test_without_a_seat_nothing_is_agreed_to() -> None:
+    consents = Consents()
+    given: Any = SeatConsent(what="voice", is_given=True)
+    consents.take("TOWER", given)
+    assert (consents.admits_voice(None), consents.admits_words(None)) == (False, False)
+    consents.forget(None, "GROUND")
+    assert consents.given_at("TOWER") == ("voice",)
+
+
+ASKED = "document.getElementById('consent').open"
+CUT = """(() => {
+    const send = WebSocket.prototype.send;
+    WebSocket.prototype.send = function (...sent) {
+        WebSocket.prototype.send = send;
+        this.close();
+    };
+})()"""
+"""Closes the connection of the page at the next thing that it sends."""
+
+
+def want_to_say(page: Page, words: str) -> None:
+    page.evaluate(f"document.getElementById('words').value = {words!r}")
+    page.click("say-button")
+
+
+@pytest.mark.browser
+def test_who_has_agreed_is_not_asked_again_after_a_lost_connection(page: Page) -> None:
+    with seat_page() as (run, url):
+        sit_down(page, url)
+        want_to_say(page, "Ready.")
+        page.wait_for(ASKED)
+        page.click("consent-agree")
+        assert run.next() == SpokenWords(text="Ready.")
+        page.evaluate(CUT)
+        page.wait_for("!document.getElementById('link').hidden")
+        page.wait_for("document.getElementById('link').hidden")
+        want_to_say(page, "Ready again.")
+        assert run.next() == SpokenWords(text="Ready again.")
+        assert not page.evaluate(ASKED)
+        page.open("about:blank")
+
+
+@pytest.mark.browser
+def test_a_page_asks_again_for_consent_that_the_station_does_not_know(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    with seat_page() as (run, url), page_with_microphone(*FAKE) as page:
+        sit_down(page, url)
+        open_microphone(page)
+        monkeypatch.setattr(Consents, "given_at", lambda *_: ())
+        page.key("keyDown", " ", 32)
+        page.wait_for(f"{BUTTON} === 'Open the microphone'")
+        page.key("keyUp", " ", 32)
+        assert page.evaluate("document.getElementById('seat-state').textContent") == NO_VOICE
+        monkeypatch.undo()
+        page.click("talk-button")
+        page.wait_for(f"{BUTTON} === 'Hold to talk' || {ASKED}")
+        assert page.evaluate(ASKED)
+        assert run.done.empty()
