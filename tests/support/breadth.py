@@ -23,7 +23,7 @@ def mostly_slow(values: Iterable[Any], *quick: Any) -> list[Any]:
 
 
 def examples(most: int) -> settings:
-    """Return settings of a property: a third of the examples, all with `--hypothesis-profile long`."""
+    """Return settings of a property: a third of the examples, with `long` as profile all of them."""
     is_long = settings().max_examples > USUAL_EXAMPLES
     return settings(max_examples=most if is_long else -(-most // 3))
 
