@@ -166,6 +166,7 @@ def test_a_seat_has_one_person_and_what_it_says_is_said(brief_file: Path, tmp_pa
                 assert how_closed(stale) == 4426
                 send(garbage, command=1)
                 assert how_closed(garbage) == 1008
+            send(own, consent={"what": "words", "is_given": True})
             send(own, say={"text": "Washington Center, American one two three, hello"})
             send(own, fly={"action": "altitude", "altitude_ft": 34000})
             while selected_altitude_ft(answer(own, "own")) != 34000:
