@@ -243,10 +243,12 @@ def test_who_sits_down_before_the_run_knows_that_the_seat_was_left_comes_after_t
         page = SlowPage(endpoint)
         with seat_page(page) as (_, url), listening(url) as first, listening(url) as second:
             assert has_seat(first)
+            send(first, consent={"what": "words", "is_given": True})
             send(first, say={"text": "first"})
             send(first, leave="AAL123")
             while not has_seat(second):
                 pass
+            send(second, consent={"what": "words", "is_given": True})
             send(second, say={"text": "second"})
             send(second, leave="AAL123")
         page.close()
