@@ -113,43 +113,32 @@ class Roster:
         openings: tuple[int, ...],
     ) -> Naming:
         """Return the callsigns of a call from those that may be of its speaker or addressee."""
-        lead = openings[0]
-        chosen = min(
-            mine,
-            key=lambda hit: (
-                hit.start > lead and hit.start not in openings, hit.end < len(words), hit.start,
-                -hit.end, -hit.score, hit.callsign,
-            ),
-        )  # fmt: skip
-        same_place = [hit for hit in mine if hit.start < chosen.end and chosen.start < hit.end]
-        longest = [
-            hit
-            for hit in same_place
-            if not any(
-                o.start <= hit.start and o.end > hit.end and o.score >= hit.score
-                for o in same_place
-            )
-        ]
-        chosen = max(longest, key=lambda hit: (hit.score, -hit.start))
+        longest = _longest(mine, openings, len(words)) if len(mine) > 1 else mine
+        chosen = longest[0]
         rivals = [hit for hit in near if hit.start < chosen.end and chosen.start < hit.end]
         match = _best(chosen, [*longest, *rivals])
         if _is_one_of_two(words, chosen, hits):
             match = replace(match, ambiguous=True)
-        apart = [hit for hit in hits if hit.start >= chosen.end or hit.end <= chosen.start]
-        again = tuple(hit for hit in apart if hit.callsign == chosen.callsign)
-        unread = [hit for hit in near if not _may_be_taxiway(words, hit.start)]
-        others = tuple(hit for hit in (*apart, *unread) if hit.callsign != chosen.callsign)
-        return Naming(match, chosen, chosen.start <= lead, again, others)
+        again: list[Hit] = []
+        others: list[Hit] = []
+        for hit in hits:
+            if hit.start >= chosen.end or hit.end <= chosen.start:
+                (again if hit.callsign == chosen.callsign else others).append(hit)
+        for hit in near:
+            if hit.callsign != chosen.callsign and not _may_be_taxiway(words, hit.start):
+                others.append(hit)
+        return Naming(match, chosen, chosen.start <= openings[0], tuple(again), tuple(others))
 
     def _find(self, words: list[str]) -> tuple[list[Hit], list[Hit]]:
         """Return the places of names with their own numbers, and of names with others."""
         hits: list[Hit] = []
         near: list[Hit] = []
         size = len(words)
-        for start in range(size):
+        for start, first in enumerate(words):
+            if first not in self.beginnings:
+                continue
             name = ""
-            for at in range(start, min(start + _LONGEST_NAME, size)):
-                word = words[at]
+            for at, word in enumerate(words[start : start + _LONGEST_NAME], start):
                 if word[0].isdigit() and at > start:
                     break
                 name += word
@@ -168,9 +157,33 @@ class Roster:
         return hits, near
 
 
+def _longest(mine: list[Hit], openings: tuple[int, ...], size: int) -> list[Hit]:
+    """Return the longest hits at the place that counts, the best first.
+
+    It is the beginning of the call, or else its end, or else the first place.
+    """
+    lead = openings[0]
+    chosen = min(
+        mine,
+        key=lambda hit: (
+            hit.start > lead and hit.start not in openings, hit.end < size, hit.start,
+            -hit.end, -hit.score, hit.callsign,
+        ),
+    )  # fmt: skip
+    same_place = [hit for hit in mine if hit.start < chosen.end and chosen.start < hit.end]
+    longest = [
+        hit
+        for hit in same_place
+        if not any(
+            o.start <= hit.start and o.end > hit.end and o.score >= hit.score for o in same_place
+        )
+    ]
+    return sorted(longest, key=lambda hit: (-hit.score, hit.start))
+
+
 def _after_opening(words: list[str]) -> tuple[int, ...]:
     """Return the indices after the name of a unit, a greeting or a distress signal at the begin."""
-    found = [at + 1 for at in range(min(LONGEST_STATION, len(words))) if words[at] in STATIONS]
+    found = [at for at, word in enumerate(words[:LONGEST_STATION], 1) if word in STATIONS]
     at = found[-1] if found else 0
     while at < len(words) and words[at] in OPENING:
         at += 1
