@@ -162,7 +162,7 @@ def on_runway(segment: Segment, action: Action) -> Read | None:
     """
     inside = NAMED_RUNWAY.search(segment.found[0])
     before = runway_before(segment)
-    after = _runway_after(segment)
+    after = _runway_after(segment, is_named=bool(inside or before))
     if action in _BY_OPENING and not (inside or before or after):
         opening = _opening(segment)
         if opening:
@@ -259,18 +259,23 @@ def is_next_runway(segment: Segment) -> bool:
     return segment.limit < len(segment.text) and bool(_NAMED_BEFORE.search(segment.after.rstrip()))
 
 
-def _runway_after(segment: Segment) -> re.Match[str] | None:
-    """Return the runway that is named after an action and does not belong to the next one."""
-    bare = _BARE_AFTER.match(segment.after)
+def _runway_after(segment: Segment, *, is_named: bool) -> re.Match[str] | None:
+    """Return the runway that is named after an action and does not belong to the next one.
+
+    Parameters
+    ----------
+    is_named
+        True if a runway is named before the action, or among its words.
+    """
+    after = segment.after
+    bare = _BARE_AFTER.match(after)
     if bare:
         return bare
-    named = NAMED_RUNWAY.search(segment.after)
-    if named and _OTHER_RUNWAY.search(segment.after[: named.start()]):
+    named = NAMED_RUNWAY.search(after)
+    if named is None or _OTHER_RUNWAY.search(after[: named.start()]):
         return None
-    if named and (NAMED_RUNWAY.search(segment.found[0]) or runway_before(segment)):
-        is_beside = segment.after[: named.start()].strip() in ("", "on")
-        return named if is_beside and not is_next_runway(segment) else None
-    return named
+    is_beside = after[: named.start()].strip() in ("", "on")
+    return None if is_named and (not is_beside or is_next_runway(segment)) else named
 
 
 def alone(segment: Segment, action: Action) -> Read | None:

@@ -29,7 +29,10 @@ def split_numbers(words: Words) -> Words:
     texts = words.texts
     if _INTRODUCING.isdisjoint(texts):
         return words
-    sizes = [_rest_of(texts, index) if index else 0 for index in range(len(texts))]
+    sizes = [
+        _rest_of(texts, index) if index and text.isdigit() else 0
+        for index, text in enumerate(texts)
+    ]
     if not any(sizes):
         return words
     split = Words()
@@ -43,9 +46,9 @@ def split_numbers(words: Words) -> Words:
 
 
 def _rest_of(texts: list[str], index: int) -> int:
-    """Return the number of digits before the second number; 0 if there is none."""
+    """Return the number of digits of a number before the second one; 0 if there is none."""
     text = texts[index]
-    if len(text) <= RUNWAY or not text.isdigit():
+    if len(text) <= RUNWAY:
         return 0
     size = DIGITS.get(texts[index - 1], 0)
     if texts[index + 1 : index + 2] == ["thousand"] and texts[index - 1] in _TURNS:

@@ -100,6 +100,10 @@ _BEHIND_AGAIN = re.compile(rf"(?: (?:runway )?{RUNWAY})? (?:behind|after) \|$")
 _LEVEL_ONLY = re.compile(rf" {LEVEL_WORDS}(?: and)? ")
 _TO_TURN = re.compile(rf" (?:runway {RUNWAY} )?(?:(?:next|first) )?(?:to the )?")
 MILES_BEFORE = re.compile(rf"[0-9]+ (?:nautical )?miles? before {FIX}(?={_VERB})")
+_BEGINNINGS = FORMS.keys() | EVENTS.keys() | CONDITIONS | {"traffic"}
+"""First words of actions, of conditions, and of words about traffic."""
+_BEHIND_NUMBERS = NUMBER_FORMS.keys() | {"mile", "miles", "nautical"}
+"""Words behind a number that may begin an action or a condition."""
 
 
 class Found(NamedTuple):
@@ -135,8 +139,8 @@ class Scan:
         self._is_traffic = False
         free = 0
         for index, word in enumerate(texts):
-            if starts[index] >= free:
-                free = max(free, self._take(index, word))
+            if starts[index] >= free and (self._open_at is not None or _may_begin(texts, index)):
+                free = self._take(index, word) or free
         if self._open_at is not None:
             self.spans.append(Span(self._open_at, len(text), self._is_traffic))
 
@@ -163,7 +167,7 @@ class Scan:
             self._open(start, index, is_traffic=False)
             return 0
         self._close_at(word, start, index)
-        each = _action_at(self._text, start, index, word)
+        each = _action_at(self._texts, self._text, start, index)
         if each is None or (self.found and _belongs_to(self.found[-1], each)):
             return 0
         return self._take_action(each, word)
@@ -257,16 +261,22 @@ def _is_traffic(texts: list[str], index: int) -> bool:
     )
 
 
-def _action_at(text: str, start: int, index: int, word: str) -> Found | None:
-    for form in FORMS.get(word, ()):
+def _may_begin(texts: list[str], index: int) -> bool:
+    """Return whether a word may begin an action, a condition, or words about traffic."""
+    word = texts[index]
+    return word in _BEGINNINGS or (
+        word[0].isdigit() and index + 1 < len(texts) and texts[index + 1] in _BEHIND_NUMBERS
+    )
+
+
+def _action_at(texts: list[str], text: str, start: int, index: int) -> Found | None:
+    forms = FORMS.get(texts[index], ())
+    if texts[index][0].isdigit() and index + 1 < len(texts):
+        forms += NUMBER_FORMS.get(texts[index + 1], ())
+    for form in forms:
         match = form.words.match(text, start)
         if match:
             return Found(form, match, index)
-    if word[0].isdigit():
-        for form in NUMBER_FORMS:
-            match = form.words.match(text, start)
-            if match:
-                return Found(form, match, index)
     return None
 
 

@@ -61,7 +61,7 @@ _ANY_LEVEL = (
     rf"|(?<!\S)([1-9])00 feet(?!\S){_NO_RATE})"
 )
 LEVEL = re.compile(
-    r"(?<!passing )(?<!leaving )(?<!through )(?<!above )(?<!below )(?<!at or )" + _ANY_LEVEL
+    r"(?<!\S)(?<!passing )(?<!leaving )(?<!through )(?<!above )(?<!below )(?<!at or )" + _ANY_LEVEL
 )
 LEVEL_HERE = re.compile(
     rf"(?: (?:at|to|now|and|maintain|altitude|an|of|immediately))* ?{_ANY_LEVEL}"

@@ -20,7 +20,7 @@ COURTESIES = frozenset(
 """Words beside the phraseology that may follow anything."""
 _PATTERNS = [
     *(form.words.pattern for forms in FORMS.values() for form in forms),
-    *(form.words.pattern for form in NUMBER_FORMS),
+    *(form.words.pattern for forms in NUMBER_FORMS.values() for form in forms),
     *(event.pattern for event in EVENTS.values()),
     FIX_ENDS,
 ]
