@@ -212,6 +212,8 @@ def merge_levels(reads: Reads, text: str) -> None:
 def withdraw(reads: Reads) -> None:
     """Drop the clearances that the same call cancels."""
     actions = {read.instruction.action for read, _ in reads}
+    if WITHDRAWN.keys().isdisjoint(actions):
+        return
     for cancel, cleared in WITHDRAWN.items():
         if cancel not in actions:
             continue
@@ -230,9 +232,7 @@ def put_in_order(reads: Reads, texts: list[str], text: str) -> None:
     is_filed = not _FILED.isdisjoint(texts) and bool(_AS_FILED.search(text))
     for index, (read, each) in enumerate(reads):
         told = read.instruction
-        if _is_turn_of_route(
-            told, texts[each.first], [each.instruction for each, _ in reads[:index]]
-        ):
+        if _is_turn_of_route(told, texts[each.first], reads[:index]):
             route = Instruction("taxi", via=(told.position or "",), confidence=told.confidence)
             reads[index] = read._replace(instruction=route), each
             continue
@@ -246,15 +246,17 @@ def put_in_order(reads: Reads, texts: list[str], text: str) -> None:
             _set(reads, index, condition=DEPARTED)
         elif index and _waits_with(reads[index - 1][0], read, text):
             _set(reads, index, condition=reads[index - 1][0].instruction.condition)
-        elif _waits(told, reads[:index], is_then=_is_then(texts, each.first)):
+        elif _waits(
+            told, reads[index - 1][0] if index else None, is_then=_is_then(texts, each.first)
+        ):
             _set(reads, index, condition="then")
 
 
-def _is_turn_of_route(told: Instruction, first: str, before: list[Instruction]) -> bool:
+def _is_turn_of_route(told: Instruction, first: str, before: Reads) -> bool:
     """Return whether a turn onto a taxiway is the route behind the crossing of a runway."""
     is_turn = told.action == "heading" and told.position is not None and told.heading_deg is None
     is_bare = is_turn and first in ("left", "right")
-    return is_bare and any(each.action == "cross" for each in before)
+    return is_bare and any(read.instruction.action == "cross" for read, _ in before)
 
 
 def _share_runway(reads: Reads, index: int, text: str) -> None:
@@ -283,16 +285,16 @@ def _is_then(texts: list[str], first: int) -> bool:
     return texts[max(at, 0)] == "then"
 
 
-def _waits(told: Instruction, before: Reads, *, is_then: bool) -> bool:
+def _waits(told: Instruction, before: Read | None, *, is_then: bool) -> bool:
     """Return whether an action waits for the one before it.
 
     A taxi route waits for whom to give way to, even without "then". After "then" they may not
     have been understood.
     """
-    last = before[-1][0].instruction.action if before else None
+    last = before.instruction.action if before else None
     if told.action == "taxi":
         return last == "give_way" or (is_then and last in (None, *YIELDED))
-    is_limited = bool(before) and before[-1][0].instruction.until is not None
+    is_limited = before is not None and before.instruction.until is not None
     is_moved = last in ("taxi", "vacate", "cross", "hold_short", "backtrack", "push_back")
     is_later = is_limited or is_moved
     return is_then and (told.action in SEQUENCED or (is_later and told.action in _TALKS))

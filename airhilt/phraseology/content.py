@@ -91,17 +91,12 @@ def content_of(words: Words) -> Content:
     withdraw(reads)
     put_in_order(reads, texts, text)
     gaps = _gaps(reads, scan, plain, starts, words)
-    _take_bare(content, gaps, reads, scan, text, is_called=texts[:1] == [NAME])
-    taken = [(read.start, read.end) for read, _ in reads]
-    heard_as = zip(texts, words.confidences, strict=True)
-    sure = [1.0 if word in IDLE else confidence for word, confidence in heard_as]
+    if gaps:
+        _take_bare(content, gaps, reads, scan, text, is_called=texts[:1] == [NAME])
+    is_sure = words.confidences.count(1.0) == len(texts)
     for read, each in reads:
-        is_beside = bool(gaps) and _is_beside_unexplained(read, plain, taken)
-        after_action = bisect_right(starts, each.match.end() - 1)
-        action = sure[each.first : after_action]
-        before = sure[bisect_right(starts, read.start) - 1 : each.first]
-        behind = sure[after_action : bisect_right(starts, read.end - 1)]
-        heard = min(action, default=1.0), min([*before, *behind], default=1.0)
+        is_beside = bool(gaps) and _is_beside_unexplained(read, plain, reads)
+        heard = CLEAR if is_sure else _confidences(read, each, words, starts)
         for told in (read.instruction, *read.more):
             if is_beside or _is_doubtful(told, plain, read, each):
                 told = replace(told, confidence=min(told.confidence, SHORTENED))
@@ -111,6 +106,21 @@ def content_of(words: Words) -> Content:
             else:
                 _add(content, instruction, is_doing=texts[each.first].endswith("ing"))
     return content
+
+
+def _confidences(
+    read: Read, each: Found, words: Words, starts: list[int]
+) -> tuple[float, float]:
+    """Return the least confidences of the recogniser in an action and in its details."""
+    begin, end = bisect_right(starts, read.start) - 1, bisect_right(starts, read.end - 1)
+    after_action = bisect_right(starts, each.match.end() - 1)
+    details = min(_least(words, begin, each.first), _least(words, after_action, end))
+    return _least(words, each.first, after_action), details
+
+
+def _least(words: Words, start: int, end: int) -> float:
+    said = zip(words.texts[start:end], words.confidences[start:end], strict=True)
+    return min([1.0 if word in IDLE else confidence for word, confidence in said], default=1.0)
 
 
 def _is_doubtful(told: Instruction, text: str, read: Read, each: Found) -> bool:
@@ -128,7 +138,9 @@ def _is_doubtful(told: Instruction, text: str, read: Read, each: Found) -> bool:
             return True
     if told.runway is not None and has_unknown_side(text, read.start, read.end):
         return True
-    if _OR.match(text, read.end) or _OR_INSIDE.search(text, each.match.end(), read.end):
+    if " or " in text and (
+        _OR.match(text, read.end) or _OR_INSIDE.search(text, each.match.end(), read.end)
+    ):
         return True
     if told.action in _VALUED and any(
         is_unknown(word) for word in text[each.match.end() : read.end].split()
@@ -146,13 +158,13 @@ def _is_doubtful(told: Instruction, text: str, read: Read, each: Found) -> bool:
     )
 
 
-def _is_beside_unexplained(read: Read, text: str, taken: list[tuple[int, int]]) -> bool:
+def _is_beside_unexplained(read: Read, text: str, reads: Reads) -> bool:
     """Return whether words right beside an instruction belong to no other and are unexplained."""
     action = read.instruction.action
-    limit = min((start for start, _ in taken if start >= read.end), default=len(text))
+    limit = min((other.start for other, _ in reads if other.start >= read.end), default=len(text))
     if limit > read.end + 1 and is_unexplained_behind(text[read.end : limit].split(), action):
         return True
-    begin = max((end for _, end in taken if end <= read.start), default=0)
+    begin = max((other.end for other, _ in reads if other.end <= read.start), default=0)
     return begin + 1 < read.start and is_unexplained_before(
         text[begin : read.start].split(), action
     )

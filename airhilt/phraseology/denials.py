@@ -109,6 +109,8 @@ def is_meant(
     """
     if action in CLEARANCES and not _is_own(words, first, after, floor):
         return False
+    if first <= floor:
+        return True
     if "you" in words[floor:first] and words[max(words.index("you", floor) - 1, 0)] in _ASKS_YOU:
         return False
     if not _QUESTIONS.isdisjoint(zip(words[floor:first], words[floor + 1 : first], strict=False)):
