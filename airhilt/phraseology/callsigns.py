@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
+from typing import NamedTuple
 
 from airhilt.phraseology.aircraft_names import MAKERS
 from airhilt.phraseology.alphabet import LETTER_OF
@@ -54,8 +55,7 @@ class CallsignMatch:
 NOBODY = CallsignMatch(None, 0.0, False, ())
 
 
-@dataclass(frozen=True, slots=True)
-class Naming:
+class Naming(NamedTuple):
     """The callsigns in a call."""
 
     match: CallsignMatch
@@ -209,10 +209,8 @@ def _best(chosen: Hit | None, hits: list[Hit]) -> CallsignMatch:
     scores: dict[str, float] = {}
     for hit in hits:
         scores[hit.callsign] = max(scores.get(hit.callsign, 0.0), hit.score)
-    candidates = tuple(
-        Candidate(callsign, score)
-        for callsign, score in sorted(scores.items(), key=lambda each: (-each[1], each[0]))
-    )
+    ranked = sorted(scores.items(), key=lambda each: (-each[1], each[0]))
+    candidates = tuple([Candidate(*each) for each in ranked])
     best = candidates[0].score
     ambiguous = len(candidates) > 1 and candidates[1].score >= best - MARGIN
     return CallsignMatch(chosen and candidates[0].callsign, best, ambiguous, candidates)

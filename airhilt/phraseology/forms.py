@@ -142,7 +142,7 @@ _OTHER_RUNWAY = re.compile(
 )
 """Words before a runway that is not that of the action, or after one that cannot be read."""
 POSITION = re.compile(rf" (?:at|from) (?:taxiway |intersection )?({TAXIWAY})")
-IMMEDIATE = re.compile(r"(?<!\S)(?:immediate(?:ly)?|expedit(?:e|ing)|now)(?!\S)")
+IMMEDIATE = frozenset({"immediate", "immediately", "expedite", "expediting", "now"})
 _WITHOUT_DELAY = re.compile(r" (?:immediately|without delay|expedite|now)(?!\S)")
 _NO_NAME = re.compile(rf"(?!waypoint )(?:{FIX_ENDS}|left|right|to|[0-9]+)(?!\S)")
 """The first word of a fix that is a word of the phraseology: the name itself may be lost."""
@@ -152,7 +152,7 @@ _NAME_ENDS_HERE = re.compile(rf" (?:\||{FIX_ENDS})(?!\S)|$")
 def is_immediate(segment: Segment, end: int) -> bool:
     """Return whether the words of an action, or those right after them, demand it at once."""
     after = _WITHOUT_DELAY.match(segment.text, end, segment.limit)
-    return bool(after or IMMEDIATE.search(segment.text[segment.start : end]))
+    return bool(after) or not IMMEDIATE.isdisjoint(segment.text[segment.start : end].split())
 
 
 def on_runway(segment: Segment, action: Action) -> Read | None:
@@ -160,7 +160,8 @@ def on_runway(segment: Segment, action: Action) -> Read | None:
 
     The action is not read if two different runways are named.
     """
-    inside = NAMED_RUNWAY.search(segment.found[0])
+    words = segment.found[0]
+    inside = NAMED_RUNWAY.search(words) if "runway" in words else None
     before = runway_before(segment)
     after = _runway_after(segment, is_named=bool(inside or before))
     if action in _BY_OPENING and not (inside or before or after):

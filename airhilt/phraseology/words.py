@@ -106,7 +106,7 @@ _NUMERIC = (
 _SPELLED = LETTER_OF.keys() | LETTER_VARIANTS.keys()
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Words:
     """The words of a call, with a confidence in [0, 1] for each."""
 
