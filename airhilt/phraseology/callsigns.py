@@ -94,9 +94,12 @@ class Roster:
             lead += 1
         openings = (lead, *_after_opening(words))
         mine = [hit for hit in hits if not is_spoken_of(words, hit.start, hit.end)]
-        if not is_written and not any(
-            hit.start <= lead or hit.start in openings or hit.end == len(words) for hit in mine
-        ):
+        placed = [
+            hit
+            for hit in mine
+            if hit.start <= lead or hit.start in openings or hit.end == len(words)
+        ]
+        if not placed and not is_written:
             more, unlikely = repaired(words, self.known, openings)
             mine += more
             near += unlikely

@@ -66,6 +66,8 @@ _RIVALS: dict[Action, Callable[[Instruction], float | None]] = {
 """Actions of which one call gives one value for a time, with that value."""
 _ENTERING = frozenset({"cleared_for_takeoff", "line_up", "cross"})
 """Clearances to go on to a runway."""
+_STOPPING = frozenset({"hold_position", "go_around", "hold_short"})
+"""Actions that stop a clearance."""
 _EXCLUSIVE = frozenset({"cleared_to_land", "cleared_for_takeoff", "line_up"})
 """Clearances of which one aircraft gets one at a time, except line-up and take-off."""
 
@@ -335,6 +337,8 @@ def _without_stopped(instructions: list[Instruction]) -> list[Instruction]:
 
     A word between them is lost: "line up runway 23, disregard, hold short runway 23".
     """
+    if _STOPPING.isdisjoint([each.action for each in instructions]):
+        return instructions
     now = [each for each in instructions if each.condition is None]
     is_held = any(each.action == "hold_position" for each in now)
     is_gone = any(each.action == "go_around" for each in now)

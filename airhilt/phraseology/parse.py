@@ -40,6 +40,8 @@ _ASKED_BACK = frozenset({"confirm", "correct", "right", "us", "that", "me", "els
 """Last words of `_ASKS_BACK`."""
 _WINDY = frozenset({"wind", "land", "takeoff", "option", "touch"})
 """Words beside which a wind is given."""
+_SETTING = frozenset({"altimeter", "qnh", "q"})
+"""Words before an altimeter setting."""
 _ACKNOWLEDGED = frozenset({"roger", "wilco", "affirm", "affirmative", "copy", "copied"})
 _REQUESTS = frozenset({"request", "requesting", "requests"})
 _SAY_AGAIN = re.compile(
@@ -151,7 +153,7 @@ def _call(naming: Naming, rest: Words, content: Content, named: float) -> Call:
         parts.append(0.0)
     elif not content.instructions:
         parts.append(min(rest.confidences, default=0.0))
-    pressure_hpa = pressure_of(text) if present & {"altimeter", "qnh", "q"} else None
+    pressure_hpa = None if _SETTING.isdisjoint(present) else pressure_of(text)
     if pressure_hpa is None and content.pressure_hpa is not None:
         pressure_hpa = content.pressure_hpa
         parts.append(SHORTENED)
@@ -260,11 +262,9 @@ def _without_name(words: Words, naming: Naming) -> Words:
 
 def _makers_before(words: list[str], hit: Hit) -> int:
     """Return the number of words before a registration that are the maker's name: "king air"."""
-    if not is_registration(hit.callsign):
-        return 0
     for size in (2, 1):
         if hit.start >= size and "".join(words[hit.start - size : hit.start]) in MAKERS:
-            return size
+            return size if is_registration(hit.callsign) else 0
     return 0
 
 

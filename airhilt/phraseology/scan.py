@@ -139,7 +139,12 @@ class Scan:
         self._is_traffic = False
         free = 0
         for index, word in enumerate(texts):
-            if starts[index] >= free and (self._open_at is not None or _may_begin(texts, index)):
+            if starts[index] < free:
+                continue
+            is_number = word[0].isdigit() and not _BEHIND_NUMBERS.isdisjoint(
+                texts[index + 1 : index + 2]
+            )
+            if word in _BEGINNINGS or is_number or self._open_at is not None:
                 free = self._take(index, word) or free
         if self._open_at is not None:
             self.spans.append(Span(self._open_at, len(text), self._is_traffic))
@@ -166,7 +171,8 @@ class Scan:
             self._close(start)
             self._open(start, index, is_traffic=False)
             return 0
-        self._close_at(word, start, index)
+        if self._open_at is not None:
+            self._close_at(word, start, index)
         each = _action_at(self._texts, self._text, start, index)
         if each is None or (self.found and _belongs_to(self.found[-1], each)):
             return 0
@@ -234,8 +240,6 @@ class Scan:
 
     def _close_at(self, word: str, start: int, index: int) -> None:
         """Close what is open if it cannot go on with a word."""
-        if self._open_at is None:
-            return
         if self._is_traffic:
             if word == NAME:
                 self._close(start)
@@ -258,14 +262,6 @@ def _is_traffic(texts: list[str], index: int) -> bool:
     """Return whether the word "traffic" here means aircraft, not a traffic circuit."""
     return texts[index - 1 : index] not in ([each] for each in _BEFORE_CIRCUIT) and not (
         _TRAFFIC_NOT.intersection(texts[index + 1 : index + 2])
-    )
-
-
-def _may_begin(texts: list[str], index: int) -> bool:
-    """Return whether a word may begin an action, a condition, or words about traffic."""
-    word = texts[index]
-    return word in _BEGINNINGS or (
-        word[0].isdigit() and index + 1 < len(texts) and texts[index + 1] in _BEHIND_NUMBERS
     )
 
 

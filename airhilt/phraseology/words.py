@@ -167,16 +167,17 @@ def _split(text: str, confidences: Sequence[float] | None) -> Words:
     if text.isascii() and text.replace(" ", "").isalpha():
         return Words(chunks, list(confidences))
     words = Words()
+    add = words.add
     for chunk, confidence in zip(chunks, confidences, strict=True):
         if chunk.isascii() and chunk.isalpha():
-            words.add(chunk, confidence)
+            add(chunk, confidence)
             continue
         for piece in PIECES.findall(THOUSANDS.sub(r"\1\2", chunk) if "," in chunk else chunk):
             if piece[0].isdigit() and "." in piece:
                 whole, fraction = piece.split(".")
                 words.add_all((whole, "decimal", fraction), confidence)
             else:
-                words.add(piece.replace("’", "'"), confidence)
+                add(piece.replace("’", "'"), confidence)
     return words
 
 
