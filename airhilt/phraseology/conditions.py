@@ -214,8 +214,6 @@ def merge_levels(reads: Reads, text: str) -> None:
 def withdraw(reads: Reads) -> None:
     """Drop the clearances that the same call cancels."""
     actions = {read.instruction.action for read, _ in reads}
-    if WITHDRAWN.keys().isdisjoint(actions):
-        return
     for cancel, cleared in WITHDRAWN.items():
         if cancel not in actions:
             continue
@@ -234,7 +232,9 @@ def put_in_order(reads: Reads, texts: list[str], text: str) -> None:
     is_filed = not _FILED.isdisjoint(texts) and bool(_AS_FILED.search(text))
     for index, (read, each) in enumerate(reads):
         told = read.instruction
-        if _is_turn_of_route(told, texts[each.first], reads[:index]):
+        if told.action == "heading" and _is_turn_of_route(
+            told, texts[each.first], reads[:index]
+        ):
             route = Instruction("taxi", via=(told.position or "",), confidence=told.confidence)
             reads[index] = read._replace(instruction=route), each
             continue
@@ -248,15 +248,13 @@ def put_in_order(reads: Reads, texts: list[str], text: str) -> None:
             _set(reads, index, condition=DEPARTED)
         elif index and _waits_with(reads[index - 1][0], read, text):
             _set(reads, index, condition=reads[index - 1][0].instruction.condition)
-        elif _waits(
-            told, reads[index - 1][0] if index else None, is_then=_is_then(texts, each.first)
-        ):
+        elif _waits(told, reads[index - 1][0] if index else None, texts, each.first):
             _set(reads, index, condition="then")
 
 
 def _is_turn_of_route(told: Instruction, first: str, before: Reads) -> bool:
     """Return whether a turn onto a taxiway is the route behind the crossing of a runway."""
-    is_turn = told.action == "heading" and told.position is not None and told.heading_deg is None
+    is_turn = told.position is not None and told.heading_deg is None
     is_bare = is_turn and first in ("left", "right")
     return is_bare and any(read.instruction.action == "cross" for read, _ in before)
 
@@ -287,7 +285,7 @@ def _is_then(texts: list[str], first: int) -> bool:
     return texts[max(at, 0)] == "then"
 
 
-def _waits(told: Instruction, before: Read | None, *, is_then: bool) -> bool:
+def _waits(told: Instruction, before: Read | None, texts: list[str], first: int) -> bool:
     """Return whether an action waits for the one before it.
 
     A taxi route waits for whom to give way to, even without "then". After "then" they may not
@@ -295,11 +293,12 @@ def _waits(told: Instruction, before: Read | None, *, is_then: bool) -> bool:
     """
     last = before.instruction.action if before else None
     if told.action == "taxi":
-        return last == "give_way" or (is_then and last in (None, *YIELDED))
+        is_last = last is None or last in YIELDED
+        return last == "give_way" or (is_last and _is_then(texts, first))
     is_limited = before is not None and before.instruction.until is not None
     is_moved = last in ("taxi", "vacate", "cross", "hold_short", "backtrack", "push_back")
-    is_later = is_limited or is_moved
-    return is_then and (told.action in SEQUENCED or (is_later and told.action in _TALKS))
+    is_later = told.action in _TALKS and (is_limited or is_moved)
+    return (is_later or told.action in SEQUENCED) and _is_then(texts, first)
 
 
 def _waits_with(before: Read, read: Read, text: str) -> bool:

@@ -26,7 +26,7 @@ from airhilt.phraseology.hits import NAME
 from airhilt.phraseology.neighbours import is_unexplained_before, is_unexplained_behind
 from airhilt.phraseology.scan import Found, Scan, Span
 from airhilt.phraseology.slots import LEVEL, PRESSURE, SHORTENED
-from airhilt.phraseology.vocabulary import has_unknown_side, is_unknown
+from airhilt.phraseology.vocabulary import has_unknown, has_unknown_side, is_unknown
 from airhilt.phraseology.words import Words
 
 SLOTS = tuple(each.name for each in fields(Instruction) if each.compare and each.name != "action")
@@ -87,8 +87,9 @@ def content_of(words: Words) -> Content:
     reads = _reads(scan, texts, plain, starts)
     attach(conditions, reads, text)
     without_goals(reads)
-    merge_levels(reads, plain)
-    withdraw(reads)
+    if len(reads) > 1:
+        merge_levels(reads, plain)
+        withdraw(reads)
     put_in_order(reads, texts, text)
     gaps = _gaps(reads, scan, plain, starts, words)
     if gaps:
@@ -142,9 +143,7 @@ def _is_doubtful(told: Instruction, text: str, read: Read, each: Found) -> bool:
         _OR.match(text, read.end) or _OR_INSIDE.search(text, each.match.end(), read.end)
     ):
         return True
-    if told.action in _VALUED and any(
-        is_unknown(word) for word in text[each.match.end() : read.end].split()
-    ):
+    if told.action in _VALUED and has_unknown(text[each.match.end() : read.end].split()):
         return True
     before = text[: min(read.start, each.match.start())].rsplit(maxsplit=2)[-2:]
     if not before or told.action in REPORTS:
@@ -197,9 +196,10 @@ def _gaps(reads: Reads, scan: Scan, text: str, starts: list[int], words: Words) 
     """Return the words between the actions, without courtesies."""
     taken = [(read.start, read.end) for read, _ in reads]
     taken += [(span.start, span.end) for span in scan.spans]
+    taken.append((len(text), len(text)))
     gaps: list[_Gap] = []
     at = 0
-    for start, end in [*sorted(taken), (len(text), len(text))]:
+    for start, end in sorted(taken):
         gap = text[at:start].strip(" |")
         if gap:
             first, last = bisect_right(starts, at - 1), bisect_right(starts, start - 1)

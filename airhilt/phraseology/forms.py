@@ -102,21 +102,21 @@ Listed = tuple[tuple[str, Action, str, Builder], ...]
 
 _ACK = "okay|ok|roger|alright|copy|and|yes|yeah|affirm|affirmative|wilco|full stop|thanks|thank you"
 _BEFORE = re.compile(
-    rf"(?<!\S)(?P<word>runway )?{RUNWAY}"
+    rf"(?<!\S)(?:runway )?{RUNWAY}"
     rf"(?: (?:(?:at|from|(?:at )?intersection) (?P<place>{TAXIWAY})|full length))?$"
 )
 _OPENING = re.compile(
-    rf"(?:\| )?(?:(?:{_ACK}) )*(?P<word>runway )?{RUNWAY}(?= (?:winds?|number|traffic|#))"
+    rf"(?:\| )?(?:(?:{_ACK}) )*(?:runway )?{RUNWAY}(?= (?:winds?|number|traffic|#))"
 )
 """A runway at the beginning of a call, between which and its clearance other words stand."""
 _AHEAD = re.compile(
     rf"(?<!of )(?<!final )(?<!base )(?<!on )(?<!for )(?<!behind )(?<!crossing )(?<!landing )"
-    rf"(?<!departing )(?P<word>runway ){RUNWAY}(?= (?:winds? |number [0-9]|#|cleared short))"
+    rf"(?<!departing )runway {RUNWAY}(?= (?:winds? |number [0-9]|#|cleared short))"
 )
 """A named runway before its clearance, with other words between them."""
 _BEFORE_TURN = re.compile(
     rf"(?<!of )(?<!final )(?<!base )(?<!on )(?<!for )(?<!behind )(?<!crossing )(?<!landing )"
-    rf"(?<!departing )(?P<word>runway ){RUNWAY} (?:(?:fly|turn)(?: (?:left|right))?"
+    rf"(?<!departing )runway {RUNWAY} (?:(?:fly|turn)(?: (?:left|right))?"
     r"|(?:left|right)(?: turn)?)(?: to)?(?: heading)? [0-9]{3}(?: degrees)? $"
 )
 """A runway whose take-off is cleared behind the turn after it (FAA Order JO 7110.65, 3-9-9)."""
@@ -167,16 +167,16 @@ def on_runway(segment: Segment, action: Action) -> Read | None:
     if action in _BY_OPENING and not (inside or before or after):
         opening = _opening(segment)
         if opening:
-            number, side = opening.group(2, 3)
+            number, side = opening.groups()
             confidence = min(BARE_RUNWAY, runway_confidence(number))
             read = Instruction(
                 action, designator(number, side),
                 immediate=is_immediate(segment, segment.found.end()), confidence=confidence,
             )  # fmt: skip
             return Read(read, segment.start, segment.found.end())
-    named = [_number_and_side(each) for each in (inside, before, after) if each]
-    told = [designator(*each) for each in named]
-    start, end = segment.start, segment.found.end()
+    named = [each.group(1, 2) for each in (inside, before, after) if each]
+    told = [designator(number, side) for number, side in named]
+    start, end = segment.found.span()
     if before:
         start = segment.begin + before.start()
     if after:
@@ -192,7 +192,7 @@ def on_runway(segment: Segment, action: Action) -> Read | None:
         end = more.end()
     confidences = [runway_confidence(number) for number, _ in named]
     bare_after = after is not None and after.re is _BARE_AFTER
-    bare_before = before is not None and not before["word"]
+    bare_before = before is not None and not before[0].startswith("runway")
     if (bare_after or bare_before) and len(told) == 1:
         confidences.append(BARE_RUNWAY)
     read = Instruction(
@@ -236,22 +236,16 @@ def _second_crossing(segment: Segment, end: int) -> re.Match[str] | None:
     return _AND_RUNWAY.match(segment.text, end, segment.limit)
 
 
-def _number_and_side(found: re.Match[str]) -> tuple[str, str | None]:
-    """Return the number and the side of a runway that was found."""
-    number, side = found.group(2, 3) if found.re is _BEFORE else found.group(1, 2)
-    return number, side
-
-
 def runway_before(segment: Segment) -> re.Match[str] | None:
     """Return the runway right before an action; without its word only after the callsign."""
     ahead = segment.before
     found = _BEFORE.search(ahead)
-    if found is None or found["word"]:
+    if found is None or found[0].startswith("runway"):
         return found
     before = segment.text[: segment.begin + found.start()]
     if _BEGINS.fullmatch(before):
         return found
-    has_side = found[3] is not None and segment.begin + found.start() > 0
+    has_side = found[2] is not None and segment.begin + found.start() > 0
     return found if has_side and before.split()[-1] not in _NOT_ITS else None
 
 

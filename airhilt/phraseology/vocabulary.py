@@ -46,16 +46,20 @@ def is_unknown(word: str) -> bool:
     return word.isalpha() and word not in WORDS
 
 
+def has_unknown(words: list[str]) -> bool:
+    """Return whether one of some words is unknown."""
+    return bool([word for word in words if word not in WORDS and word.isalpha()])
+
+
 def has_unknown_side(text: str, start: int, end: int) -> bool:
     """Return whether a runway among some words has no side, and a word after it is unknown.
 
     The unknown word may be the side, misheard: "runway 15 rime" may have been "runway 15 right".
     """
-    for found in _RUNWAY.finditer(text, start):
-        if found.start() >= end:
-            return False
+    while start < end and (found := _RUNWAY.search(text, start)) and found.start() < end:
         if found[2] is None and _side_follows(text[found.end() :].split(maxsplit=_FARTHEST + 1)):
             return True
+        start = found.end()
     return False
 
 
