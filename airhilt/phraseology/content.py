@@ -73,7 +73,7 @@ def content_of(words: Words) -> Content:
     """Return the meaning of words without corrections."""
     texts = words.texts
     text = " ".join(texts)
-    starts = [0, *accumulate(len(word) + 1 for word in texts)]
+    starts = [0, *accumulate([len(word) + 1 for word in texts])]
     scan = Scan(texts, text, starts)
     content = Content()
     for span in scan.spans:

@@ -160,8 +160,7 @@ def on_runway(segment: Segment, action: Action) -> Read | None:
 
     The action is not read if two different runways are named.
     """
-    words = segment.found[0]
-    inside = NAMED_RUNWAY.search(words) if "runway" in words else None
+    inside = _named_runway(segment.found[0])
     before = runway_before(segment)
     after = _runway_after(segment, is_named=bool(inside or before))
     if action in _BY_OPENING and not (inside or before or after):
@@ -254,6 +253,10 @@ def is_next_runway(segment: Segment) -> bool:
     return segment.limit < len(segment.text) and bool(_NAMED_BEFORE.search(segment.after.rstrip()))
 
 
+def _named_runway(text: str) -> re.Match[str] | None:
+    return NAMED_RUNWAY.search(text) if "runway" in text else None
+
+
 def _runway_after(segment: Segment, *, is_named: bool) -> re.Match[str] | None:
     """Return the runway that is named after an action and does not belong to the next one.
 
@@ -266,7 +269,7 @@ def _runway_after(segment: Segment, *, is_named: bool) -> re.Match[str] | None:
     bare = _BARE_AFTER.match(after)
     if bare:
         return bare
-    named = NAMED_RUNWAY.search(after)
+    named = _named_runway(after)
     if named is None or _OTHER_RUNWAY.search(after[: named.start()]):
         return None
     is_beside = after[: named.start()].strip() in ("", "on")

@@ -200,8 +200,8 @@ def frequency_khz(mhz: str, fraction: str) -> int | None:
 
 def wind_of(text: str) -> Wind | None:
     """Return the wind in a call; beside a clearance to land or take off, "wind" may be left out."""
-    found = WIND.search(text)
-    if not found and _AT_RUNWAY.search(text):
+    found = WIND.search(text) if "wind" in text else None
+    if not found and (" at " in text or " degrees " in text) and _AT_RUNWAY.search(text):
         found = BARE_WIND.search(text)
     if not found:
         return None

@@ -19,8 +19,8 @@ MENDED = 0.9
 
 FILLERS = frozenset({"uh", "um", "er", "ah", "eh", "erm", "hm", "hmm", "mm", "uhm", "please"})
 
-THOUSANDS = re.compile(r"\b([0-9]{1,2}),([0-9]{3})\b")
-"""A number with a thousands separator, such as 5,000."""
+THOUSANDS = re.compile(r"(?:(?<=\b[0-9])|(?<=\b[0-9]{2})),(?=[0-9]{3}\b)")
+"""A thousands separator, as in 5,000."""
 PIECES = re.compile(r"[a-z]+(?:['’][a-z]+)?|[0-9]+(?:\.[0-9]+)?|[,.;]")
 BREAKS = frozenset(",.;")
 
@@ -172,7 +172,7 @@ def _split(text: str, confidences: Sequence[float] | None) -> Words:
         if chunk.isascii() and chunk.isalpha():
             add(chunk, confidence)
             continue
-        for piece in PIECES.findall(THOUSANDS.sub(r"\1\2", chunk) if "," in chunk else chunk):
+        for piece in PIECES.findall(THOUSANDS.sub("", chunk)):
             if piece[0].isdigit() and "." in piece:
                 whole, fraction = piece.split(".")
                 words.add_all((whole, "decimal", fraction), confidence)
