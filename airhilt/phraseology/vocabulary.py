@@ -65,9 +65,9 @@ def has_unknown_side(text: str, start: int, end: int) -> bool:
 
 def _side_follows(words: list[str]) -> bool:
     """Return whether a side, or an unknown word that may be one, follows a runway."""
-    for word, following in zip(words[:_FARTHEST], [*words[1:], ""], strict=False):
+    for at, word in enumerate(words[:_FARTHEST], 1):
         if word in _SIDES or is_unknown(word):
-            return following not in _OF_TURN
+            return _OF_TURN.isdisjoint(words[at : at + 1])
         if word not in _SMALL:
             return False
     return False

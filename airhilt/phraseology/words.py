@@ -185,34 +185,35 @@ def _mend(words: Words) -> Words:
     """Leave out fillers, unify spellings, and mend words that were misheard."""
     if not FILLERS.isdisjoint(words.texts):
         words = _without_fillers(words)
-    texts, confidences = words.texts, words.confidences
+    texts = words.texts
     mended = Words()
     done = 0
     for at, word in enumerate(texts):
         if (word not in _MENDED and "'" not in word) or at < done:
             continue
-        mended.take(words, done, at)
-        done = at + 1
         following = texts[at + 1] if at + 1 < len(texts) else ""
-        confidence = confidences[at]
         pairs = PAIRS.get(word)
-        pair = pairs.get(following) if pairs else None
-        if pair is not None:
-            confidence = min(confidence, confidences[at + 1])
-            mended.add_all(pair, confidence * (1.0 if word in _SPELLED_APART else MENDED))
-            done += 1
-        elif word == "fox" and _is_spelling(mended.texts[-1:], following):
-            mended.add("foxtrot", confidence)
+        size, sure = 1, 1.0
+        meant: Sequence[str]
+        if pairs and following in pairs:
+            meant, size, sure = pairs[following], 2, 1.0 if word in _SPELLED_APART else MENDED
+        elif word == "fox" and _is_spelling(texts[done:at][-1:] or mended.texts[-1:], following):
+            meant = ("foxtrot",)
         elif word in SPELLINGS:
-            mended.add_all(SPELLINGS[word], confidence)
+            meant = SPELLINGS[word]
         elif word in SOUNDALIKES:
-            mended.add_all(SOUNDALIKES[word], confidence * MENDED)
+            meant, sure = SOUNDALIKES[word], MENDED
         elif word.endswith("n't"):
-            mended.add_all((word[:-3], "not"), confidence)
+            meant = (word[:-3], "not")
         elif "'" in word:
-            mended.add(word.split("'")[0] if word != "o'clock" else "oclock", confidence)
+            meant = (word.split("'")[0] if word != "o'clock" else "oclock",)
         else:
-            mended.add(word, confidence)
+            continue
+        mended.take(words, done, at)
+        mended.add_all(meant, min(words.confidences[at : at + size]) * sure)
+        done = at + size
+    if done == 0:
+        return words
     mended.take(words, done, len(texts))
     return mended
 
@@ -258,7 +259,7 @@ def _join(said: Words) -> Words:
     """Write numbers in digits, and join those that follow each other."""
     texts, confidences = said.texts, said.confidences
     words = Words()
-    add = words.add
+    joined, sure = words.texts, words.confidences
     joining = False
     at, size = 0, len(texts)
     while at < size:
@@ -267,7 +268,8 @@ def _join(said: Words) -> Words:
         if word not in _NUMERIC and not word[0].isdigit():
             joining = False
             if word not in BREAKS:
-                add(word, confidence)
+                joined.append(word)
+                sure.append(confidence)
             continue
         digits = DIGITS.get(word) or TEENS.get(word)
         if digits is None and word in TENS:
@@ -294,7 +296,7 @@ def _join(said: Words) -> Words:
         if digits is not None and joining:
             words.extend_number(digits, confidence)
         else:
-            add(digits or word, confidence)
+            words.add(digits or word, confidence)
         joining = digits is not None
     return words
 
