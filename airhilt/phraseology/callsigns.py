@@ -94,13 +94,11 @@ class Roster:
             lead += 1
         openings = (lead, *_after_opening(words))
         mine = [hit for hit in hits if not is_spoken_of(words, hit.start, hit.end)]
-        placed = [
-            hit
-            for hit in mine
-            if hit.start <= lead or hit.start in openings or hit.end == len(words)
-        ]
-        if not placed and not is_written:
-            more, unlikely = repaired(words, self.known, openings)
+        for hit in mine:
+            if hit.start <= lead or hit.start in openings or hit.end == len(words):
+                break
+        else:
+            more, unlikely = ([], []) if is_written else repaired(words, self.known, openings)
             mine += more
             near += unlikely
         if not mine:
@@ -212,8 +210,9 @@ def _best(chosen: Hit | None, hits: list[Hit]) -> CallsignMatch:
     scores: dict[str, float] = {}
     for hit in hits:
         scores[hit.callsign] = max(scores.get(hit.callsign, 0.0), hit.score)
-    ranked = sorted(scores.items(), key=lambda each: (-each[1], each[0]))
-    candidates = tuple([Candidate(*each) for each in ranked])
+    candidates = tuple([Candidate(*each) for each in scores.items()])
+    if len(candidates) > 1:
+        candidates = tuple(sorted(candidates, key=lambda each: (-each.score, each.callsign)))
     best = candidates[0].score
     ambiguous = len(candidates) > 1 and candidates[1].score >= best - MARGIN
     return CallsignMatch(chosen and candidates[0].callsign, best, ambiguous, candidates)

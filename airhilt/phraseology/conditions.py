@@ -227,8 +227,6 @@ def withdraw(reads: Reads) -> None:
 
 def put_in_order(reads: Reads, texts: list[str], text: str) -> None:
     """Give conditions to actions that wait for others of the same call, without saying so."""
-    actions = {read.instruction.action for read, _ in reads if not read.is_expected}
-    is_takeoff = "cleared_for_takeoff" in actions
     is_filed = not _FILED.isdisjoint(texts) and bool(_AS_FILED.search(text))
     for index, (read, each) in enumerate(reads):
         told = read.instruction
@@ -242,7 +240,7 @@ def put_in_order(reads: Reads, texts: list[str], text: str) -> None:
             _share_runway(reads, index, text)
         if told.condition is not None:
             continue
-        if is_takeoff and told.action in IN_FLIGHT:
+        if told.action in IN_FLIGHT and _is_takeoff(reads):
             _set(reads, index, condition=AIRBORNE)
         elif is_filed and told.action in _AFTER_DEPARTURE and not read.is_expected:
             _set(reads, index, condition=DEPARTED)
@@ -250,6 +248,14 @@ def put_in_order(reads: Reads, texts: list[str], text: str) -> None:
             _set(reads, index, condition=reads[index - 1][0].instruction.condition)
         elif _waits(told, reads[index - 1][0] if index else None, texts, each.first):
             _set(reads, index, condition="then")
+
+
+def _is_takeoff(reads: Reads) -> bool:
+    """Return whether a call clears for take-off."""
+    return any(
+        read.instruction.action == "cleared_for_takeoff" and not read.is_expected
+        for read, _ in reads
+    )
 
 
 def _is_turn_of_route(told: Instruction, first: str, before: Reads) -> bool:

@@ -199,7 +199,8 @@ def _gaps(reads: Reads, scan: Scan, text: str, starts: list[int], words: Words) 
     taken.append((len(text), len(text)))
     gaps: list[_Gap] = []
     at = 0
-    for start, end in sorted(taken):
+    taken.sort()
+    for start, end in taken:
         gap = text[at:start].strip(" |")
         if gap:
             first, last = bisect_right(starts, at - 1), bisect_right(starts, start - 1)

@@ -112,7 +112,7 @@ def is_meant(
     """
     if action in CLEARANCES and not _is_own(words, first, after, floor):
         return False
-    if first <= floor:
+    if words[floor:first] in ([], [NAME]):
         return True
     if "you" in words[floor:first] and words[max(words.index("you", floor) - 1, 0)] in _ASKS_YOU:
         return False

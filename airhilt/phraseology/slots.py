@@ -135,7 +135,7 @@ PRESSURE = re.compile(
 
 def designator(number: str, side: str | None) -> str:
     """Return a runway designator: two digits, and the letter of a parallel runway."""
-    return f"{int(number):02d}{(side or '')[:1].upper()}"
+    return f"{number.zfill(2)}{(side or '')[:1].upper()}"
 
 
 def runway_confidence(number: str) -> float:

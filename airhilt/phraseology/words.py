@@ -172,6 +172,11 @@ def _split(text: str, confidences: Sequence[float] | None) -> Words:
         if chunk.isascii() and chunk.isalpha():
             add(chunk, confidence)
             continue
+        word, sign = chunk[:-1], chunk[-1]
+        if sign in BREAKS and word.isascii() and word.isalpha():
+            add(word, confidence)
+            add(sign, confidence)
+            continue
         for piece in PIECES.findall(THOUSANDS.sub("", chunk)):
             if piece[0].isdigit() and "." in piece:
                 whole, fraction = piece.split(".")
