@@ -140,7 +140,7 @@ class Roster:
                 continue
             name = ""
             for at, word in enumerate(words[start : start + _LONGEST_NAME], start):
-                if word[0].isdigit() and at > start:
+                if at > start and word[0].isdigit():
                     break
                 name += word
                 if name not in self.beginnings:

@@ -230,9 +230,7 @@ def put_in_order(reads: Reads, texts: list[str], text: str) -> None:
     is_filed = not _FILED.isdisjoint(texts) and bool(_AS_FILED.search(text))
     for index, (read, each) in enumerate(reads):
         told = read.instruction
-        if told.action == "heading" and _is_turn_of_route(
-            told, texts[each.first], reads[:index]
-        ):
+        if told.action == "heading" and _is_turn_of_route(told, texts[each.first], reads[:index]):
             route = Instruction("taxi", via=(told.position or "",), confidence=told.confidence)
             reads[index] = read._replace(instruction=route), each
             continue

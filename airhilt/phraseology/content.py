@@ -85,7 +85,8 @@ def content_of(words: Words) -> Content:
     for span in conditions:
         plain = _blank(plain, span)
     reads = _reads(scan, texts, plain, starts)
-    attach(conditions, reads, text)
+    if conditions:
+        attach(conditions, reads, text)
     without_goals(reads)
     if len(reads) > 1:
         merge_levels(reads, plain)
@@ -99,19 +100,19 @@ def content_of(words: Words) -> Content:
         is_beside = bool(gaps) and _is_beside_unexplained(read, plain, reads)
         heard = CLEAR if is_sure else _confidences(read, each, words, starts)
         for told in (read.instruction, *read.more):
+            sure = told.confidence
             if is_beside or _is_doubtful(told, plain, read, each):
-                told = replace(told, confidence=min(told.confidence, SHORTENED))
-            instruction = told if heard == CLEAR else _heard(told, *heard)
+                sure = min(sure, SHORTENED)
+            if sure != told.confidence or heard != CLEAR:
+                told = _heard(told, sure, *heard)
             if read.is_expected:
-                content.expected.append(instruction)
+                content.expected.append(told)
             else:
-                _add(content, instruction, is_doing=texts[each.first].endswith("ing"))
+                _add(content, told, is_doing=texts[each.first].endswith("ing"))
     return content
 
 
-def _confidences(
-    read: Read, each: Found, words: Words, starts: list[int]
-) -> tuple[float, float]:
+def _confidences(read: Read, each: Found, words: Words, starts: list[int]) -> tuple[float, float]:
     """Return the least confidences of the recogniser in an action and in its details."""
     begin, end = bisect_right(starts, read.start) - 1, bisect_right(starts, read.end - 1)
     after_action = bisect_right(starts, each.match.end() - 1)
@@ -169,11 +170,11 @@ def _is_beside_unexplained(read: Read, text: str, reads: Reads) -> bool:
     )
 
 
-def _heard(told: Instruction, action: float, details: float) -> Instruction:
-    """Return an instruction with the confidences of the recogniser in its words."""
+def _heard(told: Instruction, sure: float, action: float, details: float) -> Instruction:
+    """Return an instruction with a confidence, and those of the recogniser in its words."""
     return replace(
         told,
-        confidence=told.confidence * min(action, details),
+        confidence=sure * min(action, details),
         action_heard=action,
         details_heard=details,
     )
@@ -239,7 +240,8 @@ def _take_bare(
             if condition is None and last in YIELDED:
                 condition = "then"
             route = replace(route, condition=condition)
-            _add(content, _heard(route, gap.heard, gap.heard), is_doing=False)
+            told = _heard(route, route.confidence, gap.heard, gap.heard)
+            _add(content, told, is_doing=False)
         elif not _PASSING.match(text, gap.end):
             is_level = last == "heading" and LEVEL.fullmatch(" ".join(gap.words)) is not None
             if is_called and not is_level:
@@ -249,7 +251,8 @@ def _take_bare(
             for each in bare.instructions:
                 if is_level and before is not None:  # It waits for what the heading waits for.
                     each = replace(each, condition=before.instruction.condition)
-                _add(content, _heard(each, gap.heard, gap.heard), is_doing=False)
+                told = _heard(each, each.confidence, gap.heard, gap.heard)
+                _add(content, told, is_doing=False)
 
 
 def _condition_before(start: int, spans: list[Span], text: str) -> str | None:

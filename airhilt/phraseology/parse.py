@@ -175,7 +175,7 @@ def _call(naming: Naming, rest: Words, content: Content, named: float) -> Call:
         or (not content.instructions and bool(_CONFIRM.search(text))),
         position=place[0] if place else None,
         traffic=tuple(content.traffic),
-        wind=wind_of(text) if present & _WINDY else None,
+        wind=None if _WINDY.isdisjoint(present) else wind_of(text),
         pressure_hpa=pressure_hpa,
         confidence=min(parts),
         text=text,
@@ -202,7 +202,8 @@ def _kind(
     if not doing and _SAY_AGAIN.search(text):
         return "say_again"
     is_ready = "ready" in text or "would like" in text
-    if present & _REQUESTS or (is_ready and not naming.addressed_first and _READY.search(text)):
+    is_requested = not _REQUESTS.isdisjoint(present)
+    if is_requested or (is_ready and not naming.addressed_first and _READY.search(text)):
         return "request"
     if doing:
         if naming.addressed_first:

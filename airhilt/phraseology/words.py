@@ -226,9 +226,7 @@ def _mend(words: Words) -> Words:
 def _is_spelling(before: list[str], following: str) -> bool:
     """Return whether the words around one are letters, or lead to the letter of a taxiway."""
     return (
-        following in _SPELLED
-        or not _SPELLED.isdisjoint(before)
-        or before in (["via"], ["taxiway"])
+        following in _SPELLED or not _SPELLED.isdisjoint(before) or before in (["via"], ["taxiway"])
     )
 
 
