@@ -35,8 +35,10 @@ def _by_first_word() -> dict[str, tuple[Form, ...]]:
 
 FORMS = _by_first_word()
 """Forms of actions, by their first words."""
-NUMBER_FORMS = (
-    surveillance.FREQUENCY_FORM, speeds.KNOTS_FORM, speeds.ON_SPEED_FORM, speeds.LIMITED_FORM,
-    lateral.ON_HEADING_FORM,
-)  # fmt: skip
-"""Forms that begin with a number."""
+NUMBER_FORMS: dict[str, tuple[Form, ...]] = {
+    "decimal": (surveillance.FREQUENCY_FORM,),
+    "knots": (speeds.KNOTS_FORM,),
+    "on": (speeds.ON_SPEED_FORM, lateral.ON_HEADING_FORM),
+    **dict.fromkeys(("or", "to", "until"), (speeds.LIMITED_FORM,)),
+}
+"""Forms that begin with a number, by the word behind it."""

@@ -58,8 +58,10 @@ class Bare:
 
 def without_courtesies(words: list[str]) -> list[str]:
     """Return words without those that may stand before and behind a readback."""
-    kept = _FAREWELL.sub("", " ".join(words)).split()
-    while kept and kept[0] in _IDLE and kept[:1] != ["right"]:
+    kept = words[:]
+    if words[-1:] == ["1"]:
+        kept = _FAREWELL.sub("", " ".join(words)).split()
+    while kept and kept[0] in _IDLE and kept[0] != "right":
         del kept[0]
     while kept and (kept[-1] in _IDLE or kept[-1] == "to") and kept[-1] not in ("right", "one"):
         del kept[-1]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
+from typing import NamedTuple
 
 from airhilt.phraseology.aircraft_names import MAKERS
 from airhilt.phraseology.alphabet import LETTER_OF
@@ -54,8 +55,7 @@ class CallsignMatch:
 NOBODY = CallsignMatch(None, 0.0, False, ())
 
 
-@dataclass(frozen=True, slots=True)
-class Naming:
+class Naming(NamedTuple):
     """The callsigns in a call."""
 
     match: CallsignMatch
@@ -94,10 +94,11 @@ class Roster:
             lead += 1
         openings = (lead, *_after_opening(words))
         mine = [hit for hit in hits if not is_spoken_of(words, hit.start, hit.end)]
-        if not is_written and not any(
-            hit.start <= lead or hit.start in openings or hit.end == len(words) for hit in mine
-        ):
-            more, unlikely = repaired(words, self.known, openings)
+        for hit in mine:
+            if hit.start <= lead or hit.start in openings or hit.end == len(words):
+                break
+        else:
+            more, unlikely = ([], []) if is_written else repaired(words, self.known, openings)
             mine += more
             near += unlikely
         if not mine:
@@ -113,44 +114,33 @@ class Roster:
         openings: tuple[int, ...],
     ) -> Naming:
         """Return the callsigns of a call from those that may be of its speaker or addressee."""
-        lead = openings[0]
-        chosen = min(
-            mine,
-            key=lambda hit: (
-                hit.start > lead and hit.start not in openings, hit.end < len(words), hit.start,
-                -hit.end, -hit.score, hit.callsign,
-            ),
-        )  # fmt: skip
-        same_place = [hit for hit in mine if hit.start < chosen.end and chosen.start < hit.end]
-        longest = [
-            hit
-            for hit in same_place
-            if not any(
-                o.start <= hit.start and o.end > hit.end and o.score >= hit.score
-                for o in same_place
-            )
-        ]
-        chosen = max(longest, key=lambda hit: (hit.score, -hit.start))
+        longest = _longest(mine, openings, len(words)) if len(mine) > 1 else mine
+        chosen = longest[0]
         rivals = [hit for hit in near if hit.start < chosen.end and chosen.start < hit.end]
         match = _best(chosen, [*longest, *rivals])
         if _is_one_of_two(words, chosen, hits):
             match = replace(match, ambiguous=True)
-        apart = [hit for hit in hits if hit.start >= chosen.end or hit.end <= chosen.start]
-        again = tuple(hit for hit in apart if hit.callsign == chosen.callsign)
-        unread = [hit for hit in near if not _may_be_taxiway(words, hit.start)]
-        others = tuple(hit for hit in (*apart, *unread) if hit.callsign != chosen.callsign)
-        return Naming(match, chosen, chosen.start <= lead, again, others)
+        again: list[Hit] = []
+        others: list[Hit] = []
+        for hit in hits:
+            if hit.start >= chosen.end or hit.end <= chosen.start:
+                (again if hit.callsign == chosen.callsign else others).append(hit)
+        for hit in near:
+            if hit.callsign != chosen.callsign and not _may_be_taxiway(words, hit.start):
+                others.append(hit)
+        return Naming(match, chosen, chosen.start <= openings[0], tuple(again), tuple(others))
 
     def _find(self, words: list[str]) -> tuple[list[Hit], list[Hit]]:
         """Return the places of names with their own numbers, and of names with others."""
         hits: list[Hit] = []
         near: list[Hit] = []
         size = len(words)
-        for start in range(size):
+        for start, first in enumerate(words):
+            if first not in self.beginnings:
+                continue
             name = ""
-            for at in range(start, min(start + _LONGEST_NAME, size)):
-                word = words[at]
-                if word[0].isdigit() and at > start:
+            for at, word in enumerate(words[start : start + _LONGEST_NAME], start):
+                if at > start and word[0].isdigit():
                     break
                 name += word
                 if name not in self.beginnings:
@@ -168,9 +158,33 @@ class Roster:
         return hits, near
 
 
+def _longest(mine: list[Hit], openings: tuple[int, ...], size: int) -> list[Hit]:
+    """Return the longest hits at the place that counts, the best first.
+
+    It is the beginning of the call, or else its end, or else the first place.
+    """
+    lead = openings[0]
+    chosen = min(
+        mine,
+        key=lambda hit: (
+            hit.start > lead and hit.start not in openings, hit.end < size, hit.start,
+            -hit.end, -hit.score, hit.callsign,
+        ),
+    )  # fmt: skip
+    same_place = [hit for hit in mine if hit.start < chosen.end and chosen.start < hit.end]
+    longest = [
+        hit
+        for hit in same_place
+        if not any(
+            o.start <= hit.start and o.end > hit.end and o.score >= hit.score for o in same_place
+        )
+    ]
+    return sorted(longest, key=lambda hit: (-hit.score, hit.start))
+
+
 def _after_opening(words: list[str]) -> tuple[int, ...]:
     """Return the indices after the name of a unit, a greeting or a distress signal at the begin."""
-    found = [at + 1 for at in range(min(LONGEST_STATION, len(words))) if words[at] in STATIONS]
+    found = [at for at, word in enumerate(words[:LONGEST_STATION], 1) if word in STATIONS]
     at = found[-1] if found else 0
     while at < len(words) and words[at] in OPENING:
         at += 1
@@ -196,10 +210,9 @@ def _best(chosen: Hit | None, hits: list[Hit]) -> CallsignMatch:
     scores: dict[str, float] = {}
     for hit in hits:
         scores[hit.callsign] = max(scores.get(hit.callsign, 0.0), hit.score)
-    candidates = tuple(
-        Candidate(callsign, score)
-        for callsign, score in sorted(scores.items(), key=lambda each: (-each[1], each[0]))
-    )
+    candidates = tuple([Candidate(*each) for each in scores.items()])
+    if len(candidates) > 1:
+        candidates = tuple(sorted(candidates, key=lambda each: (-each.score, each.callsign)))
     best = candidates[0].score
     ambiguous = len(candidates) > 1 and candidates[1].score >= best - MARGIN
     return CallsignMatch(chosen and candidates[0].callsign, best, ambiguous, candidates)

@@ -66,6 +66,8 @@ _RIVALS: dict[Action, Callable[[Instruction], float | None]] = {
 """Actions of which one call gives one value for a time, with that value."""
 _ENTERING = frozenset({"cleared_for_takeoff", "line_up", "cross"})
 """Clearances to go on to a runway."""
+_STOPPING = frozenset({"hold_position", "go_around", "hold_short"})
+"""Actions that stop a clearance."""
 _EXCLUSIVE = frozenset({"cleared_to_land", "cleared_for_takeoff", "line_up"})
 """Clearances of which one aircraft gets one at a time, except line-up and take-off."""
 
@@ -225,14 +227,10 @@ def withdraw(reads: Reads) -> None:
 
 def put_in_order(reads: Reads, texts: list[str], text: str) -> None:
     """Give conditions to actions that wait for others of the same call, without saying so."""
-    actions = {read.instruction.action for read, _ in reads if not read.is_expected}
-    is_takeoff = "cleared_for_takeoff" in actions
     is_filed = not _FILED.isdisjoint(texts) and bool(_AS_FILED.search(text))
     for index, (read, each) in enumerate(reads):
         told = read.instruction
-        if _is_turn_of_route(
-            told, texts[each.first], [each.instruction for each, _ in reads[:index]]
-        ):
+        if told.action == "heading" and _is_turn_of_route(told, texts[each.first], reads[:index]):
             route = Instruction("taxi", via=(told.position or "",), confidence=told.confidence)
             reads[index] = read._replace(instruction=route), each
             continue
@@ -240,21 +238,29 @@ def put_in_order(reads: Reads, texts: list[str], text: str) -> None:
             _share_runway(reads, index, text)
         if told.condition is not None:
             continue
-        if is_takeoff and told.action in IN_FLIGHT:
+        if told.action in IN_FLIGHT and _is_takeoff(reads):
             _set(reads, index, condition=AIRBORNE)
         elif is_filed and told.action in _AFTER_DEPARTURE and not read.is_expected:
             _set(reads, index, condition=DEPARTED)
         elif index and _waits_with(reads[index - 1][0], read, text):
             _set(reads, index, condition=reads[index - 1][0].instruction.condition)
-        elif _waits(told, reads[:index], is_then=_is_then(texts, each.first)):
+        elif _waits(told, reads[index - 1][0] if index else None, texts, each.first):
             _set(reads, index, condition="then")
 
 
-def _is_turn_of_route(told: Instruction, first: str, before: list[Instruction]) -> bool:
+def _is_takeoff(reads: Reads) -> bool:
+    """Return whether a call clears for take-off."""
+    return any(
+        read.instruction.action == "cleared_for_takeoff" and not read.is_expected
+        for read, _ in reads
+    )
+
+
+def _is_turn_of_route(told: Instruction, first: str, before: Reads) -> bool:
     """Return whether a turn onto a taxiway is the route behind the crossing of a runway."""
-    is_turn = told.action == "heading" and told.position is not None and told.heading_deg is None
+    is_turn = told.position is not None and told.heading_deg is None
     is_bare = is_turn and first in ("left", "right")
-    return is_bare and any(each.action == "cross" for each in before)
+    return is_bare and any(read.instruction.action == "cross" for read, _ in before)
 
 
 def _share_runway(reads: Reads, index: int, text: str) -> None:
@@ -283,19 +289,20 @@ def _is_then(texts: list[str], first: int) -> bool:
     return texts[max(at, 0)] == "then"
 
 
-def _waits(told: Instruction, before: Reads, *, is_then: bool) -> bool:
+def _waits(told: Instruction, before: Read | None, texts: list[str], first: int) -> bool:
     """Return whether an action waits for the one before it.
 
     A taxi route waits for whom to give way to, even without "then". After "then" they may not
     have been understood.
     """
-    last = before[-1][0].instruction.action if before else None
+    last = before.instruction.action if before else None
     if told.action == "taxi":
-        return last == "give_way" or (is_then and last in (None, *YIELDED))
-    is_limited = bool(before) and before[-1][0].instruction.until is not None
+        is_last = last is None or last in YIELDED
+        return last == "give_way" or (is_last and _is_then(texts, first))
+    is_limited = before is not None and before.instruction.until is not None
     is_moved = last in ("taxi", "vacate", "cross", "hold_short", "backtrack", "push_back")
-    is_later = is_limited or is_moved
-    return is_then and (told.action in SEQUENCED or (is_later and told.action in _TALKS))
+    is_later = told.action in _TALKS and (is_limited or is_moved)
+    return (is_later or told.action in SEQUENCED) and _is_then(texts, first)
 
 
 def _waits_with(before: Read, read: Read, text: str) -> bool:
@@ -333,6 +340,8 @@ def _without_stopped(instructions: list[Instruction]) -> list[Instruction]:
 
     A word between them is lost: "line up runway 23, disregard, hold short runway 23".
     """
+    if _STOPPING.isdisjoint([each.action for each in instructions]):
+        return instructions
     now = [each for each in instructions if each.condition is None]
     is_held = any(each.action == "hold_position" for each in now)
     is_gone = any(each.action == "go_around" for each in now)

@@ -26,7 +26,7 @@ from airhilt.phraseology.hits import NAME
 from airhilt.phraseology.neighbours import is_unexplained_before, is_unexplained_behind
 from airhilt.phraseology.scan import Found, Scan, Span
 from airhilt.phraseology.slots import LEVEL, PRESSURE, SHORTENED
-from airhilt.phraseology.vocabulary import has_unknown_side, is_unknown
+from airhilt.phraseology.vocabulary import has_unknown, has_unknown_side, is_unknown
 from airhilt.phraseology.words import Words
 
 SLOTS = tuple(each.name for each in fields(Instruction) if each.compare and each.name != "action")
@@ -73,7 +73,7 @@ def content_of(words: Words) -> Content:
     """Return the meaning of words without corrections."""
     texts = words.texts
     text = " ".join(texts)
-    starts = [0, *accumulate(len(word) + 1 for word in texts)]
+    starts = [0, *accumulate([len(word) + 1 for word in texts])]
     scan = Scan(texts, text, starts)
     content = Content()
     for span in scan.spans:
@@ -85,32 +85,44 @@ def content_of(words: Words) -> Content:
     for span in conditions:
         plain = _blank(plain, span)
     reads = _reads(scan, texts, plain, starts)
-    attach(conditions, reads, text)
+    if conditions:
+        attach(conditions, reads, text)
     without_goals(reads)
-    merge_levels(reads, plain)
-    withdraw(reads)
+    if len(reads) > 1:
+        merge_levels(reads, plain)
+        withdraw(reads)
     put_in_order(reads, texts, text)
     gaps = _gaps(reads, scan, plain, starts, words)
-    _take_bare(content, gaps, reads, scan, text, is_called=texts[:1] == [NAME])
-    taken = [(read.start, read.end) for read, _ in reads]
-    heard_as = zip(texts, words.confidences, strict=True)
-    sure = [1.0 if word in IDLE else confidence for word, confidence in heard_as]
+    if gaps:
+        _take_bare(content, gaps, reads, scan, text, is_called=texts[:1] == [NAME])
+    is_sure = words.confidences.count(1.0) == len(texts)
     for read, each in reads:
-        is_beside = bool(gaps) and _is_beside_unexplained(read, plain, taken)
-        after_action = bisect_right(starts, each.match.end() - 1)
-        action = sure[each.first : after_action]
-        before = sure[bisect_right(starts, read.start) - 1 : each.first]
-        behind = sure[after_action : bisect_right(starts, read.end - 1)]
-        heard = min(action, default=1.0), min([*before, *behind], default=1.0)
+        is_beside = bool(gaps) and _is_beside_unexplained(read, plain, reads)
+        heard = CLEAR if is_sure else _confidences(read, each, words, starts)
         for told in (read.instruction, *read.more):
+            sure = told.confidence
             if is_beside or _is_doubtful(told, plain, read, each):
-                told = replace(told, confidence=min(told.confidence, SHORTENED))
-            instruction = told if heard == CLEAR else _heard(told, *heard)
+                sure = min(sure, SHORTENED)
+            if sure != told.confidence or heard != CLEAR:
+                told = _heard(told, sure, *heard)
             if read.is_expected:
-                content.expected.append(instruction)
+                content.expected.append(told)
             else:
-                _add(content, instruction, is_doing=texts[each.first].endswith("ing"))
+                _add(content, told, is_doing=texts[each.first].endswith("ing"))
     return content
+
+
+def _confidences(read: Read, each: Found, words: Words, starts: list[int]) -> tuple[float, float]:
+    """Return the least confidences of the recogniser in an action and in its details."""
+    begin, end = bisect_right(starts, read.start) - 1, bisect_right(starts, read.end - 1)
+    after_action = bisect_right(starts, each.match.end() - 1)
+    details = min(_least(words, begin, each.first), _least(words, after_action, end))
+    return _least(words, each.first, after_action), details
+
+
+def _least(words: Words, start: int, end: int) -> float:
+    said = zip(words.texts[start:end], words.confidences[start:end], strict=True)
+    return min([1.0 if word in IDLE else confidence for word, confidence in said], default=1.0)
 
 
 def _is_doubtful(told: Instruction, text: str, read: Read, each: Found) -> bool:
@@ -128,11 +140,11 @@ def _is_doubtful(told: Instruction, text: str, read: Read, each: Found) -> bool:
             return True
     if told.runway is not None and has_unknown_side(text, read.start, read.end):
         return True
-    if _OR.match(text, read.end) or _OR_INSIDE.search(text, each.match.end(), read.end):
-        return True
-    if told.action in _VALUED and any(
-        is_unknown(word) for word in text[each.match.end() : read.end].split()
+    if " or " in text and (
+        _OR.match(text, read.end) or _OR_INSIDE.search(text, each.match.end(), read.end)
     ):
+        return True
+    if told.action in _VALUED and has_unknown(text[each.match.end() : read.end].split()):
         return True
     before = text[: min(read.start, each.match.start())].rsplit(maxsplit=2)[-2:]
     if not before or told.action in REPORTS:
@@ -146,23 +158,23 @@ def _is_doubtful(told: Instruction, text: str, read: Read, each: Found) -> bool:
     )
 
 
-def _is_beside_unexplained(read: Read, text: str, taken: list[tuple[int, int]]) -> bool:
+def _is_beside_unexplained(read: Read, text: str, reads: Reads) -> bool:
     """Return whether words right beside an instruction belong to no other and are unexplained."""
     action = read.instruction.action
-    limit = min((start for start, _ in taken if start >= read.end), default=len(text))
+    limit = min((other.start for other, _ in reads if other.start >= read.end), default=len(text))
     if limit > read.end + 1 and is_unexplained_behind(text[read.end : limit].split(), action):
         return True
-    begin = max((end for _, end in taken if end <= read.start), default=0)
+    begin = max((other.end for other, _ in reads if other.end <= read.start), default=0)
     return begin + 1 < read.start and is_unexplained_before(
         text[begin : read.start].split(), action
     )
 
 
-def _heard(told: Instruction, action: float, details: float) -> Instruction:
-    """Return an instruction with the confidences of the recogniser in its words."""
+def _heard(told: Instruction, sure: float, action: float, details: float) -> Instruction:
+    """Return an instruction with a confidence, and those of the recogniser in its words."""
     return replace(
         told,
-        confidence=told.confidence * min(action, details),
+        confidence=sure * min(action, details),
         action_heard=action,
         details_heard=details,
     )
@@ -185,9 +197,11 @@ def _gaps(reads: Reads, scan: Scan, text: str, starts: list[int], words: Words) 
     """Return the words between the actions, without courtesies."""
     taken = [(read.start, read.end) for read, _ in reads]
     taken += [(span.start, span.end) for span in scan.spans]
+    taken.append((len(text), len(text)))
     gaps: list[_Gap] = []
     at = 0
-    for start, end in [*sorted(taken), (len(text), len(text))]:
+    taken.sort()
+    for start, end in taken:
         gap = text[at:start].strip(" |")
         if gap:
             first, last = bisect_right(starts, at - 1), bisect_right(starts, start - 1)
@@ -226,7 +240,8 @@ def _take_bare(
             if condition is None and last in YIELDED:
                 condition = "then"
             route = replace(route, condition=condition)
-            _add(content, _heard(route, gap.heard, gap.heard), is_doing=False)
+            told = _heard(route, route.confidence, gap.heard, gap.heard)
+            _add(content, told, is_doing=False)
         elif not _PASSING.match(text, gap.end):
             is_level = last == "heading" and LEVEL.fullmatch(" ".join(gap.words)) is not None
             if is_called and not is_level:
@@ -236,7 +251,8 @@ def _take_bare(
             for each in bare.instructions:
                 if is_level and before is not None:  # It waits for what the heading waits for.
                     each = replace(each, condition=before.instruction.condition)
-                _add(content, _heard(each, gap.heard, gap.heard), is_doing=False)
+                told = _heard(each, each.confidence, gap.heard, gap.heard)
+                _add(content, told, is_doing=False)
 
 
 def _condition_before(start: int, spans: list[Span], text: str) -> str | None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from airhilt.phraseology.call import CLEARANCES, REPORTS, Action
 from airhilt.phraseology.hits import NAME
 from airhilt.phraseology.runways import ANIMALS
@@ -59,12 +61,12 @@ AFTERWARDS = frozenset({"cancelled", "denied", "revoked", "withdrawn", "not", "n
 """Words after a clearance that deny it: "cleared to land, cancelled"."""
 CANCELLED = frozenset({"that", "it", "this", "the", "clearance", "last"})
 """Words after "cancel" that deny the clearance before it: "line up and wait, cancel that"."""
-_PHRASES = frozenset(
-    {("are", "you"), ("are", "we"), ("are", "they"), ("am", "i"), ("is", "he"), ("were", "you"),
-     ("were", "we"), ("was", "i"), ("was", "that"), ("is", "that"), ("have", "we"), ("have", "i"),
-     ("can", "we"), ("can", "i"), ("may", "we"), ("may", "i"),
-     ("ready", "to"), ("ready", "for"), ("able", "to"), ("standby", "for"), ("by", "for")}
-)  # fmt: skip
+_PHRASES = {
+    "are": ("you", "we", "they"), "am": ("i",), "is": ("he", "that"), "were": ("you", "we"),
+    "was": ("i", "that"), "have": ("we", "i"), "can": ("we", "i"), "may": ("we", "i"),
+    "ready": ("to", "for"), "able": ("to",), "standby": ("for",), "by": ("for",),
+}  # fmt: skip
+"""Words before an action that is not ordered, by the word before them: "are you"."""
 _QUESTIONS = frozenset(
     {("was", "that"), ("is", "that"), ("did", "you"), ("do", "you"), ("you", "want"),
      ("want", "us"), ("we", "may"), ("we", "might"), ("i", "may"), ("i", "might"),
@@ -85,6 +87,7 @@ _BEFORE_IT = frozenset(
 short", "unable that request, maintain flight level 240"."""
 _WHO_WILL = frozenset({"we", "i", "you", "and", "then", "roger", "wilco", "okay", "affirm", NAME})
 """Words before "will" that make an action the speaker's own, or that of whom is called."""
+_CLEARED = ("cleared", "clear")
 _NOT_DENIED = frozenset({"above", "below", "before", "contact"})
 """Words behind "not" and "negative" that belong to them, so that what is before is not denied."""
 
@@ -109,9 +112,11 @@ def is_meant(
     """
     if action in CLEARANCES and not _is_own(words, first, after, floor):
         return False
+    if words[floor:first] in ([], [NAME]):
+        return True
     if "you" in words[floor:first] and words[max(words.index("you", floor) - 1, 0)] in _ASKS_YOU:
         return False
-    if not _QUESTIONS.isdisjoint(zip(words[floor:first], words[floor + 1 : first], strict=False)):
+    if not _QUESTIONS.isdisjoint(pairwise(words[floor:first])):
         return False
     if words[first].endswith("ing") and _is_somebody_elses(words, first, floor):
         return False
@@ -121,7 +126,7 @@ def is_meant(
     at = first - 1
     skips = action in CLEARANCES
     while at >= floor:
-        if tuple(words[at : at + 2]) in _PHRASES:
+        if words[at + 1] in _PHRASES.get(words[at], ()):
             return False
         if words[at] not in BETWEEN and not words[at][0].isdigit():
             is_on = words[at] == "on" and at > floor and words[at - 1] in EXPECTS
@@ -137,7 +142,7 @@ def is_meant(
         return True
     if words[at : at + 2] == ["no", NAME] and at > floor:
         return True  # The speaker corrects the callsign: "Delta, no, United 914".
-    if words[at] in DENIALS or tuple(words[at : at + 2]) in _PHRASES:
+    if words[at] in DENIALS or words[at + 1] in _PHRASES.get(words[at], ()):
         return False
     if action not in CLEARANCES and words[at] == "need" and words[at + 1 : at + 2] == ["you"]:
         return True  # "I need you to turn left".
@@ -170,24 +175,24 @@ def _is_own(words: list[str], first: int, after: int, floor: int) -> bool:
     """Return whether a clearance belongs to the one who is called or reads it back."""
     after += words[after : after + 1] == ["clearance"]
     ends = words[after : after + 2]
-    if words[max(first - 2, floor) : first] in (["cleared", "to"], ["clear", "to"]):
+    if first - 2 >= floor and words[first - 1] == "to" and words[first - 2] in _CLEARED:
         first -= 2
     before = tuple(words[max(first - 2, 0) : first])
     last = before[-1] if before else ""
-    is_cleared = words[first] in ("cleared", "clear")
+    is_cleared = words[first] in _CLEARED
     is_cancelled = ends[:1] == ["cancel"] and (ends[1:] == [] or ends[1] in CANCELLED)
     opening = words[1:2] if words[0] == NAME else words[:1]
     return not (
         last == "negative"
-        or (last in ANIMALS and words[first].endswith("ing"))
-        or (last in SOMEBODY and first > floor and not SPOKEN_OF.intersection(words[floor:first]))
+        or (words[first].endswith("ing") and last in ANIMALS)
+        or (last in SOMEBODY and first > floor and SPOKEN_OF.isdisjoint(words[floor:first]))
         or last == "to"
         or last == "ready"
         or (before[:1] == ("ready",) and last.isdigit())
         or (is_cleared and last in OTHERS and before not in OWN)
         or is_cancelled
-        or (AFTERWARDS.intersection(ends[:1]) and _NOT_DENIED.isdisjoint(ends[1:]))
-        or (ends[:1] == ["is"] and AFTERWARDS.union(["for"]).intersection(ends[1:]))
-        or ASKED.intersection(words[floor:first])
-        or ASKS.intersection(opening)
+        or (not AFTERWARDS.isdisjoint(ends[:1]) and _NOT_DENIED.isdisjoint(ends[1:]))
+        or (ends[:1] == ["is"] and not (AFTERWARDS | {"for"}).isdisjoint(ends[1:]))
+        or not ASKED.isdisjoint(words[floor:first])
+        or not ASKS.isdisjoint(opening)
     )

@@ -102,21 +102,21 @@ Listed = tuple[tuple[str, Action, str, Builder], ...]
 
 _ACK = "okay|ok|roger|alright|copy|and|yes|yeah|affirm|affirmative|wilco|full stop|thanks|thank you"
 _BEFORE = re.compile(
-    rf"(?<!\S)(?P<word>runway )?{RUNWAY}"
+    rf"(?<!\S)(?:runway )?{RUNWAY}"
     rf"(?: (?:(?:at|from|(?:at )?intersection) (?P<place>{TAXIWAY})|full length))?$"
 )
 _OPENING = re.compile(
-    rf"(?:\| )?(?:(?:{_ACK}) )*(?P<word>runway )?{RUNWAY}(?= (?:winds?|number|traffic|#))"
+    rf"(?:\| )?(?:(?:{_ACK}) )*(?:runway )?{RUNWAY}(?= (?:winds?|number|traffic|#))"
 )
 """A runway at the beginning of a call, between which and its clearance other words stand."""
 _AHEAD = re.compile(
     rf"(?<!of )(?<!final )(?<!base )(?<!on )(?<!for )(?<!behind )(?<!crossing )(?<!landing )"
-    rf"(?<!departing )(?P<word>runway ){RUNWAY}(?= (?:winds? |number [0-9]|#|cleared short))"
+    rf"(?<!departing )runway {RUNWAY}(?= (?:winds? |number [0-9]|#|cleared short))"
 )
 """A named runway before its clearance, with other words between them."""
 _BEFORE_TURN = re.compile(
     rf"(?<!of )(?<!final )(?<!base )(?<!on )(?<!for )(?<!behind )(?<!crossing )(?<!landing )"
-    rf"(?<!departing )(?P<word>runway ){RUNWAY} (?:(?:fly|turn)(?: (?:left|right))?"
+    rf"(?<!departing )runway {RUNWAY} (?:(?:fly|turn)(?: (?:left|right))?"
     r"|(?:left|right)(?: turn)?)(?: to)?(?: heading)? [0-9]{3}(?: degrees)? $"
 )
 """A runway whose take-off is cleared behind the turn after it (FAA Order JO 7110.65, 3-9-9)."""
@@ -142,7 +142,7 @@ _OTHER_RUNWAY = re.compile(
 )
 """Words before a runway that is not that of the action, or after one that cannot be read."""
 POSITION = re.compile(rf" (?:at|from) (?:taxiway |intersection )?({TAXIWAY})")
-IMMEDIATE = re.compile(r"(?<!\S)(?:immediate(?:ly)?|expedit(?:e|ing)|now)(?!\S)")
+IMMEDIATE = frozenset({"immediate", "immediately", "expedite", "expediting", "now"})
 _WITHOUT_DELAY = re.compile(r" (?:immediately|without delay|expedite|now)(?!\S)")
 _NO_NAME = re.compile(rf"(?!waypoint )(?:{FIX_ENDS}|left|right|to|[0-9]+)(?!\S)")
 """The first word of a fix that is a word of the phraseology: the name itself may be lost."""
@@ -152,7 +152,7 @@ _NAME_ENDS_HERE = re.compile(rf" (?:\||{FIX_ENDS})(?!\S)|$")
 def is_immediate(segment: Segment, end: int) -> bool:
     """Return whether the words of an action, or those right after them, demand it at once."""
     after = _WITHOUT_DELAY.match(segment.text, end, segment.limit)
-    return bool(after or IMMEDIATE.search(segment.text[segment.start : end]))
+    return bool(after) or not IMMEDIATE.isdisjoint(segment.text[segment.start : end].split())
 
 
 def on_runway(segment: Segment, action: Action) -> Read | None:
@@ -160,22 +160,22 @@ def on_runway(segment: Segment, action: Action) -> Read | None:
 
     The action is not read if two different runways are named.
     """
-    inside = NAMED_RUNWAY.search(segment.found[0])
+    inside = _named_runway(segment.found[0])
     before = runway_before(segment)
-    after = _runway_after(segment)
+    after = _runway_after(segment, is_named=bool(inside or before))
     if action in _BY_OPENING and not (inside or before or after):
         opening = _opening(segment)
         if opening:
-            number, side = opening.group(2, 3)
+            number, side = opening.groups()
             confidence = min(BARE_RUNWAY, runway_confidence(number))
             read = Instruction(
                 action, designator(number, side),
                 immediate=is_immediate(segment, segment.found.end()), confidence=confidence,
             )  # fmt: skip
             return Read(read, segment.start, segment.found.end())
-    named = [_number_and_side(each) for each in (inside, before, after) if each]
-    told = [designator(*each) for each in named]
-    start, end = segment.start, segment.found.end()
+    named = [each.group(1, 2) for each in (inside, before, after) if each]
+    told = [designator(number, side) for number, side in named]
+    start, end = segment.found.span()
     if before:
         start = segment.begin + before.start()
     if after:
@@ -191,7 +191,7 @@ def on_runway(segment: Segment, action: Action) -> Read | None:
         end = more.end()
     confidences = [runway_confidence(number) for number, _ in named]
     bare_after = after is not None and after.re is _BARE_AFTER
-    bare_before = before is not None and not before["word"]
+    bare_before = before is not None and not before[0].startswith("runway")
     if (bare_after or bare_before) and len(told) == 1:
         confidences.append(BARE_RUNWAY)
     read = Instruction(
@@ -235,22 +235,16 @@ def _second_crossing(segment: Segment, end: int) -> re.Match[str] | None:
     return _AND_RUNWAY.match(segment.text, end, segment.limit)
 
 
-def _number_and_side(found: re.Match[str]) -> tuple[str, str | None]:
-    """Return the number and the side of a runway that was found."""
-    number, side = found.group(2, 3) if found.re is _BEFORE else found.group(1, 2)
-    return number, side
-
-
 def runway_before(segment: Segment) -> re.Match[str] | None:
     """Return the runway right before an action; without its word only after the callsign."""
     ahead = segment.before
     found = _BEFORE.search(ahead)
-    if found is None or found["word"]:
+    if found is None or found[0].startswith("runway"):
         return found
     before = segment.text[: segment.begin + found.start()]
     if _BEGINS.fullmatch(before):
         return found
-    has_side = found[3] is not None and segment.begin + found.start() > 0
+    has_side = found[2] is not None and segment.begin + found.start() > 0
     return found if has_side and before.split()[-1] not in _NOT_ITS else None
 
 
@@ -259,18 +253,27 @@ def is_next_runway(segment: Segment) -> bool:
     return segment.limit < len(segment.text) and bool(_NAMED_BEFORE.search(segment.after.rstrip()))
 
 
-def _runway_after(segment: Segment) -> re.Match[str] | None:
-    """Return the runway that is named after an action and does not belong to the next one."""
-    bare = _BARE_AFTER.match(segment.after)
+def _named_runway(text: str) -> re.Match[str] | None:
+    return NAMED_RUNWAY.search(text) if "runway" in text else None
+
+
+def _runway_after(segment: Segment, *, is_named: bool) -> re.Match[str] | None:
+    """Return the runway that is named after an action and does not belong to the next one.
+
+    Parameters
+    ----------
+    is_named
+        True if a runway is named before the action, or among its words.
+    """
+    after = segment.after
+    bare = _BARE_AFTER.match(after)
     if bare:
         return bare
-    named = NAMED_RUNWAY.search(segment.after)
-    if named and _OTHER_RUNWAY.search(segment.after[: named.start()]):
+    named = _named_runway(after)
+    if named is None or _OTHER_RUNWAY.search(after[: named.start()]):
         return None
-    if named and (NAMED_RUNWAY.search(segment.found[0]) or runway_before(segment)):
-        is_beside = segment.after[: named.start()].strip() in ("", "on")
-        return named if is_beside and not is_next_runway(segment) else None
-    return named
+    is_beside = after[: named.start()].strip() in ("", "on")
+    return None if is_named and (not is_beside or is_next_runway(segment)) else named
 
 
 def alone(segment: Segment, action: Action) -> Read | None:

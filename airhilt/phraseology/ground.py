@@ -117,7 +117,7 @@ def taxi(segment: Segment, action: Action) -> Read | None:
     place = place or (None if runway or point else _TAXI_TO.match(to))
     position = taxiway(point[1]) if point else place_name(place[1]) if place else None
     taken = max((each.end() for each in (runway, via, point, stand) if each), default=0)
-    number, side = runway.group(1, 2) if runway else ahead.group(2, 3) if ahead else (None, None)
+    number, side = runway.group(1, 2) if runway else ahead.group(1, 2) if ahead else (None, None)
     is_read = bool(number or position or (via and (via.start() == 0 or not to.strip())))
     confidence = runway_confidence(number) if number else 1.0 if is_read else NO_VALUE
     if runway is not None and "runway" not in runway[0]:
@@ -210,7 +210,7 @@ def vacate(segment: Segment, action: Action) -> Read | None:
         action,
         designator(number, side) if number else None,
         taxiway(exit_) if exit_ else None,
-        turn=cast(Turn | None, turn),
+        turn=cast("Turn | None", turn),
         immediate=is_immediate(segment, segment.found.end() + (found.end() if found else 0)),
         confidence=runway_confidence(number) if number else 1.0,
     )

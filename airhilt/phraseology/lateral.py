@@ -30,7 +30,7 @@ def heading(segment: Segment, action: Action) -> Read | None:
     parts = segment.found.groupdict()
     number = parts.get("number")
     has_sense = number is not None and 0 < int(number) <= 360
-    turn = cast(Turn | None, parts.get("turn"))
+    turn = cast("Turn | None", parts.get("turn"))
     kept = parts.get("kept")
     at = _TURN_AT.match(segment.after) if turn and number is None else None
     taxiway_at = at[2] if at else None
@@ -80,7 +80,7 @@ def direct(segment: Segment, action: Action) -> Read | None:
     fix, confidence = fix_of(segment)
     if fix is None and not _AFTER_CONDITION.search(segment.before_all):
         return None
-    turn = cast(Turn | None, segment.found.groupdict().get("turn"))
+    turn = cast("Turn | None", segment.found.groupdict().get("turn"))
     read = Instruction(action, position=fix, turn=turn, confidence=confidence)
     return Read(read, segment.start, segment.found.end())
 
@@ -88,7 +88,7 @@ def direct(segment: Segment, action: Action) -> Read | None:
 def hold_at(segment: Segment, action: Action) -> Read | None:
     """Read a hold at a fix, with the side of its turns."""
     fix, confidence = fix_of(segment)
-    turn = cast(Turn | None, segment.found["turn"])
+    turn = cast("Turn | None", segment.found["turn"])
     if turn is None and ON_GROUND.search(segment.before_all):
         held = Instruction("hold_short", hold_short=fix, confidence=confidence)
         return Read(held, segment.start, segment.found.end())

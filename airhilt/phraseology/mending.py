@@ -107,7 +107,8 @@ def candidates(word: str) -> tuple[str, ...]:
 
 def mend_by_sound(texts: list[str], confidences: list[float]) -> None:
     """Replace the words that fit as others that sound like them, in place."""
-    for at, word in enumerate(texts):
+    others = [(at, word) for at, word in enumerate(texts) if word not in _OWN and word.isalpha()]
+    for at, word in others:
         if at == 0 or texts[at - 1] in _BEFORE_FIX:
             continue
         found = candidates(word)

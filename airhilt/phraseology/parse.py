@@ -36,8 +36,12 @@ _ASKS_BACK = re.compile(
     r"|did (?:i|we) (?:hear|get|copy) that|or (?:us|me|somebody else|someone else))(?: \|)?$"
 )
 """The end of a readback of which the speaker is not sure."""
+_ASKED_BACK = frozenset({"confirm", "correct", "right", "us", "that", "me", "else"})
+"""Last words of `_ASKS_BACK`."""
 _WINDY = frozenset({"wind", "land", "takeoff", "option", "touch"})
 """Words beside which a wind is given."""
+_SETTING = frozenset({"altimeter", "qnh", "q"})
+"""Words before an altimeter setting."""
 _ACKNOWLEDGED = frozenset({"roger", "wilco", "affirm", "affirmative", "copy", "copied"})
 _REQUESTS = frozenset({"request", "requesting", "requests"})
 _SAY_AGAIN = re.compile(
@@ -56,6 +60,11 @@ _PLACES = re.compile(
     r"|(?:on )?final|crosswind|runway vacated|clear of (?:the )?runway|field in sight"
     r"|runway in sight|established)(?!\S)"
 )
+_PLACED = frozenset(
+    {"mile", "miles", "final", "downwind", "base", "crosswind", "vacated", "clear", "sight",
+     "established"}
+)  # fmt: skip
+"""Words of which `_PLACES` has one at least."""
 
 
 NAMED_AFTER = CONDITIONS | {
@@ -96,7 +105,7 @@ def parse_call(
     content = Corrections(said, content_of).read()
     ceiling_ft = (ceilings_ft or {}).get(naming.match.callsign or "")
     content.instructions = _with_sense(doubtful(content.instructions), ceiling_ft)
-    if _ASKS_BACK.search(" ".join(said.texts)):
+    if content.instructions and _asks_back(said.texts):
         content.instructions = [
             replace(each, confidence=min(each.confidence, NO_SENSE))
             for each in content.instructions
@@ -107,6 +116,12 @@ def parse_call(
         if said is rest or call.corrected
         else replace(call, corrected="correction" in rest.texts)
     )
+
+
+def _asks_back(words: list[str]) -> bool:
+    """Return whether a call ends with a question whether it is right."""
+    last = words[-2:-1] if words[-1] == NAME else words[-1:]
+    return not _ASKED_BACK.isdisjoint(last) and bool(_ASKS_BACK.search(" ".join(words)))
 
 
 def _with_sense(instructions: list[Instruction], ceiling_ft: float | None) -> list[Instruction]:
@@ -126,8 +141,8 @@ def _call(naming: Naming, rest: Words, content: Content, named: float) -> Call:
     present = set(words)
     text = " ".join(words)
     first = words[1:2] if words[:1] == [NAME] else words[:1]
-    corrects = bool({"negative", "correction"}.intersection(first))
-    kind = _kind(naming, words, text, content, corrects)
+    corrects = first in (["negative"], ["correction"])
+    kind = _kind(naming, words, present, text, content, corrects)
     match = naming.match
     if named < match.score:
         match = replace(match, score=named)
@@ -138,11 +153,12 @@ def _call(naming: Naming, rest: Words, content: Content, named: float) -> Call:
         parts.append(0.0)
     elif not content.instructions:
         parts.append(min(rest.confidences, default=0.0))
-    pressure_hpa = pressure_of(text) if present & {"altimeter", "qnh", "q"} else None
+    pressure_hpa = None if _SETTING.isdisjoint(present) else pressure_of(text)
     if pressure_hpa is None and content.pressure_hpa is not None:
         pressure_hpa = content.pressure_hpa
         parts.append(SHORTENED)
-    place = None if naming.addressed_first and kind == "instruction" else _PLACES.search(text)
+    is_told = naming.addressed_first and kind == "instruction"
+    place = None if is_told or _PLACED.isdisjoint(present) else _PLACES.search(text)
     return Call(
         match=match,
         addressed_first=naming.addressed_first,
@@ -159,15 +175,21 @@ def _call(naming: Naming, rest: Words, content: Content, named: float) -> Call:
         or (not content.instructions and bool(_CONFIRM.search(text))),
         position=place[0] if place else None,
         traffic=tuple(content.traffic),
-        wind=wind_of(text) if present & _WINDY else None,
+        wind=None if _WINDY.isdisjoint(present) else wind_of(text),
         pressure_hpa=pressure_hpa,
         confidence=min(parts),
         text=text,
     )
 
 
-def _kind(naming: Naming, words: list[str], text: str, content: Content, corrects: bool) -> Kind:
-    present = set(words)
+def _kind(
+    naming: Naming,
+    words: list[str],
+    present: set[str],
+    text: str,
+    content: Content,
+    corrects: bool,
+) -> Kind:
     doing = [
         doing
         for each, doing in zip(content.instructions, content.doing, strict=True)
@@ -179,7 +201,9 @@ def _kind(naming: Naming, words: list[str], text: str, content: Content, correct
         return "correction"
     if not doing and _SAY_AGAIN.search(text):
         return "say_again"
-    if present & _REQUESTS or (not naming.addressed_first and _READY.search(text)):
+    is_ready = "ready" in text or "would like" in text
+    is_requested = not _REQUESTS.isdisjoint(present)
+    if is_requested or (is_ready and not naming.addressed_first and _READY.search(text)):
         return "request"
     if doing:
         if naming.addressed_first:
@@ -239,11 +263,9 @@ def _without_name(words: Words, naming: Naming) -> Words:
 
 def _makers_before(words: list[str], hit: Hit) -> int:
     """Return the number of words before a registration that are the maker's name: "king air"."""
-    if not is_registration(hit.callsign):
-        return 0
     for size in (2, 1):
         if hit.start >= size and "".join(words[hit.start - size : hit.start]) in MAKERS:
-            return size
+            return size if is_registration(hit.callsign) else 0
     return 0
 
 

@@ -29,11 +29,13 @@ def split_numbers(words: Words) -> Words:
     texts = words.texts
     if _INTRODUCING.isdisjoint(texts):
         return words
-    sizes = [_rest_of(texts, index) if index else 0 for index in range(len(texts))]
-    if not any(sizes):
+    numbers = [index for index, text in enumerate(texts) if len(text) > RUNWAY and text.isdigit()]
+    sizes = {index: _rest_of(texts, index) for index in numbers if index}
+    if not any(sizes.values()):
         return words
     split = Words()
-    for index, (text, size) in enumerate(zip(texts, sizes, strict=True)):
+    for index, text in enumerate(texts):
+        size = sizes.get(index, 0)
         if size:
             split.add(text[:size], words.confidences[index] * SHORTENED)
             text = text[size:]
@@ -43,10 +45,8 @@ def split_numbers(words: Words) -> Words:
 
 
 def _rest_of(texts: list[str], index: int) -> int:
-    """Return the number of digits before the second number; 0 if there is none."""
+    """Return the number of digits of a number before the second one; 0 if there is none."""
     text = texts[index]
-    if len(text) <= RUNWAY or not text.isdigit():
-        return 0
     size = DIGITS.get(texts[index - 1], 0)
     if texts[index + 1 : index + 2] == ["thousand"] and texts[index - 1] in _TURNS:
         return HEADING if len(text) in (HEADING + 1, HEADING + 2) else 0

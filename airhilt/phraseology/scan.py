@@ -100,6 +100,10 @@ _BEHIND_AGAIN = re.compile(rf"(?: (?:runway )?{RUNWAY})? (?:behind|after) \|$")
 _LEVEL_ONLY = re.compile(rf" {LEVEL_WORDS}(?: and)? ")
 _TO_TURN = re.compile(rf" (?:runway {RUNWAY} )?(?:(?:next|first) )?(?:to the )?")
 MILES_BEFORE = re.compile(rf"[0-9]+ (?:nautical )?miles? before {FIX}(?={_VERB})")
+_BEGINNINGS = FORMS.keys() | EVENTS.keys() | CONDITIONS | {"traffic"}
+"""First words of actions, of conditions, and of words about traffic."""
+_BEHIND_NUMBERS = NUMBER_FORMS.keys() | {"mile", "miles", "nautical"}
+"""Words behind a number that may begin an action or a condition."""
 
 
 class Found(NamedTuple):
@@ -135,8 +139,13 @@ class Scan:
         self._is_traffic = False
         free = 0
         for index, word in enumerate(texts):
-            if starts[index] >= free:
-                free = max(free, self._take(index, word))
+            if starts[index] < free:
+                continue
+            is_number = word[0].isdigit() and not _BEHIND_NUMBERS.isdisjoint(
+                texts[index + 1 : index + 2]
+            )
+            if word in _BEGINNINGS or is_number or self._open_at is not None:
+                free = self._take(index, word) or free
         if self._open_at is not None:
             self.spans.append(Span(self._open_at, len(text), self._is_traffic))
 
@@ -162,8 +171,9 @@ class Scan:
             self._close(start)
             self._open(start, index, is_traffic=False)
             return 0
-        self._close_at(word, start, index)
-        each = _action_at(self._text, start, index, word)
+        if self._open_at is not None:
+            self._close_at(word, start, index)
+        each = _action_at(self._texts, self._text, start, index)
         if each is None or (self.found and _belongs_to(self.found[-1], each)):
             return 0
         return self._take_action(each, word)
@@ -230,8 +240,6 @@ class Scan:
 
     def _close_at(self, word: str, start: int, index: int) -> None:
         """Close what is open if it cannot go on with a word."""
-        if self._open_at is None:
-            return
         if self._is_traffic:
             if word == NAME:
                 self._close(start)
@@ -257,16 +265,14 @@ def _is_traffic(texts: list[str], index: int) -> bool:
     )
 
 
-def _action_at(text: str, start: int, index: int, word: str) -> Found | None:
-    for form in FORMS.get(word, ()):
+def _action_at(texts: list[str], text: str, start: int, index: int) -> Found | None:
+    forms = FORMS.get(texts[index], ())
+    if texts[index][0].isdigit() and index + 1 < len(texts):
+        forms += NUMBER_FORMS.get(texts[index + 1], ())
+    for form in forms:
         match = form.words.match(text, start)
         if match:
             return Found(form, match, index)
-    if word[0].isdigit():
-        for form in NUMBER_FORMS:
-            match = form.words.match(text, start)
-            if match:
-                return Found(form, match, index)
     return None
 
 

@@ -61,7 +61,7 @@ _ANY_LEVEL = (
     rf"|(?<!\S)([1-9])00 feet(?!\S){_NO_RATE})"
 )
 LEVEL = re.compile(
-    r"(?<!passing )(?<!leaving )(?<!through )(?<!above )(?<!below )(?<!at or )" + _ANY_LEVEL
+    r"(?<!\S)(?<!passing )(?<!leaving )(?<!through )(?<!above )(?<!below )(?<!at or )" + _ANY_LEVEL
 )
 LEVEL_HERE = re.compile(
     rf"(?: (?:at|to|now|and|maintain|altitude|an|of|immediately))* ?{_ANY_LEVEL}"
@@ -135,7 +135,7 @@ PRESSURE = re.compile(
 
 def designator(number: str, side: str | None) -> str:
     """Return a runway designator: two digits, and the letter of a parallel runway."""
-    return f"{int(number):02d}{(side or '')[:1].upper()}"
+    return f"{number.zfill(2)}{(side or '')[:1].upper()}"
 
 
 def runway_confidence(number: str) -> float:
@@ -200,8 +200,8 @@ def frequency_khz(mhz: str, fraction: str) -> int | None:
 
 def wind_of(text: str) -> Wind | None:
     """Return the wind in a call; beside a clearance to land or take off, "wind" may be left out."""
-    found = WIND.search(text)
-    if not found and _AT_RUNWAY.search(text):
+    found = WIND.search(text) if "wind" in text else None
+    if not found and (" at " in text or " degrees " in text) and _AT_RUNWAY.search(text):
         found = BARE_WIND.search(text)
     if not found:
         return None

@@ -83,12 +83,12 @@ def level_in(text: str, *, is_here: bool = False) -> tuple[float | None, float, 
         True if the level is to be right at the beginning.
     """
     level = LEVEL_HERE.match(text) if is_here else LEVEL.search(text)
-    bare = BARE_FEET.match(text)
     if level:
         feet = level_ft(level)
         sure = level_confidence(level) if feet is not None else NO_VALUE
         is_cut = _DIGITS.search(text, 0, level.start()) is not None
         return feet, min(sure, NO_SENSE) if is_cut else sure, level.end()
+    bare = BARE_FEET.match(text)
     if bare:
         feet = float(bare[1])
         is_speed = _KNOTS.match(text, bare.end())
@@ -131,21 +131,21 @@ def altitude(segment: Segment, action: Action) -> Read | None:
     elif words[0].startswith("expedit") and head == "maint":
         sense = None
     bound = bound_of(segment.found.groupdict().get("bound"))
-    feet, confidence, taken = level_in(segment.after, is_here=bound is not None)
-    is_passed = _PASSED.match(segment.after) is not None
-    is_short = sense == "maintain" and _SHORT_UNTIL.match(segment.after) is not None
+    after = segment.after
+    feet, confidence, taken = level_in(after, is_here=bound is not None)
+    is_short = sense == "maintain" and _SHORT_UNTIL.match(after) is not None
     is_verb = sense != "maintain" or words[0] != "maintain"
     if feet is None and bound is not None:
-        feet, confidence, taken = _hundreds(segment.after)
-    if feet is None and (is_verb or is_short) and not is_passed:
-        feet, confidence, taken = bare_level(segment.after)
+        feet, confidence, taken = _hundreds(after)
+    if feet is None and (is_verb or is_short) and _PASSED.match(after) is None:
+        feet, confidence, taken = bare_level(after)
     along = _ALONG.match(segment.text, segment.found.end()) if feet is None else None
     if along is not None:
         feet, confidence, _ = level_in(segment.text[along.end() :], is_here=True)
         taken = 0
     if feet is None and sense in ("maintain", None):
         return None
-    if taken and sense in ("climb", "descend") and segment.after.startswith(" at "):
+    if taken and sense in ("climb", "descend") and after.startswith(" at "):
         confidence = min(confidence, SHORTENED)  # It may be a rate whose unit is lost.
     end = segment.found.end() + taken
     if bound is None and taken:
@@ -250,11 +250,13 @@ def cross_fix(segment: Segment, action: Action) -> Read | None:
         action, position=fix, altitude_ft=feet, bound=bound, speed_kt=speed_kt,
         confidence=confidence,
     )  # fmt: skip
+    end = speed.end() if speed else end
+    if not found["kept"] or feet is None:
+        return Read(read, segment.start, end)
     kept = Instruction(
         "altitude", sense="maintain", altitude_ft=feet, condition=f"at {fix}", confidence=confidence
     )
-    end = speed.end() if speed else end
-    return Read(read, segment.start, end, (kept,) if found["kept"] and feet is not None else ())
+    return Read(read, segment.start, end, (kept,))
 
 
 _ALONG = re.compile(r" (?:on )?(?:runway|present) heading(?= to(?!\S))")

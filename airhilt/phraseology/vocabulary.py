@@ -20,7 +20,7 @@ COURTESIES = frozenset(
 """Words beside the phraseology that may follow anything."""
 _PATTERNS = [
     *(form.words.pattern for forms in FORMS.values() for form in forms),
-    *(form.words.pattern for form in NUMBER_FORMS),
+    *(form.words.pattern for forms in NUMBER_FORMS.values() for form in forms),
     *(event.pattern for event in EVENTS.values()),
     FIX_ENDS,
 ]
@@ -46,24 +46,28 @@ def is_unknown(word: str) -> bool:
     return word.isalpha() and word not in WORDS
 
 
+def has_unknown(words: list[str]) -> bool:
+    """Return whether one of some words is unknown."""
+    return bool([word for word in words if word not in WORDS and word.isalpha()])
+
+
 def has_unknown_side(text: str, start: int, end: int) -> bool:
     """Return whether a runway among some words has no side, and a word after it is unknown.
 
     The unknown word may be the side, misheard: "runway 15 rime" may have been "runway 15 right".
     """
-    for found in _RUNWAY.finditer(text, start):
-        if found.start() >= end:
-            return False
+    while start < end and (found := _RUNWAY.search(text, start)) and found.start() < end:
         if found[2] is None and _side_follows(text[found.end() :].split(maxsplit=_FARTHEST + 1)):
             return True
+        start = found.end()
     return False
 
 
 def _side_follows(words: list[str]) -> bool:
     """Return whether a side, or an unknown word that may be one, follows a runway."""
-    for word, following in zip(words[:_FARTHEST], [*words[1:], ""], strict=False):
+    for at, word in enumerate(words[:_FARTHEST], 1):
         if word in _SIDES or is_unknown(word):
-            return following not in _OF_TURN
+            return _OF_TURN.isdisjoint(words[at : at + 1])
         if word not in _SMALL:
             return False
     return False

@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
 from airhilt.phraseology.alphabet import LETTER_OF, LETTER_VARIANTS
 from airhilt.phraseology.mending import mend_by_sound
@@ -20,8 +19,8 @@ MENDED = 0.9
 
 FILLERS = frozenset({"uh", "um", "er", "ah", "eh", "erm", "hm", "hmm", "mm", "uhm", "please"})
 
-THOUSANDS = re.compile(r"\b([0-9]{1,2}),([0-9]{3})\b")
-"""A number with a thousands separator, such as 5,000."""
+THOUSANDS = re.compile(r"(?:(?<=\b[0-9])|(?<=\b[0-9]{2})),(?=[0-9]{3}\b)")
+"""A thousands separator, as in 5,000."""
 PIECES = re.compile(r"[a-z]+(?:['’][a-z]+)?|[0-9]+(?:\.[0-9]+)?|[,.;]")
 BREAKS = frozenset(",.;")
 
@@ -107,14 +106,7 @@ _NUMERIC = (
 _SPELLED = LETTER_OF.keys() | LETTER_VARIANTS.keys()
 
 
-class Raw(NamedTuple):
-    """A word before it is joined to others."""
-
-    text: str
-    confidence: float
-
-
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Words:
     """The words of a call, with a confidence in [0, 1] for each."""
 
@@ -125,6 +117,11 @@ class Words:
         """Append a word."""
         self.texts.append(text)
         self.confidences.append(confidence)
+
+    def add_all(self, texts: Sequence[str], confidence: float) -> None:
+        """Append words of one confidence."""
+        self.texts.extend(texts)
+        self.confidences.extend([confidence] * len(texts))
 
     def take(self, others: Words, start: int, end: int) -> None:
         """Append a range of other words."""
@@ -158,7 +155,7 @@ def words_of(text: str, confidences: Sequence[float] | None = None) -> Words:
     return words
 
 
-def _split(text: str, confidences: Sequence[float] | None) -> list[Raw]:
+def _split(text: str, confidences: Sequence[float] | None) -> Words:
     chunks = text.lower().split()
     if confidences is None:
         confidences = [1.0] * len(chunks)
@@ -168,144 +165,155 @@ def _split(text: str, confidences: Sequence[float] | None) -> list[Raw]:
             "word of the text, which are those between its blanks"
         )
     if text.isascii() and text.replace(" ", "").isalpha():
-        return [Raw(*each) for each in zip(chunks, confidences, strict=True)]
-    raw: list[Raw] = []
+        return Words(chunks, list(confidences))
+    words = Words()
+    add = words.add
     for chunk, confidence in zip(chunks, confidences, strict=True):
         if chunk.isascii() and chunk.isalpha():
-            raw.append(Raw(chunk, confidence))
+            add(chunk, confidence)
             continue
-        for piece in PIECES.findall(THOUSANDS.sub(r"\1\2", chunk)):
+        word, sign = chunk[:-1], chunk[-1]
+        if sign in BREAKS and word.isascii() and word.isalpha():
+            add(word, confidence)
+            add(sign, confidence)
+            continue
+        for piece in PIECES.findall(THOUSANDS.sub("", chunk)):
             if piece[0].isdigit() and "." in piece:
                 whole, fraction = piece.split(".")
-                raw += (Raw(whole, confidence), Raw("decimal", confidence))
-                raw.append(Raw(fraction, confidence))
+                words.add_all((whole, "decimal", fraction), confidence)
             else:
-                raw.append(Raw(piece.replace("’", "'"), confidence))
-    return raw
+                add(piece.replace("’", "'"), confidence)
+    return words
 
 
-def _mend(raw: list[Raw]) -> list[Raw]:
+def _mend(words: Words) -> Words:
     """Leave out fillers, unify spellings, and mend words that were misheard."""
-    mended: list[Raw] = []
-    if not FILLERS.isdisjoint([each.text for each in raw]):
-        raw = _without_fillers(raw)
-    at, size = 0, len(raw)
-    while at < size:
-        word, confidence = raw[at]
-        at += 1
-        if word not in _MENDED and "'" not in word:
-            mended.append(raw[at - 1])
+    if not FILLERS.isdisjoint(words.texts):
+        words = _without_fillers(words)
+    texts = words.texts
+    mended = Words()
+    done = 0
+    for at, word in enumerate(texts):
+        if (word not in _MENDED and "'" not in word) or at < done:
             continue
+        following = texts[at + 1] if at + 1 < len(texts) else ""
         pairs = PAIRS.get(word)
-        pair = pairs.get(raw[at].text) if pairs and at < size else None
-        if pair is not None:
-            confidence = min(confidence, raw[at].confidence)
-            confidence *= 1.0 if word in _SPELLED_APART else MENDED
-            mended += (Raw(each, confidence) for each in pair)
-            at += 1
-        elif word == "fox" and _is_spelling(mended[-1:], raw[at : at + 1]):
-            mended.append(Raw("foxtrot", confidence))
+        size, sure = 1, 1.0
+        meant: Sequence[str]
+        if pairs and following in pairs:
+            meant, size, sure = pairs[following], 2, 1.0 if word in _SPELLED_APART else MENDED
+        elif word == "fox" and _is_spelling(texts[done:at][-1:] or mended.texts[-1:], following):
+            meant = ("foxtrot",)
         elif word in SPELLINGS:
-            mended += (Raw(each, confidence) for each in SPELLINGS[word])
+            meant = SPELLINGS[word]
         elif word in SOUNDALIKES:
-            mended += (Raw(each, confidence * MENDED) for each in SOUNDALIKES[word])
+            meant, sure = SOUNDALIKES[word], MENDED
         elif word.endswith("n't"):
-            mended += (Raw(word[:-3], confidence), Raw("not", confidence))
+            meant = (word[:-3], "not")
         elif "'" in word:
-            mended.append(Raw(word.split("'")[0] if word != "o'clock" else "oclock", confidence))
+            meant = (word.split("'")[0] if word != "o'clock" else "oclock",)
         else:
-            mended.append(raw[at - 1])
+            continue
+        mended.take(words, done, at)
+        mended.add_all(meant, min(words.confidences[at : at + size]) * sure)
+        done = at + size
+    if done == 0:
+        return words
+    mended.take(words, done, len(texts))
     return mended
 
 
-def _is_spelling(before: list[Raw], following: list[Raw]) -> bool:
+def _is_spelling(before: list[str], following: str) -> bool:
     """Return whether the words around one are letters, or lead to the letter of a taxiway."""
-    beside = {each.text for each in (*before, *following)}
-    return not beside.isdisjoint(_SPELLED) or bool(before and before[0].text in ("via", "taxiway"))
+    return (
+        following in _SPELLED or not _SPELLED.isdisjoint(before) or before in (["via"], ["taxiway"])
+    )
 
 
-def _without_fillers(raw: list[Raw]) -> list[Raw]:
+def _without_fillers(words: Words) -> Words:
     """Return words without hesitations, of which "and uh" is one."""
-    return [
-        each
-        for at, each in enumerate(raw)
-        if each.text not in FILLERS
-        and not (
-            each.text == "and"
-            and raw[at + 1 : at + 2]
-            and raw[at + 1].text in FILLERS
-            and not (_ends_number(raw[:at]) and _digits_from(raw, at + 2)[0] > 1)
+    texts = words.texts
+    kept = Words()
+    for at, word in enumerate(texts):
+        is_hesitation = word in FILLERS or (
+            word == "and"
+            and not FILLERS.isdisjoint(texts[at + 1 : at + 2])
+            and not (_ends_number(texts[:at]) and _digits_from(texts, at + 2)[0] > 1)
         )
-    ]
+        if not is_hesitation:
+            kept.add(word, words.confidences[at])
+    return kept
 
 
-def _ends_number(raw: list[Raw]) -> bool:
+def _ends_number(texts: list[str]) -> bool:
     """Return whether words end with a whole number: three digits, or a distance after "to"."""
     count = 0
-    for each in reversed(raw):
-        if each.text in DIGITS:
+    for word in reversed(texts):
+        if word in DIGITS:
             count += 1
-        elif each.text in TEENS or each.text in TENS:
-            count += 1 if count == 1 and each.text in TENS else 2
+        elif word in TEENS or word in TENS:
+            count += 1 if count == 1 and word in TENS else 2
         else:
-            return count == 3 or (count == 1 and each.text in ("to", "until", "till"))
+            return count == 3 or (count == 1 and word in ("to", "until", "till"))
     return count == 3
 
 
-def _join(raw: list[Raw]) -> Words:
+def _join(said: Words) -> Words:
     """Write numbers in digits, and join those that follow each other."""
+    texts, confidences = said.texts, said.confidences
     words = Words()
+    joined, sure = words.texts, words.confidences
     joining = False
-    at, size = 0, len(raw)
+    at, size = 0, len(texts)
     while at < size:
-        word, confidence = raw[at]
+        word, confidence = texts[at], confidences[at]
         at += 1
         if word not in _NUMERIC and not word[0].isdigit():
             joining = False
             if word not in BREAKS:
-                words.add(word, confidence)
+                joined.append(word)
+                sure.append(confidence)
             continue
         digits = DIGITS.get(word) or TEENS.get(word)
         if digits is None and word in TENS:
             digits = TENS[word]
-            unit = DIGITS.get(raw[at].text, "0") if at < size else "0"
+            unit = DIGITS.get(texts[at], "0") if at < size else "0"
             if unit != "0":
                 digits = digits[0] + unit
-                confidence = min(confidence, raw[at].confidence)
+                confidence = min(confidence, confidences[at])
                 at += 1
-        elif digits is None and word in SOUNDS and _is_digit_here(words, joining, raw, at):
+        elif digits is None and word in SOUNDS and _is_digit_here(words, joining, texts, at):
             digits, confidence = SOUNDS[word], confidence * MENDED
         elif digits is None and word[0].isdigit():
             digits = word
-            joining = joining and len(word) < 3 and not _is_long_literal(raw, at - 2)
+            joining = joining and len(word) < 3 and not _is_long_literal(texts, at - 2)
         elif word == "hundred" and joining:
             words.extend_number("00", confidence)
-            at = _add_below_hundred(words, raw, at)
+            at = _add_below_hundred(words, said, at)
             joining = False
             continue
-        elif word in ("double", "triple") and at < size and raw[at].text in DIGITS:
-            digits = DIGITS[raw[at].text] * (2 if word == "double" else 3)
-            confidence = min(confidence, raw[at].confidence)
+        elif word in ("double", "triple") and at < size and texts[at] in DIGITS:
+            digits = DIGITS[texts[at]] * (2 if word == "double" else 3)
+            confidence = min(confidence, confidences[at])
             at += 1
-        if digits is None:
-            words.add(word, confidence)
-        elif joining:
+        if digits is not None and joining:
             words.extend_number(digits, confidence)
         else:
-            words.add(digits, confidence)
+            words.add(digits or word, confidence)
         joining = digits is not None
     return words
 
 
-def _add_below_hundred(words: Words, raw: list[Raw], at: int) -> int:
+def _add_below_hundred(words: Words, said: Words, at: int) -> int:
     """Add the tens after "hundred" to the number, and return the index after it."""
-    if at == len(raw):
+    texts = said.texts
+    if at == len(texts):
         return at
-    word, confidence = raw[at]
+    word, confidence = texts[at], said.confidences[at]
     digits = TEENS.get(word)
     after = at + 1
     if digits is None and word in TENS:
-        unit = DIGITS.get(raw[after].text, "0") if after < len(raw) else "0"
+        unit = DIGITS.get(texts[after], "0") if after < len(texts) else "0"
         digits = TENS[word][0] + unit
         after += unit != "0"
     if digits is None:
@@ -315,22 +323,22 @@ def _add_below_hundred(words: Words, raw: list[Raw], at: int) -> int:
     return after
 
 
-def _is_long_literal(raw: list[Raw], at: int) -> bool:
+def _is_long_literal(texts: list[str], at: int) -> bool:
     """Return whether a complete number was written here."""
-    return at >= 0 and raw[at].text[0].isdigit() and len(raw[at].text) >= 3
+    return at >= 0 and texts[at][0].isdigit() and len(texts[at]) >= 3
 
 
-def _is_digit_here(words: Words, joining: bool, raw: list[Raw], at: int) -> bool:
+def _is_digit_here(words: Words, joining: bool, texts: list[str], at: int) -> bool:
     """Return whether a word before ``at`` that sounds like a digit is one.
 
     It is a digit between two digits, and after "runway" and the like if it completes the usual
     number of digits there. It is none before a number with a unit, as in "180 to 4 miles".
     """
-    sound = raw[at - 1].text
-    following = raw[at].text if at < len(raw) else ""
+    sound = texts[at - 1]
+    following = texts[at] if at < len(texts) else ""
     if following == "thousand" and sound in ("to", "too", "for", "fore"):
         return joining or sound != "to"
-    digits, after = _digits_from(raw, at)
+    digits, after = _digits_from(texts, at)
     introduced = words.texts[-1] if words.texts else ""
     if sound in ("oh", "o", "won", "ate"):
         return joining or bool(digits) or introduced in WIDTHS
@@ -365,11 +373,11 @@ def _is_preposition(words: Words, sound: str, digits: int, after: str) -> bool:
     return is_point and (after in _SIDES or is_for)
 
 
-def _digits_from(raw: list[Raw], at: int) -> tuple[int, str]:
+def _digits_from(texts: list[str], at: int) -> tuple[int, str]:
     """Return the number of digits that follow, and the word after them."""
     count = 0
-    while at < len(raw):
-        word = raw[at].text
+    while at < len(texts):
+        word = texts[at]
         if word in DIGITS:
             count += 1
         elif word in TEENS or word in TENS:
