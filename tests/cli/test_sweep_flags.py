@@ -58,7 +58,8 @@ def test_every_flag_of_a_run_that_changes_it_is_one_of_sweeps() -> None:
     assert {"--attach", "--endpoint", "--pace", "--seat", "--video"} <= of_one_run
     missing = flags(COSIM) - flags(COMMAND)
     of_page = {f"--{one.name.replace('_', '-')}" for one in dataclasses.fields(PageOptions)}
-    assert missing == (of_one_run | of_page | {"--view", "--seed"}) - flags(COMMAND)
+    of_page |= {"--view", "--agreed"}
+    assert missing == (of_one_run | of_page | {"--seed"}) - flags(COMMAND)
 
 
 def test_flags_and_a_file_say_the_same(with_file: Callable[..., dict[str, Any]]) -> None:

@@ -23,7 +23,7 @@ def mostly_slow(values: Iterable[Any], *quick: Any) -> list[Any]:
 
 
 def examples(most: int) -> settings:
-    """Return settings of a property: a third of the examples, with `long` as profile all of them."""
+    """Return settings of a property: a third of the examples, or all with the profile `long`."""
     is_long = settings().max_examples > USUAL_EXAMPLES
     return settings(max_examples=most if is_long else -(-most // 3))
 

@@ -226,8 +226,7 @@ def test_a_stop_is_a_level_ahead_that_keeps_the_minimum(gap_ft: float, may_stop:
 
 @pytest.mark.parametrize(("lower_ft", "is_down"), [(3_220.0, True), (3_140.0, False)])
 def test_nobody_goes_down_below_600_m(lower_ft: float, is_down: bool) -> None:
-    """Of 200 ft below the other, the lower one goes down by 500 ft, or by 1,000 ft alone; 600 m
-    are 1,969 ft."""
+    """The lower one, by 200 ft, goes down by 500 ft, or by 1,000 ft alone; 600 m are 1,969 ft."""
     alone = groups(track("a1", 0.0, lower_ft, 240.0), track("a2", 60_000.0, lower_ft, -240.0))[0]
     assert any(up == NONE for up, _ in alone) is is_down
     both_ft = lower_ft - 600.0

@@ -444,8 +444,8 @@ def test_the_filter_keeps_a_resolution_back_from_who_passes_beyond_dmod(
 def test_the_filter_judges_the_miss_distance_in_the_plane(
     above_ft: int, severity: Severity
 ) -> None:
-    """Of the same ranges, those of somebody higher are a little less in the plane: of 1,491 m,
-    which is beyond the 0.8 NM of level 6, 168 m of height leave 1,481 m."""
+    """The range to somebody higher is a little less in the plane: of 1,491 m, beyond the 0.8 NM of
+    level 6, 168 m of height leave 1,481 m."""
     flight = Flight(filters_misses=True)
     for t in range(32):
         flight.hears(float(t), math.hypot(2710.0, 9000.0 - 200.0 * t), 10_000 + above_ft)
