@@ -84,7 +84,9 @@ def test_what_an_attached_worker_does_is_left_to_it(taken: Modality) -> None:
     assert does(taken=(taken,)) == [each for each in ALL if each != taken]
 
 
-@pytest.mark.parametrize(("engine", "task"), [("asr", "asr"), ("tts", "tts"), ("detector", "vision")])
+@pytest.mark.parametrize(
+    ("engine", "task"), [("asr", "asr"), ("tts", "tts"), ("detector", "vision")]
+)
 def test_a_run_without_an_engine_has_no_such_worker(engine: str, task: str) -> None:
     assert does(**{engine: None}) == [each for each in ALL if each != task]
 
@@ -123,9 +125,7 @@ def test_the_fusion_gate_reads_more_than_the_engine_alone() -> None:
 def test_the_least_severity_that_is_spoken_is_that_of_who_decides() -> None:
     def described(modality: Modality, **configuration: Any) -> WorkerDescription:
         description = decision_worker().description
-        return description.model_copy(
-            update={"modality": modality, "configuration": configuration}
-        )
+        return description.model_copy(update={"modality": modality, "configuration": configuration})
 
     usual = speak_min_level([])
     assert usual is Severity.CAUTION

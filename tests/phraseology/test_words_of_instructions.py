@@ -205,9 +205,7 @@ SPOKEN: list[tuple[Instruction, str, str]] = [
 
 
 @pytest.mark.parametrize(("told", "faa", "icao"), SPOKEN)
-def test_an_instruction_has_the_words_of_its_manual(
-    told: Instruction, faa: str, icao: str
-) -> None:
+def test_an_instruction_has_the_words_of_its_manual(told: Instruction, faa: str, icao: str) -> None:
     assert phrase_of(told, "faa", readback=False) == faa
     assert phrase_of(told, "icao", readback=False) == icao
 

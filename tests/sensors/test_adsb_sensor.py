@@ -156,7 +156,9 @@ def test_a_latency_that_only_a_result_has_is_that_of_a_report() -> None:
 
 
 def test_in_an_outage_of_the_scenario_nothing_is_received() -> None:
-    times = [r.t_adsb_in_ns / SECOND_NS for r in Run(seconds=20.0, outages_s=[[5.5, 8.0]]).go().reports]
+    times = [
+        r.t_adsb_in_ns / SECOND_NS for r in Run(seconds=20.0, outages_s=[[5.5, 8.0]]).go().reports
+    ]
     assert [t for t in times if 5.5 <= t < 8.0] == []
     assert [t for t in times if 4.5 <= t < 5.5]
     assert [t for t in times if 8.0 <= t < 9.0]
@@ -174,7 +176,11 @@ def test_an_antenna_is_as_high_as_the_scenario_says(away_nm: float, is_heard: bo
 
 @pytest.mark.parametrize(("away_nm", "is_heard"), [(49.8, True), (50.2, False)])
 def test_a_receiver_hears_as_far_as_the_scenario_says(away_nm: float, is_heard: bool) -> None:
-    position = {"type": "geodetic", "lat_deg": 38.9 + away_nm * 1852.0 / 111_019.0, "lon_deg": -77.0}
+    position = {
+        "type": "geodetic",
+        "lat_deg": 38.9 + away_nm * 1852.0 / 111_019.0,
+        "lon_deg": -77.0,
+    }
     run = Run(5.0, receivers=[{"name": "R", "position": position, "range_nm": 50.0}])
     assert bool(run.go().reports) is is_heard
 

@@ -140,7 +140,8 @@ def shown_at(**state: float) -> CockpitInstruments:
     still = dict.fromkeys(AircraftState._fields, 0.0)
     aircraft = SimpleNamespace(
         state=AircraftState(**{**still, **state}), gear=0.254, flaps=1 / 3,
-        on_ground=False, phase="en_route", target_altitude_m=10_100 * FOOT, target_speed_m_s=251 * KNOT,
+        on_ground=False, phase="en_route", target_altitude_m=10_100 * FOOT,
+        target_speed_m_s=251 * KNOT,
     )  # fmt: skip
     return instruments_of("N1", cast(Aircraft, aircraft), None)
 

@@ -193,7 +193,10 @@ def test_a_projection_knows_heights_above_the_ground() -> None:
         own, other = (level(ground_m + feet * FOOT) for feet in (own_ft, other_ft))
         return tcas.project(head_on(100.0), own, other, ground_m)
 
-    assert (projected(900, 900).traffic_s is None, projected(900, 900).resolution_s) == (False, None)
+    assert (projected(900, 900).traffic_s is None, projected(900, 900).resolution_s) == (
+        False,
+        None,
+    )
     assert projected(1_001, 1_001).resolution_s is not None
     assert projected(1_100, 370) == (None, None)
     assert projected(1_100, 390).traffic_s is not None

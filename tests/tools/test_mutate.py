@@ -124,7 +124,9 @@ def test_a_function_that_differs_is_replaced_in_a_running_process() -> None:
 
 def test_a_function_that_was_returned_before_is_replaced_too() -> None:
     filename = "counting.py"
-    source = "def count(n):\n    def value(y):\n        return y + n\n    return value\nADD = count(1)\n"
+    source = (
+        "def count(n):\n    def value(y):\n        return y + n\n    return value\nADD = count(1)\n"
+    )
     namespace: dict[str, Any] = {}
     exec(compile(source, filename, "exec"), namespace)
     changed = changed_functions(source, source.replace("y + n", "y - n"), filename)

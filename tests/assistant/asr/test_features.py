@@ -150,9 +150,7 @@ def test_speech_of_less_than_half_a_second_shows_no_pauses(frames: int, has_paus
 
 
 @pytest.mark.parametrize(("range_db", "has_pauses"), [(5.9, False), (6.1, True)])
-def test_less_than_6_db_between_loud_and_quiet_are_noise(
-    range_db: float, has_pauses: bool
-) -> None:
+def test_less_than_6_db_between_loud_and_quiet_are_noise(range_db: float, has_pauses: bool) -> None:
     loud = 1e-3 * 10.0 ** (range_db / 10.0)
     near = is_near_speech(levels(1_000, 1e-3, (400, 600, loud)))
     assert near.all() != has_pauses

@@ -120,14 +120,14 @@ def test_a_model_that_fails_while_it_looks_or_loads_is_named(
         def predict(self, picture: np.ndarray, **settings: Any) -> list[Any]:
             raise RuntimeError("out of memory")
 
-    with pytest.raises(VisionError, match="small.pt: failed: .*out of memory"):
+    with pytest.raises(VisionError, match=r"small.pt: failed: .*out of memory"):
         detector(Failing()).detect(np.zeros((32, 32, 3), np.uint8))
 
     def unreadable(_: Path) -> Any:
         raise ValueError("no pickle")
 
     monkeypatch.setattr(yolo, "_load", unreadable)
-    with pytest.raises(VisionError, match="does not load: .*no pickle"):
+    with pytest.raises(VisionError, match=r"does not load: .*no pickle"):
         YoloDetector(tmp_path / "small.pt")
 
 
