@@ -128,7 +128,7 @@ def test_values_of_a_group_count_as_one_in_the_interval_of_their_mean() -> None:
 def test_the_interval_of_a_rate_holds_the_true_rate_as_often_as_it_says() -> None:
     random = np.random.default_rng(3)
     hours = np.array([0.5, 1.0, 2.0] * 15)
-    samples = [rate_of(random.poisson(2.0 * hours), hours) for _ in range(200)]
+    samples = [rate_of(random.poisson(2.0 * hours).astype(np.float64), hours) for _ in range(200)]
     held = sum(found.low <= 2.0 <= found.high for found in samples)
     assert 0.88 * 200 < held < 0.99 * 200
 

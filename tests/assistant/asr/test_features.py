@@ -75,7 +75,7 @@ def test_silence_has_no_features() -> None:
     assert np.abs(features).max() < 1e-3
 
 
-def reference_power(audio: Audio) -> NDArray[np.float64]:
+def reference_power(audio: NDArray[np.floating]) -> NDArray[np.float64]:
     """Return the mel power of each hundredth of a second, band by band as the books have it."""
     low, high = 2595.0 * np.log10(1.0 + np.array([150.0, 3_900.0]) / 700.0)
     edges_hz = 700.0 * (10.0 ** (np.linspace(low, high, 66) / 2595.0) - 1.0)
