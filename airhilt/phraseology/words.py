@@ -209,7 +209,7 @@ def _mend(words: Words) -> Words:
         elif word in SOUNDALIKES:
             meant, sure = SOUNDALIKES[word], MENDED
         elif word.endswith("n't"):
-            meant = (word[:-3], "not")
+            meant = (word[:-3], "not") if word != "n't" else ("not",)
         elif "'" in word:
             meant = (word.split("'")[0] if word != "o'clock" else "oclock",)
         else:
