@@ -117,6 +117,10 @@ def test_before_then_and_a_level_three_digits_are_the_speed_that_comes_first() -
         assert read(f"250 {joint} flight level 100") == [speed(250.0, DOUBT), descent]
     assert read("255 then flight level 100") == [heading(255.0, DOUBT), descent]
     assert read("250 and flight level 100") == [heading(250.0, DOUBT), level(10_000.0)]
+    turn = heading(270.0, FULL, turn="left", condition="then")
+    assert read("250 flight level 100 then left 270") == [
+        heading(250.0, DOUBT), level(10_000.0), turn,
+    ]  # fmt: skip
 
 
 def test_values_follow_one_another_and_all_must_be_read() -> None:

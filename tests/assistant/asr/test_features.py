@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from airhilt.assistant.asr.features import BINS, is_near_speech, mel_power, normalised
+from airhilt.assistant.asr.features import BINS, is_near_speech, logarithm, mel_power, normalised
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 
 
@@ -120,6 +120,8 @@ def test_features_are_logarithms_above_a_floor_without_their_means() -> None:
     expected = np.log(power + 1e-7 + 1e-3 * power.mean() * white)
     expected -= expected.mean(axis=0)
     np.testing.assert_allclose(normalised(power), expected, atol=0.02)
+    silence = logarithm(np.zeros((1, BINS), np.float32), 0.0)
+    np.testing.assert_allclose(silence, np.log(1e-7), rtol=1e-5)
 
 
 def levels(count: int, level: float, *louder: tuple[int, int, float]) -> NDArray[np.float32]:
