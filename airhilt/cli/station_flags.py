@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ssl
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, fields, replace
 from functools import wraps
 from importlib.util import find_spec
@@ -15,9 +15,12 @@ from click.core import ParameterSource
 
 from airhilt.errors import StationError
 from airhilt.station.address import DEFAULT_HOST, DEFAULT_PORT, Address
+from airhilt.text import readable
 
 F = TypeVar("F", bound=Callable[..., Any])
 FILE = click.Path(path_type=Path, dir_okay=False)
+Agreed = tuple[str, str]
+"""Name of a seat, and the use to which its person has agreed before."""
 NEEDED = ("fastapi", "uvicorn", "websockets")
 """Packages of the extra ``station``."""
 USES = ("voice", "words")
@@ -107,14 +110,42 @@ def agreed_option(command: F) -> F:
         "--agreed",
         multiple=True,
         metavar="SEAT=USE",
-        callback=lambda _, __, given: dict(map(_agreed, given)),
-        help="The person at this seat has agreed already to a use: voice (and typed words), or "
-        "words alone; may be given again. Without it the page asks.",
+        callback=lambda _, __, given: tuple(map(_agreed, given)),
+        help="Who takes this seat first has agreed already to a use: voice (and typed words), or "
+        "words alone; may be given again, for another seat. The page asks for the rest, and who "
+        "takes the seat after that.",
     )
     return cast("F", option(command))
 
 
-def _agreed(given: str) -> tuple[str, str]:
+def agreed_by_seat(agreed: Iterable[Agreed], seats: Mapping[str, str]) -> dict[str, str]:
+    """Return to what people have agreed, by the seats of a run.
+
+    Parameters
+    ----------
+    seats
+        Seats that are left to people, by the names that ask for them.
+
+    Raises
+    ------
+    click.UsageError
+        A seat is not left to people, or there twice.
+    """
+    known = {seat: seat for seat in seats.values()} | dict(seats)
+    found: dict[str, str] = {}
+    for name, use in agreed:
+        if name not in known:
+            named = readable(", ".join(seats))
+            raise click.UsageError(
+                f"--agreed {readable(name)!r}: expected a seat that --seat names: {named}"
+            )
+        if known[name] in found:
+            raise click.UsageError(f"--agreed {readable(name)!r}: its seat is there twice")
+        found[known[name]] = use
+    return found
+
+
+def _agreed(given: str) -> Agreed:
     """Return a seat, and the use of voice or words to which its person has agreed.
 
     Raises

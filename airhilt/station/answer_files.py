@@ -76,12 +76,18 @@ class AnswerFiles:
         return {item.name: found[item.name] for item in asked}
 
     def _rated_at_seat(self, run: str) -> Answers | None:
-        """Return the NASA-TLX ratings that were given at the seat, None if there are none."""
+        """Return the NASA-TLX ratings that were given at the seat, None if there are none.
+
+        Raises
+        ------
+        RunFolderError
+            The summary of the run cannot be read.
+        """
+        summary = RunFolder(self._runs / run).summary() or {}
         try:
-            summary = RunFolder(self._runs / run).summary() or {}
             person = summary["people"][self._number]  # A finished run has the seats of the plan.
             return NasaTlx.model_validate(person["workload"]["nasa_tlx"]).model_dump()
-        except (RunFolderError, ValueError, LookupError, TypeError):
+        except (ValueError, LookupError, TypeError):
             return None
 
     def write(self, questionnaire: Questionnaire, answers: Answers, run: str = "") -> None:

@@ -109,7 +109,7 @@ class Browsers:
     views
         What may be seen at each seat; a browser without one sees only what everybody may.
     agreed
-        Use of voice and words to which who takes a seat has agreed before, by seat.
+        Use of voice and words to which who takes a seat first has agreed before, by seat.
     """
 
     def __init__(
@@ -199,8 +199,9 @@ class Browsers:
         self._browsers.append(browser)
         self._empty_since_s = None
         await self._give_back(browser)
-        if browser.shown_seat != (seat := self._book.of(browser)):
-            self._consents.forget(seat)  # The page was loaded again: it asks again.
+        seat = self._book.of(browser)
+        if seat is not None and browser.shown_seat != seat:
+            self._consents.begin(seat)  # The page was loaded again: it asks again.
         self._tell_seats()
         self._tell_consent(browser)
         sending = asyncio.create_task(self._send(socket, browser, begin))
@@ -209,8 +210,10 @@ class Browsers:
             await asyncio.wait((sending, listening), return_when=asyncio.FIRST_COMPLETED)
         finally:
             self._browsers.remove(browser)  # First of all: whatever fails now, the seat is free.
-            self._hold(browser)
+            back = self._hold(browser)
             self._tell_seats()
+            if back is not None:
+                self._tell_consent(back)
             if not self._browsers:
                 self._empty_since_s = time.monotonic()
             for task in (sending, listening):
@@ -433,7 +436,10 @@ class Browsers:
         It has the other one before anything is waited for, so that nobody else can take it.
         """
         left = self._book.move(browser, seat)
-        self._consents.forget(left, seat)
+        if left is not None:
+            self._consents.end(left)
+        if seat is not None:
+            self._consents.begin(seat)
         browser.tuned, browser.seen_of_seat = frozenset(), 0
         if left is not None:
             browser.watched = None
@@ -482,25 +488,28 @@ class Browsers:
         has_seat = self._book.of(old) is not None
         return is_same and has_seat and time.monotonic() - old.last_heard_s > SILENT_S
 
-    def _hold(self, browser: _Browser) -> None:
-        """Keep the seat of a browser that is gone, in case that it comes back, or has already."""
+    def _hold(self, browser: _Browser) -> _Browser | None:
+        """Keep the seat of a browser that is gone, in case that it comes back.
+
+        If it has come back already, it has the seat at once: return it then.
+        """
         hold = self._book.hold(browser)
         if hold is None:
-            return
+            return None
         named = (one for one in self._browsers if one.identity and one.identity == hold.identity)
         back = next((one for one in named if self._book.of(one) is None), None)
         if back is None:
             self._to_the_end(self._expire(hold))
         else:
             self._book.move(back, hold.seat)
-            self._consents.forget(hold.seat)  # Its page was told that it had no seat.
-            self._tell_consent(back)
+            self._consents.begin(hold.seat)  # Its page was told that it had no seat: it asks again.
+        return back
 
     async def _expire(self, hold: Hold) -> None:
         """Give a seat back whose browser has not come back."""
         await asyncio.sleep(hold.seconds)
         if self._book.expire(hold):
-            self._consents.forget(hold.seat)
+            self._consents.end(hold.seat)
             self._tell_seats()
             await self._inform()
 

@@ -71,11 +71,11 @@ class RunConnection:
             raise
         self.run = self.prefix.rpartition("/")[2]
 
-    def seats(self, names: Sequence[str], tell: Callable[[str], None]) -> tuple[str, ...]:
-        """Return the seats of the run that are asked for by names and roles, each once.
+    def seats(self, names: Sequence[str], tell: Callable[[str], None]) -> dict[str, str]:
+        """Return the seats of the run that are asked for, by the names and roles that ask for them.
 
         Nobody knows the seats of a run that has not begun. A role waits until it has; without one,
-        the names are returned as they are.
+        a name stands for itself.
 
         Parameters
         ----------
@@ -102,18 +102,20 @@ class RunConnection:
                 f"--seat {roles[0]!r}: the run does not say which seats it has "
                 f"({phase or 'no answer'}); expected a run that goes on"
             )
-        return tuple(names)
+        return {name: name for name in names}
 
-    def _known(self, names: Sequence[str]) -> tuple[str, ...]:
+    def _known(self, names: Sequence[str]) -> dict[str, str]:
         known = sorted({info.seat for info in self._told("seat/*/info", SeatInfo)})
         controller = next((one.controller for one in self._told("briefing", Briefing)), "")
+        found = {}
         for name in names:
-            if not set(without_roles([name], controller, known)).issubset(known):
+            (found[name],) = without_roles([name], controller, known)
+            if found[name] not in known:
                 raise StationError(
                     f"--seat {readable(name)!r}: not a seat of the run; expected "
                     + (readable(", ".join(map(repr, known))) or "none: it has no seats")
                 )
-        return without_roles(names, controller, known)
+        return found
 
     def answers(self, key: str) -> Iterator[zenoh.Sample]:
         """Yield what the run answers to a query on a key below its own."""

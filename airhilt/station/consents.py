@@ -19,34 +19,42 @@ class Consents:
     Parameters
     ----------
     agreed
-        Use of voice and words, in the words of `SeatConsent`, to which who takes a seat has agreed
-        before, by seat.
+        Use of voice and words, in the words of `SeatConsent`, to which who takes a seat first has
+        agreed before, by seat.
     """
 
     def __init__(self, agreed: Mapping[str, str] = MappingProxyType({})) -> None:
-        self._before = agreed
-        self._given = {seat: {use} for seat, use in agreed.items()}
+        self._before = dict(agreed)
+        self._given: dict[str, set[str]] = {}
 
     def take(self, seat: str, answer: SeatConsent) -> None:
         """Take in an answer.
 
         Consent to the use of the voice covers typed words, so who declines the use of words
-        declines that of the voice too.
+        declines that of the voice too. What is taken back was not agreed to before either.
         """
         given = self._given.setdefault(seat, set())
         if answer.is_given:
             given.add(answer.what)
         else:
             given -= {answer.what} if answer.what == "voice" else {"words", "voice"}
+            if self._before.get(seat) not in given:
+                self._before.pop(seat, None)
 
-    def forget(self, *seats: str | None) -> None:
-        """Forget what was agreed to at seats, but not before; None stands for no seat."""
-        for seat in seats:
-            if seat is not None:
-                self._given[seat] = {self._before[seat]} if seat in self._before else set()
+    def begin(self, seat: str) -> None:
+        """Forget the answers at a seat, whose page asks for them: what was agreed before is left.
+
+        The page is that of a person who has taken the seat, or was loaded again.
+        """
+        self._given[seat] = {self._before[seat]} if seat in self._before else set()
+
+    def end(self, seat: str) -> None:
+        """Forget all that the person has agreed to who has left a seat, also before."""
+        self._before.pop(seat, None)
+        self._given.pop(seat, None)
 
     def before(self, seat: str) -> SeatConsent | None:
-        """Return to what who takes a seat has agreed before, None if to nothing."""
+        """Return to what the person at a seat has agreed before, None if to nothing."""
         if seat not in self._before:
             return None
         return SeatConsent.model_validate({"what": self._before[seat], "is_given": True})

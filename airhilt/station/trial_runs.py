@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from airhilt.errors import RunFolderError, StationError
+from airhilt.errors import RunFolderError, StationError, first_line
 from airhilt.record import RunFolder
 from airhilt.scenario import loading
 from airhilt.scenario.seats import seats_of
@@ -55,7 +55,8 @@ class TrialRuns:
         self._plan = plan
         self._trials = trials
         self._seats: dict[str, tuple[str, ...]] = {}
-        self._times_s = FileCache[_SeatTimes | None]()
+        self._phases = FileCache[str]()
+        self._times_s = FileCache[_SeatTimes]()
         _refuse_another_order(team, self.folder)
 
     def seats(self, trial: Trial) -> tuple[str, ...]:
@@ -104,7 +105,7 @@ class TrialRuns:
         Raises
         ------
         RunFolderError
-            Its seats were others than those of the plan.
+            Its seats were others than those of the plan, or its summary does not tell them.
         """
         for name in self.attempts(trial):
             folder = self.folder / name
@@ -118,15 +119,20 @@ class TrialRuns:
         return None
 
     def _times_of(self, run: RunFolder) -> _SeatTimes | None:
-        """Return how long the seats of a run were taken, None if it has not ended by itself."""
+        """Return how long the seats of a run were taken, None if it has not ended by itself.
 
-        def read() -> _SeatTimes | None:
-            try:
-                return _seat_times_s(run) if run.info().phase == "finished" else None
-            except RunFolderError:
-                return None
-
-        return self._times_s.get(read, run.info_path, run.summary_path)
+        Raises
+        ------
+        RunFolderError
+            It has, and its summary does not tell.
+        """
+        try:
+            has_ended = self._phases.get(lambda: run.info().phase, run.info_path) == "finished"
+        except RunFolderError:
+            return None
+        if not has_ended:
+            return None
+        return self._times_s.get(lambda: _seat_times_s(run), run.summary_path)
 
     def new_run(self, trial: Trial) -> str:
         """Return the name of a run folder that is not there yet.
@@ -145,14 +151,22 @@ class TrialRuns:
 def _seat_times_s(run: RunFolder) -> _SeatTimes:
     """Return how long each seat of a run was taken, in s, in the order of the team.
 
-    It is None where an earlier version did not tell, and there are no seats where the summary
-    does not tell of any.
+    It is None where an earlier version did not tell, and there are no seats where there is no
+    summary, or none of people.
+
+    Raises
+    ------
+    RunFolderError
+        It cannot be read, or is none.
     """
+    people = (run.summary() or {}).get("people", ())
     try:
-        people = (run.summary() or {})["people"]
         return {str(person["seat"]): person.get("seat_time_s") for person in people}
-    except (RunFolderError, LookupError, TypeError, AttributeError):
-        return {}
+    except (LookupError, TypeError, AttributeError) as error:
+        raise RunFolderError(
+            f"{run.summary_path}: its people cannot be read ({first_line(error)}); expected them "
+            "as a run writes them; move the folder away to run the trial again"
+        ) from None
 
 
 def _refuse_another_order(team: Sequence[str], folder: Path) -> None:

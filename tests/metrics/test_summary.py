@@ -719,8 +719,7 @@ def test_no_number_of_a_summary_can_be_changed_by_mistake(model: type[BaseModel]
 
 
 @pytest.mark.parametrize("model", [Summary, PersonSummary])
-def test_what_an_older_version_did_not_count_is_none(model: type[BaseModel]) -> None:
-    """Numbers of things that were added later are 0 in summaries that have not got them."""
+def test_numbers_that_an_older_version_did_not_count_are_0(model: type[BaseModel]) -> None:
     added = {
         name: field.default
         for name, field in model.model_fields.items()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import pytest
@@ -194,9 +195,13 @@ def test_consent_is_over_when_the_page_was_told_that_it_has_no_seat() -> None:
         sit_and_agree(run, old)
         with browser(url, "a", "TOWER") as back:
             assert answer(back, "seats") == {"TOWER": "taken"}
-            old.close()
-            while answer(back, "seats") != {"TOWER": "yours"}:
+            while json.loads(back.recv(timeout=PATIENCE_S)) != {"consent": []}:
                 pass
+            old.close()
+            told: list[Any] = []
+            while {"consent": []} not in told:
+                told.append(json.loads(back.recv(timeout=PATIENCE_S)))
+            assert {"seats": {"TOWER": "yours"}} in told  # First: it forgets what was agreed to.
             call(back)
             assert refusals(back) == [NO_VOICE]
 
@@ -252,39 +257,78 @@ def test_who_has_agreed_before_need_not_be_asked_at_the_seat_and_the_run_is_told
         seat_page(PretendedRun(TWO), agreed={"TOWER": "voice"}) as (run, url),
         browser(url, "a") as own,
     ):
-        for _ in range(2):
-            take(run, own)
-            while answer(own, "consent") != ["voice"]:
-                pass
-            assert run.settings.get(timeout=PATIENCE_S) == SeatConsent(what="voice", is_given=True)
-            call(own)
-            assert run.call()[1] == 3 * PIECE
-            agree(own, is_given=False)
-            call(own)
-            assert refusals(own) == [NO_VOICE]
-            assert run.settings.get(timeout=PATIENCE_S) == SeatConsent(what="voice", is_given=False)
-            leave(run, own)
+        take(run, own)
+        while answer(own, "consent") != ["voice"]:
+            pass
+        assert run.settings.get(timeout=PATIENCE_S) == SeatConsent(what="voice", is_given=True)
+        call(own)
+        assert run.call()[1] == 3 * PIECE
+        leave(run, own)
         take(run, own, "GROUND")
         call(own)
         assert refusals(own) == [NO_VOICE]
 
 
-def test_a_page_that_is_loaded_again_need_not_ask_who_has_agreed_before() -> None:
-    with seat_page(agreed={"TOWER": "words"}) as (run, url):
+@pytest.mark.parametrize("is_gone", [False, True], ids=["left", "gone"])
+def test_who_takes_a_seat_next_has_not_agreed_before(
+    monkeypatch: pytest.MonkeyPatch, is_gone: bool
+) -> None:
+    monkeypatch.setattr(seat_book, "HOLD_S", 0.0)
+    with seat_page(agreed={"TOWER": "voice"}) as (run, url), browser(url, "b") as other:
         with browser(url, "a") as own:
             take(run, own)
+            if not is_gone:
+                leave(run, own)
+        if is_gone:
+            assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", False)
+        run.settings.get(timeout=PATIENCE_S)
+        take(run, other)
+        call(other)
+        assert refusals(other) == [NO_VOICE]
+        assert run.settings.empty()
+
+
+@pytest.mark.parametrize(
+    ("before", "declined", "left"),
+    [
+        ("words", None, ["words"]),
+        ("voice", None, ["voice"]),
+        ("words", "voice", ["words"]),
+        ("words", "words", []),
+        ("voice", "voice", []),
+        ("voice", "words", []),
+    ],
+)
+def test_a_page_that_is_loaded_again_asks_who_has_taken_back_what_was_agreed_before(
+    before: str, declined: str | None, left: list[str]
+) -> None:
+    """Who has not need not be asked."""
+    with seat_page(agreed={"TOWER": before}) as (run, url):
+        with browser(url, "a") as own:
+            take(run, own)
+            if declined is not None:
+                agree(own, declined, is_given=False)
+                refusals(own)
         with browser(url, "a") as back:
             while answer(back, "seats") != {"TOWER": "yours"}:
                 pass
-            assert answer(back, "consent") == ["words"]
+            assert answer(back, "consent") == left
+
+
+def test_what_is_agreed_to_beyond_what_was_before_is_over_when_the_page_is_loaded_again() -> None:
+    consents = Consents({"TOWER": "words"})
+    consents.begin("TOWER")
+    consents.take("TOWER", SeatConsent(what="voice", is_given=True))
+    assert consents.given_at("TOWER") == ("voice", "words")
+    consents.begin("TOWER")
+    assert consents.given_at("TOWER") == ("words",)
 
 
 def test_without_a_seat_nothing_is_agreed_to() -> None:
     consents = Consents()
-    given: Any = SeatConsent(what="voice", is_given=True)
-    consents.take("TOWER", given)
+    consents.take("TOWER", SeatConsent(what="voice", is_given=True))
     assert (consents.admits_voice(None), consents.admits_words(None)) == (False, False)
-    consents.forget(None, "GROUND")
+    consents.end("GROUND")
     assert consents.given_at("TOWER") == ("voice",)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import errno
 import itertools
 import json
 import os
@@ -10,6 +11,7 @@ import shutil
 import subprocess
 from collections import Counter
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +33,7 @@ from airhilt.metrics.summary import (
 )
 from airhilt.options import Options
 from airhilt.record import RunFolder
+from airhilt.station.answer_files import AnswerFiles
 from airhilt.station.conductor import Conductor
 from airhilt.station.experiment_tables import write_tables
 from airhilt.station.participant_progress import Asked, Progress
@@ -335,7 +338,7 @@ def test_people_that_no_run_writes_are_refused_in_words(
     experiment = plan(participants=["P01"])
     progress = Progress(experiment, tmp_path, "P01")
     finished(recorded_run, progress.runs.folder / f"01-{progress.trials[0].name}", people)
-    with pytest.raises(RunFolderError, match="its numbers cannot be read"):
+    with pytest.raises(RunFolderError, match=r"its (people|numbers) cannot be read"):
         write_tables(experiment, tmp_path)
 
 
@@ -410,6 +413,58 @@ def test_a_trial_whose_record_cannot_be_read_is_begun_again(
     folder = shutil.copytree(recorded_run, progress.runs.folder / f"01-{first.name}")
     (folder / "run.json").write_bytes(content)
     assert progress.runs.finished_run(first) is None
+
+
+@pytest.mark.parametrize("content", [b"{", b"[]", b'{"people": 5}', b'{"people": [{}]}'])
+def test_a_finished_trial_whose_seats_cannot_be_read_is_neither_done_nor_begun_again(
+    recorded_run: Path, tmp_path: Path, content: bytes
+) -> None:
+    progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
+    name = f"01-{progress.trials[0].name}"
+    folder = shutil.copytree(recorded_run, progress.runs.folder / name)
+    RunFolder(folder).summary_path.write_bytes(content)
+    with pytest.raises(RunFolderError, match=r"summary\.json: .*expected"):
+        Conductor([progress])
+
+
+@pytest.mark.parametrize("name", ["run.json", "summary.json"])
+def test_a_finished_trial_is_found_once_its_files_can_be_read_again(
+    recorded_run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    """As when too many files were open for a moment."""
+    progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
+    trial = progress.trials[0]
+    finished(recorded_run, progress.runs.folder / f"01-{trial.name}", [PERSON.model_dump()])
+    whole = RunFolder.read
+
+    def read(self: RunFolder, path: Path, *given: Any) -> bytes:
+        if path.name == name:
+            raise OSError(errno.EMFILE, "too many open files")
+        return whole(self, path, *given)
+
+    with monkeypatch.context() as patch, suppress(RunFolderError):
+        patch.setattr(RunFolder, "read", read)
+        assert progress.runs.finished_run(trial) is None
+    assert progress.runs.finished_run(trial) == f"01-{trial.name}"
+    assert Conductor([progress]).state()["step"] == "questions"
+
+
+def test_ratings_at_the_seat_are_found_once_they_can_be_read_again(
+    recorded_run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    person = PERSON.model_dump()
+    person["workload"]["nasa_tlx"] = ANSWERS
+    finished(recorded_run, tmp_path / "run", [person])
+    answers = AnswerFiles(tmp_path, tmp_path, 0)
+
+    def fail(*_: Any) -> bytes:
+        raise OSError(errno.EMFILE, "too many open files")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(RunFolder, "read", fail)
+        with pytest.raises(RunFolderError, match="too many open files"):
+            answers.read(NASA_TLX, "run")
+    assert answers.read(NASA_TLX, "run") == ANSWERS
 
 
 def test_a_break_has_to_be_taken(recorded_run: Path, tmp_path: Path) -> None:

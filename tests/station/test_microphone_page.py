@@ -29,7 +29,7 @@ from microphone import (
     talk,
 )
 from seats import voice
-from stations import PATIENCE_S, PretendedRun, agree, seat_page, seats_given_back_at_once
+from stations import PATIENCE_S, TOWER, PretendedRun, agree, seat_page, seats_given_back_at_once
 
 SAY_PLACE = "document.getElementById('say-button').getBoundingClientRect().y"
 STATE = "document.getElementById('talk-state').textContent"
@@ -59,6 +59,15 @@ GRANTED = """(() => {
     Object.defineProperty(window, 'granted', { get: () => tracks.map((one) => one.readyState) });
 })()"""
 """Lets the microphone be granted once `grant` is called; `granted` has the states of its tracks."""
+MOVED = """(() => {
+    const send = WebSocket.prototype.send;
+    WebSocket.prototype.send = function (...sent) {
+        WebSocket.prototype.send = send;
+        this.send(JSON.stringify({ take: 'GROUND' }));
+        this.send(...sent);
+    };
+})()"""
+"""Lets the page take another seat, without leaving its own before, with the next thing it sends."""
 WORDS = "American one two three, cleared to land"
 SLOW_LOUDSPEAKER = """
     Object.defineProperty(AudioContext.prototype, 'outputLatency', { get: () => 5.0 });
@@ -253,6 +262,27 @@ def test_a_microphone_that_is_granted_late_does_not_open_for_the_next_person(
         page.click("seat-take")
         page.wait_for("document.getElementById('talk').hidden")
         page.click("seat-take")
+        page.wait_for("!document.getElementById('talk').hidden")
+        page.evaluate("window.grant()")
+        page.wait_for("window.granted.length && window.granted.every((one) => one !== 'live')")
+        assert page.evaluate(BUTTON) == "Open the microphone"
+
+
+@pytest.mark.browser
+def test_a_microphone_that_is_granted_late_does_not_open_at_another_seat() -> None:
+    ground = TOWER.model_copy(update={"seat": "GROUND"})
+    with (
+        seat_page(PretendedRun((TOWER, ground))) as (run, url),
+        page_with_microphone(*FAKE) as page,
+    ):
+        sit_down(page, url, "TOWER")
+        page.evaluate(GRANTED)
+        page.click("talk-button")
+        page.click("consent-agree")
+        while "consent to voice" not in run.deeds:
+            run.settings.get(timeout=PATIENCE_S)
+        page.evaluate(MOVED)
+        page.wait_for("document.getElementById('seat-name').value === 'GROUND'")
         page.wait_for("!document.getElementById('talk').hidden")
         page.evaluate("window.grant()")
         page.wait_for("window.granted.length && window.granted.every((one) => one !== 'live')")

@@ -251,20 +251,19 @@ def test_a_seat_that_a_run_does_not_have_is_refused_with_the_names_of_its_seats(
 @pytest.mark.parametrize("names", [["tower", "ground"], ["Washington Tower", "ground", "tower"]])
 def test_a_seat_may_be_asked_for_by_the_role_of_its_unit(names: list[str]) -> None:
     with begun() as bus, closing(RunConnection(bus.endpoint)) as connection:
-        assert sorted(connection.seats(names, pytest.fail)) == [
-            "Washington Ground",
-            "Washington Tower",
-        ]
+        units = {"tower": "Washington Tower", "ground": "Washington Ground"}
+        expected = {name: units.get(name, name) for name in names}
+        assert connection.seats(names, pytest.fail) == expected
 
 
 def test_a_role_is_known_once_the_run_has_begun_and_a_name_is_taken_before_that() -> None:
     told: list[str] = []
     with begun("waiting") as bus, closing(RunConnection(bus.endpoint)) as connection:
-        assert connection.seats(["Tower"], told.append) == ("Tower",)
+        assert connection.seats(["Tower"], told.append) == {"Tower": "Tower"}
         assert told == []
         beginning = threading.Timer(0.3, tell_phase, (bus, "running"))
         beginning.start()
-        assert connection.seats(["tower"], told.append) == ("Washington Tower",)
+        assert connection.seats(["tower"], told.append) == {"tower": "Washington Tower"}
         beginning.join()
     assert told == ["the run has not begun; until then nobody knows the seat of 'tower'"]
 
@@ -273,7 +272,7 @@ def test_a_role_in_a_run_that_is_over_is_refused() -> None:
     with begun("finished") as bus, closing(RunConnection(bus.endpoint)) as connection:
         with pytest.raises(StationError, match=r"--seat 'tower': .*\(finished\); expected a run"):
             connection.seats(["tower"], pytest.fail)
-        assert connection.seats(["Tower"], pytest.fail) == ("Tower",)
+        assert connection.seats(["Tower"], pytest.fail) == {"Tower": "Tower"}
 
 
 def test_a_role_that_waits_for_a_run_is_refused_once_the_run_is_gone() -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -13,7 +13,9 @@ from airhilt.cli.notices import tell
 from airhilt.cli.output import echo_json
 from airhilt.cli.parameters import allow_path_option
 from airhilt.cli.station_flags import (
+    Agreed,
     PageOptions,
+    agreed_by_seat,
     agreed_option,
     refuse_page_options,
     station_options,
@@ -72,7 +74,7 @@ def cosim(
     allowed: tuple[Path, ...],
     as_json: bool,
     view: bool,
-    agreed: dict[str, str],
+    agreed: tuple[Agreed, ...],
     page: PageOptions,
     **_: object,
 ) -> None:
@@ -131,22 +133,18 @@ def _serve_page(
     stack.enter_context(live_page(options.endpoint, options.tls, seats, arguments))
 
 
-def _agreed_arguments(scenario: Scenario, options: Options, agreed: Mapping[str, str]) -> list[str]:
+def _agreed_arguments(scenario: Scenario, options: Options, agreed: Sequence[Agreed]) -> list[str]:
     """Return the arguments of `airhilt view` that tell who has agreed to a use of voice and words.
 
     Raises
     ------
-    AirhiltError
-        Somebody has no seat in the run.
+    click.UsageError
+        Somebody has no seat in the run, or has agreed to two uses.
     """
     from airhilt.scenario.seats import seats_of
 
-    seats = seats_of(options.seat, scenario)
-    found = {seat: use for name, use in agreed.items() for seat in seats_of([name], scenario)}
-    for seat in found:
-        if seat not in seats:
-            raise click.UsageError(f"--agreed {seat!r}: expected a seat that --seat names")
-    return [f"--agreed={seat}={use}" for seat, use in found.items()]
+    seats = {name: seat for name in options.seat for seat in seats_of([name], scenario)}
+    return [f"--agreed={seat}={use}" for seat, use in agreed_by_seat(agreed, seats).items()]
 
 
 COMMAND = cosim

@@ -10,9 +10,13 @@ from typing import TYPE_CHECKING
 import click
 
 from airhilt.cli.notices import tell
-from airhilt.cli.station_flags import PageOptions, agreed_option, station_options
-from airhilt.errors import StationError
-from airhilt.text import readable
+from airhilt.cli.station_flags import (
+    Agreed,
+    PageOptions,
+    agreed_by_seat,
+    agreed_option,
+    station_options,
+)
 
 if TYPE_CHECKING:
     from airhilt.station.address import Address
@@ -59,7 +63,7 @@ def view(
     connect: str | None,
     tls: Path | None,
     seats: tuple[str, ...],
-    agreed: dict[str, str],
+    agreed: tuple[Agreed, ...],
     page: PageOptions,
 ) -> None:
     """Show a run in the browser: traffic, radio, advisories and cameras on one clock.
@@ -101,7 +105,7 @@ def _show_live(
     connect: str | None,
     tls: Path | None,
     asked: tuple[str, ...],
-    agreed: dict[str, str],
+    given: Sequence[Agreed],
     address: Address,
     browser: bool,
 ) -> None:
@@ -118,12 +122,9 @@ def _show_live(
     with ExitStack() as stack:
         connection = RunConnection(connect, "operator" if asked else "observer", tls=tls)
         stack.callback(connection.close)
-        seats = connection.seats(asked, tell)
-        for seat in set(agreed).difference(seats):
-            raise StationError(
-                f"--agreed {readable(seat)!r}: expected the name of a seat, as the run has it: "
-                f"{readable(', '.join(seats))}"
-            )
+        by_name = connection.seats(asked, tell)
+        agreed = agreed_by_seat(given, by_name)
+        seats = tuple(dict.fromkeys(by_name.values()))
         changes, sounds = Changes(), Changes(MOST_SOUNDS)
         of_seats = {seat: SeatChanges() for seat in seats}
         views = SeatViews(seats)

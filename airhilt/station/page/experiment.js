@@ -59,7 +59,7 @@ function note(text) {
 const afterTrial = ({ trial, trials }) => `Questions after trial ${trial} of ${trials}`;
 
 const CONSENT =
-  "Please answer before the trial begins. Your seat does not ask again, unless you choose so.";
+  "Please answer before the trial begins. Your seat asks only about what you do not agree to here.";
 
 /** Heading of each questionnaire, and what is said of it, by its name. */
 const QUESTIONNAIRES = {

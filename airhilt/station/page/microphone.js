@@ -25,7 +25,7 @@ export class Microphone {
   #stream = null;
   #isOpening = false;
   #held = false;
-  #sitting = 0; // number of the people who have left
+  #sitting = 0; // number of times that consent to the voice has ended
 
   /**
    * `link` has send(wish), sendSound(buffer), unsent(), isThere(), frequency(), consent, and
@@ -70,8 +70,9 @@ export class Microphone {
       this.#tell("No recogniser takes part: only people understand you.");
   }
 
-  /** Closes the microphone of a person who does not let the voice be used. */
+  /** Closes the microphone of a person who does not let the voice be used, also if it opens now. */
   shut() {
+    this.#sitting++;
     if (this.#node) this.#close();
   }
 
@@ -160,7 +161,7 @@ export class Microphone {
     if (this.#sitting !== sitting) {
       end(stream, context);
       return;
-    } // The seat was left meanwhile: who has it now has not agreed.
+    } // Meanwhile the seat was left, or consent taken back: who has it now has not agreed.
     node.port.onmessage = ({ data }) => this.#take(data);
     source.connect(node);
     stream.getTracks()[0].addEventListener("ended", () => {
