@@ -144,8 +144,10 @@ def _mend_ils(texts: list[str], confidences: list[float]) -> None:
         pair = texts[at : at + 2]
         if not all(each.isalpha() for each in pair) or "ils" in pair or "".join(pair) == "ils":
             continue
+        if not _sounds_like_ils(*pair):
+            continue
         before, after = " ".join(texts[max(at - 3, 0) : at]), " ".join(texts[at + 2 : at + 5])
-        if _fits("ils", before, after) and _sounds_like_ils(*pair):
+        if _fits("ils", before, after):
             confidences[at : at + 2] = [min(confidences[at : at + 2]) * FITTED]
             texts[at : at + 2] = ["ils"]
             return

@@ -19,9 +19,12 @@ MENDED = 0.9
 
 FILLERS = frozenset({"uh", "um", "er", "ah", "eh", "erm", "hm", "hmm", "mm", "uhm", "please"})
 
-THOUSANDS = re.compile(r"(?:(?<=\b[0-9])|(?<=\b[0-9]{2})),(?=[0-9]{3}\b)")
+THOUSANDS = re.compile(r",(?:(?<=\b[0-9],)|(?<=\b[0-9]{2},))(?=[0-9]{3}\b)")
 """A thousands separator, as in 5,000."""
-PIECES = re.compile(r"[a-z]+(?:['’][a-z]+)?|[0-9]+(?:\.[0-9]+)?|[,.;]")
+DECIMALS = re.compile(r"([0-9]+)\.([0-9]+)")
+PLAIN = re.compile(r"[a-z ,.;]*")
+"""A text without numbers, which its blanks and signs take apart."""
+PIECES = re.compile(r"[a-z]+(?:'[a-z]+)?|[0-9]+|[,.;]")
 BREAKS = frozenset(",.;")
 
 SPELLINGS: dict[str, tuple[str, ...]] = {
@@ -99,6 +102,7 @@ _AFTER_RUNWAY = frozenset({"left", "right", "l", "r", "centre", "cleared", "clea
 
 _MENDED = PAIRS.keys() | SPELLINGS.keys() | SOUNDALIKES.keys() | {"fox"}
 """Words that may stand for others."""
+_SPOKEN = DIGITS | TEENS
 _NUMERIC = (
     DIGITS.keys() | TEENS.keys() | TENS.keys() | SOUNDS.keys() | {"hundred", "double", "triple"}
 )
@@ -128,11 +132,6 @@ class Words:
         self.texts.extend(others.texts[start:end])
         self.confidences.extend(others.confidences[start:end])
 
-    def extend_number(self, digits: str, confidence: float) -> None:
-        """Join digits to the number at the end."""
-        self.texts[-1] += digits
-        self.confidences[-1] = min(self.confidences[-1], confidence)
-
 
 def tokens(text: str) -> list[str]:
     """Return the lower-case words of a call, with spoken numbers in digits.
@@ -156,34 +155,27 @@ def words_of(text: str, confidences: Sequence[float] | None = None) -> Words:
 
 
 def _split(text: str, confidences: Sequence[float] | None) -> Words:
-    chunks = text.lower().split()
+    text = text.lower().replace("’", "'")
     if confidences is None:
-        confidences = [1.0] * len(chunks)
-    elif len(confidences) != len(chunks):
+        pieces = _pieces(text)
+        return Words(pieces, [1.0] * len(pieces))
+    chunks = text.split()
+    if len(confidences) != len(chunks):
         raise ValueError(
             f"{len(confidences)} word confidences for {len(chunks)} words; expected one for each "
             "word of the text, which are those between its blanks"
         )
-    if text.isascii() and text.replace(" ", "").isalpha():
-        return Words(chunks, list(confidences))
     words = Words()
-    add = words.add
     for chunk, confidence in zip(chunks, confidences, strict=True):
-        if chunk.isascii() and chunk.isalpha():
-            add(chunk, confidence)
-            continue
-        word, sign = chunk[:-1], chunk[-1]
-        if sign in BREAKS and word.isascii() and word.isalpha():
-            add(word, confidence)
-            add(sign, confidence)
-            continue
-        for piece in PIECES.findall(THOUSANDS.sub("", chunk)):
-            if piece[0].isdigit() and "." in piece:
-                whole, fraction = piece.split(".")
-                words.add_all((whole, "decimal", fraction), confidence)
-            else:
-                add(piece.replace("’", "'"), confidence)
+        words.add_all(_pieces(chunk), confidence)
     return words
+
+
+def _pieces(text: str) -> list[str]:
+    """Return words, numbers and signs."""
+    if PLAIN.fullmatch(text):
+        return text.replace(",", " , ").replace(".", " . ").replace(";", " ; ").split()
+    return PIECES.findall(DECIMALS.sub(r"\1 decimal \2", THOUSANDS.sub("", text)))
 
 
 def _mend(words: Words) -> Words:
@@ -274,21 +266,25 @@ def _join(said: Words) -> Words:
                 joined.append(word)
                 sure.append(confidence)
             continue
-        digits = DIGITS.get(word) or TEENS.get(word)
-        if digits is None and word in TENS:
+        digits = _SPOKEN.get(word)
+        if digits is not None:
+            pass
+        elif word in TENS:
             digits = TENS[word]
             unit = DIGITS.get(texts[at], "0") if at < size else "0"
             if unit != "0":
                 digits = digits[0] + unit
                 confidence = min(confidence, confidences[at])
                 at += 1
-        elif digits is None and word in SOUNDS and _is_digit_here(words, joining, texts, at):
-            digits, confidence = SOUNDS[word], confidence * MENDED
-        elif digits is None and word[0].isdigit():
+        elif word in SOUNDS:
+            if _is_digit_here(words, joining, texts, at):
+                digits, confidence = SOUNDS[word], confidence * MENDED
+        elif word[0].isdigit():
             digits = word
             joining = joining and len(word) < 3 and not _is_long_literal(texts, at - 2)
         elif word == "hundred" and joining:
-            words.extend_number("00", confidence)
+            joined[-1] += "00"
+            sure[-1] = min(sure[-1], confidence)
             at = _add_below_hundred(words, said, at)
             joining = False
             continue
@@ -297,9 +293,11 @@ def _join(said: Words) -> Words:
             confidence = min(confidence, confidences[at])
             at += 1
         if digits is not None and joining:
-            words.extend_number(digits, confidence)
+            joined[-1] += digits
+            sure[-1] = min(sure[-1], confidence)
         else:
-            words.add(digits or word, confidence)
+            joined.append(digits or word)
+            sure.append(confidence)
         joining = digits is not None
     return words
 
