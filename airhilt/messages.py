@@ -107,6 +107,8 @@ below it are only shown."""
 # --- the run itself -------------------------------------------------------------------------
 
 
+Use = Literal["voice", "words"]
+"""Use to which a person may agree: of the voice and of typed words, or of typed words alone."""
 Phase = Literal["waiting", "running", "finished", "stopped"]
 
 
@@ -976,7 +978,7 @@ class SeatConsent(Message):
     """
 
     limit = Limit(size_bytes=500, rate_hz=5)
-    what: Literal["voice", "words"] = Field(
+    what: Use = Field(
         default="voice",
         description="use to which the person agrees or not: of voice and typed words, or of typed "
         "words alone",
@@ -984,6 +986,16 @@ class SeatConsent(Message):
     is_given: bool = Field(
         description="false: the microphone stays closed, or the words are not said"
     )
+
+    def added_to(self, agreed: frozenset[Use]) -> frozenset[Use]:
+        """Return the uses to which a person agrees who has given this answer after others.
+
+        Consent to the use of the voice covers typed words, so who declines the use of words
+        declines that of the voice too.
+        """
+        if self.is_given:
+            return agreed | {self.what}
+        return agreed - ({"voice"} if self.what == "voice" else {"voice", "words"})
 
 
 class AdvisoryPerceived(Message):

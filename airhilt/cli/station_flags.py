@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields, replace
 from functools import wraps
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any, TypeVar, cast
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import click
 from click.core import ParameterSource
@@ -17,14 +17,16 @@ from airhilt.errors import StationError
 from airhilt.station.address import DEFAULT_HOST, DEFAULT_PORT, Address
 from airhilt.text import readable
 
+if TYPE_CHECKING:
+    from airhilt.messages import Use
+
 F = TypeVar("F", bound=Callable[..., Any])
 FILE = click.Path(path_type=Path, dir_okay=False)
-Agreed = tuple[str, str]
-"""Name of a seat, and the use to which its person has agreed before."""
 NEEDED = ("fastapi", "uvicorn", "websockets")
 """Packages of the extra ``station``."""
-USES = ("voice", "words")
-"""Uses to which a person at a seat may agree, as `SeatConsent` has them."""
+USES: tuple[Use, ...] = ("voice", "words")
+Agreed = tuple[str, "Use"]
+"""Name of a seat, and the use to which its person has agreed before."""
 
 
 @dataclass(frozen=True)
@@ -111,37 +113,36 @@ def agreed_option(command: F) -> F:
         multiple=True,
         metavar="SEAT=USE",
         callback=lambda _, __, given: tuple(map(_agreed, given)),
-        help="Who takes this seat first has agreed already to a use: voice (and typed words), or "
-        "words alone; may be given again, for another seat. The page asks for the rest, and who "
-        "takes the seat after that.",
+        help="Who takes this seat first at this page has agreed already to a use: voice (and "
+        "typed words), or words alone; may be given again, for another seat. The page asks for the "
+        "rest, and who takes the seat after that.",
     )
     return cast("F", option(command))
 
 
-def agreed_by_seat(agreed: Iterable[Agreed], seats: Mapping[str, str]) -> dict[str, str]:
+def agreed_by_seat(agreed: Iterable[Agreed], seats: Mapping[str, str]) -> dict[str, Use]:
     """Return to what people have agreed, by the seats of a run.
 
     Parameters
     ----------
     seats
-        Seats that are left to people, by the names that ask for them.
+        Seats that are left to people, by the names that stand for them.
 
     Raises
     ------
     click.UsageError
         A seat is not left to people, or there twice.
     """
-    known = {seat: seat for seat in seats.values()} | dict(seats)
-    found: dict[str, str] = {}
+    found: dict[str, Use] = {}
     for name, use in agreed:
-        if name not in known:
+        if name not in seats:
             named = readable(", ".join(seats))
             raise click.UsageError(
                 f"--agreed {readable(name)!r}: expected a seat that --seat names: {named}"
             )
-        if known[name] in found:
+        if seats[name] in found:
             raise click.UsageError(f"--agreed {readable(name)!r}: its seat is there twice")
-        found[known[name]] = use
+        found[seats[name]] = use
     return found
 
 
@@ -153,8 +154,9 @@ def _agreed(given: str) -> Agreed:
     click.BadParameter
         It is none.
     """
-    seat, _, use = given.rpartition("=")
-    if not seat or use not in USES:
+    seat, _, named = given.rpartition("=")
+    use = next((one for one in USES if one == named), None)
+    if not seat or use is None:
         raise click.BadParameter(f"{given!r}; expected SEAT={', or SEAT='.join(USES)}")
     return seat, use
 

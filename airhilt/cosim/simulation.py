@@ -342,7 +342,7 @@ class Simulation:
             ("voice", True): f"agrees to speak; the voice {kept} recorded",
             ("voice", False): "keeps the microphone closed",
             ("words", True): "agrees to type; the words are recorded",
-            ("words", False): "does not agree to type",
+            ("words", False): "agrees neither to type nor to speak",
         }
         self._event("seat", self._seat_name(seat), texts[told.what, told.is_given])
 

@@ -22,10 +22,12 @@ from airhilt.messages import (
     Event,
     Message,
     MicrophoneAudio,
+    SeatConsent,
     SeatInfo,
     SeatPresence,
     SpokenTruth,
     SpokenWords,
+    Use,
     WorkloadAnswer,
     WorkloadQuestion,
 )
@@ -130,6 +132,8 @@ class _Seat:
     asked_again: int = 0
     readback_errors: int = 0
     readback_errors_heard: int = 0
+    agreed: frozenset[Use] | None = None
+    """Uses to which the last answer agrees; None: nobody has answered."""
     questions: dict[int, WorkloadQuestion] = field(default_factory=dict)
     answers: dict[int, WorkloadAnswer] = field(default_factory=dict)
 
@@ -226,6 +230,7 @@ class PeopleRecords:
                 | MicrophoneAudio()
                 | AdvisoryPerceived()
                 | CallHeard()
+                | SeatConsent()
                 | SeatPresence()
                 | WorkloadAnswer()
             ):
@@ -238,6 +243,8 @@ class PeopleRecords:
         match message:
             case SeatPresence(is_taken=is_taken, t_ns=t_ns):
                 seat.occupy(t_ns, is_taken=is_taken)
+            case SeatConsent():
+                seat.agreed = message.added_to(seat.agreed or frozenset())
             case WorkloadAnswer(question=number):
                 seat.answers.setdefault(number, message)
             case ActorCommand(command=command, t_ns=t_ns) if seat.person is not None:
@@ -284,6 +291,7 @@ class PeopleRecords:
         return PersonSummary(
             seat=name,
             seat_time_s=seat.taken_until_ns(now_ns) / SECOND_NS,
+            consent=_consent(seat.agreed),
             spoken_calls=spoken,
             typed_calls=typed,
             commands=len(done) - spoken - typed,
@@ -380,6 +388,12 @@ class PeopleRecords:
         within = [pace for t_ns, pace in self._paces if begin_ns <= t_ns <= end_ns]
         stalls = [t_ns for t_ns in self._stalls_ns if begin_ns - AFTER_STALL_NS <= t_ns <= end_ns]
         return not stalls and all(pace == REAL_TIME for pace in (before[-1], *within))
+
+
+def _consent(agreed: frozenset[Use] | None) -> Literal["voice", "words", "none"] | None:
+    if agreed is None:
+        return None
+    return "voice" if "voice" in agreed else "words" if agreed else "none"
 
 
 def _workload(seat: _Seat) -> WorkloadSummary:

@@ -221,6 +221,11 @@ class PersonSummary(BaseModel):
     seat_time_s: float | None = Field(
         default=None, description="time of the run for which somebody had the seat"
     )
+    consent: Literal["voice", "words", "none"] | None = Field(
+        default=None,
+        description="use to which the person agreed last: of voice and typed words, or of typed "
+        "words alone; null: nobody was asked",
+    )
     spoken_calls: int = Field(description="calls that the person spoke into the microphone")
     typed_calls: int = Field(description="calls that the person typed")
     commands: int = Field(description="commands that the person gave to the aircraft or vehicle")

@@ -21,7 +21,7 @@ FILLERS = frozenset({"uh", "um", "er", "ah", "eh", "erm", "hm", "hmm", "mm", "uh
 
 THOUSANDS = re.compile(r",(?:(?<=\b[0-9],)|(?<=\b[0-9]{2},))(?=[0-9]{3}\b)")
 """A thousands separator, as in 5,000."""
-DECIMALS = re.compile(r"([0-9]+)\.([0-9]+)")
+DECIMALS = re.compile(r"(?<![0-9])([0-9]+)\.([0-9]+)")
 PLAIN = re.compile(r"[a-z ,.;]*")
 """A text without numbers, which its blanks and signs take apart."""
 PIECES = re.compile(r"[a-z]+(?:'[a-z]+)?|[0-9]+|[,.;]")

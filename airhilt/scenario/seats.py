@@ -39,6 +39,25 @@ def possible_seats(scenario: Scenario) -> tuple[str, ...]:
     return tuple(dict.fromkeys([scenario.radio.controller, *actors, *speakers]))
 
 
+def named_seats(names: Iterable[str], scenario: Scenario) -> dict[str, str]:
+    """Return the units and callsigns that are asked for, by each name that stands for them.
+
+    These are the names that ask for them, their own, and their roles.
+
+    Raises
+    ------
+    ScenarioError
+        As `seats_of`.
+    """
+    seats = seats_of(names, scenario)
+    found = {seat: seat for seat in seats}
+    for role in sorted(ROLES):
+        (unit,) = without_roles([role], scenario.radio.controller, possible_seats(scenario))
+        if unit in seats:
+            found[role] = unit
+    return found
+
+
 def seats_of(names: Iterable[str], scenario: Scenario) -> tuple[str, ...]:
     """Return the units and callsigns that are asked for, each once.
 

@@ -22,6 +22,7 @@ from airhilt.messages import (
     SeatConsent,
     SeatListening,
     SpokenWords,
+    Use,
 )
 from airhilt.station.audiences import Audience, SeatViews
 from airhilt.station.changes import MOST_AT_ONCE, Changes, SeatChanges
@@ -109,7 +110,7 @@ class Browsers:
     views
         What may be seen at each seat; a browser without one sees only what everybody may.
     agreed
-        Use of voice and words to which who takes a seat first has agreed before, by seat.
+        Use to which who takes a seat first has agreed before, by seat.
     """
 
     def __init__(
@@ -120,7 +121,7 @@ class Browsers:
         sounds: Changes | None = None,
         notice: Callable[[str], None] = lambda _: None,
         views: SeatViews | None = None,
-        agreed: Mapping[str, str] = MappingProxyType({}),
+        agreed: Mapping[str, Use] = MappingProxyType({}),
     ) -> None:
         self._book = SeatBook[_Browser](seats)
         self._views = views or SeatViews(seats)
@@ -423,6 +424,7 @@ class Browsers:
         if claimed == "ours":
             self._known[seat] = None
             return None
+        self._consents.end(seat)  # Somebody has it first at another page.
         return CLAIMED_ELSEWHERE[claimed].format(seat=readable(seat))
 
     async def _leave(self, browser: _Browser) -> None:

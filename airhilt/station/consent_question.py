@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Literal
-
+from airhilt.messages import Use
 from airhilt.station.questionnaires import Answers, Choice, Questionnaire
 
-Use = Literal["voice", "words"]
-"""Uses to which a person may agree: of voice and typed words, or of typed words alone."""
 USES: dict[str, Use | None] = {
     "Voice and typed words": "voice",
     "Typed words alone": "words",
@@ -37,3 +34,10 @@ def consent_question(*, is_recorded: bool) -> Questionnaire:
 def use_of(answers: Answers | None) -> Use | None:
     """Return to what a participant has agreed; None: to nothing yet."""
     return USES.get(str((answers or {}).get("use")))
+
+
+def least_use(*uses: str | None) -> Use | None:
+    """Return to what somebody agrees who gave several answers; None, ``none``: to nothing."""
+    if all(use == "voice" for use in uses):
+        return "voice"
+    return "words" if all(use in ("voice", "words") for use in uses) else None

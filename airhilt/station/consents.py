@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from airhilt.messages import SeatConsent
+from airhilt.messages import SeatConsent, Use
 
 NO_VOICE = "Your call was cut: you have not agreed to the use of your voice."
 """Reason for which what is spoken is refused; a page whose call is cut ends it."""
@@ -19,48 +19,40 @@ class Consents:
     Parameters
     ----------
     agreed
-        Use of voice and words, in the words of `SeatConsent`, to which who takes a seat first has
-        agreed before, by seat.
+        Use to which who takes a seat first has agreed before, by seat.
     """
 
-    def __init__(self, agreed: Mapping[str, str] = MappingProxyType({})) -> None:
+    def __init__(self, agreed: Mapping[str, Use] = MappingProxyType({})) -> None:
         self._before = dict(agreed)
-        self._given: dict[str, set[str]] = {}
+        self._given: dict[str, frozenset[Use]] = {}
 
     def take(self, seat: str, answer: SeatConsent) -> None:
-        """Take in an answer.
-
-        Consent to the use of the voice covers typed words, so who declines the use of words
-        declines that of the voice too. What is taken back was not agreed to before either.
-        """
-        given = self._given.setdefault(seat, set())
-        if answer.is_given:
-            given.add(answer.what)
-        else:
-            given -= {answer.what} if answer.what == "voice" else {"words", "voice"}
-            if self._before.get(seat) not in given:
-                self._before.pop(seat, None)
+        """Take in an answer. What is taken back counts as not agreed to before either."""
+        given = answer.added_to(self._given.get(seat, frozenset()))
+        self._given[seat] = given
+        if self._before.get(seat) not in given:
+            self._before.pop(seat, None)
 
     def begin(self, seat: str) -> None:
         """Forget the answers at a seat, whose page asks for them: what was agreed before is left.
 
         The page is that of a person who has taken the seat, or was loaded again.
         """
-        self._given[seat] = {self._before[seat]} if seat in self._before else set()
+        before = self._before.get(seat)
+        self._given[seat] = frozenset() if before is None else frozenset({before})
 
     def end(self, seat: str) -> None:
-        """Forget all that the person has agreed to who has left a seat, also before."""
+        """Forget all that was agreed to at a seat, also before: another person may have it next."""
         self._before.pop(seat, None)
         self._given.pop(seat, None)
 
     def before(self, seat: str) -> SeatConsent | None:
         """Return to what the person at a seat has agreed before, None if to nothing."""
-        if seat not in self._before:
-            return None
-        return SeatConsent.model_validate({"what": self._before[seat], "is_given": True})
+        before = self._before.get(seat)
+        return None if before is None else SeatConsent(what=before, is_given=True)
 
-    def given_at(self, seat: str | None) -> tuple[str, ...]:
-        """Return what the person at a seat agrees to, in the words of `SeatConsent`."""
+    def given_at(self, seat: str | None) -> tuple[Use, ...]:
+        """Return the uses to which the person at a seat agrees."""
         return () if seat is None else tuple(sorted(self._given.get(seat, ())))
 
     def admits_voice(self, seat: str | None) -> bool:

@@ -10,9 +10,10 @@ from __future__ import annotations
 from pathlib import Path
 from typing import NamedTuple
 
+from airhilt.messages import Use
 from airhilt.options import options_of
 from airhilt.station.answer_files import AnswerFiles
-from airhilt.station.consent_question import Use, consent_question, use_of
+from airhilt.station.consent_question import consent_question, least_use, use_of
 from airhilt.station.plan import Plan, Trial
 from airhilt.station.questionnaires import Answers, Questionnaire
 from airhilt.station.trial_order import order_of
@@ -107,9 +108,15 @@ class Progress:
     def agreed(self, trial: Trial) -> Use | None:
         """Return to what use of voice and words the participant agrees in a trial, None if to none.
 
-        It is asked once for all trials in which voices are recorded, and once for all others.
+        It is asked once for all trials in which voices are recorded, and once for all others. What
+        was taken back at the seat in the last of these trials is not agreed to any more.
         """
-        return use_of(self.answers(self._consent(trial))) if self.plan.ask_consent else None
+        if not self.plan.ask_consent:
+            return None
+        asked = self._consent(trial)
+        alike = [one for one in self.trials if self._consent(one) == asked]
+        at_seat = [one for other in alike for one in self.runs.consents(other, self.seat(other))]
+        return least_use(use_of(self.answers(asked)), *at_seat[-1:])
 
     def _consent(self, trial: Trial) -> Asked:
         options = options_of({**self.plan.options, **trial.conditions})

@@ -6,7 +6,9 @@ What is finished is not run again. What was stopped is begun again in another fo
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from functools import partial
 from pathlib import Path
+from typing import NamedTuple
 
 from airhilt.errors import RunFolderError, StationError, first_line
 from airhilt.record import RunFolder
@@ -19,10 +21,22 @@ from airhilt.world.loading import load
 
 MOST_ATTEMPTS = 100
 """Largest number of times that a trial is begun."""
+_TO_RUN_AGAIN = "move the folder away to run the trial again"
 TOGETHER = "+"
 """Text between the participants of a team in the name of their folder; no identifier has it."""
-_SeatTimes = dict[str, float | None]
-"""Times by seat, in s."""
+
+
+class SeatRecord(NamedTuple):
+    """A seat in a run that has ended."""
+
+    taken_s: float | None
+    """Time for which it was taken, in s; None: an earlier version did not tell."""
+    consent: str | None
+    """Use of voice or words to which its person agreed last, or ``none``; None: nobody asked."""
+
+
+_Seats = dict[str, SeatRecord]
+"""Records by seat, in the order of the team."""
 
 
 class TrialRuns:
@@ -55,8 +69,8 @@ class TrialRuns:
         self._plan = plan
         self._trials = trials
         self._seats: dict[str, tuple[str, ...]] = {}
-        self._phases = FileCache[str]()
-        self._times_s = FileCache[_SeatTimes]()
+        self._phases = FileCache[str | None]()
+        self._records = FileCache[_Seats | None]()
         _refuse_another_order(team, self.folder)
 
     def seats(self, trial: Trial) -> tuple[str, ...]:
@@ -105,34 +119,43 @@ class TrialRuns:
         Raises
         ------
         RunFolderError
-            Its seats were others than those of the plan, or its summary does not tell them.
+            Its seats were others than those of the plan, or its files do not tell.
         """
-        for name in self.attempts(trial):
-            folder = self.folder / name
-            if not folder.exists():
-                return None
-            times_s = self._times_of(RunFolder(folder))
-            if times_s:
-                self.require_same_seats(trial, name, list(times_s))
-            if times_s is not None and 0.0 not in times_s.values():
-                return name
+        for run in self._begun(trial):
+            if self._phases.get(partial(_phase, run), run.info_path) != "finished":
+                continue
+            seats = self._seats_of(run)
+            if seats is None:
+                raise RunFolderError(f"{run.summary_path}: missing; {_TO_RUN_AGAIN}")
+            if seats:
+                self.require_same_seats(trial, run.path.name, list(seats))
+            if all(seat.taken_s != 0.0 for seat in seats.values()):
+                return run.path.name
         return None
 
-    def _times_of(self, run: RunFolder) -> _SeatTimes | None:
-        """Return how long the seats of a run were taken, None if it has not ended by itself.
+    def consents(self, trial: Trial, seat: str) -> list[str]:
+        """Return to what the person at a seat agreed last in each run of a trial, in their order.
+
+        It is ``voice``, ``words`` or ``none``; runs in which nobody was asked are left out.
 
         Raises
         ------
         RunFolderError
-            It has, and its summary does not tell.
+            The numbers of a run cannot be read.
         """
-        try:
-            has_ended = self._phases.get(lambda: run.info().phase, run.info_path) == "finished"
-        except RunFolderError:
-            return None
-        if not has_ended:
-            return None
-        return self._times_s.get(lambda: _seat_times_s(run), run.summary_path)
+        of_runs = [self._seats_of(run) or {} for run in self._begun(trial)]
+        found = [seats[seat].consent for seats in of_runs if seat in seats]
+        return [consent for consent in found if consent is not None]
+
+    def _begun(self, trial: Trial) -> Iterator[RunFolder]:
+        """Yield the run folders of a trial that are there, in their order."""
+        for name in self.attempts(trial):
+            if not (self.folder / name).exists():
+                return
+            yield RunFolder(self.folder / name)
+
+    def _seats_of(self, run: RunFolder) -> _Seats | None:
+        return self._records.get(partial(_seat_records, run), run.summary_path)
 
     def new_run(self, trial: Trial) -> str:
         """Return the name of a run folder that is not there yet.
@@ -148,24 +171,51 @@ class TrialRuns:
         raise StationError(f"trial {trial.name}: begun {MOST_ATTEMPTS} times; look at its folders")
 
 
-def _seat_times_s(run: RunFolder) -> _SeatTimes:
-    """Return how long each seat of a run was taken, in s, in the order of the team.
-
-    It is None where an earlier version did not tell, and there are no seats where there is no
-    summary, or none of people.
+def _phase(run: RunFolder) -> str | None:
+    """Return the phase that a run has written; None if it has not, or what it wrote is damaged.
 
     Raises
     ------
     RunFolderError
-        It cannot be read, or is none.
+        The file cannot be read now.
     """
-    people = (run.summary() or {}).get("people", ())
     try:
-        return {str(person["seat"]): person.get("seat_time_s") for person in people}
+        run.read(run.info_path)
+    except FileNotFoundError:
+        return None
+    except OSError as error:
+        raise RunFolderError(f"{run.info_path}: cannot be read: {error.strerror}") from None
+    try:
+        return run.info().phase
+    except RunFolderError:
+        return None
+
+
+def _seat_records(run: RunFolder) -> _Seats | None:
+    """Return the seats of a run in the order of the team, none if nobody had any.
+
+    It is None if the run has written no summary.
+
+    Raises
+    ------
+    RunFolderError
+        The summary cannot be read, or is none.
+    """
+    try:
+        summary = run.summary()
+        people = None if summary is None else summary.get("people", ())
+        if people is None:
+            return None
+        return {
+            str(one["seat"]): SeatRecord(one.get("seat_time_s"), one.get("consent"))
+            for one in people
+        }
+    except RunFolderError as error:
+        raise RunFolderError(f"{error}; {_TO_RUN_AGAIN}") from None
     except (LookupError, TypeError, AttributeError) as error:
         raise RunFolderError(
             f"{run.summary_path}: its people cannot be read ({first_line(error)}); expected them "
-            "as a run writes them; move the folder away to run the trial again"
+            f"as a run writes them; {_TO_RUN_AGAIN}"
         ) from None
 
 

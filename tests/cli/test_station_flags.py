@@ -5,22 +5,26 @@ from __future__ import annotations
 import click
 import pytest
 
-from airhilt.cli.station_flags import agreed_by_seat
+from airhilt.cli.station_flags import Agreed, agreed_by_seat
 
-SEATS = {"tower": "Washington Tower", "AAL123": "AAL123"}
-"""Seats of a run, by the names that ask for them."""
+SEATS = {
+    "tower": "Washington Tower",
+    "Washington Tower": "Washington Tower",
+    "AAL123": "AAL123",
+}
+"""Seats of a run, by the names that stand for them."""
 
 
 @pytest.mark.parametrize("name", ["tower", "Washington Tower"])
 def test_a_seat_is_named_by_its_role_or_by_its_unit(name: str) -> None:
-    given = [(name, "voice"), ("AAL123", "words")]
+    given: list[Agreed] = [(name, "voice"), ("AAL123", "words")]
     assert agreed_by_seat(given, SEATS) == {"Washington Tower": "voice", "AAL123": "words"}
 
 
 @pytest.mark.parametrize(
     ("given", "told"),
     [
-        ([("ground", "voice")], "'ground': expected a seat that --seat names: tower, AAL123"),
+        ([("ground", "voice")], "'ground': expected a seat that --seat names: tower, Washington"),
         (
             [("tower", "voice"), ("Washington Tower", "words")],
             "'Washington Tower': its seat is there twice",
@@ -29,7 +33,7 @@ def test_a_seat_is_named_by_its_role_or_by_its_unit(name: str) -> None:
     ],
 )
 def test_a_seat_that_nobody_may_take_or_that_is_there_twice_is_refused(
-    given: list[tuple[str, str]], told: str
+    given: list[Agreed], told: str
 ) -> None:
     with pytest.raises(click.UsageError, match=f"--agreed {told}"):
         agreed_by_seat(given, SEATS)

@@ -239,7 +239,7 @@ def test_what_a_person_listens_to_and_agrees_to_is_in_the_log_and_replays(tmp_pa
     assert events == [
         "a person has it", "listens to no frequency", "listens to 119.100 MHz",
         "keeps the microphone closed", "agrees to speak; the voice is recorded",
-        "does not agree to type", "agrees to type; the words are recorded",
+        "agrees neither to type nor to speak", "agrees to type; the words are recorded",
     ]  # fmt: skip
     heard = [one["frequencies_khz"] for one in contents(log, "listening/OPS1")]
     assert heard == [[119_100], [], [119_100]]

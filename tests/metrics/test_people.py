@@ -24,12 +24,14 @@ from airhilt.messages import (
     Message,
     MicrophoneAudio,
     NasaTlx,
+    SeatConsent,
     SeatInfo,
     SeatPresence,
     Severity,
     SpokenTruth,
     SpokenWords,
     Transcript,
+    Use,
     WorkloadAnswer,
     WorkloadQuestion,
 )
@@ -418,6 +420,27 @@ def test_the_time_at_the_seat_is_that_for_which_somebody_had_it(
         presence = SeatPresence(t_ns=round(t_s * SECOND), is_taken=is_taken)
         records.take("seat/AAL1", presence)
     assert records.summaries(100 * SECOND)[0].seat_time_s == time_s
+
+
+@pytest.mark.parametrize(
+    ("answers", "consent"),
+    [
+        ([], None),
+        ([("voice", True)], "voice"),
+        ([("words", True)], "words"),
+        ([("voice", False)], "none"),
+        ([("words", True), ("voice", False)], "words"),
+        ([("voice", True), ("words", False)], "none"),
+        ([("words", False), ("words", True), ("voice", True)], "voice"),
+    ],
+)
+def test_consent_is_what_the_last_answers_agree_to(
+    answers: list[tuple[Use, bool]], consent: str | None
+) -> None:
+    told = [SeatConsent(what=what, is_given=is_given) for what, is_given in answers]
+    assert person(*((float(t_s), "consent/AAL1", one) for t_s, one in enumerate(told))).consent == (
+        consent
+    )
 
 
 def on_air(name: str, t_s: float, to_s: float, **more: Any) -> tuple[float, str, SpokenTruth]:

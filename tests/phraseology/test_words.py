@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 import pytest
 
 from airhilt.phraseology import parse_call, tokens
@@ -244,3 +246,18 @@ def test_nobody_knows_where_the_first_of_two_numbers_ends() -> None:
     assert words.confidences == pytest.approx([1.0, 0.6, 0.8, 0.9])
     runway = split_numbers(Words(["check", "299224", "right", "cleared"], [1.0, 0.8, 1.0, 1.0]))
     assert runway.confidences == pytest.approx([1.0, 0.6, 0.6, 1.0, 1.0])
+
+
+@pytest.mark.parametrize("piece", ["1", "1.", "1,", "1,000", "a'", "one "])
+def test_the_time_to_read_a_text_grows_no_faster_than_its_length(piece: str) -> None:
+    """Sixteen times the length takes a little more than as much time, and not its square."""
+
+    def least_s(times: int) -> float:
+        text, taken_s = piece * times, []
+        for _ in range(3):
+            begun_s = time.process_time()
+            tokens(text)
+            taken_s.append(time.process_time() - begun_s)
+        return min(taken_s)
+
+    assert least_s(16_000) < 100.0 * least_s(1_000)

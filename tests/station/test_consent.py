@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from websockets.sync.client import ClientConnection
 
-from airhilt.messages import SeatConsent, SpokenWords
+from airhilt.messages import SeatConsent, SpokenWords, Use
 from airhilt.station import browsers, seat_book
 from airhilt.station.consents import NO_VOICE, NO_WORDS, Consents
 from devtools import Page
@@ -269,6 +269,18 @@ def test_who_has_agreed_before_need_not_be_asked_at_the_seat_and_the_run_is_told
         assert refusals(own) == [NO_VOICE]
 
 
+def test_who_takes_a_seat_that_somebody_had_at_another_page_has_not_agreed_before() -> None:
+    with seat_page(agreed={"TOWER": "voice"}) as (run, url), browser(url, "a") as own:
+        run.elsewhere["TOWER"] = "taken"
+        wish(own, take="TOWER")
+        assert "at another page" in str(answer(own, "refused"))
+        del run.elsewhere["TOWER"]
+        take(run, own)
+        call(own)
+        assert refusals(own) == [NO_VOICE]
+        assert run.settings.empty()
+
+
 @pytest.mark.parametrize("is_gone", [False, True], ids=["left", "gone"])
 def test_who_takes_a_seat_next_has_not_agreed_before(
     monkeypatch: pytest.MonkeyPatch, is_gone: bool
@@ -300,7 +312,7 @@ def test_who_takes_a_seat_next_has_not_agreed_before(
     ],
 )
 def test_a_page_that_is_loaded_again_asks_who_has_taken_back_what_was_agreed_before(
-    before: str, declined: str | None, left: list[str]
+    before: Use, declined: str | None, left: list[str]
 ) -> None:
     """Who has not need not be asked."""
     with seat_page(agreed={"TOWER": before}) as (run, url):
@@ -363,6 +375,27 @@ def test_who_has_agreed_is_not_asked_again_after_a_lost_connection(page: Page) -
         assert run.next() == SpokenWords(text="Ready again.")
         assert not page.evaluate(ASKED)
         page.open("about:blank")
+
+
+@pytest.mark.browser
+def test_consent_is_taken_back_at_the_page_which_closes_the_microphone_and_asks_again() -> None:
+    back = "document.getElementById('consent-back').hidden"
+    with (
+        seat_page(agreed={"TOWER": "voice"}) as (run, url),
+        page_with_microphone(*FAKE) as page,
+    ):
+        sit_down(page, url)
+        page.wait_for(f"!{back}")
+        page.click("talk-button")  # It need not ask.
+        page.wait_for(f"{BUTTON} === 'Hold to talk'")
+        page.click("consent-back")
+        page.wait_for(f"{BUTTON} === 'Open the microphone' && {back}")
+        given = [run.settings.get(timeout=PATIENCE_S) for _ in range(2)]
+        assert given == [
+            SeatConsent(what="voice", is_given=True), SeatConsent(what="words", is_given=False)
+        ]  # fmt: skip
+        page.click("talk-button")
+        page.wait_for(ASKED)
 
 
 @pytest.mark.browser

@@ -20,6 +20,17 @@ FRAMES = """import(new URL('page/live_time.js', location)).then(({ LiveTime }) =
     }
     return shown;
 })"""
+TOLD = """import(new URL('page/clock.js', location)).then(async ({ Clock }) => {
+    const clock = new Clock(0, true), pass = (ms) => new Promise((done) => setTimeout(done, ms));
+    let told = null;
+    clock.listen(({ t }) => { told = t; });
+    for (const end of [1, 20]) {
+        clock.setEnd(end);
+        await pass(600);
+    }
+    await pass(1500);
+    return { told, shown: clock.t };
+})"""
 TRACK = """import(new URL('page/model.js', location)).then(({ LiveTrack }) => {
     const track = new LiveTrack('AAL123', 'aircraft', '', 0);
     for (const t of [0, 0.5, 1]) track.add([t, 100 * t, 0, 1000, [100, 0], 90, false, '']);
@@ -83,6 +94,12 @@ def test_the_time_shown_stands_soon_after_the_last_message(station: Page) -> Non
     shown = frames(station, [(ms, ms / 1000) for ms in range(0, 3100, 100)], 9000)
     assert 3.0 <= shown[-1] <= 3.51
     assert shown[-300:] == [shown[-1]] * 300
+
+
+def test_lists_are_told_the_time_shown_though_no_message_comes_any_more(station: Page) -> None:
+    found = station.evaluate(TOLD)
+    assert found["told"] == found["shown"]
+    assert found["told"] >= 20.0
 
 
 def test_the_time_shown_jumps_to_a_run_that_is_far_ahead(station: Page) -> None:

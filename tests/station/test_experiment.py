@@ -11,7 +11,6 @@ import shutil
 import subprocess
 from collections import Counter
 from collections.abc import Callable
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -415,15 +414,20 @@ def test_a_trial_whose_record_cannot_be_read_is_begun_again(
     assert progress.runs.finished_run(first) is None
 
 
-@pytest.mark.parametrize("content", [b"{", b"[]", b'{"people": 5}', b'{"people": [{}]}'])
+@pytest.mark.parametrize(
+    "content", [None, b"{", b"[]", b'{"people": 5}', b'{"people": null}', b'{"people": [{}]}']
+)
 def test_a_finished_trial_whose_seats_cannot_be_read_is_neither_done_nor_begun_again(
-    recorded_run: Path, tmp_path: Path, content: bytes
+    recorded_run: Path, tmp_path: Path, content: bytes | None
 ) -> None:
     progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
     name = f"01-{progress.trials[0].name}"
     folder = shutil.copytree(recorded_run, progress.runs.folder / name)
-    RunFolder(folder).summary_path.write_bytes(content)
-    with pytest.raises(RunFolderError, match=r"summary\.json: .*expected"):
+    if content is None:
+        RunFolder(folder).summary_path.unlink()
+    else:
+        RunFolder(folder).summary_path.write_bytes(content)
+    with pytest.raises(RunFolderError, match=r"summary\.json: .*; move the folder away to run"):
         Conductor([progress])
 
 
@@ -442,9 +446,10 @@ def test_a_finished_trial_is_found_once_its_files_can_be_read_again(
             raise OSError(errno.EMFILE, "too many open files")
         return whole(self, path, *given)
 
-    with monkeypatch.context() as patch, suppress(RunFolderError):
+    with monkeypatch.context() as patch:
         patch.setattr(RunFolder, "read", read)
-        assert progress.runs.finished_run(trial) is None
+        with pytest.raises(RunFolderError, match=f"{name}: cannot be read"):
+            progress.runs.finished_run(trial)
     assert progress.runs.finished_run(trial) == f"01-{trial.name}"
     assert Conductor([progress]).state()["step"] == "questions"
 
@@ -724,6 +729,55 @@ def test_consent_is_asked_once_unless_other_trials_record_voices_or_not(
         {"AAL123": uses[bool(trial.conditions["voice_recording"])]} for trial in progress.trials
     ]
     assert (asked, Conductor([progress]).state()["step"]) == (2, "done")
+
+
+@pytest.mark.parametrize(
+    ("answer", "at_seat", "agreed"),
+    [
+        ("Voice and typed words", [None], "voice"),
+        ("Voice and typed words", ["voice"], "voice"),
+        ("Voice and typed words", ["none"], None),
+        ("Voice and typed words", ["words"], "words"),
+        ("Voice and typed words", ["none", "voice"], "voice"),
+        ("Voice and typed words", ["voice", "none"], None),
+        ("Typed words alone", ["voice"], "words"),
+        ("Typed words alone", ["none"], None),
+        ("Neither: ask me at the seat", ["voice"], None),
+    ],
+)
+def test_what_was_taken_back_at_the_seat_is_not_agreed_to_in_later_trials(
+    recorded_run: Path, tmp_path: Path, answer: str, at_seat: list[str | None], agreed: str | None
+) -> None:
+    """The last answer at the seat counts; one trial is begun several times."""
+    experiment = plan(participants=["P01"], ask_consent=True, nasa_tlx=False)
+    progress = Progress(experiment, tmp_path, "P01")
+    first, second = progress.trials
+    consented(Conductor([progress]), answer, "", is_recorded=True)
+    for number, consent in enumerate(at_seat, 1):
+        person = PERSON.model_copy(update={"seat_time_s": 0.0, "consent": consent})
+        name = f"01-{first.name}" + (f"-{number}" if number > 1 else "")
+        finished(recorded_run, progress.runs.folder / name, [person.model_dump(mode="json")])
+    assert [progress.agreed(trial) for trial in (first, second)] == [agreed] * 2
+
+
+def test_what_was_taken_back_where_no_voice_is_recorded_is_not_taken_back_elsewhere(
+    recorded_run: Path, tmp_path: Path
+) -> None:
+    experiment = plan(
+        participants=["P01"], ask_consent=True, nasa_tlx=False,
+        conditions={"voice_recording": [True, False]},
+    )  # fmt: skip
+    progress = Progress(experiment, tmp_path, "P01")
+    for position, trial in enumerate(progress.trials, 1):
+        is_recorded = trial.conditions["voice_recording"] is True
+        consented(Conductor([progress]), "Voice and typed words", "", is_recorded=is_recorded)
+        person = PERSON.model_copy(update={"consent": "voice" if is_recorded else "none"})
+        name = f"{position:02d}-{trial.name}"
+        finished(recorded_run, progress.runs.folder / name, [person.model_dump(mode="json")])
+    agreed = {
+        bool(one.conditions["voice_recording"]): progress.agreed(one) for one in progress.trials
+    }
+    assert agreed == {True: "voice", False: None}
 
 
 def test_a_run_of_a_trial_is_told_who_has_agreed(

@@ -39,6 +39,7 @@ from airhilt.messages import (
     SeatListening,
     Severity,
     SpokenWords,
+    Use,
     WorkloadAnswer,
 )
 from airhilt.station import seat_book
@@ -347,7 +348,7 @@ def seat_page(
     run: PretendedRun | None = None,
     *,
     has_seats: bool = True,
-    agreed: Mapping[str, str] = MappingProxyType({}),
+    agreed: Mapping[str, Use] = MappingProxyType({}),
 ) -> Iterator[tuple[PretendedRun, str]]:
     """Serve the page of a pretended run in this process; yield the run and the URL."""
     run, urls, is_over = run or PretendedRun(), queue.Queue[str](), threading.Event()

@@ -141,9 +141,9 @@ def _agreed_arguments(scenario: Scenario, options: Options, agreed: Sequence[Agr
     click.UsageError
         Somebody has no seat in the run, or has agreed to two uses.
     """
-    from airhilt.scenario.seats import seats_of
+    from airhilt.scenario.seats import named_seats
 
-    seats = {name: seat for name in options.seat for seat in seats_of([name], scenario)}
+    seats = named_seats(options.seat, scenario)
     return [f"--agreed={seat}={use}" for seat, use in agreed_by_seat(agreed, seats).items()]
 
 

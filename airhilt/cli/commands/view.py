@@ -123,8 +123,8 @@ def _show_live(
         connection = RunConnection(connect, "operator" if asked else "observer", tls=tls)
         stack.callback(connection.close)
         by_name = connection.seats(asked, tell)
-        agreed = agreed_by_seat(given, by_name)
         seats = tuple(dict.fromkeys(by_name.values()))
+        agreed = agreed_by_seat(given, by_name | {seat: seat for seat in seats})
         changes, sounds = Changes(), Changes(MOST_SOUNDS)
         of_seats = {seat: SeatChanges() for seat in seats}
         views = SeatViews(seats)

@@ -68,6 +68,10 @@ export class Clock {
       this.tell();
       return;
     }
+    this.#tellSoon(now);
+  }
+
+  #tellSoon(now) {
     this.#telling ??= setTimeout(
       () => this.#tellSlowly(),
       Math.max(BETWEEN_TELLS_MS - (now - this.#told), 0),
@@ -97,6 +101,7 @@ export class Clock {
     if (this.following && t !== this.t) {
       this.t = t;
       this.#animations.forEach((draw) => draw(this));
+      this.#tellSoon(performance.now()); // It moves on a little after the last message too.
     }
     requestAnimationFrame((later) => this.#follow(later));
   }

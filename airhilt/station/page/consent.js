@@ -1,5 +1,6 @@
 // What the person at a seat agrees to: the use of the voice, or of typed words alone. It is asked
-// before anything of it goes to the run, and once: what was agreed to at a seat is not asked again.
+// before anything of it goes to the run, and once: what was agreed to at a seat is not asked again,
+// until it is taken back.
 // The station keeps the answers, and refuses what was not agreed to.
 
 import { byId } from "./dom.js";
@@ -28,18 +29,19 @@ const QUESTIONS = {
 };
 
 export class Consent {
-  #wish;
+  #live;
   #given = new Set();
   #asked = null;
   #isSent = false; // an answer is on its way, and the station has not heard it
   #next = null; // what is asked after that
   #pressed = new Set(); // keys that went down while a question was there
 
-  /** `wish(wish, answers)` sends what was answered; see `Wishes`. */
-  constructor(wish) {
-    this.#wish = wish;
+  /** `live` sends what was answered, and shows what was not done. */
+  constructor(live) {
+    this.#live = live;
     byId("consent-agree").addEventListener("click", () => this.#answer(true));
     byId("consent-decline").addEventListener("click", () => this.#answer(false));
+    byId("consent-back").addEventListener("click", () => this.#takeBack());
     for (const type of ["keydown", "keyup"])
       window.addEventListener(type, (event) => this.#key(event), { capture: true });
   }
@@ -71,11 +73,12 @@ export class Consent {
   /** Takes in what the station knows to be agreed to at the seat. */
   take(given) {
     this.#given = new Set(given);
+    this.#draw();
   }
 
   /** Forgets what was agreed to: whoever has a seat next is asked again. */
   forget() {
-    this.#given.clear();
+    this.take([]);
     this.#isSent = false;
     this.#next = null;
     byId("consent").close();
@@ -93,16 +96,30 @@ export class Consent {
     const { what, then, lost } = this.#asked;
     byId("consent").close();
     this.#isSent = true;
-    this.#wish(
+    this.#live.wish(
       { consent: { what, is_given: isGiven } },
       {
         heard: () => {
-          if (isGiven) this.#given.add(what);
+          if (isGiven) this.take([...this.#given, what]);
           this.#answered(() => then(isGiven));
         },
         lost: () => this.#answered(lost),
       },
     );
+  }
+
+  /** Takes back all consent; the station then tells that there is none. */
+  #takeBack() {
+    this.#live.wish(
+      { consent: { what: "words", is_given: false } },
+      {
+        lost: () => this.#live.refuse("Consent was not taken back: the connection is lost. Leave the seat, or try again."),
+      },
+    );
+  }
+
+  #draw() {
+    byId("consent-back").hidden = !this.#given.size;
   }
 
   #answered(then) {

@@ -59,7 +59,7 @@ function note(text) {
 const afterTrial = ({ trial, trials }) => `Questions after trial ${trial} of ${trials}`;
 
 const CONSENT =
-  "Please answer before the trial begins. Your seat asks only about what you do not agree to here.";
+  "Please answer before the trial begins. Your seat asks about what you do not agree to here, and about all of it again once you have left it.";
 
 /** Heading of each questionnaire, and what is said of it, by its name. */
 const QUESTIONNAIRES = {

@@ -83,7 +83,7 @@ async function begin() {
   });
   clock.listen(() => panes.forEach((pane) => pane.draw()));
   clock.animate(() => plan.draw());
-  const consent = live ? new Consent((wish, answers) => live.wish(wish, answers)) : null;
+  const consent = live ? new Consent(live) : null;
   const seat = live ? new Seat(run, live, clock, cameras, consent) : null;
   const talk = live ? new Talk(run, live, consent) : null;
   if (live) for (const pane of [transcript, seat]) pane.hearOnly(() => talk.heard);

@@ -140,8 +140,7 @@ export class Microphone {
     this.#isOpening = true;
     this.#tell("Opening the microphone.");
     try {
-      await this.#connect();
-      this.#tell("");
+      this.#tell((await this.#connect()) ? "" : "The microphone is closed.");
     } catch (error) {
       this.#tell(
         WHY[error.name] ??
@@ -152,6 +151,7 @@ export class Microphone {
     this.#draw();
   }
 
+  /** Opens the microphone, and returns false if it may not be open any more once it is. */
   async #connect() {
     if (!navigator.mediaDevices) throw new DOMException("not secure", "SecurityError");
     const sitting = this.#sitting;
@@ -160,7 +160,7 @@ export class Microphone {
       node = await listening(context);
     if (this.#sitting !== sitting) {
       end(stream, context);
-      return;
+      return false;
     } // Meanwhile the seat was left, or consent taken back: who has it now has not agreed.
     node.port.onmessage = ({ data }) => this.#take(data);
     source.connect(node);
@@ -170,6 +170,7 @@ export class Microphone {
     });
     this.#node = node;
     this.#stream = stream;
+    return true;
   }
 
   #take({ pcm, level, isOver }) {
