@@ -984,11 +984,12 @@ class SeatConsent(Message):
         "words alone",
     )
     is_given: bool = Field(
-        description="false: the microphone stays closed, or the words are not said"
+        description="false: it is declined or taken back, and the microphone is closed, or the "
+        "words are not said"
     )
 
-    def added_to(self, agreed: frozenset[Use]) -> frozenset[Use]:
-        """Return the uses to which a person agrees who has given this answer after others.
+    def applied_to(self, agreed: frozenset[Use]) -> frozenset[Use]:
+        """Return the uses to which a person agrees after this answer, from those before it.
 
         Consent to the use of the voice covers typed words, so who declines the use of words
         declines that of the voice too.

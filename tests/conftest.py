@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import io
 import json
 import shutil
@@ -108,6 +109,17 @@ def airhilt_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator
 def pytest_xdist_auto_num_workers() -> int:
     """One more than there are processors: many tests wait for processes of their own."""
     return available_cores() + 1
+
+
+def pytest_configure() -> None:
+    """Leave what is collected to no garbage collection: it stays, and looking at it takes long."""
+    gc.disable()
+
+
+def pytest_collection_finish() -> None:
+    """Let garbage be collected from now on, but for what has been collected of the tests."""
+    gc.enable()
+    gc.freeze()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -82,6 +82,8 @@ class _Person:
     delays_s: list[float] = field(default_factory=list)
     seen_ns: dict[Advised, int] = field(default_factory=dict)
     heard_ns: dict[Advised, int] = field(default_factory=dict)
+    agreed: frozenset[Use] | None = None
+    """Uses to which the last answer agrees; None: there was none."""
     told: set[Advised] = field(default_factory=set)
     """Advisories that were published to the person."""
 
@@ -132,8 +134,6 @@ class _Seat:
     asked_again: int = 0
     readback_errors: int = 0
     readback_errors_heard: int = 0
-    agreed: frozenset[Use] | None = None
-    """Uses to which the last answer agrees; None: nobody has answered."""
     questions: dict[int, WorkloadQuestion] = field(default_factory=dict)
     answers: dict[int, WorkloadAnswer] = field(default_factory=dict)
 
@@ -243,8 +243,6 @@ class PeopleRecords:
         match message:
             case SeatPresence(is_taken=is_taken, t_ns=t_ns):
                 seat.occupy(t_ns, is_taken=is_taken)
-            case SeatConsent():
-                seat.agreed = message.added_to(seat.agreed or frozenset())
             case WorkloadAnswer(question=number):
                 seat.answers.setdefault(number, message)
             case ActorCommand(command=command, t_ns=t_ns) if seat.person is not None:
@@ -259,6 +257,8 @@ class PeopleRecords:
     @staticmethod
     def _take_of(seat: _Seat, person: _Person, message: Message) -> None:
         match message:
+            case SeatConsent():
+                person.agreed = message.applied_to(person.agreed or frozenset())
             case SpokenWords(t_ns=t_ns):
                 seat.calls.type(message)
                 person.actions.append(_Action(t_ns, "typed call"))
@@ -291,7 +291,7 @@ class PeopleRecords:
         return PersonSummary(
             seat=name,
             seat_time_s=seat.taken_until_ns(now_ns) / SECOND_NS,
-            consent=_consent(seat.agreed),
+            consent=_consent(seat.people),
             spoken_calls=spoken,
             typed_calls=typed,
             commands=len(done) - spoken - typed,
@@ -390,9 +390,12 @@ class PeopleRecords:
         return not stalls and all(pace == REAL_TIME for pace in (before[-1], *within))
 
 
-def _consent(agreed: frozenset[Use] | None) -> Literal["voice", "words", "none"] | None:
-    if agreed is None:
+def _consent(people: list[_Person]) -> Literal["voice", "words", "none"] | None:
+    """Return to what the last of the people who had a seat, and have answered, agreed at last."""
+    answers = [one.agreed for one in people if one.agreed is not None]
+    if not answers:
         return None
+    agreed = answers[-1]
     return "voice" if "voice" in agreed else "words" if agreed else "none"
 
 

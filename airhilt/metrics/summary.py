@@ -223,8 +223,9 @@ class PersonSummary(BaseModel):
     )
     consent: Literal["voice", "words", "none"] | None = Field(
         default=None,
-        description="use to which the person agreed last: of voice and typed words, or of typed "
-        "words alone; null: nobody was asked",
+        description="use to which the last person at the seat who has answered, or had agreed "
+        "before, agreed at last: of voice and typed words, or of typed words alone; null: nobody "
+        "has answered",
     )
     spoken_calls: int = Field(description="calls that the person spoke into the microphone")
     typed_calls: int = Field(description="calls that the person typed")

@@ -290,14 +290,25 @@ class RunFolder:
         Raises
         ------
         RunFolderError
-            It is damaged or of another format.
+            It cannot be read, is damaged, or of another format.
         """
         try:
             data = self.read(self.info_path)
-            bounded_json.require_few_values(data)
-            return RunInfo.model_validate_json(data)
         except OSError as error:
             raise RunFolderError(f"{self.info_path}: cannot be read: {error.strerror}") from None
+        return self.info_in(data)
+
+    def info_in(self, data: bytes) -> RunInfo:
+        """Return what the content of ``run.json`` says.
+
+        Raises
+        ------
+        RunFolderError
+            It is damaged or of another format.
+        """
+        try:
+            bounded_json.require_few_values(data)
+            return RunInfo.model_validate_json(data)
         except ValidationError as error:
             raise RunFolderError(
                 f"{self.info_path}: {first_problem(error)}; expected a run.json of format {FORMAT}"

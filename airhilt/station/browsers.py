@@ -424,7 +424,8 @@ class Browsers:
         if claimed == "ours":
             self._known[seat] = None
             return None
-        self._consents.end(seat)  # Somebody has it first at another page.
+        if claimed == "taken":
+            self._consents.end(seat)  # Somebody has had it first, at another page.
         return CLAIMED_ELSEWHERE[claimed].format(seat=readable(seat))
 
     async def _leave(self, browser: _Browser) -> None:

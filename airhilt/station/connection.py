@@ -15,7 +15,7 @@ from airhilt.bus.access import Role
 from airhilt.bus.session import close_session, connect_client, find_run
 from airhilt.errors import StationError
 from airhilt.messages import Briefing, Clock, Message, Phase, SeatInfo
-from airhilt.scenario.seats import ROLES, without_roles
+from airhilt.scenario.seats import ROLES, with_roles, without_roles
 from airhilt.text import readable
 
 T = TypeVar("T", bound=Message)
@@ -72,7 +72,7 @@ class RunConnection:
         self.run = self.prefix.rpartition("/")[2]
 
     def seats(self, names: Sequence[str], tell: Callable[[str], None]) -> dict[str, str]:
-        """Return the seats of the run that are asked for, by the names and roles that ask for them.
+        """Return the seats of the run that are asked for, by each name that stands for them.
 
         Nobody knows the seats of a run that has not begun. A role waits until it has; without one,
         a name stands for itself.
@@ -107,15 +107,14 @@ class RunConnection:
     def _known(self, names: Sequence[str]) -> dict[str, str]:
         known = sorted({info.seat for info in self._told("seat/*/info", SeatInfo)})
         controller = next((one.controller for one in self._told("briefing", Briefing)), "")
-        found = {}
+        seats = without_roles(names, controller, known)
         for name in names:
-            (found[name],) = without_roles([name], controller, known)
-            if found[name] not in known:
+            if not set(without_roles([name], controller, known)).issubset(known):
                 raise StationError(
                     f"--seat {readable(name)!r}: not a seat of the run; expected "
                     + (readable(", ".join(map(repr, known))) or "none: it has no seats")
                 )
-        return found
+        return with_roles(seats, controller, known)
 
     def answers(self, key: str) -> Iterator[zenoh.Sample]:
         """Yield what the run answers to a query on a key below its own."""

@@ -28,7 +28,7 @@ class Consents:
 
     def take(self, seat: str, answer: SeatConsent) -> None:
         """Take in an answer. What is taken back counts as not agreed to before either."""
-        given = answer.added_to(self._given.get(seat, frozenset()))
+        given = answer.applied_to(self._given.get(seat, frozenset()))
         self._given[seat] = given
         if self._before.get(seat) not in given:
             self._before.pop(seat, None)

@@ -108,15 +108,21 @@ class Progress:
     def agreed(self, trial: Trial) -> Use | None:
         """Return to what use of voice and words the participant agrees in a trial, None if to none.
 
-        It is asked once for all trials in which voices are recorded, and once for all others. What
-        was taken back at the seat in the last of these trials is not agreed to any more.
+        It is asked once for all trials in which voices are recorded, and once for all others. It is
+        no more than what was agreed to at the seat last, in these trials and in any.
         """
         if not self.plan.ask_consent:
             return None
         asked = self._consent(trial)
-        alike = [one for one in self.trials if self._consent(one) == asked]
-        at_seat = [one for other in alike for one in self.runs.consents(other, self.seat(other))]
-        return least_use(use_of(self.answers(asked)), *at_seat[-1:])
+        last: str | None = None
+        last_alike: str | None = None
+        for other in self.trials:
+            for consent in self.runs.consents(other, self.seat(other)):
+                last = consent
+                if self._consent(other) == asked:
+                    last_alike = consent
+        at_seat = (one for one in (last, last_alike) if one is not None)
+        return least_use(use_of(self.answers(asked)), *at_seat)
 
     def _consent(self, trial: Trial) -> Asked:
         options = options_of({**self.plan.options, **trial.conditions})

@@ -32,10 +32,10 @@ class SeatRecord(NamedTuple):
     taken_s: float | None
     """Time for which it was taken, in s; None: an earlier version did not tell."""
     consent: str | None
-    """Use of voice or words to which its person agreed last, or ``none``; None: nobody asked."""
+    """Use of voice or words to which its person agreed last, or ``none``; None: not known."""
 
 
-_Seats = dict[str, SeatRecord]
+_SeatRecords = dict[str, SeatRecord]
 """Records by seat, in the order of the team."""
 
 
@@ -70,7 +70,7 @@ class TrialRuns:
         self._trials = trials
         self._seats: dict[str, tuple[str, ...]] = {}
         self._phases = FileCache[str | None]()
-        self._records = FileCache[_Seats | None]()
+        self._records = FileCache[_SeatRecords | None]()
         _refuse_another_order(team, self.folder)
 
     def seats(self, trial: Trial) -> tuple[str, ...]:
@@ -124,7 +124,7 @@ class TrialRuns:
         for run in self._begun(trial):
             if self._phases.get(partial(_phase, run), run.info_path) != "finished":
                 continue
-            seats = self._seats_of(run)
+            seats = self._records_of(run)
             if seats is None:
                 raise RunFolderError(f"{run.summary_path}: missing; {_TO_RUN_AGAIN}")
             if seats:
@@ -136,38 +136,45 @@ class TrialRuns:
     def consents(self, trial: Trial, seat: str) -> list[str]:
         """Return to what the person at a seat agreed last in each run of a trial, in their order.
 
-        It is ``voice``, ``words`` or ``none``; runs in which nobody was asked are left out.
-
-        Raises
-        ------
-        RunFolderError
-            The numbers of a run cannot be read.
+        It is ``voice``, ``words`` or ``none``. Nobody knows what was taken back in a run that has
+        no summary, or one that cannot be read: it counts as ``none``. Runs that do not tell of
+        consent are left out.
         """
-        of_runs = [self._seats_of(run) or {} for run in self._begun(trial)]
-        found = [seats[seat].consent for seats in of_runs if seat in seats]
+        found: list[str | None] = []
+        for run in self._begun(trial):
+            try:
+                records = self._records_of(run)
+            except RunFolderError:
+                records = None
+            if records is None:
+                found.append("none")
+            elif seat in records:
+                found.append(records[seat].consent)
         return [consent for consent in found if consent is not None]
 
-    def _begun(self, trial: Trial) -> Iterator[RunFolder]:
-        """Yield the run folders of a trial that are there, in their order."""
-        for name in self.attempts(trial):
-            if not (self.folder / name).exists():
-                return
-            yield RunFolder(self.folder / name)
+    def _begun(self, trial: Trial) -> list[RunFolder]:
+        """Return the run folders of a trial that are there, in their order."""
+        there = set(self.folder.iterdir()) if self.folder.is_dir() else set()
+        possible = (self.folder / name for name in self.attempts(trial))
+        return [RunFolder(path) for path in possible if path in there]
 
-    def _seats_of(self, run: RunFolder) -> _Seats | None:
+    def _records_of(self, run: RunFolder) -> _SeatRecords | None:
         return self._records.get(partial(_seat_records, run), run.summary_path)
 
     def new_run(self, trial: Trial) -> str:
-        """Return the name of a run folder that is not there yet.
+        """Return the name of a run folder of a trial, behind all that are there.
 
         Raises
         ------
         StationError
             The trial was begun too often.
         """
+        begun = {run.path.name for run in self._begun(trial)}
+        free: str | None = None
         for name in self.attempts(trial):
-            if not (self.folder / name).exists():
-                return name
+            free = None if name in begun else free or name
+        if free is not None:
+            return free
         raise StationError(f"trial {trial.name}: begun {MOST_ATTEMPTS} times; look at its folders")
 
 
@@ -180,18 +187,18 @@ def _phase(run: RunFolder) -> str | None:
         The file cannot be read now.
     """
     try:
-        run.read(run.info_path)
+        data = run.read(run.info_path)
     except FileNotFoundError:
         return None
     except OSError as error:
         raise RunFolderError(f"{run.info_path}: cannot be read: {error.strerror}") from None
     try:
-        return run.info().phase
+        return run.info_in(data).phase
     except RunFolderError:
         return None
 
 
-def _seat_records(run: RunFolder) -> _Seats | None:
+def _seat_records(run: RunFolder) -> _SeatRecords | None:
     """Return the seats of a run in the order of the team, none if nobody had any.
 
     It is None if the run has written no summary.
@@ -203,12 +210,11 @@ def _seat_records(run: RunFolder) -> _Seats | None:
     """
     try:
         summary = run.summary()
-        people = None if summary is None else summary.get("people", ())
-        if people is None:
+        if summary is None:
             return None
         return {
             str(one["seat"]): SeatRecord(one.get("seat_time_s"), one.get("consent"))
-            for one in people
+            for one in summary.get("people", ())
         }
     except RunFolderError as error:
         raise RunFolderError(f"{error}; {_TO_RUN_AGAIN}") from None

@@ -443,6 +443,19 @@ def test_consent_is_what_the_last_answers_agree_to(
     )
 
 
+def test_consent_is_that_of_the_last_person_at_the_seat_who_has_answered() -> None:
+    voice, words = SeatConsent(is_given=True), SeatConsent(what="words", is_given=True)
+    first = [
+        at_seat(0.0, is_taken=True),
+        (1.0, "consent/AAL1", voice),
+        at_seat(2.0, is_taken=False),
+    ]
+    assert person(*first, at_seat(3.0, is_taken=True)).consent == "voice"
+    assert person(*first, at_seat(3.0, is_taken=True), (4.0, "consent/AAL1", words)).consent == (
+        "words"
+    )
+
+
 def on_air(name: str, t_s: float, to_s: float, **more: Any) -> tuple[float, str, SpokenTruth]:
     """Return a call on the air, of AAL1 unless told otherwise, as it is told at its end."""
     said = {"speaker": "AAL1", "addressed": "TOWER", "frequency_khz": 118_300, "text": ""}

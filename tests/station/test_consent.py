@@ -345,6 +345,7 @@ def test_without_a_seat_nothing_is_agreed_to() -> None:
 
 
 ASKED = "document.getElementById('consent').open"
+TALK_STATE = "document.getElementById('talk-state').textContent"
 CUT = """(() => {
     const send = WebSocket.prototype.send;
     WebSocket.prototype.send = function (...sent) {
@@ -353,6 +354,13 @@ CUT = """(() => {
     };
 })()"""
 """Closes the connection of the page at the next thing that it sends."""
+
+
+def consent(run: PretendedRun) -> SeatConsent:
+    """Return the next answer about consent of which the run is told."""
+    while not isinstance(told := run.settings.get(timeout=PATIENCE_S), SeatConsent):
+        pass
+    return told
 
 
 def want_to_say(page: Page, words: str) -> None:
@@ -390,12 +398,28 @@ def test_consent_is_taken_back_at_the_page_which_closes_the_microphone_and_asks_
         page.wait_for(f"{BUTTON} === 'Hold to talk'")
         page.click("consent-back")
         page.wait_for(f"{BUTTON} === 'Open the microphone' && {back}")
-        given = [run.settings.get(timeout=PATIENCE_S) for _ in range(2)]
-        assert given == [
-            SeatConsent(what="voice", is_given=True), SeatConsent(what="words", is_given=False)
-        ]  # fmt: skip
+        assert "taken back your consent" in page.evaluate(TALK_STATE)
+        assert consent(run) == SeatConsent(what="voice", is_given=True)
+        assert consent(run) == SeatConsent(what="words", is_given=False)
         page.click("talk-button")
         page.wait_for(ASKED)
+
+
+@pytest.mark.browser
+def test_consent_that_is_taken_back_without_a_connection_ends_when_it_is_there_again() -> None:
+    with (
+        seat_page(agreed={"TOWER": "voice"}) as (run, url),
+        page_with_microphone(*FAKE) as page,
+    ):
+        sit_down(page, url)
+        page.click("talk-button")
+        page.wait_for(f"{BUTTON} === 'Hold to talk'")
+        assert consent(run) == SeatConsent(what="voice", is_given=True)
+        page.evaluate(CUT)
+        page.click("consent-back")
+        page.wait_for(f"{BUTTON} === 'Open the microphone'")  # At once, whatever the station knows.
+        assert consent(run) == SeatConsent(what="words", is_given=False)
+        page.wait_for("document.getElementById('consent-back').hidden")
 
 
 @pytest.mark.browser

@@ -239,6 +239,7 @@ def test_the_row_of_a_trial_has_the_totals_of_its_person(
     own = {key.removeprefix("person."): row[key] for key in row if key.startswith("person.")}
     assert own == {
         "seat_time_s": 8.0,
+        "consent": None,
         "spoken_calls": 3,
         "typed_calls": 1,
         "commands": 2,
@@ -427,7 +428,10 @@ def test_a_finished_trial_whose_seats_cannot_be_read_is_neither_done_nor_begun_a
         RunFolder(folder).summary_path.unlink()
     else:
         RunFolder(folder).summary_path.write_bytes(content)
-    with pytest.raises(RunFolderError, match=r"summary\.json: .*; move the folder away to run"):
+    told = "missing" if content is None else ".*expected.*"
+    with pytest.raises(
+        RunFolderError, match=rf"summary\.json: {told}; move the folder away to run"
+    ):
         Conductor([progress])
 
 
@@ -760,24 +764,58 @@ def test_what_was_taken_back_at_the_seat_is_not_agreed_to_in_later_trials(
     assert [progress.agreed(trial) for trial in (first, second)] == [agreed] * 2
 
 
-def test_what_was_taken_back_where_no_voice_is_recorded_is_not_taken_back_elsewhere(
-    recorded_run: Path, tmp_path: Path
+@pytest.mark.parametrize(
+    ("consents", "agreed"),
+    [
+        (("voice", "voice"), {"voice"}),
+        (("voice", "none"), {None}),
+        (("none", "voice"), {None, "voice"}),
+    ],
+)
+def test_what_was_taken_back_last_is_agreed_to_nowhere_until_it_is_given_again_there(
+    recorded_run: Path, tmp_path: Path, consents: tuple[str, str], agreed: set[str | None]
 ) -> None:
+    """Of two trials, voices are recorded in one; consent is given for each kind."""
     experiment = plan(
         participants=["P01"], ask_consent=True, nasa_tlx=False,
         conditions={"voice_recording": [True, False]},
     )  # fmt: skip
     progress = Progress(experiment, tmp_path, "P01")
-    for position, trial in enumerate(progress.trials, 1):
+    for position, (trial, consent) in enumerate(zip(progress.trials, consents, strict=True), 1):
         is_recorded = trial.conditions["voice_recording"] is True
         consented(Conductor([progress]), "Voice and typed words", "", is_recorded=is_recorded)
-        person = PERSON.model_copy(update={"consent": "voice" if is_recorded else "none"})
+        person = PERSON.model_copy(update={"consent": consent})
         name = f"{position:02d}-{trial.name}"
         finished(recorded_run, progress.runs.folder / name, [person.model_dump(mode="json")])
-    agreed = {
-        bool(one.conditions["voice_recording"]): progress.agreed(one) for one in progress.trials
-    }
-    assert agreed == {True: "voice", False: None}
+    assert {progress.agreed(trial) for trial in progress.trials} == agreed
+
+
+@pytest.mark.parametrize("summary", [None, b"{"])
+def test_nothing_is_agreed_to_after_a_run_that_was_killed_and_cannot_tell(
+    recorded_run: Path, tmp_path: Path, summary: bytes | None
+) -> None:
+    experiment = plan(participants=["P01"], ask_consent=True)
+    progress = Progress(experiment, tmp_path, "P01")
+    trial = progress.trials[0]
+    consented(Conductor([progress]), "Voice and typed words", "", is_recorded=True)
+    assert progress.agreed(trial) == "voice"
+    run = RunFolder(shutil.copytree(recorded_run, progress.runs.folder / f"01-{trial.name}"))
+    run.write_info(run.info().model_copy(update={"phase": "running"}))
+    if summary is None:
+        run.summary_path.unlink()
+    else:
+        run.summary_path.write_bytes(summary)
+    assert progress.agreed(trial) is None
+    assert progress.runs.finished_run(trial) is None
+
+
+def test_a_run_that_was_moved_away_hides_no_other_one(recorded_run: Path, tmp_path: Path) -> None:
+    progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
+    trial = progress.trials[0]
+    name = f"01-{trial.name}-2"
+    finished(recorded_run, progress.runs.folder / name, [PERSON.model_dump(mode="json")])
+    assert progress.runs.finished_run(trial) == name
+    assert progress.runs.new_run(trial) == f"01-{trial.name}-3"
 
 
 def test_a_run_of_a_trial_is_told_who_has_agreed(

@@ -124,7 +124,7 @@ def _show_live(
         stack.callback(connection.close)
         by_name = connection.seats(asked, tell)
         seats = tuple(dict.fromkeys(by_name.values()))
-        agreed = agreed_by_seat(given, by_name | {seat: seat for seat in seats})
+        agreed = agreed_by_seat(given, by_name)
         changes, sounds = Changes(), Changes(MOST_SOUNDS)
         of_seats = {seat: SeatChanges() for seat in seats}
         views = SeatViews(seats)

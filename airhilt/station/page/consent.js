@@ -35,6 +35,8 @@ export class Consent {
   #isSent = false; // an answer is on its way, and the station has not heard it
   #next = null; // what is asked after that
   #pressed = new Set(); // keys that went down while a question was there
+  #isTakenBack = false; // and the connection was lost before the station may have heard that
+  #whenTakenBack = () => {};
 
   /** `live` sends what was answered, and shows what was not done. */
   constructor(live) {
@@ -70,14 +72,21 @@ export class Consent {
     byId("consent").showModal();
   }
 
+  /** Calls a function when the person takes consent back, before the station hears of it. */
+  whenTakenBack(done) {
+    this.#whenTakenBack = done;
+  }
+
   /** Takes in what the station knows to be agreed to at the seat. */
   take(given) {
     this.#given = new Set(given);
-    this.#draw();
+    byId("consent-back").hidden = !this.#given.size;
+    if (this.#isTakenBack && this.#given.size) this.#takeBack();
   }
 
   /** Forgets what was agreed to: whoever has a seat next is asked again. */
   forget() {
+    this.#isTakenBack = false;
     this.take([]);
     this.#isSent = false;
     this.#next = null;
@@ -108,18 +117,22 @@ export class Consent {
     );
   }
 
-  /** Takes back all consent; the station then tells that there is none. */
+  /**
+   * Takes back all consent; the station then tells that there is none. If the connection is lost
+   * before that, it is taken back as soon as the station tells what it knows again.
+   */
   #takeBack() {
+    this.#isTakenBack = false;
+    this.#whenTakenBack();
     this.#live.wish(
       { consent: { what: "words", is_given: false } },
       {
-        lost: () => this.#live.refuse("Consent was not taken back: the connection is lost. Leave the seat, or try again."),
+        lost: () => {
+          this.#isTakenBack = true;
+          this.#live.refuse("The connection is lost. Consent is taken back as soon as it is there again.");
+        },
       },
     );
-  }
-
-  #draw() {
-    byId("consent-back").hidden = !this.#given.size;
   }
 
   #answered(then) {

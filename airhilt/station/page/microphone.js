@@ -70,10 +70,14 @@ export class Microphone {
       this.#tell("No recogniser takes part: only people understand you.");
   }
 
-  /** Closes the microphone of a person who does not let the voice be used, also if it opens now. */
-  shut() {
+  /**
+   * Closes the microphone of a person who does not let the voice be used, also if it opens now;
+   * `why` is told.
+   */
+  shut(why) {
     this.#sitting++;
     if (this.#node) this.#close();
+    if (why) this.#tell(why);
   }
 
   /** Begins to transmit. */
@@ -140,7 +144,7 @@ export class Microphone {
     this.#isOpening = true;
     this.#tell("Opening the microphone.");
     try {
-      this.#tell((await this.#connect()) ? "" : "The microphone is closed.");
+      this.#tell((await this.#connect()) ? "" : "The microphone was not opened. Try again.");
     } catch (error) {
       this.#tell(
         WHY[error.name] ??

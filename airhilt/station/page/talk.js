@@ -41,6 +41,10 @@ export class Talk {
       delay: (event) => this.#delay(event),
       consent,
     });
+    consent.whenTakenBack(() => {
+      this.#microphone.shut("You have taken back your consent. The microphone is closed.");
+      byId("talk-button").focus();
+    });
     this.#loudspeaker = new Loudspeaker((id, after) =>
       live.send({ heard: { id, after_s: this.#afterArrival(after) } }),
     );
