@@ -329,6 +329,7 @@ def test_a_refusal_goes_when_the_step_changes(
         page.open("about:blank")
 
 
+@pytest.mark.slow
 @pytest.mark.browser
 def test_a_page_writes_again_only_what_has_changed(page: Page, tmp_path: Path) -> None:
     """A screen reader reads aloud what is written where it listens."""

@@ -146,6 +146,7 @@ def send(socket: ClientConnection, **wish: Any) -> None:
     socket.send(json.dumps(wish))
 
 
+@pytest.mark.slow
 def test_a_seat_has_one_person_and_what_it_says_is_said(brief_file: Path, tmp_path: Path) -> None:
     out = tmp_path / "run"
     with running(brief_file, out, "--seat", "AAL123", "--share-truth") as (process, url):
@@ -262,6 +263,7 @@ def test_who_sits_down_before_the_run_knows_that_the_seat_was_left_comes_after_t
     assert told == [True, "first", False, True, "second", False]
 
 
+@pytest.mark.slow
 def test_a_run_that_waits_for_its_seat_stands_at_its_start_until_somebody_has_it(
     brief_file: Path, tmp_path: Path
 ) -> None:
