@@ -9,7 +9,7 @@ import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 
@@ -111,15 +111,15 @@ def pytest_xdist_auto_num_workers() -> int:
     return available_cores() + 1
 
 
-def pytest_configure() -> None:
-    """Leave what is collected to no garbage collection: it stays, and looking at it takes long."""
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Generator[None, object, object]:
+    """Leave the tests that are collected to no garbage collection: to look at them takes long."""
     gc.disable()
-
-
-def pytest_collection_finish() -> None:
-    """Let garbage be collected from now on, but for what has been collected of the tests."""
-    gc.enable()
-    gc.freeze()
+    try:
+        return (yield)
+    finally:
+        gc.enable()
+        gc.freeze()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -75,7 +75,7 @@ class RunConnection:
         """Return the seats of the run that are asked for, by each name that stands for them.
 
         Nobody knows the seats of a run that has not begun. A role waits until it has; without one,
-        a name stands for itself.
+        names stand for themselves alone.
 
         Parameters
         ----------

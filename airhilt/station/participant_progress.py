@@ -7,6 +7,7 @@ folder in it for the own answers.
 
 from __future__ import annotations
 
+import itertools
 from pathlib import Path
 from typing import NamedTuple
 
@@ -109,20 +110,13 @@ class Progress:
         """Return to what use of voice and words the participant agrees in a trial, None if to none.
 
         It is asked once for all trials in which voices are recorded, and once for all others. It is
-        no more than what was agreed to at the seat last, in these trials and in any.
+        no more than what was agreed to at the end of each run so far.
         """
         if not self.plan.ask_consent:
             return None
-        asked = self._consent(trial)
-        last: str | None = None
-        last_alike: str | None = None
-        for other in self.trials:
-            for consent in self.runs.consents(other, self.seat(other)):
-                last = consent
-                if self._consent(other) == asked:
-                    last_alike = consent
-        at_seat = (one for one in (last, last_alike) if one is not None)
-        return least_use(use_of(self.answers(asked)), *at_seat)
+        runs = (self.runs.consents(other, self.seat(other)) for other in self.trials)
+        answer = use_of(self.answers(self._consent(trial)))
+        return least_use(answer, *itertools.chain.from_iterable(runs))
 
     def _consent(self, trial: Trial) -> Asked:
         options = options_of({**self.plan.options, **trial.conditions})

@@ -134,7 +134,7 @@ class TrialRuns:
         return None
 
     def consents(self, trial: Trial, seat: str) -> list[str]:
-        """Return to what the person at a seat agreed last in each run of a trial, in their order.
+        """Return to what the person at a seat agreed at the end of each run of a trial.
 
         It is ``voice``, ``words`` or ``none``. Nobody knows what was taken back in a run that has
         no summary, or one that cannot be read: it counts as ``none``. Runs that do not tell of

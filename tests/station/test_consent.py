@@ -10,6 +10,7 @@ from websockets.sync.client import ClientConnection
 
 from airhilt.messages import SeatConsent, SpokenWords, Use
 from airhilt.station import browsers, seat_book
+from airhilt.station.browsers import Browsers
 from airhilt.station.consents import NO_VOICE, NO_WORDS, Consents
 from devtools import Page
 from microphone import BUTTON, FAKE, open_microphone, page_with_microphone, sit_down
@@ -412,14 +413,69 @@ def test_consent_that_is_taken_back_without_a_connection_ends_when_it_is_there_a
         page_with_microphone(*FAKE) as page,
     ):
         sit_down(page, url)
+        page.wait_for("!document.getElementById('consent-back').hidden")
         page.click("talk-button")
         page.wait_for(f"{BUTTON} === 'Hold to talk'")
         assert consent(run) == SeatConsent(what="voice", is_given=True)
         page.evaluate(CUT)
         page.click("consent-back")
-        page.wait_for(f"{BUTTON} === 'Open the microphone'")  # At once, whatever the station knows.
+        assert page.evaluate(BUTTON) == "Open the microphone"  # Whatever the station knows.
+        page.click("talk-button")
+        page.wait_for(ASKED)
         assert consent(run) == SeatConsent(what="words", is_given=False)
-        page.wait_for("document.getElementById('consent-back').hidden")
+        page.click("consent-agree")
+        assert consent(run) == SeatConsent(what="voice", is_given=True)
+        page.wait_for(f"{BUTTON} === 'Hold to talk'")
+
+
+@pytest.mark.browser
+def test_consent_that_is_given_after_it_was_taken_back_is_not_taken_back_again(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The connection ends when the station has heard that it is taken back, and cannot say so."""
+    do = Browsers._do_at_seat
+
+    async def do_and_end(self: Browsers, own: Any, seat: str, told: Any) -> None:
+        await do(self, own, seat, told)
+        if told.consent is not None and not told.consent.is_given:
+            monkeypatch.undo()
+            raise RuntimeError("the connection has ended")
+
+    with (
+        seat_page(agreed={"TOWER": "voice"}) as (run, url),
+        page_with_microphone(*FAKE) as page,
+    ):
+        sit_down(page, url)
+        page.wait_for("!document.getElementById('consent-back').hidden")
+        monkeypatch.setattr(Browsers, "_do_at_seat", do_and_end)
+        page.click("consent-back")
+        for told in (True, False, False):  # It is told once more, because it may not be known.
+            assert consent(run).is_given is told
+        page.click("talk-button")
+        page.wait_for(ASKED)
+        page.click("consent-agree")
+        assert consent(run) == SeatConsent(what="voice", is_given=True)
+        page.wait_for(f"{BUTTON} === 'Hold to talk'")
+        page.wait_for("!document.getElementById('consent-back').hidden")
+
+
+@pytest.mark.browser
+def test_the_run_is_told_what_was_taken_back_when_the_seat_was_lost_meanwhile(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(seat_book, "HOLD_S", 0.0)
+    with (
+        seat_page(agreed={"TOWER": "voice"}) as (run, url),
+        page_with_microphone(*FAKE) as page,
+    ):
+        sit_down(page, url)
+        page.wait_for("!document.getElementById('consent-back').hidden")
+        assert consent(run).is_given
+        page.evaluate(CUT)
+        page.click("consent-back")
+        page.wait_for("document.getElementById('talk').hidden")
+        page.click("seat-take")
+        assert consent(run) == SeatConsent(what="words", is_given=False)
 
 
 @pytest.mark.browser

@@ -122,6 +122,7 @@ def test_the_seat_of_who_stays_away_is_given_back_and_the_page_returns_by_itself
         assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", True)
 
 
+@pytest.mark.slow
 def test_a_network_that_is_cut_is_not_taken_for_a_run_that_does_not_keep_up(
     page: Page, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -193,6 +193,7 @@ def test_the_page_says_which_answers_cannot_be_read(page: Page, tmp_path: Path) 
     page.complaints.clear()  # A browser complains of each answer that is an error.
 
 
+@pytest.mark.slow
 def test_a_trial_admits_those_whom_the_page_of_the_experiment_admits(tmp_path: Path) -> None:
     file, out = tmp_path / "plan.json", tmp_path / "out"
     file.write_text(json.dumps(PLAN | {"questions": {}, "options": {"speech": False}}))
@@ -262,6 +263,7 @@ def turn_to(page: Page, participant: str) -> None:
     page.wait_for(f"{TITLE} === 'Experiment, {participant}' && {ASKS}")
 
 
+@pytest.mark.slow
 @pytest.mark.browser
 def test_answers_that_are_chosen_stay_with_their_participant(page: Page, tmp_path: Path) -> None:
     options = ["--participant", "P01", "--out", str(tmp_path / "out")]
@@ -291,6 +293,7 @@ def test_answers_that_are_chosen_stay_with_their_participant(page: Page, tmp_pat
     assert kept == {"licence": "private", "rested": 4}
 
 
+@pytest.mark.slow
 @pytest.mark.browser
 def test_a_slow_answer_is_not_shown_on_the_page_of_another_participant(
     page: Page, tmp_path: Path
@@ -309,6 +312,7 @@ def test_a_slow_answer_is_not_shown_on_the_page_of_another_participant(
         page.open("about:blank")
 
 
+@pytest.mark.slow
 @pytest.mark.browser
 def test_a_refusal_goes_when_the_step_changes(
     page: Page, recorded_run: Path, tmp_path: Path

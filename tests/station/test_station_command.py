@@ -176,6 +176,7 @@ def test_runs_and_debriefs_of_a_station_admit_those_whom_it_admits(
         started(client, "ended")
 
 
+@pytest.mark.slow
 @pytest.mark.browser
 def test_pages_are_linked_by_the_name_under_which_the_station_was_opened(
     recorded_run: Path, tmp_path: Path

@@ -35,7 +35,7 @@ export class Consent {
   #isSent = false; // an answer is on its way, and the station has not heard it
   #next = null; // what is asked after that
   #pressed = new Set(); // keys that went down while a question was there
-  #isTakenBack = false; // and the connection was lost before the station may have heard that
+  #back = null; // consent that was taken back: "sent", or "lost" if the station may not know of it
   #whenTakenBack = () => {};
 
   /** `live` sends what was answered, and shows what was not done. */
@@ -72,21 +72,28 @@ export class Consent {
     byId("consent").showModal();
   }
 
-  /** Calls a function when the person takes consent back, before the station hears of it. */
+  /** Calls a function when the person takes consent back, whether the station hears of it or not. */
   whenTakenBack(done) {
     this.#whenTakenBack = done;
   }
 
-  /** Takes in what the station knows to be agreed to at the seat. */
+  /** Takes in what the station knows to be agreed to, unless that was taken back since. */
   take(given) {
-    this.#given = new Set(given);
+    this.#given = new Set(this.#back ? [] : given);
     byId("consent-back").hidden = !this.#given.size;
-    if (this.#isTakenBack && this.#given.size) this.#takeBack();
   }
 
-  /** Forgets what was agreed to: whoever has a seat next is asked again. */
+  /** Takes back at a seat what was taken back there while the connection was lost. */
+  takeBackAgain() {
+    if (this.#back === "lost") this.#sendBack();
+  }
+
+  /**
+   * Forgets what was agreed to: whoever has a seat next is asked again. That consent was taken back
+   * is not forgotten before the station knows.
+   */
   forget() {
-    this.#isTakenBack = false;
+    if (this.#back === "sent") this.#back = null;
     this.take([]);
     this.#isSent = false;
     this.#next = null;
@@ -104,6 +111,7 @@ export class Consent {
   #answer(isGiven) {
     const { what, then, lost } = this.#asked;
     byId("consent").close();
+    this.takeBackAgain(); // Before the answer, so that it does not end that.
     this.#isSent = true;
     this.#live.wish(
       { consent: { what, is_given: isGiven } },
@@ -117,19 +125,25 @@ export class Consent {
     );
   }
 
-  /**
-   * Takes back all consent; the station then tells that there is none. If the connection is lost
-   * before that, it is taken back as soon as the station tells what it knows again.
-   */
   #takeBack() {
-    this.#isTakenBack = false;
+    this.#sendBack();
+    this.take([]);
     this.#whenTakenBack();
+  }
+
+  #sendBack() {
+    this.#back = "sent";
     this.#live.wish(
       { consent: { what: "words", is_given: false } },
       {
+        heard: () => {
+          this.#back = null;
+        },
         lost: () => {
-          this.#isTakenBack = true;
-          this.#live.refuse("The connection is lost. Consent is taken back as soon as it is there again.");
+          this.#back = "lost";
+          this.#live.refuse(
+            "The connection is lost. The station may not know that you have taken back your consent until you are at the seat again.",
+          );
         },
       },
     );

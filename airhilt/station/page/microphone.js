@@ -5,6 +5,7 @@ import { byId } from "./dom.js";
 import { GamepadButton } from "./gamepad.js";
 
 const MOST_UNSENT_BYTES = 64000; // two seconds of sound
+const OPENING = "Opening the microphone.";
 const WHY = {
   NotAllowedError:
     "The microphone was denied. Type what you want to say, or allow it in the browser and try again.",
@@ -142,9 +143,11 @@ export class Microphone {
   async #open() {
     if (this.#isOpening) return;
     this.#isOpening = true;
-    this.#tell("Opening the microphone.");
+    this.#tell(OPENING);
     try {
-      this.#tell((await this.#connect()) ? "" : "The microphone was not opened. Try again.");
+      if (await this.#connect()) this.#tell("");
+      else if (byId("talk-state").textContent === OPENING)
+        this.#tell("The microphone was not opened. Try again.");
     } catch (error) {
       this.#tell(
         WHY[error.name] ??

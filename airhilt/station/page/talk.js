@@ -42,8 +42,8 @@ export class Talk {
       consent,
     });
     consent.whenTakenBack(() => {
-      this.#microphone.shut("You have taken back your consent. The microphone is closed.");
-      byId("talk-button").focus();
+      this.#microphone.shut("You have taken back your consent.");
+      byId(byId("talk-button").disabled ? "words" : "talk-button").focus();
     });
     this.#loudspeaker = new Loudspeaker((id, after) =>
       live.send({ heard: { id, after_s: this.#afterArrival(after) } }),
@@ -192,6 +192,7 @@ export class Talk {
   /** Takes in what the station knows to be agreed to: without it, the next press asks again. */
   #takeConsent(given) {
     this.#consent.take(given);
+    if (this.#own) this.#consent.takeBackAgain();
     if (!given.includes("voice")) this.#microphone.shut();
   }
 
