@@ -45,15 +45,17 @@ _SETTING = frozenset({"altimeter", "qnh", "q"})
 _ACKNOWLEDGED = frozenset({"roger", "wilco", "affirm", "affirmative", "copy", "copied"})
 _REQUESTS = frozenset({"request", "requesting", "requests"})
 _SAY_AGAIN = re.compile(
-    r"(?<!i )say (?:that |it |all )?again|words twice|say your last|repeat (?:that|your)"
-    r"|(?:did not|didn) (?:copy|get|understand|catch)|unreadable|say (?:callsign|call sign)"
+    r"(?<!\S)(?:(?<!i )say (?:that |it |all )?again|words twice|say your last|repeat (?:that|your)"
+    r"|(?:did not|didn) (?:copy|get|understand|catch)|unreadable|say (?:callsign|call sign))(?!\S)"
 )
 _CONFIRM = re.compile(
     r"(?<!\S)(?:confirm|verify|read (?:it|that) back|readback(?! (?:is )?correct))(?!\S)"
 )
 """Requests to say what was said: ICAO Annex 10 volume II, 5.2.1.5.8, and "verify" of the FAA's
 Pilot/Controller Glossary."""
-_READY = re.compile(r"(?<!report )ready(?: (?:for|to)(?!\S)|$| (?=\|))|fully ready|would like")
+_READY = re.compile(
+    r"(?<!\S)(?:(?<!report )ready(?: (?:for|to)(?!\S)|$| (?=\|))|(?:fully ready|would like)(?!\S))"
+)
 _PLACES = re.compile(
     r"(?<!\S)(?:[0-9]{1,2} (?:nautical )?miles? (?:final|out|(?:to the )?(?:north|south|east|west)"
     r"(?:east|west)?|from [a-z]+)|short final|long final|(?:left |right )?(?:downwind|base)"

@@ -283,6 +283,7 @@ def test_what_recognisers_write_means_what_was_said(text: str, as_written: str) 
         ("Tower, American 123, holding short runway 01", "report"),
         ("American 123, passing flight level 210, climbing flight level 330", "report"),
         ("Tower, American 123, ready for departure runway 01", "request"),
+        ("Ground, American 123 is at the gate already", "unknown"),
         ("American 123, requesting flight level 350", "request"),
         ("American 123, report ready", "instruction"),
         ("American 123, say again", "say_again"),
