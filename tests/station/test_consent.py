@@ -13,7 +13,7 @@ from airhilt.station import browsers, seat_book
 from airhilt.station.browsers import Browsers
 from airhilt.station.consents import NO_VOICE, NO_WORDS, Consents
 from devtools import Page
-from microphone import BUTTON, FAKE, open_microphone, page_with_microphone, sit_down
+from microphone import BUTTON, FAKE, NO_CONNECTION, open_microphone, page_with_microphone, sit_down
 from stations import PATIENCE_S, TOWER, PretendedRun, agree, answer, browser, seat_page, wish
 
 PIECE = bytes(3_200)
@@ -423,6 +423,7 @@ def test_consent_that_is_taken_back_without_a_connection_ends_when_it_is_there_a
         page.click("talk-button")
         page.wait_for(ASKED)
         assert consent(run) == SeatConsent(what="words", is_given=False)
+        page.wait_for("sessionStorage.getItem('consent-back') === null")  # The page knows.
         page.click("consent-agree")
         assert consent(run) == SeatConsent(what="voice", is_given=True)
         page.wait_for(f"{BUTTON} === 'Hold to talk'")
@@ -457,6 +458,25 @@ def test_consent_that_is_given_after_it_was_taken_back_is_not_taken_back_again(
         assert consent(run) == SeatConsent(what="voice", is_given=True)
         page.wait_for(f"{BUTTON} === 'Hold to talk'")
         page.wait_for("!document.getElementById('consent-back').hidden")
+
+
+@pytest.mark.browser
+def test_the_run_is_told_what_was_taken_back_when_the_page_was_loaded_again_meanwhile() -> None:
+    with (
+        seat_page(agreed={"TOWER": "voice"}) as (run, url),
+        page_with_microphone(*FAKE) as page,
+    ):
+        sit_down(page, url)
+        page.wait_for("!document.getElementById('consent-back').hidden")
+        assert consent(run).is_given
+        page.evaluate(f"{NO_CONNECTION}; null")
+        page.click("consent-back")
+        page.wait_for("document.getElementById('seat-state').textContent.includes('may not know')")
+        page.open(url, width=1280, height=720)
+        assert consent(run) == SeatConsent(what="words", is_given=False)
+        page.wait_for("!document.getElementById('talk').hidden")
+        page.wait_for("document.getElementById('consent-back').hidden")
+        page.complaints.clear()  # A page that was loaded again plays nothing before a click.
 
 
 @pytest.mark.browser

@@ -5,6 +5,7 @@
 
 import { byId } from "./dom.js";
 
+const BACK = "consent-back"; // what is kept of it while a page is loaded again
 const LOGGED = "What you do at the seat, and what it shows you, is logged.";
 const QUESTIONS = {
   voice: {
@@ -35,7 +36,10 @@ export class Consent {
   #isSent = false; // an answer is on its way, and the station has not heard it
   #next = null; // what is asked after that
   #pressed = new Set(); // keys that went down while a question was there
-  #back = null; // consent that was taken back: "sent", or "lost" if the station may not know of it
+  #seat = null;
+  #back = sessionStorage.getItem(BACK); // seat where it was taken back, until the station knows
+  #isBackSent = false; // and that is on its way
+  #times = 0; // that consent was taken back
   #whenTakenBack = () => {};
 
   /** `live` sends what was answered, and shows what was not done. */
@@ -79,22 +83,25 @@ export class Consent {
 
   /** Takes in what the station knows to be agreed to, unless that was taken back since. */
   take(given) {
-    this.#given = new Set(this.#back ? [] : given);
-    byId("consent-back").hidden = !this.#given.size;
+    if (this.#isBackSent && !given.length) this.#settle();
+    this.#show(this.#isBack ? [] : given);
   }
 
-  /** Takes back at a seat what was taken back there while the connection was lost. */
+  /** Takes back at a seat what was taken back there, and the station may not know of. */
   takeBackAgain() {
-    if (this.#back === "lost") this.#sendBack();
+    if (this.#isBack && !this.#isBackSent) this.#sendBack();
   }
 
-  /**
-   * Forgets what was agreed to: whoever has a seat next is asked again. That consent was taken back
-   * is not forgotten before the station knows.
-   */
+  /** Takes in one's own seat, null for none: whoever has a seat next is asked again. */
+  setSeat(own) {
+    this.#seat = own;
+    this.forget();
+  }
+
+  /** Forgets what was agreed to; that it was taken back is kept until the station knows. */
   forget() {
-    if (this.#back === "sent") this.#back = null;
-    this.take([]);
+    this.#isBackSent = false;
+    this.#show([]);
     this.#isSent = false;
     this.#next = null;
     byId("consent").close();
@@ -109,16 +116,19 @@ export class Consent {
   }
 
   #answer(isGiven) {
-    const { what, then, lost } = this.#asked;
+    const { what, then, lost } = this.#asked,
+      times = this.#times;
     byId("consent").close();
     this.takeBackAgain(); // Before the answer, so that it does not end that.
+    this.#settle();
     this.#isSent = true;
     this.#live.wish(
       { consent: { what, is_given: isGiven } },
       {
         heard: () => {
-          if (isGiven) this.take([...this.#given, what]);
-          this.#answered(() => then(isGiven));
+          const holds = isGiven && times === this.#times; // It was not taken back since.
+          if (holds) this.take([...this.#given, what]);
+          this.#answered(() => then(holds));
         },
         lost: () => this.#answered(lost),
       },
@@ -126,21 +136,37 @@ export class Consent {
   }
 
   #takeBack() {
+    this.#times++;
+    this.#back = this.#seat;
+    sessionStorage.setItem(BACK, this.#seat); // A page that is loaded again goes on.
     this.#sendBack();
-    this.take([]);
+    this.#show([]);
     this.#whenTakenBack();
   }
 
+  get #isBack() {
+    return this.#back !== null && this.#back === this.#seat;
+  }
+
+  #settle() {
+    this.#back = null;
+    this.#isBackSent = false;
+    sessionStorage.removeItem(BACK);
+  }
+
+  #show(given) {
+    this.#given = new Set(given);
+    byId("consent-back").hidden = !this.#given.size;
+  }
+
+  /** Takes consent back; the station then tells that there is none, or has no seat for the page. */
   #sendBack() {
-    this.#back = "sent";
+    this.#isBackSent = true;
     this.#live.wish(
       { consent: { what: "words", is_given: false } },
       {
-        heard: () => {
-          this.#back = null;
-        },
         lost: () => {
-          this.#back = "lost";
+          this.#isBackSent = false;
           this.#live.refuse(
             "The connection is lost. The station may not know that you have taken back your consent until you are at the seat again.",
           );

@@ -125,7 +125,7 @@ export class Talk {
       return;
     }
     this.#own = own;
-    this.#consent.forget();
+    this.#consent.setSeat(own);
     if (own) {
       this.#loudspeaker.begin();
       this.#takeActive();
