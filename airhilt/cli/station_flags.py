@@ -25,6 +25,7 @@ FILE = click.Path(path_type=Path, dir_okay=False)
 NEEDED = ("fastapi", "uvicorn", "websockets")
 """Packages of the extra ``station``."""
 USES: tuple[Use, ...] = ("voice", "words")
+"""Uses to which a person at a seat may agree."""
 Agreed = tuple[str, "Use"]
 """Name of a seat, and the use to which its person has agreed before."""
 

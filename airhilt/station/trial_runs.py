@@ -154,9 +154,8 @@ class TrialRuns:
 
     def _begun(self, trial: Trial) -> list[RunFolder]:
         """Return the run folders of a trial that are there, in their order."""
-        there = set(self.folder.iterdir()) if self.folder.is_dir() else set()
-        possible = (self.folder / name for name in self.attempts(trial))
-        return [RunFolder(path) for path in possible if path in there]
+        there = {path.name for path in self.folder.iterdir()} if self.folder.is_dir() else set()
+        return [RunFolder(self.folder / name) for name in self.attempts(trial) if name in there]
 
     def _records_of(self, run: RunFolder) -> _SeatRecords | None:
         return self._records.get(partial(_seat_records, run), run.summary_path)

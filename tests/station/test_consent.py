@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import pytest
@@ -315,7 +317,7 @@ def test_who_takes_a_seat_next_has_not_agreed_before(
 def test_a_page_that_is_loaded_again_asks_who_has_taken_back_what_was_agreed_before(
     before: Use, declined: str | None, left: list[str]
 ) -> None:
-    """Who has not need not be asked."""
+    """Somebody who has not need not be asked."""
     with seat_page(agreed={"TOWER": before}) as (run, url):
         with browser(url, "a") as own:
             take(run, own)
@@ -364,6 +366,18 @@ def consent(run: PretendedRun) -> SeatConsent:
     return told
 
 
+@contextmanager
+def at_a_seat_with_consent() -> Iterator[tuple[PretendedRun, str, Page]]:
+    """Take a seat whose person has agreed to the use of the voice before."""
+    with (
+        seat_page(agreed={"TOWER": "voice"}) as (run, url),
+        page_with_microphone(*FAKE) as page,
+    ):
+        sit_down(page, url)
+        page.wait_for("!document.getElementById('consent-back').hidden")
+        yield run, url, page
+
+
 def want_to_say(page: Page, words: str) -> None:
     page.evaluate(f"document.getElementById('words').value = {words!r}")
     page.click("say-button")
@@ -408,12 +422,7 @@ def test_consent_is_taken_back_at_the_page_which_closes_the_microphone_and_asks_
 
 @pytest.mark.browser
 def test_consent_that_is_taken_back_without_a_connection_ends_when_it_is_there_again() -> None:
-    with (
-        seat_page(agreed={"TOWER": "voice"}) as (run, url),
-        page_with_microphone(*FAKE) as page,
-    ):
-        sit_down(page, url)
-        page.wait_for("!document.getElementById('consent-back').hidden")
+    with at_a_seat_with_consent() as (run, _, page):
         page.click("talk-button")
         page.wait_for(f"{BUTTON} === 'Hold to talk'")
         assert consent(run) == SeatConsent(what="voice", is_given=True)
@@ -442,12 +451,7 @@ def test_consent_that_is_given_after_it_was_taken_back_is_not_taken_back_again(
             monkeypatch.undo()
             raise RuntimeError("the connection has ended")
 
-    with (
-        seat_page(agreed={"TOWER": "voice"}) as (run, url),
-        page_with_microphone(*FAKE) as page,
-    ):
-        sit_down(page, url)
-        page.wait_for("!document.getElementById('consent-back').hidden")
+    with at_a_seat_with_consent() as (run, _, page):
         monkeypatch.setattr(Browsers, "_do_at_seat", do_and_end)
         page.click("consent-back")
         for told in (True, False, False):  # It is told once more, because it may not be known.
@@ -462,12 +466,7 @@ def test_consent_that_is_given_after_it_was_taken_back_is_not_taken_back_again(
 
 @pytest.mark.browser
 def test_the_run_is_told_what_was_taken_back_when_the_page_was_loaded_again_meanwhile() -> None:
-    with (
-        seat_page(agreed={"TOWER": "voice"}) as (run, url),
-        page_with_microphone(*FAKE) as page,
-    ):
-        sit_down(page, url)
-        page.wait_for("!document.getElementById('consent-back').hidden")
+    with at_a_seat_with_consent() as (run, url, page):
         assert consent(run).is_given
         page.evaluate(f"{NO_CONNECTION}; null")
         page.click("consent-back")
@@ -484,12 +483,7 @@ def test_the_run_is_told_what_was_taken_back_when_the_seat_was_lost_meanwhile(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     monkeypatch.setattr(seat_book, "HOLD_S", 0.0)
-    with (
-        seat_page(agreed={"TOWER": "voice"}) as (run, url),
-        page_with_microphone(*FAKE) as page,
-    ):
-        sit_down(page, url)
-        page.wait_for("!document.getElementById('consent-back').hidden")
+    with at_a_seat_with_consent() as (run, _, page):
         assert consent(run).is_given
         page.evaluate(CUT)
         page.click("consent-back")

@@ -120,7 +120,7 @@ export class Consent {
       times = this.#times;
     byId("consent").close();
     this.takeBackAgain(); // Before the answer, so that it does not end that.
-    this.#settle();
+    if (this.#isBack) this.#settle();
     this.#isSent = true;
     this.#live.wish(
       { consent: { what, is_given: isGiven } },
