@@ -456,6 +456,7 @@ def test_consent_that_is_given_after_it_was_taken_back_is_not_taken_back_again(
         page.click("consent-back")
         for told in (True, False, False):  # It is told once more, because it may not be known.
             assert consent(run).is_given is told
+        page.wait_for("sessionStorage.getItem('consent-back') === null")  # The page knows.
         page.click("talk-button")
         page.wait_for(ASKED)
         page.click("consent-agree")
