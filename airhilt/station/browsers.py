@@ -86,6 +86,8 @@ class _Browser:
         self.is_voice_refused = False
         """True if it was told that the sound that comes now is refused."""
         self.unsent: deque[str] = deque()
+        self.is_consent_untold = False
+        """True if it is to be told, after that, what its person agrees to at that moment."""
 
     def tell(self, kind: str, what: Any) -> None:
         self.unsent.append(json.dumps({kind: what}))
@@ -334,8 +336,12 @@ class Browsers:
         await asyncio.to_thread(self._run.consent, seat, consent)
 
     def _tell_consent(self, browser: _Browser) -> None:
-        """Tell a browser what its person agrees to, as far as this station knows."""
-        browser.tell("consent", self._consents.given_at(self._book.of(browser)))
+        """Tell a browser what its person agrees to, as far as this station knows.
+
+        It is told how that is when the message is sent, and not now: a browser that has got the
+        echo of a later answer is told nothing of the time before.
+        """
+        browser.is_consent_untold = True
 
     async def _say(self, browser: _Browser, seat: str, words: SpokenWords) -> None:
         if self._consents.admits_words(seat):
@@ -567,6 +573,10 @@ class Browsers:
                     number = await send_changes(0, self._changes.next_number)
                 else:
                     await send(browser.unsent.popleft())
+            if browser.is_consent_untold:
+                browser.is_consent_untold = False
+                given = self._consents.given_at(self._book.of(browser))
+                await send(json.dumps({"consent": given}))
             if (own := self._own(browser)) is not None:
                 await send(f'{{"own":{own}}}')
             if heard := self._heard_at(browser):
