@@ -359,6 +359,7 @@ def test_without_a_seat_nothing_is_agreed_to() -> None:
 
 
 ASKED = "document.getElementById('consent').open"
+SEAT_STATE = "document.getElementById('seat-state').textContent"
 TALK_STATE = "document.getElementById('talk-state').textContent"
 CUT = """(() => {
     const send = WebSocket.prototype.send;
@@ -387,6 +388,11 @@ def at_a_seat_with_consent() -> Iterator[tuple[PretendedRun, str, Page]]:
         sit_down(page, url)
         page.wait_for("!document.getElementById('consent-back').hidden")
         yield run, url, page
+
+
+def clicked(*names: str) -> str:
+    """Return a script that clicks on buttons one after the other, with nothing in between."""
+    return "".join(f"document.getElementById({name!r}).click();" for name in names)
 
 
 def want_to_say(page: Page, words: str) -> None:
@@ -449,6 +455,36 @@ def test_consent_that_is_taken_back_without_a_connection_ends_when_it_is_there_a
 
 
 @pytest.mark.browser
+@pytest.mark.parametrize("answered", ["agree", "decline"])
+def test_an_answer_that_is_lost_leaves_consent_taken_back(answered: str) -> None:
+    with at_a_seat_with_consent() as (run, _, page):
+        assert consent(run) == SeatConsent(what="voice", is_given=True)
+        page.evaluate(CUT)
+        page.evaluate(clicked("consent-back", "talk-button", f"consent-{answered}"))
+        assert "may not know" in page.evaluate(SEAT_STATE)
+        assert "closed: the connection is lost" in page.evaluate(TALK_STATE)
+        assert consent(run) == SeatConsent(what="words", is_given=False)
+        page.wait_for(f"{SEAT_STATE}.includes('knows now')")
+        assert page.evaluate("document.getElementById('consent-back').hidden")
+        page.click("talk-button")
+        page.wait_for(ASKED)
+
+
+@pytest.mark.browser
+def test_consent_that_is_taken_back_before_the_station_has_heard_of_it_opens_nothing() -> None:
+    with seat_page(agreed={"TOWER": "words"}) as (run, url), page_with_microphone(*FAKE) as page:
+        sit_down(page, url)
+        page.wait_for("!document.getElementById('consent-back').hidden")
+        page.evaluate(clicked("talk-button", "consent-agree", "consent-back"))
+        page.wait_for(f"{TALK_STATE} === 'The microphone is closed.'")
+        told = [(one.what, one.is_given) for one in (consent(run), consent(run), consent(run))]
+        assert told == [("words", True), ("voice", True), ("words", False)]
+        assert page.evaluate("document.getElementById('consent-back').hidden")
+        page.click("talk-button")
+        page.wait_for(ASKED)
+
+
+@pytest.mark.browser
 def test_consent_that_is_given_after_it_was_taken_back_is_not_taken_back_again(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
@@ -481,7 +517,7 @@ def test_the_run_is_told_what_was_taken_back_when_the_page_was_loaded_again_mean
         assert consent(run).is_given
         page.evaluate(f"{NO_CONNECTION}; null")
         page.click("consent-back")
-        page.wait_for("document.getElementById('seat-state').textContent.includes('may not know')")
+        page.wait_for(f"{SEAT_STATE}.includes('may not know')")
         page.open(url, width=1280, height=720)
         assert consent(run) == SeatConsent(what="words", is_given=False)
         page.wait_for("!document.getElementById('talk').hidden")
@@ -514,7 +550,7 @@ def test_a_page_asks_again_for_consent_that_the_station_does_not_know(
         page.key("keyDown", " ", 32)
         page.wait_for(f"{BUTTON} === 'Open the microphone'")
         page.key("keyUp", " ", 32)
-        assert page.evaluate("document.getElementById('seat-state').textContent") == NO_VOICE
+        assert page.evaluate(SEAT_STATE) == NO_VOICE
         monkeypatch.undo()
         page.click("talk-button")
         page.wait_for(f"{BUTTON} === 'Hold to talk' || {ASKED}")

@@ -269,6 +269,27 @@ def test_a_microphone_that_is_granted_late_does_not_open_for_the_next_person(
 
 
 @pytest.mark.browser
+def test_a_microphone_that_is_granted_late_opens_if_consent_was_taken_back_and_given_again(
+    seat: tuple[PretendedRun, str],
+) -> None:
+    state = "document.getElementById('talk-state').textContent"
+    _, url = seat
+    with page_with_microphone(*FAKE) as page:
+        sit_down(page, url)
+        page.evaluate(GRANTED)
+        page.click("talk-button")
+        page.click("consent-agree")
+        page.wait_for("!document.getElementById('consent-back').hidden")
+        page.click("consent-back")
+        assert "taken back your consent" in page.evaluate(state)
+        page.click("talk-button")
+        page.click("consent-agree")
+        page.wait_for(f"{state} === 'Opening the microphone.'")
+        page.evaluate("window.grant()")
+        page.wait_for(f"{BUTTON} === 'Hold to talk'")
+
+
+@pytest.mark.browser
 def test_a_microphone_that_is_granted_late_does_not_open_at_another_seat() -> None:
     ground = TOWER.model_copy(update={"seat": "GROUND"})
     with (

@@ -39,6 +39,7 @@ export class Consent {
   #seat = null;
   #back = sessionStorage.getItem(BACK); // seat where it was taken back, until the station knows
   #isBackSent = false; // and that is on its way
+  #isInDoubt = false; // the person was told that the station may not know
   #times = 0; // that consent was taken back
   #whenTakenBack = () => {};
 
@@ -120,13 +121,14 @@ export class Consent {
       times = this.#times;
     byId("consent").close();
     this.takeBackAgain(); // Before the answer, so that it does not end that.
-    if (this.#isBack) this.#settle();
     this.#isSent = true;
     this.#live.wish(
       { consent: { what, is_given: isGiven } },
       {
         heard: () => {
-          const holds = isGiven && times === this.#times; // It was not taken back since.
+          const isLast = times === this.#times; // It was not taken back since,
+          if (isLast && this.#isBack) this.#settle(); // and what was before has been heard too.
+          const holds = isGiven && isLast;
           if (holds) this.take([...this.#given, what]);
           this.#answered(() => then(holds));
         },
@@ -148,9 +150,12 @@ export class Consent {
     return this.#back !== null && this.#back === this.#seat;
   }
 
+  /** Takes in that the station knows that consent was taken back. */
   #settle() {
+    if (this.#isInDoubt)
+      this.#live.refuse("The station knows now that you had taken back your consent.");
     this.#back = null;
-    this.#isBackSent = false;
+    this.#isBackSent = this.#isInDoubt = false;
     sessionStorage.removeItem(BACK);
   }
 
@@ -167,6 +172,7 @@ export class Consent {
       {
         lost: () => {
           this.#isBackSent = false;
+          this.#isInDoubt = true;
           this.#live.refuse(
             "The connection is lost. The station may not know that you have taken back your consent until you are at the seat again.",
           );

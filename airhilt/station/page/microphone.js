@@ -27,6 +27,7 @@ export class Microphone {
   #isOpening = false;
   #held = false;
   #sitting = 0; // number of times that consent to the voice has ended
+  #asked = 0; // that number when the person asked last for the microphone
 
   /**
    * `link` has send(wish), sendSound(buffer), unsent(), isThere(), frequency(), consent, and
@@ -141,9 +142,10 @@ export class Microphone {
   }
 
   async #open() {
+    this.#asked = this.#sitting;
+    this.#tell(OPENING);
     if (this.#isOpening) return;
     this.#isOpening = true;
-    this.#tell(OPENING);
     try {
       if (await this.#connect()) this.#tell("");
       else if (byId("talk-state").textContent === OPENING)
@@ -161,14 +163,13 @@ export class Microphone {
   /** Opens the microphone, and returns false if it may not be open any more once it is. */
   async #connect() {
     if (!navigator.mediaDevices) throw new DOMException("not secure", "SecurityError");
-    const sitting = this.#sitting;
     const stream = await navigator.mediaDevices.getUserMedia({ audio: AUDIO });
     const { context, source } = connected(stream),
       node = await listening(context);
-    if (this.#sitting !== sitting) {
+    if (this.#sitting !== this.#asked) {
       end(stream, context);
       return false;
-    } // Meanwhile the seat was left, or consent taken back: who has it now has not agreed.
+    } // The seat was left, or consent taken back since: who has it now has not agreed.
     node.port.onmessage = ({ data }) => this.#take(data);
     source.connect(node);
     stream.getTracks()[0].addEventListener("ended", () => {
