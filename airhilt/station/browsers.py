@@ -19,7 +19,6 @@ from airhilt.errors import first_problem
 from airhilt.messages import (
     MicrophoneAudio,
     PaceCommand,
-    SeatConsent,
     SeatListening,
     SpokenWords,
     Use,
@@ -31,7 +30,7 @@ from airhilt.station.held_button import HeldButton, what_is_wrong_with
 from airhilt.station.page_files import page_version
 from airhilt.station.refusals import Refusals
 from airhilt.station.seat_book import Hold, SeatBook
-from airhilt.station.wishes import Claimed, Pressed, RunLink, Wish
+from airhilt.station.wishes import Claimed, ConsentAnswer, Pressed, RunLink, Wish
 from airhilt.text import readable
 
 PERIOD_S = 0.05
@@ -87,7 +86,9 @@ class _Browser:
         """True if it was told that the sound that comes now is refused."""
         self.unsent: deque[str] = deque()
         self.is_consent_untold = False
-        """True if it is to be told, after that, what its person agrees to at that moment."""
+        """True if it is to be told, after what is in `unsent`, to what its person agrees then."""
+        self.answered: list[int] = []
+        """Numbers of the answers about consent that were taken in, of which it is not told yet."""
 
     def tell(self, kind: str, what: Any) -> None:
         self.unsent.append(json.dumps({kind: what}))
@@ -324,22 +325,23 @@ class Browsers:
 
     # --- voice and words --------------------------------------------------------------------
 
-    async def _take_consent(self, browser: _Browser, seat: str, consent: SeatConsent) -> None:
+    async def _take_consent(self, browser: _Browser, seat: str, given: ConsentAnswer) -> None:
         """Keep what a person agrees to while it has the seat, and tell the run.
 
         A call of a person who does not let the voice be used any more ends.
         """
-        self._consents.take(seat, consent)
+        self._consents.take(seat, given.answer)
+        browser.answered.append(given.number)
         self._tell_consent(browser)
         if not self._consents.admits_voice(seat):
             await self._release(browser)
-        await asyncio.to_thread(self._run.consent, seat, consent)
+        await asyncio.to_thread(self._run.consent, seat, given.answer)
 
     def _tell_consent(self, browser: _Browser) -> None:
         """Tell a browser what its person agrees to, as far as this station knows.
 
-        It is told how that is when the message is sent, and not now: a browser that has got the
-        echo of a later answer is told nothing of the time before.
+        It is told how that is when the message is sent, and which answers that counts: so it knows
+        which of its answers are still to come.
         """
         browser.is_consent_untold = True
 
@@ -576,7 +578,8 @@ class Browsers:
             if browser.is_consent_untold:
                 browser.is_consent_untold = False
                 given = self._consents.given_at(self._book.of(browser))
-                await send(json.dumps({"consent": given}))
+                answered, browser.answered = browser.answered, []
+                await send(json.dumps({"consent": {"given": given, "answered": answered}}))
             if (own := self._own(browser)) is not None:
                 await send(f'{{"own":{own}}}')
             if heard := self._heard_at(browser):

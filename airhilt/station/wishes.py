@@ -31,6 +31,16 @@ class Pressed(BaseModel):
     )
 
 
+class ConsentAnswer(BaseModel):
+    """A person agrees to a use of the voice, or of typed words, or does not."""
+
+    model_config = ConfigDict(extra="forbid")
+    answer: SeatConsent
+    number: int = Field(
+        default=0, ge=0, le=2**53, description="sent back once the station has taken it in"
+    )
+
+
 class Wish(BaseModel):
     """Message of a browser: exactly one of these fields."""
 
@@ -49,9 +59,7 @@ class Wish(BaseModel):
         default=None, description="the transmit button is held: sound follows in binary messages"
     )
     release: bool | None = Field(default=None, description="the transmit button is held no more")
-    consent: SeatConsent | None = Field(
-        default=None, description="to the use of the voice, or of typed words"
-    )
+    consent: ConsentAnswer | None = Field(default=None, description="at the own seat")
     perceived: AdvisoryPerceived | None = Field(
         default=None, description="an advisory to the own seat was drawn or is audible"
     )

@@ -15,7 +15,15 @@ from airhilt.station import browsers, seat_book
 from airhilt.station.browsers import Browsers
 from airhilt.station.consents import NO_VOICE, NO_WORDS, Consents
 from devtools import Page
-from microphone import BUTTON, FAKE, NO_CONNECTION, open_microphone, page_with_microphone, sit_down
+from microphone import (
+    BUTTON,
+    FAKE,
+    NO_CONNECTION,
+    TALK_STATE,
+    open_microphone,
+    page_with_microphone,
+    sit_down,
+)
 from stations import PATIENCE_S, TOWER, PretendedRun, agree, answer, browser, seat_page, wish
 
 PIECE = bytes(3_200)
@@ -39,8 +47,13 @@ def sit_and_agree(run: PretendedRun, socket: ClientConnection) -> None:
     """Take the seat, agree to the use of the voice, and wait until the station knows it."""
     take(run, socket)
     agree(socket)
-    while answer(socket, "consent") != ["voice"]:
+    while agreed(socket) != ["voice"]:
         pass
+
+
+def agreed(socket: ClientConnection) -> Any:
+    """Return to what the person agrees, as the station tells next."""
+    return answer(socket, "consent")["given"]
 
 
 def call(socket: ClientConnection) -> None:
@@ -186,7 +199,7 @@ def test_consent_outlasts_a_lost_connection_but_not_a_page_that_is_loaded_again(
                 pass
         with browser(url, "a", shown_seat) as back:
             assert answer(back, "seats") == {"TOWER": "yours"}
-            assert answer(back, "consent") == ["voice"] * is_kept
+            assert agreed(back) == ["voice"] * is_kept
             call(back)
             assert refusals(back) == [NO_VOICE] * (not is_kept)
             assert run.done.qsize() == (5 if is_kept else 0)
@@ -198,11 +211,10 @@ def test_consent_is_over_when_the_page_was_told_that_it_has_no_seat() -> None:
         sit_and_agree(run, old)
         with browser(url, "a", "TOWER") as back:
             assert answer(back, "seats") == {"TOWER": "taken"}
-            while json.loads(back.recv(timeout=PATIENCE_S)) != {"consent": []}:
-                pass
+            assert agreed(back) == []
             old.close()
             told: list[Any] = []
-            while {"consent": []} not in told:
+            while not any("consent" in message for message in told):
                 told.append(json.loads(back.recv(timeout=PATIENCE_S)))
             assert {"seats": {"TOWER": "yours"}} in told  # First: it forgets what was agreed to.
             call(back)
@@ -236,25 +248,46 @@ def test_consent_is_over_when_nobody_came_back(monkeypatch: pytest.MonkeyPatch) 
 
 def test_a_page_is_told_what_the_station_knows_to_be_agreed_to() -> None:
     with seat_page() as (run, url), browser(url, "a") as own:
-        assert answer(own, "consent") == []
+        assert agreed(own) == []
         take(run, own)
-        assert answer(own, "consent") == []
+        assert agreed(own) == []
         for what, expected in (("words", ["words"]), ("voice", ["voice", "words"])):
             agree(own, what)
-            assert answer(own, "consent") == expected
+            assert agreed(own) == expected
         wish(own, leave="TOWER")
-        assert answer(own, "consent") == []
+        assert agreed(own) == []
 
 
-def test_who_has_the_echo_of_an_answer_is_told_nothing_of_the_time_before() -> None:
-    """Else a page would close the microphone that it opens."""
+def test_a_page_is_told_what_is_agreed_to_after_which_of_its_answers() -> None:
+    """Else it would take the word on an answer for that on a later one."""
+    given: set[str] = set()
+    answers = [("voice", True), ("words", False), ("words", True), ("voice", True)] * 5
+    states = [sorted(given)]
     with seat_page() as (run, url), browser(url, "a") as own:
-        sit_and_agree(run, own)
-        for is_given in (False, True):
-            agree(own, is_given=is_given)
-        wish(own, echo=1.0)
-        answer(own, "echo")
-        assert answer(own, "consent") == ["voice"]
+        take(run, own)
+        for number, (what, is_given) in enumerate(answers, 1):
+            wish(own, consent={"answer": {"what": what, "is_given": is_given}, "number": number})
+            given = given | {what} if is_given else set()
+            states.append(sorted(given))
+        counted: list[int] = []
+        while len(counted) < len(answers):
+            told = answer(own, "consent")
+            counted += told["answered"]
+            assert told["given"] == states[len(counted)]
+        assert counted == list(range(1, len(answers) + 1))
+
+
+def test_an_answer_of_who_has_no_seat_counts_as_not_taken_in() -> None:
+    with seat_page() as (run, url), browser(url, "a") as own:
+        for number in (1, 2):
+            yes = {"what": "voice", "is_given": True}
+            wish(own, consent={"answer": yes, "number": number})
+            if number == 1:
+                take(run, own)
+        counted: list[int] = []
+        while not counted:
+            counted = answer(own, "consent")["answered"]
+        assert counted == [2]
 
 
 def test_the_run_has_the_answer_before_what_it_lets_through() -> None:
@@ -272,7 +305,7 @@ def test_who_has_agreed_before_need_not_be_asked_at_the_seat_and_the_run_is_told
         browser(url, "a") as own,
     ):
         take(run, own)
-        while answer(own, "consent") != ["voice"]:
+        while agreed(own) != ["voice"]:
             pass
         assert run.settings.get(timeout=PATIENCE_S) == SeatConsent(what="voice", is_given=True)
         call(own)
@@ -338,7 +371,7 @@ def test_a_page_that_is_loaded_again_asks_who_has_taken_back_what_was_agreed_bef
         with browser(url, "a") as back:
             while answer(back, "seats") != {"TOWER": "yours"}:
                 pass
-            assert answer(back, "consent") == left
+            assert agreed(back) == left
 
 
 def test_what_is_agreed_to_beyond_what_was_before_is_over_when_the_page_is_loaded_again() -> None:
@@ -360,7 +393,6 @@ def test_without_a_seat_nothing_is_agreed_to() -> None:
 
 ASKED = "document.getElementById('consent').open"
 SEAT_STATE = "document.getElementById('seat-state').textContent"
-TALK_STATE = "document.getElementById('talk-state').textContent"
 CUT = """(() => {
     const send = WebSocket.prototype.send;
     WebSocket.prototype.send = function (...sent) {
@@ -388,6 +420,20 @@ def at_a_seat_with_consent() -> Iterator[tuple[PretendedRun, str, Page]]:
         sit_down(page, url)
         page.wait_for("!document.getElementById('consent-back').hidden")
         yield run, url, page
+
+
+def end_untold(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let a connection end when the station has taken in an answer, and before it says so."""
+    do = Browsers._do_at_seat
+
+    async def do_and_end(self: Browsers, own: Any, seat: str, told: Any) -> None:
+        await do(self, own, seat, told)
+        if told.consent is not None:
+            monkeypatch.undo()
+            raise RuntimeError("the connection has ended")
+
+    monkeypatch.setattr(Browsers, "_do_at_seat", do_and_end)
+    monkeypatch.setattr(Browsers, "_tell_consent", lambda *_: None)
 
 
 def clicked(*names: str) -> str:
@@ -461,13 +507,92 @@ def test_an_answer_that_is_lost_leaves_consent_taken_back(answered: str) -> None
         assert consent(run) == SeatConsent(what="voice", is_given=True)
         page.evaluate(CUT)
         page.evaluate(clicked("consent-back", "talk-button", f"consent-{answered}"))
-        assert "may not know" in page.evaluate(SEAT_STATE)
+        page.wait_for(f"{SEAT_STATE}.includes('may not know')")
         assert "closed: the connection is lost" in page.evaluate(TALK_STATE)
         assert consent(run) == SeatConsent(what="words", is_given=False)
         page.wait_for(f"{SEAT_STATE}.includes('knows now')")
         assert page.evaluate("document.getElementById('consent-back').hidden")
         page.click("talk-button")
         page.wait_for(ASKED)
+
+
+@pytest.mark.browser
+def test_who_says_no_after_a_yes_that_may_be_lost_is_asked_again(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The yes was not lost: the station took it in, and the no came when nobody heard it."""
+    with seat_page() as (run, url), page_with_microphone(*FAKE) as page:
+        sit_down(page, url)
+        end_untold(monkeypatch)
+        page.evaluate(clicked("talk-button", "consent-agree"))
+        no = clicked("talk-button", "consent-decline")
+        page.evaluate(f"""new Promise((done) => {{
+            const look = setInterval(() => {{
+                if (!{TALK_STATE}.includes('the connection is lost')) return;
+                clearInterval(look);
+                {no}
+                done(true);
+            }}, 10);
+        }})""")
+        assert consent(run) == SeatConsent(what="voice", is_given=True)
+        assert consent(run) == SeatConsent(what="voice", is_given=False)
+        page.wait_for(f"{SEAT_STATE}.includes('knows now')")
+        assert page.evaluate("document.getElementById('consent-back').hidden")
+        page.click("talk-button")
+        page.wait_for(ASKED)
+
+
+@pytest.mark.browser
+def test_what_the_last_person_has_taken_back_is_not_taken_back_from_the_next() -> None:
+    with at_a_seat_with_consent() as (run, _, page):
+        page.evaluate(clicked("consent-back", "seat-take"))
+        page.wait_for("document.getElementById('talk').hidden")
+        page.click("seat-take")
+        page.wait_for("!document.getElementById('talk').hidden")
+        assert page.evaluate(TALK_STATE) == ""
+        page.click("talk-button")
+        page.click("consent-agree")
+        page.wait_for(f"{BUTTON} === 'Hold to talk'")
+        assert [consent(run).is_given for _ in range(3)] == [True, False, True]
+
+
+@pytest.mark.browser
+@pytest.mark.parametrize("name", ["pretended", "another"])
+def test_what_was_taken_back_in_one_run_is_not_taken_back_in_another(name: str) -> None:
+    denied = json.dumps({"run": name, "seat": "TOWER", "what": "words"})
+    is_same = name == PretendedRun.run
+    with at_a_seat_with_consent() as (run, url, page):
+        assert consent(run).is_given
+        page.evaluate(f"sessionStorage.setItem('consent-denied', {denied!r})")
+        page.open(url, width=1280, height=720)
+        page.wait_for("!document.getElementById('talk').hidden")
+        if is_same:
+            assert not consent(run).is_given
+        page.wait_for(f"document.getElementById('consent-back').hidden === {str(is_same).lower()}")
+        page.complaints.clear()  # A page that was loaded again plays nothing before a click.
+
+
+@pytest.mark.browser
+def test_no_sound_is_sent_once_consent_is_taken_back() -> None:
+    with seat_page() as (_, url), page_with_microphone(*FAKE) as page:
+        sit_down(page, url)
+        open_microphone(page)
+        page.key("keyDown", " ", 32)
+        page.wait_for("document.getElementById('talk-level').value > 0")
+        page.evaluate(
+            """(() => {
+                const send = WebSocket.prototype.send;
+                window.sent = [];
+                WebSocket.prototype.send = function (what) {
+                    window.sent.push(typeof what === 'string' ? what : 'sound');
+                    send.call(this, what);
+                };
+            })();"""
+            + clicked("consent-back")
+        )
+        page.wait_for("window.sent.includes('{\"release\":true}')")
+        page.key("keyUp", " ", 32)
+        assert "sound" not in page.evaluate("window.sent")
 
 
 @pytest.mark.browser
@@ -488,18 +613,8 @@ def test_consent_that_is_taken_back_before_the_station_has_heard_of_it_opens_not
 def test_consent_that_is_given_after_it_was_taken_back_is_not_taken_back_again(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """The connection ends when the station has heard that it is taken back, and cannot say so."""
-    do = Browsers._do_at_seat
-
-    async def do_and_end(self: Browsers, own: Any, seat: str, told: Any) -> None:
-        await do(self, own, seat, told)
-        if told.consent is not None and not told.consent.is_given:
-            monkeypatch.undo()
-            raise RuntimeError("the connection has ended")
-
     with at_a_seat_with_consent() as (run, _, page):
-        monkeypatch.setattr(Browsers, "_do_at_seat", do_and_end)
-        monkeypatch.setattr(Browsers, "_tell_consent", lambda *_: None)
+        end_untold(monkeypatch)
         page.click("consent-back")
         for told in (True, False, False):  # It is told once more, because it may not be known.
             assert consent(run).is_given is told

@@ -21,6 +21,7 @@ from microphone import (
     BUTTON,
     FAKE,
     SAY,
+    TALK_STATE,
     microphone_file,
     open_microphone,
     page_with_microphone,
@@ -32,7 +33,6 @@ from seats import voice
 from stations import PATIENCE_S, TOWER, PretendedRun, agree, seat_page, seats_given_back_at_once
 
 SAY_PLACE = "document.getElementById('say-button').getBoundingClientRect().y"
-STATE = "document.getElementById('talk-state').textContent"
 ADVISORY = {
     "t": 1.0, "equipment": "", "id": "a-1", "revision": 1, "severity": "WARNING", "active": True,
     "kind": "runway_conflict", "traffic": ["AAL123"],
@@ -181,7 +181,7 @@ def test_who_is_denied_the_microphone_is_told_and_can_type(
         sit_down(page, url)
         before = page.evaluate(SAY_PLACE)
         open_microphone(page)
-        assert "Type what you want to say" in page.evaluate(STATE)
+        assert "Type what you want to say" in page.evaluate(TALK_STATE)
         assert page.evaluate(SAY_PLACE) == before  # It does not move under the hand.
         page.evaluate("document.getElementById('words').value = 'hello'")
         page.evaluate(SAY)
@@ -251,14 +251,13 @@ def test_who_leaves_the_seat_has_no_open_microphone(
 def test_a_microphone_that_is_granted_late_does_not_open_for_the_next_person(
     seat: tuple[PretendedRun, str],
 ) -> None:
-    run, url = seat
+    _, url = seat
     with page_with_microphone(*FAKE) as page:
         sit_down(page, url)
         page.evaluate(GRANTED)
         page.click("talk-button")
         page.click("consent-agree")
-        while "consent to voice" not in run.deeds:
-            run.settings.get(timeout=PATIENCE_S)
+        page.wait_for("!document.getElementById('consent-back').hidden")  # The station knows.
         page.click("seat-take")
         page.wait_for("document.getElementById('talk').hidden")
         page.click("seat-take")
@@ -266,13 +265,13 @@ def test_a_microphone_that_is_granted_late_does_not_open_for_the_next_person(
         page.evaluate("window.grant()")
         page.wait_for("window.granted.length && window.granted.every((one) => one !== 'live')")
         assert page.evaluate(BUTTON) == "Open the microphone"
+        assert page.evaluate(TALK_STATE) == ""  # Nothing is told that somebody else has done.
 
 
 @pytest.mark.browser
 def test_a_microphone_that_is_granted_late_opens_if_consent_was_taken_back_and_given_again(
     seat: tuple[PretendedRun, str],
 ) -> None:
-    state = "document.getElementById('talk-state').textContent"
     _, url = seat
     with page_with_microphone(*FAKE) as page:
         sit_down(page, url)
@@ -281,10 +280,10 @@ def test_a_microphone_that_is_granted_late_opens_if_consent_was_taken_back_and_g
         page.click("consent-agree")
         page.wait_for("!document.getElementById('consent-back').hidden")
         page.click("consent-back")
-        assert "taken back your consent" in page.evaluate(state)
+        assert "taken back your consent" in page.evaluate(TALK_STATE)
         page.click("talk-button")
         page.click("consent-agree")
-        page.wait_for(f"{state} === 'Opening the microphone.'")
+        page.wait_for(f"{TALK_STATE} === 'Opening the microphone.'")
         page.evaluate("window.grant()")
         page.wait_for(f"{BUTTON} === 'Hold to talk'")
 
@@ -293,15 +292,14 @@ def test_a_microphone_that_is_granted_late_opens_if_consent_was_taken_back_and_g
 def test_a_microphone_that_is_granted_late_does_not_open_at_another_seat() -> None:
     ground = TOWER.model_copy(update={"seat": "GROUND"})
     with (
-        seat_page(PretendedRun((TOWER, ground))) as (run, url),
+        seat_page(PretendedRun((TOWER, ground))) as (_, url),
         page_with_microphone(*FAKE) as page,
     ):
         sit_down(page, url, "TOWER")
         page.evaluate(GRANTED)
         page.click("talk-button")
         page.click("consent-agree")
-        while "consent to voice" not in run.deeds:
-            run.settings.get(timeout=PATIENCE_S)
+        page.wait_for("!document.getElementById('consent-back').hidden")  # The station knows.
         page.evaluate(MOVED)
         page.wait_for("document.getElementById('seat-name').value === 'GROUND'")
         page.wait_for("!document.getElementById('talk').hidden")

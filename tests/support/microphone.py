@@ -19,6 +19,7 @@ PAUSE_S = 5.0
 """Silence after the words, before they come again."""
 FAKE = ("--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream")
 BUTTON = "document.getElementById('talk-button').textContent"
+TALK_STATE = "document.getElementById('talk-state').textContent"
 SAY = """(() => {
     document.getElementById('say-button').click();
     const consent = document.getElementById('consent');
@@ -81,8 +82,7 @@ def open_microphone(page: Page) -> None:
     page.click("talk-button")
     page.wait_for("document.getElementById('consent').open")
     page.click("consent-agree")
-    told = "document.getElementById('talk-state').textContent.includes('Type')"
-    page.wait_for(f"{BUTTON} === 'Hold to talk' || {told}")
+    page.wait_for(f"{BUTTON} === 'Hold to talk' || {TALK_STATE}.includes('Type')")
 
 
 def talk(page: Page) -> None:

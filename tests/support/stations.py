@@ -207,7 +207,7 @@ def wish(socket: ClientConnection, **wished: Any) -> None:
 
 def agree(socket: ClientConnection, what: str = "voice", *, is_given: bool = True) -> None:
     """Answer the question whether the voice may be used, or typed words."""
-    wish(socket, consent={"what": what, "is_given": is_given})
+    wish(socket, consent={"answer": {"what": what, "is_given": is_given}})
 
 
 def answer(socket: ClientConnection, kind: str) -> Any:

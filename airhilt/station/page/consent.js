@@ -5,7 +5,7 @@
 
 import { byId } from "./dom.js";
 
-const BACK = "consent-back"; // what is kept of it while a page is loaded again
+const KEPT = "consent-denied"; // what is kept of it while a page is loaded again
 const LOGGED = "What you do at the seat, and what it shows you, is logged.";
 const QUESTIONS = {
   voice: {
@@ -30,22 +30,23 @@ const QUESTIONS = {
 };
 
 export class Consent {
+  #run;
   #live;
-  #given = new Set();
+  #told = new Set(); // the uses to which the person agrees, as the station told last
+  #denied; // what the person does not agree to, until the station has taken that in; null: nothing
+  #unheard = []; // answers that the station has not taken in yet: { number, then, lost }
+  #number = 0; // of the last answer
   #asked = null;
-  #isSent = false; // an answer is on its way, and the station has not heard it
-  #next = null; // what is asked after that
+  #next = null; // what is asked once the station has taken in the answer
   #pressed = new Set(); // keys that went down while a question was there
   #seat = null;
-  #back = sessionStorage.getItem(BACK); // seat where it was taken back, until the station knows
-  #isBackSent = false; // and that is on its way
-  #isInDoubt = false; // the person was told that the station may not know
-  #times = 0; // that consent was taken back
   #whenTakenBack = () => {};
 
   /** `live` sends what was answered, and shows what was not done. */
-  constructor(live) {
+  constructor(run, live) {
+    this.#run = run;
     this.#live = live;
+    this.#denied = kept(run);
     byId("consent-agree").addEventListener("click", () => this.#answer(true));
     byId("consent-decline").addEventListener("click", () => this.#answer(false));
     byId("consent-back").addEventListener("click", () => this.#takeBack());
@@ -55,15 +56,15 @@ export class Consent {
 
   /**
    * Asks for consent to the use of what ("voice" or "words"), and calls `then(isGiven)` once the
-   * station has heard the answer, or `lost()` if it may not have. Nothing is called if the question
-   * is put away. Who lets the voice be used may type. `isRecorded` tells if sound is.
+   * station has taken in the answer, or `lost()` if it may not have. Nothing is called if the
+   * question is put away, or the seat is left. `isRecorded` tells if sound is.
    */
   ask(what, { isRecorded = true, then, lost }) {
-    if (this.#given.has(what) || this.#given.has("voice")) {
+    if (this.admits(what)) {
       then(true);
       return;
     }
-    if (this.#isSent) {
+    if (this.#unheard.some((one) => one.then)) {
       this.#next = () => this.ask(what, { isRecorded, then, lost });
       return;
     }
@@ -77,35 +78,58 @@ export class Consent {
     byId("consent").showModal();
   }
 
+  /** Returns true if the person agrees to a use. Who lets the voice be used may type. */
+  admits(what) {
+    const denied = this.#isDenied ? this.#denied.what : null;
+    if (denied === "words" || denied === what) return false;
+    return this.#told.has(what) || (what === "words" && this.#told.has("voice"));
+  }
+
   /** Calls a function when the person takes consent back, whether the station hears of it or not. */
   whenTakenBack(done) {
     this.#whenTakenBack = done;
   }
 
-  /** Takes in what the station knows to be agreed to, unless that was taken back since. */
-  take(given) {
-    if (this.#isBackSent && !given.length) this.#settle();
-    this.#show(this.#isBack ? [] : given);
+  /**
+   * Takes in to what the station knows the person to agree, and which answers it has taken in since
+   * it told that last. What it may not know is told again.
+   */
+  take({ given, answered }) {
+    const heard = this.#unheard.filter(({ number }) => answered.includes(number));
+    this.#unheard = this.#unheard.filter((one) => !heard.includes(one));
+    this.#told = new Set(given);
+    if (answered.includes(this.#denied?.number)) this.#settle();
+    this.#denyAgain();
+    this.#draw();
+    for (const { then } of heard) then?.();
+    this.#askNext();
   }
 
-  /** Takes back at a seat what was taken back there, and the station may not know of. */
-  takeBackAgain() {
-    if (this.#isBack && !this.#isBackSent) this.#sendBack();
+  /** Takes in that the connection is lost: the station may not have taken in what was answered. */
+  lost() {
+    const unheard = this.#unheard;
+    this.#unheard = [];
+    for (const { lost } of unheard) lost();
+    this.#askNext();
   }
 
   /** Takes in one's own seat, null for none: whoever has a seat next is asked again. */
   setSeat(own) {
     this.#seat = own;
-    this.forget();
-  }
-
-  /** Forgets what was agreed to; that it was taken back is kept until the station knows. */
-  forget() {
-    this.#isBackSent = false;
-    this.#show([]);
-    this.#isSent = false;
+    this.#told = new Set();
+    this.#unheard = [];
     this.#next = null;
     byId("consent").close();
+    this.#draw();
+  }
+
+  /** Takes in that the run is over: nothing is asked any more, and the station is told nothing. */
+  end() {
+    if (this.#denied?.isInDoubt)
+      this.#live.refuse("The run is over. The station may not know that you do not agree.");
+    this.#denied = null;
+    sessionStorage.removeItem(KEPT);
+    this.setSeat(this.#seat);
   }
 
   /** Lets no key answer that was held before the question was there. */
@@ -117,75 +141,76 @@ export class Consent {
   }
 
   #answer(isGiven) {
-    const { what, then, lost } = this.#asked,
-      times = this.#times;
+    const { what, then, lost } = this.#asked;
     byId("consent").close();
-    this.takeBackAgain(); // Before the answer, so that it does not end that.
-    this.#isSent = true;
-    this.#live.wish(
-      { consent: { what, is_given: isGiven } },
-      {
-        heard: () => {
-          const isLast = times === this.#times; // It was not taken back since,
-          if (isLast && this.#isBack) this.#settle(); // and what was before has been heard too.
-          const holds = isGiven && isLast;
-          if (holds) this.take([...this.#given, what]);
-          this.#answered(() => then(holds));
-        },
-        lost: () => this.#answered(lost),
-      },
-    );
+    if (isGiven) {
+      this.#denyAgain(); // Before the answer, so that it does not end that.
+      this.#send({ what, is_given: true }, () => then(this.admits(what)), lost);
+    } else this.#deny(what, () => then(false), lost);
   }
 
   #takeBack() {
-    this.#times++;
-    this.#back = this.#seat;
-    sessionStorage.setItem(BACK, this.#seat); // A page that is loaded again goes on.
-    this.#sendBack();
-    this.#show([]);
+    this.#deny("words");
     this.#whenTakenBack();
   }
 
-  get #isBack() {
-    return this.#back !== null && this.#back === this.#seat;
+  /** Denies a use from now on, whatever the station knows; who denies words denies all. */
+  #deny(what, then, lost = () => {}) {
+    const isAll = what === "words" || (this.#isDenied && this.#denied.what === "words");
+    this.#denied = { run: this.#run.run, seat: this.#seat, what: isAll ? "words" : what };
+    sessionStorage.setItem(KEPT, JSON.stringify(this.#denied)); // A page that is loaded again goes on.
+    this.#sendDenied(then, lost);
+    this.#draw();
   }
 
-  /** Takes in that the station knows that consent was taken back. */
+  /** Tells the station once more what is denied at the own seat, unless that is on its way. */
+  #denyAgain() {
+    const isSent = this.#unheard.some(({ number }) => number === this.#denied?.number);
+    if (this.#isDenied && !isSent) this.#sendDenied();
+  }
+
+  #sendDenied(then, lost = () => {}) {
+    const denied = this.#denied;
+    denied.number = this.#number + 1;
+    this.#send({ what: denied.what, is_given: false }, then, () => {
+      lost();
+      denied.isInDoubt = true;
+      this.#live.refuse(
+        "The connection is lost. The station may not know that you do not agree until you are at the seat again.",
+      );
+    });
+  }
+
+  get #isDenied() {
+    return this.#denied !== null && this.#denied.seat === this.#seat;
+  }
+
+  /** Takes in that the station knows what is denied. */
   #settle() {
-    if (this.#isInDoubt)
-      this.#live.refuse("The station knows now that you had taken back your consent.");
-    this.#back = null;
-    this.#isBackSent = this.#isInDoubt = false;
-    sessionStorage.removeItem(BACK);
+    if (this.#denied.isInDoubt) this.#live.refuse("The station knows now that you did not agree.");
+    this.#denied = null;
+    sessionStorage.removeItem(KEPT);
   }
 
-  #show(given) {
-    this.#given = new Set(given);
-    byId("consent-back").hidden = !this.#given.size;
+  #send(answer, then, lost) {
+    const number = ++this.#number;
+    if (this.#live.send({ consent: { answer, number } })) this.#unheard.push({ number, then, lost });
+    else lost();
   }
 
-  /** Takes consent back; the station then tells that there is none, or has no seat for the page. */
-  #sendBack() {
-    this.#isBackSent = true;
-    this.#live.wish(
-      { consent: { what: "words", is_given: false } },
-      {
-        lost: () => {
-          this.#isBackSent = false;
-          this.#isInDoubt = true;
-          this.#live.refuse(
-            "The connection is lost. The station may not know that you have taken back your consent until you are at the seat again.",
-          );
-        },
-      },
-    );
+  #draw() {
+    byId("consent-back").hidden = !this.admits("words");
   }
 
-  #answered(then) {
+  #askNext() {
     const next = this.#next;
-    this.#isSent = false;
     this.#next = null;
-    then();
     next?.();
   }
+}
+
+/** Returns what was denied in a run before its page was loaded again, null for nothing. */
+function kept(run) {
+  const denied = JSON.parse(sessionStorage.getItem(KEPT));
+  return denied?.run === run.run ? { ...denied, isInDoubt: true } : null;
 }

@@ -74,7 +74,7 @@ export class Live {
 
   #open() {
     this.#abandon();
-    this.#wishes.lost();
+    this.#lose();
     const url = new URL("api/live", location.href);
     url.protocol = url.protocol.replace("http", "ws");
     url.searchParams.set("from", this.#seen);
@@ -98,7 +98,7 @@ export class Live {
     };
     this.#socket.onclose = (event) => {
       this.#panes.talk.lost();
-      this.#wishes.lost();
+      this.#lose();
       if (this.#run.isOver) {
         this.#tell();
         return;
@@ -124,6 +124,12 @@ export class Live {
     if (!this.#socket) return;
     this.#socket.onopen = this.#socket.onmessage = this.#socket.onclose = null;
     this.#socket.close();
+  }
+
+  /** Tells of what the station may not have heard, because nothing more comes over a connection. */
+  #lose() {
+    this.#wishes.lost();
+    this.#panes.consent.lost();
   }
 
   /**

@@ -83,7 +83,7 @@ async function begin() {
   });
   clock.listen(() => panes.forEach((pane) => pane.draw()));
   clock.animate(() => plan.draw());
-  const consent = live ? new Consent(live) : null;
+  const consent = live ? new Consent(run, live) : null;
   const seat = live ? new Seat(run, live, clock, cameras, consent) : null;
   const talk = live ? new Talk(run, live, consent) : null;
   if (live) for (const pane of [transcript, seat]) pane.hearOnly(() => talk.heard);
@@ -99,6 +99,7 @@ async function begin() {
     transport,
     seat,
     talk,
+    consent,
   });
   connectKeys([
     ...timeKeys(clock, transport),

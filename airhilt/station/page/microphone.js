@@ -26,8 +26,8 @@ export class Microphone {
   #stream = null;
   #isOpening = false;
   #held = false;
-  #sitting = 0; // number of times that consent to the voice has ended
-  #asked = 0; // that number when the person asked last for the microphone
+  #ended = 0; // number of times that consent to the voice has ended
+  #endedBefore = 0; // that number when the person asked last for the microphone
 
   /**
    * `link` has send(wish), sendSound(buffer), unsent(), isThere(), frequency(), consent, and
@@ -61,10 +61,7 @@ export class Microphone {
   /** Takes in what the run says of the seat; null without a seat. */
   setInfo(info) {
     this.#info = info;
-    if (!info) {
-      this.#sitting++;
-      this.#close();
-    }
+    if (!info) this.shut("");
     byId("talk").hidden = !info;
     byId("talk-button").disabled = !info?.has_sound;
     if (info && !info.has_sound) this.#tell("This run has no sound. Type what you want to say.");
@@ -77,9 +74,9 @@ export class Microphone {
    * `why` is told.
    */
   shut(why) {
-    this.#sitting++;
+    this.#ended++;
     if (this.#node) this.#close();
-    if (why) this.#tell(why);
+    if (why !== undefined) this.#tell(why);
   }
 
   /** Begins to transmit. */
@@ -142,7 +139,7 @@ export class Microphone {
   }
 
   async #open() {
-    this.#asked = this.#sitting;
+    this.#endedBefore = this.#ended;
     this.#tell(OPENING);
     if (this.#isOpening) return;
     this.#isOpening = true;
@@ -166,10 +163,11 @@ export class Microphone {
     const stream = await navigator.mediaDevices.getUserMedia({ audio: AUDIO });
     const { context, source } = connected(stream),
       node = await listening(context);
-    if (this.#sitting !== this.#asked) {
+    // Who has the seat has not agreed if it was left, or consent taken back, since.
+    if (this.#ended !== this.#endedBefore) {
       end(stream, context);
       return false;
-    } // The seat was left, or consent taken back since: who has it now has not agreed.
+    }
     node.port.onmessage = ({ data }) => this.#take(data);
     source.connect(node);
     stream.getTracks()[0].addEventListener("ended", () => {
@@ -183,6 +181,7 @@ export class Microphone {
 
   #take({ pcm, level, isOver }) {
     if (level !== undefined) byId("talk-level").value = level;
+    if (pcm && !this.#node) return; // It was closed meanwhile.
     if (pcm && this.#link.unsent() > MOST_UNSENT_BYTES) {
       this.release();
       this.#tell("Your call was cut: the connection is too slow.");

@@ -149,7 +149,7 @@ export class Talk {
   end() {
     this.#workload.clear();
     this.#microphone.setInfo(null);
-    this.#consent.forget();
+    this.#consent.end();
   }
 
   /** Forgets the advisories of the former seat. */
@@ -160,7 +160,10 @@ export class Talk {
   /** Takes in a message of the server. */
   take({ own, changes, sounds, echo, refused, consent }) {
     this.#catchUp(echo);
-    if (consent) this.#takeConsent(consent);
+    if (consent) {
+      this.#consent.take(consent);
+      if (!this.#consent.admits("voice")) this.#microphone.shut();
+    }
     const told = [
       refused ?? "",
       ...(own ?? []).filter(([kind]) => kind === "notice").map(([, , text]) => text),
@@ -187,13 +190,6 @@ export class Talk {
         isSlow: Number.parseFloat(this.#run.pace) < 1,
       });
     if (echo !== undefined) this.#roundTrip = (performance.now() - echo) / 1000;
-  }
-
-  /** Takes in what the station knows to be agreed to: without it, the next press asks again. */
-  #takeConsent(given) {
-    this.#consent.take(given);
-    if (this.#own) this.#consent.takeBackAgain();
-    if (!given.includes("voice")) this.#microphone.shut();
   }
 
   /** Takes in what has to be known of the seat; the space bar is not to give it back at once. */

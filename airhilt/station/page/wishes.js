@@ -2,6 +2,7 @@
 
 export class Wishes {
   #send;
+  #sent = 0; // when the last one was sent; each has another time
   #unheard = []; // the wishes that the station has not answered yet, in their order
 
   /** `send(message)` returns false if there is no connection. */
@@ -18,7 +19,7 @@ export class Wishes {
       lost(false);
       return;
     }
-    const sent = performance.now();
+    const sent = (this.#sent = Math.max(performance.now(), this.#sent + 0.001));
     this.#unheard.push({ sent, heard, lost });
     this.#send({ echo: sent });
   }
