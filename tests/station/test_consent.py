@@ -517,6 +517,22 @@ def test_an_answer_that_is_lost_leaves_consent_taken_back(answered: str) -> None
 
 
 @pytest.mark.browser
+def test_consent_is_taken_back_before_it_is_given_again_over_a_new_connection(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Also if the page has not heard yet what the station knows."""
+    with at_a_seat_with_consent() as (run, _, page):
+        monkeypatch.setattr(Browsers, "_tell_consent", lambda *_: None)
+        page.evaluate(CUT)
+        page.click("consent-back")
+        page.wait_for(f"{SEAT_STATE}.includes('may not know')")
+        page.wait_for("document.getElementById('link').hidden")
+        page.evaluate(clicked("talk-button", "consent-agree"))
+        told = [(one.what, one.is_given) for one in (consent(run), consent(run), consent(run))]
+        assert told == [("voice", True), ("words", False), ("voice", True)]
+
+
+@pytest.mark.browser
 def test_who_says_no_after_a_yes_that_may_be_lost_is_asked_again(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

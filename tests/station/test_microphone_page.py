@@ -238,6 +238,7 @@ def test_who_leaves_the_seat_has_no_open_microphone(
         if is_late:
             page.click("talk-button")
             page.click("consent-agree")
+            page.wait_for(f"{TALK_STATE} === 'Opening the microphone.'")
         else:
             page.evaluate("window.grant()")
             open_microphone(page)
