@@ -73,6 +73,7 @@ def live_app(subscription: Subscription, browsers: Browsers) -> FastAPI:
             "run": subscription.run,
             "seats": browsers.seats,
             "version": page_version(),
+            "serving": browsers.serving,
             "nasa_tlx": NASA_TLX.document(),
         }
         return Response(_json(LIVE | own), media_type="application/json")
@@ -102,8 +103,9 @@ def live_app(subscription: Subscription, browsers: Browsers) -> FastAPI:
         browser: Identity = "",
         version: Annotated[str, Query(max_length=64)] = "",
         shown: Annotated[str | None, Query(max_length=80)] = None,
+        serving: Annotated[str, Query(max_length=64)] = "",
     ) -> None:
-        await browsers.serve(socket, begin, browser, version, shown)
+        await browsers.serve(socket, begin, browser, version, shown, serving)
 
     @app.post("/api/phrases")
     def phrases(situation: Situation) -> list[dict[str, str]]:

@@ -9,6 +9,7 @@ from base64 import b64encode
 from collections import deque
 from collections.abc import Callable, Collection, Coroutine, Mapping
 from contextlib import suppress
+from secrets import token_hex
 from types import MappingProxyType
 from typing import Any
 
@@ -46,7 +47,7 @@ ENDINGS = (asyncio.CancelledError, TimeoutError, WebSocketDisconnect, RuntimeErr
 POLICY_VIOLATION, TRY_LATER = 1008, 1013
 """Codes with which a WebSocket is closed (RFC 6455, 7.4.1, and IANA's registry)."""
 OLD_PAGE = 4426
-"""Likewise, of those that applications choose: the page is of another version."""
+"""Likewise, of those that applications choose: the page is of another version, or run."""
 CLAIMED_ELSEWHERE: Mapping[Claimed, str] = {
     "taken": "Somebody has the seat {seat} at another page of this run.",
     "claimed": "Somebody else may be about to take the seat {seat} at another page of this run. "
@@ -88,7 +89,7 @@ class _Browser:
         self.is_consent_untold = False
         """True if it is to be told, after what is in `unsent`, to what its person agrees then."""
         self.answered: list[int] = []
-        """Numbers of the answers about consent that were taken in, of which it is not told yet."""
+        """Numbers of the answers about consent that the run has, of which it is not told yet."""
 
     def tell(self, kind: str, what: Any) -> None:
         self.unsent.append(json.dumps({kind: what}))
@@ -146,6 +147,8 @@ class Browsers:
         """Tasks that go on to their end, whatever becomes of the browser that wished them."""
         self._browsers: list[_Browser] = []
         self._empty_since_s: float | None = time.monotonic()
+        self.serving = token_hex(8)
+        """Name of this start of the server, which no other start has."""
 
     @property
     def seats(self) -> tuple[str, ...]:
@@ -176,6 +179,7 @@ class Browsers:
         identity: str = "",
         version: str = "",
         shown_seat: str | None = None,
+        serving: str = "",
     ) -> None:
         """Send the changes to a browser, and do what it wishes, until it leaves.
 
@@ -189,11 +193,17 @@ class Browsers:
             Version of its page, empty if it is none.
         shown_seat
             Seat whose view the page shows already; None: it shows what everybody sees.
+        serving
+            Start of the server from which its page is, empty if it is none.
         """
         await socket.accept()
         if version not in ("", page_version()):
             self._refused("a page of another version")
             await socket.close(OLD_PAGE, "This page is of another version. Load it again.")
+            return
+        if serving not in ("", self.serving):
+            self._refused("a page of another run, or of an earlier start of the server")
+            await socket.close(OLD_PAGE, "The server was started anew. Load the page again.")
             return
         if len(self._browsers) >= MOST_BROWSERS:
             await socket.close(TRY_LATER, f"{MOST_BROWSERS} browsers look already")
@@ -279,7 +289,8 @@ class Browsers:
         elif wish.tune is not None:
             await self._tune(browser, seat, frozenset(wish.tune))
         elif wish.consent is not None:
-            await self._take_consent(browser, seat, wish.consent)
+            taking = self._take_consent(browser, seat, wish.consent)
+            await asyncio.shield(self._to_the_end(taking))
         elif wish.pace is not None:
             await self._set_pace(browser, seat, wish.pace)
 
@@ -331,11 +342,11 @@ class Browsers:
         A call of a person who does not let the voice be used any more ends.
         """
         self._consents.take(seat, given.answer)
-        browser.answered.append(given.number)
-        self._tell_consent(browser)
         if not self._consents.admits_voice(seat):
             await self._release(browser)
         await asyncio.to_thread(self._run.consent, seat, given.answer)
+        browser.answered.append(given.number)
+        self._tell_consent(browser)
 
     def _tell_consent(self, browser: _Browser) -> None:
         """Tell a browser what its person agrees to, as far as this station knows.

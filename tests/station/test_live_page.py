@@ -167,7 +167,7 @@ def test_a_seat_has_one_person_and_what_it_says_is_said(brief_file: Path, tmp_pa
                 assert how_closed(stale) == 4426
                 send(garbage, command=1)
                 assert how_closed(garbage) == 1008
-            send(own, consent={"what": "words", "is_given": True})
+            send(own, consent={"answer": {"what": "words", "is_given": True}})
             send(own, say={"text": "Washington Center, American one two three, hello"})
             send(own, fly={"action": "altitude", "altitude_ft": 34000})
             while selected_altitude_ft(answer(own, "own")) != 34000:
@@ -244,12 +244,12 @@ def test_who_sits_down_before_the_run_knows_that_the_seat_was_left_comes_after_t
         page = SlowPage(endpoint)
         with seat_page(page) as (_, url), listening(url) as first, listening(url) as second:
             assert has_seat(first)
-            send(first, consent={"what": "words", "is_given": True})
+            send(first, consent={"answer": {"what": "words", "is_given": True}})
             send(first, say={"text": "first"})
             send(first, leave="AAL123")
             while not has_seat(second):
                 pass
-            send(second, consent={"what": "words", "is_given": True})
+            send(second, consent={"answer": {"what": "words", "is_given": True}})
             send(second, say={"text": "second"})
             send(second, leave="AAL123")
         page.close()

@@ -64,8 +64,8 @@ def seat(served: tuple[PretendedRun, str]) -> Iterator[tuple[PretendedRun, str]]
         yield served
 
 
-def opened(url: str, version: str = "") -> ClientConnection:
-    place = f"{url.replace('http', 'ws')}api/live?version={version}"
+def opened(url: str, version: str = "", serving: str = "") -> ClientConnection:
+    place = f"{url.replace('http', 'ws')}api/live?version={version}&serving={serving}"
     return connect(place, proxy=None)
 
 
@@ -296,6 +296,18 @@ def test_a_page_of_another_version_is_refused_in_words_and_told(
     assert "refused a page of another version" in run.told
     with opened(url, page_version()) as socket:
         assert next_of(socket, "seats") is not None
+
+
+def test_a_page_of_another_start_of_the_server_is_refused_in_words_and_told(
+    seat: tuple[PretendedRun, str],
+) -> None:
+    """It has what that has numbered, and its person may have answered to another run."""
+    run, url = seat
+    with opened(url, serving="0123456789abcdef") as socket:
+        with pytest.raises(ConnectionClosed):
+            socket.recv(timeout=PATIENCE_S)
+        assert (socket.close_code, "Load the page" in (socket.close_reason or "")) == (4426, True)
+    assert "refused a page of another run, or of an earlier start of the server" in run.told
 
 
 def test_a_situation_that_cannot_be_is_refused_in_words(seat: tuple[PretendedRun, str]) -> None:

@@ -33,11 +33,11 @@ export class Consent {
   #run;
   #live;
   #told = new Set(); // the uses to which the person agrees, as the station told last
-  #denied; // what the person does not agree to, until the station has taken that in; null: nothing
+  #denials; // what is denied at each seat, until the station has taken that in: { what, number, isInDoubt }
   #unheard = []; // answers that the station has not taken in yet: { number, then, lost }
   #number = 0; // of the last answer
-  #asked = null;
-  #next = null; // what is asked once the station has taken in the answer
+  #asked = null; // the question that is there
+  #waiting = []; // what is asked once that is answered
   #pressed = new Set(); // keys that went down while a question was there
   #seat = null;
   #whenTakenBack = () => {};
@@ -46,10 +46,11 @@ export class Consent {
   constructor(run, live) {
     this.#run = run;
     this.#live = live;
-    this.#denied = kept(run);
+    this.#denials = kept(run);
     byId("consent-agree").addEventListener("click", () => this.#answer(true));
     byId("consent-decline").addEventListener("click", () => this.#answer(false));
     byId("consent-back").addEventListener("click", () => this.#takeBack());
+    byId("consent").addEventListener("close", () => this.#askNext());
     for (const type of ["keydown", "keyup"])
       window.addEventListener(type, (event) => this.#key(event), { capture: true });
   }
@@ -64,8 +65,8 @@ export class Consent {
       then(true);
       return;
     }
-    if (this.#unheard.some((one) => one.then)) {
-      this.#next = () => this.ask(what, { isRecorded, then, lost });
+    if (this.#isAsking) {
+      this.#waiting.push(() => this.ask(what, { isRecorded, then, lost }));
       return;
     }
     const { title, agree, decline, text } = QUESTIONS[what];
@@ -80,9 +81,9 @@ export class Consent {
 
   /** Returns true if the person agrees to a use. Who lets the voice be used may type. */
   admits(what) {
-    const denied = this.#isDenied ? this.#denied.what : null;
+    const denied = this.#denial?.what;
     if (denied === "words" || denied === what) return false;
-    return this.#told.has(what) || (what === "words" && this.#told.has("voice"));
+    return this.#told.has(what) || (what === "words" && this.admits("voice"));
   }
 
   /** Calls a function when the person takes consent back, whether the station hears of it or not. */
@@ -95,10 +96,11 @@ export class Consent {
    * it told that last. What it may not know is told again.
    */
   take({ given, answered }) {
-    const heard = this.#unheard.filter(({ number }) => answered.includes(number));
-    this.#unheard = this.#unheard.filter((one) => !heard.includes(one));
+    const isHeard = ({ number }) => answered.includes(number),
+      heard = this.#unheard.filter(isHeard);
+    this.#unheard = this.#unheard.filter((one) => !isHeard(one));
     this.#told = new Set(given);
-    if (answered.includes(this.#denied?.number)) this.#settle();
+    for (const [seat, denial] of this.#denials) if (isHeard(denial)) this.#settle(seat);
     this.#denyAgain();
     this.#draw();
     for (const { then } of heard) then?.();
@@ -118,17 +120,17 @@ export class Consent {
     this.#seat = own;
     this.#told = new Set();
     this.#unheard = [];
-    this.#next = null;
+    this.#waiting = [];
     byId("consent").close();
     this.#draw();
   }
 
   /** Takes in that the run is over: nothing is asked any more, and the station is told nothing. */
   end() {
-    if (this.#denied?.isInDoubt)
-      this.#live.refuse("The run is over. The station may not know that you do not agree.");
-    this.#denied = null;
-    sessionStorage.removeItem(KEPT);
+    if (this.#denials.size)
+      this.#live.refuse("The run is over. It may not know that you did not agree.");
+    this.#denials.clear();
+    this.#keep();
     this.setSeat(this.#seat);
   }
 
@@ -156,40 +158,52 @@ export class Consent {
 
   /** Denies a use from now on, whatever the station knows; who denies words denies all. */
   #deny(what, then, lost = () => {}) {
-    const isAll = what === "words" || (this.#isDenied && this.#denied.what === "words");
-    this.#denied = { run: this.#run.run, seat: this.#seat, what: isAll ? "words" : what };
-    sessionStorage.setItem(KEPT, JSON.stringify(this.#denied)); // A page that is loaded again goes on.
-    this.#sendDenied(then, lost);
+    const before = this.#denial,
+      isAll = what === "words" || before?.what === "words";
+    this.#denials.set(this.#seat, {
+      what: isAll ? "words" : what,
+      isInDoubt: Boolean(before?.isInDoubt),
+    });
+    this.#keep();
+    this.#sendDenial(then, lost);
     this.#draw();
   }
 
   /** Tells the station once more what is denied at the own seat, unless that is on its way. */
   #denyAgain() {
-    const isSent = this.#unheard.some(({ number }) => number === this.#denied?.number);
-    if (this.#isDenied && !isSent) this.#sendDenied();
+    const denial = this.#denial;
+    if (denial && !this.#unheard.some(({ number }) => number === denial.number)) this.#sendDenial();
   }
 
-  #sendDenied(then, lost = () => {}) {
-    const denied = this.#denied;
-    denied.number = this.#number + 1;
-    this.#send({ what: denied.what, is_given: false }, then, () => {
+  #sendDenial(then, lost = () => {}) {
+    const denial = this.#denial;
+    denial.number = this.#number + 1;
+    this.#send({ what: denial.what, is_given: false }, then, () => {
       lost();
-      denied.isInDoubt = true;
+      denial.isInDoubt = true;
       this.#live.refuse(
         "The connection is lost. The station may not know that you do not agree until you are at the seat again.",
       );
     });
   }
 
-  get #isDenied() {
-    return this.#denied !== null && this.#denied.seat === this.#seat;
+  /** What is denied at the own seat. */
+  get #denial() {
+    return this.#denials.get(this.#seat);
   }
 
-  /** Takes in that the station knows what is denied. */
-  #settle() {
-    if (this.#denied.isInDoubt) this.#live.refuse("The station knows now that you did not agree.");
-    this.#denied = null;
-    sessionStorage.removeItem(KEPT);
+  /** Takes in that the station knows what is denied at a seat. */
+  #settle(seat) {
+    if (this.#denials.get(seat).isInDoubt)
+      this.#live.refuse("The station knows now that you did not agree.");
+    this.#denials.delete(seat);
+    this.#keep();
+  }
+
+  /** Keeps what is denied: a page that is loaded again goes on. */
+  #keep() {
+    const denied = [...this.#denials].map(([seat, { what }]) => [seat, what]);
+    sessionStorage.setItem(KEPT, JSON.stringify({ serving: this.#run.serving, denied }));
   }
 
   #send(answer, then, lost) {
@@ -202,15 +216,19 @@ export class Consent {
     byId("consent-back").hidden = !this.admits("words");
   }
 
+  /** True if a question is there, or the station has not taken in the answer. */
+  get #isAsking() {
+    return byId("consent").open || this.#unheard.some(({ then }) => then);
+  }
+
   #askNext() {
-    const next = this.#next;
-    this.#next = null;
-    next?.();
+    while (this.#waiting.length && !this.#isAsking) this.#waiting.shift()();
   }
 }
 
-/** Returns what was denied in a run before its page was loaded again, null for nothing. */
+/** Returns what was denied before the page was loaded again, if its server has not begun anew. */
 function kept(run) {
-  const denied = JSON.parse(sessionStorage.getItem(KEPT));
-  return denied?.run === run.run ? { ...denied, isInDoubt: true } : null;
+  const { serving, denied } = JSON.parse(sessionStorage.getItem(KEPT)) ?? {},
+    own = serving === run.serving ? denied : [];
+  return new Map(own.map(([seat, what]) => [seat, { what, isInDoubt: true }]));
 }

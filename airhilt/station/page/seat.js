@@ -52,11 +52,10 @@ export class Seat {
     });
     byId("say").addEventListener("submit", (event) => {
       event.preventDefault();
-      const text = byId("words").value.trim();
-      if (!text) return;
+      if (!byId("words").value.trim()) return;
       this.#consent.ask("words", {
         then: (isGiven) => {
-          if (isGiven) this.#say(text);
+          if (isGiven) this.#say();
           else this.refuse("Nothing was said.");
         },
         lost: () => this.refuse("Nothing was said: the connection is lost. Say it when it is there again."),
@@ -218,8 +217,11 @@ export class Seat {
     );
   }
 
-  #say(text) {
-    if (byId("words").value.trim() === text) byId("words").value = "";
+  /** Says what is typed; nothing if it has been said meanwhile. */
+  #say() {
+    const text = byId("words").value.trim();
+    if (!text) return;
+    byId("words").value = "";
     this.refuse("");
     this.#live.wish({ say: { text } }, { lost: (wasSent) => this.#takeBack(text, wasSent) });
   }
