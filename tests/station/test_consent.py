@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
+import threading
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -541,6 +543,29 @@ def test_consent_is_taken_back_before_it_is_given_again_over_a_new_connection(
         page.evaluate(clicked("talk-button", "consent-agree"))
         told = [(one.what, one.is_given) for one in (consent(run), consent(run), consent(run))]
         assert told == [("voice", True), ("words", False), ("voice", True)]
+
+
+@pytest.mark.browser
+def test_who_says_no_once_more_hears_that_the_station_knows_it_now(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    take_consent = Browsers._take_consent
+    may_take = threading.Event()
+
+    async def take_late(*given: Any) -> None:
+        await asyncio.to_thread(may_take.wait, PATIENCE_S)
+        await take_consent(*given)
+
+    with at_a_seat_with_consent() as (run, _, page):
+        monkeypatch.setattr(Browsers, "_take_consent", take_late)
+        page.evaluate(CUT)
+        page.click("consent-back")
+        page.wait_for(f"{SEAT_STATE}.includes('may not know')")
+        page.wait_for("document.getElementById('link').hidden")
+        page.evaluate(clicked("talk-button", "consent-decline"))
+        may_take.set()
+        page.wait_for(f"{SEAT_STATE}.includes('knows now')")
+        assert [consent(run).is_given for _ in range(3)] == [True, False, False]
 
 
 @pytest.mark.browser
