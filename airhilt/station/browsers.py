@@ -47,7 +47,7 @@ ENDINGS = (asyncio.CancelledError, TimeoutError, WebSocketDisconnect, RuntimeErr
 POLICY_VIOLATION, TRY_LATER = 1008, 1013
 """Codes with which a WebSocket is closed (RFC 6455, 7.4.1, and IANA's registry)."""
 OLD_PAGE = 4426
-"""Likewise, of those that applications choose: the page is of another version, or run."""
+"""Likewise, of those that applications choose: the page is of another version, or start of it."""
 CLAIMED_ELSEWHERE: Mapping[Claimed, str] = {
     "taken": "Somebody has the seat {seat} at another page of this run.",
     "claimed": "Somebody else may be about to take the seat {seat} at another page of this run. "
@@ -89,7 +89,7 @@ class _Browser:
         self.is_consent_untold = False
         """True if it is to be told, after what is in `unsent`, to what its person agrees then."""
         self.answered: list[int] = []
-        """Numbers of the answers about consent that the run has, of which it is not told yet."""
+        """Numbers of the answers about consent that were passed on, of which it is not told yet."""
 
     def tell(self, kind: str, what: Any) -> None:
         self.unsent.append(json.dumps({kind: what}))
@@ -336,16 +336,16 @@ class Browsers:
 
     # --- voice and words --------------------------------------------------------------------
 
-    async def _take_consent(self, browser: _Browser, seat: str, given: ConsentAnswer) -> None:
+    async def _take_consent(self, browser: _Browser, seat: str, consent: ConsentAnswer) -> None:
         """Keep what a person agrees to while it has the seat, and tell the run.
 
         A call of a person who does not let the voice be used any more ends.
         """
-        self._consents.take(seat, given.answer)
+        self._consents.take(seat, consent.answer)
         if not self._consents.admits_voice(seat):
             await self._release(browser)
-        await asyncio.to_thread(self._run.consent, seat, given.answer)
-        browser.answered.append(given.number)
+        await asyncio.to_thread(self._run.consent, seat, consent.answer)
+        browser.answered.append(consent.number)
         self._tell_consent(browser)
 
     def _tell_consent(self, browser: _Browser) -> None:

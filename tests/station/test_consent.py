@@ -550,9 +550,10 @@ def test_who_says_no_once_more_hears_that_the_station_knows_it_now(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     take_consent = Browsers._take_consent
-    may_take = threading.Event()
+    has_come, may_take = threading.Event(), threading.Event()
 
     async def take_late(*given: Any) -> None:
+        has_come.set()
         await asyncio.to_thread(may_take.wait, PATIENCE_S)
         await take_consent(*given)
 
@@ -561,7 +562,7 @@ def test_who_says_no_once_more_hears_that_the_station_knows_it_now(
         page.evaluate(CUT)
         page.click("consent-back")
         page.wait_for(f"{SEAT_STATE}.includes('may not know')")
-        page.wait_for("document.getElementById('link').hidden")
+        assert has_come.wait(PATIENCE_S)
         page.evaluate(clicked("talk-button", "consent-decline"))
         may_take.set()
         page.wait_for(f"{SEAT_STATE}.includes('knows now')")
@@ -632,6 +633,7 @@ def test_what_was_taken_back_in_one_run_is_not_taken_back_in_another() -> None:
         assert consent(run).is_given
         page.evaluate(f"sessionStorage.setItem('consent-denied', {denied!r})")
         page.open(url, width=1280, height=720)
+        page.wait_for(f"{SEAT_STATE}.includes('does not know that consent was denied at TOWER')")
         page.wait_for("!document.getElementById('talk').hidden")
         page.wait_for("!document.getElementById('consent-back').hidden")
         page.complaints.clear()  # A page that was loaded again plays nothing before a click.
@@ -678,6 +680,29 @@ def test_each_question_comes_after_the_answer_to_the_one_before_and_words_are_sa
         assert told == [("voice", False), ("words", True), ("voice", False)]
         page.wait_for(f"{TALK_STATE} === 'The microphone is closed.'")
         assert run.next() == SpokenWords(text="Ready.")
+        assert run.done.empty()
+
+
+@pytest.mark.browser
+def test_what_is_typed_before_the_station_has_heard_the_answer_is_not_said(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    take_consent = Browsers._take_consent
+    may_take = threading.Event()
+
+    async def take_late(*given: Any) -> None:
+        await asyncio.to_thread(may_take.wait, PATIENCE_S)
+        await take_consent(*given)
+
+    monkeypatch.setattr(Browsers, "_take_consent", take_late)
+    with seat_page() as (run, url), page_with_microphone(*FAKE) as page:
+        sit_down(page, url)
+        want_to_say(page, "Ready.")
+        page.click("consent-agree")
+        page.evaluate("document.getElementById('words').value = 'I think that'")
+        may_take.set()
+        page.wait_for(f"{SEAT_STATE}.includes('has changed')")
+        assert page.evaluate("document.getElementById('words').value") == "I think that"
         assert run.done.empty()
 
 

@@ -270,6 +270,50 @@ def test_a_microphone_that_is_granted_late_does_not_open_for_the_next_person(
 
 
 @pytest.mark.browser
+@pytest.mark.parametrize("is_broken", [True, False], ids=["cannot be", "is being"])
+def test_a_microphone_that_is_granted_and_not_heard_yet_is_closed(
+    seat: tuple[PretendedRun, str], is_broken: bool
+) -> None:
+    """What hears it cannot be read, or is not there when consent is taken back."""
+    _, url = seat
+    reading = "Promise.reject(new Error('no network'))" if is_broken else "new Promise(() => {})"
+    ended = "window.granted.length && window.granted.every((one) => one === 'ended')"
+    with page_with_microphone(*FAKE) as page:
+        sit_down(page, url)
+        page.evaluate(GRANTED)
+        page.evaluate(f"AudioWorklet.prototype.addModule = () => {reading}; window.grant()")
+        page.click("talk-button")
+        page.click("consent-agree")
+        if is_broken:
+            page.wait_for(f"{TALK_STATE}.includes('no network')")
+        else:
+            page.wait_for("window.granted.length")
+            page.click("consent-back")
+        page.wait_for(ended)
+
+
+@pytest.mark.browser
+def test_a_microphone_that_is_denied_late_is_not_told_to_the_next_person(
+    seat: tuple[PretendedRun, str],
+) -> None:
+    _, url = seat
+    with page_with_microphone(*FAKE) as page:
+        sit_down(page, url)
+        page.evaluate("""navigator.mediaDevices.getUserMedia = () => new Promise((_, fail) => {
+            window.deny = () => fail(new DOMException('', 'NotAllowedError'));
+        }); null""")
+        page.click("talk-button")
+        page.click("consent-agree")
+        page.wait_for("Boolean(window.deny)")
+        page.click("seat-take")
+        page.wait_for("document.getElementById('talk').hidden")
+        page.click("seat-take")
+        page.wait_for("!document.getElementById('talk').hidden")
+        page.evaluate("window.deny(); new Promise((done) => setTimeout(done, 100))")
+        assert page.evaluate(TALK_STATE) == ""
+
+
+@pytest.mark.browser
 def test_a_microphone_that_is_granted_late_opens_if_consent_was_taken_back_and_given_again(
     seat: tuple[PretendedRun, str],
 ) -> None:

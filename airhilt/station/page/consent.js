@@ -34,6 +34,7 @@ export class Consent {
   #live;
   #told = new Set(); // the uses to which the person agrees, as the station told last
   #denials; // what is denied at each seat, until the station has taken that in: { what, number, isInDoubt }
+  #unknown; // seats at which something was denied to a server that was started anew since
   #unheard = []; // answers that the station has not taken in yet: { number, then, lost }
   #number = 0; // of the last answer
   #asked = null; // the question that is there
@@ -46,7 +47,12 @@ export class Consent {
   constructor(run, live) {
     this.#run = run;
     this.#live = live;
-    this.#denials = kept(run);
+    const { serving, denied = [] } = JSON.parse(sessionStorage.getItem(KEPT)) ?? {},
+      isKnown = serving === run.serving;
+    this.#unknown = isKnown ? [] : denied.map(([seat]) => seat);
+    this.#denials = new Map(
+      isKnown ? denied.map(([seat, what]) => [seat, { what, isInDoubt: true }]) : [],
+    );
     byId("consent-agree").addEventListener("click", () => this.#answer(true));
     byId("consent-decline").addEventListener("click", () => this.#answer(false));
     byId("consent-back").addEventListener("click", () => this.#takeBack());
@@ -100,6 +106,7 @@ export class Consent {
       heard = this.#unheard.filter(isHeard);
     this.#unheard = this.#unheard.filter((one) => !isHeard(one));
     this.#told = new Set(given);
+    this.#tellUnknown();
     for (const [seat, denial] of this.#denials) if (isHeard(denial)) this.#settle(seat);
     this.#denyAgain();
     this.#draw();
@@ -195,8 +202,18 @@ export class Consent {
   /** Takes in that the station knows what is denied at a seat. */
   #settle(seat) {
     if (this.#denials.get(seat).isInDoubt)
-      this.#live.refuse("The station knows now that you did not agree.");
+      this.#live.refuse(`The station knows now that consent was denied at ${seat}.`);
     this.#denials.delete(seat);
+    this.#keep();
+  }
+
+  /** Tells once what nobody will know. */
+  #tellUnknown() {
+    if (!this.#unknown.length) return;
+    this.#live.refuse(
+      `The server was started anew. It does not know that consent was denied at ${this.#unknown.join(", ")}.`,
+    );
+    this.#unknown = [];
     this.#keep();
   }
 
@@ -224,11 +241,4 @@ export class Consent {
   #askNext() {
     while (this.#waiting.length && !this.#isAsking) this.#waiting.shift()();
   }
-}
-
-/** Returns what was denied before the page was loaded again, if its server has not begun anew. */
-function kept(run) {
-  const { serving, denied } = JSON.parse(sessionStorage.getItem(KEPT)) ?? {},
-    own = serving === run.serving ? denied : [];
-  return new Map(own.map(([seat, what]) => [seat, { what, isInDoubt: true }]));
 }

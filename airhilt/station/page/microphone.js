@@ -75,7 +75,7 @@ export class Microphone {
    */
   shut(why) {
     this.#ended++;
-    if (this.#node) this.#close();
+    this.#close();
     if (why !== undefined) this.#tell(why);
   }
 
@@ -148,34 +148,51 @@ export class Microphone {
       else if (byId("talk-state").textContent === OPENING)
         this.#tell("The microphone was not opened. Try again.");
     } catch (error) {
-      this.#tell(
-        WHY[error.name] ??
-          `The microphone cannot be opened: ${error.message}. Type what you want to say.`,
-      );
+      if (this.#isWanted)
+        this.#tell(
+          WHY[error.name] ??
+            `The microphone cannot be opened: ${error.message}. Type what you want to say.`,
+        );
     }
     this.#isOpening = false;
     this.#draw();
+  }
+
+  /** True if the seat was not left, and consent not taken back, since the microphone was asked for. */
+  get #isWanted() {
+    return this.#ended === this.#endedBefore;
   }
 
   /** Opens the microphone, and returns false if it may not be open any more once it is. */
   async #connect() {
     if (!navigator.mediaDevices) throw new DOMException("not secure", "SecurityError");
     const stream = await navigator.mediaDevices.getUserMedia({ audio: AUDIO });
-    const { context, source } = connected(stream),
-      node = await listening(context);
-    // Who has the seat has not agreed if it was left, or consent taken back, since.
-    if (this.#ended !== this.#endedBefore) {
-      end(stream, context);
+    if (!this.#isWanted) {
+      end(stream);
       return false;
     }
-    node.port.onmessage = ({ data }) => this.#take(data);
-    source.connect(node);
+    this.#stream = stream; // It can be closed from now on.
+    let context;
+    try {
+      const connection = connected(stream);
+      context = connection.context;
+      const node = await listening(context);
+      if (this.#stream !== stream) {
+        context.close();
+        return false;
+      }
+      node.port.onmessage = ({ data }) => this.#take(data);
+      connection.source.connect(node);
+      this.#node = node;
+    } catch (error) {
+      context?.close();
+      this.#close();
+      throw error;
+    }
     stream.getTracks()[0].addEventListener("ended", () => {
       this.#close();
       this.#tell("The microphone is gone. Type what you want to say.");
     });
-    this.#node = node;
-    this.#stream = stream;
     return true;
   }
 
@@ -191,7 +208,7 @@ export class Microphone {
 
   #close() {
     this.release();
-    if (this.#node) end(this.#stream, this.#node.context);
+    if (this.#stream) end(this.#stream, this.#node?.context);
     this.#node = this.#stream = null;
     byId("talk-level").value = 0;
     this.#draw();
@@ -239,5 +256,5 @@ async function listening(context) {
 /** Ends a microphone, so that the browser does not show it as open any more. */
 function end(stream, context) {
   for (const track of stream.getTracks()) track.stop();
-  context.close();
+  context?.close();
 }

@@ -52,10 +52,11 @@ export class Seat {
     });
     byId("say").addEventListener("submit", (event) => {
       event.preventDefault();
-      if (!byId("words").value.trim()) return;
+      const text = byId("words").value.trim();
+      if (!text) return;
       this.#consent.ask("words", {
         then: (isGiven) => {
-          if (isGiven) this.#say();
+          if (isGiven) this.#say(text);
           else this.refuse("Nothing was said.");
         },
         lost: () => this.refuse("Nothing was said: the connection is lost. Say it when it is there again."),
@@ -217,10 +218,13 @@ export class Seat {
     );
   }
 
-  /** Says what is typed; nothing if it has been said meanwhile. */
-  #say() {
-    const text = byId("words").value.trim();
-    if (!text) return;
+  /** Says what was typed, unless that has been said or changed since. */
+  #say(text) {
+    const typed = byId("words").value.trim();
+    if (typed !== text) {
+      if (typed) this.refuse("What you typed has changed before you could say it. Say it again.");
+      return;
+    }
     byId("words").value = "";
     this.refuse("");
     this.#live.wish({ say: { text } }, { lost: (wasSent) => this.#takeBack(text, wasSent) });
