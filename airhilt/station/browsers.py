@@ -47,7 +47,7 @@ ENDINGS = (asyncio.CancelledError, TimeoutError, WebSocketDisconnect, RuntimeErr
 POLICY_VIOLATION, TRY_LATER = 1008, 1013
 """Codes with which a WebSocket is closed (RFC 6455, 7.4.1, and IANA's registry)."""
 OLD_PAGE = 4426
-"""Likewise, of those that applications choose: the page is of another version, or start of it."""
+"""Likewise, of those that applications choose: the page has to be loaded again."""
 CLAIMED_ELSEWHERE: Mapping[Claimed, str] = {
     "taken": "Somebody has the seat {seat} at another page of this run.",
     "claimed": "Somebody else may be about to take the seat {seat} at another page of this run. "

@@ -11,7 +11,7 @@ const RETRY_MS = 1000;
 const SILENT_MS = 4000; // an answer to an echo comes every two seconds
 // Without a message, after which another connection is tried: the server has given this one up.
 const DEAD_MS = 8000;
-const OLD_PAGE = 4426; // code with which the server closes: the page is of another version or start of it
+const OLD_PAGE = 4426; // code with which the server closes: the page has to be loaded again
 const PHASES = {
   waiting: "waiting for the run",
   finished: "finished",
