@@ -9,6 +9,7 @@ from airhilt.record import Run
 from airhilt.report.data import read_run
 from airhilt.report.sections import Content, GuardedContent, Section
 from airhilt.station import advisories, calls, cameras, latencies, redrawing, seat_sounds
+from airhilt.station.kept_pictures import KeptPictures
 from airhilt.station.sounds import Sounds
 from airhilt.text import readable
 
@@ -54,11 +55,12 @@ class Debrief:
         parts = {content.section.name: content.as_json(data) for content in contents}
         notes = [readable(note) for content in contents for note in content.notes]
         self.sounds = Sounds(run, said.frequencies_khz, said.spoken, at_seats.heard)
+        self._kept = KeptPictures(run)
         self._redrawn = redrawing.RedrawnPictures(run.info, states.by_actor())
         shared = data.as_json()
         self.document: Json = {
             **{name: shared[name] for name in SHARED},
-            "notes": [*shared["notes"], *notes],
+            "notes": [*shared["notes"], *notes, *self._kept.notes],
             "folder": str(folder.path),
             "calls": (parts["calls"] or {}).get("calls", []),
             "spoken": (parts["calls"] or {}).get("spoken", []),
@@ -69,17 +71,19 @@ class Debrief:
         }
 
     def camera(self, name: str) -> Json:
-        """Return the pictures of a camera with their boxes.
+        """Return the pictures of a camera with their boxes, and the numbers of those kept.
 
         Raises
         ------
         StationError
             There is no such camera.
         """
-        return self._camera(name).as_json(self._locate)
+        record = self._camera(name)
+        kept = [seq for seq in sorted(record.exposures) if self._kept.has(name, seq)]
+        return {**record.as_json(self._locate), "kept": kept}
 
     def picture(self, name: str, seq: int) -> bytes:
-        """Return a picture of a camera, drawn again, as JPEG.
+        """Return a picture of a camera as JPEG: as it was if the run has kept it, else drawn again.
 
         Raises
         ------
@@ -89,7 +93,7 @@ class Debrief:
         t_ns = self._camera(name).exposures.get(seq)
         if t_ns is None:
             raise StationError(f"camera {name!r}: no picture {seq} in this run")
-        return self._redrawn.jpeg(name, t_ns)
+        return self._kept.jpeg(name, seq) or self._redrawn.jpeg(name, t_ns)
 
     def _camera(self, name: str) -> cameras.CameraRecord:
         record = self._cameras.records.get(name)

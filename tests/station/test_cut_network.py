@@ -80,6 +80,16 @@ def test_who_is_cut_off_for_a_moment_is_told_and_keeps_the_seat(
 
 
 @pytest.mark.slow
+def test_who_has_the_seat_of_a_server_that_has_ended_is_told_that_it_is_gone(page: Page) -> None:
+    with seat_page() as (_, url):
+        sit_down(page, url)
+    page.wait_for(f"{WARNING}.includes('Your seat is kept for 5 s')")
+    page.wait_for(f"{WARNING}.includes('Your seat is given back')")
+    page.open("about:blank")
+    forgive(page)
+
+
+@pytest.mark.slow
 def test_a_call_that_came_while_the_network_was_cut_is_not_played_later(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import shutil
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -86,6 +87,31 @@ def test_a_picture_has_the_boxes_of_the_detector_and_the_true_ones(filmed: Debri
     assert camera["t"] == sorted(camera["t"])
     assert any(found and found["boxes"] for found in camera["found"])
     assert any(there for there in camera["there"])
+
+
+def test_a_picture_that_the_run_has_kept_is_shown_as_it_was(
+    tmp_path: Path, filmed: Debrief
+) -> None:
+    """Unlike that of the start, a smaller JPEG, and one that was changed, which is told."""
+    folder = shutil.copytree(filmed.document["folder"], tmp_path / "run")
+    kept = next((folder / "pictures").glob("first_detection-*.png"))
+    seq = int(kept.stem.split("-")[-1])
+    assert filmed.document["notes"] == []
+    camera = filmed.camera("nose-AAL123")
+    assert camera["kept"] == sorted(
+        {int(path.stem.split("-")[-1]) for path in kept.parent.glob("*-nose-AAL123-*.png")}
+    )
+    with (
+        Image.open(kept) as as_it_was,
+        Image.open(io.BytesIO(filmed.picture("nose-AAL123", seq))) as shown,
+    ):
+        assert shown.size == as_it_was.size
+        assert shown.getpixel((10, 10)) == pytest.approx(as_it_was.getpixel((10, 10)), abs=3)
+    Image.new("RGB", (64, 48)).save(kept)
+    changed = Debrief(open_run(folder))
+    assert f"Damaged: pictures/{kept.name}" in " ".join(changed.document["notes"])
+    assert seq not in changed.camera("nose-AAL123")["kept"]
+    changed.close()
 
 
 @pytest.mark.slow

@@ -11,6 +11,7 @@ import pytest
 
 from airhilt.messages import Severity
 from airhilt.metrics.summary import IsaRating, PersonReaction, PersonSummary, WorkloadSummary
+from camera_run import camera_run
 from devtools import Page
 from stations import viewed
 
@@ -31,6 +32,12 @@ def airport_url(airport_run: Path) -> Iterator[str]:
         yield url
 
 
+@pytest.fixture(scope="module")
+def filmed_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    with pytest.MonkeyPatch.context() as patch:
+        return camera_run(tmp_path_factory.mktemp("filmed") / "run", patch).folder
+
+
 def opened(page: Page, url: str, **how: Any) -> Page:
     page.open(url, **how)
     page.wait_for("document.body.dataset.ready")
@@ -46,6 +53,51 @@ def set_time(page: Page, t: float) -> None:
         f"(() => {{ const slider = document.getElementById('slider'); slider.value = {t};"
         "slider.dispatchEvent(new Event('input')); })()"
     )
+
+
+DRAWN_LINES = """(() => {
+    const stroke = CanvasRenderingContext2D.prototype.stroke;
+    window.drawn = [];
+    CanvasRenderingContext2D.prototype.stroke = function (...given) {
+        window.drawn.push([this.strokeStyle, this.getLineDash().length > 0]);
+        return stroke.apply(this, given);
+    };
+})()"""
+"""Notes the colour of each line on the plan, and if it is dashed."""
+INK = """import(new URL('page/dom.js', location)).then(({{ colour }}) => {{
+    const pen = document.createElement('canvas').getContext('2d');
+    pen.strokeStyle = colour({!r});
+    return pen.strokeStyle;
+}})"""
+"""A colour of the page, as a canvas names it."""
+
+
+def test_a_picture_that_was_kept_has_its_boxes_and_the_plan_its_bearings(
+    page: Page, filmed_run: Path
+) -> None:
+    """Whatever can be drawn again on this machine."""
+    kept = next((filmed_run / "pictures").glob("first_detection-*.png"))
+    camera, seq = kept.stem.removeprefix("first_detection-").rsplit("-", 1)
+    with viewed(filmed_run) as url:
+        opened(page, url)
+        record = page.evaluate(f"fetch('api/cameras/{camera}').then((answer) => answer.json())")
+        i = record["seq"].index(int(seq))
+        boxes = record["found"][i]["boxes"]
+        page.evaluate(f"document.getElementById('camera').value = {camera!r}")
+        page.evaluate("document.getElementById('camera').dispatchEvent(new Event('change'))")
+        set_time(page, record["t"][i])
+        page.wait_for("document.getElementById('camera-caption').textContent.includes('as it was')")
+        drawn = page.evaluate(
+            "[...document.querySelectorAll('#camera-boxes text')].map((one) => one.textContent)"
+        )
+        assert drawn == [f"{one['label']} {one['confidence']:.2f}" for one in boxes]
+        page.evaluate(DRAWN_LINES)
+        set_time(page, record["t"][i] + 0.01)
+        page.wait_for("window.drawn.length > 0")
+        lines = page.evaluate("window.drawn")
+        inks = {name: page.evaluate(INK.format(name)) for name in ("--accent", "--warn")}
+        assert [inks["--accent"], True] in lines  # The field of view.
+        assert lines.count([inks["--warn"], False]) >= len(boxes)  # The bearings.
 
 
 @pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])

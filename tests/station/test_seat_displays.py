@@ -483,11 +483,14 @@ def test_words_that_were_lost_come_before_those_that_are_typed_meanwhile(
     page: Page, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     words = "document.getElementById('words').value"
-    with seated(page, "TOWER") as run, lost_at("say", monkeypatch):
-        page.evaluate(f"{words} = 'American 123, hold.'; {SAY}; {words} = 'Delta 45'")
-        page.wait_for(f"{words} !== 'Delta 45'")
-        assert page.evaluate(words) == "American 123, hold. Delta 45"
-        assert run.done.empty()
+    with seated(page, "TOWER") as run:
+        page.evaluate(f"{words} = 'Delta 45.'; {SAY}")
+        assert run.next() == SpokenWords(text="Delta 45.")
+        with lost_at("say", monkeypatch):
+            page.evaluate(f"{words} = 'American 123, hold.'; {SAY}; {words} = 'Delta 45'")
+            page.wait_for(f"{words} !== 'Delta 45'")
+            assert page.evaluate(words) == "American 123, hold. Delta 45"
+            assert run.done.empty()
 
 
 def test_a_person_is_told_by_how_much_the_run_is_behind_the_clock(page: Page) -> None:

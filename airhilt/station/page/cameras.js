@@ -1,5 +1,5 @@
-// The picture of a camera at the time shown, drawn again by the server, with the boxes of a
-// detector.
+// The picture of a camera at the time shown, as the run has kept it or drawn again by the server,
+// with the boxes of a detector.
 
 import { keepNewest } from "./bounds.js";
 import { byId, html, svg } from "./dom.js";
@@ -139,10 +139,11 @@ export class Cameras {
   /** Shows the newest picture at the time shown; while one is on its way, none is asked for. */
   draw() {
     const record = this.#camera && this.#records.get(this.#camera.name);
-    if (!record?.seq.length || this.#failure) return;
+    if (!record?.seq.length) return;
     const i = before(record.t, this.#clock.t);
     this.#point(record, i);
-    this.#load(record, i);
+    if (this.#failure && !isKept(record, i)) this.#fail(this.#failure);
+    else this.#load(record, i);
   }
 
   /** Shows on the plan where the camera looks. */
@@ -167,7 +168,7 @@ export class Cameras {
       wanted = `${name}/${record.seq[i]}`;
     if (this.#isLoading || wanted === this.#shown) return;
     this.#isLoading = true;
-    if (!this.#shown && !this.#clock.live)
+    if (!this.#shown && !this.#clock.live && !isKept(record, i))
       byId("camera-none").textContent = "Drawing the first picture. That takes some seconds.";
     const arrived = new Image();
     arrived.onload = () => {
@@ -199,6 +200,7 @@ export class Cameras {
 
   #fail(text) {
     this.#failure = text;
+    this.#shown = "";
     this.#image.hidden = true;
     this.#boxes.replaceChildren();
     byId("camera-none").textContent = text;
@@ -221,8 +223,9 @@ export class Cameras {
     const seen = found
       ? `${counted(found.boxes.length, "detection")} after ${seconds(found.t - record.t[i], 2)}`
       : "no detector looked at it";
+    const origin = isKept(record, i) ? "as it was" : "drawn again from the log";
     byId("camera-caption").textContent =
-      `Picture ${record.seq[i]} at ${seconds(record.t[i], 2)}, ${this.#clock.live ? "" : "drawn again from the log; "}${seen}`;
+      `Picture ${record.seq[i]} at ${seconds(record.t[i], 2)}, ${this.#clock.live ? "" : `${origin}; `}${seen}`;
   }
 
   #box([left, top, right, bottom], ink, text, dashed, wide) {
@@ -248,4 +251,9 @@ export class Cameras {
       ),
     );
   }
+}
+
+/** Returns true if a run has kept a picture: it need not be drawn again. */
+function isKept(record, i) {
+  return record.kept?.includes(record.seq[i]) ?? false;
 }

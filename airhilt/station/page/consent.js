@@ -38,7 +38,7 @@ export class Consent {
   #unheard = []; // answers that the station has not taken in yet: { number, then, lost }
   #number = 0; // of the last answer
   #asked = null; // the question that is there
-  #waiting = []; // what is asked once that is answered
+  #waiting = new Map(); // what is asked once that is answered, by use
   #pressed = new Set(); // keys that went down while a question was there
   #seat = null;
   #whenTakenBack = () => {};
@@ -72,7 +72,7 @@ export class Consent {
       return;
     }
     if (this.#isAsking) {
-      this.#waiting.push(() => this.ask(what, { isRecorded, then, lost }));
+      this.#waiting.set(what, () => this.ask(what, { isRecorded, then, lost }));
       return;
     }
     const { title, agree, decline, text } = QUESTIONS[what];
@@ -127,7 +127,7 @@ export class Consent {
     this.#seat = own;
     this.#told = new Set();
     this.#unheard = [];
-    this.#waiting = [];
+    this.#waiting.clear();
     byId("consent").close();
     this.#draw();
   }
@@ -239,6 +239,10 @@ export class Consent {
   }
 
   #askNext() {
-    while (this.#waiting.length && !this.#isAsking) this.#waiting.shift()();
+    while (this.#waiting.size && !this.#isAsking) {
+      const [[what, ask]] = this.#waiting;
+      this.#waiting.delete(what);
+      ask();
+    }
   }
 }

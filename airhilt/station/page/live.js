@@ -11,6 +11,7 @@ const RETRY_MS = 1000;
 const SILENT_MS = 4000; // an answer to an echo comes every two seconds
 // Without a message, after which another connection is tried: the server has given this one up.
 const DEAD_MS = 8000;
+const HOLD_MS = 5000; // for which the server keeps a seat whose connection is lost
 const OLD_PAGE = 4426; // code with which the server closes: the page has to be loaded again
 const PHASES = {
   waiting: "waiting for the run",
@@ -48,6 +49,7 @@ export class Live {
   #lag;
   #seen = 0;
   #shown = null; // the seat whose view is shown; null: what everybody sees
+  #lostAt = null; // when the connection was lost, if it is
   #heard = 0; // when the last message came
   #isSilent = false;
   #wishes = new Wishes((message) => this.send(message));
@@ -85,6 +87,7 @@ export class Live {
     this.#socket = new WebSocket(url);
     this.#heard = performance.now();
     this.#socket.onopen = () => {
+      this.#lostAt = null;
       this.#heard = performance.now();
       this.#tell();
       this.watch(this.#watched);
@@ -100,6 +103,7 @@ export class Live {
     this.#socket.onclose = (event) => {
       this.#panes.talk.lost();
       this.#lose();
+      this.#lostAt ??= performance.now();
       if (this.#run.isOver) {
         this.#tell();
         return;
@@ -108,7 +112,7 @@ export class Live {
       this.#warn(
         event.reason ||
           (this.#panes.seat.own
-            ? "Connection lost, trying again. Your seat is kept for 5 s; then its script goes on."
+            ? `Connection lost, trying again. ${this.#seatMeanwhile}`
             : "Connection lost, trying again."),
         isOld,
       );
@@ -125,6 +129,13 @@ export class Live {
     if (!this.#socket) return;
     this.#socket.onopen = this.#socket.onmessage = this.#socket.onclose = null;
     this.#socket.close();
+  }
+
+  /** What becomes of the own seat while the connection is lost. */
+  get #seatMeanwhile() {
+    return performance.now() - this.#lostAt < HOLD_MS
+      ? "Your seat is kept for 5 s; then its script goes on."
+      : "Your seat is given back, and its script goes on. If the server of this page has ended, it does not come back by itself.";
   }
 
   /** Tells of what the station may not have heard, because nothing more comes over a connection. */

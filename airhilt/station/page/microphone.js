@@ -24,10 +24,8 @@ export class Microphone {
   #info = null;
   #node = null;
   #stream = null;
-  #isOpening = false;
+  #opening = null; // the attempt to open it that goes on
   #held = false;
-  #ended = 0; // number of times that consent to the voice has ended
-  #endedBefore = 0; // that number when the person asked last for the microphone
 
   /**
    * `link` has send(wish), sendSound(buffer), unsent(), isThere(), frequency(), consent, and
@@ -73,10 +71,10 @@ export class Microphone {
    * Closes the microphone of a person who does not let the voice be used, also if it opens now;
    * `why` is told.
    */
-  shut(why) {
-    this.#ended++;
+  shut(why = this.#opening && "The microphone was not opened. Try again.") {
+    this.#opening = null;
     this.#close();
-    if (why !== undefined) this.#tell(why);
+    if (why !== null) this.#tell(why);
   }
 
   /** Begins to transmit. */
@@ -139,61 +137,52 @@ export class Microphone {
   }
 
   async #open() {
-    this.#endedBefore = this.#ended;
     this.#tell(OPENING);
-    if (this.#isOpening) return;
-    this.#isOpening = true;
+    if (this.#opening) return;
+    const attempt = (this.#opening = {});
+    let told = "";
     try {
-      if (await this.#connect()) this.#tell("");
-      else if (byId("talk-state").textContent === OPENING)
-        this.#tell("The microphone was not opened. Try again.");
+      await this.#connect(attempt);
     } catch (error) {
-      if (this.#isWanted)
-        this.#tell(
-          WHY[error.name] ??
-            `The microphone cannot be opened: ${error.message}. Type what you want to say.`,
-        );
+      told =
+        WHY[error.name] ??
+        `The microphone cannot be opened: ${error.message}. Type what you want to say.`;
     }
-    this.#isOpening = false;
+    if (this.#opening !== attempt) return; // What has become of it was told then.
+    this.#opening = null;
+    this.#tell(told);
     this.#draw();
   }
 
-  /** True if the seat was not left, and consent not taken back, since the microphone was asked for. */
-  get #isWanted() {
-    return this.#ended === this.#endedBefore;
-  }
-
-  /** Opens the microphone, and returns false if it may not be open any more once it is. */
-  async #connect() {
+  /** Opens the microphone, unless the attempt is ended before it is open. */
+  async #connect(attempt) {
     if (!navigator.mediaDevices) throw new DOMException("not secure", "SecurityError");
     const stream = await navigator.mediaDevices.getUserMedia({ audio: AUDIO });
-    if (!this.#isWanted) {
+    if (this.#opening !== attempt) {
       end(stream);
-      return false;
+      return;
     }
     this.#stream = stream; // It can be closed from now on.
+    stream
+      .getTracks()[0]
+      .addEventListener("ended", () => this.shut("The microphone is gone. Type what you want to say."));
     let context;
     try {
       const connection = connected(stream);
       context = connection.context;
       const node = await listening(context);
-      if (this.#stream !== stream) {
+      if (this.#opening !== attempt) {
         context.close();
-        return false;
+        return;
       }
       node.port.onmessage = ({ data }) => this.#take(data);
       connection.source.connect(node);
       this.#node = node;
     } catch (error) {
       context?.close();
-      this.#close();
+      if (this.#opening === attempt) this.#close();
       throw error;
     }
-    stream.getTracks()[0].addEventListener("ended", () => {
-      this.#close();
-      this.#tell("The microphone is gone. Type what you want to say.");
-    });
-    return true;
   }
 
   #take({ pcm, level, isOver }) {
