@@ -16,6 +16,7 @@
     python tools/bench.py page              frames a second of the page that follows 20 aircraft
     python tools/bench.py seat              the page of a controller beside 20 aircraft: frames
     python tools/bench.py seat --minutes 120    and memory of run, server and page each minute
+    python tools/bench.py seat --sound --camera     with speech, a microphone and a tower camera
     python tools/bench.py soak              two simulated hours with speech: memory, time
     python tools/bench.py sweep             overhead of a sweep, gain of a second worker
     python tools/bench.py startup           from the command to the first simulated second
@@ -69,6 +70,8 @@ def main() -> None:
     parser.add_argument("--bluesky-python", default="python3", metavar="PYTHON")
     parser.add_argument("--seeds", type=int, default=20, help="seeds of each procedure")
     parser.add_argument("--minutes", type=_minutes, default=1.0, help="time at the seat")
+    parser.add_argument("--sound", action="store_true", help="speech and a microphone at the seat")
+    parser.add_argument("--camera", action="store_true", help="pictures of a tower at the seat")
     given = parser.parse_args()
     if given.name == "procedures":
         from benchmarks.procedures import rows
@@ -78,7 +81,9 @@ def main() -> None:
     if given.name == "seat":
         from benchmarks.seat import looks
 
-        print_rows(looks(given.minutes), as_json=given.json)
+        print_rows(
+            looks(given.minutes, has_sound=given.sound, has_camera=given.camera), as_json=given.json
+        )
         return
     numbers = measured(given.name, given.bluesky_python)
     if given.json:

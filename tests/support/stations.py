@@ -116,11 +116,12 @@ def _served(*command: str) -> Iterator[str]:
 
 @contextmanager
 def running(
-    encounter_file: Path, out: Path, *options: str
+    encounter_file: Path, out: Path, *options: str, speech: bool = False
 ) -> Iterator[tuple[subprocess.Popen[str], str]]:
     """Start a run with its page; yield its process and the URL, and interrupt what goes on."""
     command = [sys.executable, "-m", "airhilt", "cosim", "--scenario", str(encounter_file)]
-    command += ["--view", "--no-browser", "--port", "0", "--pace", "realtime", "--no-speech"]
+    command += ["--view", "--no-browser", "--port", "0", "--pace", "realtime"]
+    command += [] if speech else ["--no-speech"]
     command += ["--latency", "fixed", "--out", str(out), *options]
     process = subprocess.Popen(
         command, stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True

@@ -14,6 +14,7 @@ from typing import NamedTuple
 
 import psutil
 
+from airhilt import load
 from airhilt.scenario import Scenario
 from benchmarks.page import COUNTED, SETTLING_S, chromium_process, cpu_s, pause
 from benchmarks.soak import soak_scenario
@@ -21,6 +22,7 @@ from benchmarks.soak import soak_scenario
 sys.path.append(str(Path(__file__).parents[2] / "tests" / "support"))
 
 from devtools import BROWSERS, Page, browser_page
+from microphone import FAKE, open_microphone
 from stations import running
 
 AIRCRAFT = 20
@@ -46,8 +48,12 @@ class Look(NamedTuple):
     page_heap_mb: float
 
 
-def looks(minutes: float) -> Iterator[Look]:
-    """Sit at the seat for some minutes, and look at most once a minute."""
+def looks(minutes: float, *, has_sound: bool, has_camera: bool) -> Iterator[Look]:
+    """Sit at the seat for some minutes, and look at most once a minute.
+
+    With sound, calls are spoken, recognised and heard at the seat, whose microphone is open. With
+    a camera, the pictures of a tower are drawn, looked at by the detector, and shown.
+    """
     executable = next((found for name in BROWSERS if (found := shutil.which(name))), None)
     if executable is None:
         sys.exit("no Chromium on PATH: apt-get install chromium")
@@ -56,17 +62,22 @@ def looks(minutes: float) -> Iterator[Look]:
     with tempfile.TemporaryDirectory() as scratch:
         file = Path(scratch) / "sector.json"
         duration_s = count * 2.0 * period_s + 300.0  # Looks take time, too.
-        file.write_text(sector_scenario(duration_s).model_dump_json())
+        file.write_text(sector_scenario(duration_s, has_camera=has_camera).model_dump_json())
         with (
-            running(file, Path(scratch) / "run", "--seat", "tower") as (process, url),
-            browser_page(executable) as browser,
+            running(file, Path(scratch) / "run", "--seat", "tower", speech=has_sound) as run,
+            browser_page(executable, *FAKE) as browser,
         ):
+            process, url = run
             browser.call("Page.addScriptToEvaluateOnNewDocument", source=COUNTED)
             browser.open(url, width=1280, height=720)
             browser.wait_for("document.getElementById('state').textContent.startsWith('running')")
             browser.click("seat-take")
             browser.wait_for("document.body.dataset.seat === 'controller'")
             browser.wait_for(f"document.querySelectorAll('.flight-strip').length >= {AIRCRAFT}")
+            if has_sound:
+                open_microphone(browser)
+            if has_camera:
+                browser.wait_for("document.getElementById('camera-image').src")
             pause(browser, SETTLING_S)
             for number in range(1, count + 1):
                 yield _look(browser, psutil.Process(process.pid), period_s, number)
@@ -107,7 +118,7 @@ def _held_mb(process: psutil.Process) -> float:
     return float(process.memory_info().rss) / 1e6
 
 
-def sector_scenario(duration_s: float) -> Scenario:
+def sector_scenario(duration_s: float, *, has_camera: bool = False) -> Scenario:
     """Return aircraft that fly to and fro on five levels, one of which calls again and again."""
     document = soak_scenario(duration_s).model_dump(mode="json")
     first = document["actors"][0]
@@ -126,7 +137,10 @@ def sector_scenario(duration_s: float) -> Scenario:
         }
         for index in range(AIRCRAFT)
     ]
-    return Scenario.model_validate(document | {"name": "sector", "title": "A busy sector"})
+    tower = load("s01b_nominal").model_dump(mode="json")["cameras"][1:] if has_camera else []
+    return Scenario.model_validate(
+        document | {"name": "sector", "title": "A busy sector", "cameras": tower}
+    )
 
 
 def _from_centre(bearing_deg: float, distance_nm: float) -> dict[str, object]:
