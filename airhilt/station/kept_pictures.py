@@ -1,8 +1,9 @@
-"""The pictures of cameras that a run has kept in its folder, as they were."""
+"""The pictures of cameras that a run has kept in its folder."""
 
 from __future__ import annotations
 
 import io
+from itertools import islice
 
 from PIL import Image
 
@@ -11,6 +12,11 @@ from airhilt.record.pictures import PictureName
 from airhilt.record.run import result_problem
 from airhilt.station.pictures import encoded
 from airhilt.text import readable
+
+MOST = 12
+"""Number of pictures that are read; a run keeps three of full size."""
+DAMAGED = (OSError, SyntaxError, ValueError, Image.DecompressionBombError)
+"""Exceptions of Pillow where a file is no picture."""
 
 
 class KeptPictures:
@@ -30,19 +36,22 @@ class KeptPictures:
     def __init__(self, run: Run) -> None:
         self.notes: list[str] = []
         self._jpegs: dict[tuple[str, int], bytes] = {}
-        for path in sorted(run.folder.pictures_path.glob("*")):
-            name = PictureName.of(path)
-            if name is None or name.occasion == "start":  # Those of the start are smaller.
-                continue
+        named = map(PictureName.of, sorted(run.folder.pictures_path.glob("*.png")))
+        for name in islice(filter(None, named), MOST):
+            path = name.path(run.folder.pictures_path)
             try:
                 with run.folder.open_file(path) as stream:
                     problem = result_problem(run.folder, run.info, path)
-                    if not problem:
-                        self._jpegs[name.camera, name.seq] = _as_jpeg(stream.read())
-            except (OSError, Image.DecompressionBombError) as error:
-                problem = f"{path.name}: {error}"
+                    content = b"" if problem else stream.read()
+            except OSError as error:
+                problem = f"pictures/{path.name}: {error.strerror}"
+            if not problem:
+                try:
+                    self._jpegs[name.camera, name.seq] = _as_jpeg(content)
+                except DAMAGED:
+                    problem = f"pictures/{path.name}: cannot be read as a picture"
             if problem:
-                self.notes.append(f"Damaged: {readable(problem)}. It is drawn again.")
+                self.notes.append(f"Damaged: {readable(problem)}. It is not used.")
 
     def has(self, camera: str, seq: int) -> bool:
         """Return true if a picture was kept."""
@@ -54,4 +63,4 @@ class KeptPictures:
 
 
 def _as_jpeg(content: bytes) -> bytes:
-    return encoded(Image.open(io.BytesIO(content)).convert("RGB"))
+    return encoded(Image.open(io.BytesIO(content), formats=["PNG"]).convert("RGB"))

@@ -5,6 +5,8 @@ from __future__ import annotations
 import io
 import json
 import shutil
+import struct
+import zlib
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -14,10 +16,12 @@ from PIL import Image
 
 from airhilt.audio.wav import read_wav
 from airhilt.errors import AirhiltError, StationError
-from airhilt.record import open_run
+from airhilt.record import Run, open_run
 from airhilt.record.frequency import read_frequency
+from airhilt.record.pictures import PictureName
 from airhilt.station.app import debrief_app
 from airhilt.station.debrief import Debrief
+from airhilt.station.kept_pictures import KeptPictures
 from camera_run import camera_run
 from stations import asked
 
@@ -89,29 +93,85 @@ def test_a_picture_has_the_boxes_of_the_detector_and_the_true_ones(filmed: Debri
     assert any(there for there in camera["there"])
 
 
+def first_detection(folder: Path) -> tuple[Path, PictureName]:
+    path = next((folder / "pictures").glob("first_detection-*.png"))
+    name = PictureName.of(path)
+    assert name is not None
+    return path, name
+
+
+def without_manifest(folder: Path) -> Run:
+    """Open a run as one that was killed, which has no record of its pictures."""
+    run = open_run(folder)
+    run.info = run.info.model_copy(update={"files": {}, "digest": ""})
+    return run
+
+
 def test_a_picture_that_the_run_has_kept_is_shown_as_it_was(
     tmp_path: Path, filmed: Debrief
 ) -> None:
-    """Unlike that of the start, a smaller JPEG, and one that was changed, which is told."""
-    folder = shutil.copytree(filmed.document["folder"], tmp_path / "run")
-    kept = next((folder / "pictures").glob("first_detection-*.png"))
-    seq = int(kept.stem.split("-")[-1])
-    assert filmed.document["notes"] == []
-    camera = filmed.camera("nose-AAL123")
-    assert camera["kept"] == sorted(
-        {int(path.stem.split("-")[-1]) for path in kept.parent.glob("*-nose-AAL123-*.png")}
+    folder = Path(shutil.copytree(filmed.document["folder"], tmp_path / "run"))
+    path, kept = first_detection(folder)
+    ramp = np.mgrid[0:360, 0:640].sum(axis=0) / 4.0
+    colours = np.stack([ramp, 255.0 - ramp, ramp / 2.0], axis=-1).astype(np.uint8)
+    Image.fromarray(colours).save(path)
+    debrief = Debrief(without_manifest(folder))
+    shown = np.asarray(Image.open(io.BytesIO(debrief.picture(kept.camera, kept.seq))))
+    assert np.abs(shown.astype(float) - colours).mean() < 3.0
+    of_camera = [PictureName.of(one) for one in path.parent.glob("*.png")]
+    assert debrief.camera(kept.camera)["kept"] == sorted(
+        {one.seq for one in of_camera if one is not None and one.camera == kept.camera}
     )
-    with (
-        Image.open(kept) as as_it_was,
-        Image.open(io.BytesIO(filmed.picture("nose-AAL123", seq))) as shown,
-    ):
-        assert shown.size == as_it_was.size
-        assert shown.getpixel((10, 10)) == pytest.approx(as_it_was.getpixel((10, 10)), abs=3)
-    Image.new("RGB", (64, 48)).save(kept)
-    changed = Debrief(open_run(folder))
-    assert f"Damaged: pictures/{kept.name}" in " ".join(changed.document["notes"])
-    assert seq not in changed.camera("nose-AAL123")["kept"]
-    changed.close()
+    debrief.close()
+
+
+def test_a_picture_that_was_changed_is_told_and_not_used(tmp_path: Path, filmed: Debrief) -> None:
+    folder = Path(shutil.copytree(filmed.document["folder"], tmp_path / "run"))
+    path, kept = first_detection(folder)
+    assert filmed.document["notes"] == []
+    assert kept.seq in filmed.camera(kept.camera)["kept"]
+    Image.new("RGB", (64, 48)).save(path)
+    debrief = Debrief(open_run(folder))
+    assert f"Damaged: pictures/{path.name}" in " ".join(debrief.document["notes"])
+    assert kept.seq not in debrief.camera(kept.camera)["kept"]
+    debrief.close()
+
+
+def png(*chunks: tuple[bytes, bytes]) -> bytes:
+    written = (
+        struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+        for kind, data in chunks
+    )
+    return b"\x89PNG\r\n\x1a\n" + b"".join(written)
+
+
+HEADER = (b"IHDR", struct.pack(">IIBBBBB", 8, 8, 8, 2, 0, 0, 0))
+PIXELS = (b"IDAT", zlib.compress(bytes(8 * 25)))
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"",
+        b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 8 8\n",
+        png(HEADER, (b"IDAT", b"no pixels")),
+        png(HEADER, (b"pHYs", b"1"), PIXELS),
+        png((b"IHDR", struct.pack(">IIBBBBB", 2**20, 2**20, 8, 2, 0, 0, 0)), PIXELS),
+        png(HEADER, (b"zTXt", b"text\0\0" + zlib.compress(bytes(2**22))), PIXELS),
+    ],
+    ids=["nothing", "PostScript", "damaged", "short chunk", "huge", "huge text"],
+)
+def test_what_is_no_picture_is_told_and_not_used(
+    tmp_path: Path, filmed: Debrief, content: bytes
+) -> None:
+    folder = Path(shutil.copytree(filmed.document["folder"], tmp_path / "run"))
+    path, kept = first_detection(folder)
+    path.write_bytes(content)
+    pictures = KeptPictures(without_manifest(folder))
+    assert pictures.notes == [
+        f"Damaged: pictures/{path.name}: cannot be read as a picture. It is not used."
+    ]
+    assert not pictures.has(kept.camera, kept.seq)
 
 
 @pytest.mark.slow

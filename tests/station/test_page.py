@@ -83,6 +83,7 @@ def test_a_picture_that_was_kept_has_its_boxes_and_the_plan_its_bearings(
         record = page.evaluate(f"fetch('api/cameras/{camera}').then((answer) => answer.json())")
         i = record["seq"].index(int(seq))
         boxes = record["found"][i]["boxes"]
+        assert boxes
         page.evaluate(f"document.getElementById('camera').value = {camera!r}")
         page.evaluate("document.getElementById('camera').dispatchEvent(new Event('change'))")
         set_time(page, record["t"][i])
@@ -96,8 +97,8 @@ def test_a_picture_that_was_kept_has_its_boxes_and_the_plan_its_bearings(
         page.wait_for("window.drawn.length > 0")
         lines = page.evaluate("window.drawn")
         inks = {name: page.evaluate(INK.format(name)) for name in ("--accent", "--warn")}
-        assert [inks["--accent"], True] in lines  # The field of view.
-        assert lines.count([inks["--warn"], False]) >= len(boxes)  # The bearings.
+        after = lines[lines.index([inks["--accent"], True]) + 1 :]  # After the field of view.
+        assert after[: len(boxes) + 1].count([inks["--warn"], False]) == len(boxes)
 
 
 @pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])

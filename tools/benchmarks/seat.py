@@ -22,7 +22,7 @@ from benchmarks.soak import soak_scenario
 sys.path.append(str(Path(__file__).parents[2] / "tests" / "support"))
 
 from devtools import BROWSERS, Page, browser_page
-from microphone import FAKE, open_microphone
+from microphone import BUTTON, FAKE, TALK_STATE, open_microphone
 from stations import running
 
 AIRCRAFT = 20
@@ -76,6 +76,8 @@ def looks(minutes: float, *, has_sound: bool, has_camera: bool) -> Iterator[Look
             browser.wait_for(f"document.querySelectorAll('.flight-strip').length >= {AIRCRAFT}")
             if has_sound:
                 open_microphone(browser)
+                if browser.evaluate(BUTTON) != "Hold to talk":
+                    sys.exit(f"no microphone: {browser.evaluate(TALK_STATE)}")
             if has_camera:
                 browser.wait_for("document.getElementById('camera-image').src")
             pause(browser, SETTLING_S)
@@ -137,9 +139,10 @@ def sector_scenario(duration_s: float, *, has_camera: bool = False) -> Scenario:
         }
         for index in range(AIRCRAFT)
     ]
-    tower = load("s01b_nominal").model_dump(mode="json")["cameras"][1:] if has_camera else []
+    at_tower = [one for one in load("s01b_nominal").cameras if one.name == "delta_tower"]
+    cameras = [one.model_dump(mode="json") for one in at_tower] if has_camera else []
     return Scenario.model_validate(
-        document | {"name": "sector", "title": "A busy sector", "cameras": tower}
+        document | {"name": "sector", "title": "A busy sector", "cameras": cameras}
     )
 
 

@@ -26,7 +26,8 @@ export class Cameras {
   #shown = "";
   #carrier = undefined;
   #isLoading = false;
-  #failure = "";
+  #failure = ""; // why no picture can be drawn here
+  #missing = ""; // the picture that did not come, and is not asked for once more
 
   /** `watch(name)` lets the pictures of a camera of a live run come. */
   constructor(run, clock, plan, watch) {
@@ -123,15 +124,16 @@ export class Cameras {
     byId("picture").style.aspectRatio = `${width} / ${height}`;
     this.#boxes.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.#shown = "";
-    this.#failure = "";
+    this.#failure = this.#missing = "";
     if (this.#clock.live) this.#watch(name);
     else if (!this.#records.has(name)) {
       const answer = await fetch(`api/cameras/${encodeURIComponent(name)}`);
+      const content = await answer.json();
       if (!answer.ok) {
-        this.#fail((await answer.json()).error);
+        if (this.#camera?.name === name) this.#hide(content.error);
         return;
       }
-      this.#records.set(name, await answer.json());
+      this.#records.set(name, content);
     }
     if (this.#camera?.name === name) this.draw();
   }
@@ -142,7 +144,7 @@ export class Cameras {
     if (!record?.seq.length) return;
     const i = before(record.t, this.#clock.t);
     this.#point(record, i);
-    if (this.#failure && !isKept(record, i)) this.#fail(this.#failure);
+    if (this.#failure && !isKept(record, i)) this.#hide(this.#failure);
     else this.#load(record, i);
   }
 
@@ -166,7 +168,7 @@ export class Cameras {
   #load(record, i) {
     const { name } = this.#camera,
       wanted = `${name}/${record.seq[i]}`;
-    if (this.#isLoading || wanted === this.#shown) return;
+    if (this.#isLoading || wanted === this.#shown || wanted === this.#missing) return;
     this.#isLoading = true;
     if (!this.#shown && !this.#clock.live && !isKept(record, i))
       byId("camera-none").textContent = "Drawing the first picture. That takes some seconds.";
@@ -179,30 +181,36 @@ export class Cameras {
         this.#image.hidden = false;
         byId("camera-none").textContent = "";
         this.#shown = wanted;
+        this.#missing = "";
         this.#drawBoxes(record, i);
       }
       this.draw();
     };
     arrived.onerror = async () => {
-      this.#isLoading = false;
-      if (this.#clock.live) {
-        return;
-      } // an old one, which is not kept
-      const answer = await fetch(arrived.src).catch(() => null);
-      this.#fail(
-        answer && !answer.ok
-          ? (await answer.json()).error
-          : "The picture did not come: the server does not answer.",
-      );
+      if (!this.#clock.live) await this.#tellMissing(record, i, arrived.src);
+      this.#isLoading = false; // of a live run it is an old one, which is not kept
+      if (!this.#clock.live) this.draw();
     };
     arrived.src = `api/cameras/${encodeURIComponent(name)}/${record.seq[i]}.jpg?browser=${identity()}`;
   }
 
-  #fail(text) {
-    this.#failure = text;
+  /** Tells why a picture did not come, unless another camera has been chosen meanwhile. */
+  async #tellMissing(record, i, place) {
+    const answer = await fetch(place).catch(() => null);
+    const why = answer && !answer.ok ? (await answer.json()).error : "";
+    if (this.#records.get(this.#camera?.name) !== record) return;
+    this.#missing = `${this.#camera.name}/${record.seq[i]}`;
+    if (!isKept(record, i)) this.#failure = why;
+    this.#hide(why || "The picture did not come: the server does not answer.");
+  }
+
+  /** Shows a text in the place of a picture. */
+  #hide(text) {
     this.#shown = "";
     this.#image.hidden = true;
+    this.#image.alt = "";
     this.#boxes.replaceChildren();
+    byId("camera-caption").textContent = "";
     byId("camera-none").textContent = text;
   }
 

@@ -49,7 +49,7 @@ export class Live {
   #lag;
   #seen = 0;
   #shown = null; // the seat whose view is shown; null: what everybody sees
-  #lostAt = null; // when the connection was lost, if it is
+  #lostAt = null; // since when there is no connection, null while there is one
   #heard = 0; // when the last message came
   #isSilent = false;
   #wishes = new Wishes((message) => this.send(message));
@@ -103,7 +103,6 @@ export class Live {
     this.#socket.onclose = (event) => {
       this.#panes.talk.lost();
       this.#lose();
-      this.#lostAt ??= performance.now();
       if (this.#run.isOver) {
         this.#tell();
         return;
@@ -131,15 +130,16 @@ export class Live {
     this.#socket.close();
   }
 
-  /** What becomes of the own seat while the connection is lost. */
+  /** What becomes of the own seat meanwhile, as far as the page can know. */
   get #seatMeanwhile() {
     return performance.now() - this.#lostAt < HOLD_MS
       ? "Your seat is kept for 5 s; then its script goes on."
-      : "Your seat is given back, and its script goes on. If the server of this page has ended, it does not come back by itself.";
+      : "After more than 5 s your seat may have been given back. If the server has ended, start it again.";
   }
 
   /** Tells of what the station may not have heard, because nothing more comes over a connection. */
   #lose() {
+    this.#lostAt ??= performance.now();
     this.#wishes.lost();
     this.#panes.consent.lost();
   }

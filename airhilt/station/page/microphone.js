@@ -24,6 +24,7 @@ export class Microphone {
   #info = null;
   #node = null;
   #stream = null;
+  #context = null; // that reads it
   #opening = null; // the attempt to open it that goes on
   #held = false;
 
@@ -67,14 +68,21 @@ export class Microphone {
       this.#tell("No recogniser takes part: only people understand you.");
   }
 
-  /**
-   * Closes the microphone of a person who does not let the voice be used, also if it opens now;
-   * `why` is told.
-   */
-  shut(why = this.#opening && "The microphone was not opened. Try again.") {
+  /** Closes the microphone, also if it opens now, and tells why. */
+  shut(why) {
+    this.#end();
+    this.#tell(why);
+  }
+
+  /** Closes the microphone of a person of whom the station knows no consent. */
+  deny() {
+    if (this.#opening) this.#tell("The microphone was not opened. Try again.");
+    this.#end();
+  }
+
+  #end() {
     this.#opening = null;
     this.#close();
-    if (why !== null) this.#tell(why);
   }
 
   /** Begins to transmit. */
@@ -159,27 +167,22 @@ export class Microphone {
     if (!navigator.mediaDevices) throw new DOMException("not secure", "SecurityError");
     const stream = await navigator.mediaDevices.getUserMedia({ audio: AUDIO });
     if (this.#opening !== attempt) {
-      end(stream);
+      stop(stream);
       return;
     }
     this.#stream = stream; // It can be closed from now on.
     stream
       .getTracks()[0]
       .addEventListener("ended", () => this.shut("The microphone is gone. Type what you want to say."));
-    let context;
     try {
-      const connection = connected(stream);
-      context = connection.context;
+      const { context, source } = connected(stream);
+      this.#context = context;
       const node = await listening(context);
-      if (this.#opening !== attempt) {
-        context.close();
-        return;
-      }
+      if (this.#opening !== attempt) return;
       node.port.onmessage = ({ data }) => this.#take(data);
-      connection.source.connect(node);
+      source.connect(node);
       this.#node = node;
     } catch (error) {
-      context?.close();
       if (this.#opening === attempt) this.#close();
       throw error;
     }
@@ -197,8 +200,9 @@ export class Microphone {
 
   #close() {
     this.release();
-    if (this.#stream) end(this.#stream, this.#node?.context);
-    this.#node = this.#stream = null;
+    if (this.#stream) stop(this.#stream);
+    this.#context?.close();
+    this.#node = this.#stream = this.#context = null;
     byId("talk-level").value = 0;
     this.#draw();
   }
@@ -243,7 +247,6 @@ async function listening(context) {
 }
 
 /** Ends a microphone, so that the browser does not show it as open any more. */
-function end(stream, context) {
+function stop(stream) {
   for (const track of stream.getTracks()) track.stop();
-  context?.close();
 }

@@ -162,7 +162,7 @@ export class Talk {
     this.#catchUp(echo);
     if (consent) {
       this.#consent.take(consent);
-      if (!this.#consent.admits("voice")) this.#microphone.shut();
+      if (!this.#consent.admits("voice")) this.#microphone.deny();
     }
     const told = [
       refused ?? "",
