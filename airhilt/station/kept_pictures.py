@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import io
-from itertools import islice
+from pathlib import Path
 
 from PIL import Image
 
+from airhilt.files import read_inside
 from airhilt.record import Run
 from airhilt.record.pictures import PictureName
 from airhilt.record.run import result_problem
@@ -15,8 +16,9 @@ from airhilt.text import readable
 
 MOST = 12
 """Number of pictures that are read; a run keeps three of full size."""
-DAMAGED = (OSError, SyntaxError, ValueError, Image.DecompressionBombError)
-"""Exceptions of Pillow where a file is no picture."""
+MOST_BYTES = 50_000_000
+"""Size of the largest file that is read."""
+NO_PICTURE = "cannot be read as a picture"
 
 
 class KeptPictures:
@@ -36,20 +38,16 @@ class KeptPictures:
     def __init__(self, run: Run) -> None:
         self.notes: list[str] = []
         self._jpegs: dict[tuple[str, int], bytes] = {}
-        named = map(PictureName.of, sorted(run.folder.pictures_path.glob("*.png")))
-        for name in islice(filter(None, named), MOST):
-            path = name.path(run.folder.pictures_path)
-            try:
-                with run.folder.open_file(path) as stream:
-                    problem = result_problem(run.folder, run.info, path)
-                    content = b"" if problem else stream.read()
-            except OSError as error:
-                problem = f"pictures/{path.name}: {error.strerror}"
+        for path, name in _named(run)[:MOST]:
+            problem = result_problem(run.folder, run.info, path)
             if not problem:
                 try:
+                    content = read_inside(run.folder.path, path, MOST_BYTES)
                     self._jpegs[name.camera, name.seq] = _as_jpeg(content)
-                except DAMAGED:
-                    problem = f"pictures/{path.name}: cannot be read as a picture"
+                except OSError as error:
+                    problem = f"pictures/{path.name}: {error.strerror or NO_PICTURE}"
+                except Exception:
+                    problem = f"pictures/{path.name}: {NO_PICTURE}"
             if problem:
                 self.notes.append(f"Damaged: {readable(problem)}. It is not used.")
 
@@ -60,6 +58,14 @@ class KeptPictures:
     def jpeg(self, camera: str, seq: int) -> bytes | None:
         """Return a picture, None if it was not kept."""
         return self._jpegs.get((camera, seq))
+
+
+def _named(run: Run) -> list[tuple[Path, PictureName]]:
+    """Return the pictures of full size in the folder of a run, those with a record first."""
+    folder = run.folder.pictures_path
+    names = {path: PictureName.of(path) for path in sorted(folder.glob("*.png"))}
+    found = [(path, name) for path, name in names.items() if name and name.path(folder) == path]
+    return sorted(found, key=lambda one: f"pictures/{one[0].name}" not in run.info.files)
 
 
 def _as_jpeg(content: bytes) -> bytes:

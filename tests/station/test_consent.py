@@ -639,6 +639,7 @@ def test_what_was_taken_back_in_one_run_is_not_taken_back_in_another() -> None:
         page.complaints.clear()  # A page that was loaded again plays nothing before a click.
 
 
+@pytest.mark.slow
 @pytest.mark.browser
 def test_the_run_is_told_of_each_seat_at_which_consent_was_taken_back(
     monkeypatch: pytest.MonkeyPatch,

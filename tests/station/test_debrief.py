@@ -22,6 +22,7 @@ from airhilt.record.pictures import PictureName
 from airhilt.station.app import debrief_app
 from airhilt.station.debrief import Debrief
 from airhilt.station.kept_pictures import KeptPictures
+from airhilt.station.pictures import encoded
 from camera_run import camera_run
 from stations import asked
 
@@ -153,13 +154,14 @@ PIXELS = (b"IDAT", zlib.compress(bytes(8 * 25)))
     "content",
     [
         b"",
-        b"%!PS-Adobe-3.0 EPSF-3.0\n%%BoundingBox: 0 0 8 8\n",
+        encoded(Image.new("RGB", (8, 8))),
         png(HEADER, (b"IDAT", b"no pixels")),
         png(HEADER, (b"pHYs", b"1"), PIXELS),
+        png((b"IHDR", struct.pack(">IIBBBBB", 8, 8, 8, 3, 0, 0, 0)), (b"tRNS", b"\xff\0"), PIXELS),
         png((b"IHDR", struct.pack(">IIBBBBB", 2**20, 2**20, 8, 2, 0, 0, 0)), PIXELS),
         png(HEADER, (b"zTXt", b"text\0\0" + zlib.compress(bytes(2**22))), PIXELS),
     ],
-    ids=["nothing", "PostScript", "damaged", "short chunk", "huge", "huge text"],
+    ids=["nothing", "a JPEG", "damaged", "short chunk", "no palette", "huge", "huge text"],
 )
 def test_what_is_no_picture_is_told_and_not_used(
     tmp_path: Path, filmed: Debrief, content: bytes

@@ -281,7 +281,13 @@ def test_a_microphone_that_is_granted_and_not_heard_yet_is_closed(
     with page_with_microphone(*FAKE) as page:
         sit_down(page, url)
         page.evaluate(GRANTED)
-        page.evaluate(f"""window.read = AudioWorklet.prototype.addModule;
+        page.evaluate(f"""window.contexts = 0;
+            const close = AudioContext.prototype.close;
+            AudioContext.prototype.close = function () {{
+                window.contexts++;
+                return close.call(this);
+            }};
+            window.read = AudioWorklet.prototype.addModule;
             AudioWorklet.prototype.addModule = () => {reading};
             window.grant()""")
         page.click("talk-button")
@@ -291,7 +297,7 @@ def test_a_microphone_that_is_granted_and_not_heard_yet_is_closed(
         else:
             page.wait_for("window.granted.length")
             page.click("consent-back")
-        page.wait_for(ended)
+        page.wait_for(f"{ended} && window.contexts === 1")
         page.evaluate("AudioWorklet.prototype.addModule = read")  # It can be opened after that.
         page.click("talk-button")
         if not is_broken:

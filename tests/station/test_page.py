@@ -9,11 +9,16 @@ from typing import Any
 
 import pytest
 
+from airhilt.errors import RendererError
 from airhilt.messages import Severity
 from airhilt.metrics.summary import IsaRating, PersonReaction, PersonSummary, WorkloadSummary
+from airhilt.record import open_run
+from airhilt.station import redrawing
+from airhilt.station.app import debrief_app
+from airhilt.station.debrief import Debrief
 from camera_run import camera_run
 from devtools import Page
-from stations import viewed
+from stations import serving, viewed
 
 pytestmark = pytest.mark.browser
 LOW_CONTRAST = Path(__file__).with_name("contrast.js").read_text()
@@ -99,6 +104,32 @@ def test_a_picture_that_was_kept_has_its_boxes_and_the_plan_its_bearings(
         inks = {name: page.evaluate(INK.format(name)) for name in ("--accent", "--warn")}
         after = lines[lines.index([inks["--accent"], True]) + 1 :]  # After the field of view.
         assert after[: len(boxes) + 1].count([inks["--warn"], False]) == len(boxes)
+
+
+def test_where_nothing_can_be_drawn_the_pictures_that_were_kept_are_shown(
+    page: Page, filmed_run: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise RendererError("no renderer here")
+
+    monkeypatch.setattr(redrawing._Scene, "__init__", fail)
+    shown = f"{TEXT.format('camera-none')} + '|' + {TEXT.format('camera-caption')}"
+    none = "no renderer here|"
+    debrief = Debrief(open_run(filmed_run))
+    record = debrief.camera("nose-AAL123")
+    times = dict(zip(record["seq"], record["t"], strict=True))
+    first, last = min(record["kept"]), max(record["kept"])
+    drawn = next(seq for seq in record["seq"] if seq not in record["kept"])
+    with serving(debrief_app(debrief)) as url:
+        opened(page, url)
+        for seq in (drawn, last, drawn, first):
+            set_time(page, times[seq])
+            is_kept = seq in record["kept"]
+            told = f"includes('Picture {seq} at')" if is_kept else f"startsWith({none!r})"
+            page.wait_for(f"({shown}).{told}")
+            assert page.evaluate("document.getElementById('camera-image').hidden") is not is_kept
+        assert page.evaluate(TEXT.format("camera-caption")).count("as it was") == 1
+    page.complaints.clear()  # Of pictures that cannot be drawn.
 
 
 @pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])

@@ -25,6 +25,7 @@ from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.hazmat.primitives.hashes import SHA256
 from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
 from cryptography.x509.oid import NameOID
+from fastapi import FastAPI
 from websockets.sync.client import ClientConnection, connect
 
 from airhilt.commands import Command
@@ -352,17 +353,25 @@ def seat_page(
     agreed: Mapping[str, Use] = MappingProxyType({}),
 ) -> Iterator[tuple[PretendedRun, str]]:
     """Serve the page of a pretended run in this process; yield the run and the URL."""
-    run, urls, is_over = run or PretendedRun(), queue.Queue[str](), threading.Event()
+    run = run or PretendedRun()
     seats, views = (run.of_seats, run.views) if has_seats else ({}, SeatViews())
     browsers = Browsers(run.changes, run, seats, run.sounds, run.told.append, views, agreed)
+    with serving(live_app(run, browsers)) as url:  # type: ignore[arg-type]
+        yield run, url
+
+
+@contextmanager
+def serving(app: FastAPI) -> Iterator[str]:
+    """Serve an application in this process; yield the URL."""
+    urls, is_over = queue.Queue[str](), threading.Event()
     thread = threading.Thread(
         target=serve,
-        args=(live_app(run, browsers), Address(port=0)),  # type: ignore[arg-type]
+        args=(app, Address(port=0)),
         kwargs={"opened": urls.put, "notice": print, "browser": False, "is_over": is_over.is_set},
     )
     thread.start()
     try:
-        yield run, urls.get(timeout=PATIENCE_S)
+        yield urls.get(timeout=PATIENCE_S)
     finally:
         is_over.set()
         thread.join()

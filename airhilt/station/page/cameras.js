@@ -12,6 +12,7 @@ const FOUND = "#ffdd33",
 const MOST_WATCHED = 4; // cameras of a live run whose pictures are kept, those that began last
 const MOST_BOXES = 50; // that are drawn in a picture
 const MOST_RECORDS = 1000; // of pictures of a camera of a live run: about a minute
+const PATIENCE_MS = 30000; // with a server that draws
 const RADIANS = Math.PI / 180;
 
 export class Cameras {
@@ -127,10 +128,11 @@ export class Cameras {
     this.#failure = this.#missing = "";
     if (this.#clock.live) this.#watch(name);
     else if (!this.#records.has(name)) {
-      const answer = await fetch(`api/cameras/${encodeURIComponent(name)}`);
-      const content = await answer.json();
-      if (!answer.ok) {
-        if (this.#camera?.name === name) this.#hide(content.error);
+      const content = await answered(`api/cameras/${encodeURIComponent(name)}`);
+      if (!content.seq) {
+        if (this.#camera?.name !== name) return;
+        this.#plan.setCamera(null);
+        this.#hide(content.error ?? "The server does not answer.");
         return;
       }
       this.#records.set(name, content);
@@ -170,7 +172,7 @@ export class Cameras {
       wanted = `${name}/${record.seq[i]}`;
     if (this.#isLoading || wanted === this.#shown || wanted === this.#missing) return;
     this.#isLoading = true;
-    if (!this.#shown && !this.#clock.live && !isKept(record, i))
+    if (!this.#shown && !this.#failure && !this.#clock.live && !isKept(record, i))
       byId("camera-none").textContent = "Drawing the first picture. That takes some seconds.";
     const arrived = new Image();
     arrived.onload = () => {
@@ -187,21 +189,21 @@ export class Cameras {
       this.draw();
     };
     arrived.onerror = async () => {
-      if (!this.#clock.live) await this.#tellMissing(record, i, arrived.src);
-      this.#isLoading = false; // of a live run it is an old one, which is not kept
-      if (!this.#clock.live) this.draw();
+      // Of a live run it is an old one, which is not kept.
+      const why = this.#clock.live ? "" : await reason(arrived.src);
+      this.#isLoading = false;
+      if (this.#clock.live) return;
+      if (this.#camera?.name === name) this.#miss(record, i, why);
+      this.draw();
     };
     arrived.src = `api/cameras/${encodeURIComponent(name)}/${record.seq[i]}.jpg?browser=${identity()}`;
   }
 
-  /** Tells why a picture did not come, unless another camera has been chosen meanwhile. */
-  async #tellMissing(record, i, place) {
-    const answer = await fetch(place).catch(() => null);
-    const why = answer && !answer.ok ? (await answer.json()).error : "";
-    if (this.#records.get(this.#camera?.name) !== record) return;
+  /** Tells why a picture did not come; without a reason, others may come. */
+  #miss(record, i, why) {
     this.#missing = `${this.#camera.name}/${record.seq[i]}`;
     if (!isKept(record, i)) this.#failure = why;
-    this.#hide(why || "The picture did not come: the server does not answer.");
+    this.#hide(why || "The picture did not come. Go to another one and back.");
   }
 
   /** Shows a text in the place of a picture. */
@@ -260,6 +262,19 @@ export class Cameras {
     );
   }
 }
+
+/** Returns what the server answers as JSON, an object without content if it does not. */
+async function answered(place) {
+  try {
+    const answer = await fetch(place, { signal: AbortSignal.timeout(PATIENCE_MS) });
+    return await answer.json();
+  } catch {
+    return {};
+  }
+}
+
+/** Returns why the server has no picture, empty if it tells no reason. */
+const reason = async (place) => (await answered(place)).error ?? "";
 
 /** Returns true if a run has kept a picture: it need not be drawn again. */
 function isKept(record, i) {

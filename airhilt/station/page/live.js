@@ -134,7 +134,7 @@ export class Live {
   get #seatMeanwhile() {
     return performance.now() - this.#lostAt < HOLD_MS
       ? "Your seat is kept for 5 s; then its script goes on."
-      : "After more than 5 s your seat may have been given back. If the server has ended, start it again.";
+      : "After more than 5 s your seat may have been given back. If the server has ended, it has to be started again.";
   }
 
   /** Tells of what the station may not have heard, because nothing more comes over a connection. */
@@ -158,8 +158,10 @@ export class Live {
       this.#panes.talk.lost();
       this.#warn(this.#panes.seat.own ? `${SILENT}, ${SILENT_AT_SEAT}` : `${SILENT}.`);
     }
-    if (!this.#run.isOver && ((isOpen && silentMs > DEAD_MS) || (isOpening && silentMs > SILENT_MS)))
+    if (!this.#run.isOver && ((isOpen && silentMs > DEAD_MS) || (isOpening && silentMs > SILENT_MS))) {
+      this.#lostAt ??= this.#heard;
       this.#open();
+    }
   }
 
   /** Shows large what keeps the page from following the run; nothing if it does. */

@@ -231,7 +231,12 @@ function connected(stream) {
   } catch {
     context.close();
     const other = new AudioContext({ latencyHint: "interactive" });
-    return { context: other, source: other.createMediaStreamSource(stream) };
+    try {
+      return { context: other, source: other.createMediaStreamSource(stream) };
+    } catch (error) {
+      other.close();
+      throw error;
+    }
   }
 }
 
