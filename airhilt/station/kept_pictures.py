@@ -46,7 +46,7 @@ class KeptPictures:
                     self._jpegs[name.camera, name.seq] = _as_jpeg(content)
                 except OSError as error:
                     problem = f"pictures/{path.name}: {error.strerror or NO_PICTURE}"
-                except Exception:
+                except Exception:  # Pillow ends a damaged file with any exception.
                     problem = f"pictures/{path.name}: {NO_PICTURE}"
             if problem:
                 self.notes.append(f"Damaged: {readable(problem)}. It is not used.")

@@ -440,6 +440,20 @@ def end_untold(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Browsers, "_tell_consent", lambda *_: None)
 
 
+def held_back(monkeypatch: pytest.MonkeyPatch) -> tuple[threading.Event, threading.Event]:
+    """Hold back answers; return an event that tells of one, and one that lets them be taken in."""
+    take_consent = Browsers._take_consent
+    has_come, may_take = threading.Event(), threading.Event()
+
+    async def take_late(*given: Any) -> None:
+        has_come.set()
+        await asyncio.to_thread(may_take.wait, PATIENCE_S)
+        await take_consent(*given)
+
+    monkeypatch.setattr(Browsers, "_take_consent", take_late)
+    return has_come, may_take
+
+
 def clicked(*names: str) -> str:
     """Return a script that clicks on buttons one after the other, with nothing in between."""
     return "".join(f"document.getElementById({name!r}).click();" for name in names)
@@ -549,16 +563,8 @@ def test_consent_is_taken_back_before_it_is_given_again_over_a_new_connection(
 def test_who_says_no_once_more_hears_that_the_station_knows_it_now(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    take_consent = Browsers._take_consent
-    has_come, may_take = threading.Event(), threading.Event()
-
-    async def take_late(*given: Any) -> None:
-        has_come.set()
-        await asyncio.to_thread(may_take.wait, PATIENCE_S)
-        await take_consent(*given)
-
     with at_a_seat_with_consent() as (run, _, page):
-        monkeypatch.setattr(Browsers, "_take_consent", take_late)
+        has_come, may_take = held_back(monkeypatch)
         page.evaluate(CUT)
         page.click("consent-back")
         page.wait_for(f"{SEAT_STATE}.includes('may not know')")
@@ -688,14 +694,7 @@ def test_each_question_comes_after_the_answer_to_the_one_before_and_words_are_sa
 def test_what_is_typed_before_the_station_has_heard_the_answer_is_not_said(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    take_consent = Browsers._take_consent
-    may_take = threading.Event()
-
-    async def take_late(*given: Any) -> None:
-        await asyncio.to_thread(may_take.wait, PATIENCE_S)
-        await take_consent(*given)
-
-    monkeypatch.setattr(Browsers, "_take_consent", take_late)
+    _, may_take = held_back(monkeypatch)
     with seat_page() as (run, url), page_with_microphone(*FAKE) as page:
         sit_down(page, url)
         want_to_say(page, "Ready.")

@@ -16,6 +16,7 @@ from airhilt.audio.pcm import SAMPLE_RATE_HZ, from_pcm
 from airhilt.messages import SpokenWords
 from airhilt.station.held_button import AHEAD_S, LARGEST_PIECE_BYTES, HeldButton
 from breadth import mostly_slow
+from devtools import Page
 from loudspeaker import COUNT_PIECES, piece
 from microphone import (
     BUTTON,
@@ -226,6 +227,14 @@ def test_what_is_no_sound_is_refused_in_words(seat: tuple[PretendedRun, str], so
         assert "expected" in (socket.close_reason or "")
 
 
+def change_person(page: Page) -> None:
+    """Leave the seat, and let the next person take it at the same page."""
+    page.click("seat-take")
+    page.wait_for("document.getElementById('talk').hidden")
+    page.click("seat-take")
+    page.wait_for("!document.getElementById('talk').hidden")
+
+
 @pytest.mark.browser
 @pytest.mark.parametrize("is_late", mostly_slow([False, True], True), ids=["open", "being opened"])
 def test_who_leaves_the_seat_has_no_open_microphone(
@@ -259,10 +268,7 @@ def test_a_microphone_that_is_granted_late_does_not_open_for_the_next_person(
         page.click("talk-button")
         page.click("consent-agree")
         page.wait_for("!document.getElementById('consent-back').hidden")  # The station knows.
-        page.click("seat-take")
-        page.wait_for("document.getElementById('talk').hidden")
-        page.click("seat-take")
-        page.wait_for("!document.getElementById('talk').hidden")
+        change_person(page)
         page.evaluate("window.grant()")
         page.wait_for("window.granted.length && window.granted.every((one) => one !== 'live')")
         assert page.evaluate(BUTTON) == "Open the microphone"
@@ -274,7 +280,7 @@ def test_a_microphone_that_is_granted_late_does_not_open_for_the_next_person(
 def test_a_microphone_that_is_granted_and_not_heard_yet_is_closed(
     seat: tuple[PretendedRun, str], is_broken: bool
 ) -> None:
-    """What hears it cannot be read, or is not there when consent is taken back."""
+    """Its reader cannot be loaded, or is not there when consent is taken back."""
     _, url = seat
     reading = "Promise.reject(new Error('no network'))" if is_broken else "new Promise(() => {})"
     ended = "window.granted.length && window.granted.every((one) => one === 'ended')"
@@ -318,10 +324,7 @@ def test_a_microphone_that_is_denied_late_is_not_told_to_the_next_person(
         page.click("talk-button")
         page.click("consent-agree")
         page.wait_for("Boolean(window.deny)")
-        page.click("seat-take")
-        page.wait_for("document.getElementById('talk').hidden")
-        page.click("seat-take")
-        page.wait_for("!document.getElementById('talk').hidden")
+        change_person(page)
         page.evaluate("window.deny(); new Promise((done) => setTimeout(done, 100))")
         assert page.evaluate(TALK_STATE) == ""
 
