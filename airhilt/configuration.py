@@ -15,10 +15,10 @@ from typing import Annotated, Any, TypeVar
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from pydantic.fields import FieldInfo
 
-from airhilt import bounded_json
 from airhilt.errors import AirhiltError, shown
-from airhilt.files import read_file
-from airhilt.library import nearest
+from airhilt.host import bounded_json
+from airhilt.host.files import read_file
+from airhilt.host.library import nearest
 
 Seconds = Annotated[float, Field(ge=0.0, le=3600.0)]
 """Time in s; an hour at most."""

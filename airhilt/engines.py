@@ -17,9 +17,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
 from airhilt.errors import AirhiltError
-from airhilt.library import nearest
+from airhilt.host.library import nearest
+from airhilt.host.services import is_service
 from airhilt.plugins import Family, Members, missing
-from airhilt.services import is_service
 
 if TYPE_CHECKING:
     from pydantic import BaseModel

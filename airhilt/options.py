@@ -28,7 +28,7 @@ from pydantic_core import PydanticCustomError
 from airhilt.configuration import read_configuration
 from airhilt.engines import ASR, DETECTOR, ENHANCER, RENDERER_HELP, TTS, WORDING
 from airhilt.errors import AirhiltError, first_problem, shown
-from airhilt.library import nearest
+from airhilt.host.library import nearest
 from airhilt.messages import Modality, RadarKind
 from airhilt.scenario.models import Topology
 from airhilt.scenario.models.weather import Visibility

@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from airhilt.errors import AirhiltError
-from airhilt.library import nearest
+from airhilt.host.library import nearest
 
 
 @dataclass(frozen=True)

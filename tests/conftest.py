@@ -17,8 +17,8 @@ import pytest
 from hypothesis import settings
 
 from airhilt import load, run
-from airhilt.child_process import available_cores
 from airhilt.cli import main
+from airhilt.host.child_process import available_cores
 from airhilt.scenario import Scenario
 from airhilt.world.loading import load_text
 from devtools import BROWSERS, Page, browser_page

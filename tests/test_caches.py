@@ -10,7 +10,10 @@ from typing import Any
 
 import pytest
 
-from airhilt.caches import (
+from airhilt.cosim.recorded import Recorded
+from airhilt.cosim.setup import set_up
+from airhilt.errors import AirhiltError
+from airhilt.host.caches import (
     DEFAULT_LIMIT_MB,
     CacheFolder,
     cache_folder,
@@ -19,9 +22,6 @@ from airhilt.caches import (
     usage,
     write_problem,
 )
-from airhilt.cosim.recorded import Recorded
-from airhilt.cosim.setup import set_up
-from airhilt.errors import AirhiltError
 from airhilt.options import Options
 from airhilt.scenario import Scenario
 from racing import CONTENT_BYTES, race
@@ -108,7 +108,7 @@ def test_processes_that_write_little_seldom_look_at_all_entries(
 ) -> None:
     """A look takes seconds where there are a million entries, and each run writes some."""
     looks: list[Path] = []
-    monkeypatch.setattr("airhilt.caches._shrink", lambda base, _: looks.append(base))
+    monkeypatch.setattr("airhilt.host.caches._shrink", lambda base, _: looks.append(base))
     for n in range(200):
         CacheFolder("pictures", tmp_path, limit_bytes=1_000_000).get(f"key {n}", Made(bytes(2_500)))
     assert 2 <= len(looks) <= 30, "ten for each time that 5 % of the limit are written"

@@ -21,7 +21,7 @@ from typing import NamedTuple
 
 import airhilt
 import standard_output
-from airhilt import library
+from airhilt.host import library
 from airhilt.metrics.summary import Summary
 
 HEAD = f"{'scenario':28}{'seed':>5}  {'declared':20}{'outcome':20}{'incursion':11}{'closest':>9}"

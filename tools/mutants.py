@@ -25,8 +25,8 @@ from random import Random
 from typing import Any, Literal
 
 import airhilt
-from airhilt import library
 from airhilt.errors import AirhiltError
+from airhilt.host import library
 from airhilt.scenario import Scenario
 
 LONGEST_MESSAGE = 500

@@ -26,7 +26,7 @@ from rich.table import Table
 
 import standard_output
 from airhilt import load, run
-from airhilt.library import names
+from airhilt.host.library import names
 from airhilt.messages import Advisory, Severity
 from airhilt.metrics.summary import Summary
 from airhilt.record import read_log

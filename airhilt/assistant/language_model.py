@@ -1,7 +1,7 @@
 """A language model behind an OpenAI-compatible endpoint: one question, one answer in JSON.
 
 Ollama, vLLM and llama.cpp have such endpoints, and so have services. One POST request is all that
-is needed, so `airhilt.services.HttpService` makes it: it has a deadline for the whole answer,
+is needed, so `airhilt.host.services.HttpService` makes it: it has a deadline for the whole answer,
 follows no redirects and no proxies, and reads nothing from the environment. The client library
 ``openai`` would add retries, which break the deadline, and addresses from the environment.
 """
@@ -18,7 +18,7 @@ from typing import Any, Literal, Protocol, runtime_checkable
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from airhilt.errors import AirhiltError, LanguageModelError, first_problem
-from airhilt.services import HttpService, without_key, without_user
+from airhilt.host.services import HttpService, without_key, without_user
 
 KEY_VARIABLE = "AIRHILT_LLM_KEY"
 """Environment variable with the key of the endpoint; it is sent, and written nowhere."""

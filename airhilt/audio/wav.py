@@ -14,7 +14,7 @@ from typing import BinaryIO
 
 from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ, Audio, from_pcm, to_pcm
 from airhilt.errors import SpeechError
-from airhilt.files import read_file, regular, replacing
+from airhilt.host.files import read_file, regular, replacing
 
 LARGEST_WAV_BYTES = 100_000_000
 """Size of the largest file that is read: 52 minutes."""

@@ -22,11 +22,11 @@ from cryptography.hazmat.primitives.hashes import SHA256
 from cryptography.hazmat.primitives.serialization import Encoding, NoEncryption, PrivateFormat
 from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID
 
-from airhilt import bounded_json
 from airhilt.bus.access import CERTIFICATE_NAME, ROLES, Role
 from airhilt.bus.endpoints import AUTHENTICATED, host_of, protocol_of
 from airhilt.errors import BusError
-from airhilt.files import is_of_owner_alone, read_file, write_new
+from airhilt.host import bounded_json
+from airhilt.host.files import is_of_owner_alone, read_file, write_new
 
 Holder = Role | Literal["router"]
 """Whose a file is: a program of a role, or the run, whose session is a router of Zenoh."""

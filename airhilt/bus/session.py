@@ -22,8 +22,8 @@ from airhilt.bus.access import BY_CERTIFICATE, WITHOUT_KEYS, Role, Subjects, acc
 from airhilt.bus.certificates import read_keys
 from airhilt.bus.endpoints import is_taken, require_authenticated
 from airhilt.bus.intake import Source, size_filter
-from airhilt.deferred import Payload
 from airhilt.errors import BusError, RendererError
+from airhilt.sim.payload import Payload
 
 ROOT = "airhilt"
 """First chunk of every key; the second is the run."""

@@ -11,11 +11,11 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from airhilt import library
 from airhilt._version import __version__
-from airhilt.caches import cache_folder, write_problem
 from airhilt.engines import Engine, EngineFamily
 from airhilt.errors import AirhiltError
+from airhilt.host import library
+from airhilt.host.caches import cache_folder, write_problem
 from airhilt.plugins import Family, Members
 
 NO_NAME = re.compile(r"[^A-Za-z0-9._-]")

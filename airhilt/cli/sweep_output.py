@@ -9,7 +9,7 @@ import click
 
 from airhilt.cli.sweep_progress import duration
 from airhilt.cli.words import counted
-from airhilt.files import sha256
+from airhilt.host.files import sha256
 from airhilt.sweep.engine import SweepResult
 from airhilt.sweep.estimate import Estimate
 

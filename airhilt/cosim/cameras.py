@@ -15,7 +15,6 @@ from airhilt.cosim.participants import Participants
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import Setup
-from airhilt.deferred import Payload
 from airhilt.errors import RendererError, RunStopped
 from airhilt.messages import Message, ModalityState
 from airhilt.options import Options
@@ -25,6 +24,7 @@ from airhilt.scenario import Scenario
 from airhilt.scenario.conflict_pair import pair_of
 from airhilt.sensors.cameras import AUTO
 from airhilt.sim import Director, StepRecord
+from airhilt.sim.payload import Payload
 
 if TYPE_CHECKING:
     from airhilt.sensors.cameras.frame import Prospect

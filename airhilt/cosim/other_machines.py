@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from airhilt.assistant.decision.engines.llm import ENGINE as LLM_ENGINE
 from airhilt.assistant.reference import Engines
-from airhilt.services import is_elsewhere, is_service
+from airhilt.host.services import is_elsewhere, is_service
 
 
 def other_machines(assistant: str, engines: Engines) -> Iterator[str]:

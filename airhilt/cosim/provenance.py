@@ -11,7 +11,7 @@ from airhilt.assistant.decision.engines import FAMILY as DECISION_ENGINES
 from airhilt.assistant.reference import EXTERNAL, NO_ASSISTANT, families
 from airhilt.engines import Engine, EngineFamily
 from airhilt.errors import AirhiltError
-from airhilt.files import content_sha256
+from airhilt.host.files import content_sha256
 from airhilt.scenario.models import AircraftSpec
 from airhilt.sensors.base import FAMILY as SENSORS
 from airhilt.sensors.radio.backends.selection import channel_files

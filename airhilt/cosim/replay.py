@@ -17,7 +17,7 @@ from airhilt.cosim.observer import Observer
 from airhilt.cosim.recording import depends_on_log, read_recorded
 from airhilt.cosim.simulation import run
 from airhilt.errors import RunFolderError, first_problem
-from airhilt.files import content_sha256
+from airhilt.host.files import content_sha256
 from airhilt.messages import Event
 from airhilt.record import Logged, Run, RunFolder, RunInfo, open_run, read_log
 from airhilt.record.damage import untold

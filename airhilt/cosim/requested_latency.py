@@ -7,7 +7,7 @@ from dataclasses import replace
 from airhilt.cosim.differences import first_difference
 from airhilt.cosim.latency_presets import PRESETS
 from airhilt.errors import AirhiltError
-from airhilt.library import nearest
+from airhilt.host.library import nearest
 from airhilt.record import open_run
 from airhilt.record.damage import untold
 from airhilt.scenario import Scenario

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from airhilt.bus.session import Bus
-from airhilt.deferred import Payload
 from airhilt.messages import RUN, Briefing, Message, RadarInfo, SeatInfo
 from airhilt.record.log import LogWriter
+from airhilt.sim.payload import Payload
 
 Listener = Callable[[str, Message, Payload], None]
 """Called with key, message and payload: its JSON, or the raw bytes that it is the header of."""

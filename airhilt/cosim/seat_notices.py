@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 
-from airhilt.deferred import Payload
 from airhilt.messages import Event, Message, SeatNotice
 from airhilt.sensors.base import Publish
 from airhilt.sensors.radio.hearing import key_chunk
+from airhilt.sim.payload import Payload
 
 
 class SeatNotices:

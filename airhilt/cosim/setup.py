@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
-from airhilt.caches import cache_folder, cache_limit_bytes, write_problem
 from airhilt.cosim.equipment import with_requested_equipment
 from airhilt.cosim.option_checks import check_options
 from airhilt.cosim.participants import Participants
@@ -18,6 +17,7 @@ from airhilt.cosim.requested_latency import requested_latency
 from airhilt.cosim.requested_radio import with_requested_radio
 from airhilt.cosim.requested_sensors import with_requested_sensors
 from airhilt.errors import AirhiltError
+from airhilt.host.caches import cache_folder, cache_limit_bytes, write_problem
 from airhilt.options import Options
 from airhilt.record import RunFolder, RunInfo
 from airhilt.record.folder import WorkerRecord, machine, versions

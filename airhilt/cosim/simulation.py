@@ -19,7 +19,6 @@ from airhilt.assistant.reference import is_own_engine
 from airhilt.bus.access import ROLES, WITHOUT_KEYS
 from airhilt.bus.endpoints import what_is_open
 from airhilt.bus.session import Bus
-from airhilt.child_process import cpu_s
 from airhilt.commands import Command
 from airhilt.cosim.advisory_hints import AdvisoryHints
 from airhilt.cosim.briefing import briefing_of
@@ -39,6 +38,7 @@ from airhilt.cosim.setup import Setup, set_up
 from airhilt.cosim.workload_questions import WorkloadQuestions
 from airhilt.cosim.world_loop import WorldLoop
 from airhilt.errors import AirhiltError
+from airhilt.host.child_process import cpu_s
 from airhilt.messages import (
     Clock,
     Phase,

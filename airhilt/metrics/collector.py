@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
-from airhilt.deferred import Payload
 from airhilt.messages import (
     ADVISORY_CALL,
     CONTROLLER,
@@ -41,6 +40,7 @@ from airhilt.scenario.conflict_pair import pair_of
 from airhilt.scenario.models import LineBegun, Scenario
 from airhilt.scenario.roster import callsigns_of, roster_of
 from airhilt.sim import StepRecord
+from airhilt.sim.payload import Payload
 from airhilt.units import SECOND_NS
 from airhilt.world.truth.conflicts import ConflictMonitor
 from airhilt.world.truth.runways import RunwayMonitor

@@ -12,9 +12,8 @@ from pathlib import Path
 
 from airhilt.audio.pcm import from_pcm, to_pcm
 from airhilt.audio.wav import LARGEST_WAV_BYTES, decode_wav, encode_wav
-from airhilt.deferred import Payload
 from airhilt.errors import RunFolderError, SpeechError, disk_failed
-from airhilt.files import make_folder, read_inside
+from airhilt.host.files import make_folder, read_inside
 from airhilt.messages import (
     FROM_MICROPHONE,
     AdvisoryAudio,
@@ -25,6 +24,7 @@ from airhilt.messages import (
     TransmissionChunk,
     TransmissionClosed,
 )
+from airhilt.sim.payload import Payload
 
 MessageWithSound = (
     Transmission | TransmissionClosed | SeatAudioClosed | EnhancedTransmission | AdvisoryAudio

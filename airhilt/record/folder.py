@@ -14,10 +14,10 @@ from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
 
-from airhilt import bounded_json
 from airhilt._version import __version__
 from airhilt.errors import RunFolderError, first_line, first_problem, shown
-from airhilt.files import open_inside, read_inside, replace_file
+from airhilt.host import bounded_json
+from airhilt.host.files import open_inside, read_inside, replace_file
 from airhilt.messages import WorkerDescription
 from airhilt.options import Options
 from airhilt.record.manifest import FileRecord, digest, manifest

@@ -14,7 +14,7 @@ from pydantic import ValidationError
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio, from_pcm
 from airhilt.audio.wav import write_wav_pieces
 from airhilt.errors import RunFolderError, SpeechError, first_problem
-from airhilt.files import replace_file
+from airhilt.host.files import replace_file
 from airhilt.messages import SpokenTruth, Transcript, Transmission
 from airhilt.quantities import LONGEST_RUN_S
 from airhilt.record.audio import MessageWithSound, audio_file, recorded_pcm

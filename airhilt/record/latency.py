@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from airhilt.errors import RunFolderError, disk_failed, first_line
-from airhilt.files import open_inside
+from airhilt.host.files import open_inside
 from airhilt.sim import StepRecord
 
 LONGEST_STEP_BYTES = 1_000_000

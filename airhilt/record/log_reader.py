@@ -22,7 +22,7 @@ from mcap.opcode import Opcode
 from mcap.records import Channel, Statistics
 
 from airhilt.errors import RunFolderError
-from airhilt.files import open_inside
+from airhilt.host.files import open_inside
 from airhilt.units import SECOND_NS
 
 BROKEN = (McapError, struct.error, zstandard.ZstdError, ValueError, LookupError, MemoryError)

@@ -16,7 +16,7 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict
 
-from airhilt.files import open_inside, sha256
+from airhilt.host.files import open_inside, sha256
 
 
 class FileRecord(BaseModel):

@@ -14,9 +14,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Generic, Literal, NamedTuple, Protocol, TypeVar, get_args
 
-from airhilt.deferred import Payload
 from airhilt.errors import RendererError, disk_failed
-from airhilt.files import make_folder
+from airhilt.host.files import make_folder
 from airhilt.imaging.boxes import size_px
 from airhilt.imaging.matching import matches
 from airhilt.messages import (
@@ -29,6 +28,7 @@ from airhilt.messages import (
     SightingTruth,
     Status,
 )
+from airhilt.sim.payload import Payload
 from airhilt.units import SECOND_NS
 
 Occasion = Literal["start", "first_detection", "first_warning", "closest_approach"]

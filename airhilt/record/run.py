@@ -10,8 +10,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from airhilt import bounded_json
 from airhilt.errors import RunFolderError
+from airhilt.host import bounded_json
 from airhilt.record.damage import Notice, tell_damage
 from airhilt.record.folder import RunFolder, RunInfo
 from airhilt.record.latency import RecordedLatencies, read_latencies

@@ -24,7 +24,7 @@ from cryptography.hazmat.primitives.serialization import (
 )
 
 from airhilt.errors import SignatureError
-from airhilt.files import is_of_owner_alone, read_file, replace_file, write_new
+from airhilt.host.files import is_of_owner_alone, read_file, replace_file, write_new
 
 LARGEST_KEY_BYTES = 1_000_000
 """Size of the largest file that is read as a key."""

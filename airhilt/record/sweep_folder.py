@@ -18,9 +18,9 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import TypeAdapter, ValidationError
 
-from airhilt import bounded_json
 from airhilt.errors import AirhiltError, first_problem
-from airhilt.files import PARTIAL, make_folder, read_inside, replace_file
+from airhilt.host import bounded_json
+from airhilt.host.files import PARTIAL, make_folder, read_inside, replace_file
 from airhilt.record.damage import Notice, tell_damage
 from airhilt.record.folder import RunFolder
 from airhilt.record.manifest import (

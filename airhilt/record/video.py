@@ -14,9 +14,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from airhilt.deferred import Payload
 from airhilt.errors import RendererError, RunFolderError, VideoError, disk_failed, first_line
-from airhilt.files import make_folder
+from airhilt.host.files import make_folder
 from airhilt.messages import (
     CONTROLLER,
     Advisory,
@@ -28,6 +27,7 @@ from airhilt.messages import (
 )
 from airhilt.record.overlay import Overlay
 from airhilt.record.pictures import Picture, WaitingPictures
+from airhilt.sim.payload import Payload
 from airhilt.units import SECOND_NS
 
 if TYPE_CHECKING:

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from airhilt.errors import AirhiltError
-from airhilt.files import make_folder, replace_file
+from airhilt.host.files import make_folder, replace_file
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

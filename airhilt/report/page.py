@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from airhilt.errors import RunFolderError
-from airhilt.files import replace_file
+from airhilt.host.files import replace_file
 from airhilt.record import Run, open_run
 from airhilt.record.damage import Notice, untold
 from airhilt.report.assembly import Assembly

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from airhilt.errors import RunFolderError, disk_failed, first_line
-from airhilt.files import replace_file
+from airhilt.host.files import replace_file
 from airhilt.messages import NasaTlx
 from airhilt.metrics.summary import IsaRating, PersonCall, PersonReaction, PersonSummary
 from airhilt.record import Run

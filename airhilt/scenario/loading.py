@@ -7,8 +7,8 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from airhilt import library
 from airhilt.errors import ScenarioError
+from airhilt.host import library
 from airhilt.scenario import documents
 from airhilt.scenario.models import Scenario
 from airhilt.scenario.nearby import with_nearby_files

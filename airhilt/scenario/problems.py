@@ -13,8 +13,8 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from airhilt import library
 from airhilt.errors import ScenarioError
+from airhilt.host import library
 from airhilt.text import readable
 
 LONGEST_PATH = 100

@@ -18,7 +18,7 @@ from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable
 
 from airhilt.errors import ScenarioError, SensorError
-from airhilt.library import nearest
+from airhilt.host.library import nearest
 from airhilt.messages import WORKER_OUTPUTS, Message
 from airhilt.plugins import Family, Members
 from airhilt.scenario.models import Scenario

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, Protocol
 
-from airhilt.deferred import DeferredBytes, Payload
+from airhilt.sim.payload import DeferredBytes, Payload
 
 Policy = Literal["fifo", "latest", "batch"]
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from pydantic import TypeAdapter, ValidationError
 
 from airhilt.errors import RunFolderError, StationError, first_problem
-from airhilt.files import make_folder, read_inside, replace_file
+from airhilt.host.files import make_folder, read_inside, replace_file
 from airhilt.messages import NasaTlx
 from airhilt.record import RunFolder
 from airhilt.station.file_cache import FileCache

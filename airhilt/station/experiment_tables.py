@@ -16,7 +16,7 @@ import pyarrow.csv
 import pyarrow.parquet
 
 from airhilt.errors import RunFolderError, first_line
-from airhilt.files import replace_file
+from airhilt.host.files import replace_file
 from airhilt.messages import NasaTlx
 from airhilt.metrics.columns import OF_CALLS, OF_PEOPLE, OF_REACTIONS, OF_RUNS, Column
 from airhilt.record import open_run

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from PIL import Image
 
-from airhilt.files import read_inside
+from airhilt.host.files import read_inside
 from airhilt.record import Run
 from airhilt.record.pictures import PictureName
 from airhilt.record.run import result_problem

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from airhilt import library
 from airhilt.errors import ScenarioError, StationError
+from airhilt.host import library
 from airhilt.scenario import Scenario, loading
 from airhilt.scenario.seats import possible_seats
 from airhilt.text import readable

@@ -22,7 +22,7 @@ import psutil
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from airhilt.errors import StationError
-from airhilt.files import make_folder, open_inside, read_inside, replace_file
+from airhilt.host.files import make_folder, open_inside, read_inside, replace_file
 from airhilt.options import Options, arguments_of
 from airhilt.scenario.seats import seats_of
 from airhilt.station.file_cache import FileCache

@@ -15,10 +15,10 @@ from typing import Any
 
 from pydantic import JsonValue, ValidationError
 
-from airhilt import library
 from airhilt.cosim.latency_presets import PRESETS
 from airhilt.engines import ASSISTANT
 from airhilt.errors import AirhiltError, ScenarioError, shown
+from airhilt.host import library
 from airhilt.options import Options
 from airhilt.scenario import Scenario, loading
 from airhilt.scenario.documents import require_bounded

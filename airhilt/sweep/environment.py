@@ -7,8 +7,8 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict
 
-from airhilt import library
 from airhilt.errors import AirhiltError
+from airhilt.host import library
 from airhilt.record.folder import versions
 from airhilt.sweep.other_packages import PACKAGE_FILES, files_sha256, other_packages, package_sha256
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from airhilt.errors import AirhiltError
-from airhilt.files import content_sha256
+from airhilt.host.files import content_sha256
 
 
 class NamedFiles:

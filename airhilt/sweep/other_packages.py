@@ -10,7 +10,7 @@ from importlib.metadata import distributions
 from importlib.util import find_spec
 from pathlib import Path
 
-from airhilt.files import sha256
+from airhilt.host.files import sha256
 
 GROUPS = "airhilt."
 """Beginning of the groups of entry points by which packages add something."""

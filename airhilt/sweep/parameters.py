@@ -14,7 +14,7 @@ from operator import getitem
 from typing import Any
 
 from airhilt.errors import AirhiltError
-from airhilt.library import nearest
+from airhilt.host.library import nearest
 from airhilt.options import Options, flag_of
 from airhilt.scenario.perturbation import PathError, locate, place_of
 

@@ -20,10 +20,10 @@ from contextlib import suppress
 from pathlib import Path
 from shutil import rmtree
 
-from airhilt.child_process import cpu_s
 from airhilt.cosim.observer import Observer
 from airhilt.cosim.simulation import run
 from airhilt.errors import AirhiltError, failure_in, is_of_machine
+from airhilt.host.child_process import cpu_s
 from airhilt.metrics.columns import metrics_of
 from airhilt.metrics.summary import Summary
 from airhilt.options import Options

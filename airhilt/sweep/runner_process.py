@@ -11,8 +11,8 @@ from typing import Any
 
 import psutil
 
-from airhilt.child_process import ChildProcess, Ended, NoAnswer, command_of
 from airhilt.errors import AirhiltError
+from airhilt.host.child_process import ChildProcess, Ended, NoAnswer, command_of
 from airhilt.sweep.environment import Environment
 from airhilt.sweep.outcome import Machine, Outcome, Request, Status
 

@@ -9,9 +9,9 @@ from typing import Any, get_args
 
 import psutil
 
-from airhilt.child_process import available_cores
 from airhilt.engines import Package
 from airhilt.errors import AirhiltError
+from airhilt.host.child_process import available_cores
 from airhilt.sweep.clusters import LOCAL
 from airhilt.sweep.outcome import Keep
 from airhilt.sweep.runner_process import MEGABYTE, Limits

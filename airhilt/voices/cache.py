@@ -6,7 +6,7 @@ import json
 from dataclasses import astuple
 
 from airhilt.audio.pcm import Audio, from_pcm, to_pcm
-from airhilt.caches import CacheFolder
+from airhilt.host.caches import CacheFolder
 from airhilt.voices.engine import TtsEngine, VoiceSpec
 
 FORMAT = 1

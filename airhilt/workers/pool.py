@@ -12,7 +12,6 @@ from typing import Any, Literal, Protocol
 from pydantic import ValidationError
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ
-from airhilt.deferred import Payload
 from airhilt.errors import WorkerError, first_problem, shown
 from airhilt.messages import (
     SEAT_KEYS,
@@ -34,6 +33,7 @@ from airhilt.messages import (
     worker_output,
 )
 from airhilt.sim import Director, Endpoint, Input, LatencySpec, Output, Policy, Server, StepRecord
+from airhilt.sim.payload import Payload
 from airhilt.units import SECOND_NS
 
 NAMED = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")

@@ -12,8 +12,9 @@ from pathlib import Path
 
 import pytest
 
-from airhilt import library, run
+from airhilt import run
 from airhilt.bus import free_endpoint
+from airhilt.host import library
 from airhilt.messages import AdsbReport
 from airhilt.scenario import Scenario
 

@@ -16,8 +16,8 @@ import zenoh
 
 from airhilt.bus.remote_workers import RemoteWorker
 from airhilt.bus.session import Bus, connect_client, free_endpoint
-from airhilt.deferred import DeferredBytes
 from airhilt.errors import BusError, RendererError
+from airhilt.sim.payload import DeferredBytes
 from airhilt.sim.worker import Input, WorkerLost
 from resources import held, linux_only
 

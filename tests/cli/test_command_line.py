@@ -13,8 +13,8 @@ from typing import Any
 
 import pytest
 
-from airhilt import library
 from airhilt.errors import AirhiltError
+from airhilt.host import library
 from airhilt.record import RunFolder, read_log
 from breadth import mostly_slow
 

@@ -10,7 +10,7 @@ import pytest
 from airhilt import load
 from airhilt.cosim.replay import replay
 from airhilt.cosim.simulation import run
-from airhilt.library import names
+from airhilt.host.library import names
 from airhilt.messages import CameraFrame, Detections
 from airhilt.metrics.summary import Summary
 from airhilt.options import Options

@@ -7,7 +7,8 @@ from typing import Any
 
 import pytest
 
-from airhilt import library, load, run
+from airhilt import load, run
+from airhilt.host import library
 from airhilt.messages import SpokenTruth
 from airhilt.metrics.summary import Summary
 from airhilt.record import read_log

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 import airhilt
-from airhilt.files import sha256
+from airhilt.host.files import sha256
 from airhilt.scenario import Scenario
 from airhilt.world.loading import load_text
 from resources import held, linux_only, resident_mb

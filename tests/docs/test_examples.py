@@ -17,8 +17,8 @@ from pathlib import Path
 import pytest
 from markdown_it import MarkdownIt
 
-from airhilt import library
 from airhilt.bus import free_endpoint
+from airhilt.host import library
 from airhilt_short import shorten, use_for
 from breadth import mostly_slow
 from paths import DOCS, ROOT, SUPPORT

@@ -12,7 +12,7 @@ from pydantic import TypeAdapter
 
 from airhilt import __version__
 from airhilt.cli.main import cli
-from airhilt.library import names
+from airhilt.host.library import names
 from airhilt.messages import json_schemas
 from airhilt.report.sections.warning import condition_text
 from airhilt.scenario import Scenario

@@ -11,7 +11,7 @@ import pyarrow as pa
 import pytest
 
 from airhilt.errors import RunFolderError
-from airhilt.files import make_folder, read_inside, replace_file
+from airhilt.host.files import make_folder, read_inside, replace_file
 from airhilt.record import RunFolder, open_run
 from airhilt.record.damage import untold
 from airhilt.record.sweep_folder import SweepFolder

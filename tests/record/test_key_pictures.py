@@ -8,10 +8,10 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from airhilt.deferred import Payload
 from airhilt.errors import RunFolderError
 from airhilt.messages import CameraFrame, Message, SightingTruth
 from airhilt.record.pictures import KeyPictures, Picture, PictureName, WaitingPictures
+from airhilt.sim.payload import Payload
 from sightings import (
     advisory,
     found,

@@ -18,10 +18,10 @@ import pytest
 import zstandard
 from mcap.opcode import Opcode
 
-from airhilt import bounded_json
 from airhilt.audio.wav import LARGEST_WAV_BYTES
 from airhilt.configuration import read_configuration
 from airhilt.errors import AirhiltError, RunFolderError
+from airhilt.host import bounded_json
 from airhilt.messages import Clock, Transmission
 from airhilt.record import RunFolder, log_reader
 from airhilt.record.audio import recorded_pcm

@@ -10,7 +10,7 @@ import pyarrow as pa
 import pytest
 
 from airhilt.errors import AirhiltError
-from airhilt.files import replace_file
+from airhilt.host.files import replace_file
 from airhilt.record import sweep_folder
 from airhilt.record.sweep_folder import MOST_PARTS, SweepFolder
 
@@ -260,7 +260,7 @@ def test_a_full_disk_is_told_and_keeps_what_was_finished(
     def full(*_: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("airhilt.files.write_new", full)
+    monkeypatch.setattr("airhilt.host.files.write_new", full)
     with pytest.raises(AirhiltError, match="No space left on device"):
         folder.keep(run("b"))
     monkeypatch.undo()

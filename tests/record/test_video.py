@@ -14,12 +14,12 @@ pytest.importorskip("av")
 
 import av
 
-from airhilt.deferred import Payload
 from airhilt.errors import RunFolderError, VideoError
 from airhilt.messages import Advisory, Message
 from airhilt.record.overlay import COLOURS, SEVERITY_COLOURS, Overlay, clock
 from airhilt.record.pictures import Picture
 from airhilt.record.video import VideoRecorder, require_video
+from airhilt.sim.payload import Payload
 from airhilt.units import SECOND_NS
 from sightings import advisory, found, frame, info, pixels, seen, time_ns, undrawn, vision
 

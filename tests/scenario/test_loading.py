@@ -11,8 +11,8 @@ from typing import Any
 
 import pytest
 
-from airhilt import library
 from airhilt.errors import ScenarioError
+from airhilt.host import library
 from airhilt.scenario import Scenario
 from airhilt.world.loading import load, load_text
 

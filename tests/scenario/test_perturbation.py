@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt import library
+from airhilt.host import library
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import Normal, Perturbation, Uniform
 from airhilt.scenario.perturbation import locate, realise

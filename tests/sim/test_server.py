@@ -12,7 +12,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.deferred import DeferredBytes
 from airhilt.errors import WorkerError
 from airhilt.sim import (
     Director,
@@ -26,6 +25,7 @@ from airhilt.sim import (
     parse_latency,
 )
 from airhilt.sim.latency import Fixed, LatencySource, Measured
+from airhilt.sim.payload import DeferredBytes
 from airhilt.sim.worker import Policy
 from airhilt.units import seconds_to_ns
 

@@ -18,10 +18,10 @@ import psutil
 import pyarrow.parquet as pq
 import pytest
 
-from airhilt import files
 from airhilt.errors import AirhiltError, RunFolderError, StationError
-from airhilt.files import open_inside
-from airhilt.library import find
+from airhilt.host import files
+from airhilt.host.files import open_inside
+from airhilt.host.library import find
 from airhilt.messages import NasaTlx, Severity
 from airhilt.metrics.summary import (
     IsaRating,

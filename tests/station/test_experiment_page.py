@@ -18,7 +18,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from airhilt.library import find
+from airhilt.host.library import find
 from airhilt.record import open_run
 from airhilt.station.started_runs import StartedRuns
 from devtools import Page

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from airhilt.files import replace_file
+from airhilt.host.files import replace_file
 from airhilt.station.file_cache import FileCache
 
 

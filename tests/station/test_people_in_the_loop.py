@@ -24,7 +24,7 @@ from websockets.sync.client import connect
 from airhilt.assistant.asr.engines import asr_engine
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.cosim.replay import replay
-from airhilt.library import find
+from airhilt.host.library import find
 from airhilt.messages import SeatAudioClosed
 from airhilt.phraseology import TAU_ASR, parse_call
 from airhilt.record import open_run

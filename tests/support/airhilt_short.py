@@ -12,8 +12,8 @@ import json
 import sys
 from pathlib import Path
 
-from airhilt import library
 from airhilt.cli import main
+from airhilt.host import library
 from shortened import shortened
 
 LONGEST_S, LONGEST_WITH_CAMERAS_S = 12.0, 1.0

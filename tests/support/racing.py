@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from threading import Barrier
 
-from airhilt.caches import CacheFolder
+from airhilt.host.caches import CacheFolder
 
 CONTENT_BYTES = 4_000_000
 TIMES = 20

@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from airhilt.deferred import DeferredBytes
 from airhilt.errors import RendererError
 from airhilt.messages import (
     Advisory,
@@ -23,6 +22,7 @@ from airhilt.messages import (
     SightingTruth,
     Status,
 )
+from airhilt.sim.payload import DeferredBytes
 from airhilt.units import SECOND_NS
 
 RATE_HZ = 16.0

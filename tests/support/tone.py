@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from airhilt.audio.pcm import Audio
-from airhilt.caches import CacheFolder
+from airhilt.host.caches import CacheFolder
 from airhilt.voices.cache import CachedTts
 from airhilt.voices.engine import VoiceSpec
 

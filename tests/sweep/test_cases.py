@@ -13,9 +13,10 @@ from hypothesis import strategies as st
 from pydantic import JsonValue
 
 import airhilt
-from airhilt import library, load
+from airhilt import load
 from airhilt.errors import AirhiltError
-from airhilt.files import content_sha256
+from airhilt.host import library
+from airhilt.host.files import content_sha256
 from airhilt.scenario import Scenario
 from airhilt.sweep import files
 from airhilt.sweep.cases import Case, cases

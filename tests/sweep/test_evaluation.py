@@ -11,9 +11,9 @@ from typing import Any
 
 import pytest
 
-from airhilt import library
 from airhilt.cli.commands.evaluate import COMMAND
 from airhilt.errors import AirhiltError
+from airhilt.host import library
 from airhilt.record.sweep_folder import SweepFolder
 from airhilt.scenario import Scenario
 from airhilt.sweep.axes import listed

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 
 from airhilt.errors import SpeechError, VisionError, WorkerError
+from airhilt.host.services import HttpService
 from airhilt.messages import (
     AdvisoryAudio,
     InputSpec,
@@ -18,7 +19,6 @@ from airhilt.messages import (
     Transmission,
     WorkerDescription,
 )
-from airhilt.services import HttpService
 from airhilt.sim import Director, Input, Output, Priority, Virtual, WorkerLost, parse_latency
 from airhilt.workers.pool import Participant, WorkerPool, parse_output, policy_of
 from airhilt.workers.protocol import LocalWorker, Step

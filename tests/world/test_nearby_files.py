@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 import airhilt
-from airhilt import library
 from airhilt.errors import ScenarioError
+from airhilt.host import library
 from airhilt.world.loading import load, load_text
 from airhilt.world.site import ScenarioSite
 from paths import DATA

@@ -13,7 +13,7 @@ from airhilt import load, run
 from airhilt.assistant.asr.engines import asr_engine
 from airhilt.audio.pcm import SAMPLE_RATE_HZ
 from airhilt.audio.wav import read_wav
-from airhilt.library import names
+from airhilt.host.library import names
 from airhilt.metrics.summary import Summary
 from airhilt.phraseology import Instruction, parse_call, say
 from benchmarks.rounds import ROUNDS

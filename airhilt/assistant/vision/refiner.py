@@ -20,9 +20,9 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from airhilt.assistant.vision.detector import Found, Picture
 from airhilt.errors import VisionError, first_line
+from airhilt.host.onnx import open_network, require_end
 from airhilt.imaging.boxes import centre, sides, size_px
 from airhilt.messages import Box, Confidence, VisibleClass
-from airhilt.onnx import open_network, require_end
 
 EXPECTED = (
     "a network of tools/detector/train_refiner.py: 'views', uint8 [n, 2, 40, 40, 3], and 'about', "

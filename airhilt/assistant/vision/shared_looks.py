@@ -20,9 +20,9 @@ import airhilt.imaging
 from airhilt.assistant.vision.detector import Found
 from airhilt.assistant.vision.gating import Look, SeesParts
 from airhilt.assistant.vision.tiling import Tile
-from airhilt.caches import CacheFolder
-from airhilt.files import source_sha256
-from airhilt.processor import processor_sha256
+from airhilt.host.caches import CacheFolder
+from airhilt.host.files import source_sha256
+from airhilt.host.processor import processor_sha256
 
 
 @runtime_checkable

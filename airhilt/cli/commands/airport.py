@@ -37,7 +37,7 @@ Examples:
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON array.")
 def list_airports(as_json: bool) -> None:
     """Name the airports that ship with AIRHILT."""
-    from airhilt import library
+    from airhilt.host import library
     from airhilt.world.surface.airport import load_airport
 
     airports = [load_airport(name) for name in library.names("airports")]

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 if TYPE_CHECKING:
-    from airhilt.caches import Usage
+    from airhilt.host.caches import Usage
 
 
 @click.group(
@@ -30,7 +30,7 @@ def cache(context: click.Context, as_json: bool) -> None:
     The cache is in $XDG_CACHE_HOME/airhilt, or else in ~/.cache/airhilt. AIRHILT_CACHE_LIMIT_MB is
     its greatest size (2000); 0 keeps nothing.
     """
-    from airhilt.caches import cache_folder, cache_limit_bytes, usage, write_problem
+    from airhilt.host.caches import cache_folder, cache_limit_bytes, usage, write_problem
 
     if context.invoked_subcommand is not None:
         return
@@ -57,8 +57,8 @@ def cache(context: click.Context, as_json: bool) -> None:
 @click.argument("kinds", nargs=-1, metavar="[KIND]...")
 def clear(kinds: tuple[str, ...]) -> None:
     """Delete what the cache holds, of some kinds or of all; other files stay."""
-    from airhilt.caches import cache_folder
-    from airhilt.caches import clear as clear_kinds
+    from airhilt.host.caches import cache_folder
+    from airhilt.host.caches import clear as clear_kinds
 
     deleted = clear_kinds(cache_folder(), kinds)
     click.echo("deleted:")

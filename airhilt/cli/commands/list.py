@@ -18,7 +18,7 @@ Examples:
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON array.")
 def list_scenarios(as_json: bool) -> None:
     """Name the scenarios that ship with AIRHILT."""
-    from airhilt import library
+    from airhilt.host import library
 
     rows = []
     for name in library.names("scenarios"):

@@ -11,7 +11,7 @@ import click
 from airhilt.cli.notices import tell
 from airhilt.cli.words import counted
 from airhilt.errors import AirhiltError
-from airhilt.files import replace_file
+from airhilt.host.files import replace_file
 
 if TYPE_CHECKING:
     from airhilt.record.sweep_folder import SweepFolder

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from airhilt.errors import AirhiltError
-from airhilt.library import nearest
+from airhilt.host.library import nearest
 from airhilt.metrics.frames import frame_of
 from airhilt.record import open_run
 from airhilt.record.damage import Notice

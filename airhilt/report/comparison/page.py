@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from airhilt.errors import AirhiltError
-from airhilt.files import replace_file
+from airhilt.host.files import replace_file
 from airhilt.report.assembly import Assembly
 from airhilt.report.comparison import runs, sweeps
 from airhilt.report.comparison.runs import RunComparison

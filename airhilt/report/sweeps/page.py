@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from airhilt.errors import AirhiltError
-from airhilt.files import replace_file
+from airhilt.host.files import replace_file
 from airhilt.record.damage import Notice, untold
 from airhilt.record.sweep_folder import SweepFolder
 from airhilt.report.assembly import Assembly

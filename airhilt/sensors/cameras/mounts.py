@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 from airhilt.errors import CameraError
 from airhilt.geodesy.local_frame import LocalFrame
+from airhilt.host.library import nearest
 from airhilt.imaging.view import Intrinsics, Pose, View
-from airhilt.library import nearest
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import ActorMount, AircraftSpec, FixedMount
 from airhilt.scenario.models import Camera as DeclaredCamera

@@ -7,11 +7,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from airhilt.deferred import Payload
 from airhilt.imaging.masks import Mask
 from airhilt.imaging.view import View
 from airhilt.sensors.cameras.frame import Frame, Prospect, Sighting
 from airhilt.sensors.cameras.scene.bodies import BodyState
+from airhilt.sim.payload import Payload
 
 
 @dataclass(frozen=True)

@@ -9,7 +9,7 @@ import os
 import tempfile
 from typing import IO
 
-from airhilt.child_process import ChildProcess, command_of
+from airhilt.host.child_process import ChildProcess, command_of
 
 COMMAND = command_of("airhilt.sensors.cameras.renderer_server")
 """Command of the other side."""

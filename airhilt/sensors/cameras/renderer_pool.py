@@ -11,7 +11,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack
 from typing import TypeVar
 
-from airhilt.child_process import available_cores
+from airhilt.host.child_process import available_cores
 from airhilt.imaging.masks import Mask
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import AUTO

@@ -8,7 +8,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from airhilt.child_process import (
+from airhilt.errors import CameraError, RendererError, RendererLost, ScenarioError
+from airhilt.host.child_process import (
     STOPPED_FOR_S,
     Ended,
     NoAnswer,
@@ -16,7 +17,6 @@ from airhilt.child_process import (
     environment_with,
     exit_text,
 )
-from airhilt.errors import CameraError, RendererError, RendererLost, ScenarioError
 from airhilt.imaging.masks import Mask, mask_of
 from airhilt.imaging.view import View
 from airhilt.scenario import Scenario

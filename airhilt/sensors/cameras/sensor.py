@@ -11,7 +11,6 @@ from typing import Literal, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from airhilt.deferred import Payload
 from airhilt.errors import CameraError, RendererError
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.imaging.masks import runs_of
@@ -29,6 +28,7 @@ from airhilt.sensors.cameras.mounts import local_frame_of
 from airhilt.sensors.cameras.pictures import CameraPicture, PictureSource
 from airhilt.sensors.cameras.scene.bodies import BodyState, states_of
 from airhilt.sim import Director, Priority
+from airhilt.sim.payload import Payload
 from airhilt.units import DEGREE, SECOND_NS, seconds_to_ns
 from airhilt.world.actors.actor import Actor
 from airhilt.world.site import ScenarioSite

@@ -15,14 +15,14 @@ from dataclasses import asdict
 from functools import partial
 from typing import Any
 
-from airhilt.caches import CacheFolder
-from airhilt.deferred import DeferredBytes
 from airhilt.errors import RendererError
+from airhilt.host.caches import CacheFolder
 from airhilt.sensors.cameras.camera_state import CameraState
 from airhilt.sensors.cameras.frame import Prospect
 from airhilt.sensors.cameras.pictures import CameraPicture, DrawnPictures
 from airhilt.sensors.cameras.renderer_process import RendererProcess, sighting_of
 from airhilt.sensors.cameras.scene.bodies import BodyState
+from airhilt.sim.payload import DeferredBytes
 
 COMPRESSION = 1
 """Level of zlib. States differ little from those before, which are its dictionary."""

@@ -8,7 +8,7 @@ from pathlib import Path
 from PIL import Image, ImageDraw
 
 from airhilt.errors import CameraError
-from airhilt.files import replace_file
+from airhilt.host.files import replace_file
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import AUTO
 from airhilt.sensors.cameras.frame import Frame

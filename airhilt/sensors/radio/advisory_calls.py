@@ -8,7 +8,6 @@ from functools import partial
 from typing import NamedTuple
 
 from airhilt.audio.pcm import from_pcm
-from airhilt.deferred import Payload
 from airhilt.messages import (
     ADVISORY_CALL,
     ASSISTANT,
@@ -23,6 +22,7 @@ from airhilt.sensors.radio.hearing import hearing_key
 from airhilt.sensors.radio.on_air import OnAir, Utterance
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director, Priority
+from airhilt.sim.payload import Payload
 from airhilt.units import seconds_to_ns
 
 PAUSE_S = 2.0

@@ -12,7 +12,6 @@ from functools import partial
 from typing import Any
 
 from airhilt.commands import Command
-from airhilt.deferred import Payload
 from airhilt.messages import (
     CONTROLLER,
     FROM_MICROPHONE,
@@ -49,6 +48,7 @@ from airhilt.sensors.radio.stations import Stations
 from airhilt.sensors.radio.stuck_microphones import StuckMicrophones
 from airhilt.sensors.radio.transmissions import EndedTransmission, Transmissions
 from airhilt.sim import Director, Priority
+from airhilt.sim.payload import Payload
 from airhilt.units import seconds_to_ns
 from airhilt.world.actors.listening import Understanding
 

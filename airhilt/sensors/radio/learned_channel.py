@@ -15,7 +15,7 @@ import numpy as np
 
 from airhilt.audio.pcm import Audio
 from airhilt.errors import SpeechError, first_line
-from airhilt.onnx import first_look, open_network
+from airhilt.host.onnx import first_look, open_network
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.channel import (
     LEVEL_RMS,

@@ -12,8 +12,8 @@ import dask
 from distributed import Client, LocalCluster, Worker, WorkerPlugin
 from distributed.security import Security
 
-from airhilt.child_process import available_cores
 from airhilt.engines import Engine
+from airhilt.host.child_process import available_cores
 from airhilt.sweep.clusters import LOCAL, Cluster, ClusterError
 
 HOST = "127.0.0.1"

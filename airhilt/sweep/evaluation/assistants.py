@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fnmatch import fnmatch
 from typing import Literal
 
-from airhilt import library
+from airhilt.host import library
 from airhilt.options import MODALITIES
 from airhilt.scenario import Scenario
 from airhilt.scenario.conflict_pair import pair_of

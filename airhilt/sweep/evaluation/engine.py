@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from airhilt.errors import AirhiltError
-from airhilt.files import replace_file, sha256
+from airhilt.host.files import replace_file, sha256
 from airhilt.report.evaluation.page import render
 from airhilt.sweep.cases import cases
 from airhilt.sweep.engine import SweepObserver, SweepResult, sweep

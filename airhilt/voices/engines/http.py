@@ -8,7 +8,7 @@ from airhilt.audio.pcm import Audio
 from airhilt.audio.wav import decode_wav
 from airhilt.engines import Engine
 from airhilt.errors import SpeechError
-from airhilt.services import USAGE, HttpService, is_service
+from airhilt.host.services import USAGE, HttpService, is_service
 from airhilt.voices.engine import VoiceSpec
 
 TIMEOUT_S = 30.0

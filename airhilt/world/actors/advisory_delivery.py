@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 
-from airhilt.deferred import Payload
 from airhilt.messages import (
     SPEAK_MIN_LEVEL,
     Advisory,
@@ -17,6 +16,7 @@ from airhilt.messages import (
 )
 from airhilt.scenario.models import WildlifeSpec
 from airhilt.sim import Director, Priority
+from airhilt.sim.payload import Payload
 from airhilt.units import seconds_to_ns
 from airhilt.world.actors.actor import Actor, Reaction, Unable
 

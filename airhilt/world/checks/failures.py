@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from airhilt import library
 from airhilt.errors import AirhiltError
+from airhilt.host import library
 from airhilt.scenario.models import (
     AircraftSpec,
     CallsignConfused,

@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterable, Iterator
 
-from airhilt import library
 from airhilt.errors import ScenarioError
+from airhilt.host import library
 from airhilt.messages import ASSISTANT
 from airhilt.scenario.models import Scenario, WildlifeSpec
 from airhilt.scenario.problems import Problem

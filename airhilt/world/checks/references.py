@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from airhilt import library
+from airhilt.host import library
 from airhilt.scenario.models import (
     AircraftSpec,
     LineBegun,

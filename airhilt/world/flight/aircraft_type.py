@@ -9,7 +9,7 @@ from typing import Annotated, Any, Literal
 import pydantic
 from pydantic import Field
 
-from airhilt import library
+from airhilt.host import library
 from airhilt.quantities import Name, Number, Share, VerticalRateFpm
 from airhilt.scenario import documents
 from airhilt.scenario.problems import no_file_of

@@ -17,9 +17,9 @@ from pathlib import Path
 
 import jsbsim
 
-from airhilt.caches import CacheFolder
 from airhilt.errors import AirhiltError
-from airhilt.files import source_sha256
+from airhilt.host.caches import CacheFolder
+from airhilt.host.files import source_sha256
 
 _SILENCE = jsbsim.DefaultLogger(jsbsim.LogLevel.STDOUT)
 # Kept here for good: JSBSim drops its reference when a thread ends, without holding the

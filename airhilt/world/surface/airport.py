@@ -11,9 +11,9 @@ from typing import Annotated, Any, Literal, Self
 import pydantic
 from pydantic import Field
 
-from airhilt import library
 from airhilt.geodesy.positions import Bearing, Latitude, Longitude, RunwayIdent, TaxiwayName
 from airhilt.geodesy.wgs84 import Place, are_within_m
+from airhilt.host import library
 from airhilt.imaging.lenses import FieldOfView
 from airhilt.quantities import AltitudeFt, Count, Flag, Number
 from airhilt.scenario import documents

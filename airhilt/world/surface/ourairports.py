@@ -12,10 +12,10 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
-from airhilt import library
 from airhilt.errors import ScenarioError
-from airhilt.files import read_file
 from airhilt.geodesy.wgs84 import distance_and_azimuth
+from airhilt.host import library
+from airhilt.host.files import read_file
 from airhilt.text import readable
 from airhilt.units import FOOT
 from airhilt.world.surface.airport import Frequency, Role, Runway, RunwayThreshold

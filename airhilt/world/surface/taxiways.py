@@ -8,10 +8,10 @@ from collections.abc import Mapping, Sequence
 import networkx
 from shapely import LineString, Point
 
-from airhilt import library
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place
+from airhilt.host import library
 from airhilt.world.surface import path as lines
 from airhilt.world.surface.airport import Airport
 from airhilt.world.surface.path import Local

@@ -20,7 +20,7 @@ from endless_networks import write_endless
 
 @pytest.fixture(autouse=True)
 def _short_patience(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("airhilt.onnx.FIRST_LOOK_S", 0.3)
+    monkeypatch.setattr("airhilt.host.onnx.FIRST_LOOK_S", 0.3)
 
 
 def shipped(folder: Path) -> Path:

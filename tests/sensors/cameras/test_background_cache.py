@@ -108,7 +108,7 @@ def test_another_processor_has_it_drawn(tmp_path: Path, monkeypatch: pytest.Monk
     drawn = Drawn()
     backgrounds().get(View(LENS, EYE), 3, drawn)
     (tmp_path / "cpuinfo").write_text("model name: another one\n")
-    monkeypatch.setattr("airhilt.processor.PROCESSOR", tmp_path / "cpuinfo")
+    monkeypatch.setattr("airhilt.host.processor.PROCESSOR", tmp_path / "cpuinfo")
     backgrounds().get(View(LENS, EYE), 3, drawn)
     assert drawn.times == 2
 

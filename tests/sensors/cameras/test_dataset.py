@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-import airhilt.files
+import airhilt.host.files
 from airhilt import load
 from airhilt.errors import CameraError, RendererError, ScenarioError
 from airhilt.imaging.view import Intrinsics, Pose, View
@@ -271,7 +271,7 @@ def test_a_folder_that_cannot_be_made_is_named_with_what_to_do(tmp_path: Path) -
 def test_of_a_full_disk_the_truth_tells_what_is_there(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    write_new = airhilt.files.write_new
+    write_new = airhilt.host.files.write_new
 
     def filling(path: Path, data: bytes, mode: int) -> None:
         if "000003" in path.name:
@@ -279,7 +279,7 @@ def test_of_a_full_disk_the_truth_tells_what_is_there(
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
         write_new(path, data, mode)
 
-    monkeypatch.setattr(airhilt.files, "write_new", filling)
+    monkeypatch.setattr(airhilt.host.files, "write_new", filling)
     with pytest.raises(CameraError, match=r"part: .*No space left.*make room") as caught:
         export(frames(5), tmp_path / "part", {})
     assert "\n" not in str(caught.value)

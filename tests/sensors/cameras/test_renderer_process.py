@@ -17,8 +17,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from airhilt import child_process, load
+from airhilt import load
 from airhilt.errors import CameraError, RendererError, RendererLost
+from airhilt.host import child_process
 from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import renderer_link, renderer_process, renderer_server
@@ -184,7 +185,7 @@ def test_a_still_for_which_there_is_no_room_leaves_the_last_one(
 ) -> None:
     write_png(blank(), tmp_path / "a.png")
     before = (tmp_path / "a.png").read_bytes()
-    monkeypatch.setattr("airhilt.files.write_new", full_disk)
+    monkeypatch.setattr("airhilt.host.files.write_new", full_disk)
     with pytest.raises(CameraError, match=r"a\.png: .*No space left.*make room") as caught:
         write_png(blank(), tmp_path / "a.png", boxes=True)
     assert "\n" not in str(caught.value)

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from airhilt.files import source_sha256
+from airhilt.host.files import source_sha256
 from airhilt.imaging.view import Intrinsics, Pose
 from airhilt.sensors.cameras.mounts import Camera, Mount
 from airhilt.sensors.cameras.renderers import embree

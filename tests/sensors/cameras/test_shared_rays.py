@@ -71,7 +71,7 @@ def test_what_rays_meet_is_kept_by_all_that_it_depends_on(
     renderer(field()).landscape(view(), WINDOW)
     if other == "processor":
         (tmp_path / "cpuinfo").write_text("model name: another one\n")
-        monkeypatch.setattr("airhilt.processor.PROCESSOR", tmp_path / "cpuinfo")
+        monkeypatch.setattr("airhilt.host.processor.PROCESSOR", tmp_path / "cpuinfo")
     mesh = field(31.0) if other == "landscape" else field()
     renderer(mesh, "embreex 2" if other == "library" else "embreex 1").landscape(
         view(0.1 if other == "view" else 0.0),

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from airhilt import onnx
 from airhilt.errors import SpeechError
+from airhilt.host import onnx
 from airhilt.sensors.radio.channel import Other, active
 from airhilt.sensors.radio.learned_channel import LearnedChannel
 from large_networks import write_large, write_long

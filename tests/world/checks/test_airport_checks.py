@@ -10,8 +10,9 @@ from typing import Any
 
 import pytest
 
-from airhilt import library, load
+from airhilt import load
 from airhilt.errors import ScenarioError
+from airhilt.host import library
 from airhilt.world.loading import load_text
 
 BASE = load("s01b_nominal").model_dump(mode="json") | {"perturbations": []}

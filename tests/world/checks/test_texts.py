@@ -9,8 +9,8 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-from airhilt import library
 from airhilt.cli.commands.validate import COMMAND
+from airhilt.host import library
 from airhilt.scenario import Scenario
 from airhilt.world.checks.texts import doubtful_texts
 from airhilt.world.loading import load

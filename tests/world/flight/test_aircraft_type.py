@@ -11,8 +11,8 @@ from typing import Any
 import pydantic
 import pytest
 
-from airhilt import library
 from airhilt.errors import ScenarioError
+from airhilt.host import library
 from airhilt.world.flight import load_aircraft_type
 from airhilt.world.flight.aircraft_type import AircraftType
 

@@ -9,7 +9,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
-from airhilt import library
+from airhilt.host import library
 from airhilt.world.flight import Atmosphere
 from paths import SUPPORT
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import jsbsim
 import pytest
 
-from airhilt import library
+from airhilt.host import library
 from airhilt.world.flight import ModelError, model
 from airhilt.world.flight.model import load_model
 from paths import SUPPORT

@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 from shapely import Point
 
-from airhilt import library
 from airhilt.errors import ScenarioError
+from airhilt.host import library
 from airhilt.units import FOOT
 from airhilt.world.surface.airport import load_airport, read_airport
 from airhilt.world.surface.draft import as_text

@@ -29,9 +29,9 @@ from airhilt.assistant.asr.spotting import Odds, Spotted, Spotter, is_same
 from airhilt.audio.pcm import Audio
 from airhilt.engines import Engine
 from airhilt.errors import SpeechError, first_line, first_problem
-from airhilt.files import read_file
+from airhilt.host.files import read_file
+from airhilt.host.onnx import first_look, open_network
 from airhilt.messages import Confidence
-from airhilt.onnx import first_look, open_network
 
 MODEL = Path(__file__).parents[1] / "model"
 """The model that ships with AIRHILT."""

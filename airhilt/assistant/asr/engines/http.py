@@ -12,9 +12,9 @@ from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.audio.wav import encode_wav
 from airhilt.engines import Engine
 from airhilt.errors import SpeechError, first_problem
+from airhilt.host.services import USAGE, HttpService, is_service
 from airhilt.messages import Confidence, Word
 from airhilt.phraseology.canonical import canonical
-from airhilt.services import USAGE, HttpService, is_service
 
 TIMEOUT_S = 30.0
 MAXIMUM_BYTES = 1_000_000

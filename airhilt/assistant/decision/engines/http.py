@@ -13,8 +13,8 @@ from airhilt.assistant.decision.service_messages import AssistantAnswer, Propose
 from airhilt.assistant.decision.slices import INPUTS, READS, Slices
 from airhilt.engines import Engine
 from airhilt.errors import WorkerError, first_problem
+from airhilt.host.services import USAGE, HttpService, is_service
 from airhilt.messages import Message, Transcript
-from airhilt.services import USAGE, HttpService, is_service
 from airhilt.units import SECOND_NS
 
 TIMEOUT_S = 5.0

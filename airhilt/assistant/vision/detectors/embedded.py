@@ -22,10 +22,10 @@ from airhilt.assistant.vision.refiner import Refiner, RefinerCard
 from airhilt.assistant.vision.tiling import Tile
 from airhilt.engines import Engine
 from airhilt.errors import VisionError, first_line, first_problem
-from airhilt.files import read_file, sha256
+from airhilt.host.files import read_file, sha256
+from airhilt.host.onnx import open_network, require_end
 from airhilt.imaging.boxes import area, moved, size_px, within
 from airhilt.messages import Confidence, VisibleClass
-from airhilt.onnx import open_network, require_end
 
 MODEL = Path(__file__).parents[1] / "model" / "detector.onnx"
 LARGEST_CARD_BYTES = 1_000_000

@@ -12,10 +12,10 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from airhilt.assistant.vision.detector import Found, Picture, PictureMissed, Shot
 from airhilt.engines import Engine
 from airhilt.errors import VisionError, first_problem
+from airhilt.host.services import USAGE, HttpService, is_service
 from airhilt.imaging.boxes import area
 from airhilt.imaging.masks import Mask
 from airhilt.messages import Box, Confidence, VisibleClass
-from airhilt.services import USAGE, HttpService, is_service
 
 TIMEOUT_S = 10.0
 MAXIMUM_BYTES = 1_000_000

@@ -20,8 +20,8 @@ from airhilt.assistant.vision.detector import Found, Picture
 from airhilt.assistant.vision.detectors.embedded import has_card
 from airhilt.engines import Engine, Package
 from airhilt.errors import VisionError, first_line
+from airhilt.host.onnx import first_look, open_network
 from airhilt.messages import VisibleClass
-from airhilt.onnx import first_look, open_network
 
 LABELS: Mapping[str, VisibleClass] = {
     "airplane": "airplane",

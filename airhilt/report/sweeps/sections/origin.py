@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from airhilt.files import sha256
+from airhilt.host.files import sha256
 from airhilt.metrics.measures import HOUR_S
 from airhilt.report.figures import Figures
 from airhilt.report.sweeps.data import SweepData

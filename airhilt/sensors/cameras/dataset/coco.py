@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 from PIL import Image
 
-from airhilt import library
 from airhilt._version import __version__
 from airhilt.errors import CameraError
-from airhilt.files import replace_file
+from airhilt.host import library
+from airhilt.host.files import replace_file
 from airhilt.imaging.masks import Mask, runs_of
 from airhilt.messages import VisibleClass
 from airhilt.scenario import Scenario

@@ -14,10 +14,10 @@ import numpy.typing as npt
 
 import airhilt.imaging
 import airhilt.sensors.cameras
-from airhilt.caches import CacheFolder
-from airhilt.files import source_sha256
+from airhilt.host.caches import CacheFolder
+from airhilt.host.files import source_sha256
+from airhilt.host.processor import processor_sha256
 from airhilt.imaging.view import View, Window
-from airhilt.processor import processor_sha256
 from airhilt.shapes.mesh import Floats
 
 Pieces = npt.NDArray[np.intp]

@@ -17,8 +17,8 @@ import numpy as np
 import numpy.typing as npt
 
 from airhilt.errors import AirhiltError, RendererError
+from airhilt.host.library import nearest
 from airhilt.imaging.view import Intrinsics, Pose, View, Window
-from airhilt.library import nearest
 from airhilt.plugins import Family
 from airhilt.sensors.cameras import AUTO
 from airhilt.sensors.cameras.scene.illumination import Illumination

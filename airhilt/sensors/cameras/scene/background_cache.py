@@ -17,10 +17,10 @@ import numpy as np
 
 import airhilt.imaging
 import airhilt.sensors.cameras
-from airhilt.caches import CacheFolder
-from airhilt.files import source_sha256
+from airhilt.host.caches import CacheFolder
+from airhilt.host.files import source_sha256
+from airhilt.host.processor import processor_sha256
 from airhilt.imaging.view import View
-from airhilt.processor import processor_sha256
 from airhilt.sensors.cameras.renderers import Samples, library_of
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.landscape import Landscape

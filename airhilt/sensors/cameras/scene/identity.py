@@ -13,8 +13,8 @@ import airhilt.imaging
 import airhilt.sensors.cameras
 import airhilt.shapes
 import airhilt.world.surface.kinds
-from airhilt.files import source_sha256
-from airhilt.processor import processor_sha256
+from airhilt.host.files import source_sha256
+from airhilt.host.processor import processor_sha256
 from airhilt.sensors.cameras.mounts import Camera, Mount
 from airhilt.sensors.cameras.renderers import library_of
 from airhilt.sensors.cameras.scene.bodies import Model

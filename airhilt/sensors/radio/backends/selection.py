@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from airhilt.files import sha256
+from airhilt.host.files import sha256
 from airhilt.scenario.models import Radio
 from airhilt.scenario.radio_profiles import PROFILES, is_learned
 from airhilt.sensors.radio.backends.base import RadioBackend

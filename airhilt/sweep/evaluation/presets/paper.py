@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from airhilt import library
 from airhilt.cosim.latency_presets import ASR_S, TTS_S, VISION_S
+from airhilt.host import library
 from airhilt.metrics.estimates import median_of
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
 from airhilt.sweep.evaluation.scores import known, mean, share

@@ -18,7 +18,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 from airhilt.errors import AirhiltError, shown
-from airhilt.library import nearest
+from airhilt.host.library import nearest
 
 LIMIT = "AIRHILT_CACHE_LIMIT_MB"
 """Environment variable with the greatest size of all entries together, in MB."""

@@ -17,7 +17,7 @@ KINDS = ("aircraft", "airports", "scenarios", "bridges")
 
 def folder(kind: str) -> Path:
     """Return the folder that holds one of `KINDS`."""
-    package = Path(__file__).resolve().parent
+    package = Path(__file__).resolve().parents[1]
     installed = package / "library" / kind
     return installed if installed.is_dir() else package.parent / kind
 

@@ -1,0 +1,1 @@
+"""The machine that AIRHILT runs on: files, caches, processes, HTTP, ONNX Runtime, library data."""

@@ -1,0 +1,233 @@
+"""All messages on the bus: one module for each family of keys.
+
+The JSON Schemas that ``airhilt schema`` prints come from here only.
+
+Times are integer nanoseconds of simulation time. ``t_ns`` is the time of publication. A worker
+leaves it out and the run sets it on delivery, because only the run knows how late the worker is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import lru_cache
+from typing import Any
+
+from pydantic import BaseModel, TypeAdapter
+
+from airhilt.messages import (
+    advisories,
+    cameras,
+    cockpit,
+    radio,
+    run,
+    seats,
+    surveillance,
+    transcripts,
+    truth,
+    worker_protocol,
+)
+from airhilt.messages.advisories import (
+    CONTROLLER,
+    Advisory,
+    AdvisoryAudio,
+    AdvisoryKind,
+    CancelTakeoff,
+    Climb,
+    Confirm,
+    Evidence,
+    GoAround,
+    HoldPosition,
+    MaintainLevel,
+    ModelExchange,
+    Recommendation,
+    Rejection,
+    Turn,
+)
+from airhilt.messages.base import (
+    LAST_NS,
+    SPEAK_MIN_LEVEL,
+    Confidence,
+    Header,
+    Limit,
+    Message,
+    Nanoseconds,
+    Part,
+    Severity,
+    VisibleClass,
+)
+from airhilt.messages.cameras import (
+    CONFIRMED_HITS,
+    EXPOSURE_LEFT_OUT,
+    Box,
+    CameraFrame,
+    CameraInfo,
+    CameraView,
+    Detection,
+    Detections,
+)
+from airhilt.messages.cockpit import CockpitInstruments, EquipmentAlert, VehiclePosition
+from airhilt.messages.radio import (
+    ADVISORY_CALL,
+    ASSISTANT,
+    EnhancedTransmission,
+    Transmission,
+    TransmissionAudio,
+    TransmissionChunk,
+    TransmissionClosed,
+    TransmissionOpened,
+)
+from airhilt.messages.run import (
+    FORMER_MODALITIES,
+    AirportBriefing,
+    Briefing,
+    Clock,
+    GeodeticPoint,
+    Modality,
+    ModalityState,
+    Phase,
+    RosterEntry,
+    RunwayBriefing,
+    Status,
+)
+from airhilt.messages.seats import (
+    FROM_MICROPHONE,
+    LONGEST_REFUSAL,
+    SEAT_AUDIO,
+    SEAT_KEYS,
+    ActorCommand,
+    AdvisoryPerceived,
+    CallHeard,
+    CommandOffer,
+    MicrophoneAudio,
+    NasaTlx,
+    PaceCommand,
+    PageRefusal,
+    SeatAudio,
+    SeatAudioChunk,
+    SeatAudioClosed,
+    SeatAudioOpened,
+    SeatConsent,
+    SeatInfo,
+    SeatListening,
+    SeatNotice,
+    SeatPresence,
+    SpokenWords,
+    TaskCard,
+    Use,
+    WorkloadAnswer,
+    WorkloadQuestion,
+)
+from airhilt.messages.surveillance import (
+    AdsbReport,
+    EmitterCategory,
+    PlotKind,
+    RadarInfo,
+    RadarKind,
+    RadarPlot,
+    SurfaceTrack,
+    TcasReply,
+    TransponderMode,
+)
+from airhilt.messages.transcripts import PartialTranscript, Transcript, Word
+from airhilt.messages.truth import (
+    AFTER_STALL_S,
+    STALLED,
+    ActorTruth,
+    Arrival,
+    CameraTruth,
+    ConflictPhase,
+    ConflictTruth,
+    DropCause,
+    DroppedMessages,
+    Event,
+    EventKind,
+    HearingTruth,
+    RunwayTruth,
+    SightingTruth,
+    SpokenTruth,
+)
+from airhilt.messages.worker_protocol import (
+    RUN,
+    UNREGISTERED,
+    WORKER_NAME,
+    DeclaredLatency,
+    Grant,
+    GrantInput,
+    InputSpec,
+    StepOutput,
+    StepReply,
+    WorkerDescription,
+)
+
+BUS_MESSAGES: dict[str, type[Message]] = {
+    **run.KEYS,
+    **radio.KEYS,
+    **surveillance.KEYS,
+    **cockpit.KEYS,
+    **cameras.KEYS,
+    **transcripts.KEYS,
+    **advisories.KEYS,
+    **seats.KEYS,
+    **truth.KEYS,
+}
+"""The message of each key below ``airhilt/<run>/``."""
+WORKER_MESSAGES = worker_protocol.KEYS
+"""The messages of the worker protocol."""
+WORKER_OUTPUTS: dict[str, type[Message]] = {
+    "enhanced": EnhancedTransmission,
+    "asr": Transcript,
+    "vision": Detections,
+    "advisory": Advisory,
+    "tts": AdvisoryAudio,
+    "llm": ModelExchange,
+    "equipment": EquipmentAlert,
+}
+"""Messages that a worker may publish, by the first part of the key; never sensors or truth. Only
+equipment of the world publishes on ``equipment``."""
+
+
+@lru_cache(maxsize=4096)
+def bus_message(key: str) -> type[Message] | None:
+    """Return the class of the messages with a key below ``airhilt/<run>/``, None if it has none.
+
+    Pieces of a transmission have none: their key has three.
+    """
+    parts = key.split("/")
+    for template, model in BUS_MESSAGES.items():
+        wanted = template.split("/")
+        if len(wanted) == len(parts) and all(
+            one.startswith("{") or one == part for one, part in zip(wanted, parts, strict=True)
+        ):
+            return model
+    return None
+
+
+def worker_output(key: str) -> type[Message] | None:
+    """Return the class of the messages that a worker may publish on a key, None if there is none.
+
+    The first part of a key tells it, except for partial transcripts.
+    """
+    first, _, rest = key.partition("/")
+    if first == "asr" and rest.endswith("/partial"):
+        return PartialTranscript
+    return WORKER_OUTPUTS.get(first)
+
+
+def json_schemas(more: Mapping[str, type[BaseModel]] | None = None) -> dict[str, Any]:
+    """Return all schemas in one JSON object, by key, as ``airhilt schema`` prints them.
+
+    Parameters
+    ----------
+    more
+        Messages of other packages, by key.
+    """
+    return {
+        key: {"title": model.__name__, **TypeAdapter(model).json_schema(), **_limit(model)}
+        for key, model in {**BUS_MESSAGES, **WORKER_MESSAGES, **(more or {})}.items()
+    }
+
+
+def _limit(model: type[BaseModel]) -> dict[str, Any]:
+    """Return the limit of a class of messages, as its schema has it."""
+    limit = model.limit if issubclass(model, Message) else None
+    return {} if limit is None else {"x-airhilt-limit": limit._asdict()}
