@@ -10,8 +10,6 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator, Mapping
 from typing import Any, Literal, get_args
 
-from airhilt.messages import SEAT_AUDIO, SEAT_KEYS
-
 Role = Literal["observer", "worker", "operator", "recorder"]
 """Role of a program of another process."""
 ROLES: tuple[Role, ...] = get_args(Role)
@@ -26,27 +24,20 @@ BY_CERTIFICATE: Subjects = {CERTIFICATE_NAME.format(role): (role,) for role in R
 PUBLISHED: Mapping[Role, tuple[str, ...]] = {
     "observer": ("page",),
     "worker": ("advisory/*", "asr/*", "asr/*/partial", "vision/*", "tts/*"),
-    "operator": (
-        "command/*",
-        "speech/*",
-        "microphone/*",
-        "listening/*",
-        "consent/*",
-        "perceived/*",
-        "heard/*",
-        "pace",
-        "workload/*",
-        "page",
-    ),
+    "operator": ("command/*", "page"),
     "recorder": (),
 }
 """Keys on which a role may publish without a grant; a voice is heard, but refused."""
 ANSWERED = ("worker/*/describe", "worker/*/step")
 """Keys on which workers answer the queries of the run."""
-ASKED = ("clock", "briefing", "seat/*/info", "radar/*/info")
-"""Keys on which the run answers queries."""
-SEATS = ("seat/*", "seat/*/claim/*")
-"""Liveliness tokens of the pages that have a seat, or are about to take it."""
+ASKED = ("clock", "briefing", "radar/*/info")
+"""Keys on which the run answers queries of everybody."""
+SEAT_STATES = ("seat/*",)
+"""Keys on which it answers who may read seats."""
+SEAT_ACTS = ("seat/*/do",)
+"""Keys of the queries by which people act at seats."""
+HOLDERS = "seat/*/holder/*"
+"""Liveliness tokens of those who have a seat."""
 
 _RULES: Mapping[str, tuple[str, tuple[str, ...], tuple[str, ...]]] = {
     "subscribe": (
@@ -57,9 +48,13 @@ _RULES: Mapping[str, tuple[str, tuple[str, ...], tuple[str, ...]]] = {
     "ask": ("ingress", ("query",), ASKED),
     "be answered": ("egress", ("reply",), ASKED),
     "receive": ("egress", ("put", "declare_subscriber"), ("**",)),
-    "see who is there": ("egress", ("liveliness_token",), ("run", "worker/*", *SEATS)),
+    "see who is there": ("egress", ("liveliness_token",), ("run", "worker/*")),
     "attach": ("ingress", ("liveliness_token",), ("worker/*",)),
-    "take a seat": ("ingress", ("liveliness_token",), SEATS),
+    "read seats": ("ingress", ("query",), SEAT_STATES),
+    "be told of seats": ("egress", ("reply",), SEAT_STATES),
+    "hold a seat": ("ingress", ("liveliness_token",), (HOLDERS,)),
+    "act at a seat": ("ingress", ("query",), SEAT_ACTS),
+    "be answered at a seat": ("egress", ("reply",), SEAT_ACTS),
     "be asked": ("egress", ("query",), ANSWERED),
     "answer": ("ingress", ("declare_queryable", "reply"), ANSWERED),
     **{
@@ -73,15 +68,23 @@ _EVERYBODY = ("subscribe", "ask", "be answered", "receive", "see who is there")
 _OF_ROLE: Mapping[Role, tuple[str, ...]] = {
     "observer": ("publish as observer",),
     "worker": ("attach", "be asked", "answer", "publish as worker"),
-    "operator": ("publish as operator", "take a seat"),
-    "recorder": (),
+    "operator": (
+        "publish as operator",
+        "hold a seat",
+        "act at a seat",
+        "be answered at a seat",
+        "read seats",
+        "be told of seats",
+    ),
+    "recorder": ("read seats", "be told of seats"),
 }
 NO_TRUTH = "no truth"
 """Rule for all but recorders. It comes before those that allow something."""
 NO_SEATS = "no seats"
 """Rule for all but operators and recorders, of the same rank."""
-OF_SEATS = (*(f"{first}/**" for first in SEAT_KEYS), SEAT_AUDIO)
-"""Keys that the rule is about."""
+OF_SEATS = ("seat/**",)
+"""Keys that the rule is about: tasks hold words of the script before they are said, and the sound
+of a seat is what one person hears."""
 
 
 def access_control(root: str, run: str, subjects: Subjects) -> Any:

@@ -18,13 +18,15 @@ from typing import Any
 
 import zenoh
 
-from airhilt.bus.access import BY_CERTIFICATE, WITHOUT_KEYS, Role, Subjects, access_control
+from airhilt.bus.access import BY_CERTIFICATE, HOLDERS, WITHOUT_KEYS, Role, Subjects, access_control
 from airhilt.bus.certificates import read_keys
 from airhilt.bus.endpoints import is_taken, require_authenticated
 from airhilt.bus.intake import Source, size_filter
 from airhilt.errors import BusError, RendererError
 from airhilt.sim.payload import Payload
 
+Answer = Callable[[bytes], None]
+"""Answers a query with a payload."""
 ROOT = "airhilt"
 """First chunk of every key; the second is the run."""
 RETRY_S = 0.2
@@ -297,8 +299,8 @@ class Bus:
 
         self._receive(pattern, subscriber, take)
 
-    def _receive(self, pattern: str, subscriber: Any, take: Callable[[zenoh.Sample], None]) -> None:
-        """Call ``take`` with each sample, on a thread that ends with the subscriber.
+    def _receive(self, pattern: str, subscriber: Any, take: Callable[[Any], None]) -> None:
+        """Call ``take`` with each sample or query, on a thread that ends with the subscriber.
 
         A callback of Zenoh's own would not do: it keeps what it calls after the session is closed.
         """
@@ -325,9 +327,35 @@ class Bus:
         """Call ``changed`` with a worker's name and whether it is there (on another thread)."""
         self._watch("worker/*", changed)
 
-    def watch_seats(self, changed: Callable[[str, bool], None]) -> None:
-        """Call ``changed`` with a seat's name and whether it is taken (on another thread)."""
-        self._watch("seat/*", changed)
+    def watch_holders(self, ended: Callable[[str], None]) -> None:
+        """Call ``ended`` with the holder of a seat whose token has ended (on another thread)."""
+        self._watch(HOLDERS, lambda holder, is_there: None if is_there else ended(holder))
+
+    def has_holder(self, seat_key: str, holder: str) -> bool:
+        """Return whether the liveliness token of a holder is declared now."""
+        key = f"{self.prefix}/{seat_key}/holder/{holder}"
+        return any(reply.ok is not None for reply in self.session.liveliness().get(key))
+
+    def answer(self, pattern: str, asked: Callable[[str, bytes, Answer], None]) -> None:
+        """Call ``asked`` with key (relative to the run), payload and answer of each query.
+
+        It runs on a thread of its own. The answer is called once, on any thread.
+        """
+        queryable = self.session.declare_queryable(
+            f"{self.prefix}/{pattern}", zenoh.handlers.FifoChannel(RECEIVED)
+        )
+
+        def take(query: zenoh.Query) -> None:
+            key = str(query.key_expr)
+            payload = b"" if query.payload is None else query.payload.to_bytes()
+
+            def answer(data: bytes) -> None:
+                with query:
+                    query.reply(key, data)
+
+            asked(key[len(self.prefix) + 1 :], payload, answer)
+
+        self._receive(pattern, queryable, take)
 
     def _watch(self, pattern: str, changed: Callable[[str, bool], None]) -> None:
         """Call ``changed`` with the last part of a liveliness token, and whether it is there."""

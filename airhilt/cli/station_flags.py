@@ -3,31 +3,23 @@
 from __future__ import annotations
 
 import ssl
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import wraps
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar, cast
+from typing import Any, TypeVar, cast
 
 import click
 from click.core import ParameterSource
 
 from airhilt.errors import StationError
 from airhilt.station.address import DEFAULT_HOST, DEFAULT_PORT, Address
-from airhilt.text import readable
-
-if TYPE_CHECKING:
-    from airhilt.messages import Use
 
 F = TypeVar("F", bound=Callable[..., Any])
 FILE = click.Path(path_type=Path, dir_okay=False)
 NEEDED = ("fastapi", "uvicorn", "websockets")
 """Packages of the extra ``station``."""
-USES: tuple[Use, ...] = ("voice", "words")
-"""Uses to which a person at a seat may agree."""
-Agreed = tuple[str, "Use"]
-"""Name of a seat, and the use to which its person has agreed before."""
 
 
 @dataclass(frozen=True)
@@ -105,61 +97,6 @@ def station_options(command: F) -> F:
     ):  # fmt: skip
         decorated = option(decorated)
     return cast("F", decorated)
-
-
-def agreed_option(command: F) -> F:
-    """Add the option that says to what people at seats have agreed, as a parameter ``agreed``."""
-    option: Any = click.option(
-        "--agreed",
-        multiple=True,
-        metavar="SEAT=USE",
-        callback=lambda _, __, given: tuple(map(_agreed, given)),
-        help="Who takes this seat first at this page has agreed already to a use: voice (and "
-        "typed words), or words alone; may be given again, for another seat. The page asks for the "
-        "rest, and who takes the seat after that.",
-    )
-    return cast("F", option(command))
-
-
-def agreed_by_seat(agreed: Iterable[Agreed], seats: Mapping[str, str]) -> dict[str, Use]:
-    """Return to what people have agreed, by the seats of a run.
-
-    Parameters
-    ----------
-    seats
-        Seats that are left to people, by the names that stand for them.
-
-    Raises
-    ------
-    click.UsageError
-        A seat is not left to people, or there twice.
-    """
-    found: dict[str, Use] = {}
-    for name, use in agreed:
-        if name not in seats:
-            named = readable(", ".join(seats))
-            raise click.UsageError(
-                f"--agreed {readable(name)!r}: expected a seat that --seat names: {named}"
-            )
-        if seats[name] in found:
-            raise click.UsageError(f"--agreed {readable(name)!r}: its seat is there twice")
-        found[seats[name]] = use
-    return found
-
-
-def _agreed(given: str) -> Agreed:
-    """Return a seat, and the use of voice or words to which its person has agreed.
-
-    Raises
-    ------
-    click.BadParameter
-        It is none.
-    """
-    seat, _, named = given.rpartition("=")
-    use = next((one for one in USES if one == named), None)
-    if not seat or use is None:
-        raise click.BadParameter(f"{given!r}; expected SEAT={', or SEAT='.join(USES)}")
-    return seat, use
 
 
 def refuse_page_options(missing: str) -> None:

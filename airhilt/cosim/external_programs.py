@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from functools import partial
 
 from pydantic import ValidationError
 
 from airhilt.bus.intake import Intake
-from airhilt.bus.session import Bus, Refusal
-from airhilt.commands import Command
+from airhilt.bus.session import Answer, Bus, Refusal
 from airhilt.cosim.events import EventPublisher
 from airhilt.cosim.modalities import Modalities
 from airhilt.cosim.observer import Observer
@@ -20,28 +19,25 @@ from airhilt.messages import (
     ActorCommand,
     Advisory,
     AdvisoryAudio,
-    AdvisoryPerceived,
-    CallHeard,
     Detections,
     DropCause,
     DroppedMessages,
+    LeaveSeat,
     Limit,
     Message,
-    MicrophoneAudio,
-    PaceCommand,
     PageRefusal,
     PartialTranscript,
-    SeatConsent,
-    SeatListening,
-    SeatPresence,
-    SpokenWords,
+    SayVoice,
+    SeatAction,
+    SeatAnswer,
+    TakeSeat,
     Transcript,
-    WorkloadAnswer,
+    key_chunk,
 )
-from airhilt.sensors.radio.conversation import FromSeat
+from airhilt.seats import Seats
 from airhilt.sim import Director, RealTime, Virtual
 from airhilt.text import readable
-from airhilt.workers.pool import parse_output
+from airhilt.workers.pool import is_match, parse_output
 
 PAGE = "page"
 """Key of the refusals of a page: they are logged, and change nothing of the run."""
@@ -51,30 +47,19 @@ HEARD: Mapping[str, type[Message]] = {
     "asr/*/partial": PartialTranscript,
     "vision/*": Detections,
     "command/*": ActorCommand,
-    "speech/*": SpokenWords,
-    "microphone/*": MicrophoneAudio,
-    "listening/*": SeatListening,
-    "consent/*": SeatConsent,
-    "perceived/*": AdvisoryPerceived,
-    "heard/*": CallHeard,
-    "pace": PaceCommand,
     PAGE: PageRefusal,
-    "workload/*": WorkloadAnswer,
     "tts/*": AdvisoryAudio,
 }
 """Messages of the keys that are heard; those on the last are refused, for a voice needs grants."""
-AT_SEATS = (
-    SpokenWords, MicrophoneAudio, SeatListening, SeatConsent, AdvisoryPerceived, CallHeard,
-    SeatPresence, WorkloadAnswer,
-)  # fmt: skip
-"""Messages of people at seats."""
 ANSWERS = "worker/*/step"
 """Keys on which programs answer that were not asked."""
-SEATS = "seat/*"
-"""Keys on which programs take seats."""
+ACTS = "seat/*/do"
+"""Keys of the queries by which people act at seats."""
 EVENTS_LIMIT = Limit(size_bytes=0, rate_hz=20)
-"""Limit of answers that nobody asked for, and of taking or leaving a seat."""
+"""Limit of answers that nobody asked for."""
 LIMITS = {keys: kind.limit for keys, kind in HEARD.items() if kind.limit is not None}
+ACTS_LIMIT = SeatAction.limit
+assert ACTS_LIMIT is not None
 MOST_NOTICES = 20
 """Number of refusals that are told on the terminal; the log has all."""
 DROPPED: Mapping[DropCause, str] = {
@@ -97,32 +82,12 @@ class ExternalPrograms:
 
     Parameters
     ----------
-    obey
-        Lets an actor carry out a command.
-    take_from_seat
-        Takes what the person at a seat says, typed or spoken.
     seats
-        Seats that are left to people, as parts of keys.
-    units
-        Seats that fly and drive nothing, as parts of keys.
-    keeps_voices
-        False leaves the voices of people out of the log.
-    listen
-        Takes to which frequencies the person at a seat, a part of keys, listens.
-    consent
-        Takes whether the person at a seat agrees to the use of the voice, or of typed words.
-    occupy
-        Called with a seat, as a part of keys, and true if a person has taken it, false if left.
-    set_pace
-        Lets the time pass at a part of real time.
-    may_pause
-        False refuses that.
-    answer
-        Takes what the person at a seat, a part of keys, answers to a question about workload.
-    is_asked
-        Says of a seat, a part of keys, and a number that this question waits for an answer.
+        Seats that are left to people.
     workers
         Names of the workers that take grants: their advisories are not those of a program.
+    keeps_voices
+        False leaves the voices of people out of the log.
     is_strict
         True if a message that is refused stops the run.
     """
@@ -134,21 +99,11 @@ class ExternalPrograms:
         event: EventPublisher,
         modalities: Modalities,
         observer: Observer,
+        seats: Seats,
         *,
-        obey: Callable[[str, Command], None],
-        take_from_seat: Callable[[str, FromSeat], None],
-        seats: Collection[str],
-        units: Collection[str],
-        keeps_voices: bool,
-        listen: Callable[[str, SeatListening], None],
-        consent: Callable[[str, SeatConsent], None],
-        occupy: Callable[[str, bool], None],
-        set_pace: Callable[[float], None],
-        may_pause: bool,
-        answer: Callable[[str, WorkloadAnswer], None],
-        is_asked: Callable[[str, int], bool],
         workers: Collection[str],
         has_decision: bool,
+        keeps_voices: bool,
         is_strict: bool,
     ) -> None:
         self.heard = False
@@ -159,42 +114,70 @@ class ExternalPrograms:
         self._event = event
         self._modalities = modalities
         self._observer = observer
-        self._obey = obey
-        self._take_from_seat = take_from_seat
-        self._seats = frozenset(seats)
-        self._units = units
-        self._keeps_voices = keeps_voices
-        self._listen = listen
-        self._consent = consent
-        self._occupy = occupy
-        self._set_pace = set_pace
-        self._may_pause = may_pause
-        self._answer = answer
-        self._is_asked = is_asked
+        self._seats = seats
         self._workers = workers
+        self._keeps_voices = keeps_voices
         self._is_strict = is_strict
-        self._seat_keys = frozenset(f"seat/{seat}" for seat in seats)
-        bounded = dict.fromkeys((ANSWERS, SEATS, *self._seat_keys), EVENTS_LIMIT)
-        self._intake = Intake(LIMITS | bounded, self._dropping)
+        self._act_keys = frozenset(f"seat/{key_chunk(state.seat)}/do" for state in seats)
+        limits = dict.fromkeys((ACTS, *self._act_keys), ACTS_LIMIT)
+        self._intake = Intake({**LIMITS, ANSWERS: EVENTS_LIMIT, **limits}, self._dropping)
         self._dropped: dict[str, int] = {}
 
     def serve(self, bus: Bus) -> None:
         """Hear what programs put on the bus, and what of it does not count."""
         bus.hear_refusals(self._hear_refusal)
-        bus.watch_seats(self._note_presence)
+        bus.watch_holders(lambda holder: self._director.post(lambda: self._end_holds(holder)))
+        bus.answer(ACTS, partial(self._asked, bus))
         for keys in HEARD:
             bus.hear(keys, self._post, partial(self._intake.admit, keys))
 
-    def _note_presence(self, seat: str, is_taken: bool) -> None:
-        """Take note that a person has taken a seat, or left it (any thread)."""
-        key = f"seat/{seat}"
+    def _asked(self, bus: Bus, key: str, data: bytes, answer: Answer) -> None:
+        """Take in a query by which somebody acts at a seat (any thread)."""
         # Seats that nobody offers share one limit, so that they crowd out none that there is.
-        if self._intake.admit(key if key in self._seat_keys else SEATS, 0):
-            self._director.post(lambda: self._take_presence(key, is_taken))
+        if not self._intake.admit(key if key in self._act_keys else ACTS, len(data)):
+            answer(_refused("there were too many acts, or this one is too large"))
+            return
+        action: SeatAction | str
+        try:
+            action = SeatAction.model_validate_json(data)
+        except ValidationError as error:
+            # The reason has no words of the person: it is logged.
+            problem = error.errors(include_input=False, include_url=False)[0]
+            place = "/".join(str(part) for part in problem["loc"])
+            action = f"it is no SeatAction: {place or 'all'}: {problem['type']}"
+        else:
+            seat_key = key.removesuffix("/do")
+            if isinstance(action.act, TakeSeat) and not bus.has_holder(seat_key, action.holder):
+                action = "the liveliness token of the holder is not declared"
+        self._director.post(lambda: self._act(key, len(data), action, answer))
 
-    def _take_presence(self, key: str, is_taken: bool) -> None:
-        self._intake.release(0)
-        self.take(key, SeatPresence(is_taken=is_taken).model_dump_json().encode())
+    def _act(self, key: str, size: int, action: SeatAction | str, answer: Answer) -> None:
+        """Let an act count, or refuse it; whoever acts needs real time."""
+        self._intake.release(size)
+        why = action if isinstance(action, str) else self._seats.refusal(key, action)
+        if isinstance(action, str) or why:
+            self._event("refused", readable(key), readable(why))
+            answer(_refused(why))
+            return
+        self._need_real_time(key)
+        self._seats.note_secret(key, action)
+        self._accept(key, action)
+        answer(SeatAnswer(answer="ok").model_dump_json().encode())
+
+    def _accept(self, key: str, action: SeatAction) -> None:
+        """Let an act count now, and log it without the secret."""
+        self._note_first(key)
+        action = action.model_copy(update={"t_ns": self._director.now_ns, "secret": ""})
+        logged = action
+        if isinstance(action.act, SayVoice) and not self._keeps_voices:
+            silent = action.act.model_copy(update={"pcm": b""})
+            logged = action.model_copy(update={"act": silent})
+        self._router.heard(key, action, UNREGISTERED, logged)
+
+    def _end_holds(self, holder: str) -> None:
+        """Let who is gone leave the seat."""
+        for key in self._seats.held_by(holder):
+            self._accept(key, SeatAction(holder=holder, act=LeaveSeat()))
 
     def _hear_refusal(self, refusal: Refusal) -> None:
         if self._intake.admit(ANSWERS, 0):
@@ -217,14 +200,29 @@ class ExternalPrograms:
         self._director.post(lambda: self.take_refused(keys, text))
 
     def _hear(self, key: str, data: bytes) -> None:
-        """Take a message from the bus; a program that takes no grants needs real time."""
+        """Take a message from the bus."""
         self._intake.release(len(data))
-        if isinstance(self._director.pace, Virtual) and key != PAGE:
+        if key != PAGE:
+            self._need_real_time(key)
+        self.take(key, data)
+
+    def _need_real_time(self, key: str) -> None:
+        """Go on in real time: nobody can keep up with a run that goes faster without grants."""
+        if isinstance(self._director.pace, Virtual):
             self._director.change_pace(RealTime())
             self._observer.notice(
                 f"a program that takes no grants published on {key}: going on in real time"
             )
-        self.take(key, data)
+
+    def take_recorded(self, key: str, data: bytes) -> None:
+        """Let a message of an earlier run count, which was accepted there."""
+        if key not in self._act_keys:
+            self.take(key, data)
+            return
+        try:
+            self._accept(key, SeatAction.model_validate_json(data))
+        except ValidationError as error:  # Somebody has changed the record.
+            self._refuse(key, first_problem(error))
 
     def take(self, key: str, data: bytes) -> None:
         """Let a message count now.
@@ -238,8 +236,7 @@ class ExternalPrograms:
         try:
             message = _parse(key, data, self._director.now_ns)
             self._require_own(message)
-            self._require_seat(key, message)
-            self._require_asked(key, message)
+            self._require_no_seat(key, message)
         except WorkerError as error:
             self._refuse(key, str(error))
             if self._is_strict:
@@ -252,27 +249,7 @@ class ExternalPrograms:
         if isinstance(stamped, Advisory) and not self.has_decision:
             self.has_decision = True
             self._modalities.set("decision", "on")
-        self._router.heard(key, self._logged(stamped), UNREGISTERED)
-        if isinstance(stamped, ActorCommand):
-            self._obey(key.split("/")[1], stamped.command)
-        elif isinstance(stamped, FromSeat):
-            self._take_from_seat(key.split("/")[1], stamped)
-        elif isinstance(stamped, SeatListening):
-            self._listen(key.split("/")[1], stamped)
-        elif isinstance(stamped, SeatConsent):
-            self._consent(key.split("/")[1], stamped)
-        elif isinstance(stamped, SeatPresence):
-            self._occupy(key.split("/")[1], stamped.is_taken)
-        elif isinstance(stamped, PaceCommand):
-            self._set_pace(stamped.factor)
-        elif isinstance(stamped, WorkloadAnswer):
-            self._answer(key.split("/")[1], stamped)
-
-    def _logged(self, message: Message) -> Message:
-        """Return a message as the log is to have it."""
-        if isinstance(message, MicrophoneAudio) and not self._keeps_voices:
-            return message.model_copy(update={"pcm": b""})
-        return message
+        self._router.heard(key, stamped, UNREGISTERED)
 
     def _require_own(self, message: Message) -> None:
         """Complain about an advisory that says it is of a worker that takes grants.
@@ -291,55 +268,24 @@ class ExternalPrograms:
                     f"of its own: this one belongs to worker {name!r}"
                 )
 
-    def _require_seat(self, key: str, message: Message) -> None:
-        """Complain about what happens at a seat that is not a person's, or cannot be there.
-
-        Raises
-        ------
-        WorkerError
-            It is none.
-        """
-        known = ", ".join(sorted(self._seats)) or "none: there is no --seat"
-        if isinstance(message, PaceCommand) and not self._seats:
-            raise WorkerError(
-                f"a program published on {key!r}, which is for the page of people at seats alone; "
-                "expected a run with --seat"
-            )
-        if isinstance(message, PaceCommand) and not self._may_pause:
-            raise WorkerError(
-                f"a program published on {key!r}, but this run has no pause and no slow motion; "
-                "expected a run without --no-pause"
-            )
-        if isinstance(message, ActorCommand) and key.split("/")[1] in self._units:
-            raise WorkerError(
-                f"a program published on {key!r}, the seat of a unit, which flies and drives "
-                "nothing; expected the callsign of an aircraft or a vehicle"
-            )
-        if isinstance(message, AT_SEATS) and key.split("/")[1] not in self._seats:
-            raise WorkerError(
-                f"a program published on {key!r}, no seat of this run; expected {known}"
-            )
-
-    def _require_asked(self, key: str, message: Message) -> None:
-        """Complain about an answer to what was not asked, or has an answer already.
+    def _require_no_seat(self, key: str, message: Message) -> None:
+        """Complain about a command to an actor that is left to a person.
 
         Raises
         ------
         WorkerError
             It is one.
         """
-        if isinstance(message, WorkloadAnswer):
-            number = message.question
-            if not self._is_asked(key.split("/")[1], number):
-                raise WorkerError(
-                    f"a program published on {key!r} an answer to question {number}; expected the "
-                    "number of a question that was asked there and has no answer yet"
-                )
+        if isinstance(message, ActorCommand) and self._seats.at(key) is not None:
+            raise WorkerError(
+                f"a program published on {key!r}, whose actor is left to a person; expected an act "
+                f"of who has the seat, on seat/{key.split('/')[1]}/do"
+            )
 
     def take_refused(self, key: str, cause: str) -> None:
         """Refuse what only a cause is known of, such as what an earlier run refused."""
-        if key == PAGE:
-            self._event("refused", PAGE, readable(cause))
+        if key == PAGE or is_match(key, ACTS):
+            self._event("refused", readable(key), readable(cause))
             return
         self._note_first(key)
         self._refuse(key, cause)
@@ -393,8 +339,8 @@ def _parse(key: str, data: bytes, now_ns: int) -> Message:
             "(docs/workers.md)"
         )
     family, _, rest = key.partition("/")
-    kind = SeatPresence if family == "seat" else HEARD.get(f"{family}/*" if rest else key)
-    if kind not in (ActorCommand, PaceCommand, PageRefusal, *AT_SEATS):
+    kind = HEARD.get(f"{family}/*" if rest else key)
+    if kind not in (ActorCommand, PageRefusal):
         return parse_output(UNREGISTERED, key, data, now_ns)
     try:
         return kind.model_validate_json(data)
@@ -403,3 +349,8 @@ def _parse(key: str, data: bytes, now_ns: int) -> Message:
             f"a program published on {key!r} something that is no {kind.__name__}: "
             f"{first_problem(error)}; see `airhilt schema`"
         ) from None
+
+
+def _refused(reason: str) -> bytes:
+    """Return the answer to an act that is refused."""
+    return SeatAnswer(answer="refused", reason=readable(reason)).model_dump_json().encode()

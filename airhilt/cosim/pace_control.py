@@ -2,11 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable
 
 from airhilt.cosim.events import EventPublisher
-from airhilt.messages import AFTER_STALL_S, STALLED
+from airhilt.cosim.radio import RunRadio
+from airhilt.messages import (
+    AFTER_STALL_S,
+    STALLED,
+    LeaveSeat,
+    Message,
+    SeatAction,
+    SetPace,
+    TakeSeat,
+)
+from airhilt.seats import Seats
 from airhilt.sim import Director, Paused, RealTime, Virtual
+from airhilt.sim.payload import Payload
 from airhilt.units import SECOND_NS, seconds_to_ns
 
 MOST_BEHIND_NS = SECOND_NS
@@ -26,8 +37,6 @@ class PaceControl:
 
     Parameters
     ----------
-    pausing
-        Called with true when the time stands still from now on, with false when it passes.
     changed
         Called when the pace is another one.
     """
@@ -36,18 +45,20 @@ class PaceControl:
         self,
         director: Director,
         event: EventPublisher,
+        seats: Seats,
+        radio: RunRadio,
         *,
-        pausing: Callable[[bool], None],
         changed: Callable[[], None],
     ) -> None:
         self._director = director
         self._event = event
-        self._pausing = pausing
+        self._seats = seats
+        self._radio = radio
         self._changed = changed
         self._factor = 1.0
-        self._present: set[str] = set()
-        self._awaited: frozenset[str] = frozenset()
-        """Seats for which the run waits: it has not begun."""
+        self._is_awaiting = False
+        """True while the run waits for its seats: it has not begun."""
+        self._is_at_end = False
         pace = director.pace
         self._begun_factor = pace.factor if isinstance(pace, RealTime) else 1.0
         self._lost_ns = 0
@@ -71,29 +82,39 @@ class PaceControl:
         self._event("pace", "run", STALLED)
         self._changed()
 
-    def wait_for(self, seats: Collection[str]) -> None:
-        """Let the time stand still until all these seats are taken, or a person lets it pass."""
+    def wait_for_seats(self) -> None:
+        """Let the time stand still until all seats are taken, or a person lets it pass."""
         self.set(0.0)
-        self._awaited = frozenset(seats)
+        self._is_awaiting = True
+
+    def stand_still(self) -> None:
+        """Let the time stand still for good: the run is at its end."""
+        self.set(0.0)
+        self._is_at_end = True
 
     def set(self, factor: float) -> None:
         """Let the time pass at a part of real time; 0 lets it stand still."""
-        self._awaited = frozenset()
+        self._is_awaiting = False
         self._factor = factor
         pace = Paused() if factor == 0.0 else RealTime(factor)
         self._event("pace", "run", pace.name)
-        self._pausing(factor == 0.0)
+        if factor == 0.0:
+            self._radio.pause()
+        self._seats.change_all(pace=pace.name)
         if not isinstance(self._director.pace, Virtual):
             self._director.change_pace(pace)
         self._changed()
 
-    def occupy(self, seat: str, *, is_taken: bool) -> None:
-        """Take in that a person has taken a seat, or has left it."""
-        if is_taken:
-            self._present.add(seat)
-            if self._awaited and self._awaited <= self._present:
-                self.set(self._begun_factor)
+    def take(self, key: str, message: Message, data: Payload) -> None:  # noqa: ARG002
+        """Take in what a person does at a seat."""
+        if not isinstance(message, SeatAction) or self._is_at_end:
             return
-        self._present.discard(seat)
-        if not self._awaited and not self._present and self._factor != 1.0:
-            self.set(1.0)
+        match message.act:
+            case SetPace(factor=factor):
+                self.set(factor)
+            case TakeSeat() if self._is_awaiting:
+                if all(state.phase == "taken" for state in self._seats):
+                    self.set(self._begun_factor)
+            case LeaveSeat() if not self._is_awaiting and self._factor != 1.0:
+                if all(state.phase != "taken" for state in self._seats):
+                    self.set(1.0)

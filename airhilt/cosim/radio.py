@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from functools import partial
 
-from airhilt.commands import Command
 from airhilt.cosim.events import EventPublisher
 from airhilt.cosim.modalities import Modalities
 from airhilt.cosim.observer import Observer
 from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import Setup
 from airhilt.cosim.world_loop import WorldLoop
-from airhilt.messages import SeatInfo, Severity
 from airhilt.scenario.failures import EffectiveLine
+from airhilt.seats import Seats
 from airhilt.sensors.radio.advisory_calls import AdvisoryChannel
 from airhilt.sensors.radio.backends import FallbackRadio
-from airhilt.sensors.radio.conversation import FromSeat, RadioConversation
+from airhilt.sensors.radio.conversation import RadioConversation
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director, StepRecord
 from airhilt.units import SECOND_NS
@@ -35,7 +34,8 @@ class RunRadio:
         modalities: Modalities,
         observer: Observer,
         advisory_channel: AdvisoryChannel | None,
-        seats: Collection[str],
+        stations: Stations,
+        seats: Seats,
     ) -> None:
         radio = setup.scenario.radio
         self._director = director
@@ -52,7 +52,7 @@ class RunRadio:
             director,
             setup.scenario,
             setup.lines,
-            Stations(setup.actors, setup.site, radio.lines),
+            stations,
             self._backend,
             setup.options.seed,
             world.ended_lines,
@@ -72,45 +72,14 @@ class RunRadio:
         """Schedule the lines of the script, and the microphones that get stuck."""
         self._conversation.start()
 
-    def take_from_seat(self, seat: str, message: FromSeat) -> None:
-        """Take what the person at a seat says, typed or spoken."""
-        self._conversation.take_from_seat(seat, message)
+    @property
+    def has_sound(self) -> bool:
+        """True unless the run has no speech, or has lost it."""
+        return self._backend.has_sound
 
-    def listen(self, seat: str, frequencies_khz: Collection[int]) -> bool:
-        """Take in what the person at a seat listens to; return true if that has changed."""
-        return self._conversation.listen(seat, frequencies_khz)
-
-    def occupy(self, seat: str, is_taken: bool) -> None:
-        """Take in that a person has taken a seat or left it."""
-        self._conversation.occupy(seat, is_taken=is_taken)
-
-    def commanded(self, actor: str, command: Command) -> None:
-        """Take in that an actor carries out a command that somebody has given it."""
-        self._conversation.commanded(actor, command)
-
-    def has_person(self, name: str) -> bool:
-        """Return whether a person speaks and acts for a unit or an actor, and nobody else."""
-        return self._conversation.has_person(name)
-
-    def pause(self, is_paused: bool) -> None:
-        """Take in that the time stands still, or passes again."""
-        self._conversation.pause(is_paused)
-
-    def infos(
-        self,
-        *,
-        is_recognised: bool,
-        voice_is_recorded: bool,
-        may_pause: bool,
-        spoken_from: Severity | None,
-    ) -> list[SeatInfo]:
-        """Return what the persons at the seats have to know."""
-        return self._conversation.infos(
-            is_recognised=is_recognised,
-            voice_is_recorded=voice_is_recorded,
-            may_pause=may_pause,
-            spoken_from=spoken_from,
-        )
+    def pause(self) -> None:
+        """End the calls of people: nobody is on the air while the time stands still."""
+        self._conversation.pause()
 
     def unfinished(self) -> Sequence[StepRecord]:
         """Return nothing: the radio has no latency of its own."""

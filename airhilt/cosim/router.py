@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from airhilt.bus.session import Bus
-from airhilt.messages import RUN, Briefing, Message, RadarInfo, SeatInfo
+from airhilt.messages import RUN, Briefing, Message, RadarInfo, SeatState
 from airhilt.record.log import LogWriter
 from airhilt.sim.payload import Payload
 
@@ -13,7 +13,7 @@ Listener = Callable[[str, Message, Payload], None]
 """Called with key, message and payload: its JSON, or the raw bytes that it is the header of."""
 Attributed = Callable[[str, Message], None]
 """Called with the name of the publisher and its message."""
-CONSTANT = (Briefing, SeatInfo, RadarInfo)
+CONSTANT = (Briefing, SeatState, RadarInfo)
 """Messages that are published when they change; who comes late asks for the newest."""
 
 
@@ -66,9 +66,17 @@ class MessageRouter:
             for attributed in self._attributed:
                 attributed(publisher, message)
 
-    def heard(self, key: str, message: Message, publisher: str) -> None:
-        """Take in what another process has put on the bus itself."""
-        data = message.model_dump_json().encode()
+    def heard(
+        self, key: str, message: Message, publisher: str, logged: Message | None = None
+    ) -> None:
+        """Take in what another process has put on the bus itself.
+
+        Parameters
+        ----------
+        logged
+            Message as the log is to have it; None: as it is.
+        """
+        data = (logged or message).model_dump_json().encode()
         self._log.write(key, publisher, type(message), message.t_ns, data)
         for listener in (*self._observers, *self._listeners):
             listener(key, message, data)

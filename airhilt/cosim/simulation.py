@@ -19,7 +19,6 @@ from airhilt.assistant.reference import is_own_engine
 from airhilt.bus.access import ROLES, WITHOUT_KEYS
 from airhilt.bus.endpoints import what_is_open
 from airhilt.bus.session import Bus
-from airhilt.commands import Command
 from airhilt.cosim.advisory_hints import AdvisoryHints
 from airhilt.cosim.briefing import briefing_of
 from airhilt.cosim.cameras import Vision, open_vision, started_renderers
@@ -34,6 +33,7 @@ from airhilt.cosim.radio import RunRadio
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.seat_notices import SeatNotices
+from airhilt.cosim.seat_states import seat_states
 from airhilt.cosim.setup import Setup, set_up
 from airhilt.cosim.workload_questions import WorkloadQuestions
 from airhilt.cosim.world_loop import WorldLoop
@@ -42,9 +42,6 @@ from airhilt.host.child_process import cpu_s
 from airhilt.messages import (
     Clock,
     Phase,
-    SeatConsent,
-    SeatListening,
-    Severity,
     WorkerDescription,
 )
 from airhilt.metrics.collector import Collector
@@ -56,9 +53,10 @@ from airhilt.record.audio import AudioRecorder
 from airhilt.report import write_report
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import WildlifeSpec
+from airhilt.seats import Seats
 from airhilt.sensors.base import Sensor, SensorContext
 from airhilt.sensors.radio.advisory_calls import AdvisoryChannel
-from airhilt.sensors.radio.hearing import key_chunk
+from airhilt.sensors.radio.stations import Stations
 from airhilt.sensors.starting import start_sensors
 from airhilt.sim import Director, Pace, Priority, RealTime, StepRecord, Virtual, interruptible
 from airhilt.text import LONGEST_LINE, readable
@@ -214,23 +212,31 @@ class Simulation:
         self._modalities = Modalities(
             self._director, self._router, self._event, observer, is_strict=setup.options.strict
         )
-        self._world = WorldLoop(self._director, setup, self._router, self._event)
+        self._stations = Stations(setup.actors, setup.site, setup.scenario.radio.lines)
+        self._seats = Seats(
+            seat_states(setup, participants, self._stations), self._router.publish, self._director
+        )
+        self._world = WorldLoop(self._director, setup, self._router, self._event, self._seats)
         self._collector = self._make_collector()
         self._pool = self._connect_workers()
         self._programs = self._connect_programs()
         self._advisories = self._make_advisory_delivery()
+        self._router.listen(self._seats.take)
         self._router.listen(self._make_audio_recorder().take)
         self._router.observe(self._collector.take)
         self._router.listen(self._pool.offer)
+        self._router.listen(self._world.take)
         self._radio = self._connect_radio()
         self._pace_control = PaceControl(
-            self._director, self._event, pausing=self._radio.pause, changed=self._publish_clock
+            self._director, self._event, self._seats, self._radio, changed=self._publish_clock
         )
         if setup.seats:
             self._pace_control.keep_time()
         self._questions = self._make_questions()
         self._router.listen(self._advisories.take)
         self._connect_notices()
+        self._router.listen(self._pace_control.take)
+        self._router.listen(self._questions.take)
         self._sensors: list[Sensor] = [self._radio, vision]
         self._mount_cameras()
         self._schedule()
@@ -248,7 +254,7 @@ class Simulation:
             is_voiced=self._participants.does("tts"),
             speak_min_level=self._participants.speak_min_level,
             is_on_frequency=self._setup.options.advisory_channel == "frequency",
-            is_automaton=lambda name: not self._radio.has_person(name),
+            is_automaton=lambda name: not self._seats.has_person(name),
         )
 
     def _make_collector(self) -> Collector:
@@ -294,20 +300,10 @@ class Simulation:
             self._event,
             self._modalities,
             self._observer,
-            obey=self._obey,
-            take_from_seat=lambda seat, said: self._radio.take_from_seat(seat, said),
-            seats=[key_chunk(name) for name in self._setup.seats],
-            units=[key_chunk(name) for name in self._setup.seats if name not in self._setup.actors],
-            keeps_voices=self._setup.options.voice_recording,
-            listen=self._listen,
-            consent=self._take_consent,
-            occupy=self._occupy,
-            set_pace=self._set_pace,
-            may_pause=self._setup.options.pause,
-            answer=lambda seat, answer: self._questions.answer(seat, answer),
-            is_asked=lambda seat, number: self._questions.is_open(seat, number),
+            self._seats,
             workers=[worker.description.name for worker in participants.workers],
             has_decision=bool(participants.programs) or participants.does("decision"),
+            keeps_voices=self._setup.options.voice_recording,
             is_strict=self._setup.options.strict,
         )
 
@@ -315,78 +311,27 @@ class Simulation:
         options = self._setup.options
         return WorkloadQuestions(
             self._director,
-            self._setup.seats,
-            self._router.publish,
+            self._seats,
+            self._router,
+            self._pace_control,
             isa_minutes=options.isa_minutes,
             has_tlx=options.nasa_tlx,
             is_replay=self._setup.recorded.is_replay,
-            hold=lambda: self._pace_control.set(0.0),
-            take=self._programs.take,
         )
-
-    def _seat_name(self, seat: str) -> str:
-        """Return the unit or callsign of a seat, which is named as a part of keys."""
-        return next(name for name in self._setup.seats if key_chunk(name) == seat)
-
-    def _listen(self, seat: str, told: SeatListening) -> None:
-        """Take in to which frequencies the person at a seat listens."""
-        if self._radio.listen(seat, told.frequencies_khz):
-            listed = [f"{khz / 1000:.3f} MHz" for khz in sorted(told.frequencies_khz)]
-            text = f"listens to {' and '.join(listed) or 'no frequency'}"
-            self._event("seat", self._seat_name(seat), text)
-
-    def _take_consent(self, seat: str, told: SeatConsent) -> None:
-        """Take in whether the person at a seat agrees to the use of the voice, or of the words."""
-        kept = "is" if self._setup.options.voice_recording else "is not"
-        texts = {
-            ("voice", True): f"agrees to speak; the voice {kept} recorded",
-            ("voice", False): "keeps the microphone closed",
-            ("words", True): "agrees to type; the words are recorded",
-            ("words", False): "agrees neither to type nor to speak",
-        }
-        self._event("seat", self._seat_name(seat), texts[told.what, told.is_given])
-
-    def _occupy(self, seat: str, is_taken: bool) -> None:
-        """Take in that a person has taken a seat, a part of keys, or has left it."""
-        name = self._seat_name(seat)
-        self._event(
-            "seat", name, "a person has it" if is_taken else "nobody is there: its script goes on"
-        )
-        if not is_taken and not self._setup.recorded.is_replay:
-            self._observer.notice(f"seat {name}: its person has left, and its script goes on")
-        self._radio.occupy(seat, is_taken)
-        if not is_taken:
-            self._advisories.person_left(name)
-        self._questions.occupy(seat, is_taken=is_taken)
-        if not self._questions.is_closing:
-            self._pace_control.occupy(seat, is_taken=is_taken)
 
     def _wait_for_seats(self) -> None:
         """Let the run stand still at its start until its seats are taken, if that is wanted."""
         setup = self._setup
         if not setup.options.wait_for_seats:
             return
-        seats = [key_chunk(name) for name in setup.seats]
-        self._pace_control.wait_for(seats)
+        self._pace_control.wait_for_seats()
         if not setup.recorded.is_replay and not isinstance(self._director.pace, Virtual):
             self._observer.notice(f"the run begins when this is taken: {', '.join(setup.seats)}")
 
-    def _obey(self, callsign: str, command: Command) -> None:
-        """Let an actor carry out a command of a person or a program."""
-        if self._world.obey(callsign, command):
-            self._radio.commanded(callsign, command)
-
-    def _set_pace(self, factor: float) -> None:
-        """Let the time pass as a person asks for; it stands still once the run is at its end."""
-        if not self._questions.is_closing:
-            self._pace_control.set(factor)
-
     def _connect_notices(self) -> None:
         """Tell people at seats, and the user, what they would not see otherwise."""
-        notices = SeatNotices(
-            self._setup.seats, self._router.publish, lambda: self._director.now_ns
-        )
-        self._router.observe(notices.take)
+        observer = None if self._setup.recorded.is_replay else self._observer
+        self._router.observe(SeatNotices(self._seats, self._event, observer).take)
         self._connect_hints()
 
     def _connect_hints(self) -> None:
@@ -412,7 +357,8 @@ class Simulation:
             self._modalities,
             self._observer,
             self._advisory_channel(),
-            self._setup.seats,
+            self._stations,
+            self._seats,
         )
         radio.start()
         return radio
@@ -470,7 +416,7 @@ class Simulation:
         if recorded.end_ns is not None:
             self._director.at(recorded.end_ns + 1, self._director.stop, Priority.PHYSICS)
         for message in recorded.unregistered:
-            take = partial(self._programs.take, message.key, message.data)
+            take = partial(self._programs.take_recorded, message.key, message.data)
             self._director.at(message.t_ns, take, Priority.SCRIPT)
         for event in recorded.refused:
             refuse = partial(self._programs.take_refused, event.subject, event.text)
@@ -600,7 +546,7 @@ class Simulation:
     def _worker_lost(self, worker: WorkerDescription, cause: str, is_of_machine: bool) -> None:
         if worker.modality == "tts":
             self._advisories.voice_lost()
-            self._tell_seats(None)
+            self._seats.change_all(spoken_from=None)
         cause = readable(cause)
         self._latency_log.lost(worker.name, self._director.now_ns, cause)
         self._modalities.lose(worker.modality, "worker_lost", worker.name, cause, is_of_machine)
@@ -619,17 +565,10 @@ class Simulation:
     def _brief(self) -> None:
         self._router.publish("briefing", briefing_of(self._setup.scenario, self._setup.site))
         has_voice = self._participants.does("tts")
-        self._tell_seats(self._participants.speak_min_level if has_voice else None)
-
-    def _tell_seats(self, spoken_from: Severity | None) -> None:
-        infos = self._radio.infos(
-            is_recognised=self._participants.does("asr"),
-            voice_is_recorded=self._setup.options.voice_recording,
-            may_pause=self._setup.options.pause,
-            spoken_from=spoken_from,
+        self._seats.open(
+            has_sound=self._radio.has_sound,
+            spoken_from=self._participants.speak_min_level if has_voice else None,
         )
-        for info in infos:
-            self._router.publish(f"seat/{key_chunk(info.seat)}/info", info)
 
     def _set_modalities(self) -> None:
         scenario, does = self._setup.scenario, self._participants.does

@@ -11,10 +11,19 @@ from airhilt.cosim.events import EventPublisher
 from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import TICK_S, Setup
 from airhilt.errors import AirhiltError, failure_in
-from airhilt.messages import ConflictPhase, ConflictTruth
+from airhilt.messages import (
+    ActorCommand,
+    ConflictPhase,
+    ConflictTruth,
+    FlyCommand,
+    Message,
+    SeatAction,
+)
 from airhilt.scenario.conflict_pair import pair_of
 from airhilt.scenario.models import AircraftSpec, Condition, EngineFailure, WildlifeSpec
+from airhilt.seats import Seats
 from airhilt.sim import Director, Priority
+from airhilt.sim.payload import Payload
 from airhilt.units import SECOND_NS, seconds_to_ns
 from airhilt.world.actors import Actor, Unable
 from airhilt.world.actors.triggers import Triggers
@@ -54,7 +63,12 @@ class WorldLoop:
     """
 
     def __init__(
-        self, director: Director, setup: Setup, router: MessageRouter, event: EventPublisher
+        self,
+        director: Director,
+        setup: Setup,
+        router: MessageRouter,
+        event: EventPublisher,
+        seats: Seats,
     ) -> None:
         scenario, site, actors = setup.scenario, setup.site, setup.actors
         self._director = director
@@ -62,6 +76,7 @@ class WorldLoop:
         self._actors = actors
         self._publish = router.publish
         self._event = event
+        self._seats = seats
         self._triggers = Triggers()
         self.affected: set[str] = set()
         self.uncleared: set[str] = set()
@@ -138,20 +153,29 @@ class WorldLoop:
             self._event("command", callsign, command.model_dump_json(exclude_none=True))
             self.obey(callsign, command)
 
-    def obey(self, callsign: str, command: Command) -> bool:
-        """Let an actor carry out a command, or say that it cannot; return true if it does.
+    def take(self, key: str, message: Message, data: Payload) -> None:  # noqa: ARG002
+        """Let an actor carry out the command of a person or a program."""
+        match message:
+            case ActorCommand(command=command):
+                self.obey(key.split("/")[1], command)
+            case SeatAction(act=FlyCommand(command=command), t_ns=t_ns):
+                given = ActorCommand(t_ns=t_ns, command=command)
+                self._publish(f"command/{key.split('/')[1]}", given)
+
+    def obey(self, callsign: str, command: Command) -> None:
+        """Let an actor carry out a command, or say that it cannot.
 
         Nothing happens if there is no such actor, or if it has left the run.
         """
         actor = self._actors.get(callsign)
         if actor is None or actor.body.ended is not None:
-            return False
+            return
         try:
             actor.command(command)
         except Unable as unable:
             self._event("unable", callsign, str(unable))
-            return False
-        return True
+        else:
+            self._seats.end_offer(callsign, command)
 
     def line_begun(self, line: str) -> None:
         """Take in that a radio line begins now: it may be what begins the conflict."""

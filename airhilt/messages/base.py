@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from enum import StrEnum
 from typing import Annotated, ClassVar, NamedTuple
 
@@ -81,3 +82,8 @@ _SEVERITY_ORDER = tuple(Severity)
 SPEAK_MIN_LEVEL = Severity.CAUTION
 """Least severity that is spoken and counts as a warning (AIRHILT, arXiv 2511.18718); advisories
 below it are only shown."""
+
+
+def key_chunk(name: str) -> str:
+    """Return the name of a unit or an actor as a part of keys."""
+    return re.sub("[^A-Za-z0-9]+", "_", name)

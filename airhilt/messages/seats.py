@@ -1,4 +1,8 @@
-"""Messages between a run and the people at its seats."""
+"""Messages between a run and the people at its seats.
+
+A person acts by a query on ``seat/<seat>/do`` with a `SeatAction`, which the run answers with a
+`SeatAnswer`. What the run knows of a seat is its `SeatState` on ``seat/<seat>``.
+"""
 
 from __future__ import annotations
 
@@ -7,11 +11,17 @@ from typing import Annotated, Literal
 from pydantic import Base64Bytes, Field, field_validator, model_validator
 
 from airhilt.commands import Command
-from airhilt.messages.base import Limit, Message, Part, Severity
+from airhilt.messages.base import Limit, Message, Nanoseconds, Part, Severity
 from airhilt.messages.radio import TransmissionChunk, TransmissionClosed, TransmissionOpened
 
 Use = Literal["voice", "words"]
-"""Use to which a person may agree: of the voice and of typed words, or of typed words alone."""
+"""Use to which a person may agree: of the voice, or of typed words."""
+FrequencyKhz = Annotated[
+    int, Field(ge=118_000, le=137_000, description="in the aeronautical mobile band")
+]
+HOLDER = r"^[A-Za-z0-9_-]{1,64}$"
+SHORTEST_SECRET = 16
+"""Least length of the secret of a holder, in characters."""
 
 
 class SeatAudioOpened(TransmissionOpened):
@@ -51,37 +61,44 @@ class ActorCommand(Message):
     command: Command
 
 
-class SpokenWords(Message):
-    """``speech/<seat>``: words that the person at a seat says on the radio, in the seat's voice.
-
-    The seat is the name of a unit or a callsign; what is no letter or digit of it is ``_``.
-    """
-
-    limit = Limit(size_bytes=4_000, rate_hz=5)
-    text: str = Field(min_length=1, max_length=600)
-    frequency_khz: int | None = Field(
-        default=None,
-        ge=118_000,
-        le=137_000,
-        description="in the aeronautical mobile band; null: the first one of the seat",
-    )
-
-
 FROM_MICROPHONE = "microphone."
 """Beginning of the ids of the transmissions that people speak."""
 
+# --- what a person does -------------------------------------------------------------------------
 
-class MicrophoneAudio(Message):
-    """``microphone/<seat>``: what the person at a seat says while the transmit button is held.
 
-    First comes ``pressed``, then ``samples`` while the person speaks, then ``released``. The audio
-    is PCM, 16 kHz, mono, 16 bits, little-endian, in base64.
-    """
+class TakeSeat(Part):
+    """Take the seat. Who has it already keeps it; the person agrees to nothing yet."""
 
-    limit = Limit(size_bytes=64_000, rate_hz=100)
-    phase: Literal["pressed", "samples", "released"]
-    frequency_khz: int | None = Field(
-        default=None, ge=118_000, le=137_000, description="when pressed; null: as `SpokenWords`"
+    do: Literal["take"] = "take"
+
+
+class LeaveSeat(Part):
+    """Leave the seat. Its script goes on by itself."""
+
+    do: Literal["leave"] = "leave"
+
+
+class AgreeToUses(Part):
+    """Agree to these uses of voice and typed words from now on, and to no others."""
+
+    do: Literal["agree"] = "agree"
+    uses: tuple[Use, ...] = Field(max_length=2)
+
+
+class TuneFrequencies(Part):
+    """Listen to these frequencies from now on; a person who takes a seat listens to all of it."""
+
+    do: Literal["tune"] = "tune"
+    frequencies_khz: tuple[FrequencyKhz, ...] = Field(max_length=20, description="empty: none")
+
+
+class PressToTalk(Part):
+    """Press the transmit button."""
+
+    do: Literal["press"] = "press"
+    frequency_khz: FrequencyKhz | None = Field(
+        default=None, description="null: the first one of the seat"
     )
     delay_s: float = Field(
         default=0.0,
@@ -89,10 +106,16 @@ class MicrophoneAudio(Message):
         le=60.0,
         description="from pressing the button until the message was sent, in s of wall time",
     )
+
+
+class SayVoice(Part):
+    """Speak while the button is held: PCM, 16 kHz, mono, 16 bits, little-endian, in base64."""
+
+    do: Literal["say"] = "say"
     pcm: Base64Bytes = Field(
-        default=b"",
         max_length=32_000,
-        description="at most 1 s; empty in the log of a run with `--no-voice-recording`",
+        description="at most 0.75 s, which are 32,000 characters; empty in the log of a run with "
+        "`--no-voice-recording`",
     )
 
     @field_validator("pcm")
@@ -103,96 +126,27 @@ class MicrophoneAudio(Message):
         return pcm
 
 
-class SeatListening(Message):
-    """``listening/<seat>``: the frequencies that the person at a seat listens to, from now on.
+class ReleaseToTalk(Part):
+    """Release the transmit button."""
 
-    A person who has just taken a seat listens to all of its frequencies.
-    """
+    do: Literal["release"] = "release"
 
-    limit = Limit(size_bytes=1_000, rate_hz=5)
-    frequencies_khz: tuple[Annotated[int, Field(ge=118_000, le=137_000)], ...] = Field(
-        max_length=20, description="empty: to none"
+
+class SayText(Part):
+    """Say typed words on the radio, in the voice of the seat."""
+
+    do: Literal["text"] = "text"
+    text: str = Field(min_length=1, max_length=600)
+    frequency_khz: FrequencyKhz | None = Field(
+        default=None, description="null: the first one of the seat"
     )
 
 
-class SeatConsent(Message):
-    """``consent/<seat>``: answer of the person at a seat who was told what becomes of the words.
+class FlyCommand(Part):
+    """Give a command to the aircraft or vehicle of the seat."""
 
-    `SeatInfo` says if the voice is recorded, and so do the options of the run.
-    """
-
-    limit = Limit(size_bytes=500, rate_hz=5)
-    what: Use = Field(
-        default="voice",
-        description="use to which the person agrees or not: of voice and typed words, or of typed "
-        "words alone",
-    )
-    is_given: bool = Field(
-        description="false: it is declined or taken back, and the microphone is closed, or the "
-        "words are not said"
-    )
-
-    def applied_to(self, agreed: frozenset[Use]) -> frozenset[Use]:
-        """Return the uses to which a person agrees after this answer, from those before it.
-
-        Consent to the use of the voice covers typed words, so who declines the use of words
-        declines that of the voice too.
-        """
-        if self.is_given:
-            return agreed | {self.what}
-        return agreed - ({"voice"} if self.what == "voice" else {"voice", "words"})
-
-
-class AdvisoryPerceived(Message):
-    """``perceived/<seat>``: an advisory reached the person at a seat, as the page of the seat says.
-
-    ``t_ns`` is when the page said so.
-    """
-
-    limit = Limit(size_bytes=2_000, rate_hz=50)
-    id: str = Field(max_length=200, description="of the advisory")
-    revision: int = Field(ge=0)
-    recipient: str = Field(max_length=200)
-    way: Literal["seen", "heard"]
-    after_s: float = Field(
-        default=0.0,
-        ge=-10.0,
-        le=10.0,
-        description="time from ``t_ns`` until it was drawn, or its first sample was audible, by "
-        "the clock of the browser; negative if that was before",
-    )
-
-
-class CallHeard(Message):
-    """``heard/<seat>``: a transmission is audible at a seat from its beginning, as its page says.
-
-    ``t_ns`` is when the page said so. The page says nothing of what it left out the beginning of,
-    as while its person was transmitting.
-    """
-
-    limit = Limit(size_bytes=500, rate_hz=50)
-    id: str = Field(max_length=200, description="of the transmission")
-    after_s: float = Field(
-        default=0.0,
-        ge=-10.0,
-        le=10.0,
-        description="time from ``t_ns`` until its first sample was audible, by the clock of the "
-        "browser; negative if that was before",
-    )
-
-
-class PaceCommand(Message):
-    """``pace``: how fast the time of a run with seats is to pass, as a person asks for."""
-
-    limit = Limit(size_bytes=500, rate_hz=5)
-    factor: float = Field(
-        ge=0.0, le=1.0, description="of real time; 0 lets it stand still, less than 0.1 is 0.1"
-    )
-
-    @field_validator("factor")
-    @classmethod
-    def _moves_or_stands(cls, factor: float) -> float:
-        return factor if factor == 0.0 else max(factor, 0.1)
+    do: Literal["fly"] = "fly"
+    command: Command
 
 
 class NasaTlx(Part):
@@ -215,22 +169,10 @@ class NasaTlx(Part):
         return sum(ratings) / len(ratings)
 
 
-class WorkloadQuestion(Message):
-    """``question/<seat>``: the person at a seat is asked how high the workload is.
+class AnswerQuestion(Part):
+    """Answer the question about workload that is open; without a rating: give none."""
 
-    ISA (Tattersall & Foord 1996) is one number for now, asked while the run goes on; NASA-TLX is
-    asked when it has come to its end, and time stands still.
-    """
-
-    seat: str
-    number: int = Field(ge=1, description="of the question at this seat")
-    scale: Literal["isa", "nasa_tlx"]
-
-
-class WorkloadAnswer(Message):
-    """``workload/<seat>``: answer of the person at a seat to a question; without a rating, none."""
-
-    limit = Limit(size_bytes=1_000, rate_hz=5)
+    do: Literal["answer"] = "answer"
     question: int = Field(ge=1, description="its number")
     isa: int | None = Field(
         default=None,
@@ -241,37 +183,145 @@ class WorkloadAnswer(Message):
     nasa_tlx: NasaTlx | None = None
 
     @model_validator(mode="after")
-    def _has_one_scale(self) -> WorkloadAnswer:
+    def _has_one_scale(self) -> AnswerQuestion:
         if self.isa is not None and self.nasa_tlx is not None:
             raise ValueError("isa and nasa_tlx; expected one of the two")
         return self
 
 
-LONGEST_REFUSAL = 400
-"""Greatest length of a refusal of a page in the log, in characters."""
+class SetPace(Part):
+    """Let the time of the run pass more slowly, stand still, or pass again."""
+
+    do: Literal["pace"] = "pace"
+    factor: float = Field(
+        ge=0.0, le=1.0, description="of real time; 0 lets it stand still, less than 0.1 is 0.1"
+    )
+
+    @field_validator("factor")
+    @classmethod
+    def _moves_or_stands(cls, factor: float) -> float:
+        return factor if factor == 0.0 else max(factor, 0.1)
 
 
-class PageRefusal(Message):
-    """``page``: what the page of a run has refused a browser or a stranger, in words.
+AfterS = Annotated[float, Field(ge=-10.0, le=10.0)]
+"""Time from ``t_ns`` until something was drawn, or its first sample was audible, by the clock of
+the browser, in s; negative if that was before."""
 
-    In the log it is an event of the kind ``refused``; it changes nothing of the run.
+
+class PerceiveAdvisory(Part):
+    """Say that an advisory was drawn at the seat, or is audible there."""
+
+    do: Literal["perceive"] = "perceive"
+    id: str = Field(max_length=200, description="of the advisory")
+    revision: int = Field(ge=0)
+    recipient: str = Field(max_length=200)
+    way: Literal["seen", "heard"]
+    after_s: AfterS = 0.0
+
+
+class HearCall(Part):
+    """Say that a transmission is audible at the seat from its beginning."""
+
+    do: Literal["hear"] = "hear"
+    id: str = Field(max_length=200, description="of the transmission")
+    after_s: AfterS = 0.0
+
+
+SeatAct = Annotated[
+    TakeSeat
+    | LeaveSeat
+    | AgreeToUses
+    | TuneFrequencies
+    | PressToTalk
+    | SayVoice
+    | ReleaseToTalk
+    | SayText
+    | FlyCommand
+    | AnswerQuestion
+    | SetPace
+    | PerceiveAdvisory
+    | HearCall,
+    Field(discriminator="do"),
+]
+"""Act of a person at a seat."""
+
+
+class SeatAction(Message):
+    """``seat/<seat>/do``: an act at a seat, as a query; the run answers with a `SeatAnswer`.
+
+    Who takes a seat first declares the liveliness token ``seat/<seat>/holder/<holder>``, whose name
+    nobody has had before, and chooses a secret. Every act carries both. The seat is held until it
+    is left, or the token ends. The log has the acts that were accepted, without the secret.
     """
 
-    limit = Limit(size_bytes=2_000, rate_hz=50)
-    text: str = Field(min_length=1, max_length=LONGEST_REFUSAL)
+    limit = Limit(size_bytes=64_000, rate_hz=100)
+    holder: str = Field(pattern=HOLDER, description="name of the liveliness token of the holder")
+    secret: str = Field(
+        default="",
+        max_length=64,
+        description=f"at least {SHORTEST_SECRET} characters, chosen by who takes the seat",
+    )
+    act: SeatAct
 
 
-class SeatPresence(Message):
-    """``seat/<seat>``: a person has taken a seat, or has left it.
+class SeatAnswer(Part):
+    """Answer of the run to a query on ``seat/<seat>/do``."""
 
-    The run makes it of the liveliness token ``seat/<seat>``, which the page of the seat declares.
+    answer: Literal["ok", "refused"]
+    reason: str = Field(default="", description="why it is refused, in words")
+
+
+# --- what the run knows of a seat ---------------------------------------------------------------
+
+
+class TaskCard(Part):
+    """Call of the script that is due, and that the person at a seat is to make.
+
+    A call to the same addressee with the same instructions stands for it.
     """
 
-    is_taken: bool
+    line: str = Field(description="id of the line of the script")
+    due_ns: Nanoseconds
+    addressed: str | None
+    frequency_khz: int
+    text: str = Field(description="words of the script")
 
 
-class SeatInfo(Message):
-    """``seat/<seat>/info``: what the person at a seat has to know, also answered to a query."""
+class CommandOffer(Part):
+    """Command that the person at a seat may give because of a call, by a `FlyCommand`.
+
+    An automaton would carry it out because of the call.
+    """
+
+    number: int = Field(ge=1, description="of the offer in this run")
+    call: str = Field(description="id of the call that was taken, or that is due at the seat")
+    command: Command
+
+
+class WorkloadQuestion(Part):
+    """Question about workload.
+
+    ISA (Tattersall & Foord 1996) is one number for now, asked while the run goes on; NASA-TLX is
+    asked when it has come to its end, and time stands still.
+    """
+
+    number: int = Field(ge=1, description="of the question at this seat")
+    scale: Literal["isa", "nasa_tlx"]
+    asked_ns: Nanoseconds
+
+
+class SeatNotice(Part):
+    """Something that the person at a seat was told in words."""
+
+    told_ns: Nanoseconds
+    text: str
+
+
+class SeatState(Message):
+    """``seat/<seat>``: what the run knows of a seat, also answered to a query.
+
+    It is published when it changes.
+    """
 
     seat: str
     category: Literal["unit", "aircraft", "vehicle"] = "unit"
@@ -283,7 +333,9 @@ class SeatInfo(Message):
         default=(), description="names under which advisories are for the person at the seat"
     )
     frequencies_khz: tuple[int, ...]
-    has_sound: bool = Field(description="false in a run without speech: nobody can be heard")
+    has_sound: bool = Field(
+        default=True, description="false in a run without speech: nobody can be heard"
+    )
     is_recognised: bool = Field(
         description="true if a recogniser takes part, so that automata understand a spoken call"
     )
@@ -293,7 +345,6 @@ class SeatInfo(Message):
         description="true if the person hears what is on ``seat/<seat>/audio``; false: what the "
         "receiver at the units' site gets",
     )
-    longest_call_s: float = Field(description="a call is cut after this time")
     may_pause: bool = Field(
         default=True, description="false in a run that refuses pause and slow motion"
     )
@@ -303,75 +354,40 @@ class SeatInfo(Message):
         "more",
     )
     phraseology: Literal["faa", "icao"] = "faa"
-
-
-class SeatNotice(Message):
-    """``notice/<seat>``: something that the person at a seat is told in words."""
-
-    seat: str
-    text: str
-
-
-class TaskCard(Message):
-    """``task/<seat>``: a call of the script that is due, and that the person at a seat is to make.
-
-    A call to the same addressee with the same instructions stands for it.
-    """
-
-    line: str = Field(description="id of the line of the script")
-    seat: str
-    addressed: str | None
-    frequency_khz: int
-    text: str = Field(description="words of the script")
-    is_done: bool = Field(default=False, description="true once its addressee has taken it")
-
-
-class CommandOffer(Message):
-    """``offer/<seat>``: a command that the person at a seat may give because of a call.
-
-    An automaton would carry it out because of the call. The person gives it on ``command/<actor>``.
-    """
-
-    seat: str
-    number: int = Field(ge=1, description="of the offer in this run")
-    call: str = Field(description="id of the call that was taken, or that is due at the seat")
-    command: Command
-    is_over: bool = Field(
-        default=False,
-        description="true once it is given or offered anew, others have taken its place, or the "
-        "person has left",
+    phase: Literal["waiting", "taken", "left"] = Field(
+        default="waiting",
+        description="waiting for its first person, taken, or left: its script goes on by itself",
     )
+    holder: str | None = Field(default=None, description="name of the holder's liveliness token")
+    uses: tuple[Use, ...] = Field(default=(), description="uses to which the holder agrees")
+    tuned_khz: tuple[int, ...] = Field(description="frequencies that the holder listens to")
+    tasks: tuple[TaskCard, ...] = Field(default=(), description="the oldest first")
+    offers: tuple[CommandOffer, ...] = Field(default=(), description="the oldest first")
+    question: WorkloadQuestion | None = Field(default=None, description="that has no answer yet")
+    notice: SeatNotice | None = Field(default=None, description="the last one")
+    pace: str = Field(default="realtime", description="at which the time passes")
+
+
+class PageRefusal(Message):
+    """``page``: what the page of a run has refused a browser or a stranger, in words.
+
+    In the log it is an event of the kind ``refused``; it changes nothing of the run.
+    """
+
+    limit = Limit(size_bytes=2_000, rate_hz=50)
+    text: str = Field(min_length=1, max_length=400)
 
 
 SEAT_AUDIO = "seat/*/audio"
 """Keys of the sound that the receiver of one seat gets: nobody else hears it."""
-SEAT_KEYS = (
-    "task", "offer", "speech", "microphone", "listening", "consent", "perceived", "heard",
-    "question", "workload", "notice",
-)  # fmt: skip
-"""First parts of the keys between a run and the people at its seats: they have the words of the
-script before they are said, and exactly what people say and do."""
-
 
 KEYS: dict[str, type[Message]] = {
     "command/{actor}": ActorCommand,
-    "speech/{seat}": SpokenWords,
-    "microphone/{seat}": MicrophoneAudio,
-    "listening/{seat}": SeatListening,
-    "consent/{seat}": SeatConsent,
-    "perceived/{seat}": AdvisoryPerceived,
-    "heard/{seat}": CallHeard,
-    "pace": PaceCommand,
     "page": PageRefusal,
-    "seat/{seat}": SeatPresence,
-    "seat/{seat}/info": SeatInfo,
+    "seat/{seat}": SeatState,
+    "seat/{seat}/do": SeatAction,
     "seat/{seat}/audio (opened)": SeatAudioOpened,
     "seat/{seat}/audio (chunk)": SeatAudioChunk,
     "seat/{seat}/audio (closed)": SeatAudioClosed,
-    "notice/{seat}": SeatNotice,
-    "question/{seat}": WorkloadQuestion,
-    "workload/{seat}": WorkloadAnswer,
-    "task/{seat}": TaskCard,
-    "offer/{seat}": CommandOffer,
 }
 """The message of each key below ``airhilt/<run>/``."""

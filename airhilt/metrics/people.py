@@ -13,29 +13,32 @@ from airhilt.commands import Command
 from airhilt.messages import (
     AFTER_STALL_S,
     STALLED,
-    ActorCommand,
     ActorTruth,
     Advisory,
     AdvisoryAudio,
-    AdvisoryPerceived,
-    CallHeard,
+    AgreeToUses,
+    AnswerQuestion,
     Event,
+    FlyCommand,
+    HearCall,
+    LeaveSeat,
     Message,
-    MicrophoneAudio,
-    SeatConsent,
-    SeatInfo,
-    SeatPresence,
+    PerceiveAdvisory,
+    PressToTalk,
+    SayText,
+    SeatAct,
+    SeatAction,
+    SeatState,
     SpokenTruth,
-    SpokenWords,
+    TakeSeat,
     Use,
-    WorkloadAnswer,
     WorkloadQuestion,
+    key_chunk,
 )
 from airhilt.metrics.compliance import complies
 from airhilt.metrics.person_calls import PersonCalls
 from airhilt.metrics.readbacks import ANSWERED_WITHIN_NS, Readbacks
 from airhilt.metrics.summary import IsaRating, PersonReaction, PersonSummary, WorkloadSummary
-from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.units import SECOND_NS, seconds_to_ns
 
 FOLLOWED_WITHIN_S = 30.0
@@ -135,7 +138,8 @@ class _Seat:
     readback_errors: int = 0
     readback_errors_heard: int = 0
     questions: dict[int, WorkloadQuestion] = field(default_factory=dict)
-    answers: dict[int, WorkloadAnswer] = field(default_factory=dict)
+    answers: dict[int, tuple[int, AnswerQuestion]] = field(default_factory=dict)
+    """Time in ns and answer, by the number of the question."""
 
     @property
     def person(self) -> _Person | None:
@@ -215,62 +219,53 @@ class PeopleRecords:
             case Event(kind="unable", subject=at, t_ns=t_ns) if at in self._seats:
                 if (person := self._seats[at].person) is not None:
                     person.refuse(t_ns)
-            case SeatInfo(seat=at, recipients=recipients) if at in self._seats:
+            case SeatState(seat=at, recipients=recipients, question=question):
                 self._seats[at].recipients = recipients
+                if question is not None:
+                    self._seats[at].questions[question.number] = question
             case AdvisoryAudio():
                 name = message.id, message.revision, message.recipient
                 self._voices_ns[name] = message.t_ns
             case SpokenTruth(addressed=at, id=call) if at in self._seats:
                 self._seats[at].asked_again += ".say-again-" in call
-            case WorkloadQuestion(seat=at, number=number) if at in self._seats:
-                self._seats[at].questions[number] = message
-            case (
-                ActorCommand()
-                | SpokenWords()
-                | MicrophoneAudio()
-                | AdvisoryPerceived()
-                | CallHeard()
-                | SeatConsent()
-                | SeatPresence()
-                | WorkloadAnswer()
-            ):
-                at = self._names.get(key.split("/")[1])
-                if at is not None:
-                    self._take_at(at, message)
+            case SeatAction(act=act, t_ns=t_ns):
+                if (at := self._names.get(key.split("/")[1])) is not None:
+                    self._take_at(at, act, t_ns)
 
-    def _take_at(self, at: str, message: Message) -> None:
+    def _take_at(self, at: str, act: SeatAct, t_ns: int) -> None:
         seat = self._seats[at]
-        match message:
-            case SeatPresence(is_taken=is_taken, t_ns=t_ns):
-                seat.occupy(t_ns, is_taken=is_taken)
-            case WorkloadAnswer(question=number):
-                seat.answers.setdefault(number, message)
-            case ActorCommand(command=command, t_ns=t_ns) if seat.person is not None:
-                action = _Action(t_ns, command.action, command, seat.track_deg)
-                seat.person.actions.append(action)
-            case CallHeard(id=call, t_ns=t_ns) if seat.person is not None:
-                heard_ns = t_ns + round(message.after_s * SECOND_NS)
+        match act:
+            case TakeSeat():
+                seat.occupy(t_ns, is_taken=True)
+            case LeaveSeat():
+                seat.occupy(t_ns, is_taken=False)
+            case AnswerQuestion(question=number):
+                seat.answers.setdefault(number, (t_ns, act))
+            case HearCall(id=call, after_s=after_s) if seat.person is not None:
+                heard_ns = t_ns + round(after_s * SECOND_NS)
                 self._heard_ns.setdefault(call, {}).setdefault(at, heard_ns)
             case _ if seat.person is not None:
-                self._take_of(seat, seat.person, message)
+                self._take_of(seat, seat.person, act, t_ns)
 
     @staticmethod
-    def _take_of(seat: _Seat, person: _Person, message: Message) -> None:
-        match message:
-            case SeatConsent():
-                person.agreed = message.applied_to(person.agreed or frozenset())
-            case SpokenWords(t_ns=t_ns):
-                seat.calls.type(message)
+    def _take_of(seat: _Seat, person: _Person, act: SeatAct, t_ns: int) -> None:
+        match act:
+            case AgreeToUses(uses=uses):
+                person.agreed = frozenset(uses)
+            case FlyCommand(command=command):
+                person.actions.append(_Action(t_ns, command.action, command, seat.track_deg))
+            case SayText(text=text):
+                seat.calls.type(t_ns, text)
                 person.actions.append(_Action(t_ns, "typed call"))
-            case MicrophoneAudio(phase="pressed", t_ns=t_ns, delay_s=delay_s):
-                seat.calls.press(message)
+            case PressToTalk(delay_s=delay_s):
                 pressed_ns = t_ns - round(delay_s * SECOND_NS)
+                seat.calls.press(pressed_ns, t_ns)
                 person.actions.append(_Action(pressed_ns, "spoken call"))
                 person.delays_s.append(delay_s)
-            case AdvisoryPerceived(t_ns=t_ns):
-                times = person.heard_ns if message.way == "heard" else person.seen_ns
-                name = message.id, message.revision, message.recipient
-                times.setdefault(name, t_ns + round(message.after_s * SECOND_NS))
+            case PerceiveAdvisory(id=identity, revision=revision, recipient=recipient):
+                times = person.heard_ns if act.way == "heard" else person.seen_ns
+                perceived_ns = t_ns + round(act.after_s * SECOND_NS)
+                times.setdefault((identity, revision, recipient), perceived_ns)
 
     def summaries(self, now_ns: int) -> list[PersonSummary]:
         """Return what people did until the end of the run, by seat."""
@@ -402,14 +397,14 @@ def _consent(people: list[_Person]) -> Literal["voice", "words", "none"] | None:
 def _workload(seat: _Seat) -> WorkloadSummary:
     ratings, tlx = [], None
     for number, question in sorted(seat.questions.items()):
-        answer = seat.answers.get(number)
+        answered_ns, answer = seat.answers.get(number, (0, None))
         if question.scale == "nasa_tlx":
             tlx = None if answer is None else answer.nasa_tlx
             continue
         rating = None if answer is None else answer.isa
-        after_ns = None if answer is None or rating is None else answer.t_ns - question.t_ns
-        asked_s = question.t_ns / SECOND_NS
-        ratings.append(IsaRating(t_s=asked_s, rating=rating, answered_after_s=_seconds(after_ns)))
+        after_s = None if rating is None else (answered_ns - question.asked_ns) / SECOND_NS
+        asked_s = question.asked_ns / SECOND_NS
+        ratings.append(IsaRating(t_s=asked_s, rating=rating, answered_after_s=after_s))
     given = [one.rating for one in ratings if one.rating is not None]
     return WorkloadSummary(
         isa_mean=fmean(given) if given else None,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from statistics import median
 from typing import Any, Literal
 
-from airhilt.messages import Message, MicrophoneAudio, SpokenTruth, SpokenWords, Transcript
+from airhilt.messages import Message, SpokenTruth, Transcript
 from airhilt.metrics.calls import TEXT
 from airhilt.metrics.summary import PersonCall
 from airhilt.units import SECOND_NS
@@ -50,14 +50,13 @@ class PersonCalls:
         self._seat = seat
         self._calls: list[_Call] = []
 
-    def type(self, words: SpokenWords) -> None:
+    def type(self, t_ns: int, text: str) -> None:
         """Take in that a person has typed a call."""
-        self._calls.append(_Call("typed", words.t_ns, words.t_ns, words.text))
+        self._calls.append(_Call("typed", t_ns, t_ns, text))
 
-    def press(self, audio: MicrophoneAudio) -> None:
-        """Take in that a person has pressed the button to speak."""
-        pressed_ns = audio.t_ns - round(audio.delay_s * SECOND_NS)
-        self._calls.append(_Call("spoken", pressed_ns, audio.t_ns))
+    def press(self, pressed_ns: int, told_ns: int) -> None:
+        """Take in that a person has pressed the button to speak, and when the run was told."""
+        self._calls.append(_Call("spoken", pressed_ns, told_ns))
 
     def take(self, message: Message) -> None:
         """Receive a published message, which may be about one of the calls."""

@@ -30,23 +30,6 @@ def without_roles(names: Iterable[str], controller: str, known: Iterable[str]) -
     return tuple(dict.fromkeys(units.get(name, name) for name in names))
 
 
-def with_roles(seats: Iterable[str], controller: str, known: Iterable[str]) -> dict[str, str]:
-    """Return seats by each name that stands for them: their own, and that of their role.
-
-    Parameters
-    ----------
-    controller, known
-        As in `without_roles`.
-    """
-    found = {seat: seat for seat in seats}
-    everybody = tuple(known)
-    for role in sorted(ROLES):
-        (unit,) = without_roles([role], controller, everybody)
-        if unit in found:
-            found[role] = unit
-    return found
-
-
 def possible_seats(scenario: Scenario) -> tuple[str, ...]:
     """Return the units and callsigns that people may be; none without a radio line."""
     if not scenario.radio.lines:
@@ -54,18 +37,6 @@ def possible_seats(scenario: Scenario) -> tuple[str, ...]:
     actors = [one.callsign for one in scenario.actors if not isinstance(one, WildlifeSpec)]
     speakers = [line.speaker for line in scenario.radio.lines]
     return tuple(dict.fromkeys([scenario.radio.controller, *actors, *speakers]))
-
-
-def named_seats(names: Iterable[str], scenario: Scenario) -> dict[str, str]:
-    """Return the units and callsigns that are asked for, by each name that stands for them.
-
-    Raises
-    ------
-    ScenarioError
-        As `seats_of`.
-    """
-    seats = seats_of(names, scenario)
-    return with_roles(seats, scenario.radio.controller, possible_seats(scenario))
 
 
 def seats_of(names: Iterable[str], scenario: Scenario) -> tuple[str, ...]:

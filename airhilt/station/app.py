@@ -19,7 +19,7 @@ from airhilt.audio.wav import encode_wav
 from airhilt.errors import AirhiltError
 from airhilt.station.browsers import Browsers
 from airhilt.station.debrief import Debrief
-from airhilt.station.page_files import media_type, page_files, page_version
+from airhilt.station.page_files import media_type, page_files
 from airhilt.station.phrases import Situation, offered
 from airhilt.station.pictures import jpeg
 from airhilt.station.questionnaires import NASA_TLX
@@ -72,8 +72,7 @@ def live_app(subscription: Subscription, browsers: Browsers) -> FastAPI:
         own = {
             "run": subscription.run,
             "seats": browsers.seats,
-            "version": page_version(),
-            "serving": browsers.serving,
+            "version": browsers.version,
             "nasa_tlx": NASA_TLX.document(),
         }
         return Response(_json(LIVE | own), media_type="application/json")
@@ -101,11 +100,10 @@ def live_app(subscription: Subscription, browsers: Browsers) -> FastAPI:
         socket: WebSocket,
         begin: Annotated[int, Query(alias="from", ge=0)] = 0,
         browser: Identity = "",
-        version: Annotated[str, Query(max_length=64)] = "",
+        version: Annotated[str, Query(max_length=300)] = "",
         shown: Annotated[str | None, Query(max_length=80)] = None,
-        serving: Annotated[str, Query(max_length=64)] = "",
     ) -> None:
-        await browsers.serve(socket, begin, browser, version, shown, serving)
+        await browsers.serve(socket, begin, browser, version, shown)
 
     @app.post("/api/phrases")
     def phrases(situation: Situation) -> list[dict[str, str]]:

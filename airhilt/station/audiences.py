@@ -17,12 +17,12 @@ from airhilt.messages import (
     Message,
     RadarInfo,
     RadarPlot,
-    SeatInfo,
+    SeatState,
     SurfaceTrack,
     Transcript,
     Transmission,
+    key_chunk,
 )
-from airhilt.sensors.radio.hearing import key_chunk
 
 
 class Audience(NamedTuple):
@@ -93,45 +93,40 @@ class SeatView:
     Each hears its frequencies, and gets advisories to itself.
     """
 
-    def __init__(self, info: SeatInfo) -> None:
-        self._info = info
+    def __init__(self, state: SeatState) -> None:
+        self._state = state
 
     @property
-    def frequencies_khz(self) -> frozenset[int]:
-        """Frequencies that are heard at the seat, as far as they are tuned to."""
-        return frozenset(self._info.frequencies_khz)
-
-    @property
-    def may_pause(self) -> bool:
-        """True if the person at the seat may pause the run, or slow it."""
-        return self._info.may_pause
+    def tuned_khz(self) -> frozenset[int]:
+        """Frequencies to which the person at the seat listens."""
+        return frozenset(self._state.tuned_khz)
 
     def hears(self, audience: Audience) -> bool:
         """Return true if a piece of a transmission with this audience is heard at the seat.
 
         It comes from the own receiver of the seat, or where it has none from the units' site.
         """
-        if self._info.has_own_receiver:
-            return audience == Audience("receiver", self._info.seat)
+        if self._state.has_own_receiver:
+            return audience == Audience("receiver", self._state.seat)
         return audience.way == "frequency" and self.sees(audience)
 
     def sees(self, audience: Audience) -> bool:
         """Return true if something with this audience is seen at the seat."""
-        info, (way, of) = self._info, audience
-        is_unit = info.category == "unit"
+        state, (way, of) = self._state, audience
+        is_unit = state.category == "unit"
         match way:
             case "adsb":
-                return is_unit or info.has_adsb_in or of == info.icao24
+                return is_unit or state.has_adsb_in or of == state.icao24
             case "surveillance":
                 return is_unit
             case "frequency":
-                return of in info.frequencies_khz
+                return of in state.frequencies_khz
             case "advisory":
-                return of in info.recipients
+                return of in state.recipients
             case "camera":
-                return of == (None if is_unit else info.seat)
+                return of == (None if is_unit else state.seat)
             case "command":
-                return of == key_chunk(info.seat)
+                return of == key_chunk(state.seat)
         return False
 
 
@@ -146,16 +141,25 @@ class SeatViews:
 
     def __init__(self, seats: Collection[str] = ()) -> None:
         self._has_seats = bool(seats)
-        self._views: dict[str, SeatView] = {}
+        self._states: dict[str, SeatState] = {}
         self._cameras: dict[str, Audience] = {}
 
-    def learn(self, info: SeatInfo) -> None:
+    def learn(self, state: SeatState) -> None:
         """Take in what a run says of a seat."""
-        self._views[info.seat] = SeatView(info)
+        self._states[state.seat] = state
 
     def of(self, seat: str | None) -> SeatView | None:
         """Return the view of a seat; None without a seat, or if it is not known yet."""
-        return None if seat is None else self._views.get(seat)
+        state = self._states.get(seat or "")
+        return None if state is None else SeatView(state)
+
+    def holder(self, seat: str) -> str | None:
+        """Return the name of the holder's token of a seat, None if nobody has it."""
+        return self._states[seat].holder if seat in self._states else None
+
+    def records_voices(self, seat: str) -> bool:
+        """Return whether what is spoken at a seat is recorded; true if it is not known yet."""
+        return seat not in self._states or self._states[seat].voice_is_recorded
 
     def learn_camera(self, name: str, audience: Audience) -> None:
         """Take in who may see the pictures of a camera."""

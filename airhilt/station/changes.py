@@ -11,8 +11,8 @@ import json
 import threading
 import zlib
 from collections import deque
-from collections.abc import Callable, Hashable, Sequence
-from itertools import islice, takewhile
+from collections.abc import Callable, Sequence
+from itertools import islice
 from typing import Any, NamedTuple
 
 from airhilt.station.audiences import EVERYBODY, Audience
@@ -23,8 +23,6 @@ MOST_IN_BLOCK = 1_000
 """Largest number of changes that are compressed together."""
 MOST_AT_ONCE = 5_000
 """Largest number of changes in one message to a browser."""
-MOST_OF_SEAT = 2_000
-"""Largest number of tasks, offers, questions and notices of a seat that are kept."""
 
 Admits = Callable[[Audience], bool]
 """Says of an audience if its changes are wanted."""
@@ -136,82 +134,26 @@ class Changes:
         return found[begin - before : max(stop - before, 0)]
 
 
-class SeatChanges:
-    """Keeps what the person at a seat is told, so that who comes late knows what is in force.
+class Newest:
+    """Keeps the newest change of each kind at a seat, so that who comes late knows what is so."""
 
-    It keeps the newest of each subject alone: of the seat itself, its instruments and its position,
-    of each task, each offer, and each question, which an answer ends. It first forgets the oldest
-    of what is not in force any more: tasks that are done, offers that are over, questions that are
-    answered, and notices.
-
-    Parameters
-    ----------
-    most
-        Number of tasks, offers, questions and notices that are kept at most.
-    """
-
-    def __init__(self, most: int = MOST_OF_SEAT) -> None:
-        self._most = most
-        self._state: dict[Hashable, _Told] = {}
-        """Changes of which there is one of each kind at a seat, in the order of the numbers."""
-        self._open: dict[Hashable, _Told] = {}
-        """Tasks, offers and questions that are open, by subject, in the order of the numbers."""
-        self._past: dict[Hashable, _Told] = {}
-        """All else, likewise."""
+    def __init__(self) -> None:
+        self._kept: dict[str, tuple[int, str]] = {}
+        """Number and JSON of the newest change, by kind."""
         self._next_number = 0
         self._lock = threading.Lock()
 
-    def add(self, *change: Any) -> None:
-        """Add a change (any thread): its kind, and what belongs to it."""
-        text = json.dumps(change, separators=(",", ":"), allow_nan=False)
+    def put(self, kind: str, *what: Any) -> None:
+        """Keep a change in the place of the last one of its kind (any thread)."""
+        text = json.dumps((kind, *what), separators=(",", ":"), allow_nan=False)
         with self._lock:
-            subject, place = self._place(*change)
-            for kept in (self._state, self._open, self._past):
-                kept.pop(subject, None)
-            place[subject] = _Told(self._next_number, change[0], text)
+            self._kept[kind] = (self._next_number, text)
             self._next_number += 1
-            if len(self._open) + len(self._past) > self._most:
-                surplus = self._past or self._open
-                del surplus[next(iter(surplus))]
-
-    def _place(self, kind: str, what: Any, *_: Any) -> tuple[Hashable, dict[Hashable, _Told]]:
-        """Return the subject of a change, and where it is kept."""
-        match kind:
-            case "info" | "cockpit" | "state":
-                return kind, self._state
-            case "task":
-                return (kind, what["line"]), self._past if what["done"] else self._open
-            case "offer":
-                return (kind, what["number"]), self._past if what["over"] else self._open
-            case "question":
-                return (kind, what), self._open
-            case "answered":
-                return ("question", what), self._past
-        return self._next_number, self._past
-
-    def forget_notices(self) -> None:
-        """Forget what the person who sat here before was told, for it is not for the next one."""
-        with self._lock:
-            self._past = {on: told for on, told in self._past.items() if told.kind != "notice"}
 
     def since(self, number: int) -> Batch | None:
         """Return what is kept of the changes from a number on, None if nothing."""
         with self._lock:
-            found = [
-                told
-                for kept in (self._state, self._open, self._past)
-                for told in takewhile(lambda told: told.number >= number, reversed(kept.values()))
-            ]
+            found = sorted(one for one in self._kept.values() if one[0] >= number)
             next_number = self._next_number
-        if not found:
-            return None
-        texts = (told.text for told in sorted(found))
-        return Batch(f"[{','.join(texts)}]", next_number)
-
-
-class _Told(NamedTuple):
-    """A change of a seat, JSON as text."""
-
-    number: int
-    kind: str
-    text: str
+        texts = (text for _, text in found)
+        return Batch(f"[{','.join(texts)}]", next_number) if found else None

@@ -70,14 +70,12 @@ class Conductor:
                 raise StationError("it is not time for a trial")
             plan, trial = self._plan, self._trials[done]
             given = {**plan.options, **trial.conditions, "seat": plan.all_seats}
-            given["wait_for_seats"] = True
             given["pause"] = plan.pause
             given["nasa_tlx"] = plan.nasa_tlx
             given["run_name"] = f"Trial-{state['trial']}"  # It tells a participant nothing.
             name = self._progress(participant).runs.new_run(trial)
-            agreed = {one.seat(trial): one.agreed(trial) for one in self._team.values()}
             scenario = loading.find(trial.scenario)
-            self._started.start(scenario, options_of(given), name, agreed)
+            self._started.start(scenario, options_of(given), name)
 
     def answer(self, name: str, answers: Answers, participant: str = "") -> None:
         """Take the answers of a participant to a questionnaire.

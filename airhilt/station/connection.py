@@ -14,8 +14,8 @@ from pydantic import ValidationError
 from airhilt.bus.access import Role
 from airhilt.bus.session import close_session, connect_client, find_run
 from airhilt.errors import StationError
-from airhilt.messages import Briefing, Clock, Message, Phase, SeatInfo
-from airhilt.scenario.seats import ROLES, with_roles, without_roles
+from airhilt.messages import Briefing, Clock, Message, Phase, SeatState
+from airhilt.scenario.seats import ROLES, without_roles
 from airhilt.text import readable
 
 T = TypeVar("T", bound=Message)
@@ -71,8 +71,8 @@ class RunConnection:
             raise
         self.run = self.prefix.rpartition("/")[2]
 
-    def seats(self, names: Sequence[str], tell: Callable[[str], None]) -> dict[str, str]:
-        """Return the seats of the run that are asked for, by each name that stands for them.
+    def seats(self, names: Sequence[str], tell: Callable[[str], None]) -> tuple[str, ...]:
+        """Return the seats of the run that are asked for, each once.
 
         Nobody knows the seats of a run that has not begun. A role waits until it has; without one,
         names stand for themselves alone.
@@ -102,10 +102,10 @@ class RunConnection:
                 f"--seat {roles[0]!r}: the run does not say which seats it has "
                 f"({phase or 'no answer'}); expected a run that goes on"
             )
-        return {name: name for name in names}
+        return tuple(dict.fromkeys(names))
 
-    def _known(self, names: Sequence[str]) -> dict[str, str]:
-        known = sorted({info.seat for info in self._told("seat/*/info", SeatInfo)})
+    def _known(self, names: Sequence[str]) -> tuple[str, ...]:
+        known = sorted({info.seat for info in self._told("seat/*", SeatState)})
         controller = next((one.controller for one in self._told("briefing", Briefing)), "")
         seats = without_roles(names, controller, known)
         for name in names:
@@ -114,7 +114,7 @@ class RunConnection:
                     f"--seat {readable(name)!r}: not a seat of the run; expected "
                     + (readable(", ".join(map(repr, known))) or "none: it has no seats")
                 )
-        return with_roles(seats, controller, known)
+        return seats
 
     def answers(self, key: str) -> Iterator[zenoh.Sample]:
         """Yield what the run answers to a query on a key below its own."""

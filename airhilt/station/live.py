@@ -21,7 +21,6 @@ from airhilt.messages import (
     CameraView,
     Clock,
     CockpitInstruments,
-    CommandOffer,
     ConflictTruth,
     Detections,
     EquipmentAlert,
@@ -30,17 +29,13 @@ from airhilt.messages import (
     Message,
     RadarInfo,
     RadarPlot,
-    SeatInfo,
-    SeatNotice,
+    SeatState,
     SpokenTruth,
     Status,
     SurfaceTrack,
-    TaskCard,
     Transcript,
     Transmission,
     VehiclePosition,
-    WorkloadAnswer,
-    WorkloadQuestion,
     bus_message,
 )
 from airhilt.metrics.calls import CallRecords
@@ -48,12 +43,11 @@ from airhilt.record import Logged
 from airhilt.report.airport import ReportAirport
 from airhilt.report.events import event_row
 from airhilt.report.tracks import Locate, Projection
-from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.station.advisories import AdvisoryRows
 from airhilt.station.audiences import NOBODY, Audience, SeatViews, audience_of
 from airhilt.station.calls import call_as_json, spoken_as_json
 from airhilt.station.cameras import found_as_json, view_as_json
-from airhilt.station.changes import Changes, SeatChanges
+from airhilt.station.changes import Changes, Newest
 from airhilt.station.latencies import LatencyBars
 from airhilt.station.subscription import sound_name
 from airhilt.surveillance.radar import plot_place
@@ -87,8 +81,8 @@ class LiveRun:
     changes
         Gets the changes.
     seats
-        Gets the changes that only the person at a seat sees: ``task``, ``offer``, ``cockpit``,
-        ``info``, ``notice``, ``question`` and ``answered``.
+        Gets the changes that only the person at a seat sees: ``seat`` (its state), ``cockpit``, and
+        ``state`` of the own vehicle.
     notice
         Is told of the first message of a kind that cannot be read.
     views
@@ -103,7 +97,7 @@ class LiveRun:
     def __init__(
         self,
         changes: Changes,
-        seats: Mapping[str, SeatChanges] = MappingProxyType({}),
+        seats: Mapping[str, Newest] = MappingProxyType({}),
         notice: Callable[[str], None] = lambda _: None,
         views: SeatViews | None = None,
     ) -> None:
@@ -150,14 +144,9 @@ class LiveRun:
             ConflictTruth: (self._event,),
             Event: (self._event,),
             Detections: (self._vision, self._latency),
-            TaskCard: (self._task,),
-            CommandOffer: (self._offer,),
-            SeatInfo: (self._seat_info,),
-            SeatNotice: (self._notice_of_seat,),
+            SeatState: (self._seat,),
             CockpitInstruments: (self._cockpit,),
             VehiclePosition: (self._own_position,),
-            WorkloadQuestion: (self._question,),
-            WorkloadAnswer: (self._answered,),
         }
 
     def take(self, logged: Logged) -> None:
@@ -377,45 +366,16 @@ class LiveRun:
             # Bars name engines, and are thinned over all who send: no seat is told any.
             self._changes.add("latency", bar, audience=NOBODY)
 
-    def _task(self, received: Received) -> None:
-        card: TaskCard = received.message
-        self._seats[card.seat].add(
-            "task",
-            {
-                "line": readable(card.line),
-                "seat": readable(card.seat),
-                "t": _seconds(card.t_ns),
-                "addressed": None if card.addressed is None else readable(card.addressed),
-                "text": readable(card.text),
-                "done": card.is_done,
-            },
-        )
-
-    def _offer(self, received: Received) -> None:
-        offer: CommandOffer = received.message
-        self._seats[offer.seat].add(
-            "offer",
-            {
-                "number": offer.number,
-                "command": offer.command.model_dump(mode="json"),
-                "over": offer.is_over,
-            },
-        )
-
-    def _seat_info(self, received: Received) -> None:
-        info: SeatInfo = received.message
-        self._views.learn(info)
-        self._seats[info.seat].add("info", info.model_dump(mode="json", exclude={"t_ns"}))
-
-    def _notice_of_seat(self, received: Received) -> None:
-        notice: SeatNotice = received.message
-        self._seats[notice.seat].add("notice", _seconds(notice.t_ns), readable(notice.text))
+    def _seat(self, received: Received) -> None:
+        state: SeatState = received.message
+        self._views.learn(state)
+        self._seats[state.seat].put("seat", seat_as_json(state))
 
     def _own_position(self, received: Received) -> None:
         """Tell a driver where the own vehicle is; nobody else learns it from this."""
         shown: VehiclePosition = received.message
         heading_rad, speed_m_s = shown.heading_deg * DEGREE, shown.ground_speed_kt * KNOT
-        self._seats[shown.callsign].add(
+        self._seats[shown.callsign].put(
             "state",
             *self._state(
                 shown.callsign,
@@ -429,21 +389,9 @@ class LiveRun:
             ),
         )
 
-    def _question(self, received: Received) -> None:
-        question: WorkloadQuestion = received.message
-        self._seats[question.seat].add(
-            "question", question.number, question.scale, _seconds(question.t_ns)
-        )
-
-    def _answered(self, received: Received) -> None:
-        answer: WorkloadAnswer = received.message
-        for seat, changes in self._seats.items():
-            if received.logged.key == f"workload/{key_chunk(seat)}":
-                changes.add("answered", answer.question)
-
     def _cockpit(self, received: Received) -> None:
         shown: CockpitInstruments = received.message
-        self._seats[shown.callsign].add(
+        self._seats[shown.callsign].put(
             "cockpit", shown.model_dump(mode="json") | {"mode": readable(shown.mode)}
         )
 
@@ -478,6 +426,21 @@ class LiveRun:
                 },
                 audience=audience,
             )
+
+
+def seat_as_json(state: SeatState) -> Json:
+    """Return the state of a seat as its own page shows it."""
+    shown = state.model_dump(mode="json", exclude={"t_ns", "holder"})
+    shown["tasks"] = [
+        {"line": readable(card.line), "t": _seconds(card.due_ns), "text": readable(card.text)}
+        | {"addressed": None if card.addressed is None else readable(card.addressed)}
+        for card in state.tasks
+    ]
+    if (asked := state.question) is not None:
+        shown["question"] |= {"t": _seconds(asked.asked_ns)}
+    if (told := state.notice) is not None:
+        shown["notice"] = {"t": _seconds(told.told_ns), "text": readable(told.text)}
+    return shown
 
 
 def _seconds(t_ns: int) -> float:

@@ -7,14 +7,10 @@ folder in it for the own answers.
 
 from __future__ import annotations
 
-import itertools
 from pathlib import Path
 from typing import NamedTuple
 
-from airhilt.messages import Use
-from airhilt.options import options_of
 from airhilt.station.answer_files import AnswerFiles
-from airhilt.station.consent_question import consent_question, least_use, use_of
 from airhilt.station.plan import Plan, Trial
 from airhilt.station.questionnaires import Answers, Questionnaire
 from airhilt.station.trial_order import order_of
@@ -102,25 +98,7 @@ class Progress:
             due.append(Asked(self.plan.end()))
         elif (run := self.runs.finished_run(trial)) is not None:
             due += [Asked(questionnaire, run) for questionnaire in self.plan.after_trial()]
-        elif self.plan.ask_consent:
-            due.append(self._consent(trial))
         return next((asked for asked in due if not self._is_answered(asked)), None)
-
-    def agreed(self, trial: Trial) -> Use | None:
-        """Return to what use of voice and words the participant agrees in a trial, None if to none.
-
-        It is asked once for all trials in which voices are recorded, and once for all others. It is
-        no more than what was agreed to at the end of each run so far.
-        """
-        if not self.plan.ask_consent:
-            return None
-        runs = (self.runs.consents(other, self.seat(other)) for other in self.trials)
-        answer = use_of(self.answers(self._consent(trial)))
-        return least_use(answer, *itertools.chain.from_iterable(runs))
-
-    def _consent(self, trial: Trial) -> Asked:
-        options = options_of({**self.plan.options, **trial.conditions})
-        return Asked(consent_question(is_recorded=options.voice_recording))
 
     def is_done(self, trial: Trial) -> bool:
         """Return true if a trial has been run, and its questions answered."""

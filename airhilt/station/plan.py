@@ -97,11 +97,6 @@ class Plan(BaseModel):
     break_after: int = Field(default=0, ge=0, description="trials between breaks; 0: no break")
     break_minutes: float = Field(default=5.0, gt=0.0, le=120.0, description="least time of a break")
     pause: bool = Field(default=False, description="let participants pause and slow the trials")
-    ask_consent: bool = Field(
-        default=True,
-        description="ask before the first trial if voice and typed words may be used; false: the "
-        "seat asks for it when somebody speaks or types",
-    )
     nasa_tlx: bool = Field(default=True, description="ask NASA-TLX at the end of each trial")
     questions: OwnQuestions = Field(
         default_factory=OwnQuestions, description="more questions, on the page of the experiment"

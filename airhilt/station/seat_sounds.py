@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING
 
 from pydantic import TypeAdapter
 
-from airhilt.messages import SeatAudio, SeatAudioClosed
+from airhilt.messages import SeatAudio, SeatAudioClosed, key_chunk
 from airhilt.record import Logged, RunFolder
 from airhilt.report.sections import Content
-from airhilt.sensors.radio.hearing import key_chunk
 
 if TYPE_CHECKING:
     from airhilt.report.data import RunData

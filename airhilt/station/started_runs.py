@@ -10,12 +10,11 @@ import os
 import signal
 import subprocess
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from datetime import UTC, datetime
 from functools import partial
 from pathlib import Path
-from types import MappingProxyType
 from typing import Any, Literal
 
 import psutil
@@ -73,22 +72,15 @@ class StartedRuns:
         self._children: list[subprocess.Popen[bytes]] = []
         self._records = FileCache[StartedRun]()
 
-    def start(
-        self,
-        scenario: Path,
-        options: Options,
-        name: str | None = None,
-        agreed: Mapping[str, str | None] = MappingProxyType({}),
-    ) -> str:
+    def start(self, scenario: Path, options: Options, name: str | None = None) -> str:
         """Start a run in real time, and return its name, which is that of its folder.
+
+        A run with seats begins when they are taken.
 
         Parameters
         ----------
         name
             Name of the run; None: that of the scenario, the seed and the time.
-        agreed
-            Uses of voice and words to which the people at seats have agreed already, by seat; None
-            for nothing.
 
         Raises
         ------
@@ -101,10 +93,15 @@ class StartedRuns:
         if len([run for run in self.runs() if self.state(run) != "ended"]) >= MOST_AT_A_TIME:
             raise StationError(f"{MOST_AT_A_TIME} runs go on already; stop one of them first")
         name = name or _new_name(self.folder, loaded.name, options.seed)
-        given = options.model_copy(update={"out": self.folder / name, "pace": "realtime"})
+        given = options.model_copy(
+            update={
+                "out": self.folder / name,
+                "pace": "realtime",
+                "wait_for_seats": bool(seats),
+            }
+        )
         command = [sys.executable, "-m", "airhilt", "cosim", f"--scenario={scenario}"]
         command += ["--view", *self._page, *arguments_of(given)]
-        command += [f"--agreed={seat}={use}" for seat, use in agreed.items() if use is not None]
         try:
             make_folder(self.folder / KEPT)
             replace_file(self._output(name), b"")

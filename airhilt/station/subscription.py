@@ -8,7 +8,6 @@ from __future__ import annotations
 import json
 import queue
 import threading
-import time
 from base64 import b64encode
 from collections import OrderedDict
 from collections.abc import Callable, Iterable, Mapping, Sequence
@@ -17,32 +16,23 @@ from typing import Any, NamedTuple
 import zenoh
 from pydantic import ValidationError
 
-from airhilt.commands import Command
+from airhilt.bus.seat_client import SeatClient
 from airhilt.messages import (
-    LONGEST_REFUSAL,
     ActorCommand,
     AdvisoryAudio,
-    AdvisoryPerceived,
-    CallHeard,
     Message,
-    MicrophoneAudio,
-    PaceCommand,
     PageRefusal,
-    SeatConsent,
-    SeatListening,
-    SpokenWords,
     Transmission,
-    WorkloadAnswer,
     bus_message,
+    key_chunk,
     worker_output,
 )
 from airhilt.record import Logged
-from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.station.audiences import Audience, audience_of, heard_by
 from airhilt.station.changes import Changes
-from airhilt.station.connection import ASKED_S, RunConnection
+from airhilt.station.connection import RunConnection
 from airhilt.station.pictures import Picture
-from airhilt.station.wishes import Claimed
+from airhilt.text import readable
 
 SUBSCRIBED = (
     "clock", "briefing", "status/*", "adsb/*", "surface/*", "radar/**", "radio/*/tx", "asr/*",
@@ -52,16 +42,15 @@ SUBSCRIBED = (
 TRUTH = ("truth/**",)
 """Keys of the truth, for observers alone; of it comes what the run shares."""
 OF_SEATS = (
-    "cockpit/{seat}", "task/{seat}", "offer/{seat}", "seat/{seat}/info", "notice/{seat}",
-    "question/{seat}", "workload/{seat}", "cockpit/{seat}/position",
-)  # fmt: skip
+    "cockpit/{seat}",
+    "cockpit/{seat}/position",
+    "seat/{seat}",
+)
 """Keys of what only the person at a seat sees."""
 ASKED = ("briefing", "clock", "radar/*/info")
 """Keys that the run answers, for who comes late."""
-ASKED_OF_SEATS = ("seat/{seat}/info",)
+ASKED_OF_SEATS = ("seat/{seat}",)
 """Keys that it answers for the person at a seat."""
-CLAIMS_PERIOD_S = 0.02
-"""Time between two looks at the claims of other pages to a seat, in s."""
 STREAMED = "radio/*/audio"
 """Keys of the sound of transmissions while they last."""
 STREAMED_TO_SEATS = ("seat/{seat}/audio",)
@@ -134,14 +123,8 @@ class Subscription:
         self._has_seats = bool(seats)
         self._pictures: dict[str, OrderedDict[int, Picture]] = {}
         self._watched: dict[str, zenoh.Subscriber[None]] = {}
-        self._tokens: dict[str, zenoh.LivelinessToken] = {}
-        """Tokens of the seats that somebody has."""
-        self._claims: dict[str, zenoh.LivelinessToken] = {}
-        """Tokens of the seats that somebody is about to take."""
         self._watching = threading.Lock()
         """Held while it is changed which cameras are watched."""
-        self._seating = threading.Lock()
-        """Held while it is changed which seats are taken or claimed."""
         self._lock = threading.Lock()
         self._kept: list[Any] = [
             self._session.declare_subscriber(f"{self._prefix}/{key}", self._hear)
@@ -190,106 +173,14 @@ class Subscription:
             for name in set(self._pictures) - cameras:
                 del self._pictures[name]
 
-    def say(self, seat: str, words: SpokenWords) -> None:
-        """Let a seat speak."""
-        self._session.put(f"{self._prefix}/speech/{key_chunk(seat)}", words.model_dump_json())
-
-    def speak(self, seat: str, audio: MicrophoneAudio) -> None:
-        """Press, feed or release the microphone of a seat."""
-        self._session.put(f"{self._prefix}/microphone/{key_chunk(seat)}", audio.model_dump_json())
-
-    def listen(self, seat: str, listening: SeatListening) -> None:
-        """Tell to which frequencies the person at a seat listens."""
-        key = f"{self._prefix}/listening/{key_chunk(seat)}"
-        self._session.put(key, listening.model_dump_json())
-
-    def consent(self, seat: str, consent: SeatConsent) -> None:
-        """Tell whether the person at a seat agrees to the use of the voice, or of typed words."""
-        self._session.put(f"{self._prefix}/consent/{key_chunk(seat)}", consent.model_dump_json())
-
-    def perceive(self, seat: str, perceived: AdvisoryPerceived) -> None:
-        """Tell that an advisory has reached the person at a seat."""
-        key = f"{self._prefix}/perceived/{key_chunk(seat)}"
-        self._session.put(key, perceived.model_dump_json())
-
-    def hear(self, seat: str, heard: CallHeard) -> None:
-        """Tell that a transmission is audible to the person at a seat."""
-        self._session.put(f"{self._prefix}/heard/{key_chunk(seat)}", heard.model_dump_json())
-
-    def answer(self, seat: str, answer: WorkloadAnswer) -> None:
-        """Answer a question about workload."""
-        self._session.put(f"{self._prefix}/workload/{key_chunk(seat)}", answer.model_dump_json())
-
-    def claim(self, seat: str) -> Claimed:
-        """Keep other pages of the run from taking a seat, and return who has it.
-
-        Each page that takes a seat declares a claim first, and only then looks for others, so that
-        of two that do so at once one sees the other at least. The page whose key comes first goes
-        on; it waits until the other has withdrawn its claim, or has the seat. Claims of this page
-        to one seat come one after the other.
-        """
-        chunk = key_chunk(seat)
-        key = f"{self._prefix}/seat/{chunk}"
-        own = f"{key}/claim/{self._session.zid()}"
-        with self._seating:
-            if chunk in self._tokens or chunk in self._claims:
-                return "ours"
-            claim = self._session.liveliness().declare_token(own)
-        claimed = self._claimed(key, own)
-        if claimed == "ours":
-            with self._seating:
-                self._claims[chunk] = claim
-        else:
-            claim.undeclare()  # type: ignore[no-untyped-call]
-        return claimed
-
-    def _claimed(self, key: str, own: str) -> Claimed:
-        """Return who has a seat, by its key and the own claim to it, once that is known."""
-        until_s = time.monotonic() + ASKED_S
-        while (declared := self._declared(f"{key}/**")) is None or (others := declared - {own}):
-            if declared is not None and key in others:
-                return "taken"
-            is_behind = declared is not None and min(others) < own
-            if is_behind or time.monotonic() > until_s:
-                return "claimed"
-            time.sleep(CLAIMS_PERIOD_S)
-        return "ours"
-
-    def _declared(self, keys: str) -> set[str] | None:
-        """Return the keys of liveliness tokens that are declared; None: it cannot be known now."""
-        replies = list(self._session.liveliness().get(keys, timeout=ASKED_S))
-        found = {str(reply.ok.key_expr) for reply in replies if reply.ok is not None}
-        return found if all(reply.ok is not None for reply in replies) else None
-
-    def occupy(self, seat: str, *, is_taken: bool) -> None:
-        """Tell that a person has taken a seat, or has left it; so does the end of this process.
-
-        A claim to the seat is withdrawn after that.
-        """
-        chunk = key_chunk(seat)
-        with self._seating:
-            token, claim = self._tokens.pop(chunk, None), self._claims.pop(chunk, None)
-            if is_taken:
-                key = f"{self._prefix}/seat/{chunk}"
-                self._tokens[chunk] = token or self._session.liveliness().declare_token(key)
-            elif token is not None:
-                token.undeclare()  # type: ignore[no-untyped-call]
-            if claim is not None:
-                claim.undeclare()  # type: ignore[no-untyped-call]
-
-    def set_pace(self, pace: PaceCommand) -> None:
-        """Let the time of the run pass more slowly, stand still, or pass again."""
-        self._session.put(f"{self._prefix}/pace", pace.model_dump_json())
+    def seat_client(self, seat: str, secret: str) -> SeatClient:
+        """Return a client for a seat, which is not taken yet."""
+        return SeatClient(self._session, self._prefix, seat, secret)
 
     def log_refusal(self, text: str) -> None:
         """Let the log of the run have what was refused at the page, in words."""
-        message = PageRefusal(text=text[:LONGEST_REFUSAL])
+        message = PageRefusal(text=readable(text))
         self._session.put(f"{self._prefix}/page", message.model_dump_json())
-
-    def fly(self, seat: str, command: Command) -> None:
-        """Give a command to the aircraft or vehicle of a seat."""
-        message = ActorCommand(command=command)
-        self._session.put(f"{self._prefix}/command/{key_chunk(seat)}", message.model_dump_json())
 
     def close(self) -> None:
         """Listen no more."""

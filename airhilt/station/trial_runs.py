@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path
-from typing import NamedTuple
 
 from airhilt.errors import RunFolderError, StationError, first_line
 from airhilt.record import RunFolder
@@ -26,17 +25,8 @@ TOGETHER = "+"
 """Text between the participants of a team in the name of their folder; no identifier has it."""
 
 
-class SeatRecord(NamedTuple):
-    """A seat in a run that has ended."""
-
-    taken_s: float | None
-    """Time for which it was taken, in s; None: an earlier version did not tell."""
-    consent: str | None
-    """Use of voice or words to which its person agreed last, or ``none``; None: not known."""
-
-
-_SeatRecords = dict[str, SeatRecord]
-"""Records by seat, in the order of the team."""
+_SeatTimes = dict[str, float | None]
+"""Time in s for which each seat was taken, in the order of the team; None: it is not known."""
 
 
 class TrialRuns:
@@ -70,7 +60,7 @@ class TrialRuns:
         self._trials = trials
         self._seats: dict[str, tuple[str, ...]] = {}
         self._phases = FileCache[str | None]()
-        self._records = FileCache[_SeatRecords | None]()
+        self._times = FileCache[_SeatTimes | None]()
         _refuse_another_order(team, self.folder)
 
     def seats(self, trial: Trial) -> tuple[str, ...]:
@@ -124,41 +114,22 @@ class TrialRuns:
         for run in self._begun(trial):
             if self._phases.get(partial(_phase, run), run.info_path) != "finished":
                 continue
-            seats = self._records_of(run)
+            seats = self._times_of(run)
             if seats is None:
                 raise RunFolderError(f"{run.summary_path}: missing; {_TO_RUN_AGAIN}")
             if seats:
                 self.require_same_seats(trial, run.path.name, list(seats))
-            if all(seat.taken_s != 0.0 for seat in seats.values()):
+            if all(taken_s != 0.0 for taken_s in seats.values()):
                 return run.path.name
         return None
-
-    def consents(self, trial: Trial, seat: str) -> list[str]:
-        """Return to what the person at a seat agreed at the end of each run of a trial.
-
-        It is ``voice``, ``words`` or ``none``. Nobody knows what was taken back in a run that has
-        no summary, or one that cannot be read: it counts as ``none``. Runs that do not tell of
-        consent are left out.
-        """
-        found: list[str | None] = []
-        for run in self._begun(trial):
-            try:
-                records = self._records_of(run)
-            except RunFolderError:
-                records = None
-            if records is None:
-                found.append("none")
-            elif seat in records:
-                found.append(records[seat].consent)
-        return [consent for consent in found if consent is not None]
 
     def _begun(self, trial: Trial) -> list[RunFolder]:
         """Return the run folders of a trial that are there, in their order."""
         there = {path.name for path in self.folder.iterdir()} if self.folder.is_dir() else set()
         return [RunFolder(self.folder / name) for name in self.attempts(trial) if name in there]
 
-    def _records_of(self, run: RunFolder) -> _SeatRecords | None:
-        return self._records.get(partial(_seat_records, run), run.summary_path)
+    def _times_of(self, run: RunFolder) -> _SeatTimes | None:
+        return self._times.get(partial(_seat_times, run), run.summary_path)
 
     def new_run(self, trial: Trial) -> str:
         """Return the name of a run folder of a trial, behind all that are there.
@@ -197,7 +168,7 @@ def _phase(run: RunFolder) -> str | None:
         return None
 
 
-def _seat_records(run: RunFolder) -> _SeatRecords | None:
+def _seat_times(run: RunFolder) -> _SeatTimes | None:
     """Return the seats of a run in the order of the team, none if nobody had any.
 
     It is None if the run has written no summary.
@@ -211,10 +182,7 @@ def _seat_records(run: RunFolder) -> _SeatRecords | None:
         summary = run.summary()
         if summary is None:
             return None
-        return {
-            str(one["seat"]): SeatRecord(one.get("seat_time_s"), one.get("consent"))
-            for one in summary.get("people", ())
-        }
+        return {str(one["seat"]): one.get("seat_time_s") for one in summary.get("people", ())}
     except RunFolderError as error:
         raise RunFolderError(f"{error}; {_TO_RUN_AGAIN}") from None
     except (LookupError, TypeError, AttributeError) as error:

@@ -14,7 +14,6 @@ from pydantic import ValidationError
 from airhilt.audio.pcm import SAMPLE_RATE_HZ
 from airhilt.errors import WorkerError, first_problem, shown
 from airhilt.messages import (
-    SEAT_KEYS,
     UNREGISTERED,
     WORKER_OUTPUTS,
     Advisory,
@@ -199,8 +198,7 @@ def require_open_key(worker: str, key: str) -> None:
             f"worker {worker!r} asks for {key!r}; truth never reaches a worker, so the first part "
             "of a key must be named: adsb/*"
         )
-    at_seat = first == "seat" and key.count("/") > 1 and not key.endswith("/info")
-    if first in ("command", *SEAT_KEYS) or at_seat or key == "seat/**":
+    if first in ("command", "seat"):
         raise WorkerError(
             f"worker {worker!r} asks for {key!r}; the script, and what single people enter and "
             "hear, reach no worker: it gets what is heard and seen by all: radio/*/tx, asr/*"

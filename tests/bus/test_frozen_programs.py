@@ -15,7 +15,7 @@ import zenoh
 
 from airhilt.bus.remote_workers import RemoteWorker
 from airhilt.bus.session import Bus, close_session, connect_client, find_run, free_endpoint
-from airhilt.messages import InputSpec, SpokenWords, StepReply, WorkerDescription
+from airhilt.messages import InputSpec, StepReply, WorkerDescription
 from airhilt.station.connection import RunConnection
 from airhilt.station.subscription import Subscription
 from processes import process
@@ -102,7 +102,7 @@ def test_a_page_ends_before_its_run_reads_again() -> None:
     with process("-c", RUN, endpoint) as program:
         connection = RunConnection(endpoint, "operator")
         page = Subscription(connection, lambda _: None, lambda: None, seats=["TOWER"])
-        stop_and_fill(program, lambda: page.say("TOWER", SpokenWords(text="a" * 600)))
+        stop_and_fill(program, lambda: page.log_refusal("a" * 400))
         with ExitStack() as stack:
             stack.callback(connection.close)
             stack.callback(page.close)

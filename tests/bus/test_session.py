@@ -15,7 +15,7 @@ import pytest
 import zenoh
 
 from airhilt.bus.remote_workers import RemoteWorker
-from airhilt.bus.session import Bus, connect_client, free_endpoint
+from airhilt.bus.session import Answer, Bus, connect_client, free_endpoint
 from airhilt.errors import BusError, RendererError
 from airhilt.sim.payload import DeferredBytes
 from airhilt.sim.worker import Input, WorkerLost
@@ -103,14 +103,18 @@ def test_a_closed_session_leaves_no_descriptor_and_no_shared_memory() -> None:
 
 def test_a_closed_session_keeps_nobody_who_listened() -> None:
     class Listener:
-        def note(self, name: str, is_there: bool) -> None:
+        def note(self, name: str, is_there: bool = False) -> None:
             """Take no note."""
+
+        def answer(self, key: str, data: bytes, answer: Answer) -> None:
+            """Give no answer."""
 
     def listened() -> ReferenceType[Listener]:
         listener = Listener()
         with closing(Bus("left")) as bus:
             bus.watch_workers(listener.note)
-            bus.watch_seats(listener.note)
+            bus.watch_holders(listener.note)
+            bus.answer("seat/*/do", listener.answer)
             bus.hear("command/*", lambda key, _: listener.note(key, True))
         return ref(listener)
 

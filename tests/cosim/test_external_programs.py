@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
 from typing import Any, cast
 
 import pytest
@@ -12,8 +11,10 @@ from airhilt.bus.access import PUBLISHED
 from airhilt.cosim.external_programs import HEARD, LIMITS, MOST_NOTICES, ExternalPrograms
 from airhilt.cosim.observer import Observer
 from airhilt.errors import WorkerError
+from airhilt.seats import Seats
 from airhilt.sim import Director, Virtual
 from airhilt.text import MOST_CHARACTERS
+from seats import state_of
 
 
 class Notices(Observer):
@@ -35,20 +36,10 @@ def programs(
         cast(Any, lambda *event: events.append(event)),
         cast(Any, None),
         notices,
-        obey=lambda *_: None,
-        take_from_seat=lambda *_: None,
-        keeps_voices=True,
-        listen=lambda *_: None,
-        consent=lambda *_: None,
-        occupy=lambda *_: None,
-        set_pace=lambda _: None,
-        may_pause=True,
-        answer=lambda *_: None,
-        is_asked=lambda _seat, _number: True,
-        seats=seats,
-        units=(),
+        Seats(map(state_of, seats), lambda _key, _state: None, Director(Virtual())),
         workers=("decision",),
         has_decision=False,
+        keeps_voices=True,
         is_strict=is_strict,
     )
 
@@ -120,32 +111,3 @@ def test_an_advisory_in_the_name_of_a_worker_is_refused() -> None:
     notices = Notices()
     programs(notices, []).take("advisory/ATC", json.dumps(told).encode())
     assert "the id 'decision-1'; expected an id of its own" in notices.texts[0]
-
-
-class Bus:
-    """Keeps who is told of seats."""
-
-    def watch_seats(self, changed: Callable[[str, bool], None]) -> None:
-        self.changed = changed
-
-    def hear_refusals(self, heard: Callable[[Any], None]) -> None: ...
-
-    def hear(self, *_: Any) -> None: ...
-
-
-def test_a_flood_of_programs_at_seats_is_dropped_and_those_there_are_are_heard(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    posted = list[Any]()
-    monkeypatch.setattr(Director, "post", lambda _, call: posted.append(call))
-    bus = Bus()
-    programs(Notices(), [], seats=("tower",)).serve(cast(Any, bus))
-    for number in range(1000):
-        bus.changed(f"nobody{number}", True)
-    assert 20 <= len(posted) < 100
-    posted.clear()
-    bus.changed("tower", True)
-    assert len(posted) == 1
-    for _ in range(1000):
-        bus.changed("tower", True)
-    assert len(posted) < 100

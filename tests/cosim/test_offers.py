@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -15,7 +14,7 @@ from airhilt.record import Logged
 from airhilt.scenario import Scenario
 from airhilt.scenario.models.radio import ReceiverRadio
 from breadth import mostly_slow
-from seats import SECOND, contents, logged, message, said, spoken, tower, voice
+from seats import SECOND, act, cards, contents, logged, offers, said, spoken, states, tower, voice
 
 TURN = "American one two three, turn left heading two seven zero"
 
@@ -26,8 +25,10 @@ def ground(duration_s: float = 60.0) -> Scenario:
     return scenario.model_copy(update={"duration_s": duration_s, "cameras": ()})
 
 
-def offers(log: Sequence[Logged], seat: str) -> list[dict[str, Any]]:
-    return contents(log, f"offer/{seat}")
+def offered_ns(log: Sequence[Logged], seat: str, number: int = 1) -> int:
+    """Return when a seat first had an offer."""
+    having = (one for one in states(log, seat) if number in [of["number"] for of in one["offers"]])
+    return int(next(having)["t_ns"])
 
 
 def way_m(log: Sequence[Logged], actor: str) -> float:
@@ -55,15 +56,14 @@ def test_a_person_goes_where_a_call_has_sent_it_and_when_the_person_chooses(
 ) -> None:
     waits = logged(scenario, tmp_path / "waits", [seat])
     (offer,) = offers(waits, seat)
-    assert (offer["call"], offer["command"]["action"], offer["is_over"]) == (line, "taxi", False)
-    assert offer["t_ns"] == call_end_ns(waits, line)
+    assert (offer["call"], offer["command"]["action"]) == (line, "taxi")
+    assert offered_ns(waits, seat) == call_end_ns(waits, line)
     assert way_m(waits, seat) == 0.0
 
-    given = [message(f"command/{seat}", 50.0, command=offer["command"])]
+    given = [act(seat, 50.0, "fly", command=offer["command"])]
     log = logged(scenario, tmp_path / "goes", [seat], given)
-    made, over = offers(log, seat)
-    assert (over["is_over"], over["t_ns"]) == (True, 50 * SECOND)
-    assert made["number"] == over["number"]
+    last = states(log, seat)[-1]
+    assert (last["offers"], last["t_ns"]) == ([], 50 * SECOND)
     assert way_m(log, seat) > 50.0
     verdict = replay(tmp_path / "goes")
     assert verdict.identical, str(verdict)
@@ -77,7 +77,7 @@ def test_a_call_that_is_blocked_offers_nothing(tmp_path: Path) -> None:
         one for one in contents(log, "truth/radio/") if one["id"].startswith("proceed")
     ]
     assert len(blocked["blocked_by"]) == 1
-    assert [one["t_ns"] for one in offers(log, "OPS1")] == [again["t_end_ns"]]
+    assert offered_ns(log, "OPS1") == again["t_end_ns"]
 
 
 def test_a_clearance_that_a_person_says_is_offered_to_the_person_addressed(
@@ -113,50 +113,49 @@ def test_what_waits_for_a_condition_is_offered_at_once_and_says_nothing_of_it(
     """The tower clears DAL456 for take-off, and to turn once in the climb."""
     scenario = load("s01a_nominal").model_copy(update={"cameras": ()})
     log = logged(scenario, tmp_path / "run", ["DAL456"])
-    assert [(one["command"]["action"], one["t_ns"]) for one in offers(log, "DAL456")] == [
-        (action, call_end_ns(log, "takeoff")) for action in ("take_off", "track")
-    ]
+    assert [one["command"]["action"] for one in offers(log, "DAL456")] == ["take_off", "track"]
+    for number in (1, 2):
+        assert offered_ns(log, "DAL456", number) == call_end_ns(log, "takeoff")
 
 
 def test_what_goes_with_the_own_call_is_offered_when_that_is_due(tmp_path: Path) -> None:
     """The crew of AAL123 climbs with its readback."""
     scenario = load("s02a_nominal").model_copy(update={"cameras": ()})
     log = logged(scenario, tmp_path / "run", ["AAL123"])
-    (card,) = [one for one in contents(log, "task/AAL123") if one["line"] == "readback"]
+    (card,) = [one for one in cards(log, "AAL123") if one["line"] == "readback"]
     (offer,) = offers(log, "AAL123")
     assert (offer["call"], offer["command"]["action"]) == ("readback", "altitude")
-    assert offer["t_ns"] == card["t_ns"]
+    assert offered_ns(log, "AAL123") == card["due_ns"]
 
 
 def test_an_offer_that_cannot_be_done_yet_stays(tmp_path: Path) -> None:
     """A driver who stands cannot go on."""
     given = [
         said("Washington_Tower", 5.0, "Ops one, Washington Tower, cross runway zero one."),
-        message("command/OPS1", 20.0, command={"action": "continue"}),
+        act("OPS1", 20.0, "fly", command={"action": "continue"}),
     ]
     log = logged(tower(30.0), tmp_path / "run", ["tower", "OPS1"], given)
     assert [one["subject"] for one in contents(log, "truth/event") if one["kind"] == "unable"] == [
         "OPS1"
     ]
-    assert [(one["command"]["action"], one["is_over"]) for one in offers(log, "OPS1")] == [
-        ("continue", False)
-    ]
+    assert [one["command"]["action"] for one in states(log, "OPS1")[-1]["offers"]] == ["continue"]
 
 
 def test_who_leaves_takes_nothing_along_that_a_call_had_for_the_seat(tmp_path: Path) -> None:
     given = [
-        message("seat/OPS1", 2.0, is_taken=True),
-        message("seat/OPS1", 50.0, is_taken=False),
+        act("OPS1", 2.0, "take"),
+        act("OPS1", 50.0, "leave"),
     ]
     log = logged(tower(60.0), tmp_path / "run", ["OPS1"], given)
-    assert [one["is_over"] for one in offers(log, "OPS1")] == [False, True]
+    assert offers(log, "OPS1")
+    assert not states(log, "OPS1")[-1]["offers"]
     assert way_m(log, "OPS1") == 0.0
 
 
 def test_who_leaves_before_an_instruction_drives_by_the_script(tmp_path: Path) -> None:
     given = [
-        message("seat/OPS1", 2.0, is_taken=True),
-        message("seat/OPS1", 20.0, is_taken=False),
+        act("OPS1", 2.0, "take"),
+        act("OPS1", 20.0, "leave"),
     ]
     log = logged(tower(60.0), tmp_path / "run", ["OPS1"], given)
     assert not offers(log, "OPS1")

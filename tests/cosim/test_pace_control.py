@@ -4,11 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
+from types import SimpleNamespace
+from typing import TYPE_CHECKING, cast
 
 import pytest
 
 from airhilt.cosim.pace_control import PaceControl
+from airhilt.messages import LeaveSeat, SeatAct, SeatAction, SetPace, TakeSeat
+from airhilt.seats import Seats
 from airhilt.sim import Director, Priority, RealTime
+from seats import state_of
+
+if TYPE_CHECKING:
+    from airhilt.cosim.radio import RunRadio
 
 LATER_NS = 3_600_000_000_000
 """Time of the first step of the run, to which no test comes."""
@@ -21,14 +29,22 @@ class Waiting:
     def __init__(self) -> None:
         self.director = Director(RealTime(4.0))
         self.paces: list[str] = []
+        states = (state_of("tower"), state_of("AAL1"))
+        self.seats = Seats(states, lambda _key, _state: None, self.director)
         self.control = PaceControl(
             self.director,
             lambda kind, subject, text: self.paces.append(text),  # type: ignore[arg-type]
-            pausing=lambda is_paused: None,
+            self.seats,
+            cast("RunRadio", SimpleNamespace(pause=lambda: None)),
             changed=lambda: None,
         )
-        self.control.wait_for(["tower", "AAL1"])
+        self.control.wait_for_seats()
         self.director.at(LATER_NS, lambda: None, Priority.PHYSICS)
+
+    def act(self, seat: str, act: SeatAct) -> None:
+        action = SeatAction(holder="somebody", act=act)
+        for part in (self.seats, self.control):
+            part.take(f"seat/{seat}/do", action, b"")
 
     def pace_after(self, happenings: Sequence[Happening]) -> str:
         """Return the pace after some happenings, one after the other."""
@@ -41,15 +57,15 @@ class Waiting:
 
 
 def sits(seat: str) -> Happening:
-    return lambda run: run.control.occupy(seat, is_taken=True)
+    return lambda run: run.act(seat, TakeSeat())
 
 
 def leaves(seat: str) -> Happening:
-    return lambda run: run.control.occupy(seat, is_taken=False)
+    return lambda run: run.act(seat, LeaveSeat())
 
 
 def asks_for(factor: float) -> Happening:
-    return lambda run: run.control.set(factor)
+    return lambda run: run.act("tower", SetPace(factor=factor))
 
 
 @pytest.mark.parametrize(

@@ -14,11 +14,11 @@ from airhilt.record import Logged, RunFolder
 from airhilt.record.audio import audio_file, recorded_pcm
 from airhilt.scenario import Scenario
 from airhilt.scenario.models.radio import ReceiverRadio
-from seats import contents, logged, message, spoken, tower, voice
+from seats import act, contents, logged, spoken, states, tower, voice
 
 SEAT = "Washington_Tower"
 SAID = spoken(SEAT, 5.0, voice("American one two three, go around"))
-LEFT = message(f"seat/{SEAT}", 3.0, is_taken=False)
+LEFT = act(SEAT, 3.0, "leave")
 """The tower's person leaves, so that the script goes on and the pilot hears something."""
 
 
@@ -35,8 +35,7 @@ def streamed(log: list[Logged], seat: str) -> list[dict[str, Any]]:
 
 def test_a_pilot_with_a_bad_receiver_hears_each_call_with_more_noise(tmp_path: Path) -> None:
     log = logged(noisy(AAL123=-5.0), tmp_path / "run", ["AAL123"], speech=True)
-    (info,) = contents(log, "seat/AAL123/info")
-    assert info["has_own_receiver"]
+    assert states(log, "AAL123")[0]["has_own_receiver"]
     closed = [one for one in streamed(log, "AAL123") if one["phase"] == "closed"]
     whole = [one for one in contents(log, "radio/") if "phase" not in one]
     assert [(one["id"], one["snr_db"]) for one in closed] == [
@@ -78,7 +77,7 @@ def test_a_receiver_changes_nothing_but_the_sound_of_its_seat(tmp_path: Path) ->
 def test_where_nobody_may_sit_there_is_no_sound_of_a_seat(tmp_path: Path) -> None:
     log = logged(noisy(2.0, AAL123=3.0), tmp_path / "run", ["tower"], speech=True)
     assert not streamed(log, "AAL123")
-    assert not contents(log, f"seat/{SEAT}/info")[0]["has_own_receiver"]
+    assert not states(log, SEAT)[0]["has_own_receiver"]
 
 
 @pytest.mark.parametrize("is_recorded", [True, False])

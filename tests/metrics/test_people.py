@@ -13,38 +13,49 @@ import pytest
 from airhilt.commands import GoAroundCommand
 from airhilt.errors import RunFolderError
 from airhilt.messages import (
-    ActorCommand,
     Advisory,
     AdvisoryAudio,
-    AdvisoryPerceived,
-    CallHeard,
+    AgreeToUses,
+    AnswerQuestion,
     Event,
     Evidence,
+    FlyCommand,
     GoAround,
+    HearCall,
+    LeaveSeat,
     Message,
-    MicrophoneAudio,
     NasaTlx,
-    SeatConsent,
-    SeatInfo,
-    SeatPresence,
+    PerceiveAdvisory,
+    PressToTalk,
+    ReleaseToTalk,
+    SayText,
+    SeatAct,
+    SeatAction,
     Severity,
     SpokenTruth,
-    SpokenWords,
+    TakeSeat,
     Transcript,
     Use,
-    WorkloadAnswer,
     WorkloadQuestion,
 )
 from airhilt.metrics.people import FOLLOWED_WITHIN_S, PeopleRecords
 from airhilt.metrics.summary import PersonReaction, PersonSummary
 from airhilt.record import Run, RunFolder, open_run
 from airhilt.report.people_csv import write_people_csv
+from seats import state_of
 
 SECOND = 1_000_000_000
 VOICE = AdvisoryAudio(
     id="a-1", revision=1, recipient="AAL1", text="", t_dec_ns=0, engine="", samples=0, sha256=""
 )
-GO_AROUND = ActorCommand(command=GoAroundCommand(action="go_around"))
+
+
+def done(act: SeatAct) -> SeatAction:
+    return SeatAction(holder="somebody", act=act)
+
+
+GO_AROUND = done(FlyCommand(command=GoAroundCommand(action="go_around")))
+TAKEN, LEFT = done(TakeSeat()), done(LeaveSeat())
 
 
 def advisory(recommendation: GoAround | None = None) -> Advisory:
@@ -56,10 +67,22 @@ def advisory(recommendation: GoAround | None = None) -> Advisory:
     )  # fmt: skip
 
 
-def perceived(way: str, after_s: float = 0.0) -> AdvisoryPerceived:
-    return AdvisoryPerceived.model_validate(
-        {"id": "a-1", "revision": 1, "recipient": "AAL1", "way": way, "after_s": after_s}
+def perceived(way: Any, after_s: float = 0.0, revision: int = 1) -> SeatAction:
+    return done(
+        PerceiveAdvisory(id="a-1", revision=revision, recipient="AAL1", way=way, after_s=after_s)
     )
+
+
+def pressed(delay_s: float = 0.0) -> SeatAction:
+    return done(PressToTalk(delay_s=delay_s))
+
+
+def typed(text: str) -> SeatAction:
+    return done(SayText(text=text))
+
+
+def is_take(message: Message) -> bool:
+    return isinstance(message, SeatAction) and isinstance(message.act, TakeSeat)
 
 
 def person(*messages: tuple[float, str, Message], pace: str = "realtime") -> PersonSummary:
@@ -68,8 +91,8 @@ def person(*messages: tuple[float, str, Message], pace: str = "realtime") -> Per
     A person is there all the while if no message tells who is.
     """
     records = PeopleRecords(["AAL1"], pace=pace)
-    if not any(isinstance(message, SeatPresence) for _, _, message in messages):
-        records.take("seat/AAL1", SeatPresence(is_taken=True))
+    if not any(is_take(message) for _, _, message in messages):
+        records.take("seat/AAL1/do", TAKEN)
     for t_s, key, message in messages:
         records.take(key, message.model_copy(update={"t_ns": round(t_s * SECOND)}))
     return records.summaries(100 * SECOND)[0]
@@ -82,10 +105,10 @@ def reaction(*messages: tuple[float, str, Message]) -> PersonReaction:
 def test_the_reaction_time_begins_with_the_first_audible_sample() -> None:
     found = reaction(
         (10.0, "advisory/AAL1", advisory(GoAround(runway="01"))),
-        (10.1, "perceived/AAL1", perceived("seen")),
+        (10.1, "seat/AAL1/do", perceived("seen")),
         (10.8, "tts/a-1", VOICE),
-        (10.9, "perceived/AAL1", perceived("heard", after_s=0.1)),
-        (12.5, "command/AAL1", GO_AROUND),
+        (10.9, "seat/AAL1/do", perceived("heard", after_s=0.1)),
+        (12.5, "seat/AAL1/do", GO_AROUND),
     )
     assert found.reaction_time_s == pytest.approx(1.5)
     assert found.voice_to_loudspeaker_s == pytest.approx(0.2)
@@ -98,9 +121,9 @@ def test_what_is_not_heard_is_reacted_to_from_its_display(is_voiced: bool) -> No
     """A voice that was made is not heard where the page has no sound."""
     found = reaction(
         (10.0, "advisory/AAL1", advisory()),
-        (10.1, "perceived/AAL1", perceived("seen")),
+        (10.1, "seat/AAL1/do", perceived("seen")),
         *([(10.4, "tts/a-1", VOICE)] if is_voiced else []),
-        (11.1, "microphone/AAL1", MicrophoneAudio(phase="pressed", delay_s=0.02)),
+        (11.1, "seat/AAL1/do", pressed(0.02)),
     )
     assert found.reaction_time_s == pytest.approx(0.98)  # The press took 0.02 s to the station.
     assert (found.t_heard_s, found.voice_to_loudspeaker_s) == (None, None)
@@ -110,10 +133,10 @@ def test_what_is_not_heard_is_reacted_to_from_its_display(is_voiced: bool) -> No
 def test_who_acts_on_what_is_drawn_before_it_is_audible_has_reacted_to_that() -> None:
     found = reaction(
         (10.0, "advisory/AAL1", advisory(GoAround(runway="01"))),
-        (10.1, "perceived/AAL1", perceived("seen")),
-        (11.1, "command/AAL1", GO_AROUND),
-        (11.5, "perceived/AAL1", perceived("heard")),
-        (40.0, "microphone/AAL1", MicrophoneAudio(phase="pressed")),
+        (10.1, "seat/AAL1/do", perceived("seen")),
+        (11.1, "seat/AAL1/do", GO_AROUND),
+        (11.5, "seat/AAL1/do", perceived("heard")),
+        (40.0, "seat/AAL1/do", pressed()),
     )
     assert (found.counted_from, found.first_action) == ("seen", "go_around")
     assert found.reaction_time_s == pytest.approx(1.0)
@@ -124,21 +147,20 @@ def test_a_button_pressed_before_the_sound_is_no_reaction_to_it() -> None:
     """The message of the press comes after that of the sound, and says how late it is."""
     found = reaction(
         (10.0, "advisory/AAL1", advisory()),
-        (10.5, "perceived/AAL1", perceived("heard")),
-        (10.6, "microphone/AAL1", MicrophoneAudio(phase="pressed", delay_s=0.3)),
+        (10.5, "seat/AAL1/do", perceived("heard")),
+        (10.6, "seat/AAL1/do", pressed(0.3)),
     )
     assert (found.first_action, found.reaction_time_s) == (None, None)
 
 
 def test_one_action_after_two_advisories_is_the_reaction_to_the_first_alone() -> None:
     second = advisory().model_copy(update={"revision": 2})
-    seen_again = perceived("seen").model_copy(update={"revision": 2})
     found = person(
         (10.0, "advisory/AAL1", advisory()),
-        (10.0, "perceived/AAL1", perceived("seen")),
+        (10.0, "seat/AAL1/do", perceived("seen")),
         (12.9, "advisory/AAL1", second),
-        (12.9, "perceived/AAL1", seen_again),
-        (13.0, "command/AAL1", GO_AROUND),
+        (12.9, "seat/AAL1/do", perceived("seen", revision=2)),
+        (13.0, "seat/AAL1/do", GO_AROUND),
     )
     assert [(one.reaction_time_s, one.is_shared) for one in found.reactions] == [
         (3.0, False), (None, True),
@@ -150,10 +172,10 @@ def test_an_action_that_only_the_second_advisory_advises_is_the_reaction_to_that
     second = advisory(GoAround(runway="01")).model_copy(update={"revision": 2})
     found = person(
         (10.0, "advisory/AAL1", advisory()),
-        (10.0, "perceived/AAL1", perceived("seen")),
+        (10.0, "seat/AAL1/do", perceived("seen")),
         (11.0, "advisory/AAL1", second),
-        (11.0, "perceived/AAL1", perceived("seen").model_copy(update={"revision": 2})),
-        (13.0, "command/AAL1", GO_AROUND),
+        (11.0, "seat/AAL1/do", perceived("seen", revision=2)),
+        (13.0, "seat/AAL1/do", GO_AROUND),
     )
     assert [one.reaction_time_s for one in found.reactions] == [None, 2.0]
 
@@ -179,8 +201,8 @@ def test_no_reaction_is_measured_while_time_does_not_pass_as_on_the_clock(
     ]
     acting = [
         (10.0, "advisory/AAL1", advisory()),
-        (10.0, "perceived/AAL1", perceived("seen")),
-        (12.0, "command/AAL1", GO_AROUND),
+        (10.0, "seat/AAL1/do", perceived("seen")),
+        (12.0, "seat/AAL1/do", GO_AROUND),
     ]
     found = reaction(*sorted([*changes, *acting], key=lambda one: one[0]))
     assert found.reaction_time_s == reaction_time_s
@@ -205,9 +227,9 @@ def test_the_pace_with_which_the_run_begins_holds_until_it_is_changed(
     real = Event(kind="pace", subject="run", text="realtime")
     messages = [
         (10.0, "advisory/AAL1", advisory()),
-        (10.0, "perceived/AAL1", perceived("seen")),
+        (10.0, "seat/AAL1/do", perceived("seen")),
         *([] if changed_s is None else [(changed_s, "truth/event", real)]),
-        (12.0, "command/AAL1", GO_AROUND),
+        (12.0, "seat/AAL1/do", GO_AROUND),
     ]
     found = person(*sorted(messages, key=lambda one: one[0]), pace=pace).reactions[0]
     assert found.reaction_time_s == reaction_time_s
@@ -215,21 +237,18 @@ def test_the_pace_with_which_the_run_begins_holds_until_it_is_changed(
 
 
 def test_advisories_that_reach_nobody_at_the_seat_are_counted() -> None:
-    info = SeatInfo(
-        seat="AAL1", recipients=("AAL1", "a1b2c3"), frequencies_khz=(), has_sound=False,
-        is_recognised=False, voice_is_recorded=False, longest_call_s=60.0,
-    )  # fmt: skip
+    state = state_of("AAL1", recipients=("AAL1", "a1b2c3"))
     to_others = advisory().model_copy(update={"recipient": "DAL2", "id": "a-2"})
     by_address = advisory().model_copy(update={"recipient": "a1b2c3", "id": "a-3"})
     found = person(
-        (0.0, "seat/AAL1/info", info),
+        (0.0, "seat/AAL1", state),
         (1.0, "advisory/AAL1", advisory().model_copy(update={"id": "a-0"})),
-        (2.0, "seat/AAL1", SeatPresence(is_taken=True)),
+        (2.0, "seat/AAL1/do", TAKEN),
         (3.0, "advisory/AAL1", advisory()),
-        (3.1, "perceived/AAL1", perceived("seen")),
+        (3.1, "seat/AAL1/do", perceived("seen")),
         (4.0, "advisory/DAL2", to_others),
         (5.0, "advisory/a1b2c3", by_address),
-        (6.0, "seat/AAL1", SeatPresence(is_taken=False)),
+        (6.0, "seat/AAL1/do", LEFT),
         (7.0, "advisory/AAL1", advisory().model_copy(update={"id": "a-4"})),
     )
     assert found.unperceived == 1
@@ -239,9 +258,9 @@ def test_advisories_that_reach_nobody_at_the_seat_are_counted() -> None:
 def test_advice_that_is_done_too_late_or_never_is_not_followed(late_s: float | None) -> None:
     told = [
         (10.0, "advisory/AAL1", advisory(GoAround(runway="01"))),
-        (10.0, "perceived/AAL1", perceived("seen")),
+        (10.0, "seat/AAL1/do", perceived("seen")),
     ]
-    late = [] if late_s is None else [(10.0 + late_s, "command/AAL1", GO_AROUND)]
+    late = [] if late_s is None else [(10.0 + late_s, "seat/AAL1/do", GO_AROUND)]
     assert reaction(*told, *late).followed is False
 
 
@@ -250,8 +269,8 @@ def test_advice_that_the_aircraft_is_unable_to_do_is_not_followed(is_unable: boo
     unable = Event(kind="unable", subject="AAL1", text="unable to go around")
     found = reaction(
         (10.0, "advisory/AAL1", advisory(GoAround(runway="01"))),
-        (10.0, "perceived/AAL1", perceived("seen")),
-        (12.0, "command/AAL1", GO_AROUND),
+        (10.0, "seat/AAL1/do", perceived("seen")),
+        (12.0, "seat/AAL1/do", GO_AROUND),
         *([(12.0, "truth/event", unable)] if is_unable else []),
         (13.0, "truth/event", unable),  # What it cannot do later is no answer to the command.
     )
@@ -260,7 +279,7 @@ def test_advice_that_the_aircraft_is_unable_to_do_is_not_followed(is_unable: boo
 
 
 def at_seat(t_s: float, *, is_taken: bool) -> tuple[float, str, Message]:
-    return t_s, "seat/AAL1", SeatPresence(is_taken=is_taken)
+    return t_s, "seat/AAL1/do", TAKEN if is_taken else LEFT
 
 
 def test_what_the_next_person_does_is_no_reaction_of_the_one_who_has_left() -> None:
@@ -268,11 +287,11 @@ def test_what_the_next_person_does_is_no_reaction_of_the_one_who_has_left() -> N
     found = person(
         at_seat(1.0, is_taken=True),
         (10.0, "advisory/AAL1", advisory(GoAround(runway="01"))),
-        (10.0, "perceived/AAL1", perceived("seen")),
+        (10.0, "seat/AAL1/do", perceived("seen")),
         at_seat(11.0, is_taken=False),
         at_seat(20.0, is_taken=True),
-        (20.5, "perceived/AAL1", perceived("seen")),
-        (22.0, "command/AAL1", GO_AROUND),
+        (20.5, "seat/AAL1/do", perceived("seen")),
+        (22.0, "seat/AAL1/do", GO_AROUND),
     )
     assert [(one.t_seen_s, one.reaction_time_s, one.followed) for one in found.reactions] == [
         (10.0, None, False), (20.5, 1.5, True),
@@ -284,9 +303,9 @@ def test_who_is_told_again_to_have_the_seat_is_the_same_person() -> None:
     found = person(
         at_seat(1.0, is_taken=True),
         (10.0, "advisory/AAL1", advisory(GoAround(runway="01"))),
-        (10.0, "perceived/AAL1", perceived("seen")),
+        (10.0, "seat/AAL1/do", perceived("seen")),
         at_seat(11.0, is_taken=True),
-        (12.0, "command/AAL1", GO_AROUND),
+        (12.0, "seat/AAL1/do", GO_AROUND),
     )
     assert [(one.t_seen_s, one.reaction_time_s, one.followed) for one in found.reactions] == [
         (10.0, 2.0, True)
@@ -297,36 +316,36 @@ def test_who_has_not_perceived_an_advisory_does_not_react_to_it() -> None:
     found = reaction(
         at_seat(1.0, is_taken=True),
         (10.0, "advisory/AAL1", advisory()),
-        (10.0, "perceived/AAL1", perceived("seen")),
+        (10.0, "seat/AAL1/do", perceived("seen")),
         at_seat(11.0, is_taken=False),
         at_seat(78.0, is_taken=True),
-        (79.0, "microphone/AAL1", MicrophoneAudio(phase="pressed")),
+        (79.0, "seat/AAL1/do", pressed()),
     )
     assert (found.first_action, found.reaction_time_s) == (None, None)
 
 
 def test_what_is_done_while_nobody_has_the_seat_is_done_by_nobody() -> None:
     found = person(
-        (1.0, "command/AAL1", GO_AROUND),
+        (1.0, "seat/AAL1/do", GO_AROUND),
         at_seat(2.0, is_taken=True),
-        (3.0, "command/AAL1", GO_AROUND),
+        (3.0, "seat/AAL1/do", GO_AROUND),
         at_seat(4.0, is_taken=False),
-        (5.0, "command/AAL1", GO_AROUND),
+        (5.0, "seat/AAL1/do", GO_AROUND),
     )
     assert found.commands == 1
 
 
 def test_what_the_person_did_before_is_no_reaction() -> None:
     found = reaction(
-        (9.0, "command/AAL1", GO_AROUND),
+        (9.0, "seat/AAL1/do", GO_AROUND),
         (10.0, "advisory/AAL1", advisory()),
-        (10.1, "perceived/AAL1", perceived("seen")),
+        (10.1, "seat/AAL1/do", perceived("seen")),
     )
     assert (found.first_action, found.reaction_time_s) == (None, None)
 
 
 def test_commands_to_other_aircraft_are_of_nobody_at_a_seat() -> None:
-    assert person((1.0, "command/DAL2", GO_AROUND)).commands == 0
+    assert person((1.0, "seat/DAL2/do", GO_AROUND)).commands == 0
 
 
 @pytest.mark.parametrize("times", [0, 2])
@@ -385,16 +404,17 @@ def test_a_spoken_readback_counts_as_it_was_recognised() -> None:
 
 
 def test_the_workload_is_what_was_answered_and_what_was_not() -> None:
-    def asked(number: int, scale: str) -> WorkloadQuestion:
-        return WorkloadQuestion.model_validate({"seat": "AAL1", "number": number, "scale": scale})
+    def asked(t_s: float, number: int, scale: Any) -> tuple[float, str, Message]:
+        question = WorkloadQuestion(number=number, scale=scale, asked_ns=round(t_s * SECOND))
+        return t_s, "seat/AAL1", state_of("AAL1", question=question)
 
     ratings = dict.fromkeys(NasaTlx.model_fields, 50)
     found = person(
-        (60.0, "question/AAL1", asked(1, "isa")),
-        (64.0, "workload/AAL1", WorkloadAnswer(question=1, isa=4)),
-        (120.0, "question/AAL1", asked(2, "isa")),
-        (150.0, "question/AAL1", asked(3, "nasa_tlx")),
-        (150.0, "workload/AAL1", WorkloadAnswer(question=3, nasa_tlx=NasaTlx(**ratings))),
+        asked(60.0, 1, "isa"),
+        (64.0, "seat/AAL1/do", done(AnswerQuestion(question=1, isa=4))),
+        asked(120.0, 2, "isa"),
+        asked(150.0, 3, "nasa_tlx"),
+        (150.0, "seat/AAL1/do", done(AnswerQuestion(question=3, nasa_tlx=NasaTlx(**ratings)))),
     ).workload
     assert found is not None
     assert [(one.rating, one.answered_after_s) for one in found.isa] == [(4, 4.0), (None, None)]
@@ -417,41 +437,40 @@ def test_the_time_at_the_seat_is_that_for_which_somebody_had_it(
     """The run ends at 100 s."""
     records = PeopleRecords(["AAL1"])
     for t_s, is_taken in presences:
-        presence = SeatPresence(t_ns=round(t_s * SECOND), is_taken=is_taken)
-        records.take("seat/AAL1", presence)
+        act = TAKEN if is_taken else LEFT
+        records.take("seat/AAL1/do", act.model_copy(update={"t_ns": round(t_s * SECOND)}))
     assert records.summaries(100 * SECOND)[0].seat_time_s == time_s
 
 
 @pytest.mark.parametrize(
-    ("answers", "consent"),
+    ("agreed", "consent"),
     [
         ([], None),
-        ([("voice", True)], "voice"),
-        ([("words", True)], "words"),
-        ([("voice", False)], "none"),
-        ([("words", True), ("voice", False)], "words"),
-        ([("voice", True), ("words", False)], "none"),
-        ([("words", False), ("words", True), ("voice", True)], "voice"),
+        ([("voice", "words")], "voice"),
+        ([("words",)], "words"),
+        ([()], "none"),
+        ([("voice", "words"), ("words",)], "words"),
+        ([("words",), ()], "none"),
     ],
 )
-def test_consent_is_what_the_last_answers_agree_to(
-    answers: list[tuple[Use, bool]], consent: str | None
+def test_consent_is_what_was_agreed_to_last(
+    agreed: list[tuple[Use, ...]], consent: str | None
 ) -> None:
-    told = [SeatConsent(what=what, is_given=is_given) for what, is_given in answers]
-    assert person(*((float(t_s), "consent/AAL1", one) for t_s, one in enumerate(told))).consent == (
+    told = [done(AgreeToUses(uses=uses)) for uses in agreed]
+    assert person(*((float(t_s), "seat/AAL1/do", one) for t_s, one in enumerate(told))).consent == (
         consent
     )
 
 
 def test_consent_is_that_of_the_last_person_at_the_seat_who_has_answered() -> None:
-    voice, words = SeatConsent(is_given=True), SeatConsent(what="words", is_given=True)
+    voice, words = (done(AgreeToUses(uses=uses)) for uses in (("voice",), ("words",)))
     first = [
         at_seat(0.0, is_taken=True),
-        (1.0, "consent/AAL1", voice),
+        (1.0, "seat/AAL1/do", voice),
         at_seat(2.0, is_taken=False),
     ]
     assert person(*first, at_seat(3.0, is_taken=True)).consent == "voice"
-    assert person(*first, at_seat(3.0, is_taken=True), (4.0, "consent/AAL1", words)).consent == (
+    assert person(*first, at_seat(3.0, is_taken=True), (4.0, "seat/AAL1/do", words)).consent == (
         "words"
     )
 
@@ -477,7 +496,7 @@ def recognised(name: str, text: str, confidence: float = 0.9, engine: str = "ctc
 def test_a_typed_call_has_a_row_from_the_words_to_the_answer() -> None:
     answer = {"speaker": "TOWER", "addressed": "AAL1", "in_reply_to": "seat.AAL1.1"}
     (row,) = person(
-        (10.0, "speech/AAL1", SpokenWords(text="ready")),
+        (10.0, "seat/AAL1/do", typed("ready")),
         on_air("seat.AAL1.1", 12.5, 14.0, text="ready"),
         (14.5, "asr/118300", recognised("seat.AAL1.1", "ready", engine="text")),
         on_air("answer", 15.0, 16.0, text="line up", **answer),
@@ -493,8 +512,8 @@ def test_a_typed_call_has_a_row_from_the_words_to_the_answer() -> None:
 
 def test_a_spoken_call_has_a_row_from_the_button_to_what_was_recognised() -> None:
     (row,) = person(
-        (10.0, "microphone/AAL1", MicrophoneAudio(phase="pressed", delay_s=0.25)),
-        (12.0, "microphone/AAL1", MicrophoneAudio(phase="released")),
+        (10.0, "seat/AAL1/do", pressed(0.25)),
+        (12.0, "seat/AAL1/do", done(ReleaseToTalk())),
         on_air("microphone.AAL1.1", 10.0, 12.0, is_from_microphone=True),
         (12.5, "asr/118300", recognised("microphone.AAL1.1", "going around", 0.7)),
         (12.9, "asr/118300", recognised("microphone.AAL1.1", "another opinion")),
@@ -505,7 +524,7 @@ def test_a_spoken_call_has_a_row_from_the_button_to_what_was_recognised() -> Non
 
 
 TALK = (
-    (10.0, "microphone/AAL1", MicrophoneAudio(phase="pressed", delay_s=0.25)),
+    (10.0, "seat/AAL1/do", pressed(0.25)),
     on_air("microphone.AAL1.1", 10.0, 12.0, is_from_microphone=True),
 )
 """A call that AAL1 began to speak at 9.75 s."""
@@ -515,18 +534,18 @@ def of_three(*messages: tuple[float, str, Message]) -> PersonSummary:
     """Return the summary of AAL1, who speaks, beside people at the tower and in DAL2."""
     records = PeopleRecords(["AAL1", "Tower", "DAL2"])
     for seat in ("AAL1", "Tower", "DAL2"):
-        records.take(f"seat/{seat}", SeatPresence(is_taken=True))
+        records.take(f"seat/{seat}/do", TAKEN)
     for t_s, key, message in messages:
         records.take(key, message.model_copy(update={"t_ns": round(t_s * SECOND)}))
     return records.summaries(100 * SECOND)[0]
 
 
-def heard(after_s: float = 0.0, call: str = "microphone.AAL1.1") -> CallHeard:
-    return CallHeard(id=call, after_s=after_s)
+def heard(after_s: float = 0.0, call: str = "microphone.AAL1.1") -> SeatAction:
+    return done(HearCall(id=call, after_s=after_s))
 
 
 def test_the_delay_between_people_is_from_the_button_to_the_first_audible_sample() -> None:
-    found = of_three(*TALK, (10.5, "heard/Tower", heard(after_s=0.25)))
+    found = of_three(*TALK, (10.5, "seat/Tower/do", heard(after_s=0.25)))
     (row,) = found.calls
     assert (row.to_loudspeaker_s, row.heard_at, found.press_to_loudspeaker_s) == (1.0, 1, 1.0)
 
@@ -534,8 +553,8 @@ def test_the_delay_between_people_is_from_the_button_to_the_first_audible_sample
 def test_the_delay_to_several_people_is_the_median() -> None:
     """Each is told of once: by the first that a page says of a call."""
     (row,) = of_three(
-        *TALK, (10.25, "heard/Tower", heard()), (10.75, "heard/DAL2", heard(after_s=0.5)),
-        (11.5, "heard/Tower", heard()),
+        *TALK, (10.25, "seat/Tower/do", heard()), (10.75, "seat/DAL2/do", heard(after_s=0.5)),
+        (11.5, "seat/Tower/do", heard()),
     ).calls  # fmt: skip
     assert (row.to_loudspeaker_s, row.heard_at) == (1.0, 2)
 
@@ -543,11 +562,11 @@ def test_the_delay_to_several_people_is_the_median() -> None:
 @pytest.mark.parametrize(
     ("others", "heard_at"),
     [
-        ([(10.5, "heard/AAL1", heard())], 0),
-        ([(10.5, "heard/Tower", heard(call="another"))], 0),
-        ([(9.0, "seat/Tower", SeatPresence(is_taken=False)), (10.5, "heard/Tower", heard())], 0),
+        ([(10.5, "seat/AAL1/do", heard())], 0),
+        ([(10.5, "seat/Tower/do", heard(call="another"))], 0),
+        ([(9.0, "seat/Tower/do", LEFT), (10.5, "seat/Tower/do", heard())], 0),
         ([(10.1, "truth/event", Event(kind="pace", subject="", text="0.5x")),
-          (10.5, "heard/Tower", heard())], 1),
+          (10.5, "seat/Tower/do", heard())], 1),
     ],
     ids=["the speaker", "another call", "nobody at the seat", "slow motion"],
 )  # fmt: skip
@@ -562,7 +581,7 @@ def reply(t_s: float, **more: Any) -> list[tuple[float, str, Message]]:
     """Return a call that somebody at the tower types, and as it is on the air."""
     given = {"speaker": "Tower", "addressed": "AAL1", "text": "roger"} | more
     return [
-        (t_s, "speech/Tower", SpokenWords(text="roger")),
+        (t_s, "seat/Tower/do", typed("roger")),
         on_air("seat.Tower.1", t_s, t_s + 1.0, **given),
     ]
 
@@ -581,7 +600,7 @@ def test_a_call_names_the_call_of_another_person_that_came_next() -> None:
         reply(11.5),
         [on_air("readback", 12.5, 13.0, speaker="UAL9"), *reply(13.5)],
         [on_air("landing", 13.5, 14.5, speaker="Tower")],
-        [(13.0, "speech/AAL1", SpokenWords(text="x")), on_air("seat.AAL1.1", 13.0, 14.0, text="x")],
+        [(13.0, "seat/AAL1/do", typed("x")), on_air("seat.AAL1.1", 13.0, 14.0, text="x")],
     ],
     ids=["late", "elsewhere", "at the same time", "somebody between", "the script", "the same"],
 )
@@ -593,17 +612,17 @@ def test_no_other_call_may_be_the_answer_of_another_person(
 
 def test_a_typed_call_counts_from_its_words_and_in_no_median() -> None:
     found = of_three(
-        (10.0, "speech/AAL1", SpokenWords(text="ready")),
+        (10.0, "seat/AAL1/do", typed("ready")),
         on_air("seat.AAL1.1", 12.5, 14.0, text="ready"),
-        (13.0, "heard/Tower", heard(call="seat.AAL1.1")),
+        (13.0, "seat/Tower/do", heard(call="seat.AAL1.1")),
     )
     assert (found.calls[0].to_loudspeaker_s, found.press_to_loudspeaker_s) == (3.0, None)
 
 
 def test_a_call_that_was_blocked_and_one_that_never_came_on_the_air_say_so() -> None:
     never, blocked = person(
-        (10.0, "microphone/AAL1", MicrophoneAudio(phase="pressed")),
-        (20.0, "microphone/AAL1", MicrophoneAudio(phase="pressed")),
+        (10.0, "seat/AAL1/do", pressed()),
+        (20.0, "seat/AAL1/do", pressed()),
         on_air("microphone.AAL1.1", 20.0, 22.0, is_from_microphone=True, blocked_by=("other",)),
         (22.5, "asr/118300", recognised("microphone.AAL1.1", "going around")),
     ).calls
@@ -614,8 +633,8 @@ def test_a_call_that_was_blocked_and_one_that_never_came_on_the_air_say_so() -> 
 
 def test_the_calls_of_a_script_without_its_person_have_no_row() -> None:
     found = person(
-        (5.0, "seat/AAL1", SeatPresence(is_taken=True)),
-        (6.0, "seat/AAL1", SeatPresence(is_taken=False)),
+        (5.0, "seat/AAL1/do", TAKEN),
+        (6.0, "seat/AAL1/do", LEFT),
         on_air("ready", 10.0, 12.0, text="ready"),
     )
     assert found.calls == []
@@ -623,7 +642,7 @@ def test_the_calls_of_a_script_without_its_person_have_no_row() -> None:
 
 def test_calls_are_written_as_a_table(recorded_run: Path, tmp_path: Path) -> None:
     summary = person(
-        (10.0, "speech/AAL1", SpokenWords(text="ready")),
+        (10.0, "seat/AAL1/do", typed("ready")),
         on_air("seat.AAL1.1", 12.5, 14.0, text="ready"),
     ).model_dump(mode="json")
     earlier = {name: value for name, value in summary.items() if name != "calls"}
@@ -650,7 +669,7 @@ def of_people(recorded_run: Path, folder: Path, people: Any) -> Run:
 def test_reactions_are_written_as_a_table(recorded_run: Path, tmp_path: Path) -> None:
     summary = person(
         (10.0, "advisory/AAL1", advisory()),
-        (10.1, "perceived/AAL1", perceived("seen")),
+        (10.1, "seat/AAL1/do", perceived("seen")),
     )
     table = tmp_path / "reactions.csv"
     write_people_csv(

@@ -16,7 +16,7 @@ import pytest
 
 from airhilt import load
 from devtools import Page
-from stations import experimenting, running, seat_page, stationed, viewed
+from stations import SITS, experimenting, running, seat_page, stationed, viewed
 
 AXE = Path(os.environ.get("AXE_CORE", "node_modules/axe-core/axe.min.js"))
 pytestmark = [
@@ -97,12 +97,11 @@ def test_the_seat_of_a_driver(page: Page, tmp_path: Path) -> None:
         page.open("about:blank")
 
 
-@pytest.mark.parametrize("dialog", ["help", "consent", "tlx-dialog"])
+@pytest.mark.parametrize("dialog", ["help", "tlx-dialog"])
 def test_the_dialogs(page: Page, dialog: str) -> None:
     with seat_page() as (_, url):
         opened(page, url)
         page.evaluate(SHOW_TLX)
-        page.evaluate("document.getElementById('consent-text').textContent = 'It is recorded.'")
         page.evaluate(f"document.getElementById('{dialog}').showModal()")
         assert serious(page) == []
         page.open("about:blank")
@@ -125,5 +124,5 @@ def test_an_experiment(page: Page, recorded_run: Path, tmp_path: Path, done: int
 def seated(page: Page, url: str) -> None:
     page.open(url, width=1280, height=720)
     page.wait_for("document.getElementById('state').textContent.startsWith('running')")
-    page.click("seat-take")
+    page.evaluate(SITS)
     page.wait_for("document.body.dataset.seat")

@@ -105,7 +105,6 @@ def plan(**given: Any) -> Plan:
         "seat": "AAL123",
         "scenarios": ["s02a_headon"],
         "conditions": {"assistant": ["reference", "none"]},
-        "ask_consent": False,
     }
     return plan_of(document | given, "plan.json")
 
@@ -295,7 +294,6 @@ def test_a_trial_waits_for_its_participant(tmp_path: Path, monkeypatch: pytest.M
     started: list[Options] = []
     monkeypatch.setattr(StartedRuns, "start", lambda _, __, options, *___: started.append(options))
     Conductor([Progress(plan(participants=["P01"]), tmp_path, "P01")]).begin()
-    assert started[0].wait_for_seats
 
 
 @pytest.mark.parametrize(("given", "may_pause"), [({}, False), ({"pause": True}, True)])
@@ -380,7 +378,7 @@ def test_a_participant_is_told_nothing_of_the_scenario(
     monkeypatch.setattr(
         StartedRuns,
         "start",
-        lambda _, __, options, name, ___: started.append((options.run_name, name)),
+        lambda _, __, options, name: started.append((options.run_name, name)),
     )
     progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
     conductor = Conductor([progress])
@@ -675,139 +673,8 @@ def test_a_trial_of_a_team_has_all_its_seats_and_begins_when_each_is_ready(
     assert [conductor.state(name)["step"] for name in ("P01", "P02")] == ["ready", "ready"]
     conductor.begin("P02")
     assert started[0].seat == ("tower", "AAL123")
-    assert started[0].wait_for_seats
     with pytest.raises(StationError, match="'P03': not of these trials; expected one of P01, P02"):
         conductor.state("P03")
-
-
-def consented(conductor: Conductor, use: str, participant: str, *, is_recorded: bool) -> None:
-    """Answer the question of consent, which is the one that is open."""
-    name = "consent" if is_recorded else "consent_unrecorded"
-    state = conductor.state(participant)
-    assert (state["step"], state["questions"]["name"]) == ("questions", name)
-    (item,) = state["questions"]["items"]
-    assert ("is not recorded" in item["question"]) is not is_recorded
-    conductor.answer(name, {"use": use}, participant)
-
-
-def test_a_trial_begins_when_each_of_a_team_was_asked_for_consent_and_has_the_answers(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    started: list[Any] = []
-    monkeypatch.setattr(StartedRuns, "start", lambda *given: started.append(given[-1]))
-    questions = {"before": [LICENCE]}
-    conductor = Conductor(led(team_plan(ask_consent=True, questions=questions), tmp_path, "P01"))
-    for name in ("P01", "P02"):
-        conductor.answer("before", {"licence": "none"}, name)
-    consented(conductor, "Voice and typed words", "P01", is_recorded=True)
-    assert conductor.state("P01")["step"] == "waiting"
-    with pytest.raises(StationError, match="not time for a trial"):
-        conductor.begin("P01")
-    consented(conductor, "Neither: ask me at the seat", "P02", is_recorded=True)
-    conductor.begin("P01")
-    assert started == [{"Washington Tower": "voice", "AAL123": None}]
-
-
-def test_consent_is_asked_once_unless_other_trials_record_voices_or_not(
-    recorded_run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    started: list[Any] = []
-    monkeypatch.setattr(StartedRuns, "start", lambda *given: started.append(given[-1]))
-    experiment = plan(
-        participants=["P01"], ask_consent=True, nasa_tlx=False,
-        conditions={"voice_recording": [True, False], "assistant": ["reference", "none"]},
-    )  # fmt: skip
-    progress = Progress(experiment, tmp_path, "P01")
-    asked = 0
-    for position, trial in enumerate(progress.trials, 1):
-        conductor = Conductor([progress])
-        if conductor.state()["step"] == "questions":
-            is_recorded = trial.conditions["voice_recording"] is True
-            use = "Voice and typed words" if is_recorded else "Typed words alone"
-            consented(conductor, use, "", is_recorded=is_recorded)
-            asked += 1
-        conductor.begin()
-        finished(recorded_run, progress.runs.folder / f"{position:02d}-{trial.name}", [])
-    uses = {True: "voice", False: "words"}
-    assert started == [
-        {"AAL123": uses[bool(trial.conditions["voice_recording"])]} for trial in progress.trials
-    ]
-    assert (asked, Conductor([progress]).state()["step"]) == (2, "done")
-
-
-@pytest.mark.parametrize(
-    ("answer", "at_seat", "agreed"),
-    [
-        ("Voice and typed words", [None], "voice"),
-        ("Voice and typed words", ["voice"], "voice"),
-        ("Voice and typed words", ["none"], None),
-        ("Voice and typed words", ["words"], "words"),
-        ("Voice and typed words", ["none", "voice"], None),
-        ("Voice and typed words", ["voice", "none"], None),
-        ("Typed words alone", ["voice"], "words"),
-        ("Typed words alone", ["none"], None),
-        ("Neither: ask me at the seat", ["voice"], None),
-    ],
-)
-def test_what_was_taken_back_at_the_seat_is_not_agreed_to_in_later_trials(
-    recorded_run: Path, tmp_path: Path, answer: str, at_seat: list[str | None], agreed: str | None
-) -> None:
-    """It is asked about at the seat then. One trial is begun several times here."""
-    experiment = plan(participants=["P01"], ask_consent=True, nasa_tlx=False)
-    progress = Progress(experiment, tmp_path, "P01")
-    first, second = progress.trials
-    consented(Conductor([progress]), answer, "", is_recorded=True)
-    for number, consent in enumerate(at_seat, 1):
-        person = PERSON.model_copy(update={"seat_time_s": 0.0, "consent": consent})
-        name = f"01-{first.name}" + (f"-{number}" if number > 1 else "")
-        finished(recorded_run, progress.runs.folder / name, [person.model_dump(mode="json")])
-    assert [progress.agreed(trial) for trial in (first, second)] == [agreed] * 2
-
-
-@pytest.mark.parametrize(
-    ("consents", "agreed"),
-    [
-        (("voice", "voice"), "voice"),
-        (("voice", "none"), None),
-        (("none", "voice"), None),
-        (("words", "voice"), "words"),
-    ],
-)
-def test_what_was_taken_back_in_any_trial_is_agreed_to_in_no_other(
-    recorded_run: Path, tmp_path: Path, consents: tuple[str, str], agreed: str | None
-) -> None:
-    """Voices are recorded in one of two trials; consent is given for each kind."""
-    experiment = plan(
-        participants=["P01"], ask_consent=True, nasa_tlx=False,
-        conditions={"voice_recording": [True, False]},
-    )  # fmt: skip
-    progress = Progress(experiment, tmp_path, "P01")
-    for position, (trial, consent) in enumerate(zip(progress.trials, consents, strict=True), 1):
-        is_recorded = trial.conditions["voice_recording"] is True
-        consented(Conductor([progress]), "Voice and typed words", "", is_recorded=is_recorded)
-        person = PERSON.model_copy(update={"consent": consent})
-        name = f"{position:02d}-{trial.name}"
-        finished(recorded_run, progress.runs.folder / name, [person.model_dump(mode="json")])
-    assert {progress.agreed(trial) for trial in progress.trials} == {agreed}
-
-
-@pytest.mark.parametrize("summary", [None, b"{"])
-def test_nothing_is_agreed_to_after_a_run_that_was_killed_and_cannot_tell(
-    recorded_run: Path, tmp_path: Path, summary: bytes | None
-) -> None:
-    experiment = plan(participants=["P01"], ask_consent=True)
-    progress = Progress(experiment, tmp_path, "P01")
-    trial = progress.trials[0]
-    consented(Conductor([progress]), "Voice and typed words", "", is_recorded=True)
-    assert progress.agreed(trial) == "voice"
-    run = RunFolder(shutil.copytree(recorded_run, progress.runs.folder / f"01-{trial.name}"))
-    run.write_info(run.info().model_copy(update={"phase": "running"}))
-    if summary is None:
-        run.summary_path.unlink()
-    else:
-        run.summary_path.write_bytes(summary)
-    assert progress.agreed(trial) is None
-    assert progress.runs.finished_run(trial) is None
 
 
 def test_a_run_that_was_moved_away_hides_no_other_one(recorded_run: Path, tmp_path: Path) -> None:
@@ -819,7 +686,7 @@ def test_a_run_that_was_moved_away_hides_no_other_one(recorded_run: Path, tmp_pa
     assert progress.runs.new_run(trial) == f"01-{trial.name}-3"
 
 
-def test_a_run_of_a_trial_is_told_who_has_agreed(
+def test_a_run_with_seats_begins_when_they_are_taken(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     commands: list[list[str]] = []
@@ -829,13 +696,12 @@ def test_a_run_of_a_trial_is_told_who_has_agreed(
         raise OSError("no process in this test")
 
     monkeypatch.setattr(subprocess, "Popen", begin)
-    with pytest.raises(OSError, match="no process"):
-        StartedRuns(tmp_path).start(
-            find("scenarios", "s01b_nominal"), Options(seat=("tower", "AAL123")), "run",
-            {"Washington Tower": "voice", "AAL123": None},
-        )  # fmt: skip
-    given = [one for one in commands[0] if one.startswith("--agreed")]
-    assert given == ["--agreed=Washington Tower=voice"]
+    for seats in ((), ("tower",)):
+        with pytest.raises(OSError, match="no process"):
+            StartedRuns(tmp_path).start(
+                find("scenarios", "s01b_nominal"), Options(seat=seats), f"run-{len(seats)}"
+            )
+    assert ["--wait-for-seats" in command for command in commands] == [False, True]
 
 
 def goes_on(progress: Progress) -> None:

@@ -29,7 +29,7 @@ from stations import PATIENCE_S, TOKEN, experimenting, reachable
 
 LOW_CONTRAST = Path(__file__).with_name("contrast.js").read_text()
 PLAN: dict[str, Any] = {
-    "participants": ["P01"], "seat": "AAL123", "scenarios": ["s02a_headon"], "ask_consent": False,
+    "participants": ["P01"], "seat": "AAL123", "scenarios": ["s02a_headon"],
     "questions": {
         "before": [
             {"type": "choice", "name": "licence", "question": "Which licence have you?",
@@ -53,7 +53,6 @@ ANSWER_ALL = """
     }
 """
 NOTES = "document.getElementById('notes').textContent"
-ASKED = "document.getElementById('consent').open"
 SAID = "document.getElementById('words').value === ''"
 SUBMIT = "document.getElementById('questions').requestSubmit()"
 
@@ -362,7 +361,7 @@ def test_a_controller_and_a_pilot_have_a_trial_together(tmp_path: Path) -> None:
     (tmp_path / "short.json").write_text(json.dumps(shortened(scenario, 12.0)))
     team = {
         "participants": [["P01", "P02"]], "seats": ["tower", "AAL123"], "seat": None,
-        "scenarios": [str(tmp_path / "short.json")], "nasa_tlx": False, "ask_consent": True,
+        "scenarios": [str(tmp_path / "short.json")], "nasa_tlx": False,
         "options": {"speech": False, "cameras": False, "assistant": "none"},
         "questions": {"after_trial": [PLAN["questions"]["before"][1]]},
     }  # fmt: skip
@@ -380,11 +379,6 @@ def test_a_controller_and_a_pilot_have_a_trial_together(tmp_path: Path) -> None:
         assert tower.evaluate(LOW_CONTRAST) == []
         tower.evaluate("document.querySelector('#choices a[href=\"#P01\"]').click()")
         go(pilot, url, "P02")
-        for page, use in ((tower, "Voice and typed words"), (pilot, "Neither: ask me at the seat")):
-            heading(page, "Your voice and your words")
-            assert page.evaluate(LOW_CONTRAST) == []
-            page.evaluate(f"document.querySelector('[value=\"{use}\"]').click()")
-            page.evaluate(SUBMIT)
         heading(tower, "Trial 1 of 1")
         tower.click("begin")
         people = ((tower, "P01", "Washington Tower", "1"), (pilot, "P02", "AAL123", "5"))
@@ -393,13 +387,12 @@ def test_a_controller_and_a_pilot_have_a_trial_together(tmp_path: Path) -> None:
             page.open(page.evaluate("document.getElementById('open').href"))
             page.wait_for("document.getElementById('state').textContent === 'paused'")
             assert page.evaluate(f"[...{offered}.options].map((one) => one.value)") == [seat]
+            use = "none" if page is pilot else "voice"
+            page.evaluate(f"document.getElementById('seat-uses').value = '{use}'")
             page.click("seat-take")
             page.wait_for("!document.getElementById('say').hidden")
-            page.evaluate("document.getElementById('words').value = 'Hello.'")
-            page.click("say-button")
-            page.wait_for(f"{ASKED} || {SAID}")
-            assert page.evaluate(ASKED) is (page is pilot)
-            page.evaluate("document.getElementById('consent').close()")
+            is_silent = str(page is pilot).lower()
+            page.wait_for(f"document.getElementById('words').disabled === {is_silent}")
         for page, participant, _, answer in people:
             page.wait_for("document.getElementById('state').textContent === 'finished'")
             go(page, url, participant)
@@ -422,4 +415,7 @@ def test_a_controller_and_a_pilot_have_a_trial_together(tmp_path: Path) -> None:
         for one in contents(list(open_run(folder / run).messages()), "truth/event")
         if "agree" in one["text"]
     ]
-    assert agreed == [("Washington Tower", "agrees to speak; the voice is recorded")]
+    assert agreed == [
+        ("Washington Tower", "agrees to speak and type; the voice is recorded"),
+        ("AAL123", "agrees to nothing"),
+    ]

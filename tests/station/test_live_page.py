@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import subprocess
-import time
 from pathlib import Path
 from typing import Any
 
@@ -14,16 +13,11 @@ from websockets.exceptions import ConnectionClosed, InvalidStatus
 from websockets.sync.client import ClientConnection, connect
 from websockets.typing import Origin
 
-from airhilt.bus.session import free_endpoint
 from airhilt.cosim.replay import replay
-from airhilt.messages import SpokenWords
 from airhilt.record import open_run
-from airhilt.station.connection import RunConnection
-from airhilt.station.subscription import Subscription
-from airhilt.station.wishes import Claimed
 from devtools import Page
 from microphone import SAY
-from stations import TOWER, PretendedRun, running, seat_page
+from stations import SITS, answer, do, opened, running, wish
 
 PATIENCE_S = 90.0
 
@@ -128,139 +122,47 @@ def test_the_page_follows_the_run_until_somebody_goes_back(
         page.open("about:blank")
 
 
-def answer(socket: ClientConnection, kind: str) -> Any:
-    """Return the next message of a kind."""
-    while True:
-        message = json.loads(socket.recv(timeout=PATIENCE_S))
-        if kind in message:
-            return message[kind]
-
-
 def selected_altitude_ft(own: Any) -> int | None:
     """Return the selected altitude in what a seat is told; None if it has no instruments."""
     shown = [rest[-1]["selected_altitude_ft"] for kind, *rest in own if kind == "cockpit"]
     return shown[-1] if shown else None
 
 
-def send(socket: ClientConnection, **wish: Any) -> None:
-    socket.send(json.dumps(wish))
-
-
 @pytest.mark.slow
 def test_a_seat_has_one_person_and_what_it_says_is_said(brief_file: Path, tmp_path: Path) -> None:
     out = tmp_path / "run"
     with running(brief_file, out, "--seat", "AAL123", "--share-truth") as (process, url):
-        with listening(url) as own, listening(url) as other:
-            send(own, say={"text": "hello"})
-            assert "Take one first" in answer(own, "refused")
-            send(own, take="AAL123")
-            while answer(own, "seats")["AAL123"] != "yours":
-                pass
-            assert answer(own, "own")[0][0] in ("info", "task", "cockpit")
-            send(other, take="AAL123")
-            assert "Somebody has the seat" in answer(other, "refused")
-            send(other, fly={"action": "turn", "degrees": 30})
-            assert "Take one first" in answer(other, "refused")
+        with opened(url, "own") as own, opened(url, "other") as other:
+            assert "take one first" in do(own, "text", text="hello")
+            assert do(own, "take", "AAL123") == ""
+            assert do(other, "take", "AAL123") == "somebody has the seat AAL123 already"
+            assert "take one first" in do(other, "fly", command={"action": "turn", "degrees": 30})
             with pytest.raises(InvalidStatus, match="403"):
                 listening(url, origin="http://evil.example")
             with listening(url, version="0") as stale, listening(url) as garbage:
                 assert how_closed(stale) == 4426
-                send(garbage, command=1)
+                wish(garbage, command=1)
                 assert how_closed(garbage) == 1008
-            send(own, consent={"answer": {"what": "words", "is_given": True}})
-            send(own, say={"text": "Washington Center, American one two three, hello"})
-            send(own, fly={"action": "altitude", "altitude_ft": 34000})
+            assert "not agreed" in do(own, "text", text="hello")
+            assert do(own, "agree", uses=["words"]) == ""
+            assert do(own, "text", text="Washington Center, American one two three, hello") == ""
+            climb = {"action": "altitude", "altitude_ft": 34000}
+            assert do(own, "fly", command=climb) == ""
             while selected_altitude_ft(answer(own, "own")) != 34000:
                 pass
         page_process(process).kill()
         assert process.wait(timeout=PATIENCE_S) == 0
     messages = list(open_run(out).messages())
-    keys = [logged.key for logged in messages]
-    assert keys.count("speech/AAL123") == keys.count("command/AAL123") == 1
-    presence = [json.loads(one.data)["is_taken"] for one in messages if one.key == "seat/AAL123"]
-    assert presence == [True, False]  # It is left with the page that is killed, at the latest.
+    acts = [json.loads(one.data)["act"]["do"] for one in messages if one.key == "seat/AAL123/do"]
+    # The seat is left with the page that is killed, at the latest.
+    assert acts == ["take", "agree", "text", "fly", "leave"]
+    assert [one.key for one in messages].count("command/AAL123") == 1
     said = [json.loads(one.data) for one in messages if one.key.startswith("truth/radio/seat.")]
     assert said[0]["text"] == "Washington Center, American one two three, hello"
-    refused = [
-        one["text"] for one in events(out) if (one["kind"], one["subject"]) == ("refused", "page")
-    ]
-    words = [
-        "no seat",
-        "Somebody has",
-        "no seat",
-        "evil.example",
-        "another version",
-        "of a browser",
-    ]
+    refused = [one["text"] for one in events(out) if one["kind"] == "refused"]
+    words = ["already", "evil.example", "another version", "of a browser", "not agreed"]
     assert [word in text for word, text in zip(words, refused, strict=True)] == [True] * len(words)
     assert replay(out).identical
-
-
-class SlowPage(PretendedRun):
-    """A page of a run that learns late when somebody leaves a seat there."""
-
-    def __init__(self, endpoint: str) -> None:
-        super().__init__((TOWER.model_copy(update={"seat": "AAL123"}),))
-        self._connection = RunConnection(endpoint, "operator")
-        self.subscription = Subscription(
-            self._connection, lambda _: None, lambda: None, seats=["AAL123"]
-        )
-
-    def say(self, seat: str, words: SpokenWords) -> None:
-        """Let the seat speak."""
-        self.subscription.say(seat, words)
-
-    def claim(self, seat: str) -> Claimed:
-        """Claim the seat from other pages."""
-        return self.subscription.claim(seat)
-
-    def occupy(self, seat: str, *, is_taken: bool) -> None:
-        """Tell the run who has the seat, but of who leaves it after a while."""
-        if not is_taken:
-            time.sleep(0.3)
-        self.subscription.occupy(seat, is_taken=is_taken)
-
-    def close(self) -> None:
-        """Leave the run."""
-        self.subscription.close()
-        self._connection.close()
-
-
-def has_seat(socket: ClientConnection) -> bool:
-    """Take the seat of the pilot, and return true if it was given."""
-    send(socket, take="AAL123")
-    while not (message := json.loads(socket.recv(timeout=PATIENCE_S))).keys() & {"refused"}:
-        if message.get("seats") == {"AAL123": "yours"}:
-            return True
-    return False
-
-
-@pytest.mark.slow
-def test_who_sits_down_before_the_run_knows_that_the_seat_was_left_comes_after_that_in_its_log(
-    brief_file: Path, tmp_path: Path
-) -> None:
-    out, endpoint = tmp_path / "run", free_endpoint()
-    with running(brief_file, out, "--seat", "AAL123", "--endpoint", endpoint) as (process, _):
-        page = SlowPage(endpoint)
-        with seat_page(page) as (_, url), listening(url) as first, listening(url) as second:
-            assert has_seat(first)
-            send(first, consent={"answer": {"what": "words", "is_given": True}})
-            send(first, say={"text": "first"})
-            send(first, leave="AAL123")
-            while not has_seat(second):
-                pass
-            send(second, consent={"answer": {"what": "words", "is_given": True}})
-            send(second, say={"text": "second"})
-            send(second, leave="AAL123")
-        page.close()
-        page_process(process).kill()
-        process.wait(timeout=PATIENCE_S)
-    told = [
-        json.loads(one.data).get("text", json.loads(one.data).get("is_taken"))
-        for one in open_run(out).messages()
-        if one.key in ("seat/AAL123", "speech/AAL123")
-    ]
-    assert told == [True, "first", False, True, "second", False]
 
 
 @pytest.mark.slow
@@ -269,19 +171,19 @@ def test_a_run_that_waits_for_its_seat_stands_at_its_start_until_somebody_has_it
 ) -> None:
     out, options = tmp_path / "run", ("--seat", "AAL123", "--wait-for-seats")
     with running(brief_file, out, *options) as (process, url):
-        with listening(url) as socket:
+        with opened(url) as socket:
             while (clock := clock_of(answer(socket, "changes"))) is None or clock[2] == "waiting":
                 pass
             assert clock[1:4] == [0.0, "running", "paused"]
-            assert has_seat(socket)
+            assert do(socket, "take", "AAL123") == ""
             while (clock := clock_of(answer(socket, "changes"))) is None or clock[1] == 0.0:
                 pass
             assert clock[3] == "realtime"
         page_process(process).kill()
         process.wait(timeout=PATIENCE_S)
     log = open_run(out).messages()
-    taken = next(json.loads(one.data) for one in log if one.key == "seat/AAL123")
-    assert (taken["is_taken"], taken["t_ns"]) == (True, 1)  # The first nanosecond of the run.
+    taken = next(json.loads(one.data) for one in log if one.key == "seat/AAL123/do")
+    assert (taken["act"]["do"], taken["t_ns"]) == ("take", 1)  # The first nanosecond of the run.
     assert open_run(out).summary()["people"][0]["seat_time_s"] > 0.0
 
 
@@ -295,10 +197,10 @@ def test_who_may_take_a_seat_sees_nothing_of_the_truth(
     encounter_file: Path, tmp_path: Path
 ) -> None:
     options = ("--seat", "tower", "--share-truth")
-    with running(encounter_file, tmp_path / "run", *options) as (_, url), listening(url) as socket:
+    with running(encounter_file, tmp_path / "run", *options) as (_, url), opened(url) as socket:
         seen: set[str] = set()
         (seat,) = answer(socket, "seats")
-        send(socket, take=seat)
+        assert do(socket, "take", seat) == ""
         for _ in range(30):
             for kind, *rest in json.loads(socket.recv(timeout=PATIENCE_S)).get("changes", ()):
                 seen.add(kind)
@@ -316,7 +218,7 @@ def test_a_person_takes_a_seat_and_says_what_the_script_has(
     with running(encounter_file, tmp_path / "run", "--seat", "AAL123") as (_, url):
         page.open(url, width=1280, height=720)
         page.wait_for("document.getElementById('state').textContent.startsWith('running')")
-        page.click("seat-take")
+        page.evaluate(SITS)
         page.wait_for("document.querySelector('#tasks button')")
         page.wait_for("document.getElementById('instruments').textContent.includes('gear up')")
         assert page.evaluate(
@@ -337,7 +239,7 @@ def seated(page: Page, url: str, seat: str) -> None:
     """Open the page of a run and take its only seat."""
     page.open(url, width=1280, height=720)
     page.wait_for("document.getElementById('state').textContent.startsWith('running')")
-    page.click("seat-take")
+    page.evaluate(SITS)
     page.wait_for(f"document.body.dataset.seat === '{seat}'")
 
 

@@ -7,13 +7,11 @@ from typing import Any
 
 import pytest
 
-from airhilt.commands import HoldPositionCommand
 from airhilt.messages import (
     ActorTruth,
     AdsbReport,
     Briefing,
     Clock,
-    CommandOffer,
     Message,
     RadarInfo,
     RadarPlot,
@@ -26,8 +24,9 @@ from airhilt.messages import (
     Word,
 )
 from airhilt.record import Logged
-from airhilt.station.changes import Changes, SeatChanges
+from airhilt.station.changes import Changes, Newest
 from airhilt.station.live import LiveRun
+from seats import state_of
 
 SECOND = 1_000_000_000
 REPORT = AdsbReport(
@@ -212,45 +211,23 @@ def test_the_oldest_changes_are_forgotten() -> None:
     assert batch.next_number == 1_000
 
 
-def test_of_what_a_seat_is_told_the_newest_of_each_subject_is_kept_in_its_order() -> None:
-    own = SeatChanges()
-    own.add("info", {"seat": "OPS1"})
-    own.add("state", "OPS1", 1.0)
-    own.add("question", 1, "isa", 1.0)
-    own.add("state", "OPS1", 2.0)
-    own.add("answered", 1)
+def test_of_what_a_seat_is_told_the_newest_of_each_kind_is_kept_in_its_order() -> None:
+    own = Newest()
+    own.put("seat", {"seat": "OPS1"})
+    own.put("state", "OPS1", 1.0)
+    own.put("state", "OPS1", 2.0)
     first = own.since(0)
     assert first is not None
-    assert json.loads(first.changes) == [
-        ["info", {"seat": "OPS1"}], ["state", "OPS1", 2.0], ["answered", 1],
-    ]  # fmt: skip
+    assert json.loads(first.changes) == [["seat", {"seat": "OPS1"}], ["state", "OPS1", 2.0]]
     assert own.since(first.next_number) is None
-    own.add("state", "OPS1", 3.0)
+    own.put("state", "OPS1", 3.0)
     second = own.since(first.next_number)
     assert second is not None
     assert json.loads(second.changes) == [["state", "OPS1", 3.0]]
 
 
-def test_what_a_seat_is_told_has_a_bound_and_what_is_open_is_forgotten_last() -> None:
-    own = SeatChanges(most=10)
-    for number in range(8):
-        own.add("task", {"line": number, "done": False})
-    for number in range(100):
-        own.add("notice", 1.0, str(number))
-    batch = own.since(0)
-    assert batch is not None
-    kept = json.loads(batch.changes)
-    assert [change[1]["line"] for change in kept if change[0] == "task"] == list(range(8))
-    assert [change[2] for change in kept if change[0] == "notice"] == ["98", "99"]
-    for number in range(8, 100):
-        own.add("task", {"line": number, "done": False})
-    batch = own.since(0)
-    assert batch is not None
-    assert [change[1]["line"] for change in json.loads(batch.changes)] == list(range(90, 100))
-
-
 def test_only_the_driver_learns_where_the_own_vehicle_is_from_its_map() -> None:
-    changes, own = Changes(), SeatChanges()
+    changes, own = Changes(), Newest()
     run = LiveRun(changes, {"OPS1": own})
     shown = VehiclePosition(
         callsign="OPS1", latitude_deg=38.85, longitude_deg=-77.04, heading_deg=90.0,
@@ -263,33 +240,16 @@ def test_only_the_driver_learns_where_the_own_vehicle_is_from_its_map() -> None:
     assert json.loads(batch.changes)[0][:3] == ["state", "OPS1", "vehicle"]
 
 
-def test_an_offer_is_for_the_person_at_the_seat_alone_until_it_is_over() -> None:
-    changes, own, other = Changes(), SeatChanges(most=1), SeatChanges()
-    run = LiveRun(changes, {"OPS1": own, "AAL123": other})
-    command = HoldPositionCommand(action="hold_position")
-    for is_over in (False, True):
-        offer = CommandOffer(seat="OPS1", number=1, call="hold", command=command, is_over=is_over)
-        run.take(Logged("offer/OPS1", "", 0, offer.model_dump_json().encode()))
-        batch = own.since(0)
-        assert batch is not None
-        assert json.loads(batch.changes) == [
-            ["offer", {"number": 1, "command": {"action": "hold_position"}, "over": is_over}]
-        ]
-    own.add("notice", 1.0, "what is over is forgotten first")
-    batch = own.since(0)
-    assert batch is not None
-    assert [kind for kind, *_ in json.loads(batch.changes)] == ["notice"]
-    assert changes.since(0) is None
-    assert other.since(0) is None
-
-
-def test_task_cards_and_instruments_are_for_the_person_at_the_seat_alone() -> None:
-    changes, own, other = Changes(), SeatChanges(), SeatChanges()
+def test_the_state_of_a_seat_and_its_instruments_are_for_the_person_there_alone() -> None:
+    changes, own, other = Changes(), Newest(), Newest()
     run = LiveRun(changes, {"TOWER": own, "AAL123": other})
-    card = TaskCard(line="one", seat="TOWER", addressed=None, frequency_khz=119_100, text="Hello.")
-    run.take(Logged("task/TOWER", "", 0, card.model_dump_json().encode()))
+    card = TaskCard(line="one", due_ns=0, addressed=None, frequency_khz=119_100, text="Hello.")
+    state = state_of("TOWER", tasks=(card,), holder="somebody")
+    run.take(Logged("seat/TOWER", "", 0, state.model_dump_json().encode()))
     assert changes.since(0) is None
     assert other.since(0) is None
     batch = own.since(0)
     assert batch is not None
-    assert json.loads(batch.changes)[0][1]["text"] == "Hello."
+    shown = json.loads(batch.changes)[0][1]
+    assert shown["tasks"] == [{"line": "one", "t": 0.0, "text": "Hello.", "addressed": None}]
+    assert "holder" not in shown

@@ -10,17 +10,27 @@ from typing import Any
 
 import httpx
 import pytest
+from pydantic import TypeAdapter
 
-from airhilt.messages import AdvisoryPerceived, Severity, SpokenWords
+from airhilt.commands import Command
+from airhilt.messages import (
+    FlyCommand,
+    PerceiveAdvisory,
+    SayText,
+    SeatAct,
+    Severity,
+    TaskCard,
+    WorkloadQuestion,
+)
 from airhilt.report.airport import ReportAirport
-from airhilt.station import seat_book
+from airhilt.station import browsers
 from airhilt.station.audiences import Audience
 from airhilt.station.browsers import Browsers
 from airhilt.station.pictures import Picture
 from devtools import Page
 from loudspeaker import COUNT_PIECES, PIECES, piece
 from microphone import NO_CONNECTION, SAY
-from stations import PATIENCE_S, TOWER, PretendedRun, seat_page
+from stations import PATIENCE_S, SITS, TOWER, PretendedClient, PretendedRun, seat_page
 
 pytestmark = pytest.mark.browser
 CATEGORIES = {"AAL123": "aircraft", "DAL456": "aircraft", "OPS1": "vehicle"}
@@ -46,6 +56,7 @@ ADVISORY = {
         "tracks": [], "inconsistencies": [],
     },
 }  # fmt: skip
+COMMAND: TypeAdapter[Command] = TypeAdapter(Command)
 BANDS = """(() => {
     const pfd = document.getElementById('pfd'), height = pfd.height - 80;
     const copy = Object.assign(document.createElement('canvas'), { width: 14, height });
@@ -71,7 +82,25 @@ def fly(run: PretendedRun, t_s: float = 1.0) -> None:
         heading_deg = 90.0 if speed_m_s > 0.0 else 270.0
         place = (t_s, east_m, 0.0, 35_000, [speed_m_s, 0.0], heading_deg, False, "")
         run.changes.add("state", name, "aircraft", "B737", *place)
-    run.seat.add("cockpit", INSTRUMENTS)
+    cockpit(run, INSTRUMENTS)
+
+
+def cockpit(run: PretendedRun, shown: dict[str, Any]) -> None:
+    """Let the instruments of the seat show something."""
+    (own,) = run.of_seats.values()
+    own.put("cockpit", shown)
+
+
+def own_seat(run: PretendedRun) -> str:
+    (seat,) = run.of_seats
+    return seat
+
+
+def next_command(run: PretendedRun) -> Command:
+    """Return the next command that is given at a seat."""
+    act = run.next()
+    assert isinstance(act, FlyCommand)
+    return act.command
 
 
 def advise(run: PretendedRun, recipient: str, message: str, **other: Any) -> None:
@@ -96,9 +125,10 @@ def seated(
         run.changes.add("clock", 1.0, "running", pace)
         page.open(url, width=1280, height=720)
         page.wait_for("document.getElementById('state').textContent.startsWith('running')")
-        page.click("seat-take")
+        page.evaluate(SITS)
         page.wait_for(f"document.body.dataset.seat === '{KIND[seat]}'")
         page.wait_for("!document.getElementById('talk').hidden")
+        page.wait_for("!document.getElementById('words').disabled")
         page.evaluate("document.activeElement.blur()")
         yield run
         page.open("about:blank")
@@ -108,9 +138,10 @@ def commands(run: PretendedRun, page: Page) -> list[str]:
     """Return the actions of the commands that the page has sent so far."""
     page.evaluate("document.getElementById('words').value = 'over'")
     page.evaluate(SAY)
-    actions = []
-    while not isinstance(wish := run.next(), SpokenWords):
-        actions.append(wish.action)
+    actions: list[str] = []
+    while not isinstance(act := run.next(), SayText):
+        assert isinstance(act, FlyCommand)
+        actions.append(act.command.action)
     return actions
 
 
@@ -246,7 +277,7 @@ def test_a_pilot_may_reject_a_take_off_on_the_roll_and_go_around_elsewhere(
 ) -> None:
     offered = "[...document.querySelectorAll('#panel-actions button:not([hidden])')][0]"
     with seated(page, "AAL123") as run:
-        run.seat.add("cockpit", INSTRUMENTS | {"mode": mode, "on_ground": mode != "glide"})
+        cockpit(run, INSTRUMENTS | {"mode": mode, "on_ground": mode != "glide"})
         page.wait_for(f"{offered}.textContent === '{button}'")
         page.press("b", 66)
         page.press("g", 71)
@@ -260,8 +291,8 @@ TAXI = {
 OFFERED = "[...document.querySelectorAll('#offers button')].map((one) => one.textContent)"
 
 
-def offer(run: PretendedRun, number: int, command: dict[str, Any], *, over: bool = False) -> None:
-    run.seat.add("offer", {"number": number, "command": command, "over": over})
+def offer(run: PretendedRun, command: dict[str, Any]) -> None:
+    run.seats.offer(own_seat(run), "a call", COMMAND.validate_python(command))
 
 
 @pytest.mark.parametrize(("seat", "verb"), [("OPS1", "Drive"), ("AAL123", "Taxi")])
@@ -269,28 +300,28 @@ def test_what_a_call_has_for_the_seat_is_a_button_that_does_it(
     page: Page, seat: str, verb: str
 ) -> None:
     with seated(page, seat) as run:
-        offer(run, 1, TAXI)
+        offer(run, TAXI)
         page.wait_for(f"{OFFERED}[0] === '{verb} to the hold short of runway 01 on D via K, D'")
         assert not commands(run, page)
         page.evaluate("document.querySelector('#offers button').click()")
-        assert run.next().model_dump(mode="json") == TAXI
+        assert next_command(run).model_dump(mode="json") == TAXI
         page.wait_for("document.getElementById('panel-state').textContent.startsWith('Set: ')")
-        offer(run, 1, TAXI, over=True)
+        run.seats.end_offer(seat, COMMAND.validate_python(TAXI))
         page.wait_for(f"{OFFERED}.length === 0")
 
 
 def test_a_track_that_a_call_has_is_magnetic_as_on_the_instruments(page: Page) -> None:
     with seated(page, "AAL123") as run:
         run.changes.add("briefing", "TOWER", ReportAirport("kdca").as_json(), CATEGORIES)
-        offer(run, 1, {"action": "track", "track_deg": 259.3})
+        offer(run, {"action": "track", "track_deg": 259.3})
         page.wait_for(f"{OFFERED}[0] === 'Turn to track 270\u00b0'")
         page.evaluate("document.querySelector('#offers button').click()")
-        assert run.next().track_deg == 259.3
+        assert next_command(run).track_deg == 259.3
 
 
 def test_who_leaves_the_seat_is_shown_nothing_that_calls_had_for_it(page: Page) -> None:
     with seated(page, "OPS1") as run:
-        offer(run, 1, TAXI)
+        offer(run, TAXI)
         page.wait_for(f"{OFFERED}.length === 1")
         page.click("seat-take")
         page.wait_for(f"{OFFERED}.length === 0")
@@ -301,18 +332,17 @@ CALL = {
     "speaker": None, "addressed": None, "said": None, "blocked_by": [], "transcripts": [],
     "hearings": [], "has_sound": False,
 }  # fmt: skip
-CARD = {
-    "line": "l-1", "seat": "AAL123", "t": 0.5, "addressed": "TOWER", "text": "American 123.",
-    "done": False,
-}  # fmt: skip
+CARD = TaskCard(
+    line="l-1", due_ns=0, addressed="TOWER", frequency_khz=119_100, text="American 123."
+)
 
 
 def test_a_task_card_stays_where_it_is_while_the_instruments_move(page: Page) -> None:
     with seated(page, "AAL123") as run:
-        run.seat.add("task", CARD)
+        run.seats.add_task("AAL123", CARD)
         page.wait_for("window.card = document.querySelector('#tasks button')")
         page.evaluate("window.card.focus()")
-        run.seat.add("cockpit", INSTRUMENTS | {"altitude_ft": 34_000})
+        cockpit(run, INSTRUMENTS | {"altitude_ft": 34_000})
         page.wait_for("document.getElementById('instruments').textContent.includes('34,000')")
         assert page.evaluate("document.activeElement === window.card")
 
@@ -395,47 +425,33 @@ def test_words_that_were_lost_with_the_connection_are_given_back_and_those_heard
         "document.getElementById('seat-state').textContent",
         "document.getElementById('words').value",
     )
-    kinds: list[str] = []
-
-    async def do_until_it_ends(browsers: Browsers, browser: Any, wish: Any) -> None:
-        """End a connection when words come, and the next one at the second echo after words."""
-        (kind,) = wish.model_fields_set
-        kinds.append(kind)
-        _, *after = "".join(kinds).split("say")
-        if after == [""] or (len(after) == 2 and after[-1].count("echo") == 2):
-            raise RuntimeError("the connection has ended")
-        await do(browsers, browser, wish)
-
-    do = Browsers._do
     with seated(page, "TOWER") as run:
-        monkeypatch.setattr(Browsers, "_do", do_until_it_ends)
-        page.evaluate(f"{words} = 'American 123, hold.'")
-        page.evaluate(SAY)
-        page.wait_for(f"{told}.includes('before the station had heard your last words')")
+        with lost_at("text", monkeypatch):
+            page.evaluate(f"{words} = 'American 123, hold.'")
+            page.evaluate(SAY)
+            page.wait_for(f"{told}.includes('before the run had heard your last words')")
         page.wait_for("document.getElementById('link').hidden")
         assert page.evaluate(f"{told}.includes('say them again')")
         assert page.evaluate(words) == "American 123, hold."
         page.evaluate(SAY)
         assert run.next().text == "American 123, hold."
-        page.wait_for("!document.getElementById('link').hidden")
-        page.wait_for("document.getElementById('link').hidden")
-        assert page.evaluate(f"[{words}, {told}]") == ["", ""]
+        page.wait_for(f"{told} === ''")
+        assert page.evaluate(words) == ""
 
 
 @contextmanager
 def lost_at(kind: str, monkeypatch: pytest.MonkeyPatch, *, is_done: bool = False) -> Iterator[None]:
-    """Let each connection end when a wish of a kind comes, before it is done or after that."""
-    do = Browsers._do
+    """Let each connection end when an act of a kind comes, before it is done or after that."""
+    done = PretendedClient.act
 
-    async def do_until_it_ends(browsers: Browsers, browser: Any, wish: Any) -> None:
-        is_last = kind in wish.model_fields_set
-        if is_done or not is_last:
-            await do(browsers, browser, wish)
-        if is_last:
+    def do_until_it_ends(client: PretendedClient, act: SeatAct) -> str:
+        why = done(client, act) if is_done or act.do != kind else ""
+        if act.do == kind:
             raise RuntimeError("the connection has ended")
+        return why
 
     with monkeypatch.context() as patched:
-        patched.setattr(Browsers, "_do", do_until_it_ends)
+        patched.setattr(PretendedClient, "act", do_until_it_ends)
         yield
 
 
@@ -485,8 +501,8 @@ def test_words_that_were_lost_come_before_those_that_are_typed_meanwhile(
     words = "document.getElementById('words').value"
     with seated(page, "TOWER") as run:
         page.evaluate(f"{words} = 'Delta 45.'; {SAY}")
-        assert run.next() == SpokenWords(text="Delta 45.")
-        with lost_at("say", monkeypatch):
+        assert run.next() == SayText(text="Delta 45.")
+        with lost_at("text", monkeypatch):
             page.evaluate(f"{words} = 'American 123, hold.'; {SAY}; {words} = 'Delta 45'")
             page.wait_for(f"{words} !== 'Delta 45'")
             assert page.evaluate(words) == "American 123, hold. Delta 45"
@@ -641,7 +657,12 @@ def test_a_page_shows_once_what_its_seat_sees_and_nothing_of_a_former_seat(page:
     infos = [
         TOWER.model_copy(update={"category": "unit"}),
         TOWER.model_copy(
-            update={"seat": "OPS1", "category": "vehicle", "frequencies_khz": (121_700,)}
+            update={
+                "seat": "OPS1",
+                "category": "vehicle",
+                "frequencies_khz": (121_700,),
+                "tuned_khz": (121_700,),
+            }
         ),
     ]
     with seat_page(PretendedRun(infos)) as (run, url):
@@ -660,7 +681,7 @@ def test_a_page_shows_once_what_its_seat_sees_and_nothing_of_a_former_seat(page:
         of_driver = '[[],["Operations 1"],[]]'
         for seat, listed in (("TOWER", of_tower), ("TOWER", of_tower), ("OPS1", of_driver)):
             page.evaluate(f"document.getElementById('seat-name').value = '{seat}'")
-            page.click("seat-take")
+            page.evaluate(SITS)
             page.wait_for(f"document.body.dataset.seat === '{KIND[seat]}'")
             page.wait_for(f"{LISTED} === '{listed}'")
             page.evaluate("document.getElementById('seat-take').click()")
@@ -697,8 +718,8 @@ def test_who_leaves_a_seat_leaves_nothing_of_it_anywhere_in_the_document(
         advisory = ADVISORY | {"traffic": [seat, "ZZZ99"], "texts": [text]}
         run.changes.add("advisory", advisory, audience=of_seat)
         run.changes.add("call", CALL | {"speaker": "ZZZ99"}, audience=of_seat)
-        run.seat.add("task", CARD | {"seat": seat, "text": "ZZZ99, hold."})
-        run.seat.add("cockpit", INSTRUMENTS)
+        run.seats.add_task(seat, CARD.model_copy(update={"text": "ZZZ99, hold."}))
+        cockpit(run, INSTRUMENTS)
         shown = ["#calls", "#advisories", "#own-advisories", "#tasks", "#traffic"]
         shown += ["#strips"] if seat == "TOWER" else []
         for part in shown:
@@ -722,34 +743,15 @@ def test_an_advisory_in_force_is_told_as_seen_for_each_person_who_takes_the_seat
 ) -> None:
     with seated(page, "TOWER") as run:
         advise(run, "ATC", "Both lose separation.")
-        seen = AdvisoryPerceived(
+        seen = PerceiveAdvisory(
             id="Both lose separation.", revision=1, recipient="ATC", way="seen", after_s=0.0
         )
         assert run.next().model_copy(update={"after_s": 0.0}) == seen
         # Lists come and go meanwhile, and move the button.
-        take = "document.getElementById('seat-take').click()"
-        page.evaluate(take)
+        page.evaluate("document.getElementById('seat-take').click()")
         page.wait_for("document.getElementById('talk').hidden")
-        page.evaluate(take)
+        page.evaluate(SITS)
         assert run.next().model_copy(update={"after_s": 0.0}) == seen
-
-
-def test_a_seat_that_the_own_old_connection_still_has_is_not_said_to_be_given_back(
-    page: Page,
-) -> None:
-    told = "document.getElementById('seat-state').textContent"
-    with seated(page, "TOWER"):
-        for state in ("taken", "free"):
-            said = page.evaluate(f"""import(new URL('page/seat.js', location)).then((module) => {{
-                const clock = {{ following: true, live: true, t: 0, listen: () => {{}} }};
-                const cameras = {{ offer: () => {{}} }};
-                const run = {{ seats: ['TOWER'], calls: [], tracks: [], apply: () => {{}} }};
-                const seat = new module.Seat(run, {{}}, clock, cameras);
-                seat.setSeats({{ TOWER: 'yours' }});
-                seat.setSeats({{ TOWER: '{state}' }});
-                return {told};
-            }})""")
-            assert ("given back" in said) == (state == "free"), said
 
 
 def test_a_page_keeps_its_seat_when_it_is_loaded_again_and_a_duplicate_of_its_tab_has_none(
@@ -792,11 +794,9 @@ def test_contrast_of_all_text_at_a_seat_is_enough(page: Page, seat: str) -> None
         fly(run)
         for severity in Severity:
             advise(run, seat, f"An advisory of {severity}.", severity=severity)
-        card = {"seat": seat, "t": 0.5, "addressed": "DAL456", "text": "Delta 456, roger."}
-        for line, done in (("one", False), ("two", True)):
-            run.seat.add("task", card | {"line": line, "done": done})
-        run.seat.add("notice", 0.5, "Your call was cut after 60 s.")
-        run.seat.add("question", 1, "isa", 0.5)
+        run.seats.add_task(seat, CARD)
+        run.seats.notify(seat, "Your call was cut after 60 s.")
+        run.seats.ask(seat, WorkloadQuestion(number=1, scale="isa", asked_ns=0))
         page.wait_for("document.querySelectorAll('.own-advisory').length === 4")
         page.wait_for("!document.getElementById('isa').hidden")
         for scheme in ("light", "dark"):
@@ -823,7 +823,7 @@ def test_a_page_that_was_loaded_again_says_that_it_has_no_sound_until_somebody_a
 def test_a_call_that_came_while_the_page_had_no_sound_is_not_played_later(
     page: Page, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(seat_book, "HOLD_S", PATIENCE_S)
+    monkeypatch.setattr(browsers, "HOLD_S", PATIENCE_S)
     told = "document.getElementById('hearing').innerText"
     with seated(page, "TOWER") as run:
         page.evaluate("new Promise((done) => setTimeout(done, 1000))")
@@ -862,7 +862,7 @@ def test_the_mode_panel_takes_tracks_as_the_instruments_show_them(
         airport = ReportAirport("kdca").as_json() if has_airport else None
         run.changes.add("briefing", "TOWER", airport, CATEGORIES)
         told = "document.getElementById('panel-state').textContent"
-        run.seat.add("cockpit", INSTRUMENTS | {"selected_altitude_ft": 9_000})
+        cockpit(run, INSTRUMENTS | {"selected_altitude_ft": 9_000})
         page.wait_for(f"document.getElementById('panel-track-unit').textContent.includes('{unit}')")
         page.wait_for("document.getElementById('instruments').textContent.includes('9,000')")
         for field, value in (("track", 280), ("rate", 2_500)):
@@ -871,7 +871,7 @@ def test_the_mode_panel_takes_tracks_as_the_instruments_show_them(
                 field.value = '{value}';
                 field.form.requestSubmit();
             }})()""")
-        track, climb = run.next(), run.next()
+        track, climb = next_command(run), next_command(run)
         assert track.track_deg == pytest.approx(track_deg)
         assert (climb.altitude_ft, climb.vertical_rate_fpm) == (9_000, 2_500)
         page.wait_for(f"{told}.includes('vertical speed 2500 ft/min, down to 9,000')")
@@ -880,7 +880,7 @@ def test_the_mode_panel_takes_tracks_as_the_instruments_show_them(
 def test_a_vertical_speed_wants_another_altitude_to_fly_to(page: Page) -> None:
     told = "document.getElementById('panel-state').textContent"
     with seated(page, "AAL123") as run:
-        run.seat.add("cockpit", INSTRUMENTS)
+        cockpit(run, INSTRUMENTS)
         page.wait_for(f"{INSTRUMENT}.startsWith('Primary flight display')")
         page.evaluate("""(() => {
             const field = document.getElementById('panel-rate');
@@ -933,7 +933,7 @@ def test_who_has_no_seat_is_not_told_that_nobody_has_said_anything(page: Page) -
         page.open(url)
         page.wait_for("document.body.dataset.ready")
         assert page.evaluate(calls) == "Take a seat to see what is said there."
-        page.click("seat-take")
+        page.evaluate(SITS)
         page.wait_for(f"{calls} === 'Nobody has said anything so far.'")
         page.open("about:blank")
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -11,18 +12,18 @@ import httpx
 import numpy as np
 import pytest
 from websockets.exceptions import ConnectionClosed
-from websockets.sync.client import ClientConnection, connect
+from websockets.sync.client import ClientConnection
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, to_pcm
 from airhilt.messages import (
     Advisory,
     AdvisoryAudio,
+    AgreeToUses,
     Evidence,
     NasaTlx,
-    SeatConsent,
-    SeatListening,
+    SayText,
     Severity,
-    SpokenWords,
+    WorkloadQuestion,
 )
 from airhilt.record import Logged
 from airhilt.station import browsers
@@ -41,7 +42,16 @@ from microphone import (
     playing,
     sit_down,
 )
-from stations import PATIENCE_S, TOWER, PretendedRun, seat_page, seats_given_back_at_once
+from stations import (
+    PATIENCE_S,
+    TOWER,
+    PretendedRun,
+    do,
+    opened,
+    seat_page,
+    seats_given_back_at_once,
+    sit,
+)
 
 ROSTER = {"AAL123": "aircraft", "OPS1": "vehicle"}
 GAMEPAD = """
@@ -64,11 +74,6 @@ def seat(served: tuple[PretendedRun, str]) -> Iterator[tuple[PretendedRun, str]]
         yield served
 
 
-def opened(url: str, version: str = "", serving: str = "") -> ClientConnection:
-    place = f"{url.replace('http', 'ws')}api/live?version={version}&serving={serving}"
-    return connect(place, proxy=None)
-
-
 def next_of(socket: ClientConnection, kind: str) -> list[list[object]]:
     while kind not in (message := json.loads(socket.recv(timeout=PATIENCE_S))):
         pass
@@ -81,166 +86,91 @@ def test_a_person_hears_only_the_frequencies_of_the_seat_that_are_listened_to(
 ) -> None:
     run, url = seat
     with opened(url) as socket:
-        for wish in ({"take": "TOWER"}, {"tune": [119_100]}, {"echo": 1.0}):
-            socket.send(json.dumps(wish))
-        next_of(socket, "echo")
+        sit(socket)
         for khz in (121_700, 119_100):
             run.stream("opened", id=f"call {khz}", frequency_khz=khz)
         assert next_of(socket, "sounds") == [
             ["opened", {"id": "call 119100", "frequency_khz": 119_100}]
         ]
+        assert do(socket, "tune", frequencies_khz=[]) == ""
+        run.stream("opened", id="not heard", frequency_khz=119_100)
+        assert do(socket, "tune", frequencies_khz=[119_100]) == ""
+        time.sleep(0.2)
+        run.stream("opened", id="heard", frequency_khz=119_100)
+        assert next_of(socket, "sounds")[-1][1] == {"id": "heard", "frequency_khz": 119_100}
 
 
-def test_the_run_is_told_what_is_listened_to_when_it_changes() -> None:
-    """A page tells it anew after each loss of the connection."""
-    with seat_page() as (run, url):
-        for tuned in ("[119100] [119100] [] [119100]", "[119100]"):
-            with opened(url) as socket:
-                socket.send(json.dumps({"take": "TOWER"}))
-                for frequencies in tuned.split():
-                    socket.send(f'{{"tune": {frequencies}}}')
-                socket.send(json.dumps({"echo": 1.0}))
-                next_of(socket, "echo")
-                socket.send(json.dumps({"leave": "TOWER"}))
-                while run.presence.get(timeout=PATIENCE_S)[1]:
-                    pass
-        heard = [run.settings.get(timeout=PATIENCE_S) for _ in range(4)]
-        assert [one.frequencies_khz for one in heard if isinstance(one, SeatListening)] == [
-            (119_100,), (), (119_100,), (119_100,),
-        ]  # fmt: skip
-        assert run.settings.empty()
-
-
-ASKED = "document.getElementById('consent').open"
 WORDS = "document.getElementById('words').value"
-
-
-def consent(run: PretendedRun) -> SeatConsent:
-    """Return the next answer about voice or words."""
-    while not isinstance(told := run.settings.get(timeout=PATIENCE_S), SeatConsent):
-        assert isinstance(told, SeatListening)
-    return told
-
-
-def want_to_say(page: Page, url: str) -> None:
-    """Sit down, and have words in the field about which the page asks."""
-    sit_down(page, url)
-    page.evaluate(f"{WORDS} = 'Ready.'")
-    page.click("say-button")
-    page.wait_for(ASKED)
-
-
-def leave(page: Page) -> None:
-    page.evaluate("document.getElementById('consent').close()")
-    page.click("seat-take")
-    page.wait_for("document.getElementById('say').hidden")
+HINT = "document.getElementById('seat-hint').textContent"
 
 
 @pytest.mark.browser
-@pytest.mark.parametrize(
-    ("button", "is_given"), [("consent-agree", True), ("consent-decline", False)]
-)
-def test_the_run_is_told_if_the_person_agrees_to_the_use_of_the_voice(
-    page: Page, seat: tuple[PretendedRun, str], button: str, is_given: bool
-) -> None:
-    run, url = seat
-    sit_down(page, url)
-    page.click("talk-button")
-    page.wait_for(ASKED)
-    page.click(button)
-    assert consent(run) == SeatConsent(what="voice", is_given=is_given)
-    page.evaluate(f"{WORDS} = 'Ready.'")
-    page.click("say-button")
-    if is_given:  # Who lets the voice be used may type.
-        assert run.next() == SpokenWords(text="Ready.")
-    else:
-        page.wait_for(ASKED)
-    leave(page)
-    page.open("about:blank")
-
-
-def hold_key(page: Page, key: str, code: int) -> None:
-    """Press a key, hold it for a while, and let it go."""
-    page.key("keyDown", key, code)
-    page.wait_for(ASKED)
-    for _ in range(3):
-        page.key("keyDown", key, code, repeats=True)
-    page.key("keyUp", key, code)
-
-
-@pytest.mark.browser
-@pytest.mark.parametrize(("key", "code"), [(" ", 32), ("Enter", 13)])
-def test_a_key_that_was_held_before_the_question_does_not_answer_it(
-    page: Page, seat: tuple[PretendedRun, str], key: str, code: int
-) -> None:
-    """The words of the question have the focus, so that they are read aloud, and no button."""
-    run, url = seat
-    run.deeds.clear()
-    sit_down(page, url)
-    if key == "Enter":
-        page.evaluate(f"{WORDS} = 'Ready.'; document.getElementById('words').focus()")
-    hold_key(page, key, code)
-    page.wait_for(ASKED)
-    assert page.evaluate("document.activeElement.id") == "consent-text"
-    assert run.deeds == []
-    page.press("Tab", 9)
-    page.press(key, code)
-    assert consent(run).is_given
-    if key == "Enter":
-        assert run.next() == SpokenWords(text="Ready.")
-    leave(page)
-    page.open("about:blank")
-
-
-@pytest.mark.browser
-def test_who_agrees_to_typing_is_asked_before_the_microphone_opens(
+def test_what_may_be_used_is_chosen_in_the_form_in_which_the_seat_is_taken(
     page: Page, seat: tuple[PretendedRun, str]
 ) -> None:
     run, url = seat
     run.deeds.clear()
-    want_to_say(page, url)
-    page.click("consent-agree")
-    assert consent(run) == SeatConsent(what="words", is_given=True)
-    assert run.next() == SpokenWords(text="Ready.")
-    assert run.deeds == ["consent to words", "say"]
-    page.click("talk-button")
-    page.wait_for(ASKED)
-    leave(page)
+    page.open(url, width=1280, height=720)
+    page.wait_for("document.getElementById('state').textContent.startsWith('running')")
+    assert "kept as text" in page.evaluate(HINT)
+    page.click("seat-take")  # Nothing is chosen yet.
+    page.evaluate("document.getElementById('seat-uses').value = 'words'")
+    page.click("seat-take")
+    page.wait_for("!document.getElementById('say').hidden")
+    page.wait_for("!document.getElementById('words').disabled")
+    page.evaluate(f"{WORDS} = 'Ready.'")
+    page.evaluate(SAY)
+    assert run.next() == SayText(text="Ready.")
+    assert run.deeds == ["take", "agree", "text"]
+    *_, last = run.settings.queue
+    assert last == AgreeToUses(uses=("words",))
     page.open("about:blank")
 
 
 @pytest.mark.browser
 @pytest.mark.parametrize("is_recorded", [True, False])
-def test_the_question_says_if_the_voice_is_recorded(page: Page, is_recorded: bool) -> None:
+def test_the_form_says_if_the_voice_is_recorded(page: Page, is_recorded: bool) -> None:
     tower = TOWER.model_copy(update={"voice_is_recorded": is_recorded})
     with seat_page(PretendedRun((tower,))) as (_, url):
-        sit_down(page, url)
-        page.click("talk-button")
-        page.wait_for(ASKED)
-        text = page.evaluate("document.getElementById('consent').innerText")
-        assert ("recorded in the folder" in text) is is_recorded
-        assert ("sound is not recorded" in text) is not is_recorded
+        page.open(url)
+        page.wait_for(f"{HINT}.includes('recorded')")
+        silent = str(not is_recorded).lower()
+        page.wait_for(f"{HINT}.includes('sound is not recorded') === {silent}")
         page.open("about:blank")
 
 
 @pytest.mark.browser
-def test_consent_that_the_station_has_not_heard_is_asked_for_again(
+def test_words_that_the_run_may_not_have_heard_are_given_back(
     page: Page, seat: tuple[PretendedRun, str]
 ) -> None:
     run, url = seat
+    sit_down(page, url)
     run.deeds.clear()
-    want_to_say(page, url)
-    page.evaluate(f"{NO_CONNECTION}; null")
-    page.click("consent-agree")
+    page.wait_for("!document.getElementById('words').disabled")
+    page.evaluate(f"{NO_CONNECTION}; {WORDS} = 'Ready.'; null")
+    page.evaluate(SAY)
     page.wait_for("document.getElementById('seat-state').textContent.includes('Nothing was said')")
+    assert page.evaluate(WORDS) == "Ready."
     page.evaluate("connect()")
-    page.click("say-button")
-    page.wait_for(ASKED)
-    assert run.deeds == []
-    page.click("consent-agree")
-    assert consent(run) == SeatConsent(what="words", is_given=True)
-    assert run.next() == SpokenWords(text="Ready.")
-    leave(page)
+    page.evaluate(SAY)
+    assert run.next() == SayText(text="Ready.")
+    page.open("about:blank")
+
+
+@pytest.mark.browser
+def test_a_page_that_is_loaded_again_goes_on_at_its_seat_with_all_that_was_chosen(
+    page: Page, seat: tuple[PretendedRun, str]
+) -> None:
+    run, url = seat
+    sit_down(page, url, uses="words")
+    run.deeds.clear()
+    page.evaluate("location.reload()")
+    page.wait_for("document.getElementById('seat-take')?.textContent === 'Leave the seat'")
+    page.wait_for("document.getElementById('seat-uses').value === 'words'")
+    page.click("seat-take")
+    page.wait_for("document.getElementById('seat-take').textContent === 'Take the seat'")
+    assert page.evaluate("document.getElementById('seat-uses').value") == ""
+    assert run.deeds[-1] == "leave"
     page.open("about:blank")
 
 
@@ -248,66 +178,24 @@ def test_consent_that_the_station_has_not_heard_is_asked_for_again(
 def test_nobody_talks_or_types_once_the_run_is_over(page: Page) -> None:
     with seat_page() as (run, url):
         sit_down(page, url)
-        page.click("talk-button")
-        page.wait_for(ASKED)
         run.changes.add("clock", 9.0, "finished", "realtime")
         for name in ("talk", "say"):
             page.wait_for(f"document.getElementById({name!r}).hidden")
-        assert not page.evaluate(ASKED)
         page.open("about:blank")
 
 
-@pytest.mark.browser
-def test_who_only_types_is_asked_once_before_anything_is_said(
-    page: Page, seat: tuple[PretendedRun, str]
+@pytest.mark.parametrize("version", ["0123456789ab pretended", "{page} another-run"])
+def test_a_page_of_another_version_or_run_is_refused_in_words_and_told(
+    seat: tuple[PretendedRun, str], version: str
 ) -> None:
     run, url = seat
-    want_to_say(page, url)
-    assert "kept as text" in page.evaluate("document.getElementById('consent').innerText")
-    page.click("consent-decline")
-    assert consent(run) == SeatConsent(what="words", is_given=False)
-    assert page.evaluate(WORDS) == "Ready."
-    page.click("say-button")
-    page.wait_for(ASKED)
-    page.click("consent-agree")
-    assert consent(run) == SeatConsent(what="words", is_given=True)
-    assert run.next() == SpokenWords(text="Ready.")
-    page.evaluate(f"{WORDS} = 'Ready again.'")
-    page.click("say-button")
-    assert run.next() == SpokenWords(text="Ready again.")
-    leave(page)
-    page.click("seat-take")  # The next person has not agreed to anything.
-    page.wait_for("!document.getElementById('talk').hidden")
-    page.evaluate(f"{WORDS} = 'Ready.'")
-    page.click("say-button")
-    page.wait_for(ASKED)
-    leave(page)
-    page.open("about:blank")
-
-
-def test_a_page_of_another_version_is_refused_in_words_and_told(
-    seat: tuple[PretendedRun, str],
-) -> None:
-    run, url = seat
-    with opened(url, "0123456789ab") as socket:
+    with opened(url, version=version.format(page=page_version())) as socket:
         with pytest.raises(ConnectionClosed):
             socket.recv(timeout=PATIENCE_S)
         assert (socket.close_code, "Load it again" in (socket.close_reason or "")) == (4426, True)
-    assert "refused a page of another version" in run.told
-    with opened(url, page_version()) as socket:
+    assert "refused a page of another version or run" in run.told
+    with opened(url, version=f"{page_version()} pretended") as socket:
         assert next_of(socket, "seats") is not None
-
-
-def test_a_page_of_another_start_of_the_server_is_refused_in_words_and_told(
-    seat: tuple[PretendedRun, str],
-) -> None:
-    """It has what that has numbered, and its person may have answered to another run."""
-    run, url = seat
-    with opened(url, serving="0123456789abcdef") as socket:
-        with pytest.raises(ConnectionClosed):
-            socket.recv(timeout=PATIENCE_S)
-        assert (socket.close_code, "Load the page" in (socket.close_reason or "")) == (4426, True)
-    assert "refused a page of another run, or of an earlier start of the server" in run.told
 
 
 def test_a_situation_that_cannot_be_is_refused_in_words(seat: tuple[PretendedRun, str]) -> None:
@@ -330,14 +218,14 @@ def test_a_phrase_is_chosen_and_the_workload_is_rated(seat: tuple[PretendedRun, 
         page.evaluate(f"{hold}.find((one) => one.title === 'Ops one, hold position.').click()")
         page.press("Enter", 13)
         page.evaluate(SAY)
-        assert run.next() == SpokenWords(text="Ops one, hold position.")
-        run.seat.add("question", 1, "isa", 0.0)
+        assert run.next() == SayText(text="Ops one, hold position.")
+        run.seats.ask("TOWER", WorkloadQuestion(number=1, scale="isa", asked_ns=0))
         page.wait_for("!document.getElementById('isa').hidden")
         page.press("4", 52)
         rated = run.next()
         assert (rated.question, rated.isa) == (1, 4)
         page.wait_for("document.getElementById('isa').hidden")
-        run.seat.add("question", 2, "nasa_tlx", 0.0)
+        run.seats.ask("TOWER", WorkloadQuestion(number=2, scale="nasa_tlx", asked_ns=0))
         page.wait_for("document.getElementById('tlx-dialog').open")
         page.evaluate("document.getElementById('tlx').requestSubmit()")
         assert "Frustration" in page.evaluate("document.getElementById('tlx-state').textContent")
@@ -345,7 +233,6 @@ def test_a_phrase_is_chosen_and_the_workload_is_rated(seat: tuple[PretendedRun, 
         page.evaluate("document.getElementById('tlx').requestSubmit()")
         assert run.next().nasa_tlx == NasaTlx(**dict.fromkeys(NasaTlx.model_fields, 50))
         page.wait_for("!document.getElementById('tlx-dialog').open")
-        run.seat.add("answered", 2)
 
 
 @pytest.mark.browser
@@ -419,8 +306,7 @@ def test_an_advisory_whose_voice_was_lost_has_its_tone_then_and_no_other_one_aga
         warn(run, "waiting", has_voice=False)
         assert run.next().way == "seen"
         assert page.evaluate("window.tones.length") == 3
-        without = TOWER.model_copy(update={"spoken_from": None})
-        run.seat.add("info", without.model_dump(mode="json", exclude={"t_ns"}))
+        run.seats.change_all(spoken_from=None)
         heard = run.next()
         assert (heard.id, heard.way) == ("waiting", "heard")
         assert page.evaluate("window.tones.length") == 6

@@ -8,16 +8,13 @@ import subprocess
 import threading
 import time
 from collections.abc import Callable, Iterator
-from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, closing, contextmanager
-from pathlib import Path
 from typing import TypeVar
 
 import pytest
 import zenoh
 
-from airhilt.bus.certificates import make_keys
-from airhilt.bus.session import Bus, configuration, free_endpoint
+from airhilt.bus.session import Bus, configuration
 from airhilt.errors import StationError
 from airhilt.messages import (
     Advisory,
@@ -26,17 +23,16 @@ from airhilt.messages import (
     Clock,
     Phase,
     SeatAudioOpened,
-    SeatInfo,
     Transmission,
     TransmissionOpened,
+    key_chunk,
 )
 from airhilt.record import Logged
-from airhilt.sensors.radio.hearing import key_chunk
-from airhilt.station import subscription
 from airhilt.station.audiences import Audience
 from airhilt.station.changes import Changes
 from airhilt.station.connection import RunConnection
 from airhilt.station.subscription import MOST_SOUND_BYTES, Subscription
+from seats import state_of
 
 NESTED = b"[" * 30_000
 PATIENCE_S = 10.0
@@ -219,11 +215,7 @@ def begun(phase: Phase = "running") -> Iterator[Bus]:
     with closing(Bus("run")) as bus:
         tell_phase(bus, phase)
         for seat in ("Washington Ground", "Washington Tower"):
-            info = SeatInfo(
-                seat=seat, frequencies_khz=(), has_sound=False, is_recognised=False,
-                voice_is_recorded=False, longest_call_s=60.0,
-            )  # fmt: skip
-            bus.keep(f"seat/{key_chunk(seat)}/info", info.model_dump_json().encode())
+            bus.keep(f"seat/{key_chunk(seat)}", state_of(seat).model_dump_json().encode())
         briefing = Briefing(
             controller="Washington Tower", horizontal_separation_nm=3.0,
             vertical_separation_ft=1000.0,
@@ -251,22 +243,18 @@ def test_a_seat_that_a_run_does_not_have_is_refused_with_the_names_of_its_seats(
 @pytest.mark.parametrize("names", [["tower", "ground"], ["Washington Tower", "ground", "tower"]])
 def test_a_seat_may_be_asked_for_by_the_role_of_its_unit(names: list[str]) -> None:
     with begun() as bus, closing(RunConnection(bus.endpoint)) as connection:
-        units = {"tower": "Washington Tower", "ground": "Washington Ground"}
-        itself = {unit: unit for unit in units.values()}
-        assert connection.seats(names, pytest.fail) == itself | units
+        found = connection.seats(names, pytest.fail)
+        assert set(found) == {"Washington Tower", "Washington Ground"}
 
 
 def test_a_role_is_known_once_the_run_has_begun_and_a_name_is_taken_before_that() -> None:
     told: list[str] = []
     with begun("waiting") as bus, closing(RunConnection(bus.endpoint)) as connection:
-        assert connection.seats(["Tower"], told.append) == {"Tower": "Tower"}
+        assert connection.seats(["Tower"], told.append) == ("Tower",)
         assert told == []
         beginning = threading.Timer(0.3, tell_phase, (bus, "running"))
         beginning.start()
-        assert connection.seats(["tower"], told.append) == {
-            "Washington Tower": "Washington Tower",
-            "tower": "Washington Tower",
-        }
+        assert connection.seats(["tower"], told.append) == ("Washington Tower",)
         beginning.join()
     assert told == ["the run has not begun; until then nobody knows the seat of 'tower'"]
 
@@ -275,7 +263,7 @@ def test_a_role_in_a_run_that_is_over_is_refused() -> None:
     with begun("finished") as bus, closing(RunConnection(bus.endpoint)) as connection:
         with pytest.raises(StationError, match=r"--seat 'tower': .*\(finished\); expected a run"):
             connection.seats(["tower"], pytest.fail)
-        assert connection.seats(["Tower"], pytest.fail) == {"Tower": "Tower"}
+        assert connection.seats(["Tower"], pytest.fail) == ("Tower",)
 
 
 def test_a_role_that_waits_for_a_run_is_refused_once_the_run_is_gone() -> None:
@@ -287,117 +275,3 @@ def test_a_role_that_waits_for_a_run_is_refused_once_the_run_is_gone() -> None:
             connection.seats(["ground"], lambda _: None)
         ending.join()
         connection.close()
-
-
-@pytest.fixture(params=[False, True], ids=["plain", "tls"])
-def pages(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[list[Subscription]]:
-    """Two pages of one run with a seat; with keys, both have those of its operator."""
-    keys = tmp_path / "keys" if request.param else None
-    if keys is not None:
-        make_keys(keys, free_endpoint().replace("tcp/", "tls/"))
-    bus = Bus("run", tls=keys)
-    bus.keep("clock", b"{}")
-    endpoint = bus.endpoint if keys is None else None
-    connections = [RunConnection(endpoint, "operator", tls=keys) for _ in range(2)]
-    pages = [
-        Subscription(connection, lambda _: None, lambda: None, seats=["TOWER"])
-        for connection in connections
-    ]
-    yield pages
-    for page in pages:
-        page.close()
-    for connection in connections:
-        connection.close()
-    bus.close()
-
-
-def test_a_page_cannot_claim_a_seat_that_a_person_has_at_another_page(
-    pages: list[Subscription],
-) -> None:
-    own, other = pages
-    assert claimed(own)
-    own.occupy("TOWER", is_taken=True)
-    assert own.claim("TOWER") == "ours"
-    assert within_patience(lambda: other.claim("TOWER") == "taken")
-    own.occupy("TOWER", is_taken=False)
-    assert claimed(other)
-
-
-def test_a_seat_that_is_about_to_be_taken_at_another_page_is_not_said_to_be_taken(
-    pages: list[Subscription],
-) -> None:
-    own, other = pages
-    assert claimed(own)
-    assert other.claim("TOWER") == "claimed"
-
-
-def test_of_two_pages_that_take_a_seat_at_the_same_instant_one_gets_it(
-    pages: list[Subscription],
-) -> None:
-    at_once = threading.Barrier(len(pages))
-
-    def take(page: Subscription) -> bool:
-        at_once.wait(PATIENCE_S)
-        has_it = page.claim("TOWER") == "ours"
-        if has_it:
-            page.occupy("TOWER", is_taken=True)
-        return has_it
-
-    def take_it() -> int:
-        return sum(pool.map(take, pages))
-
-    with ThreadPoolExecutor() as pool:
-        for _ in range(20):
-            # Nobody may get it on a slow bus, or while it is still told of who had it before.
-            assert within_patience(take_it) == 1
-            for page in pages:
-                page.occupy("TOWER", is_taken=False)
-
-
-def test_a_claim_that_waits_for_another_page_lets_other_seats_be_taken_meanwhile(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.setattr(subscription, "ASKED_S", PATIENCE_S)
-    with closing(Bus("run")) as bus, ThreadPoolExecutor() as pool:
-        bus.keep("clock", b"{}")
-        program = zenoh.open(configuration("client", "connect", bus.endpoint))
-
-        def claims() -> set[str]:
-            replies = program.liveliness().get(f"{bus.prefix}/seat/TOWER/claim/*", timeout=1.0)
-            return {str(reply.ok.key_expr) for reply in replies if reply.ok is not None}
-
-        connections = [RunConnection(bus.endpoint, "operator") for _ in range(2)]
-        pages = [
-            Subscription(connection, lambda _: None, lambda: None, seats=["TOWER", "GROUND"])
-            for connection in connections
-        ]
-        found = []
-        for own, other in (pages, pages[::-1]):
-            assert claimed(own)
-            claiming = pool.submit(other.claim, "TOWER")
-            while len(claims()) < len(pages) and not claiming.done():
-                time.sleep(0.01)
-            other.occupy("GROUND", is_taken=True)
-            own.occupy("TOWER", is_taken=False)
-            found.append(claiming.result(PATIENCE_S))
-            other.occupy("TOWER", is_taken=False)
-        # One of them has the key that comes first, and waits; the other one gives way.
-        assert sorted(found) == ["claimed", "ours"]
-        program.close()  # type: ignore[no-untyped-call]
-        for page in pages:
-            page.close()
-        for connection in connections:
-            connection.close()
-
-
-def claimed(page: Subscription) -> bool:
-    """Return true once a seat is claimed: what others have withdrawn may be told for a while."""
-    return within_patience(lambda: page.claim("TOWER") == "ours")
-
-
-def within_patience(found: Callable[[], T]) -> T:
-    """Return what is found, or nothing yet when there is no patience left."""
-    until = time.monotonic() + PATIENCE_S
-    while not (one := found()) and time.monotonic() < until:
-        time.sleep(0.01)
-    return one

@@ -42,15 +42,6 @@ def test_an_open_address_is_refused_before_the_run_is_read(
         (["--host", "0.0.0.0"], "--host would do nothing without --view or --seat"),
         (["--no-browser"], "--no-browser would do nothing without --view or --seat"),
         (["--port", "8420"], "--port would do nothing without --view or --seat"),
-        (["--agreed", "AAL123=voice"], "--agreed would do nothing without --seat"),
-        (["--agreed", "AAL123"], "expected SEAT=voice, or SEAT=words"),
-        (["--agreed", "AAL123=all"], "expected SEAT=voice, or SEAT=words"),
-        (["--seat=AAL123", "--agreed", "DAL456=voice"], "'DAL456': expected a seat that --seat"),
-        (["--seat=tower", "--agreed", "ground=voice"], "'ground': expected a seat that --seat"),
-        (
-            ["--seat=AAL123", "--agreed=AAL123=voice", "--agreed=AAL123=words"],
-            "'AAL123': its seat is there twice",
-        ),
     ],
 )
 def test_options_of_a_page_are_refused_in_a_run_without_one(

@@ -8,7 +8,7 @@ from typing import Any
 
 import httpx
 import pytest
-from websockets.sync.client import ClientConnection, connect
+from websockets.sync.client import ClientConnection
 
 from airhilt.messages import (
     ActorCommand,
@@ -21,7 +21,6 @@ from airhilt.messages import (
     Message,
     RadarInfo,
     RadarPlot,
-    SeatInfo,
     Status,
     SurfaceTrack,
     Transcript,
@@ -32,24 +31,17 @@ from airhilt.station.audiences import Audience
 from airhilt.station.live import LiveRun
 from airhilt.station.pictures import Picture
 from airhilt.station.subscription import Sound
-from stations import PATIENCE_S, PretendedRun, seat_page
+from seats import state_of
+from stations import PATIENCE_S, PretendedRun, do, named, opened, seat_page, wish
 
 SECOND = 1_000_000_000
 TOWER_KHZ, GROUND_KHZ = 119_100, 121_700
 SEATS = (
-    SeatInfo(
-        seat="TOWER", recipients=("TOWER", "ATC"), frequencies_khz=(TOWER_KHZ,), has_sound=True,
-        is_recognised=True, voice_is_recorded=True, longest_call_s=60.0,
-    ),
-    SeatInfo(
-        seat="AAL123", category="aircraft", icao24="a1b2c3", has_adsb_in=False,
-        recipients=("AAL123", "a1b2c3"), frequencies_khz=(TOWER_KHZ,), has_sound=True,
-        is_recognised=True, voice_is_recorded=True, longest_call_s=60.0,
-    ),
-    SeatInfo(
-        seat="DAL456", category="aircraft", icao24="d4e5f6", has_adsb_in=True,
-        recipients=("DAL456", "d4e5f6"), frequencies_khz=(GROUND_KHZ,), has_sound=True,
-        is_recognised=True, voice_is_recorded=True, longest_call_s=60.0,
+    state_of("TOWER", recipients=("TOWER", "ATC")),
+    state_of("AAL123", category="aircraft", icao24="a1b2c3", recipients=("AAL123", "a1b2c3")),
+    state_of(
+        "DAL456", category="aircraft", icao24="d4e5f6", has_adsb_in=True,
+        recipients=("DAL456", "d4e5f6"), frequencies_khz=(GROUND_KHZ,), tuned_khz=(GROUND_KHZ,),
     ),
 )  # fmt: skip
 
@@ -158,11 +150,6 @@ def seats() -> Iterator[tuple[PretendedRun, str]]:
         yield run, url
 
 
-def opened(url: str, identity: str = "") -> ClientConnection:
-    place = f"{url.replace('http', 'ws')}api/live?browser={identity}"
-    return connect(place, proxy=None)
-
-
 def names(message: dict[str, Any]) -> set[str]:
     """Return what a message shows, besides the clock."""
     found = set()
@@ -181,15 +168,20 @@ def names(message: dict[str, Any]) -> set[str]:
     return found
 
 
+def shown_before(socket: ClientConnection, seat: str) -> set[str]:
+    """Return what is shown before it is told that a seat is one's own."""
+    shown: set[str] = set()
+    while True:
+        message = json.loads(socket.recv(timeout=PATIENCE_S))
+        if message.get("seats", {}).get(seat, {}).get("is") == "yours":
+            return shown
+        shown |= names(message)
+
+
 def taken(socket: ClientConnection, seat: str) -> set[str]:
     """Take a seat, and return what is shown before that is told."""
-    socket.send(json.dumps({"take": seat}))
-    shown: set[str] = set()
-    while (message := json.loads(socket.recv(timeout=PATIENCE_S))).get("seats", {}).get(
-        seat
-    ) != "yours":
-        shown |= names(message)
-    return shown
+    wish(socket, act={"do": "take"}, seat=seat)
+    return shown_before(socket, seat)
 
 
 @pytest.mark.parametrize("seat", SEEN)
@@ -269,14 +261,8 @@ def test_who_comes_back_is_shown_what_the_seat_saw_meanwhile(
     begin = run.changes.next_number
     for icao24, name in (("a1b2c3", "AAL123"), ("d4e5f6", "DAL456")):
         run.changes.add("state", name, audience=Audience("adsb", icao24))
-    place = f"{url.replace('http', 'ws')}api/live?browser=one&shown=AAL123&from={begin}"
-    with connect(place, proxy=None) as socket:
-        shown: set[str] = set()
-        while (message := json.loads(socket.recv(timeout=PATIENCE_S))).get("seats", {}).get(
-            "AAL123"
-        ) != "yours":
-            shown |= names(message)
-        assert shown == {"state AAL123"}
+    with opened(url, "one", shown="AAL123", **{"from": begin}) as socket:
+        assert shown_before(socket, "AAL123") == {"state AAL123"}
 
 
 def test_who_leaves_a_seat_forgets_it_before_what_everybody_sees_is_shown(
@@ -286,7 +272,7 @@ def test_who_leaves_a_seat_forgets_it_before_what_everybody_sees_is_shown(
     run.changes.add("state", "everybody")
     with opened(url) as socket:
         assert taken(socket, "TOWER") == SEEN["TOWER"] | {"state everybody"}
-        socket.send(json.dumps({"leave": "TOWER"}))
+        wish(socket, act={"do": "leave"})
         assert shown_anew(socket) == {"state everybody"}
 
 
@@ -297,10 +283,9 @@ def test_who_comes_back_without_the_seat_that_the_page_shows_forgets_it(
     _, url = seats
     with opened(url, "one") as socket:
         taken(socket, "AAL123")
-    place = f"{url.replace('http', 'ws')}api/live?browser=one&shown={shown}&from=9"
-    with connect(place, proxy=None) as socket:
+    with opened(url, "one", shown=shown, **{"from": 9}) as socket:
         assert shown_anew(socket) == SEEN["AAL123"]
-    with connect(place.replace("one", "two"), proxy=None) as socket:
+    with opened(url, "two", shown=shown, **{"from": 9}) as socket:
         assert shown_anew(socket) == set()
 
 
@@ -325,7 +310,7 @@ def test_files_are_for_the_browser_at_a_seat_that_sees_them(
         with httpx.Client(base_url=url, trust_env=False) as client:
             for file in FILES:
                 for browser in ("of-tower", "of-pilot", "without-a-seat", ""):
-                    found = client.get(file, params={"browser": browser})
+                    found = client.get(file, params={"browser": named(browser)})
                     if found.status_code != 403:
                         answers[file, browser] = found.status_code
                         assert found.content
@@ -350,9 +335,8 @@ def test_a_seat_listens_to_its_own_frequencies_alone(seats: tuple[PretendedRun, 
     run, url = seats
     with opened(url) as socket:
         taken(socket, "TOWER")
-        socket.send(json.dumps({"tune": [TOWER_KHZ, GROUND_KHZ]}))
-        shown_refused = next(one for one in socket if "refused" in one)
-        assert "frequency" in shown_refused
+        wish(socket, act={"do": "tune", "frequencies_khz": [TOWER_KHZ, GROUND_KHZ]})
+        assert next(one for one in socket if "that frequency" in one)
         for khz in (GROUND_KHZ, TOWER_KHZ):
             run.stream("opened", id="one", frequency_khz=khz)
         heard = json.loads(next(one for one in socket if "sounds" in one))["sounds"]
@@ -367,7 +351,6 @@ def test_a_seat_with_a_receiver_of_its_own_hears_that_and_the_others_the_one_of_
     run = PretendedRun((tower, pilot.model_copy(update={"has_own_receiver": True})))
     with seat_page(run) as (_, url), opened(url) as socket:
         taken(socket, seat)
-        socket.send(json.dumps({"tune": [TOWER_KHZ]}))
         socket.send(json.dumps({"echo": 1.0}))
         next(one for one in socket if "echo" in one)
         run.stream("chunk", id="call", frequency_khz=TOWER_KHZ, pcm="site")

@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 from airhilt.messages import HearingTruth, Message, SpokenTruth, Transcript
 from airhilt.scenario.failures import apply_failures
 from airhilt.scenario.models import Scenario
+from airhilt.seats import Seats
 from airhilt.sensors.radio.backends import RadioBackend, TextRadio
 from airhilt.sensors.radio.conversation import RadioConversation
 from airhilt.sensors.radio.hearing import Heard, HearingModel
@@ -17,6 +18,7 @@ from airhilt.sim import Director, Priority, Virtual
 from airhilt.units import FOOT, SECOND_NS, seconds_to_ns
 from airhilt.world.loading import load
 from airhilt.world.site import FixedSite, ScenarioSite
+from seats import state_of
 
 W = TypeVar("W", bound="World")
 
@@ -75,11 +77,22 @@ class World:
             )
             for actor in self.scenario.actors
         }
+        stations = Stations(self.actors, ScenarioSite.of(self.scenario), self.scenario.radio.lines)
+        self.seats = Seats(
+            (
+                state_of(name, frequencies_khz=tuned, tuned_khz=tuned)
+                for name in seats
+                for tuned in [stations.selectable(name)]
+            ),
+            self.publish,
+            self.director,
+        )
+        self.seats.open()
         self.conversation = RadioConversation(
             self.director,
             self.scenario,
             apply_failures(self.scenario),
-            Stations(self.actors, ScenarioSite.of(self.scenario), self.scenario.radio.lines),
+            stations,
             backend or TextRadio(self.scenario.radio.words_per_minute),
             7,
             set(),
@@ -91,7 +104,7 @@ class World:
             microphone_stuck=lambda actor, text: self.microphones.append((self.now_s, actor)),
             microphones_free=lambda: self.microphones.append((self.now_s, None)),
             hearing=hearing if heard is None else Scripted(heard),
-            seats=seats,
+            seats=self.seats,
         )
         self.conversation.start()
 

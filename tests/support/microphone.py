@@ -20,12 +20,8 @@ PAUSE_S = 5.0
 FAKE = ("--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream")
 BUTTON = "document.getElementById('talk-button').textContent"
 TALK_STATE = "document.getElementById('talk-state').textContent"
-SAY = """(() => {
-    document.getElementById('say-button').click();
-    const consent = document.getElementById('consent');
-    if (consent.open) document.getElementById('consent-agree').click();
-})()"""
-"""Script that says what is typed, and agrees to that if it is asked."""
+SAY = "document.getElementById('say-button').click()"
+"""Script that says what is typed."""
 SAID = """new Promise((done) => {
     let last = null;
     const look = setInterval(() => {
@@ -67,21 +63,20 @@ def playing(path: Path) -> tuple[str, ...]:
     return (*FAKE, f"--use-file-for-fake-audio-capture={path}")
 
 
-def sit_down(page: Page, url: str, seat: str | None = None) -> None:
-    """Open the page and take a seat; None: the first one."""
+def sit_down(page: Page, url: str, seat: str | None = None, uses: str = "voice") -> None:
+    """Open the page and take a seat with what may be used; None: the first seat."""
     page.open(url, width=1280, height=720)
     page.wait_for("document.getElementById('state').textContent.startsWith('running')")
     if seat is not None:
         page.evaluate(f"document.getElementById('seat-name').value = {seat!r}")
+    page.evaluate(f"document.getElementById('seat-uses').value = {uses!r}")
     page.click("seat-take")
     page.wait_for("!document.getElementById('talk').hidden")
 
 
 def open_microphone(page: Page) -> None:
-    """Consent to the microphone, and wait until it can be used or is refused."""
+    """Open the microphone, and wait until it can be used or is refused."""
     page.click("talk-button")
-    page.wait_for("document.getElementById('consent').open")
-    page.click("consent-agree")
     page.wait_for(f"{BUTTON} === 'Hold to talk' || {TALK_STATE}.includes('Type')")
 
 

@@ -10,12 +10,13 @@ import signal
 import subprocess
 import sys
 import threading
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
-from types import MappingProxyType
-from typing import Any
+from secrets import token_hex
+from typing import Any, cast
+from urllib.parse import urlencode
 
 import httpx
 import psutil
@@ -28,41 +29,47 @@ from cryptography.x509.oid import NameOID
 from fastapi import FastAPI
 from websockets.sync.client import ClientConnection, connect
 
-from airhilt.commands import Command
+from airhilt.bus.seat_client import SeatClient
 from airhilt.messages import (
-    AdvisoryPerceived,
-    CallHeard,
-    Message,
-    MicrophoneAudio,
-    PaceCommand,
-    SeatConsent,
-    SeatInfo,
-    SeatListening,
+    SHORTEST_SECRET,
+    AgreeToUses,
+    HearCall,
+    LeaveSeat,
+    PressToTalk,
+    SayVoice,
+    SeatAct,
+    SeatAction,
+    SeatState,
     Severity,
-    SpokenWords,
-    Use,
-    WorkloadAnswer,
+    TakeSeat,
+    TuneFrequencies,
+    key_chunk,
 )
-from airhilt.station import seat_book
+from airhilt.seats import Seats
+from airhilt.sim import Director, Virtual
+from airhilt.station import browsers as station_browsers
 from airhilt.station.address import Address
 from airhilt.station.app import live_app
 from airhilt.station.audiences import SeatViews, heard_by
 from airhilt.station.browsers import Browsers
-from airhilt.station.changes import Changes, SeatChanges
+from airhilt.station.changes import Changes, Newest
+from airhilt.station.live import seat_as_json
 from airhilt.station.pictures import Picture
 from airhilt.station.server import serve
 from airhilt.station.subscription import Sound
-from airhilt.station.wishes import Claimed
+from seats import state_of
 
 PATIENCE_S = 60.0
 FREED_WITHIN_S = 10.0
 """Time in which a seat is free whose page is closed, in s; it is not after a test that failed."""
 TOKEN = "0123456789abcdef0123456789abcdef"
-TOWER = SeatInfo(
-    seat="TOWER", recipients=("TOWER", "ATC"), frequencies_khz=(119_100,), has_sound=True,
-    is_recognised=True, voice_is_recorded=True, longest_call_s=60.0,
-    spoken_from=Severity.CAUTION,
-)  # fmt: skip
+TOWER = state_of("TOWER", recipients=("TOWER", "ATC"), spoken_from=Severity.CAUTION)
+SITS = """(() => {
+    document.getElementById('seat-uses').value = document.getElementById('seat-uses').value ||
+        'voice';
+    document.getElementById('seat-take').click();
+})()"""
+"""Script that takes the seat that is chosen, and lets voice and words be used."""
 
 
 def reachable(folder: Path) -> list[str]:
@@ -196,10 +203,19 @@ def asked(
 @contextmanager
 def browser(url: str, identity: str, shown_seat: str | None = None) -> Iterator[ClientConnection]:
     """Connect as a page does, by its identity and the seat whose view it shows already."""
-    shown = "" if shown_seat is None else f"&shown={shown_seat}"
-    place = f"{url.replace('http', 'ws')}api/live?browser={identity}{shown}"
-    with connect(place, proxy=None) as socket:
+    with opened(url, identity, shown=shown_seat) as socket:
         yield socket
+
+
+def opened(url: str, identity: str = "somebody", **more: Any) -> ClientConnection:
+    """Return a connection as that of a page, by its identity and what else it tells."""
+    given = {"browser": named(identity)} | {name: one for name, one in more.items() if one}
+    return connect(f"{url.replace('http', 'ws')}api/live?{urlencode(given)}", proxy=None)
+
+
+def named(identity: str) -> str:
+    """Return the identity of a page in the length that pages give them."""
+    return identity.ljust(SHORTEST_SECRET, "-")
 
 
 def wish(socket: ClientConnection, **wished: Any) -> None:
@@ -207,9 +223,16 @@ def wish(socket: ClientConnection, **wished: Any) -> None:
     socket.send(json.dumps(wished))
 
 
-def agree(socket: ClientConnection, what: str = "voice", *, is_given: bool = True) -> None:
-    """Answer the question whether the voice may be used, or typed words."""
-    wish(socket, consent={"answer": {"what": what, "is_given": is_given}})
+def do(socket: ClientConnection, do: str, seat: str = "", **more: Any) -> str:
+    """Act at a seat, and return why that is refused; empty if it is not."""
+    wish(socket, act={"do": do, **more}, seat=seat)
+    return str(answer(socket, "answer"))
+
+
+def sit(socket: ClientConnection, seat: str = "TOWER") -> None:
+    """Take a seat, and let voice and words be used there."""
+    assert do(socket, "take", seat) == ""
+    assert do(socket, "agree", uses=["voice", "words"]) == ""
 
 
 def answer(socket: ClientConnection, kind: str) -> Any:
@@ -220,86 +243,76 @@ def answer(socket: ClientConnection, kind: str) -> Any:
 
 
 class PretendedRun:
-    """A run of which there is only its page, with a seat or more; notes what browsers do."""
+    """A run of which there are only its seats and its page; notes what browsers do."""
 
     run = "pretended"
 
-    def __init__(self, seats: Sequence[SeatInfo] = (TOWER,)) -> None:
-        self.done: queue.Queue[Message | Command] = queue.Queue()
-        self.heard: queue.Queue[CallHeard] = queue.Queue()
+    def __init__(self, seats: Sequence[SeatState] = (TOWER,)) -> None:
+        self.done: queue.Queue[SeatAct] = queue.Queue()
+        self.heard: queue.Queue[HearCall] = queue.Queue()
         self.deeds: list[str] = []
-        """Names of what a person said and agreed to, in their order."""
-        self.settings: queue.Queue[SeatListening | SeatConsent] = queue.Queue()
-        """Settings of the radio of a seat, and answers about the voice."""
+        """Names of all acts, in their order."""
+        self.settings: queue.Queue[TuneFrequencies | AgreeToUses] = queue.Queue()
         self.presence: queue.Queue[tuple[str, bool]] = queue.Queue()
         self.changes, self.sounds = Changes(), Changes()
-        self.of_seats = {info.seat: SeatChanges() for info in seats}
+        self.of_seats = {state.seat: Newest() for state in seats}
         self.views = SeatViews(self.of_seats)
-        self.seat = self.of_seats[seats[0].seat]
         self.watched: queue.Queue[set[str]] = queue.Queue()
         """Cameras whose pictures were asked for, whenever there were any."""
         self.pictures: dict[tuple[str, int], Picture] = {}
         self.kept: dict[str, Sound] = {}
-        self.elsewhere: dict[str, Claimed] = {}
-        """Seats that somebody has at another page, or is about to take there."""
         self.told: list[str] = []
         """Lines that the terminal was told."""
         self.changes.add("clock", 0.0, "running", "realtime")
-        for info in seats:
-            self.views.learn(info)
-            self.of_seats[info.seat].add("info", info.model_dump(mode="json", exclude={"t_ns"}))
+        self.seats = Seats(seats, self._published, Director(Virtual()))
+        self._acting = threading.Lock()
+        self.seats.open()
+
+    def _published(self, _key: str, state: SeatState) -> None:
+        self.views.learn(state)
+        self.of_seats[state.seat].put("seat", seat_as_json(state))
 
     def watch(self, cameras: set[str]) -> None:
         """Note cameras whose pictures are to come."""
         if cameras:
             self.watched.put(cameras)
 
-    def say(self, seat: str, words: SpokenWords) -> None:
-        """Note words that were typed."""
-        self.deeds.append("say")
-        self.done.put(words)
+    def seat_client(self, seat: str, secret: str) -> SeatClient:
+        """Return a client of a seat that has no bus."""
+        return cast("SeatClient", PretendedClient(self, seat, secret))
 
-    def speak(self, seat: str, audio: MicrophoneAudio) -> None:
-        """Note what a microphone does."""
-        self.deeds.append(audio.phase)
-        self.done.put(audio)
+    def act(self, seat: str, action: SeatAction) -> str:
+        """Do something at a seat; return why that is refused."""
+        key = f"seat/{key_chunk(seat)}/do"
+        with self._acting:
+            why = self.seats.refusal(key, action)
+            if why:
+                return why
+            self.seats.note_secret(key, action)
+            self.seats.take(key, action, b"")
+        self._note(seat, action.act)
+        return ""
 
-    def listen(self, seat: str, listening: SeatListening) -> None:
-        """Note what is listened to, apart from what is done."""
-        self.settings.put(listening)
+    def end_hold(self, holder: str) -> None:
+        """Let who is gone leave the seat."""
+        with self._acting:
+            for key in self.seats.held_by(holder):
+                state = self.seats.at(key)
+                assert state is not None
+                self.seats.take(key, SeatAction(holder=holder, act=LeaveSeat()), b"")
+                self.presence.put((state.seat, False))
 
-    def consent(self, seat: str, consent: SeatConsent) -> None:
-        """Note an answer about the voice, apart from what is done."""
-        self.deeds.append(f"consent to {consent.what}" if consent.is_given else "no consent")
-        self.settings.put(consent)
-
-    def perceive(self, seat: str, perceived: AdvisoryPerceived) -> None:
-        """Note that an advisory was perceived."""
-        self.done.put(perceived)
-
-    def hear(self, seat: str, heard: CallHeard) -> None:
-        """Note that a transmission is audible, apart from what is done."""
-        self.heard.put(heard)
-
-    def answer(self, seat: str, answer: WorkloadAnswer) -> None:
-        """Note an answer to a question."""
-        self.done.put(answer)
-
-    def claim(self, seat: str) -> Claimed:
-        """Return who has a seat: nobody at another page, unless that was set."""
-        return self.elsewhere.get(seat, "ours")
-
-    def occupy(self, seat: str, *, is_taken: bool) -> None:
-        """Note if somebody has the seat."""
-        self.presence.put((seat, is_taken))
-
-    def set_pace(self, pace: PaceCommand) -> None:
-        """Note how fast the time is to pass."""
-        self.done.put(pace)
-
-    def fly(self, seat: str, command: Command) -> None:
-        """Note a command."""
-        self.done.put(command)
+    def _note(self, seat: str, act: SeatAct) -> None:
+        self.deeds.append(act.do)
+        match act:
+            case TakeSeat() | LeaveSeat():
+                self.presence.put((seat, act.do == "take"))
+            case TuneFrequencies() | AgreeToUses():
+                self.settings.put(act)
+            case HearCall():
+                self.heard.put(act)
+            case _:
+                self.done.put(act)
 
     def stream(self, phase: str, **header: Any) -> None:
         """Let a piece of a transmission come, by its header."""
@@ -325,20 +338,44 @@ class PretendedRun:
         """Return what a browser does next."""
         return self.done.get(timeout=PATIENCE_S)
 
-    def call(self) -> tuple[MicrophoneAudio, bytes]:
+    def call(self) -> tuple[PressToTalk, bytes]:
         """Return the beginning of a call, and all of its sound."""
         pressed, pcm = self.next(), b""
-        while (audio := self.next()).phase == "samples":
-            pcm += audio.pcm
-        assert (pressed.phase, audio.phase) == ("pressed", "released")
+        while isinstance(act := self.next(), SayVoice):
+            pcm += act.pcm
+        assert (pressed.do, act.do) == ("press", "release")
         return pressed, pcm
+
+
+class PretendedClient:
+    """A client of a seat of a pretended run."""
+
+    def __init__(self, run: PretendedRun, seat: str, secret: str) -> None:
+        self.seat = seat
+        self.holder = token_hex(8)
+        self._run = run
+        self._secret = secret
+
+    def take(self) -> str:
+        """Take the seat."""
+        return self.act(TakeSeat())
+
+    def act(self, act: SeatAct) -> str:
+        """Do something at the seat."""
+        return self._run.act(
+            self.seat, SeatAction(holder=self.holder, secret=self._secret, act=act)
+        )
+
+    def close(self) -> None:
+        """Let the hold end."""
+        self._run.end_hold(self.holder)
 
 
 @contextmanager
 def seats_given_back_at_once(run: PretendedRun) -> Iterator[None]:
     """Let nobody keep a seat who is gone, and wait at the end until all seats are free."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(seat_book, "HOLD_S", 0.0)
+        patch.setattr(station_browsers, "HOLD_S", 0.0)
         yield
         is_taken = dict.fromkeys(run.of_seats, False)
         while any(is_taken.values()) or not run.presence.empty():
@@ -347,15 +384,12 @@ def seats_given_back_at_once(run: PretendedRun) -> Iterator[None]:
 
 @contextmanager
 def seat_page(
-    run: PretendedRun | None = None,
-    *,
-    has_seats: bool = True,
-    agreed: Mapping[str, Use] = MappingProxyType({}),
+    run: PretendedRun | None = None, *, has_seats: bool = True
 ) -> Iterator[tuple[PretendedRun, str]]:
     """Serve the page of a pretended run in this process; yield the run and the URL."""
     run = run or PretendedRun()
     seats, views = (run.of_seats, run.views) if has_seats else ({}, SeatViews())
-    browsers = Browsers(run.changes, run, seats, run.sounds, run.told.append, views, agreed)
+    browsers = Browsers(run.changes, run, seats, run.sounds, run.told.append, views)
     with serving(live_app(run, browsers)) as url:  # type: ignore[arg-type]
         yield run, url
 

@@ -13,10 +13,7 @@ from airhilt.cli.notices import tell
 from airhilt.cli.output import echo_json
 from airhilt.cli.parameters import allow_path_option
 from airhilt.cli.station_flags import (
-    Agreed,
     PageOptions,
-    agreed_by_seat,
-    agreed_option,
     refuse_page_options,
     station_options,
 )
@@ -64,7 +61,6 @@ Examples:
     help="Print summary.json on standard output, everything else on standard error.",
 )
 @click.option("--view", is_flag=True, help="Show the run in the browser as it goes on.")
-@agreed_option
 @station_options
 @click.pass_context
 def cosim(
@@ -74,7 +70,6 @@ def cosim(
     allowed: tuple[Path, ...],
     as_json: bool,
     view: bool,
-    agreed: tuple[Agreed, ...],
     page: PageOptions,
     **_: object,
 ) -> None:
@@ -88,17 +83,14 @@ def cosim(
     options = options_given(context)
     if not view and not options.seat:
         refuse_page_options("--view or --seat")
-    if agreed and not options.seat:
-        raise click.UsageError("--agreed would do nothing without --seat")
     loaded = load(scenario, allowed)
     if view or options.seat:
         options = _for_page(loaded, options)
         page.address()  # The process of the page would complain too late.
     check_given(loaded, options)
-    told = _agreed_arguments(loaded, options, agreed)
     with ExitStack() as stack:
         if view or options.seat:
-            _serve_page(loaded, options, stack, [*page.arguments(), *told])
+            _serve_page(loaded, options, stack, page.arguments())
         tell("getting ready; a run that is killed before its folder is there leaves nothing")
         with ProgressLine(scenario) as progress:
             result = run(loaded, options, progress)
@@ -131,20 +123,6 @@ def _serve_page(
 
     seats = seats_of(options.seat, scenario)
     stack.enter_context(live_page(options.endpoint, options.tls, seats, arguments))
-
-
-def _agreed_arguments(scenario: Scenario, options: Options, agreed: Sequence[Agreed]) -> list[str]:
-    """Return the arguments of `airhilt view` that tell who has agreed to a use of voice and words.
-
-    Raises
-    ------
-    click.UsageError
-        Somebody has no seat in the run, or has agreed to two uses.
-    """
-    from airhilt.scenario.seats import named_seats
-
-    seats = named_seats(options.seat, scenario)
-    return [f"--agreed={seat}={use}" for seat, use in agreed_by_seat(agreed, seats).items()]
 
 
 COMMAND = cosim

@@ -11,10 +11,7 @@ import click
 
 from airhilt.cli.notices import tell
 from airhilt.cli.station_flags import (
-    Agreed,
     PageOptions,
-    agreed_by_seat,
-    agreed_option,
     station_options,
 )
 
@@ -55,7 +52,6 @@ Examples:
     help="A seat of the run that a browser may take: tower, ground, the name of another unit, or a "
     "callsign; may be given again. The truth is not shown then.",
 )
-@agreed_option
 @station_options
 def view(
     run_folder: Path | None,
@@ -63,7 +59,6 @@ def view(
     connect: str | None,
     tls: Path | None,
     seats: tuple[str, ...],
-    agreed: tuple[Agreed, ...],
     page: PageOptions,
 ) -> None:
     """Show a run in the browser: traffic, radio, advisories and cameras on one clock.
@@ -75,15 +70,13 @@ def view(
     is_live = connect is not None or tls is not None
     if (run_folder is None) != is_live:
         raise click.UsageError("expected a run folder, or --connect ENDPOINT")
-    if agreed and not seats:
-        raise click.UsageError("--agreed would do nothing without --seat")
     if seats and not is_live:
         raise click.UsageError("--seat would do nothing for a run folder")
     address, browser = page.address(), not page.no_browser
     if run_folder is not None:
         _show_recorded([run_folder, *([] if other is None else [other])], address, browser)
     else:
-        _show_live(connect, tls, seats, agreed, address, browser)
+        _show_live(connect, tls, seats, address, browser)
 
 
 def _show_recorded(run_folders: Sequence[Path], address: Address, browser: bool) -> None:
@@ -105,14 +98,13 @@ def _show_live(
     connect: str | None,
     tls: Path | None,
     asked: tuple[str, ...],
-    given: Sequence[Agreed],
     address: Address,
     browser: bool,
 ) -> None:
     from airhilt.station.app import live_app
     from airhilt.station.audiences import SeatViews
     from airhilt.station.browsers import Browsers
-    from airhilt.station.changes import Changes, SeatChanges
+    from airhilt.station.changes import Changes, Newest
     from airhilt.station.connection import RunConnection
     from airhilt.station.live import LiveRun
     from airhilt.station.server import serve
@@ -122,11 +114,9 @@ def _show_live(
     with ExitStack() as stack:
         connection = RunConnection(connect, "operator" if asked else "observer", tls=tls)
         stack.callback(connection.close)
-        by_name = connection.seats(asked, tell)
-        seats = tuple(dict.fromkeys(by_name.values()))
-        agreed = agreed_by_seat(given, by_name)
+        seats = connection.seats(asked, tell)
         changes, sounds = Changes(), Changes(MOST_SOUNDS)
-        of_seats = {seat: SeatChanges() for seat in seats}
+        of_seats = {seat: Newest() for seat in seats}
         views = SeatViews(seats)
         run = LiveRun(changes, of_seats, tell, views)
         subscription = Subscription(
@@ -138,7 +128,7 @@ def _show_live(
             tell(text)
             subscription.log_refusal(text)
 
-        browsers = Browsers(changes, subscription, of_seats, sounds, refused, views, agreed)
+        browsers = Browsers(changes, subscription, of_seats, sounds, refused, views)
         serve(
             live_app(subscription, browsers),
             address,

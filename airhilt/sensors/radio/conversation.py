@@ -7,25 +7,29 @@ carries it, `Listeners` understand it, `Compliance` lets actors do what they und
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Sequence
 from functools import partial
-from typing import Any
 
 from airhilt.commands import Command
 from airhilt.messages import (
-    CONTROLLER,
     FROM_MICROPHONE,
     Advisory,
+    AgreeToUses,
+    LeaveSeat,
     Message,
-    MicrophoneAudio,
-    SeatInfo,
-    Severity,
-    SpokenWords,
+    PressToTalk,
+    ReleaseToTalk,
+    SayText,
+    SayVoice,
+    SeatAct,
+    SeatAction,
     Transcript,
+    key_chunk,
 )
 from airhilt.scenario.failures import EffectiveLine
-from airhilt.scenario.models import Condition, Radio, RadioLine, Scenario, WildlifeSpec
+from airhilt.scenario.models import Condition, Radio, RadioLine, Scenario
 from airhilt.scenario.roster import callsigns_of, roster_of
+from airhilt.seats import Seats
 from airhilt.sensors.base import Publish
 from airhilt.sensors.radio.advisory_calls import AdvisoryCalls, AdvisoryChannel
 from airhilt.sensors.radio.answers import Answers
@@ -33,16 +37,15 @@ from airhilt.sensors.radio.backends import RadioBackend
 from airhilt.sensors.radio.compliance import Compliance
 from airhilt.sensors.radio.confirmation import Confirmations
 from airhilt.sensors.radio.frequency_arbiter import GAP_S
-from airhilt.sensors.radio.hearing import HearingModel, key_chunk
+from airhilt.sensors.radio.hearing import HearingModel
 from airhilt.sensors.radio.listeners import Listeners
-from airhilt.sensors.radio.microphones import LONGEST_CALL_S, Microphones
-from airhilt.sensors.radio.offers import Offers
+from airhilt.sensors.radio.microphones import Microphones
 from airhilt.sensors.radio.on_air import OnAir, Utterance
 from airhilt.sensors.radio.open_microphone import OpenMicrophone
+from airhilt.sensors.radio.person_calls import PersonCalls
 from airhilt.sensors.radio.radio_call import RadioCall, calls_of
 from airhilt.sensors.radio.readback_policy import ReadbackPolicy
 from airhilt.sensors.radio.script import RadioScript
-from airhilt.sensors.radio.seats import Seats
 from airhilt.sensors.radio.spoken_calls import SpokenCalls
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sensors.radio.stuck_microphones import StuckMicrophones
@@ -52,8 +55,6 @@ from airhilt.sim.payload import Payload
 from airhilt.units import seconds_to_ns
 from airhilt.world.actors.listening import Understanding
 
-FromSeat = SpokenWords | MicrophoneAudio
-"""Message with the words, or the voice, of the person at a seat."""
 BLOCKED = "Your call was blocked: somebody else was on the air at the same time."
 """Notice to a person whose call nobody could understand."""
 
@@ -82,7 +83,7 @@ class RadioConversation:
     hearing
         Draws what people hear; None takes the model of `hearing` with the seed of the run.
     seats
-        Units and actors whose calls a person makes: nobody else speaks or acts for them.
+        Seats of people: nobody else speaks or acts there.
     """
 
     def __init__(
@@ -104,7 +105,7 @@ class RadioConversation:
         microphones_free: Callable[[], None],
         advisory_channel: AdvisoryChannel | None = None,
         hearing: HearingModel | None = None,
-        seats: Collection[str] = (),
+        seats: Seats,
     ) -> None:
         radio = scenario.radio
         self._director = director
@@ -120,10 +121,9 @@ class RadioConversation:
         self._said: dict[str, RadioCall] = {}
         """Calls that were made, by the ids of their transmissions."""
         self._times_pressed = 0
-        self._is_paused = False
-        self._seats = Seats(seats, stations, self._said, publish, lambda: director.now_ns)
-        self._offers = Offers(publish, lambda: director.now_ns)
-        self._microphones = Microphones(director, self.press, self._seats.notify)
+        self._seats = seats
+        self._person_calls = PersonCalls(seats, stations, self._said, director)
+        self._microphones = Microphones(director, self.press, seats)
         self._script = RadioScript(director, lines, once, failed, self._due)
         self._transmissions = self._make_transmissions(scenario)
         self._stuck_microphones = self._make_stuck_microphones(microphone_stuck, microphones_free)
@@ -132,7 +132,7 @@ class RadioConversation:
         self._policy = ReadbackPolicy(director, radio, stations, seed, self._calls, self._say)
         self._confirmations = self._make_confirmations(radio)
         self._advisories = self._make_advisory_calls(scenario, advisory_channel)
-        self._spoken = SpokenCalls(self._seats, self._recognised)
+        self._spoken = SpokenCalls(self._person_calls, self._recognised)
 
     def _make_transmissions(self, scenario: Scenario) -> Transmissions:
         return Transmissions(
@@ -144,7 +144,7 @@ class RadioConversation:
             began=self._began,
             ended=self._ended,
             roster=roster_of(scenario),
-            seats=self._seats.names,
+            seats=[state.seat for state in self._seats],
         )
 
     def _make_stuck_microphones(
@@ -165,8 +165,7 @@ class RadioConversation:
             self._stations,
             hearing,
             reaches=self._transmissions.reaches,
-            has_person=self._seats.has_person,
-            listens=self._seats.listens,
+            seats=self._seats,
             publish=self._publish,
             understood=self._understood,
             overheard=self._overheard,
@@ -203,11 +202,13 @@ class RadioConversation:
         self._script.start()
         self._stuck_microphones.schedule(self._scenario.failures)
 
-    def take(self, key: str, message: Message, data: Payload) -> None:  # noqa: ARG002
+    def take(self, key: str, message: Message, data: Payload) -> None:
         """Give a transcript to the crews that wait for it, and advisories to who is to confirm.
 
         Advisories that are spoken on a frequency are transmitted.
         """
+        if isinstance(message, SeatAction) and (state := self._seats.at(key)) is not None:
+            self._act(state.seat, message.act)
         if self._advisories is not None:
             self._advisories.take(message, data)
         if isinstance(message, Transcript):
@@ -224,107 +225,31 @@ class RadioConversation:
         utterance = Utterance(name, frequency_khz, speaker, None, "", is_from_microphone=True)
         return self._transmissions.press(utterance)
 
-    def take_from_seat(self, seat: str, message: FromSeat) -> None:
-        """Take what the person at a seat says, typed or spoken.
+    def _act(self, speaker: str, act: SeatAct) -> None:
+        """Take in what the person at a seat does."""
+        match act:
+            case SayText():
+                self._say(self._person_calls.call(speaker, act))
+            case PressToTalk() if not self._stations.is_there(speaker):
+                self._seats.cut(speaker, f"{speaker} is not there any more.")
+            case PressToTalk(frequency_khz=given_khz):
+                frequency_khz = self._person_calls.frequency_khz(speaker, given_khz)
+                self._microphones.press(speaker, frequency_khz)
+            case SayVoice(pcm=pcm):
+                self._microphones.feed(speaker, pcm)
+            case ReleaseToTalk():
+                self._microphones.release(speaker)
+            case AgreeToUses(uses=uses) if "voice" not in uses:
+                self._microphones.release(speaker)
+            case LeaveSeat():
+                self._microphones.release(speaker)
+                for call in self._person_calls.leave(speaker):
+                    self._say(call)
 
-        Parameters
-        ----------
-        seat
-            Name of the seat as a part of keys.
-        """
-        if isinstance(message, SpokenWords):
-            self._say(self._seats.call(seat, message))
-            return
-        speaker = self._seats.speaker(seat)
-        if message.phase == "pressed" and self._is_paused:
-            self._seats.notify(speaker, "The run is paused. Nobody hears you.")
-        elif message.phase == "pressed" and not self._backend.has_sound:
-            self._seats.notify(speaker, "This run has no sound. Type what you want to say.")
-        elif message.phase == "pressed" and not self._stations.is_there(speaker):
-            self._seats.notify(speaker, f"{speaker} is not there any more.")
-        else:
-            frequency_khz = self._seats.frequency_khz(speaker, message.frequency_khz)
-            self._microphones.take(speaker, frequency_khz, message)
-
-    def listen(self, seat: str, frequencies_khz: Collection[int]) -> bool:
-        """Take in what the person at a seat listens to; return true if that has changed.
-
-        Parameters
-        ----------
-        seat
-            Name of the seat as a part of keys.
-        """
-        return self._seats.listen(self._seats.speaker(seat), frequencies_khz)
-
-    def occupy(self, seat: str, *, is_taken: bool) -> None:
-        """Take in that a person has taken a seat or left it; its script goes on without one.
-
-        Parameters
-        ----------
-        seat
-            Name of the seat as a part of keys.
-        """
-        speaker = self._seats.speaker(seat)
-        if not is_taken:
-            self._microphones.release(speaker)
-            self._offers.end_all(speaker)
-        for call in self._seats.occupy(speaker, is_taken=is_taken):
-            self._say(call)
-
-    def commanded(self, actor: str, command: Command) -> None:
-        """Take in that an actor carries out a command that somebody has given it."""
-        self._offers.end(actor, command)
-
-    def has_person(self, name: str) -> bool:
-        """Return whether a person speaks and acts for a unit or an actor, and nobody else."""
-        return self._seats.has_person(name)
-
-    def pause(self, is_paused: bool) -> None:
-        """Take in that the time stands still, or passes again; nobody is on the air in a pause."""
-        self._is_paused = is_paused
-        if is_paused:
-            for seat in self._seats.names:
-                self._microphones.release(seat)
-
-    def infos(
-        self,
-        *,
-        is_recognised: bool,
-        voice_is_recorded: bool,
-        may_pause: bool,
-        spoken_from: Severity | None,
-    ) -> list[SeatInfo]:
-        """Return what the persons at the seats have to know."""
-        return [
-            SeatInfo(
-                t_ns=self._director.now_ns,
-                seat=seat,
-                **self._equipment_of(seat),
-                frequencies_khz=self._stations.selectable(seat),
-                has_sound=self._backend.has_sound,
-                has_own_receiver=seat in self._scenario.radio.receivers,
-                is_recognised=is_recognised,
-                voice_is_recorded=voice_is_recorded,
-                longest_call_s=LONGEST_CALL_S,
-                may_pause=may_pause,
-                spoken_from=spoken_from,
-                phraseology=self._scenario.radio.phraseology,
-            )
-            for seat in sorted(self._seats.names)
-        ]
-
-    def _equipment_of(self, seat: str) -> dict[str, Any]:
-        """Return the fields of `SeatInfo` that say what a person at a seat is shown."""
-        for spec in self._scenario.actors:
-            if spec.callsign == seat and not isinstance(spec, WildlifeSpec):
-                return {
-                    "category": spec.type,
-                    "icao24": spec.icao24,
-                    "has_adsb_in": spec.adsb_in,
-                    "recipients": (seat, spec.icao24),
-                }
-        is_controller = seat == self._scenario.radio.controller
-        return {"recipients": (seat, CONTROLLER) if is_controller else (seat,)}
+    def pause(self) -> None:
+        """End the calls of people: nobody is on the air while the time stands still."""
+        for state in self._seats:
+            self._microphones.release(state.seat)
 
     def close(self) -> None:
         """Publish what is on the air as far as it has come; nobody acts upon it."""
@@ -343,7 +268,7 @@ class RadioConversation:
                 needed.once_taken_by(call.speaker, due)
                 return
         if self._seats.has_person(call.speaker):
-            self._seats.tell(call)
+            self._person_calls.tell(call)
             self._compliance.carry_out(call, call.speaker)
         else:
             self._say(call)
@@ -352,7 +277,7 @@ class RadioConversation:
         """Offer the person who acts for an actor a command; return False if there is none."""
         if not self._seats.has_person(actor):
             return False
-        self._offers.make(actor, call, command)
+        self._seats.offer(actor, call, command)
         return True
 
     def _after_gap(self, action: Callable[[], None]) -> None:

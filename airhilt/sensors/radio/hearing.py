@@ -7,6 +7,7 @@ import re
 from dataclasses import dataclass
 from typing import Literal
 
+from airhilt.messages import key_chunk
 from airhilt.sim.streams import stream
 
 Outcome = Literal["understood", "misheard", "unsure", "missed"]
@@ -92,11 +93,6 @@ def _misheard(text: str, draw: float) -> str | None:
         return None
     word = words[min(int(draw * len(words)), len(words) - 1)]
     return text[: word.start()] + CONFUSED_WITH[word[0].lower()] + text[word.end() :]
-
-
-def key_chunk(name: str) -> str:
-    """Return the name of a unit or an actor as a part of keys."""
-    return re.sub("[^A-Za-z0-9]+", "_", name)
 
 
 def hearing_key(listener: str) -> str:

@@ -8,6 +8,7 @@ from typing import Literal
 
 from airhilt.messages import HearingTruth, Message, Transcript
 from airhilt.scenario.models import Radio
+from airhilt.seats import Seats
 from airhilt.sensors.base import Publish
 from airhilt.sensors.radio.hearing import HearingModel, Outcome, hearing_key
 from airhilt.sensors.radio.on_air import OnAir, Utterance
@@ -44,11 +45,9 @@ class Listeners:
     ----------
     reaches
         Returns whether a transmission reaches a listener, and no other with it.
-    has_person
-        Returns whether a person listens for an actor or a unit. No mistake is drawn for people: a
-        call that reaches them counts as heard.
-    listens
-        Returns whether somebody listens to a frequency; people switch their receivers off.
+    seats
+        Seats of people. No mistake is drawn for people: a call that reaches them counts as heard,
+        and they switch their receivers off.
     understood
         Called when a recipient of a call has heard or read it, or has failed to.
     overheard
@@ -63,8 +62,7 @@ class Listeners:
         hearing: HearingModel,
         *,
         reaches: Callable[[OnAir, str], bool],
-        has_person: Callable[[str], bool],
-        listens: Callable[[str, int], bool],
+        seats: Seats,
         publish: Publish,
         understood: Understood,
         overheard: Understood,
@@ -75,8 +73,7 @@ class Listeners:
         self._stations = stations
         self._hearing = hearing
         self._reaches = reaches
-        self._has_person = has_person
-        self._listens = listens
+        self._seats = seats
         self._publish = publish
         self._understood = understood
         self._overheard = overheard
@@ -96,7 +93,7 @@ class Listeners:
         if not self._gets(call, on_air, listener):
             self._understand(call, said, listener, NOTHING, "")
             return
-        if self._has_person(listener):
+        if self._seats.has_person(listener):
             self._understand(call, said, listener, AS_SAID, said.text)
             return
         snr_db = self._receptions.of(said, listener).snr_db
@@ -117,7 +114,7 @@ class Listeners:
         return (
             listener not in call.deaf
             and self._reaches(on_air, listener)
-            and self._listens(listener, on_air.utterance.frequency_khz)
+            and self._seats.listens(listener, on_air.utterance.frequency_khz)
         )
 
     # --- by transcript ----------------------------------------------------------------------
@@ -135,8 +132,8 @@ class Listeners:
         for listener in self._stations.actors_on(said.frequency_khz):
             if listener == said.speaker or not self._reads(listener):
                 continue
-            may_overhear = self._radio.overhearing and not self._has_person(listener)
-            is_off = not self._listens(listener, said.frequency_khz)
+            may_overhear = self._radio.overhearing and not self._seats.has_person(listener)
+            is_off = not self._seats.listens(listener, said.frequency_khz)
             if listener in recipients and (is_blocked or is_off or listener in call.deaf):
                 self._understand(call, said, listener, NOTHING, "", source="transcript")
             elif listener in recipients:

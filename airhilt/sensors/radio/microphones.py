@@ -6,14 +6,16 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
-from airhilt.audio.pcm import from_pcm
-from airhilt.messages import MicrophoneAudio
+from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ, from_pcm
+from airhilt.seats import Seats
 from airhilt.sensors.radio.open_microphone import OpenMicrophone
 from airhilt.sim import Director, Priority
 from airhilt.units import SECOND_NS, seconds_to_ns
 
 LONGEST_CALL_S = 60.0
 """Time after which a call is cut, in s: an assumption, twice the longest call of a script."""
+AHEAD_S = 2.0
+"""Sound that may come before its time, in s: what a network has kept back comes at once."""
 SILENT_S = 3.0
 """Time without audio after which a microphone is released, in s: its browser is gone."""
 
@@ -26,6 +28,7 @@ class _Held:
     pressed_ns: int
     heard_ns: int
     """Time of the last audio."""
+    samples: int = 0
 
 
 class Microphones:
@@ -35,48 +38,43 @@ class Microphones:
     ----------
     press
         Opens the microphone of a speaker on a frequency.
-    tell
-        Tells the person at a seat something in words.
     """
 
     def __init__(
-        self,
-        director: Director,
-        press: Callable[[str, int], OpenMicrophone],
-        tell: Callable[[str, str], None],
+        self, director: Director, press: Callable[[str, int], OpenMicrophone], seats: Seats
     ) -> None:
         self._director = director
         self._press = press
-        self._tell = tell
+        self._seats = seats
         self._held: dict[str, _Held] = {}
         """Microphones whose buttons are held, by speaker."""
 
-    def take(self, speaker: str, frequency_khz: int, message: MicrophoneAudio) -> None:
-        """Press, feed or release the microphone of a speaker.
+    def press(self, speaker: str, frequency_khz: int) -> None:
+        """Press the button of a speaker; a call that is on the air ends."""
+        self.release(speaker)
+        now_ns = self._director.now_ns
+        held = _Held(self._press(speaker, frequency_khz), now_ns, now_ns)
+        self._held[speaker] = held
+        self._watch(speaker, held)
 
-        Audio for which no button is held is left out: its call has been cut.
-        """
-        match message.phase:
-            case "pressed":
-                self.release(speaker)
-                self._open(speaker, frequency_khz)
-            case "samples" if (held := self._held.get(speaker)) is not None:
-                held.heard_ns = self._director.now_ns
-                held.microphone.feed(from_pcm(message.pcm))
-            case "released":
-                self.release(speaker)
+    def feed(self, speaker: str, pcm: bytes) -> None:
+        """Add what a speaker says; it is left out if no button is held."""
+        held = self._held.get(speaker)
+        if held is None:
+            return
+        held.heard_ns = self._director.now_ns
+        held.samples += len(pcm) // SAMPLE_BYTES
+        passed_s = (held.heard_ns - held.pressed_ns) / SECOND_NS
+        if held.samples > (passed_s + AHEAD_S) * SAMPLE_RATE_HZ:
+            self._cut(speaker, "Your call was cut: more sound came than anybody can speak.")
+        else:
+            held.microphone.feed(from_pcm(pcm))
 
     def release(self, speaker: str) -> None:
         """Release the button of a speaker, if it is held."""
         held = self._held.pop(speaker, None)
         if held is not None:
             held.microphone.release()
-
-    def _open(self, speaker: str, frequency_khz: int) -> None:
-        now_ns = self._director.now_ns
-        held = _Held(self._press(speaker, frequency_khz), now_ns, now_ns)
-        self._held[speaker] = held
-        self._watch(speaker, held)
 
     def _watch(self, speaker: str, held: _Held) -> None:
         self._director.at(
@@ -97,4 +95,4 @@ class Microphones:
 
     def _cut(self, speaker: str, text: str) -> None:
         self.release(speaker)
-        self._tell(speaker, text)
+        self._seats.cut(speaker, text)

@@ -11,11 +11,11 @@ from airhilt.messages import (
     TransmissionChunk,
     TransmissionClosed,
     TransmissionOpened,
+    key_chunk,
 )
 from airhilt.sensors.base import Publish
 from airhilt.sensors.radio.audio_streams import AudioHeader, AudioStreams, sha256_of
 from airhilt.sensors.radio.backends import RadioBackend
-from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.sensors.radio.on_air import OnAir
 from airhilt.sensors.radio.reception import Receptions
 from airhilt.sensors.radio.stations import Stations

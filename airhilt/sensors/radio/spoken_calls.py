@@ -8,8 +8,8 @@ from dataclasses import replace
 from airhilt.messages import Transcript
 from airhilt.phraseology import TAU_ASR
 from airhilt.sensors.radio.on_air import OnAir, Utterance
+from airhilt.sensors.radio.person_calls import PersonCalls
 from airhilt.sensors.radio.radio_call import RadioCall
-from airhilt.sensors.radio.seats import Seats
 from airhilt.sensors.radio.transmissions import EndedTransmission
 
 Recognised = Callable[[RadioCall, Utterance, OnAir, bool], None]
@@ -28,8 +28,8 @@ class SpokenCalls:
         Called once the words of a call are known.
     """
 
-    def __init__(self, seats: Seats, recognised: Recognised) -> None:
-        self._seats = seats
+    def __init__(self, calls: PersonCalls, recognised: Recognised) -> None:
+        self._calls = calls
         self._recognised = recognised
         self._waiting: dict[str, OnAir] = {}
         """Transmissions whose words are not known yet, by id."""
@@ -47,11 +47,11 @@ class SpokenCalls:
         said = on_air.utterance
         speaker, frequency_khz = said.speaker, said.frequency_khz
         confidences = tuple(word.confidence for word in transcript.words) or None
-        meant = self._seats.meant(frequency_khz, transcript.text, confidences)
-        is_clear = meant.confidence >= TAU_ASR and self._seats.addresses(speaker, meant)
+        meant = self._calls.meant(frequency_khz, transcript.text, confidences)
+        is_clear = meant.confidence >= TAU_ASR and self._calls.addresses(speaker, meant)
         if is_clear:
-            call = self._seats.make(speaker, frequency_khz, transcript.text)
+            call = self._calls.make(speaker, frequency_khz, transcript.text)
         else:
-            call = self._seats.unclear(speaker, frequency_khz, transcript.text)
+            call = self._calls.unclear(speaker, frequency_khz, transcript.text)
         words = replace(said, text=transcript.text, addressed=call.addressed)
         self._recognised(call, words, on_air, is_clear)

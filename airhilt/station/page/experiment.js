@@ -58,14 +58,9 @@ function note(text) {
 
 const afterTrial = ({ trial, trials }) => `Questions after trial ${trial} of ${trials}`;
 
-const CONSENT =
-  "Please answer before the trial begins. Your seat asks about what you do not agree to here, and about all of it again once you have left it.";
-
 /** Heading of each questionnaire, and what is said of it, by its name. */
 const QUESTIONNAIRES = {
   before: [() => "Questions before the first trial", "Please answer each question."],
-  consent: [() => "Your voice and your words", CONSENT],
-  consent_unrecorded: [() => "Your voice and your words", CONSENT],
   nasa_tlx: [
     afterTrial,
     "How was the trial that you have just done? Click on each line where it fits.",

@@ -12,28 +12,23 @@ export class Frequencies {
   #rows = new Map();
   #open = new Map(); // frequencies of the transmissions on the air
 
-  /** `tune(frequencies)` tells the server which frequencies in kHz are heard. */
+  /** `tune(frequencies)` tells the run which frequencies in kHz are heard. */
   constructor(tune) {
     this.#tune = tune;
   }
 
-  /** Shows the frequencies of the seat, all of them heard; none without a seat. */
-  show(frequencies) {
+  /** Shows the frequencies of the seat, and which of them are heard; none without a seat. */
+  show(frequencies, tuned = []) {
     const isSame =
       frequencies.length === this.#rows.size && frequencies.every((khz) => this.#rows.has(khz));
     if (!isSame) {
       this.#rows = new Map(frequencies.map((khz, i) => [khz, this.#row(khz, !i)]));
       byId("frequencies").replaceChildren(...[...this.#rows.values()].map(({ item }) => item));
       this.#open.clear();
+      for (const [khz, { listen }] of this.#rows) listen.checked = tuned.includes(khz);
     }
     byId("frequencies").hidden = !frequencies.length;
-    this.tell();
     this.#draw();
-  }
-
-  /** Tells the server again what is heard: the connection is another one. */
-  tell() {
-    if (this.#rows.size) this.#tune(this.heard);
   }
 
   /** Frequencies that are heard, in kHz. */
@@ -57,7 +52,7 @@ export class Frequencies {
   }
 
   #row(khz, isFirst) {
-    const listen = html("input", { type: "checkbox", checked: true }),
+    const listen = html("input", { type: "checkbox" }),
       speak = html("input", { type: "radio", name: "transmit", checked: isFirst }),
       lamp = html("span", { class: "lamp", role: "status" });
     listen.addEventListener("change", () => {

@@ -4,15 +4,17 @@ import { byId } from "./dom.js";
 import { identity } from "./identity.js";
 import { Lag } from "./lag.js";
 import { PACES } from "./run_pace.js";
-import { Wishes } from "./wishes.js";
-import { seconds } from "./words.js";
+import { SeatWish } from "./seat_wish.js";
+import { capital, seconds } from "./words.js";
 
 const RETRY_MS = 1000;
 const SILENT_MS = 4000; // an answer to an echo comes every two seconds
 // Without a message, after which another connection is tried: the server has given this one up.
 const DEAD_MS = 8000;
 const HOLD_MS = 5000; // for which the server keeps a seat whose connection is lost
-const OLD_PAGE = 4426; // code with which the server closes: the page has to be loaded again
+// Codes with which the server closes: the page has to be loaded again, or has another connection.
+const OLD_PAGE = 4426,
+  REPLACED = 4409;
 const PHASES = {
   waiting: "waiting for the run",
   finished: "finished",
@@ -37,6 +39,9 @@ function ending({ title, phase }) {
   return `The run ${phase === "finished" ? "is over" : "was stopped"}. ${DEBRIEF}`;
 }
 
+/** Returns the reason of a refusal as a sentence. */
+export const sentence = (reason) => `${capital(reason).replace(/\.$/, "")}.`;
+
 export class Live {
   #run;
   #clock;
@@ -52,10 +57,11 @@ export class Live {
   #lostAt = null; // since when there is no connection, null while there is one
   #heard = 0; // when the last message came
   #isSilent = false;
-  #wishes = new Wishes((message) => this.send(message));
+  #unanswered = []; // acts that the run has not answered, in their order: { resolve, reject }
 
   constructor(run, clock) {
     this.#run = run;
+    this.wish = new SeatWish(run.run);
     this.#clock = clock;
     this.#lag = new Lag(run);
   }
@@ -83,13 +89,13 @@ export class Live {
     if (this.#shown !== null) url.searchParams.set("shown", this.#shown);
     url.searchParams.set("browser", identity());
     url.searchParams.set("version", this.#run.version ?? "");
-    url.searchParams.set("serving", this.#run.serving ?? "");
     this.#socket = new WebSocket(url);
     this.#heard = performance.now();
     this.#socket.onopen = () => {
       this.#lostAt = null;
       this.#heard = performance.now();
       this.#tell();
+      this.#sendWish();
       this.watch(this.#watched);
     };
     this.#socket.onmessage = (event) => {
@@ -107,7 +113,7 @@ export class Live {
         this.#tell();
         return;
       }
-      const isOld = event.code === OLD_PAGE;
+      const isOld = event.code === OLD_PAGE || event.code === REPLACED;
       this.#warn(
         event.reason ||
           (this.#panes.seat.own
@@ -137,11 +143,12 @@ export class Live {
       : "After more than 5 s your seat may have been given back. If the server has ended, it has to be started again.";
   }
 
-  /** Tells of what the station may not have heard, because nothing more comes over a connection. */
+  /** Tells of the acts of which nobody knows whether they were done, the newest first. */
   #lose() {
     this.#lostAt ??= performance.now();
-    this.#wishes.lost();
-    this.#panes.consent.lost();
+    const lost = this.#unanswered.reverse();
+    this.#unanswered = [];
+    for (const { reject } of lost) reject({ wasSent: true });
   }
 
   /**
@@ -189,11 +196,60 @@ export class Live {
   }
 
   /**
-   * Sends what a person wishes, once: `heard()` is called when the station has heard it, or
-   * `lost(wasSent)` when the connection is lost before that.
+   * Does something at the own seat. It is resolved with the reason for which it is refused, which is
+   * empty if it is not, and rejected with { wasSent } if the connection is lost before that is known.
    */
-  wish(wish, answers) {
-    this.#wishes.send(wish, answers);
+  act(act, seat = "") {
+    return new Promise((resolve, reject) => {
+      if (this.send({ act, seat })) this.#unanswered.push({ resolve, reject });
+      else reject({ wasSent: false });
+    });
+  }
+
+  /** Takes a seat with the uses to which the person agrees. */
+  sit(seat, uses) {
+    this.wish.sit(seat, uses);
+    this.#sendWish();
+  }
+
+  /** Leaves the seat. */
+  leave() {
+    this.wish.clear();
+    this.do({ do: "leave" });
+  }
+
+  /** Agrees to these uses from now on. */
+  agree(uses) {
+    this.wish.agree(uses);
+    this.do({ do: "agree", uses });
+  }
+
+  /** Listens to these frequencies in kHz from now on. */
+  tune(khz) {
+    this.wish.tune(khz);
+    this.do({ do: "tune", frequencies_khz: khz });
+  }
+
+  /** Does something, and shows why it is refused; what the wish has is sent again after a loss. */
+  do(act) {
+    this.act(act).then(
+      (why) => why && this.refuse(why),
+      () => {},
+    );
+  }
+
+  #sendWish() {
+    const { seat, acts } = this.wish;
+    if (!seat || this.#run.isOver) return;
+    this.act(acts[0], seat).then(
+      (why) => {
+        if (!why) return;
+        this.wish.clear();
+        this.refuse(why);
+      },
+      () => {},
+    );
+    for (const act of acts.slice(1)) this.act(act).catch(() => {});
   }
 
   /** Sends a message; returns false if there is no connection. */
@@ -214,12 +270,11 @@ export class Live {
   }
 
   #take(message) {
-    const { next, changes, seats, own, refused, forget, shown, echo } = message;
-    if (echo !== undefined) this.#wishes.answered(echo);
+    const { next, changes, seats, own, answer, forget, shown } = message;
+    if (answer !== undefined) this.#unanswered.shift()?.resolve(answer && sentence(answer));
     if (forget) this.#forget(shown);
     if (seats) this.#takeSeats(seats);
     if (own) this.#takeOwn(own);
-    if (refused) this.refuse(refused);
     if (!changes) {
       this.#takeTalk(message);
       return;
@@ -300,7 +355,6 @@ export class Live {
     this.#seen = 0;
     this.#shown = shown;
     this.#run.forget();
-    this.#wishes.forget();
     for (const pane of [advisories, cameras, seat, talk]) pane.forget();
     transcript.redraw();
     plan.redraw();

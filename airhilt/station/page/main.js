@@ -3,7 +3,6 @@
 import { Advisories } from "./advisories.js";
 import { Cameras } from "./cameras.js";
 import { Clock, FollowingClock } from "./clock.js";
-import { Consent } from "./consent.js";
 import { byId, html } from "./dom.js";
 import { connectKeys, timeKeys } from "./keys.js";
 import { Latencies } from "./latencies.js";
@@ -83,9 +82,8 @@ async function begin() {
   });
   clock.listen(() => panes.forEach((pane) => pane.draw()));
   clock.animate(() => plan.draw());
-  const consent = live ? new Consent(run, live) : null;
-  const seat = live ? new Seat(run, live, clock, cameras, consent) : null;
-  const talk = live ? new Talk(run, live, consent) : null;
+  const seat = live ? new Seat(run, live, clock, cameras) : null;
+  const talk = live ? new Talk(run, live) : null;
   if (live) for (const pane of [transcript, seat]) pane.hearOnly(() => talk.heard);
   live?.connect({
     plan,
@@ -99,7 +97,6 @@ async function begin() {
     transport,
     seat,
     talk,
-    consent,
   });
   connectKeys([
     ...timeKeys(clock, transport),

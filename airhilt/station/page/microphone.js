@@ -1,5 +1,5 @@
-// The microphone of the person at a seat: opened after consent, transmitted while the button is
-// held.
+// The microphone of the person at a seat: opened if the voice may be used, transmitted while the
+// button is held.
 
 import { byId } from "./dom.js";
 import { GamepadButton } from "./gamepad.js";
@@ -21,7 +21,7 @@ const AUDIO = {
 
 export class Microphone {
   #link;
-  #info = null;
+  #state = null; // of the seat
   #node = null;
   #stream = null;
   #context = null; // that reads it
@@ -29,8 +29,8 @@ export class Microphone {
   #held = false;
 
   /**
-   * `link` has send(wish), sendSound(buffer), unsent(), isThere(), frequency(), consent, and
-   * delay(event), the time since an event in s.
+   * `link` has act(act), sendSound(buffer), unsent(), isThere(), frequency(), and delay(event), the
+   * time since an event in s.
    */
   constructor(link) {
     this.#link = link;
@@ -44,7 +44,7 @@ export class Microphone {
     for (const name of ["pointerup", "pointercancel"])
       button.addEventListener(name, () => this.release());
     button.addEventListener("click", () => {
-      if (!this.#node) this.#ask();
+      if (!this.#node) this.#open();
     });
     window.addEventListener("blur", () => this.release());
     window.addEventListener("keydown", (event) => this.#key(event, true), { capture: true });
@@ -57,15 +57,24 @@ export class Microphone {
     return this.#held;
   }
 
-  /** Takes in what the run says of the seat; null without a seat. */
-  setInfo(info) {
-    this.#info = info;
-    if (!info) this.shut("");
-    byId("talk").hidden = !info;
-    byId("talk-button").disabled = !info?.has_sound;
-    if (info && !info.has_sound) this.#tell("This run has no sound. Type what you want to say.");
-    else if (info && !info.is_recognised)
-      this.#tell("No recogniser takes part: only people understand you.");
+  /** Takes in the state of the own seat; null without a seat. */
+  setState(state) {
+    const isNew = !this.#state,
+      mayHad = this.#mayOpen;
+    this.#state = state;
+    if (!this.#mayOpen && (mayHad || !state)) this.shut(state ? "Your voice is not used." : "");
+    byId("talk").hidden = !state;
+    byId("talk-button").disabled = !this.#mayOpen;
+    if (!state || (!isNew && mayHad === this.#mayOpen)) return;
+    if (!state.has_sound) this.#tell("This run has no sound. Type what you want to say.");
+    else if (!state.uses.includes("voice"))
+      this.#tell("To speak, choose beside the seat that your voice may be used.");
+    else
+      this.#tell(state.is_recognised ? "" : "No recogniser takes part: only people understand you.");
+  }
+
+  get #mayOpen() {
+    return Boolean(this.#state?.has_sound && this.#state.uses.includes("voice"));
   }
 
   /** Closes the microphone, also if it opens now, and tells why. */
@@ -74,10 +83,10 @@ export class Microphone {
     this.#tell(why);
   }
 
-  /** Closes the microphone of a person of whom the station knows no consent. */
-  deny() {
-    if (this.#opening) this.#tell("The microphone was not opened. Try again.");
-    this.#end();
+  /** Takes in that nobody hears what is said from now on. */
+  cut(why) {
+    this.release();
+    this.#tell(why);
   }
 
   #end() {
@@ -94,9 +103,15 @@ export class Microphone {
     }
     this.#tell("");
     this.#held = true;
-    this.#link.send({
-      press: { frequency_khz: this.#link.frequency(), delay_s: this.#link.delay(event) },
-    });
+    const press = {
+      do: "press",
+      frequency_khz: this.#link.frequency(),
+      delay_s: this.#link.delay(event),
+    };
+    this.#link.act(press).then(
+      (why) => why && this.cut(why),
+      () => {},
+    );
     this.#node.port.postMessage({ isOn: true });
     this.#draw();
   }
@@ -115,7 +130,7 @@ export class Microphone {
         tagName === "SELECT" || tagName === "SUMMARY" || (tagName === "INPUT" && type === "text");
     if (
       event.key !== " " ||
-      !this.#info?.has_sound ||
+      !this.#mayOpen ||
       isTyping ||
       document.querySelector("dialog[open]")
     )
@@ -127,21 +142,10 @@ export class Microphone {
 
   /** Takes in that the space bar, or the button of a gamepad, goes down or up. */
   #use(event, isDown) {
-    if (!this.#info?.has_sound || (isDown && document.querySelector("dialog[open]"))) return;
+    if (!this.#mayOpen || (isDown && document.querySelector("dialog[open]"))) return;
     if (!isDown) this.release();
     else if (this.#node) this.press(event);
-    else this.#ask();
-  }
-
-  #ask() {
-    this.#link.consent.ask("voice", {
-      isRecorded: this.#info.voice_is_recorded,
-      then: (isGiven) => {
-        if (isGiven) this.#open();
-        else this.#tell("The microphone is closed.");
-      },
-      lost: () => this.#tell("The microphone is closed: the connection is lost."),
-    });
+    else this.#open();
   }
 
   async #open() {
@@ -195,7 +199,7 @@ export class Microphone {
       this.release();
       this.#tell("Your call was cut: the connection is too slow.");
     } else if (pcm) this.#link.sendSound(pcm);
-    if (isOver) this.#link.send({ release: true });
+    if (isOver) this.#link.act({ do: "release" }).catch(() => {});
   }
 
   #close() {

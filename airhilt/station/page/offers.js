@@ -23,11 +23,9 @@ export class Offers {
     this.#give = give;
   }
 
-  /** Takes in offers that are made, and that are over. */
+  /** Takes in the offers that are open. */
   take(offers) {
-    const told = new Set(offers.map((offer) => offer.number));
-    this.#open = this.#open.filter((offer) => !told.has(offer.number));
-    this.#open.push(...offers.filter((offer) => !offer.over));
+    this.#open = offers;
   }
 
   /** Shows them in the words of an aircraft or a vehicle, with the variation of the place. */

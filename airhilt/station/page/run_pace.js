@@ -26,9 +26,9 @@ export class RunPace {
     return Math.min(Number(byId("pace-factor").value) || 1, 1);
   }
 
-  /** Takes in what has to be known of the seat: some runs have no pause. */
-  setInfo(info) {
-    this.#mayPause = info.may_pause;
+  /** Takes in the state of the own seat: some runs have no pause. */
+  setState(state) {
+    this.#mayPause = state.may_pause;
     this.show(true);
   }
 

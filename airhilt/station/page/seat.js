@@ -6,22 +6,33 @@ import { addressee } from "./neighbours.js";
 import { Rows } from "./rows.js";
 import { bearing, feet, known, percent, seconds, whole, words } from "./words.js";
 
-const MOST_TASKS = 50; // cards at a time, the newest
+/** Uses to which a person agrees, by what is chosen in the form of the seat. */
+const USES = { voice: ["voice", "words"], words: ["words"], none: [] };
+const BEFORE = "Take this seat to speak and act, and to see what it sees. Its calls wait for you. ",
+  LOGGED = "What you do at the seat, and what it shows you, is logged. ",
+  TYPED = "What you type is said to everybody, and kept as text.";
+
+/** Returns what becomes of what a person says and types. */
+const consequence = (isRecorded) =>
+  `What you say is recognised, everybody in the run hears it, and its programs get it. ${
+    isRecorded
+      ? "It is recorded as sound and as text."
+      : "Its sound is not recorded, its words are as they were recognised."
+  } ${TYPED}`;
 
 export class Seat {
   #run;
   #live;
   #own = null;
-  #isLeaving = false; // somebody has asked for that
   #tasks = [];
+  #notice = null; // the last one, as it was shown
+  #seats = {};
   #rows = new Rows(byId("tasks"));
   #displays;
   #clock;
-  #consent;
 
-  constructor(run, live, clock, cameras, consent) {
+  constructor(run, live, clock, cameras) {
     this.#run = run;
-    this.#consent = consent;
     this.#clock = clock;
     this.#live = live;
     byId("seat").hidden = !run.seats?.length;
@@ -32,35 +43,33 @@ export class Seat {
         html("option", { value: name }, name),
       ),
     );
+    byId("seat-name").addEventListener("change", () => this.#hint());
     this.#displays = new Displays(
       run,
       clock,
       cameras,
-      (command, answers) => live.wish({ fly: command }, answers),
+      (command, { heard, lost }) =>
+        live.act({ do: "fly", command }).then(
+          (why) => (why ? this.refuse(why) : heard?.()),
+          ({ wasSent }) => lost(wasSent),
+        ),
       (text) => {
         byId("panel-state").textContent = text;
       },
     );
-    byId("seat-take").addEventListener("click", () => {
-      this.#isLeaving = Boolean(this.#own);
-      live.wish(this.#own ? { leave: this.#own } : { take: byId("seat-name").value }, {
-        lost: () => {
-          this.#isLeaving = false;
-          this.refuse("Not done: the connection is lost.");
-        },
-      });
+    byId("seat-form").addEventListener("submit", (event) => {
+      event.preventDefault();
+      if (this.#own) live.leave();
+      else if (live.isThere) live.sit(byId("seat-name").value, USES[byId("seat-uses").value]);
+      else this.refuse("Not done: the connection is lost.");
+    });
+    byId("seat-uses").addEventListener("change", (event) => {
+      if (this.#own) live.agree(USES[event.target.value]);
     });
     byId("say").addEventListener("submit", (event) => {
       event.preventDefault();
       const text = byId("words").value.trim();
-      if (!text) return;
-      this.#consent.ask("words", {
-        then: (isGiven) => {
-          if (isGiven) this.#say(text);
-          else this.refuse("Nothing was said.");
-        },
-        lost: () => this.refuse("Nothing was said: the connection is lost. Say it when it is there again."),
-      });
+      if (text) this.#say(text);
     });
     this.setSeats({});
   }
@@ -77,32 +86,34 @@ export class Seat {
   /** Takes in which seats are free, taken or one's own. */
   setSeats(seats) {
     const before = this.#own;
-    this.#own = Object.keys(seats).find((name) => seats[name] === "yours") ?? null;
-    const isLost = before && !this.#own && !this.#isLeaving;
+    this.#seats = seats;
+    this.#own = Object.keys(seats).find((name) => seats[name].is === "yours") ?? null;
     this.#run.own = this.#own;
     byId("seat-take").textContent = this.#own ? "Leave the seat" : "Take the seat";
     byId("seat-name").disabled = Boolean(this.#own);
     if (this.#own) byId("seat-name").value = this.#own;
-    if (isLost)
-      this.refuse(
-        seats[before] === "taken"
-          ? `The connection was lost, and the seat ${before} is taken: by your old connection, which ends soon and gives it back to you, or by somebody else.`
-          : `The seat ${before} was given back while the connection was lost, and its script goes on. Take it again.`,
-      );
-    else if (this.#own && this.#own !== before) byId("seat-state").textContent = "";
-    else if (!this.#own)
-      byId("seat-state").textContent = Object.keys(seats)
-        .filter((name) => seats[name] === "taken")
-        .map((name) => `${name} is taken.`)
-        .join(" ");
-    byId("seat-hint").textContent = this.#own
-      ? ""
-      : "Who takes a seat speaks and acts there, and sees what that seat sees. Until then its calls wait.";
+    else if (before) byId("seat-uses").value = ""; // Who has it next chooses anew.
+    if (this.#own !== before) this.refuse("");
+    this.#hint();
     byId("say").hidden = !this.#own || this.#run.isOver;
     this.#displays.setSeat(this.#own);
     // Nobody at a seat goes back in time.
     if (this.#own && !this.#clock.following) this.#clock.follow();
     this.#drawTasks();
+  }
+
+  /** Shows before a seat is taken what it is for, and what becomes of what is said there. */
+  #hint() {
+    const name = byId("seat-name").value,
+      taken = Object.keys(this.#seats).filter((one) => this.#seats[one].is === "taken");
+    byId("seat-hint").textContent = this.#own
+      ? ""
+      : [
+          ...taken.map((one) => `${one} is taken. `),
+          BEFORE,
+          LOGGED,
+          consequence(this.#seats[name]?.recorded ?? true),
+        ].join("");
   }
 
   get own() {
@@ -130,48 +141,37 @@ export class Seat {
 
   /** Takes in what only the person at the own seat sees. */
   take(changes) {
-    const info = changes.findLast(([kind]) => kind === "info");
-    if (info) {
-      this.#run.ownCategory = info[1].category;
+    const newest = Object.fromEntries(changes.map(([kind, ...what]) => [kind, what]));
+    if (newest.seat) this.#takeState(newest.seat[0]);
+    if (newest.state) this.#run.apply([["state", ...newest.state]]); // where the own vehicle is
+    if (newest.cockpit) {
+      this.#displays.take(newest.cockpit[0]);
+      this.#showInstruments(newest.cockpit[0]);
+    }
+  }
+
+  #takeState({ category, uses, tasks, offers, notice }) {
+    if (this.#run.ownCategory !== category) {
+      this.#run.ownCategory = category;
       this.#displays.arrange();
     }
-    const own = changes.filter(([kind]) => kind === "state"); // where the own vehicle is
-    if (own.length) this.#run.apply(own);
-    const instruments = changes.findLast(([kind]) => kind === "cockpit");
-    if (instruments) {
-      this.#displays.take(instruments[1]);
-      this.#showInstruments(instruments[1]);
-    }
-    const offers = changes.filter(([kind]) => kind === "offer").map(([, offer]) => offer);
-    if (offers.length) this.#displays.takeOffers(offers);
-    const isOpen = (card) =>
-      !card.done &&
-      !changes.some(([kind, other]) => kind === "task" && other.done && other.line === card.line) &&
-      !this.#run.calls.some((call) => call.id === card.line) &&
-      !this.#tasks.some((other) => other.line === card.line);
-    const done = changes
-      .filter(([kind, card]) => kind === "task" && card.done)
-      .map(([, card]) => card.line);
-    this.#tasks = this.#tasks.filter((card) => !done.includes(card.line));
-    const notices = changes.filter(([kind]) => kind === "notice");
-    if (notices.length) {
-      this.refuse(notices.at(-1)[2]);
+    byId("seat-uses").value = uses.includes("voice") ? "voice" : uses.length ? "words" : "none";
+    byId("words").disabled = byId("say-button").disabled = !uses.length;
+    byId("words").placeholder = uses.length
+      ? "Type a call, or choose a phrase"
+      : "To type, choose above that it may be used";
+    this.#displays.takeOffers(offers);
+    this.#tasks = tasks;
+    if (notice && JSON.stringify(notice) !== this.#notice) {
+      this.refuse(notice.text);
       byId("panel-state").textContent = "";
     }
-    this.#tasks.push(
-      ...changes
-        .filter(([kind]) => kind === "task")
-        .map(([, card]) => card)
-        .filter(isOpen),
-    );
-    this.#tasks.splice(0, this.#tasks.length - MOST_TASKS);
+    this.#notice = JSON.stringify(notice);
     this.#drawTasks();
   }
 
   /** Takes cards away once somebody has made their calls. */
-  heard(calls) {
-    const made = new Set(calls.map((call) => call.id));
-    this.#tasks = this.#tasks.filter((card) => !made.has(card.line));
+  heard() {
     this.#drawTasks();
   }
 
@@ -193,7 +193,9 @@ export class Seat {
 
   #drawTasks() {
     this.#rows.show(
-      this.#tasks.filter((card) => card.seat === this.#own),
+      this.#own
+        ? this.#tasks.filter(({ line }) => !this.#run.calls.some((call) => call.id === line))
+        : [],
       (card) => card.line,
       (card) => this.#row(card),
     );
@@ -218,26 +220,26 @@ export class Seat {
     );
   }
 
-  /** Says what was typed, unless that has been said or changed since. */
+  /** Says what was typed; what is refused, or may not have been heard, is given back. */
   #say(text) {
-    const typed = byId("words").value.trim();
-    if (typed !== text) {
-      if (typed) this.refuse("What you typed has changed before you could say it. Say it again.");
-      return;
-    }
     byId("words").value = "";
     this.refuse("");
-    this.#live.wish({ say: { text } }, { lost: (wasSent) => this.#takeBack(text, wasSent) });
+    this.#live.act({ do: "text", text }).then(
+      (why) => why && this.#giveBack(text, why),
+      ({ wasSent }) =>
+        this.#giveBack(
+          text,
+          wasSent
+            ? "The connection was lost before the run had heard your last words. They are in the field: if nobody answers, say them again."
+            : "Nothing was said: the connection is lost. Say it when it is there again.",
+        ),
+    );
   }
 
-  /** Gives words back that the station may not have heard, before what was typed meanwhile. */
-  #takeBack(text, wasSent) {
+  /** Gives words back, before what was typed meanwhile. */
+  #giveBack(text, why) {
     const field = byId("words");
     field.value = [text, field.value].filter((part) => part).join(" ");
-    this.refuse(
-      wasSent
-        ? "The connection was lost before the station had heard your last words. They are in the field: if nobody answers, say them again."
-        : "Nothing was said: the connection is lost. Say it when it is there again.",
-    );
+    this.refuse(why);
   }
 }

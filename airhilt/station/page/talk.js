@@ -2,6 +2,7 @@
 
 import { byId } from "./dom.js";
 import { Frequencies } from "./frequencies.js";
+import { sentence } from "./live.js";
 import { Loudspeaker } from "./loudspeaker.js";
 import { Microphone } from "./microphone.js";
 import { RunPace } from "./run_pace.js";
@@ -10,12 +11,10 @@ import { Phrases } from "./phrases.js";
 import { Workload } from "./workload.js";
 
 const ECHO_MS = 2000;
-const CUT = "Your call was cut"; // how the run, or the station, tells that a call has been ended
 
 export class Talk {
   #run;
   #live;
-  #consent;
   #own = null;
   #microphone;
   #loudspeaker;
@@ -24,50 +23,55 @@ export class Talk {
   #frequencies;
   #phrases;
   #workload;
+  #isPrepared = false; // what is known of the seat from its beginning has been shown
   #roundTrip = 0; // s
   #isBehind = false; // what comes was sent while the connection was lost
   #asked = null; // when the echo was asked for that ends this
 
-  constructor(run, live, consent) {
+  constructor(run, live) {
     this.#run = run;
     this.#live = live;
-    this.#consent = consent;
     this.#microphone = new Microphone({
-      send: (wish) => live.send(wish),
+      act: (act) => live.act(act),
       sendSound: (buffer) => live.sendSound(buffer),
       unsent: () => live.unsent(),
       isThere: () => live.isThere,
       frequency: () => this.#frequencies.transmit,
       delay: (event) => this.#delay(event),
-      consent,
-    });
-    consent.whenTakenBack(() => {
-      this.#microphone.shut("You have taken back your consent.");
-      byId(byId("talk-button").disabled ? "words" : "talk-button").focus();
     });
     this.#loudspeaker = new Loudspeaker((id, after) =>
-      live.send({ heard: { id, after_s: this.#afterArrival(after) } }),
+      live.do({ do: "hear", id, after_s: this.#afterArrival(after) }),
     );
     this.#advisories = new OwnAdvisories(
       run,
       (perceived) =>
-        live.send({ perceived: { ...perceived, after_s: this.#afterArrival(perceived.after_s) } }),
+        live.do({
+          do: "perceive",
+          ...perceived,
+          after_s: this.#afterArrival(perceived.after_s),
+        }),
       (severity, url) => this.#loudspeaker.warn(severity, url),
     );
-    this.#pace = new RunPace(run, (factor) =>
-      live.wish({ pace: { factor } }, { lost: () => live.refuse("Not set: the connection is lost.") }),
-    );
-    this.#frequencies = new Frequencies((tune) => live.send({ tune }));
+    this.#pace = new RunPace(run, (factor) => this.#try({ do: "pace", factor }, "Not set"));
+    this.#frequencies = new Frequencies((khz) => live.tune(khz));
     this.#phrases = new Phrases(run);
     this.#workload = new Workload(run.nasa_tlx, (answer) =>
-      live.wish({ answer }, { lost: () => live.refuse("Not answered: the connection is lost.") }),
+      this.#try({ do: "answer", ...answer }, "Not answered"),
     );
-    this.#microphone.setInfo(null);
+    this.#microphone.setState(null);
     byId("strips").addEventListener("focusin", ({ target }) =>
       this.#phrases.address(target.closest(".flight-strip")?.dataset.callsign),
     );
     byId("seat-take").addEventListener("click", () => this.#loudspeaker.begin());
     setInterval(() => live.send({ echo: performance.now() }), ECHO_MS);
+  }
+
+  /** Does something, and tells why it was not done. */
+  #try(act, not) {
+    this.#live.act(act).then(
+      (why) => why && this.#live.refuse(why),
+      () => this.#live.refuse(`${not}: the connection is lost.`),
+    );
   }
 
   /** Keys of a seat, for the list of keys. */
@@ -120,21 +124,18 @@ export class Talk {
   /** Takes in one's own seat, null for none. */
   setSeat(own) {
     this.#pace.show(Boolean(own));
-    if (own === this.#own) {
-      if (own) this.#frequencies.tell();
-      return;
-    }
+    if (own === this.#own) return;
     this.#own = own;
-    this.#consent.setSeat(own);
+    this.#isPrepared = false;
     if (own) {
       this.#loudspeaker.begin();
       this.#takeActive();
     } else {
-      this.#microphone.setInfo(null);
+      this.#microphone.setState(null);
       this.#loudspeaker.end();
       this.#advisories.clear();
       this.#frequencies.show([]);
-      this.#workload.clear();
+      this.#workload.take(null);
     }
     this.#phrases.setSeat(own);
     this.#live.send({ echo: performance.now() });
@@ -147,9 +148,8 @@ export class Talk {
 
   /** Takes in that the run is over: nobody hears what is said, and nothing is asked any more. */
   end() {
-    this.#workload.clear();
-    this.#microphone.setInfo(null);
-    this.#consent.end();
+    this.#workload.take(null);
+    this.#microphone.setState(null);
   }
 
   /** Forgets the advisories of the former seat. */
@@ -158,29 +158,17 @@ export class Talk {
   }
 
   /** Takes in a message of the server. */
-  take({ own, changes, sounds, echo, refused, consent }) {
+  take({ own, changes, sounds, echo, cut }) {
     this.#catchUp(echo);
-    if (consent) {
-      this.#consent.take(consent);
-      if (!this.#consent.admits("voice")) this.#microphone.deny();
-    }
-    const told = [
-      refused ?? "",
-      ...(own ?? []).filter(([kind]) => kind === "notice").map(([, , text]) => text),
-    ];
-    // Nobody hears what is said from now on.
-    if (told.some((text) => text.startsWith(CUT))) this.#microphone.release();
+    if (cut) this.#microphone.cut(sentence(cut));
     if (changes?.some(([kind]) => kind === "clock")) this.#pace.draw();
     for (const [kind, row] of this.#own ? (changes ?? []) : []) {
       if (kind === "name") this.#takeActive(); // An advisory knew the aircraft by its address alone.
       if (kind === "advisory") this.#advisories.takeAdvisory(row);
       if (kind === "spoken") this.#advisories.takeSpoken(row);
     }
-    for (const [kind, ...rest] of own ?? []) {
-      if (kind === "info") this.#prepare(rest[0]);
-      if (kind === "question") this.#workload.ask(...rest, this.#run.now ?? 0);
-      if (kind === "answered") this.#workload.answered(rest[0]);
-    }
+    const state = own?.find(([kind]) => kind === "seat")?.[1];
+    if (state && this.#own) this.#takeState(state);
     if (changes?.some(([kind]) => kind === "call")) this.#phrases.heard();
     if (sounds && this.#own) this.#frequencies.take(sounds);
     if (sounds && this.#own && !this.#isBehind)
@@ -192,16 +180,21 @@ export class Talk {
     if (echo !== undefined) this.#roundTrip = (performance.now() - echo) / 1000;
   }
 
-  /** Takes in what has to be known of the seat; the space bar is not to give it back at once. */
-  #prepare(info) {
-    this.#microphone.setInfo(this.#run.isOver ? null : info);
-    this.#pace.setInfo(info);
-    this.#advisories.setSpoken(info.spoken_from);
+  /** Takes in the state of the own seat. */
+  #takeState(state) {
+    const isOver = this.#run.isOver;
+    this.#microphone.setState(isOver ? null : state);
+    this.#pace.setState(state);
+    this.#workload.take(isOver ? null : state.question, this.#run.now ?? 0);
+    this.#frequencies.show(state.frequencies_khz, state.tuned_khz);
+    this.#advisories.setSpoken(state.spoken_from);
+    if (this.#isPrepared) return;
+    this.#isPrepared = true;
     this.#takeActive(); // What is in force and nobody speaks sounds now.
-    this.#frequencies.show(info.frequencies_khz);
-    this.#phrases.setSeat(this.#own, info.phraseology);
+    this.#phrases.setSeat(this.#own, state.phraseology);
+    // The space bar is not to give the seat back at once.
     if (document.activeElement === byId("seat-take"))
-      byId(info.has_sound ? "talk-button" : "words").focus();
+      byId(byId("talk-button").disabled ? "words" : "talk-button").focus();
   }
 
   /** Time from when a message of now is with the server until a time from now, in s. */

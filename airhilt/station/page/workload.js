@@ -38,13 +38,16 @@ export class Workload {
   }
 
   /**
-   * Takes in a question to the own seat, of a time in s; whoever has just taken the seat is not
-   * asked what is long ago.
+   * Takes in the question that is open at the own seat, null for none; whoever has just taken the
+   * seat is not asked what is long ago.
    */
-  ask(number, scale, asked, now) {
-    if (scale === "isa" && (now - asked) * 1000 > PATIENCE_MS) return;
-    this.#question = number;
-    if (scale === "isa") {
+  take(question, now) {
+    const before = this.#question;
+    this.#question = question?.number ?? null;
+    if (!question) this.clear();
+    if (!question || question.number === before) return;
+    if (question.scale === "isa" && (now - question.t) * 1000 > PATIENCE_MS) return;
+    if (question.scale === "isa") {
       byId("isa").hidden = false;
       clearTimeout(this.#timer);
       this.#timer = setTimeout(() => this.#hideIsa(), PATIENCE_MS);
@@ -54,11 +57,6 @@ export class Workload {
       byId("tlx-state").textContent = "";
       if (!byId("tlx-dialog").open) byId("tlx-dialog").showModal();
     }
-  }
-
-  /** Takes in that the run has an answer. */
-  answered(number) {
-    if (number === this.#question) this.clear();
   }
 
   /** Rates the workload from 1 to 5, if that is asked. */

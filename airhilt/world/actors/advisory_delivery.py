@@ -11,8 +11,11 @@ from airhilt.messages import (
     AdvisoryAudio,
     EquipmentAlert,
     EventKind,
+    LeaveSeat,
     Message,
+    SeatAction,
     Severity,
+    key_chunk,
 )
 from airhilt.scenario.models import WildlifeSpec
 from airhilt.sim import Director, Priority
@@ -100,6 +103,8 @@ class AdvisoryDelivery:
             case EquipmentAlert(advisory=advisory) if advisory.recipient in self._by_address:
                 self._note(advisory)
                 self._deliver(advisory, is_equipment=True)
+            case SeatAction(act=LeaveSeat()):
+                self._person_left(key.split("/")[1])
 
     def heard(self, identity: str, revision: int, recipient: str) -> None:
         """Deliver an advisory that its recipient has heard, unless a later revision waits."""
@@ -116,10 +121,10 @@ class AdvisoryDelivery:
         for advisory in waiting:
             self._deliver(advisory)
 
-    def person_left(self, callsign: str) -> None:
+    def _person_left(self, seat: str) -> None:
         """Let an automaton that acts for itself again know what is in force."""
         for name, (advisory, is_equipment) in list(self._told_people.items()):
-            if self._by_address[advisory.recipient].spec.callsign == callsign:
+            if key_chunk(self._by_address[advisory.recipient].spec.callsign) == seat:
                 del self._told_people[name]
                 self._deliver(advisory, is_equipment=is_equipment)
 

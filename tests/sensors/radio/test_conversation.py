@@ -20,7 +20,6 @@ from airhilt.messages import (
 from airhilt.sensors.radio.hearing import Heard
 from airhilt.sensors.radio.listeners import TRANSCRIPT_PATIENCE_S
 from airhilt.sensors.radio.readback_policy import MOST_REPEATS, REPEAT_AFTER_S, REPEAT_SPREAD_S
-from airhilt.sensors.radio.seats import Seats
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Priority
 from airhilt.units import FOOT, SECOND_NS, seconds_to_ns
@@ -494,40 +493,6 @@ def test_without_a_transcript_a_crew_that_reads_misses_the_call_after_20_s() -> 
     waited_s = (again.t_tx_ns - first.t_end_ns) / SECOND_NS
     soonest_s = TRANSCRIPT_PATIENCE_S + REPEAT_AFTER_S
     assert soonest_s <= waited_s <= soonest_s + REPEAT_SPREAD_S
-
-
-@pytest.mark.parametrize("seat", [TOWER, "AAL123"])
-def test_what_a_person_says_is_of_a_person_however_little_of_it_is_understood(seat: str) -> None:
-    world = World(CLEARANCE, READBACK)
-    lines = world.scenario.radio.lines
-    stations = Stations(cast(Any, world.actors), ScenarioSite.of(world.scenario), lines)
-    seats = Seats([seat], stations, {}, world.publish, lambda: 0)
-    mumbled, spoken = seats.unclear(seat, KHZ, "..."), seats.make(seat, KHZ, READBACK["text"])
-    assert (mumbled.speaker, spoken.speaker) == (seat, seat)
-    assert mumbled.is_of_person
-    assert spoken.is_of_person
-
-
-@pytest.mark.parametrize(
-    ("seat", "words", "is_told"),
-    [
-        (TOWER, "American 123, behind the landing traffic line up and wait runway one", True),
-        (TOWER, "American 123, line up and wait runway one", False),
-        (TOWER, "Somebody else, behind the landing traffic line up and wait runway one", False),
-        ("AAL123", "Behind the landing traffic, lining up runway one, American 123", False),
-    ],
-)
-def test_a_unit_is_told_that_a_condition_alone_makes_nobody_move(
-    seat: str, words: str, is_told: bool
-) -> None:
-    world = World(CLEARANCE, READBACK)
-    lines = world.scenario.radio.lines
-    stations = Stations(cast(Any, world.actors), ScenarioSite.of(world.scenario), lines)
-    seats, told = Seats([seat], stations, {}, world.publish, lambda: 0), []
-    seats.notify = lambda speaker, text: told.append((speaker, text))
-    seats.make(seat, KHZ, words)
-    waits = [speaker for speaker, text in told if "reads a condition back and waits" in text]
-    assert waits == ([seat] if is_told else [])
 
 
 def test_nobody_hears_who_exists_no_more_or_is_heard_by_them() -> None:

@@ -9,25 +9,33 @@ import numpy as np
 import pytest
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, to_pcm
-from airhilt.commands import AltitudeCommand
+from airhilt.commands import AltitudeCommand, TrackCommand
 from airhilt.messages import (
     CommandOffer,
     HearingTruth,
+    LeaveSeat,
     Message,
-    MicrophoneAudio,
-    SeatNotice,
-    Severity,
+    PressToTalk,
+    ReleaseToTalk,
+    SayText,
+    SayVoice,
+    SeatAct,
+    SeatAction,
+    SeatState,
     SpokenTruth,
-    SpokenWords,
+    TakeSeat,
     TaskCard,
     Transcript,
+    TuneFrequencies,
     Word,
+    key_chunk,
 )
+from airhilt.seats.seats import MOST_OFFERS
 from airhilt.sensors.radio.backends import TextRadio
-from airhilt.sensors.radio.hearing import key_chunk
 from airhilt.sim import Priority
 from airhilt.units import SECOND_NS, seconds_to_ns
 from conversations import CLEARANCE, KHZ, READBACK, TOWER, World, line
+from seats import once
 
 M = TypeVar("M", bound=Message)
 OTHER_KHZ = 121_500
@@ -45,22 +53,41 @@ class Seated(World):
     def of(self, model: type[M]) -> list[M]:
         return [each for each in self.published if isinstance(each, model)]
 
-    def notices(self) -> list[str]:
-        return [each.text for each in self.of(SeatNotice)]
+    def states(self, seat: str = TOWER) -> list[SeatState]:
+        return [state for state in self.of(SeatState) if state.seat == seat]
+
+    def cards(self, seat: str = TOWER) -> list[TaskCard]:
+        """Return the task cards that a seat has had, each once."""
+        return once(card for state in self.states(seat) for card in state.tasks)
+
+    def offers(self, seat: str) -> list[CommandOffer]:
+        return once(offer for state in self.states(seat) for offer in state.offers)
+
+    def notices(self, seat: str = TOWER) -> list[str]:
+        told = once(state.notice for state in self.states(seat))
+        return [notice.text for notice in told if notice is not None]
 
     def at(self, t_s: float, action: Any) -> None:
         self.director.at(seconds_to_ns(t_s), action, Priority.SCRIPT)
 
-    def says(self, t_s: float, seat: str, text: str, frequency_khz: int | None = None) -> None:
-        words = SpokenWords(t_ns=0, text=text, frequency_khz=frequency_khz)
-        self.at(t_s, lambda: self.conversation.take_from_seat(key_chunk(seat), words))
+    def act(self, t_s: float, seat: str, act: SeatAct) -> None:
+        key, action = f"seat/{key_chunk(seat)}/do", SeatAction(holder="somebody", act=act)
+        self.at(t_s, lambda: self.seats.take(key, action, b""))
+        self.at(t_s, lambda: self.conversation.take(key, action, b""))
 
-    def microphone(self, t_s: float, seat: str, phase: Any, seconds: float = 0.0) -> None:
-        pcm = to_pcm(np.full(round(seconds * SAMPLE_RATE_HZ), 0.1, np.float32))
-        audio = MicrophoneAudio.model_construct(
-            t_ns=0, phase=phase, frequency_khz=None, delay_s=0.0, pcm=pcm
-        )
-        self.at(t_s, lambda: self.conversation.take_from_seat(key_chunk(seat), audio))
+    def says(self, t_s: float, seat: str, text: str, frequency_khz: int | None = None) -> None:
+        self.act(t_s, seat, SayText(text=text, frequency_khz=frequency_khz))
+
+    def speaks(self, begin_s: float, end_s: float, seat: str) -> None:
+        """Hold the button of a seat, and give it sound all the while."""
+        self.act(begin_s, seat, PressToTalk())
+        self.feeds(begin_s, end_s, seat)
+        self.act(end_s, seat, ReleaseToTalk())
+
+    def feeds(self, begin_s: float, end_s: float, seat: str) -> None:
+        pcm = to_pcm(np.full(SAMPLE_RATE_HZ // 2, 0.1, np.float32))
+        for half in range(1, round(2 * (end_s - begin_s)) + 1):
+            self.act(begin_s + half / 2, seat, SayVoice.model_construct(pcm=pcm))
 
 
 def controller(*lines: dict[Any, Any], **more: Any) -> Seated:
@@ -76,10 +103,10 @@ def crew(*lines: dict[Any, Any], **more: Any) -> Seated:
 
 def test_a_line_of_a_seat_is_a_task_and_nobody_else_says_it() -> None:
     world = controller().run_until(60.0)
-    (card,) = world.of(TaskCard)
-    assert (card.line, card.seat, card.addressed) == ("clearance", TOWER, "AAL123")
-    assert (card.frequency_khz, card.text, card.is_done) == (KHZ, CLEARANCE["text"], False)
-    assert card.t_ns == 10 * SECOND_NS
+    (card,) = world.states()[-1].tasks
+    assert (card.line, card.addressed) == ("clearance", "AAL123")
+    assert (card.frequency_khz, card.text) == (KHZ, CLEARANCE["text"])
+    assert card.due_ns == 10 * SECOND_NS
     assert world.said() == []
     assert world.done == []
 
@@ -94,9 +121,9 @@ def test_what_means_the_same_takes_the_place_of_the_line_and_the_script_goes_on_
     ((actor, command, at_s),) = world.done
     assert (actor, command.altitude_ft) == ("AAL123", 33_000.0)
     assert at_s == pytest.approx(said.t_end_ns / SECOND_NS + 2.0)
-    opened, done = world.of(TaskCard)
-    assert (opened.is_done, done.is_done) == (False, True)
-    assert done.t_ns == said.t_end_ns  # Once its addressee has taken it.
+    assert len(world.cards()) == 1
+    last = world.states()[-1]
+    assert (last.tasks, last.t_ns) == ((), said.t_end_ns)  # Once its addressee has taken it.
 
 
 @pytest.mark.parametrize(
@@ -112,7 +139,7 @@ def test_what_means_something_else_or_is_for_somebody_else_is_a_call_of_its_own(
     world.says(20.0, TOWER, text)
     world.run_until(40.0)
     assert world.said()[0] == f"seat.{key_chunk(TOWER)}.1"
-    assert [card.is_done for card in world.of(TaskCard)] == [False]
+    assert len(world.states()[-1].tasks) == 1
 
 
 def test_the_calls_of_a_seat_are_counted_and_make_their_addressee_do_what_they_mean() -> None:
@@ -157,28 +184,40 @@ def test_nobody_makes_a_person_say_it_again() -> None:
 
 def test_where_the_person_leaves_the_script_says_what_waited_and_goes_on_by_itself() -> None:
     world = controller()
-    world.at(20.0, lambda: world.conversation.occupy(key_chunk(TOWER), is_taken=False))
+    world.act(20.0, TOWER, LeaveSeat())
     world.run_until(60.0)
     assert world.said() == ["clearance", "readback"]
     assert world.spoken("clearance").t_tx_ns == 20 * SECOND_NS
     assert world.notices() == [f"Nobody is at the seat: the script of {TOWER} goes on by itself."]
-    assert [card.is_done for card in world.of(TaskCard)] == [False, True]
-    assert not world.conversation.has_person(TOWER)
+    assert len(world.cards()) == 1
+    assert world.states()[-1].tasks == ()
 
 
 def test_who_comes_back_has_the_seat_again() -> None:
     world = controller()
-    for at_s, is_taken in ((2.0, False), (4.0, True)):
-        world.at(
-            at_s,
-            lambda is_taken=is_taken: world.conversation.occupy(
-                key_chunk(TOWER), is_taken=is_taken
-            ),
-        )
+    world.act(2.0, TOWER, LeaveSeat())
+    world.act(4.0, TOWER, TakeSeat())
     world.run_until(60.0)
-    assert world.conversation.has_person(TOWER)
     assert world.said() == []
-    assert len(world.of(TaskCard)) == 1
+    assert len(world.cards()) == 1
+
+
+@pytest.mark.parametrize(
+    ("seat", "words", "is_told"),
+    [
+        (TOWER, "American 123, behind the landing traffic line up and wait runway one", True),
+        (TOWER, "American 123, line up and wait runway one", False),
+        (TOWER, "Somebody else, behind the landing traffic line up and wait runway one", False),
+        ("AAL123", "Behind the landing traffic, lining up runway one, American 123", False),
+    ],
+)
+def test_a_unit_is_told_that_a_condition_alone_makes_nobody_move(
+    seat: str, words: str, is_told: bool
+) -> None:
+    world = Seated(CLEARANCE, READBACK, seats=[seat])
+    world.says(2.0, seat, words)
+    world.run_until(4.0)
+    assert any("a condition back and waits" in text for text in world.notices(seat)) is is_told
 
 
 def test_without_a_frequency_a_person_speaks_on_the_first_one_of_the_seat() -> None:
@@ -198,17 +237,9 @@ def test_who_switches_a_frequency_off_hears_nothing_there(
     listened: tuple[int, ...], outcome: str
 ) -> None:
     world = crew()
-    world.at(1.0, lambda: world.conversation.listen("AAL123", listened))
+    world.act(1.0, "AAL123", TuneFrequencies(frequencies_khz=listened))
     world.run_until(16.0)
     assert world.hearings("AAL123") == [("clearance", outcome)]
-
-
-def test_it_is_news_only_if_other_frequencies_are_listened_to_than_before() -> None:
-    conversation = crew().conversation
-    assert not conversation.listen("AAL123", [KHZ])  # All of its frequencies, at first.
-    assert conversation.listen("AAL123", [])
-    assert not conversation.listen("AAL123", ())
-    assert conversation.listen("AAL123", [KHZ])
 
 
 def test_no_mistake_is_drawn_for_a_person() -> None:
@@ -223,7 +254,7 @@ def test_a_person_whose_call_was_blocked_is_told_so() -> None:
     world = crew(line("over", 20, TOWER, None, "All stations, hello to you all."))  # type: ignore[arg-type]
     world.says(20.0, "AAL123", "Centre, American 123, request descent")
     world.run_until(40.0)
-    assert world.notices() == [
+    assert world.notices("AAL123") == [
         "Your call was blocked: somebody else was on the air at the same time."
     ]
 
@@ -235,58 +266,54 @@ def test_a_crew_of_people_is_offered_what_an_automaton_would_do() -> None:
     world = crew()
     world.run_until(40.0)
     assert world.done == []
-    (offer,) = world.of(CommandOffer)
-    assert (offer.seat, offer.call, offer.number) == ("AAL123", "clearance", 1)
+    (offer,) = world.offers("AAL123")
+    assert (offer.call, offer.number) == ("clearance", 1)
     assert isinstance(offer.command, AltitudeCommand)
-    assert offer.t_ns == world.spoken("clearance").t_end_ns  # At once: the person decides when.
+    offered = next(state for state in world.states("AAL123") if state.offers)
+    # At once: the person decides when.
+    assert offered.t_ns == world.spoken("clearance").t_end_ns
 
 
 def test_an_offer_is_over_when_the_person_has_given_the_command_or_has_left() -> None:
     for ends in ("given", "left"):
-        world = crew().run_until(40.0)
-        (offer,) = world.of(CommandOffer)
+        world = crew()
+        if ends == "left":
+            world.act(35.0, "AAL123", LeaveSeat())
+        world.run_until(40.0)
+        (offer,) = world.offers("AAL123")
         if ends == "given":
-            world.conversation.commanded("AAL123", offer.command)
-        else:
-            world.conversation.occupy("AAL123", is_taken=False)
-        opened, over = world.of(CommandOffer)
-        assert (opened.is_over, over.is_over, over.number) == (False, True, 1)
+            world.seats.end_offer("AAL123", offer.command)
+        assert world.states("AAL123")[-1].offers == ()
+
+
+def test_the_newest_commands_are_offered_each_once() -> None:
+    world = Seated(CLEARANCE, seats=["AAL123", "DAL456"])
+    tracks = [TrackCommand(action="track", track_deg=float(deg)) for deg in range(MOST_OFFERS + 1)]
+    for command in (*tracks, tracks[-2]):
+        world.seats.offer("AAL123", "a-call", command)
+    world.seats.offer("DAL456", "a-call", tracks[0])
+    left = [one.command for one in world.states("AAL123")[-1].offers]
+    assert left == [*tracks[1:-2], tracks[-1], tracks[-2]]
+    assert len(world.states("DAL456")[-1].offers) == 1
 
 
 # --- their microphones --------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("case", "notice"),
-    [
-        ("paused", "The run is paused. Nobody hears you."),
-        ("silent", "This run has no sound. Type what you want to say."),
-        ("gone", "AAL123 is not there any more."),
-        ("heard", None),
-    ],
-)
-def test_a_person_who_cannot_be_heard_is_told_why(case: str, notice: str | None) -> None:
-    world = crew(READBACK, backend=None if case == "silent" else Sounding(160.0))
-    if case == "gone":
-        world.actors["AAL123"].body.ended = "collision"
-    if case == "paused":
-        world.conversation.pause(is_paused=True)
-    world.microphone(1.0, "AAL123", "pressed")
-    world.microphone(1.5, "AAL123", "samples", 0.5)
-    world.microphone(2.0, "AAL123", "released")
+def test_a_person_whose_aircraft_is_no_more_is_told_that_nobody_hears() -> None:
+    world = crew(READBACK, backend=Sounding(160.0))
+    world.actors["AAL123"].body.ended = "collision"
+    world.speaks(1.0, 2.0, "AAL123")
     world.run_until(5.0)
-    assert world.notices() == ([] if notice is None else [notice])
-    spoken = [one for one in world.of(SpokenTruth) if one.is_from_microphone]
-    assert [one.id for one in spoken] == ([] if notice else ["microphone.AAL123.1"])
+    assert world.notices("AAL123") == ["AAL123 is not there any more."]
+    assert not [one for one in world.of(SpokenTruth) if one.is_from_microphone]
 
 
 def test_a_pause_releases_every_button_and_after_it_people_speak_again() -> None:
     world = crew(READBACK, backend=Sounding(160.0))
-    world.microphone(1.0, "AAL123", "pressed")
-    world.at(2.0, lambda: world.conversation.pause(is_paused=True))
-    world.at(2.0, lambda: world.conversation.pause(is_paused=False))
-    world.microphone(3.0, "AAL123", "pressed")
-    world.microphone(4.0, "AAL123", "released")
+    world.act(1.0, "AAL123", PressToTalk())
+    world.at(2.0, world.conversation.pause)
+    world.speaks(3.0, 4.0, "AAL123")
     world.run_until(6.0)
     first, second = (one for one in world.of(SpokenTruth) if one.is_from_microphone)
     assert (first.t_tx_ns, first.t_end_ns) == (SECOND_NS, 2 * SECOND_NS)
@@ -296,27 +323,23 @@ def test_a_pause_releases_every_button_and_after_it_people_speak_again() -> None
 @pytest.mark.parametrize("fed_until_s", [2.0, 30.0])
 def test_a_call_without_sound_for_3_s_is_cut(fed_until_s: float) -> None:
     world = crew(READBACK, backend=Sounding(160.0))
-    world.microphone(1.0, "AAL123", "pressed")
-    at_s = 1.0
-    while at_s <= fed_until_s:
-        world.microphone(at_s + 0.1, "AAL123", "samples", 0.5)
-        at_s += 0.5
+    world.act(1.0, "AAL123", PressToTalk())
+    world.feeds(1.0, fed_until_s, "AAL123")
     world.run_until(60.0)
     (said,) = (one for one in world.of(SpokenTruth) if one.is_from_microphone)
     silent_s = said.t_end_ns / SECOND_NS - fed_until_s
     assert 3.0 <= silent_s <= 4.2
-    assert world.notices() == ["Your call was cut: no sound came for 3 s."]
+    assert world.notices("AAL123") == ["Your call was cut: no sound came for 3 s."]
 
 
 def test_a_call_of_a_minute_is_cut() -> None:
     world = crew(READBACK, backend=Sounding(160.0))
-    world.microphone(1.0, "AAL123", "pressed")
-    for tenth in range(15, 900, 5):
-        world.microphone(tenth / 10, "AAL123", "samples", 0.5)
+    world.act(1.0, "AAL123", PressToTalk())
+    world.feeds(1.0, 90.0, "AAL123")
     world.run_until(90.0)
     (said,) = (one for one in world.of(SpokenTruth) if one.is_from_microphone)
     assert (said.t_end_ns - said.t_tx_ns) / SECOND_NS == pytest.approx(60.0, abs=0.5)
-    assert world.notices() == ["Your call was cut after 60 s."]
+    assert world.notices("AAL123") == ["Your call was cut after 60 s."]
 
 
 # --- what is recognised of them -----------------------------------------------------------------
@@ -327,9 +350,7 @@ def recognised(text: str, confidence: float = 1.0, *, seat: str = TOWER) -> Seat
     late = READBACK | {"at_s": 50.0}
     lines = (CLEARANCE, READBACK) if seat == TOWER else (late,)
     world = Seated(*lines, seats=[seat], backend=Sounding(160.0))
-    world.microphone(12.0, seat, "pressed")
-    world.microphone(13.0, seat, "samples", 0.5)
-    world.microphone(14.0, seat, "released")
+    world.speaks(12.0, 14.0, seat)
     words = transcript(text, confidence, seat)
     for at_s in (15.0, 16.0):  # Only the first time counts.
         world.at(at_s, lambda: world.conversation.take(f"asr/{KHZ}", words, b""))
@@ -349,7 +370,8 @@ def test_what_was_recognised_surely_is_done() -> None:
     world = recognised("american one two three climb flight level three three zero")
     assert [command.altitude_ft for _, command, _ in world.done] == [33_000.0]
     assert world.hearings("AAL123")[0][1] == "understood"
-    assert [card.is_done for card in world.of(TaskCard)] == [False, True]
+    assert world.cards()
+    assert world.states()[-1].tasks == ()
 
 
 @pytest.mark.parametrize(
@@ -373,8 +395,7 @@ def test_without_a_task_words_that_name_nobody_are_for_the_only_crew_on_the_freq
     for others, outcomes in (((), ["unsure"]), (("DAL456",), [])):
         crews = [line(f"hello-{name}", 50, name, TOWER, "Hello.") for name in ("AAL123", *others)]
         world = Seated(*crews, seats=[TOWER], backend=Sounding(160.0))
-        world.microphone(12.0, TOWER, "pressed")
-        world.microphone(14.0, TOWER, "released")
+        world.speaks(12.0, 14.0, TOWER)
         words = transcript("climb flight level three three zero", 1.0)
         take = partial(world.conversation.take, f"asr/{KHZ}", words, b"")
         world.at(15.0, take)
@@ -393,29 +414,3 @@ def test_a_crew_always_calls_its_unit(text: str, outcome: str) -> None:
     world = recognised(text, seat="AAL123")
     heard = [one for one in world.of(HearingTruth) if one.actor == TOWER]
     assert (heard[0].id, heard[0].outcome) == ("microphone.AAL123.1", outcome)
-
-
-# --- what they are told -------------------------------------------------------------------------
-
-
-def test_a_seat_is_told_what_it_has() -> None:
-    world = Seated(CLEARANCE, READBACK, seats=[TOWER, "AAL123"], backend=Sounding(160.0))
-    told = {
-        info.seat: info
-        for info in world.conversation.infos(
-            is_recognised=True, voice_is_recorded=False, may_pause=True,
-            spoken_from=Severity.CAUTION,
-        )
-    }  # fmt: skip
-    crew_of, unit = told["AAL123"], told[TOWER]
-    spec = next(each for each in world.scenario.actors if each.callsign == "AAL123")
-    assert (crew_of.category, crew_of.icao24) == ("aircraft", spec.icao24)
-    assert crew_of.recipients == ("AAL123", spec.icao24)
-    assert (unit.category, unit.icao24) == ("unit", None)
-    assert unit.recipients[0] == TOWER
-    for info in told.values():
-        assert info.frequencies_khz == (KHZ,)
-        assert (info.has_sound, info.is_recognised, info.voice_is_recorded) == (True, True, False)
-        assert (info.may_pause, info.longest_call_s) == (True, 60.0)
-        assert info.spoken_from is Severity.CAUTION
-        assert not info.has_own_receiver

@@ -13,7 +13,9 @@ from airhilt.messages import (
     AdvisoryAudio,
     EquipmentAlert,
     Evidence,
+    LeaveSeat,
     MaintainLevel,
+    SeatAction,
     Severity,
 )
 from airhilt.sim import Director, Priority, Virtual
@@ -190,7 +192,8 @@ def told_with_person(*, taken_s: float, left_s: float, until_s: float | None = N
     for t_s, message in messages:
         take = partial(delivery.take, "advisory/AAL123", message, b"")
         director.at(seconds_to_ns(t_s), take, Priority.SCRIPT)
-    left = partial(delivery.person_left, "AAL123")
+    leaves = SeatAction(holder="somebody", act=LeaveSeat())
+    left = partial(delivery.take, "seat/AAL123/do", leaves, b"")
     director.at(seconds_to_ns(left_s), left, Priority.SCRIPT)
     director.at(seconds_to_ns(20.0), director.stop, Priority.OBSERVE)
     director.run()

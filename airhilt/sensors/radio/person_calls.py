@@ -1,21 +1,21 @@
-"""The seats of people: what the script has for them to say, and the calls that they make."""
+"""The calls that people at seats make, and those of the script that wait for them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Mapping
 from functools import partial
 
-from airhilt.messages import SeatNotice, SpokenWords, TaskCard
+from airhilt.messages import SayText, TaskCard, key_chunk
 from airhilt.phraseology.call import Call
 from airhilt.scenario.models import ScriptedCommand
-from airhilt.sensors.base import Publish
-from airhilt.sensors.radio.hearing import key_chunk
+from airhilt.seats import Seats
 from airhilt.sensors.radio.radio_call import RadioCall
 from airhilt.sensors.radio.stations import Stations
+from airhilt.sim import Director
 from airhilt.world.actors.listening import mean_the_same
 
 
-class Seats:
+class PersonCalls:
     """Makes calls of what people say.
 
     A call of the script that is due at a seat is told to the person there. What the person says to
@@ -27,64 +27,25 @@ class Seats:
     ----------
     said
         Calls by the ids of their transmissions, in the order in which they were made.
-
-    Attributes
-    ----------
-    names
-        Units and actors whose calls a person makes.
     """
 
     def __init__(
         self,
-        names: Collection[str],
+        seats: Seats,
         stations: Stations,
         said: Mapping[str, RadioCall],
-        publish: Publish,
-        now_ns: Callable[[], int],
+        director: Director,
     ) -> None:
-        self.names = frozenset(names)
-        self._by_chunk = {key_chunk(name): name for name in names}
+        self._seats = seats
         self._stations = stations
         self._said = said
-        self._publish = publish
-        self._now_ns = now_ns
-        self._left: set[str] = set()
-        """Seats whose person has left them."""
-        self._listening: dict[str, frozenset[int]] = {}
-        """Frequencies in kHz by seat, as its person has chosen them."""
+        self._director = director
         self._due: list[RadioCall] = []
         """Calls of the script that wait for their person."""
         self._count = 0
 
-    def has_person(self, name: str) -> bool:
-        """Return whether a person speaks and acts for a unit or an actor, and nobody else.
-
-        A seat that nobody has taken yet waits for its person. One whose person has left is a part
-        of the script again.
-        """
-        return name in self.names and name not in self._left
-
-    def listen(self, name: str, frequencies_khz: Collection[int]) -> bool:
-        """Note what the person at a seat listens to; return true if that has changed."""
-        before = self._listening.get(name, frozenset(self._stations.selectable(name)))
-        self._listening[name] = frozenset(frequencies_khz)
-        return self._listening[name] != before
-
-    def listens(self, name: str, frequency_khz: int) -> bool:
-        """Return whether somebody listens to a frequency; all do but people who switch it off."""
-        return frequency_khz in self._listening.get(name, {frequency_khz})
-
-    def occupy(self, speaker: str, *, is_taken: bool) -> list[RadioCall]:
-        """Note that a person has taken a seat or left it; return the calls that the script makes.
-
-        These are the calls that wait for a person who has left.
-        """
-        if is_taken:
-            self._left.discard(speaker)
-            return []
-        self._left.add(speaker)
-        self._listening.pop(speaker, None)
-        self.notify(speaker, f"Nobody is at the seat: the script of {speaker} goes on by itself.")
+    def leave(self, speaker: str) -> list[RadioCall]:
+        """Return the calls that waited for a person who has left, which the script makes now."""
         waiting = [call for call in self._due if call.speaker == speaker and not call.times_said]
         for call in waiting:
             self._finish(call)
@@ -95,34 +56,20 @@ class Seats:
         self._due.append(call)
         if call.addressed is not None:
             call.once_taken_by(call.addressed, partial(self._finish, call))
-        self._publish_card(call)
+        card = TaskCard(
+            line=call.id,
+            due_ns=self._director.now_ns,
+            addressed=call.addressed,
+            frequency_khz=call.frequency_khz,
+            text=call.said,
+        )
+        self._seats.add_task(call.speaker, card)
 
     def _finish(self, call: RadioCall) -> None:
         """Take away the card of a call."""
         if call in self._due:
             self._due.remove(call)
-            self._publish_card(call, is_done=True)
-
-    def _publish_card(self, call: RadioCall, *, is_done: bool = False) -> None:
-        card = TaskCard(
-            t_ns=self._now_ns(),
-            line=call.id,
-            seat=call.speaker,
-            addressed=call.addressed,
-            frequency_khz=call.frequency_khz,
-            text=call.said,
-            is_done=is_done,
-        )
-        self._publish(f"task/{key_chunk(call.speaker)}", card)
-
-    def notify(self, speaker: str, text: str) -> None:
-        """Tell the person at a seat something in words."""
-        notice = SeatNotice(t_ns=self._now_ns(), seat=speaker, text=text)
-        self._publish(f"notice/{key_chunk(speaker)}", notice)
-
-    def speaker(self, seat: str) -> str:
-        """Return the unit or callsign of a seat, which is named as a part of keys."""
-        return self._by_chunk[seat]
+            self._seats.end_task(call.speaker, call.id)
 
     def frequency_khz(self, speaker: str, given_khz: int | None) -> int:
         """Return the frequency on which a person speaks: the given one, or the seat's first."""
@@ -130,15 +77,8 @@ class Seats:
         assert frequency_khz is not None  # There are no seats without lines.
         return frequency_khz
 
-    def call(self, seat: str, words: SpokenWords) -> RadioCall:
-        """Return the call that the person at a seat makes with some words.
-
-        Parameters
-        ----------
-        seat
-            Name of the seat as a part of keys.
-        """
-        speaker = self.speaker(seat)
+    def call(self, speaker: str, words: SayText) -> RadioCall:
+        """Return the call that a person makes with some words."""
         frequency_khz = self.frequency_khz(speaker, words.frequency_khz)
         return self.make(speaker, frequency_khz, words.text)
 
@@ -182,7 +122,7 @@ class Seats:
             text = (
                 f"{call.addressed} reads a condition back and waits. Say it again when it is met."
             )
-            self.notify(call.speaker, text)
+            self._seats.notify(call.speaker, text)
 
     def addresses(self, speaker: str, meant: Call) -> bool:
         """Return whether it is known whom some words are for: a crew always calls its unit."""
