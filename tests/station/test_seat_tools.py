@@ -166,7 +166,7 @@ def test_a_page_that_is_loaded_again_goes_on_at_its_seat_with_all_that_was_chose
     run.deeds.clear()
     page.evaluate("location.reload()")
     page.wait_for("document.getElementById('seat-take')?.textContent === 'Leave the seat'")
-    page.wait_for("document.getElementById('seat-uses').value === 'words'")
+    page.wait_for("document.getElementById('seat-uses')?.value === 'words'")
     page.click("seat-take")
     page.wait_for("document.getElementById('seat-take').textContent === 'Take the seat'")
     assert page.evaluate("document.getElementById('seat-uses').value") == ""

@@ -23,6 +23,7 @@ export class Talk {
   #frequencies;
   #phrases;
   #workload;
+  #spokenFrom = null; // least severity that the assistant speaks
   #isPrepared = false; // what is known of the seat from its beginning has been shown
   #roundTrip = 0; // s
   #isBehind = false; // what comes was sent while the connection was lost
@@ -187,10 +188,13 @@ export class Talk {
     this.#pace.setState(state);
     this.#workload.take(isOver ? null : state.question, this.#run.now ?? 0);
     this.#frequencies.show(state.frequencies_khz, state.tuned_khz);
-    this.#advisories.setSpoken(state.spoken_from);
+    if (!this.#isPrepared || state.spoken_from !== this.#spokenFrom) {
+      this.#spokenFrom = state.spoken_from;
+      this.#advisories.setSpoken(state.spoken_from);
+      this.#takeActive(); // What is in force and nobody speaks sounds now.
+    }
     if (this.#isPrepared) return;
     this.#isPrepared = true;
-    this.#takeActive(); // What is in force and nobody speaks sounds now.
     this.#phrases.setSeat(this.#own, state.phraseology);
     // The space bar is not to give the seat back at once.
     if (document.activeElement === byId("seat-take"))
