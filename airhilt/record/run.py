@@ -187,7 +187,7 @@ def _log_text(name: str, reader: LogReader, record: FileRecord | None) -> str:
     if not reader.is_closed:
         ended = f"{reader.end_ns / SECOND_NS:.3f} s"
         return f"{name}: damaged from {ended} to its end: it breaks off there"
-    if reader.is_faultless:
+    if reader.is_faultless():
         return (
             f"{name}: changed after the run: its own checksums are right, but its SHA-256 is not "
             "that in run.json"
