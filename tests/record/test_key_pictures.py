@@ -210,8 +210,8 @@ def test_pictures_of_many_cameras_share_the_room_in_which_they_wait(
     assert len(run.pictures._waiting._pictures) == 7, "those of the tower still wait"
 
 
-def waiting_for(*seqs: int) -> tuple[WaitingPictures[Picture], list[int]]:
-    waiting: WaitingPictures[Picture] = WaitingPictures()
+def waiting_for(*seqs: int) -> tuple[WaitingPictures, list[int]]:
+    waiting = WaitingPictures()
     crowded_out = [
         picture.header.seq
         for seq in seqs
@@ -234,7 +234,7 @@ def test_pictures_wait_for_their_detections_as_long_as_there_is_room() -> None:
 
 
 def test_one_picture_waits_however_large_it_is() -> None:
-    waiting: WaitingPictures[Picture] = WaitingPictures()
+    waiting = WaitingPictures()
     header: CameraFrame = frame(0)
     assert waiting.add(Picture(header, bytes(70_000_000), ())) == []
     assert numbers(waiting.everything()) == [0]

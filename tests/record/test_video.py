@@ -160,7 +160,7 @@ def test_an_advisory_stands_below_the_picture_while_it_is_active(film: Film) -> 
 
 
 def advised(film: Film, carrier: str | None) -> Advisory | None:
-    return film.recorder._advisory_for(Picture(frame(0, carrier=carrier), b"", ()))
+    return film.recorder._advisory_for(frame(0, carrier=carrier))
 
 
 def test_a_camera_shows_what_its_owner_is_told_unless_something_worse_stands(film: Film) -> None:
@@ -190,7 +190,7 @@ def test_camera_and_clock_stand_above_the_picture(film: Film) -> None:
 def test_any_message_has_room(message: str) -> None:
     overlay = Overlay(*SIZE)
     picture = Picture(frame(0, size=SIZE), pixels(128, SIZE), ())
-    image = overlay.image(picture, None, advisory(0, message=message))
+    image = overlay.image(picture._replace(advisory=advisory(0, message=message)), None)
     assert image.size == overlay.size == (320, 228)
 
 
@@ -200,7 +200,7 @@ def test_any_message_has_room(message: str) -> None:
 def test_boxes_at_the_edge_are_drawn(box: tuple[float, float, float, float]) -> None:
     picture = Picture(frame(0, size=SIZE), pixels(128, SIZE), ())
     detections = seen(0, found(box, track_id=None, hits=1))
-    assert Overlay(*SIZE).image(picture, detections, None).size == (320, 228)
+    assert Overlay(*SIZE).image(picture, detections).size == (320, 228)
 
 
 def test_every_severity_has_its_colour() -> None:
