@@ -7,7 +7,6 @@ from typing import Any
 
 from airhilt.messages import FORMER_MODALITIES
 from airhilt.record import Logged, RunInfo
-from airhilt.report.text import runway_name
 from airhilt.text import readable
 from airhilt.units import SECOND_NS
 
@@ -168,6 +167,11 @@ def _conflict(message: Json, _: Logged) -> Json:
         "vertical_m": message["vertical_m"],
         "runway": None if runway is None else runway_name(runway),
     }
+
+
+def runway_name(key: str) -> str:
+    """Return the name of a runway, such as ``01/19``, for ``01-19`` in a key."""
+    return key.replace("-", "/")
 
 
 def _event(message: Json, _: Logged) -> Json:

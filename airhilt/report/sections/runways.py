@@ -8,9 +8,9 @@ import numpy as np
 
 from airhilt.messages import RunwayTruth
 from airhilt.record import Logged, RunFolder
+from airhilt.report.events import runway_name
 from airhilt.report.intervals import Interval, Intervals
 from airhilt.report.sections import Content, Section
-from airhilt.report.text import runway_name
 from airhilt.text import readable
 from airhilt.units import NAUTICAL_MILE, SECOND_NS
 
