@@ -13,7 +13,7 @@ from airhilt.messages import (
     Severity,
 )
 from airhilt.metrics.summary import AdvisorySummary, RunwayIncursion
-from airhilt.units import SECOND_NS
+from airhilt.units import SECOND_NS, ns_to_seconds
 from airhilt.world.truth.conflicts import ConflictMonitor, Pair
 
 JUSTIFIED_WITHIN_S = 300.0
@@ -135,7 +135,7 @@ class AdvisoryRecords:
                 kind=record.first.kind,
                 traffic=self._traffic(record.first),
                 t_first_s=record.first.t_ns / SECOND_NS,
-                t_spoken_s=None if record.spoken_ns is None else record.spoken_ns / SECOND_NS,
+                t_spoken_s=ns_to_seconds(record.spoken_ns),
                 severity=record.severity,
                 revisions=len(record.revisions),
                 nuisance=self._is_nuisance(record, involved),

@@ -164,8 +164,12 @@ def read_run(recorded: Run, page: Path, contents: Sequence[GuardedContent]) -> R
         summary = _summary(folder, notes)
         _note_how_it_ended(info, log, notes)
         airport = _airport(info, notes)
-        locate = _locate(log, airport)
-        tracks = _tracks(log, locate)
+        around = Projection.around(chain.from_iterable(log.states.values()))
+        locate = around.locate if airport is None else airport.locate
+        tracks = {
+            actor: Track.of(states, log.phases[actor].as_json(), locate)
+            for actor, states in log.states.items()
+        }
         pair, annotated = _pair(info, summary, tracks)
         return RunData(
             folder=folder,
@@ -325,20 +329,6 @@ def _airport(info: RunInfo, notes: list[str]) -> ReportAirport | None:
     except AirhiltError as error:
         notes.append(f"The airport cannot be drawn: {readable(str(error))}")
         return None
-
-
-def _locate(log: _Log, airport: ReportAirport | None) -> Locate:
-    """Return the projection of the plan: around the airport, or around the traffic."""
-    if airport is not None:
-        return airport.locate
-    return Projection.around(chain.from_iterable(log.states.values())).locate
-
-
-def _tracks(log: _Log, locate: Locate) -> dict[str, Track]:
-    return {
-        actor: Track.of(states, log.phases[actor].as_json(), locate)
-        for actor, states in log.states.items()
-    }
 
 
 def _kind(actor: Json, files: Json) -> Json:
