@@ -179,9 +179,18 @@ def test_a_truncated_log_of_a_finished_run_says_from_when_on(run_copy: Path, sha
     assert end_s == float("inf")
 
 
-def test_a_log_that_ends_in_a_chunk_is_that_of_a_killed_run(run_copy: Path) -> None:
-    kill(run_copy)
-    assert not quiet(run_copy).damage
+@pytest.mark.parametrize(
+    ("content", "reason"),
+    [(None, "it ends before its first message"), (b"plain text", "it has not the magic bytes")],
+)
+def test_a_file_without_a_message_is_no_log(
+    tmp_path: Path, content: bytes | None, reason: str
+) -> None:
+    path = tmp_path / "log.mcap"
+    LogWriter(path).close()
+    path.write_bytes(path.read_bytes()[:40] if content is None else content)
+    with pytest.raises(RunFolderError, match=rf"log\.mcap: not an MCAP log: {reason}"):
+        list(read_log(path))
 
 
 def test_another_log_in_its_place_is_named(run_copy: Path) -> None:

@@ -208,15 +208,6 @@ def test_each_actor_has_a_timeline_of_its_phases(page: Page, incursion: Path) ->
     assert {"glide", "flare", "driving", "standing"} <= set(texts(page, "phases"))
 
 
-def test_all_charts_over_time_have_one_cursor(page: Page, incursion: Path) -> None:
-    page.open(incursion)
-    before = cursors(page)
-    page.evaluate("clock.set(clock.t + 10)")
-    after = cursors(page)
-    assert len(before) == 5
-    assert all(later > earlier for earlier, later in zip(before, after, strict=True))
-
-
 def test_separation_on_a_runway_is_in_metres_without_a_minimum(page: Page, incursion: Path) -> None:
     page.open(incursion)
     assert {"Horizontal (m)", "Vertical (ft)", "1,000"} <= set(texts(page, "separation"))
