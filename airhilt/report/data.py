@@ -20,7 +20,6 @@ from airhilt.metrics.summary import ClosestApproach, Summary
 from airhilt.record import Logged, Run, RunFolder, RunInfo
 from airhilt.report.events import MOST_EVENTS, Events
 from airhilt.report.intervals import seconds
-from airhilt.report.sections import GuardedContent
 from airhilt.report.tracks import (
     Locate,
     Phases,
@@ -39,6 +38,7 @@ from airhilt.world.surface.kinds import load_kind
 
 if TYPE_CHECKING:
     from airhilt.report.airport import ReportAirport
+    from airhilt.report.sections import GuardedContent
 
 Json = dict[str, Any]
 
