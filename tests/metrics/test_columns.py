@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from typing import Any
 
 import pytest
@@ -18,7 +17,6 @@ from airhilt.metrics.columns import (
 from airhilt.metrics.summary import (
     AdvisorySummary,
     ClosestApproach,
-    EvidenceAge,
     LatencyStatistics,
     RadioStatistics,
     Summary,
@@ -92,16 +90,6 @@ def test_a_row_has_exactly_the_columns_with_values_of_their_types() -> None:
     for each in metric_columns():
         value = row[each.name]
         assert value is None or type(value) is types[each.type], each.name
-
-
-def test_a_row_is_the_same_from_the_file_of_a_summary() -> None:
-    given = summary(
-        closest_approach=ClosestApproach(t_s=1.0, horizontal_m=2.0, vertical_m=3.0),
-        latencies={"asr": LatencyStatistics.of([1.0, 2.0])},
-        evidence={"adsb": EvidenceAge(mean_s=0.5, max_s=1.0, stale_share=0.0)},
-        advisories=[advisory("WARNING")],
-    )
-    assert metrics_of(json.loads(given.model_dump_json())) == metrics_of(given)
 
 
 def test_models_within_models_and_stages_have_the_names_of_both() -> None:

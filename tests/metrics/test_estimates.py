@@ -71,12 +71,6 @@ def test_the_interval_of_a_median_holds_the_true_median_as_often_as_it_says() ->
     assert 87 <= held <= 99
 
 
-def test_a_median_is_known_of_one_run_and_not_of_none() -> None:
-    assert median_of([]) == UNKNOWN
-    assert median_of([3.0]).value == 3.0
-    assert median_of([1.0, 2.0, 9.0]).value == 2.0
-
-
 def test_the_mean_of_many_has_the_interval_of_student() -> None:
     """For 201 values: 1.9719 standard errors on either side."""
     values = [0.0] * 100 + [1.0] * 101

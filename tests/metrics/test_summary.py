@@ -46,10 +46,6 @@ RUN = {"seed": 1, "assistant": "reference", "outcome": "finished", "inputs_dropp
        "real_time_factor": 1.0, "cpu_s": 1.0}  # fmt: skip
 
 
-def test_the_statistics_of_no_samples_are_none() -> None:
-    assert LatencyStatistics.of([]) == LatencyStatistics(n=0, p50_s=None, p95_s=None, max_s=None)
-
-
 def test_the_statistics_of_samples_are_interpolated_between_them() -> None:
     found = LatencyStatistics.of([4.0, 1.0, 3.0, 2.0])
     assert (found.n, found.p50_s, found.max_s) == (4, 2.5, 4.0)
@@ -144,12 +140,6 @@ def test_nobody_was_warned_where_nothing_was_said_or_only_of_other_traffic() -> 
     other = FollowedRun().take(advisory(9.0, traffic=(FIRST, "UAL7"))).summary()
     assert other.t_first_warning_s is None
     assert other.nuisance_alerts == 1
-
-
-def test_an_alert_that_names_the_pair_and_a_third_is_one_of_the_pair() -> None:
-    summary = FollowedRun().take(advisory(9.0, traffic=(FIRST, SECOND, "UAL7"))).summary()
-    assert summary.t_first_warning_s == 9.0
-    assert summary.nuisance_alerts == 0
 
 
 def test_an_alert_of_traffic_by_its_address_is_one_of_that_traffic() -> None:
@@ -386,21 +376,6 @@ class Airport(FollowedRun):
         self.collector.window.opened_ns = 0
 
 
-@pytest.mark.parametrize(
-    ("metres", "category", "avoided"),
-    [(10.0, "A", False), (30.0, "A", False), (31.0, "B", False), (152.0, "B", False),
-     (153.0, "C", None)],
-)  # fmt: skip
-def test_a_conflict_with_an_incursion_of_category_a_or_b_was_not_avoided(
-    metres: float, category: str, avoided: bool | None
-) -> None:
-    summary = Airport(incursion(metres)).summary()
-    assert summary.runway_incursion_category == category
-    assert summary.avoided is avoided
-    (one,) = summary.runway_incursions
-    assert (one.user, one.intruder, one.t_s, one.closest_m) == (FIRST, SECOND, 5.0, metres)
-
-
 def test_neither_was_one_that_ended_in_a_collision() -> None:
     summary = Airport(incursion(300.0, collided=True)).summary()
     assert summary.runway_incursion_category == "accident"
@@ -423,28 +398,8 @@ def test_an_incursion_of_others_is_not_the_declared_outcome() -> None:
     assert unassisted(of_others) is False
 
 
-def test_without_incursions_there_is_no_category() -> None:
-    summary = Airport().summary()
-    assert (summary.runway_incursions, summary.runway_incursion_category) == ([], None)
-    assert FollowedRun().summary().runway_incursions == []
-
-
 def runway_advisory(*traffic: str) -> Advisory:
     return advisory(9.0, traffic=traffic).model_copy(update={"kind": "runway_conflict"})
-
-
-@pytest.mark.parametrize(
-    ("traffic", "nuisance"),
-    [((FIRST, SECOND), False), ((FIRST,), True), ((FIRST, "UAL7"), True),
-     (("UAL7", "OPS9"), True), (("UAL7",), True)],
-)  # fmt: skip
-def test_a_runway_alert_of_the_pair_in_conflict_is_no_nuisance(
-    traffic: tuple[Any, ...], nuisance: bool
-) -> None:
-    """Traffic by ADS-B has an address: an alert that does not name it is not about it."""
-    summary = Airport().take(runway_advisory(*traffic)).summary()
-    assert summary.nuisance_alerts == int(nuisance)
-    assert (summary.t_first_warning_s == 9.0) is not nuisance
 
 
 def test_in_a_nominal_scenario_a_runway_alert_is_a_nuisance_unless_it_came_true() -> None:
@@ -500,12 +455,6 @@ def test_a_warning_whose_voice_never_comes_warns_nobody() -> None:
     assert summary.advisories[0].t_spoken_s is None
 
 
-def test_the_first_voice_of_several_copies_and_revisions_is_the_first_warning() -> None:
-    followed = told_aloud().take(advisory(9.0)).take(advisory(10.0, "WARNING", revision=1))
-    followed.take(voice(10.5, revision=0)).take(voice(11.0, revision=1))
-    assert followed.summary().t_first_warning_s == 10.5
-
-
 def test_where_the_voice_is_lost_what_waits_for_it_is_read_at_once() -> None:
     followed = told_aloud().take(advisory(9.0))
     followed.take(Status(t_ns=12 * SECOND_NS, modality="tts", state="lost"))
@@ -520,13 +469,6 @@ def test_what_else_changes_leaves_it_waiting_for_its_voice(modality: str, state:
     followed = told_aloud().take(advisory(9.0))
     followed.take(Status(t_ns=12 * SECOND_NS, modality=modality, state=state))
     assert followed.summary().t_first_warning_s is None
-
-
-def test_the_margin_over_tcas_is_counted_from_the_voice() -> None:
-    followed = told_aloud().take(advisory(0.0))
-    followed.watch.fly(3.0)
-    followed.take(voice(3.0, t_dec_s=0.0))
-    assert followed.summary().margin_over_tcas_ta_s == pytest.approx(57.0 - 48.0, abs=1.5)
 
 
 @pytest.mark.parametrize(("outcome", "spoken_s"), [("understood", 9.8), ("misheard", None)])

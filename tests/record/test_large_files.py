@@ -171,16 +171,6 @@ def test_a_table_that_claims_too_much_is_refused(
         SweepFolder.open(folder).table()
 
 
-def test_a_report_names_a_table_that_claims_too_much(airhilt_command: Any, tmp_path: Path) -> None:
-    folder = write_sweep(tmp_path / "sweep", grid(["s01a_tight_timing"], ["reference"]))
-    pq.write_table(long_text_in_each_row(), folder / "sweep.parquet", compression="zstd")
-    assert (folder / "sweep.parquet").stat().st_size < 200_000
-    done = airhilt_command("report", folder)
-    assert done.returncode == 2
-    (line,) = done.stderr.splitlines()
-    assert "sweep.parquet: damaged (its texts have over" in line
-
-
 def test_a_table_of_texts_is_read_as_it_was_written(tmp_path: Path) -> None:
     folder = write_sweep(tmp_path / "sweep", grid(["s01a_tight_timing"], ["reference"]))
     written = pq.read_table(folder / "sweep.parquet")
