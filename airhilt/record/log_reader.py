@@ -246,7 +246,7 @@ def _chunk(stream: BinaryIO, opcode: int, length: int) -> Chunk:
     """
     if opcode != Opcode.CHUNK or length > LARGEST_CHUNK_BYTES:
         raise ValueError("no chunk")
-    chunk = Chunk.read(ReadDataStream(io.BytesIO(stream.read(length))))
+    chunk: Chunk = Chunk.read(ReadDataStream(io.BytesIO(stream.read(length))))
     if length != CHUNK_HEAD_BYTES + len(chunk.data):
         raise ValueError("no chunk")
     size = zstandard.frame_content_size(chunk.data)

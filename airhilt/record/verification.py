@@ -162,8 +162,8 @@ def sign_folder(path: Path, key: Path) -> str:
     """
     signer = private_key(key)
     folder = _folder(path)
-    has_parts = isinstance(folder, SweepFolder) and folder.parts_path.is_dir()
-    with folder.locked() if has_parts else nullcontext():
+    is_sweep_with_parts = isinstance(folder, SweepFolder) and folder.parts_path.is_dir()
+    with SweepFolder(path).locked() if is_sweep_with_parts else nullcontext():
         found = verify(path)
         if found.state != "intact":
             said = f": {found.problems[0]}" if found.problems else ""

@@ -58,7 +58,8 @@ def chunk(content: bytes) -> bytes:
     compressed = zstandard.compress(content)
     builder = RecordBuilder()
     Chunk("zstd", compressed, 1, 0, zlib.crc32(content), len(content)).write(builder)
-    return builder.end()
+    written: bytes = builder.end()  # type: ignore[no-untyped-call]
+    return written
 
 
 @any_input

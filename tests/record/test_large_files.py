@@ -20,6 +20,7 @@ import zstandard
 from mcap.data_stream import RecordBuilder
 from mcap.opcode import Opcode
 from mcap.records import Chunk
+from mcap.stream_reader import get_chunk_data_stream
 
 from airhilt.audio.wav import LARGEST_WAV_BYTES
 from airhilt.configuration import read_configuration
@@ -204,12 +205,11 @@ def test_broken_chunks_within_each_other_end_the_log_before_they_hold_its_reader
     path.write_bytes(MAGIC + b"".join(parts))
     monkeypatch.setattr(log_reader, "LARGEST_CHUNK_BYTES", 1_000_000)
     monkeypatch.setattr(log_reader, "MOST_EXPANSION", 10)
-    expanded = []
-    expand = log_reader.get_chunk_data_stream
+    expanded: list[int] = []
 
     def counted(chunk: Chunk, **options: bool) -> Any:
         expanded.append(len(chunk.data))
-        return expand(chunk, **options)
+        return get_chunk_data_stream(chunk, **options)
 
     monkeypatch.setattr(log_reader, "get_chunk_data_stream", counted)
     reader = LogReader(path)
@@ -229,7 +229,7 @@ def test_a_chunk_that_expands_beyond_its_limit_is_damaged_and_not_expanded(
     Chunk("zstd", data, 0, 0, zlib.crc32(records), claimed_bytes).write(builder)
     del records
     path = tmp_path / "log.mcap"
-    path.write_bytes(MAGIC + builder.end())
+    path.write_bytes(MAGIC + builder.end())  # type: ignore[no-untyped-call]
     tracemalloc.start()
     reader = LogReader(path)
     assert list(reader.messages()) == []
