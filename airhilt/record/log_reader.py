@@ -157,7 +157,7 @@ class LogReader:
             yield from self._of_chunk(records, length)
         self.is_closed = index is not None or _is_end_of_data(stream, size, self._end)
         total = self._nameless if index is None else index.messages
-        if index is None and self._is_end_damaged:
+        if self._is_end_damaged and not self.is_closed:
             self.gaps.append(Gap(self.end_ns, None, None))
         elif total > self._last:
             self.gaps.append(Gap(self.end_ns, None, total - self._last))
