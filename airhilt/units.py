@@ -30,6 +30,11 @@ def seconds_to_ns(seconds: float) -> int:
     return round(seconds * SECOND_NS)
 
 
+def ns_to_seconds(t_ns: int | None) -> float | None:
+    """Return a time in seconds, None if it is not known."""
+    return None if t_ns is None else t_ns / SECOND_NS
+
+
 def wrap_angle(angle: float) -> float:
     """Return ``angle`` (rad) brought into [-pi, pi)."""
     return (angle + math.pi) % (2.0 * math.pi) - math.pi

@@ -12,8 +12,8 @@ from airhilt.messages import (
     AdvisoryKind,
     Severity,
 )
-from airhilt.metrics.summary import AdvisorySummary, RunwayIncursion, severest
-from airhilt.units import SECOND_NS
+from airhilt.metrics.summary import AdvisorySummary, RunwayIncursion
+from airhilt.units import SECOND_NS, ns_to_seconds
 from airhilt.world.truth.conflicts import ConflictMonitor, Pair
 
 JUSTIFIED_WITHIN_S = 300.0
@@ -50,6 +50,11 @@ class AdvisoryRecord:
     severities: list[Severity] = field(default_factory=list)
     revisions: set[int] = field(default_factory=set)
     spoken_ns: int | None = None
+
+    @property
+    def severity(self) -> Severity:
+        """Highest severity of all revisions."""
+        return max(self.severities, key=lambda severity: severity.rank)
 
 
 class AdvisoryRecords:
@@ -113,8 +118,7 @@ class AdvisoryRecords:
         """Return the number of alerts about traffic in no conflict, annotated or real."""
         involved = _involved(incursions)
         return sum(
-            severest(record.severities).rank >= SPEAK_MIN_LEVEL.rank
-            and self._is_nuisance(record, involved)
+            record.severity.rank >= SPEAK_MIN_LEVEL.rank and self._is_nuisance(record, involved)
             for record in self._records.values()
         )
 
@@ -131,8 +135,8 @@ class AdvisoryRecords:
                 kind=record.first.kind,
                 traffic=self._traffic(record.first),
                 t_first_s=record.first.t_ns / SECOND_NS,
-                t_spoken_s=None if record.spoken_ns is None else record.spoken_ns / SECOND_NS,
-                severity=severest(record.severities),
+                t_spoken_s=ns_to_seconds(record.spoken_ns),
+                severity=record.severity,
                 revisions=len(record.revisions),
                 nuisance=self._is_nuisance(record, involved),
             )

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 
 from airhilt.messages import (
@@ -16,7 +17,7 @@ from airhilt.messages import (
     Transmission,
 )
 from airhilt.metrics.summary import RadioStatistics
-from airhilt.metrics.words import Score, recognition, score
+from airhilt.metrics.words import recognition, score
 from airhilt.phraseology import parse_call
 
 TEXT = "text"
@@ -113,9 +114,15 @@ class CallRecords:
             for call, said in clear
             for transcript in call.recognised
         ]
-        levels = sorted({said.snr_db for _, said in spoken}, key=_quietest_last)
+        levels = sorted(
+            {said.snr_db for _, said in spoken},
+            key=lambda level: math.inf if level is None else level,
+        )
+        outcomes = Counter(hearing.outcome for call, _ in spoken for hearing in call.hearings)
         return RadioStatistics(
-            **recognition([one for _, one in scores], _only(levels)).model_dump(),
+            **recognition(
+                [one for _, one in scores], levels[0] if len(levels) == 1 else None
+            ).model_dump(),
             transmissions=len(spoken),
             blocked=sum(
                 bool(said.blocked_by) and (bool(said.text) or said.is_from_microphone)
@@ -128,28 +135,14 @@ class CallRecords:
             hallucinated=(
                 sum(bool(transcript.text) for transcript in noise_heard) if noise_heard else None
             ),
-            hearing=_outcomes(hearing for call, _ in spoken for hearing in call.hearings),
+            hearing=dict(sorted(outcomes.items())),
             say_agains=sum(
                 parse_call(said.text, callsigns).kind == "say_again" for _, said in words
             ),
             repeats=sum(REPEAT.search(said.id) is not None for _, said in words),
-            by_snr=[recognition(_at(level, scores), level) for level in levels]
-            if scores and len(levels) > 1
-            else [],
+            by_snr=[
+                recognition([one for snr_db, one in scores if snr_db == level], level)
+                for level in levels
+                if scores and len(levels) > 1
+            ],
         )
-
-
-def _quietest_last(snr_db: float | None) -> float:
-    return float("inf") if snr_db is None else snr_db
-
-
-def _only(levels: Sequence[float | None]) -> float | None:
-    return levels[0] if len(levels) == 1 else None
-
-
-def _at(level: float | None, scores: Iterable[tuple[float | None, Score]]) -> list[Score]:
-    return [one for snr_db, one in scores if snr_db == level]
-
-
-def _outcomes(hearings: Iterable[HearingTruth]) -> dict[str, int]:
-    return dict(sorted(Counter(hearing.outcome for hearing in hearings).items()))

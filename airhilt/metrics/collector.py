@@ -41,7 +41,7 @@ from airhilt.scenario.models import LineBegun, Scenario
 from airhilt.scenario.roster import callsigns_of, roster_of
 from airhilt.sim import StepRecord
 from airhilt.sim.payload import Payload
-from airhilt.units import SECOND_NS
+from airhilt.units import SECOND_NS, ns_to_seconds
 from airhilt.world.truth.conflicts import ConflictMonitor
 from airhilt.world.truth.runways import RunwayMonitor
 
@@ -226,19 +226,19 @@ class Collector:
 
     def _warning_fields(self, now_ns: int) -> dict[str, Any]:
         """Return the fields about the conflict, its window and the first warning."""
-        conflict_s = _seconds(self.window.begun_ns)
-        warning_s = _seconds(self._first_warning.t_ns)
+        conflict_s = ns_to_seconds(self.window.begun_ns)
+        warning_s = ns_to_seconds(self._first_warning.t_ns)
         is_in_time = self._is_warned_in_time()
         truth = self._outcome.pair_truth
         closest = self._outcome.closest_approach
         return {
             "t_conflict_s": conflict_s,
-            "t_window_s": _seconds(self.window.opened_ns),
-            "t_conflict_end_s": _seconds(self.window.end_ns(now_ns)),
+            "t_window_s": ns_to_seconds(self.window.opened_ns),
+            "t_conflict_end_s": ns_to_seconds(self.window.end_ns(now_ns)),
             "t_first_warning_s": warning_s,
             "time_to_first_warning_s": _difference(warning_s, conflict_s),
             "time_to_first_warning_after_call_s": _difference(
-                warning_s, _seconds(self._call_ended_ns())
+                warning_s, ns_to_seconds(self._call_ended_ns())
             ),
             "first_warning_parts": self._warning_parts(),
             "lead_before_closest_approach_s": _difference(
@@ -306,10 +306,6 @@ class Collector:
             "runway_incursion_category": outcome.worst_category(),
             "avoided": outcome.avoided(was_warned=self._is_first_to_warn_in_time()),
         }
-
-
-def _seconds(t_ns: int | None) -> float | None:
-    return None if t_ns is None else t_ns / SECOND_NS
 
 
 def _difference(later_s: float | None, earlier_s: float | None) -> float | None:

@@ -64,20 +64,15 @@ class Column:
         Unit of the values: 1 for counts and shares, empty for texts and for true and false.
     description
         Meaning of the values, in one sentence.
+    path
+        Keys under which ``summary.json`` has the value; empty if it is worked out from others.
     """
 
     name: str
     type: Kind
     unit: str
     description: str
-
-
-@dataclass(frozen=True)
-class _Field:
-    """A column, and the keys under which ``summary.json`` has its value."""
-
-    column: Column
-    path: tuple[str, ...]
+    path: tuple[str, ...] = ()
 
 
 class FlatRow:
@@ -106,7 +101,7 @@ class FlatRow:
     @cached_property
     def columns(self) -> tuple[Column, ...]:
         """Columns, in their order."""
-        own = tuple(field.column for field in self._fields)
+        own = _of_model(self._model, (), self._left_out)
         derived = (column_of(one.name, one.type, one.description) for one in self._derived)
         return (*own, *derived)
 
@@ -120,25 +115,20 @@ class FlatRow:
         TypeError, ValueError
             A field has a value of another type.
         """
-        own = {field.column.name: _at(content, field) for field in self._fields}
+        own = {each.name: _at(content, each) for each in self.columns if each.path}
         return own | {each.name: each.value(content) for each in self._derived}
 
-    @cached_property
-    def _fields(self) -> tuple[_Field, ...]:
-        return tuple(_of_model(self._model, (), self._left_out))
 
-
-def column_of(name: str, kind: Kind, description: str) -> Column:
+def column_of(name: str, kind: Kind, description: str, path: tuple[str, ...] = ()) -> Column:
     """Return a column, with the unit that its name ends with."""
-    if kind in ("string", "bool"):
-        return Column(name, kind, "", description)
+    is_number = kind not in ("string", "bool")
     unit = next((unit for end, unit in UNITS.items() if name.endswith(end)), "1")
-    return Column(name, kind, unit, description)
+    return Column(name, kind, unit if is_number else "", description, path)
 
 
 def _of_model(
     model: type[BaseModel], path: tuple[str, ...], left_out: Collection[str] = ()
-) -> Iterator[_Field]:
+) -> Iterator[Column]:
     """Yield the fields of a model that are, or consist of, single values."""
     for name, info in model.model_fields.items():
         if name in left_out:
@@ -154,14 +144,14 @@ def _of_model(
 
 def _of_type(
     annotation: Any, info: FieldInfo, path: tuple[str, ...], context: tuple[str, ...]
-) -> Iterator[_Field]:
+) -> Iterator[Column]:
     """Yield one column, or those of the model that the type is; none for a list."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         yield from _of_model(annotation, path)
     elif (kind := _kind(annotation)) is not None:
         words = " ".join(context).replace("_", " ")
         description = f"{words}: {info.description}" if words else f"{info.description}"
-        yield _Field(column_of("_".join(path), kind, description), path)
+        yield column_of("_".join(path), kind, description, path)
 
 
 def _bare(annotation: Any) -> Any:
@@ -186,17 +176,17 @@ def _kind(annotation: Any) -> Kind | None:
     return kinds.get(annotation)
 
 
-def _at(content: Mapping[str, Any], field: _Field) -> Value:
+def _at(content: Mapping[str, Any], column: Column) -> Value:
     """Return the value of a column; null if the summary does not have it."""
     found: Any = content
-    for key in field.path:
+    for key in column.path:
         if found is None:
             return None
         found = found.get(key)
     if found is None:
         return None
     convert = {"string": str, "bool": bool, "int64": int, "float64": float}
-    value: Value = convert[field.column.type](found)
+    value: Value = convert[column.type](found)
     return value
 
 

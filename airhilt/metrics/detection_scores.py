@@ -6,9 +6,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
-from itertools import pairwise
+from dataclasses import dataclass, field, fields, replace
 
 from airhilt.imaging.boxes import size_px
 from airhilt.imaging.matching import matches
@@ -72,48 +72,26 @@ class _Counts:
     false: int = 0
     false_confirmed: int = 0
     false_tracks: int = 0
-    sightings: list[int] = field(default_factory=lambda: [0] * len(SIZES_PX))
-    recalled: list[int] = field(default_factory=lambda: [0] * len(SIZES_PX))
+    sightings: Counter[float] = field(default_factory=Counter)
+    """Number of sightings by the lower limit of their bin."""
+    recalled: Counter[float] = field(default_factory=Counter)
 
     def add(self, other: _Counts) -> None:
         """Add the counts of another."""
-        self.taken += other.taken
-        self.taken_s += other.taken_s
-        self.left_out += other.left_out
-        self.latencies_s += other.latencies_s
-        self.missed += other.missed
-        self.detections += other.detections
-        self.found += other.found
-        self.labelled += other.labelled
-        self.false += other.false
-        self.false_confirmed += other.false_confirmed
-        self.false_tracks += other.false_tracks
-        self.sightings = [a + b for a, b in zip(self.sightings, other.sightings, strict=True)]
-        self.recalled = [a + b for a, b in zip(self.recalled, other.recalled, strict=True)]
+        for each in fields(self):
+            setattr(self, each.name, getattr(self, each.name) + getattr(other, each.name))
 
     def statistics(self, dropped: int, is_watched: bool) -> DetectionStatistics:
         """Return the statistics; without a detector only the number of pictures is known."""
-        minutes = 0.0 if self.left_out else self.taken_s / 60.0
-        looked_at = len(self.latencies_s)
         if not is_watched:
             return DetectionStatistics(
                 taken=self.taken or None,
                 exposures_left_out=self.left_out if self.taken else None,
-                looked_at=None,
-                dropped=None,
-                missed=None,
                 latency=LatencyStatistics.of([]),
-                detections=None,
-                sightings=None,
-                recall=None,
                 by_size=[],
-                labels_right=None,
-                false_detections=None,
-                false_per_picture=None,
-                false_per_minute=None,
-                false_confirmed_per_minute=None,
-                false_tracks=None,
             )
+        minutes = 0.0 if self.left_out else self.taken_s / 60.0
+        looked_at = len(self.latencies_s)
         return DetectionStatistics(
             taken=self.taken,
             exposures_left_out=self.left_out,
@@ -122,14 +100,16 @@ class _Counts:
             missed=self.missed,
             latency=LatencyStatistics.of(self.latencies_s),
             detections=self.detections,
-            sightings=sum(self.sightings),
-            recall=_ratio(sum(self.recalled), sum(self.sightings)),
+            sightings=self.sightings.total(),
+            recall=_ratio(self.recalled.total(), self.sightings.total()),
             by_size=[
-                SizeRecall(from_px=low, to_px=high, sightings=n, recall=_ratio(recalled, n))
-                for (low, high), n, recalled in zip(
-                    pairwise((*SIZES_PX, None)), self.sightings, self.recalled, strict=True
+                SizeRecall(
+                    from_px=low,
+                    to_px=high,
+                    sightings=self.sightings[low],
+                    recall=_ratio(self.recalled[low], self.sightings[low]),
                 )
-                if low is not None
+                for low, high in zip(SIZES_PX, (*SIZES_PX[1:], None), strict=True)
             ],
             labels_right=_ratio(self.labelled, self.found),
             false_detections=self.false,
@@ -187,9 +167,9 @@ class _Camera:
         found = [sighting for sighting in matched if sighting is not None]
         recalled = {sighting.actor for sighting in found}
         for sighting in filter(must_be_found, truth.sightings):
-            index = sum(size_px(sighting.box) >= least for least in SIZES_PX) - 1
-            self._counts.sightings[index] += 1
-            self._counts.recalled[index] += sighting.actor in recalled
+            least_px = max(least for least in SIZES_PX if size_px(sighting.box) >= least)
+            self._counts.sightings[least_px] += 1
+            self._counts.recalled[least_px] += sighting.actor in recalled
         return [
             FirstDetection(
                 actor=sighting.actor,

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from airhilt.messages import EquipmentAlert
 from airhilt.metrics.advisories import AdvisoryRecords
 from airhilt.metrics.summary import EquipmentSummary, RunwayIncursion
-from airhilt.units import SECOND_NS
+from airhilt.units import SECOND_NS, ns_to_seconds
 
 
 class EquipmentRecords:
@@ -60,18 +60,16 @@ class EquipmentRecords:
         return [
             EquipmentSummary(
                 equipment=name,
-                t_first_warning_s=_seconds(self._warned_ns.get(name)),
-                t_first_action_s=_seconds(self._acted_ns.get(name)),
-                margin_s=_seconds(_difference(self._warned_ns.get(name), warning_ns)),
+                t_first_warning_s=ns_to_seconds(self._warned_ns.get(name)),
+                t_first_action_s=ns_to_seconds(self._acted_ns.get(name)),
+                margin_s=self._margin_s(name, warning_ns),
                 alerts=records.summaries(incursions),
             )
             for name, records in self._records.items()
         ]
 
-
-def _seconds(t_ns: int | None) -> float | None:
-    return None if t_ns is None else t_ns / SECOND_NS
-
-
-def _difference(later_ns: int | None, earlier_ns: int | None) -> int | None:
-    return None if later_ns is None or earlier_ns is None else later_ns - earlier_ns
+    def _margin_s(self, name: str, warning_ns: int | None) -> float | None:
+        warned_ns = self._warned_ns.get(name)
+        if warned_ns is None or warning_ns is None:
+            return None
+        return (warned_ns - warning_ns) / SECOND_NS

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -116,23 +117,14 @@ def median_of(values: Sequence[float] | Array) -> Estimate:
 
     The interval is None for fewer than `FEWEST_RESAMPLED` values.
     """
-    from scipy.stats import bootstrap
-
     sample = np.asarray(values, dtype=np.float64)
     if sample.size == 0:
         return UNKNOWN
     median = float(np.median(sample))
     if sample.size < FEWEST_RESAMPLED:
         return Estimate(median, None, None, sample.size)
-    found = bootstrap(
-        (sample,),
-        np.median,
-        n_resamples=RESAMPLES,
-        confidence_level=CONFIDENCE,
-        method="percentile",
-        random_state=np.random.default_rng(SEED),
-    ).confidence_interval
-    return Estimate(median, float(found.low), float(found.high), sample.size)
+    low, high = _bootstrap(sample, np.median, "percentile")
+    return Estimate(median, low, high, sample.size)
 
 
 def rate_of(
@@ -163,26 +155,32 @@ def _interval_of_ratio(above: Array, below: Array) -> tuple[float, float]:
     """Return the interval of the ratio of two sums, by a bootstrap over their parts together."""
     random = np.random.default_rng(SEED)
     drawn = random.multinomial(above.size, np.full(above.size, 1.0 / above.size), RESAMPLES)
-    low, high = np.quantile((drawn @ above) / (drawn @ below), _tails())
+    tails = (1.0 - CONFIDENCE) / 2.0, (1.0 + CONFIDENCE) / 2.0
+    low, high = np.quantile((drawn @ above) / (drawn @ below), tails)
     return float(low), float(high)
 
 
 def _interval_of_mean(sample: Array) -> tuple[float, float]:
-    from scipy.stats import bootstrap, t
+    from scipy.stats import t
 
-    if sample.size > MOST_RESAMPLED:
-        error = float(sample.std(ddof=1)) / math.sqrt(sample.size)
-        low, high = t.interval(CONFIDENCE, sample.size - 1, float(sample.mean()), error)
-        return float(low), float(high)
+    if sample.size <= MOST_RESAMPLED:
+        return _bootstrap(sample, np.mean, "BCa")
+    error = float(sample.std(ddof=1)) / math.sqrt(sample.size)
+    low, high = t.interval(CONFIDENCE, sample.size - 1, float(sample.mean()), error)
+    return float(low), float(high)
+
+
+def _bootstrap(
+    sample: Array, statistic: Callable[..., Any], method: Literal["BCa", "percentile"]
+) -> tuple[float, float]:
+    from scipy.stats import bootstrap
+
     found = bootstrap(
         (sample,),
-        np.mean,
+        statistic,
         n_resamples=RESAMPLES,
         confidence_level=CONFIDENCE,
+        method=method,
         random_state=np.random.default_rng(SEED),
     ).confidence_interval
     return float(found.low), float(found.high)
-
-
-def _tails() -> tuple[float, float]:
-    return (1.0 - CONFIDENCE) / 2.0, (1.0 + CONFIDENCE) / 2.0

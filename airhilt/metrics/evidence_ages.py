@@ -48,22 +48,14 @@ class _Ages:
         )
 
 
-class _Arrivals:
-    """Observations that no step has had: when each was published, and when it was made, in ns."""
+Arrivals = deque[tuple[int, int]]
+"""Observations that no step has had: when each was published, and when it was made, in ns."""
 
-    def __init__(self) -> None:
-        self._waiting: deque[tuple[int, int]] = deque()
 
-    def add(self, t_ns: int, observed_ns: int) -> None:
-        self._waiting.append((t_ns, observed_ns))
-
-    def take(self, t_start_ns: int) -> Iterator[int]:
-        """Yield when what a step has was observed, and forget it."""
-        while self._waiting and self._waiting[0][0] <= t_start_ns:
-            yield self._waiting.popleft()[1]
-
-    def observed_ns(self) -> list[int]:
-        return [observed_ns for _, observed_ns in self._waiting]
+def _taken(arrivals: Arrivals, t_start_ns: int) -> Iterator[int]:
+    """Yield when what a step has was observed, and forget it."""
+    while arrivals and arrivals[0][0] <= t_start_ns:
+        yield arrivals.popleft()[1]
 
 
 class _Stream:
@@ -73,7 +65,7 @@ class _Stream:
     """
 
     def __init__(self, first_ns: int) -> None:
-        self.arrivals = _Arrivals()
+        self.arrivals: Arrivals = deque()
         self._ages = _Ages()
         self._since_ns = first_ns
         """End of the last step."""
@@ -83,7 +75,7 @@ class _Stream:
         """Let a step have what had arrived."""
         self._ages = self._ages.and_during(self._since_ns, end_ns, self._newest_ns)
         self._since_ns = max(self._since_ns, end_ns)
-        self._newest_ns = max((self._newest_ns, *self.arrivals.take(t_start_ns)))
+        self._newest_ns = max((self._newest_ns, *_taken(self.arrivals, t_start_ns)))
 
     def age(self, now_ns: int) -> EvidenceAge:
         """Return how old the evidence was until now."""
@@ -94,17 +86,17 @@ class _Calls:
     """What comes when it comes: a call is evidence until a decision has had it."""
 
     def __init__(self) -> None:
-        self.arrivals = _Arrivals()
+        self.arrivals: Arrivals = deque()
         self._answered: list[tuple[int, int]] = []
         """End of each call, and end of the step that had it."""
 
     def step(self, t_start_ns: int, end_ns: int) -> None:
         """Let a step have what had arrived."""
-        self._answered += ((said_ns, end_ns) for said_ns in self.arrivals.take(t_start_ns))
+        self._answered += ((said_ns, end_ns) for said_ns in _taken(self.arrivals, t_start_ns))
 
     def age(self, now_ns: int) -> EvidenceAge:
         """Return how old the evidence was until now."""
-        unanswered = ((said_ns, now_ns) for said_ns in self.arrivals.observed_ns())
+        unanswered = ((said_ns, now_ns) for _, said_ns in self.arrivals)
         waits_ns = sorted((*self._answered, *unanswered))
         stale_ns, done_ns = 0, 0
         for ended_ns, judged_ns in waits_ns:
@@ -153,7 +145,7 @@ class EvidenceAges:
         if evidence is None:
             evidence = _Stream(observed_ns) if modality in CONTINUOUS else _Calls()
             self._evidence[modality] = evidence
-        evidence.arrivals.add(t_ns, observed_ns)
+        evidence.arrivals.append((t_ns, observed_ns))
 
     def step(self, record: StepRecord) -> None:
         """Note a finished step of a worker."""

@@ -8,7 +8,6 @@ from collections.abc import Mapping, Sequence
 from airhilt.commands import AltitudeCommand
 from airhilt.geodesy.relative_motion import VerticalProfile
 from airhilt.scenario.failures import EffectiveLine
-from airhilt.scenario.models import ScriptedCommand
 from airhilt.surveillance.tcas import AltitudeAt
 from airhilt.units import FOOT, FOOT_PER_MINUTE, SECOND_NS, seconds_to_ns
 
@@ -37,36 +36,29 @@ class Plans:
         self._due: dict[str, list[tuple[int, AltitudeCommand]]] = {}
         for effective in lines:
             for scripted in effective.line.commands if effective.line else ():
-                self._plan(ends_ns[effective.declared.id], scripted)
-
-    def _plan(self, end_ns: int, scripted: ScriptedCommand) -> None:
-        if isinstance(scripted.command, AltitudeCommand):
-            due_ns = end_ns + seconds_to_ns(scripted.delay_s)
-            self._due.setdefault(scripted.actor, []).append((due_ns, scripted.command))
+                if isinstance(scripted.command, AltitudeCommand):
+                    due_ns = ends_ns[effective.declared.id] + seconds_to_ns(scripted.delay_s)
+                    self._due.setdefault(scripted.actor, []).append((due_ns, scripted.command))
 
     def altitude_at(self, callsign: str, now_ns: int, profile: VerticalProfile) -> AltitudeAt:
         """Return the altitude over time of an aircraft that has this profile now, as planned."""
-        times, altitudes, rates, targets = [0.0], [profile.altitude_m], [], []
-        rates.append(profile.rate_m_s)
-        targets.append(profile.target_m)
+        pieces = [(0.0, profile)]
         for due_ns, command in sorted(self._due.get(callsign, []), key=lambda plan: plan[0]):
             if due_ns <= now_ns:
                 continue
             time_s = (due_ns - now_ns) / SECOND_NS
-            last = VerticalProfile(altitudes[-1], rates[-1], targets[-1])
-            begin_m = last.at(time_s - times[-1])
+            last_s, last = pieces[-1]
+            begin_m = last.at(time_s - last_s)
             rate = command.vertical_rate_fpm
             usual_m_s = self._usual_rates_m_s[callsign]
-            speed = usual_m_s if rate is None else rate * FOOT_PER_MINUTE
+            speed_m_s = usual_m_s if rate is None else rate * FOOT_PER_MINUTE
             target_m = command.altitude_ft * FOOT
-            times.append(time_s)
-            altitudes.append(begin_m)
-            rates.append(speed if target_m > begin_m else -speed)
-            targets.append(target_m)
+            rate_m_s = speed_m_s if target_m > begin_m else -speed_m_s
+            pieces.append((time_s, VerticalProfile(begin_m, rate_m_s, target_m)))
+        begins_s = [begin_s for begin_s, _ in pieces]
 
         def at(time_s: float) -> float:
-            index = bisect.bisect_right(times, time_s) - 1
-            piece = VerticalProfile(altitudes[index], rates[index], targets[index])
-            return piece.at(time_s - times[index])
+            begin_s, piece = pieces[bisect.bisect_right(begins_s, time_s) - 1]
+            return piece.at(time_s - begin_s)
 
         return at

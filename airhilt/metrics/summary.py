@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
@@ -314,39 +314,49 @@ class DetectionStatistics(BaseModel):
     """Detections against the truth; null: not measured."""
 
     model_config = ConfigDict(frozen=True)
-    taken: int | None = Field(description="pictures taken")
+    taken: int | None = Field(default=None, description="pictures taken")
     exposures_left_out: int | None = Field(
         default=None,
         description="exposures that adaptive exposure left out; 0 with the camera rate full",
     )
     looked_at: int | None = Field(
-        description="pictures that a detector looked at, also those in which it found nothing"
+        default=None,
+        description="pictures that a detector looked at, also those in which it found nothing",
     )
-    dropped: int | None = Field(description="pictures that a newer one replaced before their turn")
-    missed: int | None = Field(description="pictures that a detector could not look at")
+    dropped: int | None = Field(
+        default=None, description="pictures that a newer one replaced before their turn"
+    )
+    missed: int | None = Field(
+        default=None, description="pictures that a detector could not look at"
+    )
     latency: LatencyStatistics = Field(description="t_vision - t_frame")
-    detections: int | None = Field(description="boxes in all")
+    detections: int | None = Field(default=None, description="boxes in all")
     sightings: int | None = Field(
+        default=None,
         description="true boxes that count, in the pictures looked at: at least 8 px long, half of "
-        "the actor visible, a tenth of its contrast left"
+        "the actor visible, a tenth of its contrast left",
     )
-    recall: float | None = Field(description="share of the sightings that were found")
+    recall: float | None = Field(default=None, description="share of the sightings that were found")
     by_size: list[SizeRecall]
     labels_right: float | None = Field(
-        description="share of the true detections that have the true class"
+        default=None, description="share of the true detections that have the true class"
     )
-    false_detections: int | None = Field(description="detections that match no actor")
+    false_detections: int | None = Field(default=None, description="detections that match no actor")
     false_per_picture: float | None = Field(
         default=None, description="false detections per picture looked at"
     )
     false_per_minute: float | None = Field(
-        description="false detections per minute and camera; null where exposures were left out"
+        default=None,
+        description="false detections per minute and camera; null where exposures were left out",
     )
     false_confirmed_per_minute: float | None = Field(
+        default=None,
         description="false detections of confirmed tracks per minute and camera; null where "
-        "exposures were left out"
+        "exposures were left out",
     )
-    false_tracks: int | None = Field(description="confirmed tracks that never matched an actor")
+    false_tracks: int | None = Field(
+        default=None, description="confirmed tracks that never matched an actor"
+    )
 
 
 class CameraStatistics(DetectionStatistics):
@@ -532,8 +542,3 @@ class Summary(BaseModel):
         former = {old: given[new] for old, new in FORMER_MODALITIES.items() if new in given}
         present = {new: given[old] for old, new in FORMER_MODALITIES.items() if old in given}
         return present | given | former
-
-
-def severest(severities: Iterable[Severity]) -> Severity:
-    """Return the highest of some severities."""
-    return max(severities, key=lambda severity: severity.rank)

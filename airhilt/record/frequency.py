@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from itertools import pairwise
 from pathlib import Path
@@ -119,7 +119,7 @@ class FrequencyRecording:
 
     def text(self) -> str:
         """Return the transcript for people to read."""
-        head = f"{self.run}, {_megahertz(self.frequency_khz)}, {len(self.calls)} calls"
+        head = f"{self.run}, {self.frequency_khz / 1000:.3f} MHz, {len(self.calls)} calls"
         notes = (f"Damaged: {note}" for note in self.notes)
         lines = "\n\n".join([head, *notes, *map(_paragraph, self.calls)]).split("\n")
         return "".join(f"{readable(line, LONGEST_LINE)}\n" for line in lines)
@@ -212,7 +212,9 @@ def read_frequency(run: Run, frequency_khz: int | None = None) -> FrequencyRecor
         raise RunFolderError(
             f"{folder.log_path}: {first_problem(error)}; expected a log of this version of AIRHILT"
         ) from None
-    _require_times(folder, transmissions, transcripts)
+    for tx in transmissions:
+        for end_ns in (tx.t_end_ns, *(each.t_ns for each in transcripts.get(tx.id, ()))):
+            _require_in_run(folder, tx.id, tx.t_tx_ns, end_ns)
     chosen = _choose(folder, transmissions, frequency_khz)
     tuned = sorted(
         (tx for tx in transmissions if tx.frequency_khz == chosen),
@@ -221,18 +223,6 @@ def read_frequency(run: Run, frequency_khz: int | None = None) -> FrequencyRecor
     calls = tuple(_call(tx, spoken.get(tx.id), transcripts.get(tx.id, ())) for tx in tuned)
     sound = splice(folder, ((tx.t_tx_ns, tx.t_end_ns, tx) for tx in tuned))
     return FrequencyRecording(run.info.run, chosen, calls, sound, run.damage)
-
-
-def _require_times(
-    folder: RunFolder,
-    transmissions: Sequence[Transmission],
-    transcripts: Mapping[str, Sequence[Transcript]],
-) -> None:
-    """Complain about calls at times that no run has."""
-    for tx in transmissions:
-        _require_in_run(folder, tx.id, tx.t_tx_ns, tx.t_end_ns)
-        for transcript in transcripts.get(tx.id, ()):
-            _require_in_run(folder, tx.id, tx.t_tx_ns, transcript.t_ns)
 
 
 def _require_in_run(folder: RunFolder, name: str, begin_ns: int, end_ns: int) -> None:
@@ -331,10 +321,6 @@ def splice(folder: RunFolder, heard: Iterable[tuple[int, int, MessageWithSound]]
 
 def _sample(t_ns: int) -> int:
     return round(t_ns * SAMPLE_RATE_HZ / SECOND_NS)
-
-
-def _megahertz(frequency_khz: int) -> str:
-    return f"{frequency_khz / 1000:.3f} MHz"
 
 
 def _clock(seconds: float) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import json
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -49,22 +50,24 @@ class LatencyLog:
         self._write(json.dumps(row) + "\n")
 
     def _write(self, line: str) -> None:
-        try:
+        with self._named():
             self._stream.write(line)
-        except OSError as error:
-            raise disk_failed(self._stream.name, error) from None
 
     def flush(self) -> None:
         """Hand all lines to the operating system, so that they outlive this process."""
-        try:
+        with self._named():
             self._stream.flush()
-        except OSError as error:
-            raise disk_failed(self._stream.name, error) from None
 
     def close(self) -> None:
         """Close the file."""
-        try:
+        with self._named():
             self._stream.close()
+
+    @contextmanager
+    def _named(self) -> Iterator[None]:
+        """Convert an error of the disk to RunFolderError, with the name of the file."""
+        try:
+            yield
         except OSError as error:
             raise disk_failed(self._stream.name, error) from None
 

@@ -1,8 +1,8 @@
 """Reads ``log.mcap``: every message whose checksum is right, and where others are missing.
 
-A log is a row of chunks. Each has a CRC-32 of its records, and each message has a number, so that
-nothing is missing without being noticed. A damaged chunk is left out, and the next one is found by
-its content. The format is that of https://mcap.dev/spec, as `LogWriter` uses it.
+A log is a row of chunks (https://mcap.dev/spec), as `LogWriter` writes them. Each has a CRC-32 of
+its records, and each message has a number, so that nothing is missing without being noticed. Chunks
+are found by their content, so that a damaged one costs no other.
 """
 
 from __future__ import annotations
@@ -11,7 +11,6 @@ import io
 import struct
 import zlib
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import BinaryIO, NamedTuple
 
@@ -19,47 +18,45 @@ import zstandard
 from mcap.data_stream import ReadDataStream
 from mcap.exceptions import McapError
 from mcap.opcode import Opcode
-from mcap.records import Channel, Statistics
+from mcap.records import Channel, Chunk, Footer, Message, Statistics
+from mcap.stream_reader import StreamReader, get_chunk_data_stream
 
 from airhilt.errors import RunFolderError
 from airhilt.host.files import open_inside
 from airhilt.units import SECOND_NS
 
-BROKEN = (McapError, struct.error, zstandard.ZstdError, ValueError, LookupError, MemoryError)
+BROKEN = (
+    McapError,
+    struct.error,
+    zstandard.ZstdError,
+    ValueError,
+    LookupError,
+    OverflowError,
+    MemoryError,
+)
 """Exceptions of bytes that are not what they should be."""
 MAGIC = b"\x89MCAP0\r\n"
 """Bytes with which a log begins and ends."""
 RECORD_HEAD = struct.Struct("<BQ")
 """Opcode of a record, and the length of its content."""
-CHUNK_HEAD = struct.Struct("<QQQII4sQ")
-"""First and last time of a chunk, size and CRC-32 of its records, compression, compressed size."""
-MESSAGE_HEAD = struct.Struct("<HIQQ")
-"""Channel, number, and both times of a message."""
-FOOTER = struct.Struct("<BQQQI")
-"""The last record: opcode, length, offsets of the summary and of its second part, CRC-32."""
-DATA_END = struct.Struct("<BQI")
-"""The record after the last chunk: opcode, length, CRC-32 of all that is before it."""
+TAIL_BYTES = RECORD_HEAD.size + 20 + len(MAGIC)
+"""Size of the footer, which is the last record, and of the magic bytes."""
+CHUNK_HEAD_BYTES = 44
+"""Size of the fields of a chunk before its compressed records."""
 COMPRESSION = struct.pack("<I4s", 4, b"zstd")
 """Bytes that every chunk has, and by which it is found."""
 COMPRESSION_AT = RECORD_HEAD.size + 28
 """Place of these bytes, from where a chunk begins."""
 LARGEST_CHUNK_BYTES = 1 << 28
-"""Greatest size of the records of a chunk, in bytes: a larger one is damaged."""
+"""Greatest size of a chunk, and of the records in it, in bytes: a larger one is damaged."""
 LARGEST_INDEX_BYTES = 1 << 28
 """Greatest size of the end of a log that repeats what is in it, in bytes."""
-FRAME_HEAD_BYTES = 18
-"""Greatest size of the head of a compressed chunk, which has the size of its records."""
 MOST_EXPANSION = 1000
-"""Number of bytes that are expanded and searched for each byte of a log: a run writes 3 to 5, and
-more when a program floods it with one text."""
-RECORD_COST_BYTES = 1000
-"""Number of bytes that are expanded in the time in which one record is handled."""
+"""Number of bytes that are expanded in vain for each byte of a log, before reading ends."""
 BLOCK_BYTES = 1 << 20
 """Number of bytes that are read at a time where the whole file is gone through."""
 MOST_GAPS = 3
 """Number of gaps that are told one by one."""
-PASSED_OVER = (Opcode.HEADER, Opcode.MESSAGE_INDEX)
-"""Records between chunks that no message needs."""
 
 
 class Logged(NamedTuple):
@@ -84,15 +81,12 @@ class Gap(NamedTuple):
     """Number of missing messages, None if it is not known."""
 
 
-@dataclass(frozen=True)
-class _Index:
+class _Index(NamedTuple):
     """What the end of a log repeats of it."""
 
     channels: dict[int, Channel]
     messages: int
     """Number of messages in the log."""
-    data_end: int
-    """Place of the record after the last chunk."""
 
 
 class LogReader:
@@ -111,8 +105,6 @@ class LogReader:
         Time of the last message that was read.
     is_closed
         True if the log has its end: it neither breaks off nor goes on.
-    is_faultless
-        True if every checksum is right. Known when the log has been read to its end.
     """
 
     def __init__(self, path: Path) -> None:
@@ -120,15 +112,15 @@ class LogReader:
         self.gaps: list[Gap] = []
         self.end_ns = 0
         self.is_closed = False
-        self.is_faultless = True
-        self._size = 0
-        self._left_bytes = 0
-        """Number of bytes that may still be expanded and searched; below 0, reading ends."""
         self._channels: dict[int, Channel] = {}
         self._last = 0
         """Number of the last message that was read."""
         self._nameless = 0
         """Number of the last message whose channel is in a damaged chunk."""
+        self._end = len(MAGIC)
+        """Place at which the last chunk that was read ends."""
+        self._is_end_damaged = False
+        """True if a damaged chunk follows the last one that was read."""
 
     def messages(self) -> Iterator[Logged]:
         """Yield the messages in the order of writing; what cannot be read is left out.
@@ -144,31 +136,38 @@ class LogReader:
         except OSError as error:
             raise RunFolderError(f"{self.path}: cannot be read: {error.strerror}") from None
 
+    def is_faultless(self) -> bool:
+        """Return whether no message is missing, and every checksum of the log is right."""
+        try:
+            with open_inside(self.path.parent, self.path) as stream:
+                index = _index(stream, stream.seek(0, io.SEEK_END))
+                stream.seek(0)
+                for _ in StreamReader(stream, emit_chunks=True, validate_crcs=True).records:
+                    pass
+        except (OSError, *BROKEN):
+            return False
+        return index is not None and not self.gaps
+
     def _messages(self, stream: BinaryIO) -> Iterator[Logged]:
-        self._size = stream.seek(0, io.SEEK_END)
-        self._left_bytes = LARGEST_CHUNK_BYTES + MOST_EXPANSION * self._size
-        is_mcap = _read(stream, 0, len(MAGIC)) == MAGIC
-        index = self._index(stream)
+        size = stream.seek(0, io.SEEK_END)
+        index = _index(stream, size)
         if index is not None:
-            self._channels = dict(index.channels)
-        self.is_closed = index is not None
-        self.is_faultless = (
-            is_mcap and index is not None and _is_data_intact(stream, index.data_end)
-        )
-        broken_at: int | None = None
-        position = len(MAGIC)
-        while self._may_read(0):
-            chunk, position, broken_at = self._next_chunk(stream, position)
-            if chunk is None:
-                break
-            yield from self._of_chunk(chunk)
-        self._close_gap(index, broken_at)
+            self._channels = index.channels
+        for records, length in self._chunks(stream, size):
+            yield from self._of_chunk(records, length)
+        self.is_closed = index is not None or _is_end_of_data(stream, size, self._end)
+        total = self._nameless if index is None else index.messages
+        if self._is_end_damaged and not self.is_closed:
+            self.gaps.append(Gap(self.end_ns, None, None))
+        elif total > self._last:
+            self.gaps.append(Gap(self.end_ns, None, total - self._last))
         if self._last == 0 and not self.gaps and not self.is_closed:
+            is_mcap = _read(stream, 0, len(MAGIC)) == MAGIC
             reason = "it ends before its first message" if is_mcap else "it has not the magic bytes"
             raise RunFolderError(f"{self.path}: not an MCAP log: {reason}")
 
-    def _of_chunk(self, chunk: bytes) -> Iterator[Logged]:
-        """Yield the messages of a chunk.
+    def _of_chunk(self, records: ReadDataStream, size: int) -> Iterator[Logged]:
+        """Yield the messages among the records of a chunk.
 
         Raises
         ------
@@ -176,174 +175,115 @@ class LogReader:
             Its checksum is right, and its content is none of AIRHILT.
         """
         try:
-            for opcode, begin, end in _records(chunk):
-                if not self._may_read(RECORD_COST_BYTES):
-                    return
+            while records.count < size:
+                opcode, length = records.read1(), records.read8()
                 if opcode == Opcode.CHANNEL:
-                    channel = Channel.read(ReadDataStream(io.BytesIO(chunk[begin:end])))
+                    channel = Channel.read(records)
                     self._channels[channel.id] = channel
                 elif opcode == Opcode.MESSAGE:
-                    channel_id, sequence, t_ns, _ = MESSAGE_HEAD.unpack_from(chunk, begin)
-                    known = self._channels.get(channel_id)
+                    message = Message.read(records, length)
+                    if message.sequence <= self._last:
+                        continue  # Its chunk is there twice, or out of order.
+                    known = self._channels.get(message.channel_id)
                     if known is None:
-                        self._nameless = sequence
+                        self._nameless = message.sequence
                         continue
-                    if sequence <= self._last:  # Its chunk is there twice, or out of order.
-                        self.is_faultless = False
-                        continue
-                    self._count(sequence, t_ns)
+                    self._count(message)
                     publisher = known.metadata.get("publisher", "")
-                    data = chunk[begin + MESSAGE_HEAD.size : end]
-                    yield Logged(known.topic, publisher, t_ns, data, sequence)
+                    yield Logged(
+                        known.topic, publisher, message.log_time, message.data, message.sequence
+                    )
+                else:
+                    records.read(length)
         except BROKEN as error:
             raise RunFolderError(f"{self.path}: not a log of AIRHILT: {error}") from None
 
-    def _count(self, sequence: int, t_ns: int) -> None:
+    def _count(self, message: Message) -> None:
         """Take in the number of a message, and keep the gap before it if there is one."""
-        if sequence > self._last + 1:
-            self.is_faultless = False
-            self.gaps.append(Gap(self.end_ns, t_ns, sequence - self._last - 1))
-        self._last = sequence
-        self.end_ns = max(t_ns, self.end_ns)
+        if message.sequence > self._last + 1:
+            self.gaps.append(Gap(self.end_ns, message.log_time, message.sequence - self._last - 1))
+        self._last = message.sequence
+        self.end_ns = max(message.log_time, self.end_ns)
 
-    def _close_gap(self, index: _Index | None, broken_at: int | None) -> None:
-        """Keep the gap after the last message, if there is one."""
-        total = self._nameless if index is None else index.messages
-        if not self._may_read(0) or (index is None and broken_at is not None):
-            self.gaps.append(Gap(self.end_ns, None, None))
-        elif total > self._last:
-            self.gaps.append(Gap(self.end_ns, None, total - self._last))
-        self.is_faultless = self.is_faultless and not self.gaps
+    def _chunks(self, stream: BinaryIO, size: int) -> Iterator[tuple[ReadDataStream, int]]:
+        """Yield the records of each chunk whose checksum is right, and their size.
 
-    def _may_read(self, size: int) -> bool:
-        """Return true if so many bytes more may be expanded or searched, and count them.
-
-        Without a limit a small log could hold its reader for hours: chunks within each other, and
-        records of nothing, of which a billion take up a few kilobytes.
+        Chunks that are broken may lie within each other, so that what is expanded in vain counts:
+        without a limit a small log could hold its reader for hours.
         """
-        self._left_bytes -= size
-        return self._left_bytes >= 0
-
-    # --- records --------------------------------------------------------------------------------
-
-    def _next_chunk(self, stream: BinaryIO, position: int) -> tuple[bytes | None, int, int | None]:
-        """Return the records of the next chunk, where it ends, and where a broken one begins.
-
-        A chunk that the file ends in is none: whoever wrote it was killed, or is still writing.
-        """
-        begin = position
-        broken_at: int | None = None
-        while self._may_read(RECORD_COST_BYTES):
-            head = _read(stream, begin, RECORD_HEAD.size)
-            if len(head) < RECORD_HEAD.size:
-                break
-            opcode, length = RECORD_HEAD.unpack(head)
-            end = begin + RECORD_HEAD.size + length
-            if opcode == Opcode.DATA_END and end == begin + DATA_END.size:
-                self.is_closed = True
-                return None, begin, None
-            if end > self._size:
-                break
-            if opcode == Opcode.CHUNK:
-                chunk = self._chunk(stream, begin)
-                if chunk is not None:
-                    return chunk, end, None
-                broken_at = begin
-                break
-            if opcode not in PASSED_OVER:
-                broken_at = begin
-                break
-            begin = end
-        return self._search(stream, position, broken_at)
-
-    def _search(
-        self, stream: BinaryIO, position: int, broken_at: int | None
-    ) -> tuple[bytes | None, int, int | None]:
-        """Return the same as `_next_chunk` for a chunk that is found by its content."""
-        for place in _places(stream, COMPRESSION, position + COMPRESSION_AT):
-            if not self._may_read(0):
-                break
+        left_bytes = LARGEST_CHUNK_BYTES + MOST_EXPANSION * size
+        for place in _places(stream, COMPRESSION):
             begin = place - COMPRESSION_AT
-            chunk = self._chunk(stream, begin, is_found=True)
-            if chunk is not None:
-                self.is_faultless = False
-                _, length = RECORD_HEAD.unpack(_read(stream, begin, RECORD_HEAD.size))
-                return chunk, begin + RECORD_HEAD.size + length, None
-        return None, position, broken_at
-
-    def _chunk(self, stream: BinaryIO, begin: int, *, is_found: bool = False) -> bytes | None:
-        """Return the records of the chunk that begins there, None if it is damaged or none.
-
-        Chunks that were found by their content may lie within each other: their size counts. Those
-        that follow each other are expanded once.
-        """
-        head = _read(stream, begin, RECORD_HEAD.size + CHUNK_HEAD.size)
-        if len(head) < RECORD_HEAD.size + CHUNK_HEAD.size:
-            return None
-        opcode, length = RECORD_HEAD.unpack_from(head)
-        *_, size, crc, name_size, name, compressed_size = CHUNK_HEAD.unpack_from(
-            head, RECORD_HEAD.size
-        )
-        if opcode != Opcode.CHUNK or struct.pack("<I4s", name_size, name) != COMPRESSION:
-            return None
-        if length != CHUNK_HEAD.size + compressed_size:
-            return None
-        if max(size, compressed_size) > LARGEST_CHUNK_BYTES:
-            return None
-        if begin + RECORD_HEAD.size + length > self._size:
-            return None
-        start = _read(stream, begin + len(head), min(FRAME_HEAD_BYTES, compressed_size))
-        try:
-            if zstandard.frame_content_size(start) != size:
-                return None
-            if is_found and not self._may_read(compressed_size + size):
-                return None
-            compressed = _read(stream, begin + len(head), compressed_size)
-            chunk = zstandard.decompress(compressed, size)
-        except BROKEN:
-            return None
-        return chunk if zlib.crc32(chunk) == crc else None
-
-    def _index(self, stream: BinaryIO) -> _Index | None:
-        """Return what the end of the file repeats, None if it is not there or damaged."""
-        tail_size = FOOTER.size + len(MAGIC)
-        tail = _read(stream, max(self._size - tail_size, 0), tail_size)
-        if len(tail) < tail_size or not tail.endswith(MAGIC):
-            return None
-        _, _, begin, _, crc = FOOTER.unpack_from(tail)
-        if not 0 < begin <= self._size - tail_size:
-            return None
-        if self._size - begin > LARGEST_INDEX_BYTES:
-            return None
-        summary = _read(stream, begin, self._size - tail_size - begin)
-        if zlib.crc32(summary + tail[: FOOTER.size - 4]) != crc:
-            return None
-        channels: dict[int, Channel] = {}
-        messages = 0
-        try:
-            for opcode, start, end in _records(summary):
-                content = ReadDataStream(io.BytesIO(summary[start:end]))
-                if opcode == Opcode.CHANNEL:
-                    channel = Channel.read(content)
-                    channels[channel.id] = channel
-                elif opcode == Opcode.STATISTICS:
-                    messages = Statistics.read(content).message_count
-        except BROKEN:
-            return None
-        return _Index(channels, messages, begin - DATA_END.size)
+            if begin < self._end:
+                continue
+            opcode, length = RECORD_HEAD.unpack(_read(stream, begin, RECORD_HEAD.size))
+            end = begin + RECORD_HEAD.size + length
+            if end > size:
+                continue  # Whoever wrote it was killed, or is still writing.
+            wasted_bytes = length
+            try:
+                chunk = _chunk(stream, opcode, length)
+                wasted_bytes += chunk.uncompressed_size
+                records = get_chunk_data_stream(chunk, validate_crc=True)
+            except BROKEN:
+                left_bytes -= wasted_bytes
+                self._is_end_damaged = True
+                if left_bytes < 0:
+                    break
+                continue
+            self._is_end_damaged = False
+            self._end = end
+            yield records
 
 
-def _is_data_intact(stream: BinaryIO, data_end: int) -> bool:
-    """Return whether the CRC-32 of everything before the index is right, if there is one."""
-    opcode, length, expected = DATA_END.unpack(_read(stream, max(data_end, 0), DATA_END.size))
-    if (opcode, length) != (Opcode.DATA_END, 4):
-        return False
-    if expected == 0:
-        return True  # Version 0.5 wrote none.
-    crc = 0
-    for begin in range(0, data_end, BLOCK_BYTES):
-        crc = zlib.crc32(_read(stream, begin, min(BLOCK_BYTES, data_end - begin)), crc)
-    return crc == int(expected)
+def _chunk(stream: BinaryIO, opcode: int, length: int) -> Chunk:
+    """Return the chunk whose head has been read.
+
+    Raises
+    ------
+    ValueError
+        It is none, or too large.
+    """
+    if opcode != Opcode.CHUNK or length > LARGEST_CHUNK_BYTES:
+        raise ValueError("no chunk")
+    chunk: Chunk = Chunk.read(ReadDataStream(io.BytesIO(stream.read(length))))
+    if length != CHUNK_HEAD_BYTES + len(chunk.data):
+        raise ValueError("no chunk")
+    size = zstandard.frame_content_size(chunk.data)
+    if size != chunk.uncompressed_size or size > LARGEST_CHUNK_BYTES:
+        raise ValueError("no chunk")
+    return chunk
+
+
+def _index(stream: BinaryIO, size: int) -> _Index | None:
+    """Return what the end of a log repeats, None if it is not there or damaged."""
+    tail = _read(stream, max(size - TAIL_BYTES, 0), TAIL_BYTES)
+    index = _Index({}, 0)
+    try:
+        footer = Footer.read(ReadDataStream(io.BytesIO(tail[RECORD_HEAD.size :])))
+        if not 0 < size - footer.summary_start <= LARGEST_INDEX_BYTES:
+            return None
+        summary = _read(stream, footer.summary_start, size - footer.summary_start)
+        if zlib.crc32(summary[: -4 - len(MAGIC)]) != footer.summary_crc:
+            return None
+        for record in StreamReader(io.BytesIO(summary), skip_magic=True).records:
+            if isinstance(record, Channel):
+                index.channels[record.id] = record
+            elif isinstance(record, Statistics):
+                index = index._replace(messages=record.message_count)
+    except BROKEN:
+        return None
+    return index
+
+
+def _is_end_of_data(stream: BinaryIO, size: int, position: int) -> bool:
+    """Return whether the record after the last chunk follows, behind indexes of messages."""
+    while position + RECORD_HEAD.size <= size:
+        opcode, length = RECORD_HEAD.unpack(_read(stream, position, RECORD_HEAD.size))
+        if opcode != Opcode.MESSAGE_INDEX:
+            return (opcode, length) == (Opcode.DATA_END, 4)
+        position += RECORD_HEAD.size + length
+    return False
 
 
 def _read(stream: BinaryIO, position: int, size: int) -> bytes:
@@ -351,20 +291,9 @@ def _read(stream: BinaryIO, position: int, size: int) -> bytes:
     return stream.read(size)
 
 
-def _records(data: bytes) -> Iterator[tuple[int, int, int]]:
-    """Yield opcode, begin and end of the content of each record."""
-    at = 0
-    while at < len(data):
-        opcode, length = RECORD_HEAD.unpack_from(data, at)
-        begin = at + RECORD_HEAD.size
-        at = begin + length
-        if at > len(data):
-            raise ValueError("a record is longer than what holds it")
-        yield opcode, begin, at
-
-
-def _places(stream: BinaryIO, wanted: bytes, position: int) -> Iterator[int]:
-    """Yield each place from a position on at which these bytes are."""
+def _places(stream: BinaryIO, wanted: bytes) -> Iterator[int]:
+    """Yield each place at which these bytes are."""
+    position = 0
     while block := _read(stream, position, BLOCK_BYTES):
         at = block.find(wanted)
         while at >= 0:

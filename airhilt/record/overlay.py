@@ -5,7 +5,7 @@ from __future__ import annotations
 import textwrap
 from typing import TYPE_CHECKING
 
-from airhilt.messages import Advisory, Detection, Detections, Severity, VisibleClass
+from airhilt.messages import Detection, Detections, Severity, VisibleClass
 from airhilt.record.pictures import Picture
 from airhilt.units import SECOND_NS
 
@@ -73,20 +73,13 @@ class Overlay:
         height = height_px + (1 + MOST_LINES) * self._row_px
         self.size = width_px + width_px % 2, height + height % 2
 
-    def image(
-        self,
-        picture: Picture,
-        seen: Detections | None,
-        advisory: Advisory | None,
-    ) -> Image.Image:
+    def image(self, picture: Picture, seen: Detections | None) -> Image.Image:
         """Return a picture with its boxes, clock and advisory.
 
         Parameters
         ----------
         seen
             Detections in it, or in the last picture before it that a detector looked at.
-        advisory
-            The advisory to show, None for none.
         """
         from PIL import Image, ImageDraw
 
@@ -104,7 +97,7 @@ class Overlay:
         image.paste(inner, (0, self._row_px))
         pen = ImageDraw.Draw(image)
         self._write(pen, 0, [title], WHITE)
-        if advisory is not None:
+        if (advisory := picture.advisory) is not None:
             text = f"{advisory.severity} to {advisory.recipient}: {advisory.message}"
             lines = textwrap.wrap(text, self._columns, max_lines=MOST_LINES, placeholder="…")
             below = self._row_px + self._picture_size[1]

@@ -12,7 +12,7 @@ from collections import deque
 from collections.abc import Callable, Collection
 from contextlib import suppress
 from pathlib import Path
-from typing import Generic, Literal, NamedTuple, Protocol, TypeVar, get_args
+from typing import Literal, NamedTuple, get_args
 
 from airhilt.errors import RendererError, disk_failed
 from airhilt.host.files import make_folder
@@ -63,32 +63,22 @@ class PictureName(NamedTuple):
 
 
 class Picture(NamedTuple):
-    """One picture, and the actors that are really in it."""
+    """One picture, the actors that are really in it, and the advisory that was active then."""
 
     header: CameraFrame
     pixels: Payload
-    sightings: tuple[SightingTruth, ...]
+    sightings: tuple[SightingTruth, ...] = ()
+    advisory: Advisory | None = None
 
 
-class _HasHeader(Protocol):
-    @property
-    def header(self) -> CameraFrame: ...
-
-    @property
-    def pixels(self) -> Payload: ...
-
-
-T = TypeVar("T", bound=_HasHeader)
-
-
-class WaitingPictures(Generic[T]):
+class WaitingPictures:
     """Pictures that wait for their detections, the oldest first."""
 
     def __init__(self) -> None:
-        self._pictures: deque[T] = deque()
+        self._pictures: deque[Picture] = deque()
         self._bytes = 0
 
-    def add(self, picture: T) -> list[T]:
+    def add(self, picture: Picture) -> list[Picture]:
         """Add a picture, and return those that have no room any more."""
         self._pictures.append(picture)
         self._bytes += len(picture.pixels)
@@ -97,9 +87,9 @@ class WaitingPictures(Generic[T]):
             crowded_out.append(self._pop())
         return crowded_out
 
-    def up_to(self, camera: str, seq: int) -> list[T]:
+    def up_to(self, camera: str, seq: int) -> list[Picture]:
         """Take out a camera's pictures up to one; no detector will look at those before it."""
-        taken: list[T] = []
+        taken: list[Picture] = []
         for picture in self.everything():
             header = picture.header
             if header.camera == camera and header.seq <= seq:
@@ -108,11 +98,11 @@ class WaitingPictures(Generic[T]):
                 self.add(picture)
         return taken
 
-    def everything(self) -> list[T]:
+    def everything(self) -> list[Picture]:
         """Take out all pictures."""
         return [self._pop() for _ in range(len(self._pictures))]
 
-    def _pop(self) -> T:
+    def _pop(self) -> Picture:
         picture = self._pictures.popleft()
         self._bytes -= len(picture.pixels)
         return picture
@@ -143,7 +133,7 @@ class KeyPictures:
         self._actors = frozenset(actors)
         self._closest_ns = closest_ns
         self._sightings: dict[str, tuple[SightingTruth, ...]] = {}
-        self._waiting: WaitingPictures[Picture] = WaitingPictures()
+        self._waiting = WaitingPictures()
         self._is_watched = False
         self._newest: dict[str, Picture] = {}
         self._looked_at: dict[str, Picture] = {}

@@ -16,7 +16,7 @@ from airhilt.record.damage import Notice, tell_damage
 from airhilt.record.folder import RunFolder, RunInfo
 from airhilt.record.latency import RecordedLatencies, read_latencies
 from airhilt.record.log_reader import Logged, LogReader, gaps_text
-from airhilt.record.manifest import FileRecord, digest_problem, problem_of
+from airhilt.record.manifest import digest_problem, problem_of
 from airhilt.units import SECOND_NS
 
 
@@ -39,9 +39,9 @@ class Run:
     def __init__(self, folder: RunFolder) -> None:
         self.folder = folder
         self.info: RunInfo = folder.info()
-        self.log_damage = log_problem(folder, self.info)
+        self.log_damage = _log_problem(folder, self.info)
         lines = (
-            info_problem(folder, self.info),
+            _info_problem(folder, self.info),
             self.log_damage,
             *(self._problem(path) for path in (folder.latency_path, folder.summary_path)),
         )
@@ -144,7 +144,7 @@ def result_problem(folder: RunFolder, info: RunInfo, path: Path) -> str:
     return f"{name}: not written by the run" if has_manifest else ""
 
 
-def info_problem(folder: RunFolder, info: RunInfo) -> str:
+def _info_problem(folder: RunFolder, info: RunInfo) -> str:
     """Return in words why ``run.json`` is not as the run wrote it, empty if it is.
 
     One of version 0.5 has no hash of itself.
@@ -158,7 +158,7 @@ def info_problem(folder: RunFolder, info: RunInfo) -> str:
     return digest_problem(folder.info_path.name, document)
 
 
-def log_problem(folder: RunFolder, info: RunInfo) -> str:
+def _log_problem(folder: RunFolder, info: RunInfo) -> str:
     """Return in words from when to when the log is damaged, empty if it is not.
 
     A log without a record in the manifest, because its run was killed or goes on, is checked by
@@ -176,20 +176,16 @@ def log_problem(folder: RunFolder, info: RunInfo) -> str:
         if record is None:
             return ""
         return str(error).replace(str(path), path.name)
-    return _log_text(path.name, reader, record)
-
-
-def _log_text(name: str, reader: LogReader, record: FileRecord | None) -> str:
     if reader.gaps:
-        return f"{name}: {gaps_text(reader.gaps)}; the rest is read"
+        return f"{path.name}: {gaps_text(reader.gaps)}; the rest is read"
     if record is None:
         return ""
     if not reader.is_closed:
         ended = f"{reader.end_ns / SECOND_NS:.3f} s"
-        return f"{name}: damaged from {ended} to its end: it breaks off there"
-    if reader.is_faultless:
+        return f"{path.name}: damaged from {ended} to its end: it breaks off there"
+    if reader.is_faultless():
         return (
-            f"{name}: changed after the run: its own checksums are right, but its SHA-256 is not "
-            "that in run.json"
+            f"{path.name}: changed after the run: its own checksums are right, but its SHA-256 is "
+            "not that in run.json"
         )
-    return f"{name}: damaged outside of its messages, all of which are read"
+    return f"{path.name}: damaged outside of its messages, all of which are read"

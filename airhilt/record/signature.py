@@ -8,9 +8,10 @@ SubjectPublicKeyInfo).
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING, Literal
 
 from cryptography.exceptions import InvalidSignature, UnsupportedAlgorithm
 from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey, Ed25519PublicKey
@@ -26,28 +27,14 @@ from cryptography.hazmat.primitives.serialization import (
 from airhilt.errors import SignatureError
 from airhilt.host.files import is_of_owner_alone, read_file, replace_file, write_new
 
+if TYPE_CHECKING:
+    from airhilt.record.folder import RunFolder
+    from airhilt.record.sweep_folder import SweepFolder
+
 LARGEST_KEY_BYTES = 1_000_000
 """Size of the largest file that is read as a key."""
 NO_KEY = (ValueError, TypeError, UnsupportedAlgorithm)
 """Exceptions of a file that holds no key, or one that needs a password."""
-
-
-class Signable(Protocol):
-    """A folder of a run or a sweep.
-
-    Attributes
-    ----------
-    info_path
-        The file that is signed, which has the manifest.
-    signature_path
-        Its signature.
-    """
-
-    info_path: Path
-    signature_path: Path
-
-    def read(self, path: Path) -> bytes:
-        """Return the content of one of both files; an `OSError` tells why it cannot be read."""
 
 
 def public_file(private: Path) -> Path:
@@ -74,20 +61,20 @@ def make_keys(private: Path) -> str:
             raise SignatureError(f"{path}: is there already; choose another name for the key")
     key = Ed25519PrivateKey.generate()
     pem = key.private_bytes(Encoding.PEM, PrivateFormat.PKCS8, NoEncryption())
-    _write_new(private, pem, 0o600)
-    _write_new(
-        public,
-        key.public_key().public_bytes(Encoding.PEM, PublicFormat.SubjectPublicKeyInfo),
-        0o644,
-    )
+    public_pem = key.public_key().public_bytes(Encoding.PEM, PublicFormat.SubjectPublicKeyInfo)
+    for path, data, mode in ((private, pem, 0o600), (public, public_pem, 0o644)):
+        with _named(path, "written"):
+            write_new(path, data, mode)
     return fingerprint(key.public_key())
 
 
-def _write_new(path: Path, data: bytes, mode: int) -> None:
+@contextmanager
+def _named(path: Path, done: Literal["read", "written"]) -> Iterator[None]:
+    """Convert an error of the disk to SignatureError, with the name of the file."""
     try:
-        write_new(path, data, mode)
+        yield
     except OSError as error:
-        raise SignatureError(f"{path}: cannot be written: {error.strerror}") from None
+        raise SignatureError(f"{path}: cannot be {done}: {error.strerror}") from None
 
 
 def fingerprint(key: Ed25519PublicKey) -> str:
@@ -103,10 +90,7 @@ def private_key(path: Path) -> Ed25519PrivateKey:
     SignatureError
         It cannot be read, is no private Ed25519 key without a password, or other users may read it.
     """
-    try:
-        key = load_pem_private_key(_content(path), None)
-    except NO_KEY:
-        key = None
+    key = _key(path, lambda data: load_pem_private_key(data, None))
     if not isinstance(key, Ed25519PrivateKey):
         raise SignatureError(
             f"{path}: no private key; expected one that `airhilt keys sign` has made (Ed25519, "
@@ -128,10 +112,7 @@ def public_key(path: Path) -> Ed25519PublicKey:
     SignatureError
         It cannot be read, or is no public Ed25519 key.
     """
-    try:
-        key = load_pem_public_key(_content(path))
-    except NO_KEY:
-        key = None
+    key = _key(path, load_pem_public_key)
     if not isinstance(key, Ed25519PublicKey):
         raise SignatureError(
             f"{path}: no public key; expected the file with .pub that `airhilt keys sign` has made"
@@ -139,18 +120,17 @@ def public_key(path: Path) -> Ed25519PublicKey:
     return key
 
 
-def _key_file(path: Path) -> bytes:
-    return read_file(path, LARGEST_KEY_BYTES)
-
-
-def _content(path: Path, read: Callable[[Path], bytes] = _key_file) -> bytes:
+def _key(path: Path, load: Callable[[bytes], object]) -> object:
+    """Return the key in a file, None if it holds none."""
+    with _named(path, "read"):
+        data = read_file(path, LARGEST_KEY_BYTES)
     try:
-        return read(path)
-    except OSError as error:
-        raise SignatureError(f"{path}: cannot be read: {error.strerror}") from None
+        return load(data)
+    except NO_KEY:
+        return None
 
 
-def sign(folder: Signable, key: Ed25519PrivateKey) -> None:
+def sign(folder: RunFolder | SweepFolder, key: Ed25519PrivateKey) -> None:
     """Write the signature of a run or a sweep beside its manifest.
 
     Raises
@@ -161,18 +141,20 @@ def sign(folder: Signable, key: Ed25519PrivateKey) -> None:
     path = folder.signature_path
     if path.exists():
         raise SignatureError(f"{path}: signed already; delete this file to sign anew")
-    try:
-        replace_file(path, key.sign(_content(folder.info_path, folder.read)))
-    except OSError as error:
-        raise SignatureError(f"{path}: cannot be written: {error.strerror}") from None
+    with _named(folder.info_path, "read"):
+        signed = folder.read(folder.info_path)
+    with _named(path, "written"):
+        replace_file(path, key.sign(signed))
 
 
-def is_signed_by(folder: Signable, key: Ed25519PublicKey) -> bool:
+def is_signed_by(folder: RunFolder | SweepFolder, key: Ed25519PublicKey) -> bool:
     """Return whether a signature is of this key, and of the signed file as it is now."""
+    with _named(folder.signature_path, "read"):
+        signature = folder.read(folder.signature_path)
+    with _named(folder.info_path, "read"):
+        signed = folder.read(folder.info_path)
     try:
-        key.verify(
-            _content(folder.signature_path, folder.read), _content(folder.info_path, folder.read)
-        )
+        key.verify(signature, signed)
     except InvalidSignature:
         return False
     return True

@@ -9,15 +9,12 @@ from fnmatch import fnmatchcase
 from pathlib import Path, PurePosixPath
 from typing import Any, Literal
 
-from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
-
 from airhilt.errors import RunFolderError, SignatureError
-from airhilt.record.folder import RunFolder, RunInfo
+from airhilt.record.folder import RunFolder
 from airhilt.record.log_reader import LogReader
 from airhilt.record.manifest import digest_problem, problem_of
 from airhilt.record.run import Run
 from airhilt.record.signature import (
-    Signable,
     fingerprint,
     is_signed_by,
     private_key,
@@ -29,6 +26,7 @@ from airhilt.units import SECOND_NS
 
 MADE_AGAIN = ("report.html", "frequency-*.wav", "frequency-*.txt", "figures/*")
 """Names of the files that commands make from a run or a sweep, and that no manifest has."""
+State = Literal["intact", "damaged", "unfinished", "unchecked"]
 DAMAGED, UNFINISHED = 1, 3
 """Exit codes of what is damaged, or not that of the key, and of what has no end or no manifest."""
 
@@ -69,7 +67,7 @@ class Verification:
 
     run: str
     kind: Literal["run", "sweep"]
-    state: Literal["intact", "damaged", "unfinished", "unchecked"]
+    state: State
     ended: str = ""
     files: int = 0
     problems: tuple[str, ...] = ()
@@ -140,10 +138,16 @@ def verify(path: Path, key: Path | None = None) -> Verification:
     SignatureError
         The key cannot be read.
     """
-    has_sweep = is_sweep(path)
-    signature, mark = _signature(SweepFolder(path) if has_sweep else RunFolder(path), key)
-    found = _sweep(SweepFolder(path)) if has_sweep else _run(RunFolder(path))
-    return replace(found, signature=signature, key=mark)
+    folder = _folder(path)
+    given = None if key is None else public_key(key)
+    found = _sweep(folder) if isinstance(folder, SweepFolder) else _run(folder)
+    if given is None:
+        is_signed = folder.signature_path.is_file()
+        return replace(found, signature="unchecked" if is_signed else "absent")
+    found = replace(found, key=fingerprint(given))
+    if not folder.signature_path.is_file():
+        return found
+    return replace(found, signature="good" if is_signed_by(folder, given) else "bad")
 
 
 def sign_folder(path: Path, key: Path) -> str:
@@ -157,71 +161,25 @@ def sign_folder(path: Path, key: Path) -> str:
         It is not intact, or signed already, or the key is none.
     """
     signer = private_key(key)
-    if is_sweep(path):
-        folder = SweepFolder(path)
-        with folder.locked() if folder.parts_path.is_dir() else nullcontext():
-            _sign_intact(folder, signer)
-    else:
-        _sign_intact(RunFolder(path), signer)
+    folder = _folder(path)
+    is_sweep_with_parts = isinstance(folder, SweepFolder) and folder.parts_path.is_dir()
+    with SweepFolder(path).locked() if is_sweep_with_parts else nullcontext():
+        found = verify(path)
+        if found.state != "intact":
+            said = f": {found.problems[0]}" if found.problems else ""
+            state = "not checked" if found.state == "unchecked" else found.state
+            raise SignatureError(f"{path}: {state}{said}; expected a {found.kind} that is intact")
+        if not found.has_digest:
+            raise SignatureError(
+                f"{path}: recorded by an earlier version, whose manifest has its log alone; "
+                "expected a run of this version"
+            )
+        sign(folder, signer)
     return fingerprint(signer.public_key())
 
 
-def _sign_intact(folder: RunFolder | SweepFolder, signer: Ed25519PrivateKey) -> None:
-    found = verify(folder.path)
-    if found.state != "intact":
-        said = f": {found.problems[0]}" if found.problems else ""
-        state = "not checked" if found.state == "unchecked" else found.state
-        raise SignatureError(
-            f"{folder.path}: {state}{said}; expected a {found.kind} that is intact"
-        )
-    if not found.has_digest:
-        raise SignatureError(
-            f"{folder.path}: recorded by an earlier version, whose manifest has its log alone; "
-            "expected a run of this version"
-        )
-    sign(folder, signer)
-
-
-def _signature(
-    folder: Signable, key: Path | None
-) -> tuple[Literal["absent", "unchecked", "good", "bad"], str]:
-    """Return the state of the signature, and the fingerprint of the key."""
-    given = None if key is None else public_key(key)
-    mark = "" if given is None else fingerprint(given)
-    if not folder.signature_path.is_file():
-        return "absent", mark
-    if given is None:
-        return "unchecked", mark
-    return ("good" if is_signed_by(folder, given) else "bad"), mark
-
-
-# --- runs -----------------------------------------------------------------------------------
-
-
-def _run(folder: RunFolder) -> Verification:
-    """Return the state of a run, without its signature."""
-    path = str(folder.path)
-    try:
-        info = folder.info()
-    except RunFolderError as error:
-        return Verification(path, "run", "damaged", problems=(_below(folder.path, error),))
-    problems = _problems(folder, info)
-    is_unfinished = info.phase == "running"
-    state: Literal["unfinished", "intact"] = "unfinished" if is_unfinished else "intact"
-    additional, made_again = (
-        ((), ()) if is_unfinished else _others(folder.path, _known(folder, info))
-    )
-    return Verification(
-        path,
-        "run",
-        "damaged" if problems else state,
-        _ended(folder) if is_unfinished else "",
-        len(info.files),
-        tuple(problems),
-        additional,
-        made_again,
-        has_digest=bool(info.digest),
-    )
+def _folder(path: Path) -> RunFolder | SweepFolder:
+    return SweepFolder(path) if is_sweep(path) else RunFolder(path)
 
 
 def _below(folder: Path, error: Exception) -> str:
@@ -229,12 +187,30 @@ def _below(folder: Path, error: Exception) -> str:
     return str(error).replace(f"{folder}/", "")
 
 
-def _problems(folder: RunFolder, info: RunInfo) -> list[str]:
+def _run(folder: RunFolder) -> Verification:
+    """Return the state of a run, without its signature."""
+    found = Verification(str(folder.path), "run", "damaged")
+    try:
+        info = folder.info()
+    except RunFolderError as error:
+        return replace(found, problems=(_below(folder.path, error),))
+    problems = Run(folder).damage_of_all_files()
+    found = replace(found, files=len(info.files), has_digest=bool(info.digest))
+    if info.phase == "running":
+        state: State = "damaged" if problems else "unfinished"
+        return replace(found, state=state, problems=problems, ended=_ended(folder))
     log = folder.log_path.name
-    lines = list(Run(folder).damage_of_all_files())
-    if info.phase != "running" and log not in info.files:
-        lines.append(f"run.json: its manifest has no {log}")
-    return lines
+    if log not in info.files:
+        problems = (*problems, f"run.json: its manifest has no {log}")
+    known = {*info.files, folder.info_path.name, folder.signature_path.name}
+    additional, made_again = _others(folder.path, known)
+    return replace(
+        found,
+        state="damaged" if problems else "intact",
+        problems=problems,
+        additional=additional,
+        made_again=made_again,
+    )
 
 
 def _ended(folder: RunFolder) -> str:
@@ -248,27 +224,20 @@ def _ended(folder: RunFolder) -> str:
     return f"its log has messages up to {reader.end_ns / SECOND_NS:.3f} s"
 
 
-def _known(folder: RunFolder, info: RunInfo) -> set[str]:
-    return {*info.files, folder.info_path.name, folder.signature_path.name}
-
-
-# --- sweeps ---------------------------------------------------------------------------------
-
-
 def _sweep(folder: SweepFolder) -> Verification:
     """Return the state of a sweep, without its signature."""
-    path = str(folder.path)
+    found = Verification(str(folder.path), "sweep", "damaged")
     if not folder.info_path.is_file():
-        return Verification(path, "sweep", "unfinished", "it has no tables yet")
+        return replace(found, state="unfinished", ended="it has no tables yet")
     try:
         info, files = folder.info(), folder.files()
     except SweepFolderError as error:
-        return Verification(path, "sweep", "damaged", problems=(_below(folder.path, error),))
+        return replace(found, problems=(_below(folder.path, error),))
     tables = folder.table_path.name, folder.machine_path.name
     if "digest" not in info and FILES not in info:
         missing = tuple(f"{name}: missing" for name in tables if not (folder.path / name).is_file())
-        state: Literal["damaged", "unchecked"] = "damaged" if missing else "unchecked"
-        return Verification(path, "sweep", state, problems=missing, has_digest=False)
+        state: State = "damaged" if missing else "unchecked"
+        return replace(found, state=state, problems=missing, has_digest=False)
     problems = [
         digest_problem(folder.info_path.name, info),
         *(f"sweep.json: its manifest has no {name}" for name in tables if name not in files),
@@ -281,22 +250,21 @@ def _sweep(folder: SweepFolder) -> Verification:
         problems.append(problem)
         if name not in tables and not problem:
             run = PurePosixPath(name).parent
-            found = _run(RunFolder(folder.path / run))
-            problems += (f"{run}/{line}" for line in found.problems)
-            additional += tuple(f"{run}/{other}" for other in found.additional)
-            made_again += tuple(f"{run}/{other}" for other in found.made_again)
+            inner = _run(RunFolder(folder.path / run))
+            problems += (f"{run}/{line}" for line in inner.problems)
+            additional += tuple(f"{run}/{other}" for other in inner.additional)
+            made_again += tuple(f"{run}/{other}" for other in inner.made_again)
     is_unfinished = folder.next_info_path.is_file()
     problems = [problem for problem in problems if problem]
-    ended: Literal["unfinished", "intact"] = "unfinished" if is_unfinished else "intact"
-    return Verification(
-        path,
-        "sweep",
-        "damaged" if problems else ended,
-        "its tables are of what was run before" if is_unfinished else "",
-        len(files),
-        tuple(problems),
-        additional,
-        made_again,
+    if not problems:
+        found = replace(found, state="unfinished" if is_unfinished else "intact")
+    return replace(
+        found,
+        ended="its tables are of what was run before" if is_unfinished else "",
+        files=len(files),
+        problems=tuple(problems),
+        additional=additional,
+        made_again=made_again,
     )
 
 
@@ -323,9 +291,7 @@ def _others(
         if path.as_posix() not in known
         and elsewhere.isdisjoint(parent.as_posix() for parent in path.parents)
     )
-    made_again = tuple(name for name in others if _is_made_again(name))
+    made_again = tuple(
+        name for name in others if any(fnmatchcase(name, pattern) for pattern in MADE_AGAIN)
+    )
     return tuple(name for name in others if name not in made_again), made_again
-
-
-def _is_made_again(name: str) -> bool:
-    return any(fnmatchcase(name, pattern) for pattern in MADE_AGAIN)

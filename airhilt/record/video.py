@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -73,21 +73,6 @@ def _encoder() -> str:
     )
 
 
-class _AnnotatedPicture(NamedTuple):
-    """A picture, and the advisory that was active at its time."""
-
-    picture: Picture
-    advisory: Advisory | None
-
-    @property
-    def header(self) -> CameraFrame:
-        return self.picture.header
-
-    @property
-    def pixels(self) -> Payload:
-        return self.picture.pixels
-
-
 class VideoRecorder:
     """Writes a video for each camera of a run.
 
@@ -135,7 +120,8 @@ class VideoRecorder:
             case CameraInfo(camera=name, rate_hz=rate_hz):
                 self._rates_hz[name] = rate_hz
             case CameraFrame(encoding="rgb8"):
-                self._take_picture(Picture(message, payload, ()))
+                advisory = self._advisory_for(message)
+                self._take_picture(Picture(message, payload, advisory=advisory))
             case Detections(camera=name, missed="") if name in self._videos:
                 with self._giving_up(name):
                     self._videos[name].look(message)
@@ -146,7 +132,7 @@ class VideoRecorder:
                 if not self._is_watched:
                     for name, video in list(self._videos.items()):
                         with self._giving_up(name):
-                            video.wait_no_longer()
+                            video.flush()
 
     def close(self) -> None:
         """Finish all videos; one whose disk was full keeps what was written.
@@ -186,9 +172,9 @@ class VideoRecorder:
             if name not in self._videos:
                 path = self._folder / f"{name}.mp4"
                 self._videos[name] = _CameraVideo(path, picture, self._rates_hz[name])
-            self._videos[name].take(_AnnotatedPicture(picture, self._advisory_for(picture)))
+            self._videos[name].take(picture)
             if not self._is_watched:
-                self._videos[name].wait_no_longer()
+                self._videos[name].flush()
 
     def _advise(self, advisory: Advisory) -> None:
         name = advisory.id, advisory.recipient
@@ -196,9 +182,9 @@ class VideoRecorder:
         if advisory.active:
             self._advisories[name] = advisory
 
-    def _advisory_for(self, picture: Picture) -> Advisory | None:
+    def _advisory_for(self, header: CameraFrame) -> Advisory | None:
         """Return the most severe active advisory, preferably one to the owner of the camera."""
-        owner = picture.header.view.carrier or CONTROLLER
+        owner = header.view.carrier or CONTROLLER
         return max(
             self._advisories.values(),
             key=lambda one: (one.severity.rank, one.recipient == owner, one.t_ns),
@@ -214,7 +200,7 @@ class _CameraVideo:
 
         self._path = path
         self._begin_ns = first.header.t_frame_ns
-        self._waiting: WaitingPictures[_AnnotatedPicture] = WaitingPictures()
+        self._waiting = WaitingPictures()
         self._seen: Detections | None = None
         self._overlay = Overlay(first.header.view.width_px, first.header.view.height_px)
         rate = Fraction(rate_hz).limit_denominator(1000)
@@ -229,7 +215,7 @@ class _CameraVideo:
             stream.codec_context.gop_size = max(round(KEY_PICTURE_S * rate_hz), 1)
         self._stream = stream
 
-    def take(self, picture: _AnnotatedPicture) -> None:
+    def take(self, picture: Picture) -> None:
         """Add a picture, which waits for its detections."""
         self._write(self._waiting.add(picture))
 
@@ -243,13 +229,13 @@ class _CameraVideo:
         else:
             self._write(pictures)
 
-    def wait_no_longer(self) -> None:
+    def flush(self) -> None:
         """Write all waiting pictures."""
         self._write(self._waiting.everything())
 
     def close(self) -> None:
         """Write all waiting pictures, and finish the file."""
-        self.wait_no_longer()
+        self.flush()
         with _writing(self._path):
             self._container.mux(self._stream.encode())
             self._container.close()
@@ -259,10 +245,10 @@ class _CameraVideo:
         with suppress(RunFolderError, VideoError), _writing(self._path):
             self._container.close()
 
-    def _write(self, pictures: list[_AnnotatedPicture]) -> None:
-        for annotated in pictures:
-            image = self._overlay.image(annotated.picture, self._seen, annotated.advisory)
-            self._encode(image, annotated.header.t_frame_ns - self._begin_ns)
+    def _write(self, pictures: list[Picture]) -> None:
+        for picture in pictures:
+            image = self._overlay.image(picture, self._seen)
+            self._encode(image, picture.header.t_frame_ns - self._begin_ns)
 
     def _encode(self, image: Image.Image, t_ns: int) -> None:
         import av

@@ -13,8 +13,7 @@ from collections.abc import Mapping, Sequence
 from importlib import resources
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from airhilt.errors import AirhiltError
-from airhilt.report.page_section import PageSection, cannot_be_shown
+from airhilt.report.page_section import PageSection
 from airhilt.text import readable
 
 if TYPE_CHECKING:
@@ -70,8 +69,6 @@ class Assembly:
         self._sections = sections
         self._data: Json = _readable(data)
         self._figures = figures or {}
-        self._scripts: dict[str, str] = {}
-        """Scripts of the sections whose markup could be made, by the name of the section."""
         self._failed: set[str] = set()
         self._environment: Environment = Environment(
             autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
@@ -80,7 +77,6 @@ class Assembly:
     def page(self) -> str:
         """Return the document."""
         outer = [self._markup(one) for one in self._sections if not one.within]
-        self._note_homeless()
         return self._environment.from_string(_own_file("page.html")).render(
             name=self._name,
             title=self._title,
@@ -92,52 +88,23 @@ class Assembly:
 
     def _markup(self, section: PageSection) -> str:
         """Return the markup of a section; one that fails is noted and left out."""
-        from jinja2 import meta
-
+        parts = [self._markup(one) for one in self._sections if one.within == section.name]
         try:
-            template, script = self._environment.parse(section.template()), section.script()
-            inner = [one for one in self._sections if one.within == section.name]
-            if "parts" not in meta.find_undeclared_variables(template):
-                inner = []
-            markup = self._environment.from_string(template).render(
+            return self._environment.from_string(section.template()).render(
                 {self._name: self._data},
                 data=self._data["sections"].get(section.name),
                 figures=self._figures,
-                parts=[self._markup(one) for one in inner],
+                parts=parts,
             )
-            markup.encode()
         except Exception as error:
             self._failed.add(section.name)
-            self._note(
-                f"The template of section {section.name!r} cannot be shown: "
-                f"{type(error).__name__}: {error}"
+            self._data["notes"].append(
+                readable(
+                    f"The template of section {section.name!r} cannot be shown: "
+                    f"{type(error).__name__}: {error}"
+                )
             )
             return ""
-        self._scripts[section.name] = script
-        return markup
-
-    def _note_homeless(self) -> None:
-        """Note the sections that stand within one that is not on the page, or takes in none."""
-        for section in self._sections:
-            if section.name not in self._failed and not self._is_on_page(section):
-                self._note(
-                    cannot_be_shown(
-                        section.name,
-                        AirhiltError(
-                            f"it stands within {section.within!r}, and the page has no section of "
-                            "that name whose template shows its parts"
-                        ),
-                    )
-                )
-
-    def _is_on_page(self, section: PageSection) -> bool:
-        outer = [one for one in self._sections if one.name == section.within]
-        return section.name in self._scripts and (
-            not section.within or any(map(self._is_on_page, outer))
-        )
-
-    def _note(self, text: str) -> None:
-        self._data["notes"].append(readable(text))
 
     def _all_scripts(self) -> list[_Script]:
         """Return all scripts; that of a section has a scope and an element of its own."""
@@ -148,7 +115,7 @@ class Assembly:
                 section.name,
             )
             for section in self._sections
-            if self._is_on_page(section) and (script := self._scripts[section.name])
+            if section.name not in self._failed and (script := section.script())
         ]
         scripts = [*shared, *own, _Script("page.begin();\n")]
         return [script._replace(text=inline(script.text)) for script in scripts]

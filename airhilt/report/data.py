@@ -20,7 +20,6 @@ from airhilt.metrics.summary import ClosestApproach, Summary
 from airhilt.record import Logged, Run, RunFolder, RunInfo
 from airhilt.report.events import MOST_EVENTS, Events
 from airhilt.report.intervals import seconds
-from airhilt.report.sections import GuardedContent
 from airhilt.report.tracks import (
     Locate,
     Phases,
@@ -39,6 +38,7 @@ from airhilt.world.surface.kinds import load_kind
 
 if TYPE_CHECKING:
     from airhilt.report.airport import ReportAirport
+    from airhilt.report.sections import GuardedContent
 
 Json = dict[str, Any]
 
@@ -108,37 +108,34 @@ class RunData:
             What ``run.json`` says of the scenario has another shape than a run writes.
         """
         with _of_record(self.folder):
-            return self._shared()
-
-    def _shared(self) -> Json:
-        info, realised = self.info, self.info.realised
-        files = realised.get("files", {})
-        actors = {actor["callsign"]: actor for actor in realised.get("actors", ())}
-        at_airport = self.airport is not None
-        texts = ("name", "title", "description", "family")
-        return {
-            "run": info.run,
-            "scenario": {name: str(realised.get(name, "")) for name in texts},
-            "phase": info.phase,
-            "cause": readable(info.cause),
-            "options": info.options.model_dump(mode="json")
-            | {"assistant": info.assistant, "pace": info.pace},
-            "unregistered": info.unregistered_programs,
-            "notes": self.notes,
-            "separation": realised.get("separation", {}),
-            "has_conflict": realised.get("conflict") is not None,
-            "pair": self.pair,
-            "pair_is_annotated": self.pair_is_annotated,
-            "summary": None if self.summary is None else self.summary.model_dump(mode="json"),
-            "end_s": round(self.end_ns / SECOND_NS, 3),
-            "tracks": [
-                track.as_json(actor, at_airport) | _kind(actors.get(actor, {}), files)
-                for actor, track in self.tracks.items()
-            ],
-            "separations": _separations(self.tracks, self.pair),
-            "airport": None if self.airport is None else self.airport.as_json(),
-            "events": self.events.as_json(info),
-        }
+            info, realised = self.info, self.info.realised
+            files = realised.get("files", {})
+            actors = {actor["callsign"]: actor for actor in realised.get("actors", ())}
+            at_airport = self.airport is not None
+            texts = ("name", "title", "description", "family")
+            return {
+                "run": info.run,
+                "scenario": {name: str(realised.get(name, "")) for name in texts},
+                "phase": info.phase,
+                "cause": readable(info.cause),
+                "options": info.options.model_dump(mode="json")
+                | {"assistant": info.assistant, "pace": info.pace},
+                "unregistered": info.unregistered_programs,
+                "notes": self.notes,
+                "separation": realised.get("separation", {}),
+                "has_conflict": realised.get("conflict") is not None,
+                "pair": self.pair,
+                "pair_is_annotated": self.pair_is_annotated,
+                "summary": None if self.summary is None else self.summary.model_dump(mode="json"),
+                "end_s": round(self.end_ns / SECOND_NS, 3),
+                "tracks": [
+                    track.as_json(actor, at_airport) | _kind(actors.get(actor, {}), files)
+                    for actor, track in self.tracks.items()
+                ],
+                "separations": _separations(self.tracks, self.pair),
+                "airport": None if self.airport is None else self.airport.as_json(),
+                "events": self.events.as_json(info),
+            }
 
 
 def read_run(recorded: Run, page: Path, contents: Sequence[GuardedContent]) -> RunData:
@@ -160,7 +157,34 @@ def read_run(recorded: Run, page: Path, contents: Sequence[GuardedContent]) -> R
         run writes.
     """
     with _of_record(recorded.folder):
-        return _read_run(recorded, page, contents)
+        info, folder = recorded.info, recorded.folder
+        notes = [f"Damaged: {readable(line)}." for line in recorded.damage]
+        log = _Log(_points_a_track(info), contents)
+        log.read(recorded, notes)
+        summary = _summary(folder, notes)
+        _note_how_it_ended(info, log, notes)
+        airport = _airport(info, notes)
+        around = Projection.around(chain.from_iterable(log.states.values()))
+        locate = around.locate if airport is None else airport.locate
+        tracks = {
+            actor: Track.of(states, log.phases[actor].as_json(), locate)
+            for actor, states in log.states.items()
+        }
+        pair, annotated = _pair(info, summary, tracks)
+        return RunData(
+            folder=folder,
+            page=page,
+            info=info,
+            summary=summary,
+            notes=notes,
+            end_ns=log.end_ns,
+            events=log.events,
+            locate=locate,
+            tracks=tracks,
+            pair=pair,
+            pair_is_annotated=annotated,
+            airport=airport,
+        )
 
 
 @contextmanager
@@ -181,33 +205,6 @@ def _of_record(folder: RunFolder) -> Iterator[None]:
             f"{folder.info_path}: what it says of the scenario cannot be shown "
             f"({first_line(error)}); expected it as a run writes it"
         ) from error
-
-
-def _read_run(recorded: Run, page: Path, contents: Sequence[GuardedContent]) -> RunData:
-    info, folder = recorded.info, recorded.folder
-    notes = [f"Damaged: {readable(line)}." for line in recorded.damage]
-    log = _Log(_points_a_track(info), contents)
-    log.read(recorded, notes)
-    summary = _summary(folder, notes)
-    _note_how_it_ended(info, log, notes)
-    airport = _airport(info, notes)
-    locate = _locate(log, airport)
-    tracks = _tracks(log, locate)
-    pair, annotated = _pair(info, summary, tracks)
-    return RunData(
-        folder=folder,
-        page=page,
-        info=info,
-        summary=summary,
-        notes=notes,
-        end_ns=log.end_ns,
-        events=log.events,
-        locate=locate,
-        tracks=tracks,
-        pair=pair,
-        pair_is_annotated=annotated,
-        airport=airport,
-    )
 
 
 class _Log:
@@ -332,20 +329,6 @@ def _airport(info: RunInfo, notes: list[str]) -> ReportAirport | None:
     except AirhiltError as error:
         notes.append(f"The airport cannot be drawn: {readable(str(error))}")
         return None
-
-
-def _locate(log: _Log, airport: ReportAirport | None) -> Locate:
-    """Return the projection of the plan: around the airport, or around the traffic."""
-    if airport is not None:
-        return airport.locate
-    return Projection.around(chain.from_iterable(log.states.values())).locate
-
-
-def _tracks(log: _Log, locate: Locate) -> dict[str, Track]:
-    return {
-        actor: Track.of(states, log.phases[actor].as_json(), locate)
-        for actor, states in log.states.items()
-    }
 
 
 def _kind(actor: Json, files: Json) -> Json:

@@ -7,7 +7,6 @@ from typing import Any
 
 from airhilt.messages import FORMER_MODALITIES
 from airhilt.record import Logged, RunInfo
-from airhilt.report.text import runway_name
 from airhilt.text import readable
 from airhilt.units import SECOND_NS
 
@@ -39,8 +38,7 @@ class Events:
 
     def take(self, logged: Logged) -> None:
         """Add a message of the log, if it is an event."""
-        make = _maker(logged.key)
-        row = None if make is None else _row(make, json.loads(logged.data), logged)
+        row = event_row(logged)
         if row is None:
             return
         is_end = row["kind"] in END
@@ -63,14 +61,16 @@ def _with_line(row: Json, lines: dict[str, Json]) -> Json:
     return row | {"speaker": line["speaker"], "line": readable(line["text"])}
 
 
-def event_row(message: Json, logged: Logged) -> Json | None:
-    """Return the row of a message whose content is known, or None if it is no event."""
+def event_row(logged: Logged, message: Json | None = None) -> Json | None:
+    """Return the row of a message, or None if it is no event.
+
+    Parameters
+    ----------
+    message
+        Its content, if that is known already.
+    """
     make = _maker(logged.key)
-    return None if make is None else _row(make, message, logged)
-
-
-def _row(make: Any, message: Json, logged: Logged) -> Json | None:
-    row = make(message, logged)
+    row = None if make is None else make(message or json.loads(logged.data), logged)
     if row is None:
         return None
     short = {
@@ -168,6 +168,11 @@ def _conflict(message: Json, _: Logged) -> Json:
         "vertical_m": message["vertical_m"],
         "runway": None if runway is None else runway_name(runway),
     }
+
+
+def runway_name(key: str) -> str:
+    """Return the name of a runway, such as ``01/19``, for ``01-19`` in a key."""
+    return key.replace("-", "/")
 
 
 def _event(message: Json, _: Logged) -> Json:

@@ -66,22 +66,18 @@ class BridgedIntervals:
 
     def add(self, t_ns: int) -> None:
         """Add an instant; times rise."""
-        if self._intervals and t_ns - self._intervals[-1][1] <= self._bridged_ns:
-            self._intervals[-1] = self._intervals[-1][0], t_ns
-            return
-        self._intervals.append((t_ns, t_ns))
+        self._append(t_ns, t_ns)
         while len(self._intervals) > MOST_INTERVALS:
             self._bridged_ns *= 2
-            self._join()
+            shorter, self._intervals = self._intervals, []
+            for begin, end in shorter:
+                self._append(begin, end)
 
-    def _join(self) -> None:
-        joined = self._intervals[:1]
-        for begin, end in self._intervals[1:]:
-            if begin - joined[-1][1] <= self._bridged_ns:
-                joined[-1] = joined[-1][0], end
-            else:
-                joined.append((begin, end))
-        self._intervals = joined
+    def _append(self, begin_ns: int, end_ns: int) -> None:
+        """Add an interval, joined with the last one if the pause between them is short."""
+        if self._intervals and begin_ns - self._intervals[-1][1] <= self._bridged_ns:
+            begin_ns = self._intervals.pop()[0]
+        self._intervals.append((begin_ns, end_ns))
 
     def as_json(self) -> list[tuple[float, float]]:
         """Return begin and end of each interval, in s."""

@@ -36,22 +36,12 @@ class PageSection:
 
     def template(self) -> str:
         """Return the Jinja template."""
-        return _read(self._beside(".html"))
+        return Path(self.module).with_suffix(".html").read_text("utf-8")
 
     def script(self) -> str:
         """Return the script, empty if there is none."""
-        path = self._beside(".js")
-        return _read(path) if path.is_file() else ""
-
-    def _beside(self, suffix: str) -> Path:
-        return Path(self.module).with_suffix(suffix)
-
-
-def _read(path: Path) -> str:
-    try:
-        return path.read_text("utf-8")
-    except UnicodeDecodeError as error:
-        raise AirhiltError(f"{path}: not UTF-8 from byte {error.start} on") from None
+        path = Path(self.module).with_suffix(".js")
+        return path.read_text("utf-8") if path.is_file() else ""
 
 
 def cannot_be_shown(section: str, error: Exception) -> str:
@@ -67,14 +57,14 @@ def load_member(installed: Members, name: str) -> Any:
     Raises
     ------
     AirhiltError
-        It cannot be loaded, or its template or script cannot be read.
+        It cannot be loaded, stands in no section, or its template or script cannot be read.
     """
     section: PageSection = installed.load(name)
+    if section.within and section.within not in installed.names():
+        raise AirhiltError(f"there is no section {section.within!r} that it stands in")
     try:
         section.template(), section.script()
-    except AirhiltError:
-        raise
-    except Exception as error:
+    except (OSError, ValueError, TypeError) as error:
         raise AirhiltError(f"{type(error).__name__}: {error}") from error
     return section
 
@@ -87,6 +77,6 @@ def load_members(family: Family) -> tuple[list[Any], list[str]]:
     for name in installed.names():
         try:
             sections.append(load_member(installed, name))
-        except Exception as error:
+        except AirhiltError as error:
             problems.append(cannot_be_shown(name, error))
     return sorted(sections, key=lambda section: (section.order, section.name)), problems

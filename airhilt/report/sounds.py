@@ -5,15 +5,12 @@ from __future__ import annotations
 import base64
 import io
 import wave
-from typing import TYPE_CHECKING
 
 from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ, Audio, from_pcm, to_pcm
 from airhilt.errors import RunFolderError
 from airhilt.messages import AdvisoryAudio, Transmission
 from airhilt.record.audio import audio_file, recorded_pcm
-
-if TYPE_CHECKING:
-    from airhilt.report.data import RunData
+from airhilt.report.data import RunData
 
 RATE_HZ = 8_000
 """Sample rate in the page, in Hz: enough for the 300 to 3400 Hz that aeronautical VHF carries

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import math
 import re
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any, NamedTuple
@@ -15,7 +14,7 @@ from airhilt.geodesy.wgs84 import Place, offset_m
 from airhilt.record import Logged
 from airhilt.report.intervals import Intervals, seconds
 from airhilt.text import readable
-from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE
+from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, wrap_angle
 
 Json = dict[str, Any]
 Values = NDArray[np.float64]
@@ -126,7 +125,7 @@ class Projection(NamedTuple):
             return cls(0.0, 0.0)
         latitudes = [state.latitude_rad for state in known]
         begin = known[0].longitude_rad
-        turns = [_wrapped(state.longitude_rad - begin) for state in known]
+        turns = [wrap_angle(state.longitude_rad - begin) for state in known]
         return cls(
             (min(latitudes) + max(latitudes)) / 2.0,
             begin + (min(turns) + max(turns)) / 2.0,
@@ -137,10 +136,6 @@ class Projection(NamedTuple):
         centre = self.latitude_rad, self.longitude_rad
         north_m, east_m = offset_m(centre, place, height_m)
         return east_m / NAUTICAL_MILE, north_m / NAUTICAL_MILE
-
-
-def _wrapped(angle_rad: float) -> float:
-    return (angle_rad + math.pi) % (2.0 * math.pi) - math.pi
 
 
 class Track(NamedTuple):

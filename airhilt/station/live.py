@@ -354,7 +354,7 @@ class LiveRun:
         self._changes.add("advisory", row, audience=received.audience)
 
     def _event(self, received: Received) -> None:
-        row = event_row(received.message.model_dump(mode="json"), received.logged)
+        row = event_row(received.logged, received.message.model_dump(mode="json"))
         if row is None:
             return
         if self._seats and "engine" in row:  # It would tell participants which condition they have.

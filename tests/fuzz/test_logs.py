@@ -14,10 +14,12 @@ from pathlib import Path
 import zstandard
 from hypothesis import given
 from hypothesis import strategies as st
+from mcap.data_stream import RecordBuilder
 from mcap.opcode import Opcode
+from mcap.records import Chunk
 
 from airhilt.errors import RunFolderError
-from airhilt.record.log_reader import CHUNK_HEAD, MAGIC, MESSAGE_HEAD, RECORD_HEAD, LogReader
+from airhilt.record.log_reader import MAGIC, RECORD_HEAD, LogReader
 from fuzzing import any_input
 
 counts = st.sampled_from([0, 1, 2, 2**31, 2**32 - 1]) | st.integers(0, 2**16 - 1)
@@ -35,7 +37,7 @@ def record(opcode: int, content: bytes, length: int | None = None) -> bytes:
 
 messages = st.builds(
     lambda channel, number, t_ns, data: record(
-        Opcode.MESSAGE, MESSAGE_HEAD.pack(channel, number, t_ns, t_ns) + data
+        Opcode.MESSAGE, struct.pack("<HIQQ", channel, number, t_ns, t_ns) + data
     ),
     st.integers(0, 3), counts, times, st.binary(max_size=20),
 )  # fmt: skip
@@ -54,8 +56,10 @@ records = st.lists(messages | channels | anything, max_size=12).map(b"".join)
 def chunk(content: bytes) -> bytes:
     """Return a chunk with the right checksum, whatever its records are."""
     compressed = zstandard.compress(content)
-    head = CHUNK_HEAD.pack(0, 1, len(content), zlib.crc32(content), 4, b"zstd", len(compressed))
-    return record(Opcode.CHUNK, head + compressed)
+    builder = RecordBuilder()
+    Chunk("zstd", compressed, 1, 0, zlib.crc32(content), len(content)).write(builder)
+    written: bytes = builder.end()  # type: ignore[no-untyped-call]
+    return written
 
 
 @any_input

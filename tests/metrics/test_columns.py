@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import json
-from typing import Annotated, Any
+from typing import Any
 
 import pytest
 
@@ -12,17 +11,12 @@ from airhilt.metrics.columns import (
     OF_PEOPLE,
     OF_REACTIONS,
     Column,
-    _bare,
-    column_of,
     metric_columns,
     metrics_of,
 )
 from airhilt.metrics.summary import (
     AdvisorySummary,
     ClosestApproach,
-    EquipmentSummary,
-    EvidenceAge,
-    FirstDetection,
     LatencyStatistics,
     RadioStatistics,
     Summary,
@@ -71,12 +65,6 @@ def advisory(severity: str) -> AdvisorySummary:
     )
 
 
-def detection(actor: str, t_s: float, range_m: float) -> FirstDetection:
-    return FirstDetection(
-        actor=actor, t_s=t_s, t_frame_s=t_s, camera="tower", range_m=range_m, size_px=20.0
-    )
-
-
 def test_every_modality_that_can_be_on_or_off_has_a_column() -> None:
     modalities = Status.model_json_schema()["properties"]["modality"]["enum"]
     assert "enhancement" in modalities
@@ -95,15 +83,6 @@ def test_every_column_has_a_name_of_its_own_a_unit_and_a_description(
         assert bool(each.unit) == (each.type in ("int64", "float64")), each.name
 
 
-@pytest.mark.parametrize(
-    ("name", "unit"),
-    [("lead_s", "s"), ("range_m", "m"), ("snr_db", "dB"), ("size_px", "px"), ("calls", "1"),
-     ("false_per_minute", "1/min")],
-)  # fmt: skip
-def test_the_end_of_a_name_gives_the_unit(name: str, unit: str) -> None:
-    assert column_of(name, "float64", "").unit == unit
-
-
 def test_a_row_has_exactly_the_columns_with_values_of_their_types() -> None:
     types = {"string": str, "bool": bool, "int64": int, "float64": float}
     row = metrics_of(summary(t_conflict_s=5, advisories=[advisory("CAUTION")]))
@@ -111,16 +90,6 @@ def test_a_row_has_exactly_the_columns_with_values_of_their_types() -> None:
     for each in metric_columns():
         value = row[each.name]
         assert value is None or type(value) is types[each.type], each.name
-
-
-def test_a_row_is_the_same_from_the_file_of_a_summary() -> None:
-    given = summary(
-        closest_approach=ClosestApproach(t_s=1.0, horizontal_m=2.0, vertical_m=3.0),
-        latencies={"asr": LatencyStatistics.of([1.0, 2.0])},
-        evidence={"adsb": EvidenceAge(mean_s=0.5, max_s=1.0, stale_share=0.0)},
-        advisories=[advisory("WARNING")],
-    )
-    assert metrics_of(json.loads(given.model_dump_json())) == metrics_of(given)
 
 
 def test_models_within_models_and_stages_have_the_names_of_both() -> None:
@@ -145,94 +114,6 @@ def test_the_row_of_an_earlier_version_is_null_where_it_did_not_tell() -> None:
     assert row["nominal"] is None
     assert row["warned"] is None
     assert row["radio_wer"] is None
-
-
-def warning(**given: Any) -> dict[str, Any]:
-    window = {"t_window_s": 40.0, "t_conflict_end_s": 90.0}
-    return metrics_of(summary(**{**window, **given}))
-
-
-def test_a_warning_counts_until_the_conflict_window_closes() -> None:
-    assert warning(t_first_warning_s=89.0)["warned"] is True
-    late = warning(t_first_warning_s=91.0)
-    assert (late["warned"], late["missed"], late["warned_in_time"]) == (False, True, False)
-    assert warning()["missed"] is True
-
-
-def test_a_warning_in_time_leaves_the_time_to_act() -> None:
-    lead = "lead_before_closest_approach_s"
-    assert warning(t_first_warning_s=50.0, **{lead: 12.5})["warned_in_time"] is True
-    assert warning(t_first_warning_s=50.0, **{lead: 12.4})["warned_in_time"] is False
-
-
-def test_a_warning_that_keeps_the_window_shut_was_in_time() -> None:
-    row = metrics_of(summary(t_first_warning_s=10.0))
-    assert (row["warned"], row["warned_in_time"], row["missed"]) == (True, True, False)
-
-
-def test_a_conflict_that_never_came_is_not_missed() -> None:
-    row = metrics_of(summary())
-    assert (row["warned"], row["missed"]) == (False, None)
-
-
-def test_a_scenario_without_a_conflict_has_nobody_to_warn() -> None:
-    row = metrics_of(summary(conflict_actors=()))
-    assert row["nominal"] is True
-    assert (row["warned"], row["warned_in_time"], row["missed"]) == (None, None, None)
-
-
-@pytest.mark.parametrize(
-    ("given", "is_lost"),
-    [({}, False), ({"nmac": True}, True), ({"runway_incursion_category": "B"}, True),
-     ({"runway_incursion_category": "accident"}, True),
-     ({"runway_incursion_category": "C"}, False)],
-)  # fmt: skip
-def test_what_is_lost_is_what_an_assistant_is_there_to_prevent(
-    given: dict[str, Any], is_lost: bool
-) -> None:
-    assert metrics_of(summary(**given))["lost"] is is_lost
-
-
-def test_advisories_are_counted_by_their_highest_severity() -> None:
-    row = metrics_of(summary(advisories=[advisory("INFO"), advisory("WARNING")]))
-    assert (row["advisories"], row["cautions"], row["warnings"]) == (2, 0, 1)
-    assert row["severity_max"] == "WARNING"
-    assert metrics_of(summary())["severity_max"] is None
-
-
-def test_the_first_detection_is_that_of_an_actor_of_the_conflict() -> None:
-    found = [detection("DEER1", 1.0, 300.0), detection("DAL2", 9.0, 125.0)]
-    vision = VISION | {"first_detections": found}
-    assert metrics_of(summary(vision=vision))["first_detection_range_m"] == 125.0
-    nominal = metrics_of(summary(vision=vision, conflict_actors=()))
-    assert nominal["first_detection_t_s"] == 1.0
-    assert metrics_of(summary())["first_detection_t_s"] is None
-
-
-def test_the_first_alert_of_all_equipment_counts() -> None:
-    equipment = [
-        EquipmentSummary(
-            equipment=name, t_first_warning_s=t_s, t_first_action_s=None, margin_s=None, alerts=[]
-        )
-        for name, t_s in (("surf_a", 30.0), ("tcas", 20.0), ("other", None))
-    ]
-    row = metrics_of(summary(equipment=equipment))
-    assert row["equipment_t_first_warning_s"] == 20.0
-    assert row["equipment_t_first_action_s"] is None
-
-
-@pytest.mark.parametrize(
-    ("annotation", "bare"),
-    [
-        (int, int),
-        (int | None, int),
-        (None | str, str),
-        (Annotated[bool, "mark"], bool),
-        (Annotated[float | None, "mark"], float),
-    ],
-)
-def test_a_column_has_the_type_of_a_value_that_is_there(annotation: Any, bare: type) -> None:
-    assert _bare(annotation) is bare
 
 
 def test_a_field_of_a_model_in_the_summary_says_whose_it_is() -> None:

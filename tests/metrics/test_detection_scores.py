@@ -126,12 +126,6 @@ def test_exposures_that_were_left_out_are_counted_apart_and_leave_no_rate_per_mi
     assert (numbers.false_per_minute, numbers.false_confirmed_per_minute) == (None, None)
 
 
-def test_at_the_full_rate_no_exposure_is_left_out() -> None:
-    numbers = Watched().picture(0, by=(found(NOWHERE),)).picture(1).numbers()
-    assert (numbers.exposures_left_out, numbers.false_per_picture) == (0, 0.5)
-    assert numbers.false_per_minute is not None
-
-
 def test_a_picture_that_a_detector_missed_counts_as_that_and_nothing_else() -> None:
     watched = Watched().picture(0, sighting(PLANE), by=(found(PLANE),))
     watched.picture(1, sighting(PLANE), by=None)

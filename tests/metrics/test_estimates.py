@@ -6,8 +6,6 @@ import numpy as np
 import pytest
 
 from airhilt.metrics.estimates import (
-    CONFIDENCE,
-    RESAMPLES,
     UNKNOWN,
     Estimate,
     mean_of,
@@ -39,13 +37,6 @@ def test_the_interval_of_a_mean_holds_the_true_mean_as_often_as_it_says() -> Non
     assert 0.88 * 200 < held < 0.99 * 200
 
 
-def test_a_mean_of_many_has_nearly_the_interval_of_a_mean_of_few() -> None:
-    random = np.random.default_rng(1)
-    few = mean_of(random.normal(0.0, 1.0, 200))
-    many = mean_of(random.normal(0.0, 1.0, 201))
-    assert many.high - many.low == pytest.approx(few.high - few.low, rel=0.15)
-
-
 @pytest.mark.parametrize("n", range(1, 6))
 def test_a_few_runs_have_no_interval_since_theirs_would_be_too_narrow(n: int) -> None:
     assert mean_of(range(n)) == Estimate((n - 1) / 2, None, None, n)
@@ -73,23 +64,11 @@ def test_what_did_not_happen_may_still_happen() -> None:
     assert (found.value, found.low, found.n) == (0.0, 0.0, 2)
 
 
-def test_the_same_runs_give_the_same_interval() -> None:
-    runs = [1.0, 2.0, 5.0, 7.0, 7.0, 9.0]
-    assert mean_of(runs) == mean_of(runs)
-    assert mean_of(runs).low is not None
-
-
 def test_the_interval_of_a_median_holds_the_true_median_as_often_as_it_says() -> None:
     random = np.random.default_rng(2)
     samples = [median_of(random.exponential(2.0, 40)) for _ in range(100)]
     held = sum(found.low <= 2.0 * np.log(2.0) <= found.high for found in samples)
     assert 87 <= held <= 99
-
-
-def test_a_median_is_known_of_one_run_and_not_of_none() -> None:
-    assert median_of([]) == UNKNOWN
-    assert median_of([3.0]).value == 3.0
-    assert median_of([1.0, 2.0, 9.0]).value == 2.0
 
 
 def test_the_mean_of_many_has_the_interval_of_student() -> None:
@@ -99,12 +78,6 @@ def test_the_mean_of_many_has_the_interval_of_student() -> None:
     half = 1.9719 * np.sqrt(share * (1.0 - share) / 200)
     assert found.low == pytest.approx(share - half, abs=1e-6)
     assert found.high == pytest.approx(share + half, abs=1e-6)
-
-
-def test_the_limits_of_a_bootstrap_are_values_of_its_resamples() -> None:
-    """Davison and Hinkley, 1997, section 5.2: (R + 1) alpha is to be whole."""
-    tail = (RESAMPLES + 1) * (1.0 - CONFIDENCE) / 2.0
-    assert tail == pytest.approx(round(tail))
 
 
 def test_an_estimate_is_told_in_another_unit_with_its_limits() -> None:

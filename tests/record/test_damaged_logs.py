@@ -105,12 +105,23 @@ def test_each_bit_of_the_head_of_a_chunk_is_named_with_its_second(run_copy: Path
 def test_damage_after_the_last_message_is_said_to_be_outside_of_the_messages(
     run_copy: Path,
 ) -> None:
-    log = run_copy / "log.mcap"
-    before = messages(run_copy)
-    flip(log, 8 * (log.stat().st_size - 3))
-    damaged = quiet(run_copy)
-    assert damaged.damage == ("log.mcap: damaged outside of its messages, all of which are read",)
-    assert list(damaged.messages()) == before
+    """The index has the name of the compression too, by which chunks are found."""
+    log = RunFolder(run_copy).log_path
+    rewritten = LogWriter(log)
+    for second in range(50):
+        for key in ("one", "two", "three", "four"):
+            rewritten.write(key, "run", Clock, second * SECOND_NS, b"{}")
+        rewritten.flush()
+    rewritten.close()
+    whole, before = log.read_bytes(), messages(run_copy)
+    for back in range(3, 2_000, 100):
+        flip(log, 8 * (len(whole) - back))
+        damaged = quiet(run_copy)
+        assert damaged.damage == (
+            "log.mcap: damaged outside of its messages, all of which are read",
+        )
+        assert list(damaged.messages()) == before
+        log.write_bytes(whole)
 
 
 def test_a_damaged_first_chunk_costs_no_later_message(run_copy: Path) -> None:
@@ -179,9 +190,18 @@ def test_a_truncated_log_of_a_finished_run_says_from_when_on(run_copy: Path, sha
     assert end_s == float("inf")
 
 
-def test_a_log_that_ends_in_a_chunk_is_that_of_a_killed_run(run_copy: Path) -> None:
-    kill(run_copy)
-    assert not quiet(run_copy).damage
+@pytest.mark.parametrize(
+    ("content", "reason"),
+    [(None, "it ends before its first message"), (b"plain text", "it has not the magic bytes")],
+)
+def test_a_file_without_a_message_is_no_log(
+    tmp_path: Path, content: bytes | None, reason: str
+) -> None:
+    path = tmp_path / "log.mcap"
+    LogWriter(path).close()
+    path.write_bytes(path.read_bytes()[:40] if content is None else content)
+    with pytest.raises(RunFolderError, match=rf"log\.mcap: not an MCAP log: {reason}"):
+        list(read_log(path))
 
 
 def test_another_log_in_its_place_is_named(run_copy: Path) -> None:

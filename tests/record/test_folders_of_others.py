@@ -185,8 +185,15 @@ def test_a_folder_that_the_user_names_by_a_link_is_read(tmp_path: Path, outside:
     assert read == PRECIOUS.encode()
 
 
-@pytest.mark.parametrize("name", ["log.mcap", "latency.jsonl", "summary.json", "run.json"])
-@pytest.mark.parametrize("command", ["report", "verify", "replay"])
+@pytest.mark.parametrize(
+    ("name", "command"),
+    [
+        ("log.mcap", "report"),
+        ("latency.jsonl", "replay"),
+        ("summary.json", "report"),
+        ("run.json", "verify"),
+    ],
+)
 def test_a_link_in_the_place_of_a_file_of_a_run_is_named(
     airhilt_command: Any, run_copy: Path, tmp_path: Path, name: str, command: str
 ) -> None:

@@ -109,12 +109,6 @@ def test_where_nobody_looks_the_first_warning_has_the_newest_picture(run: Run) -
     assert run.seq_of("first_warning") == ("tower", 1)
 
 
-def test_a_warning_before_the_first_picture_has_none(run: Run) -> None:
-    run.take(advisory(0)).shoot(1)
-    run.pictures.close()
-    assert run.seq_of("first_warning") is None
-
-
 def test_the_closest_approach_is_known_when_the_run_is_over(run: Run) -> None:
     for seq in range(12):
         run.closest = min(seq, 7)
@@ -188,30 +182,8 @@ def test_a_picture_that_cannot_be_drawn_any_more_is_left_out(run: Run) -> None:
     assert run.kept() == {("first_detection", "tower", 1)}
 
 
-def test_pictures_do_not_wait_where_nobody_looks(run: Run) -> None:
-    run.take(vision("off")).shoot(0).shoot(1)
-    assert run.pictures._waiting.everything() == []
-    assert run.kept() == {("start", "tower", 0)}
-
-
-def test_once_vision_is_lost_no_picture_waits(run: Run) -> None:
-    run.shoot(0).shoot(1).take(vision("lost", "gone")).shoot(2)
-    assert run.pictures._waiting.everything() == []
-
-
-def test_pictures_of_many_cameras_share_the_room_in_which_they_wait(
-    run: Run, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("airhilt.record.pictures.MOST_WAITING_BYTES", 10 * len(pixels()))
-    for seq in range(8):
-        run.shoot(seq).shoot(seq, camera="nose-AAL123")
-    assert len(run.pictures._waiting._pictures) == 10
-    run.take(seen(5, camera="nose-AAL123"))
-    assert len(run.pictures._waiting._pictures) == 7, "those of the tower still wait"
-
-
-def waiting_for(*seqs: int) -> tuple[WaitingPictures[Picture], list[int]]:
-    waiting: WaitingPictures[Picture] = WaitingPictures()
+def waiting_for(*seqs: int) -> tuple[WaitingPictures, list[int]]:
+    waiting = WaitingPictures()
     crowded_out = [
         picture.header.seq
         for seq in seqs
@@ -234,7 +206,7 @@ def test_pictures_wait_for_their_detections_as_long_as_there_is_room() -> None:
 
 
 def test_one_picture_waits_however_large_it_is() -> None:
-    waiting: WaitingPictures[Picture] = WaitingPictures()
+    waiting = WaitingPictures()
     header: CameraFrame = frame(0)
     assert waiting.add(Picture(header, bytes(70_000_000), ())) == []
     assert numbers(waiting.everything()) == [0]

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import base64
-import json
 import os
-import re
 import shutil
 from contextlib import closing
 from pathlib import Path
@@ -19,6 +17,7 @@ from airhilt.report.intervals import MOST_INTERVALS, BridgedIntervals
 from airhilt.report.sections import cameras as camera_section
 from airhilt.units import SECOND_NS
 from camera_run import camera_run
+from report_pages import shown as data
 from sightings import vision
 
 HOSTILE = "</script><img src=x onerror=alert(1)>"
@@ -36,24 +35,9 @@ def folder(finished: Path, tmp_path: Path) -> Path:
     return shutil.copytree(finished, tmp_path / "run")
 
 
-def data(page: Path) -> dict[str, Any]:
-    (script,) = re.findall(
-        r'<script type="application/json" id="run">(.*?)</script>', page.read_text(), re.DOTALL
-    )
-    found: dict[str, Any] = json.loads(script)
-    return found
-
-
 def shown(folder: Path) -> dict[str, Any]:
     cameras: dict[str, Any] = data(write_report(folder))["sections"]["cameras"]
     return cameras
-
-
-def test_the_pictures_that_matter_come_first_and_those_of_the_start_last(folder: Path) -> None:
-    occasions = [picture["occasion"] for picture in shown(folder)["pictures"]]
-    assert occasions == [
-        "first_detection", "first_warning", "closest_approach", "start", "start"
-    ]  # fmt: skip
 
 
 def test_pictures_lie_in_the_page_as_they_were_written(folder: Path) -> None:
@@ -199,20 +183,6 @@ def test_why_vision_was_not_evaluated_is_told_as_data(folder: Path) -> None:
     assert "onerror=alert(1)>" not in page.read_text()
     cameras = data(page)["sections"]["cameras"]
     assert (cameras["state"], cameras["cause"]) == ("not evaluated", HOSTILE)
-
-
-def test_a_long_cause_is_cut(folder: Path) -> None:
-    rewrite(folder, vision("lost", "x" * 5_000))
-    assert len(shown(folder)["cause"]) == 400
-
-
-def test_a_killed_run_shows_what_its_log_has(folder: Path) -> None:
-    RunFolder(folder).summary_path.unlink()
-    whole = (folder / "log.mcap").read_bytes()
-    (folder / "log.mcap").write_bytes(whole[: len(whole) // 2])
-    timelines = shown(folder)["timelines"]
-    assert timelines[0]["in_view"]
-    assert len(shown(folder)["pictures"]) >= 3
 
 
 # --- intervals ------------------------------------------------------------------------------

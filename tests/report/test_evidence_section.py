@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
-import re
 from pathlib import Path
 from typing import Any
 
 from airhilt.messages import CONTROLLER, Advisory, Evidence, Severity
 from airhilt.report import write_report
 from radio_folder import RadioFolder
+from report_pages import shown
 
 
 def advisory(recipient: str, revision: int = 0, **more: Any) -> Advisory:
@@ -28,9 +27,7 @@ def rows(tmp_path: Path, *advisories: Advisory) -> Any:
     folder = RadioFolder(tmp_path / "run")
     for one in advisories:
         folder.write(f"advisory/{one.recipient}", one)
-    page = write_report(folder.close()).read_text()
-    (data,) = re.findall(r'<script type="application/json" id="run">(.*?)</script>', page, re.S)
-    return json.loads(data)["sections"]["evidence"]
+    return shown(write_report(folder.close()))["sections"]["evidence"]
 
 
 def test_an_advisory_has_one_row_for_all_its_recipients(tmp_path: Path) -> None:

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import math
-import re
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +13,7 @@ from airhilt.options import Options
 from airhilt.report import write_report
 from airhilt.report.sections import radar as radar_section
 from airhilt.scenario import Scenario
+from report_pages import shown
 
 
 @pytest.fixture(scope="module")
@@ -26,12 +25,7 @@ def folder(encounter: Scenario, tmp_path_factory: pytest.TempPathFactory) -> Pat
 
 
 def data(folder: Path) -> dict[str, Any]:
-    page = write_report(folder)
-    (script,) = re.findall(
-        r'<script type="application/json" id="run">(.*?)</script>', page.read_text(), re.DOTALL
-    )
-    found: dict[str, Any] = json.loads(script)
-    return found
+    return shown(write_report(folder))
 
 
 def test_a_radar_is_shown_with_its_period_and_ranges(folder: Path) -> None:

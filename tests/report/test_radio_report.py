@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import base64
 import io
-import json
-import re
 import wave
 from pathlib import Path
 from typing import Any
@@ -13,10 +11,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from airhilt.messages import Event
 from airhilt.report import sounds, write_report
 from airhilt.report.sections import radio as radio_section
 from radio_folder import RadioFolder, busy_radio
+from report_pages import shown as data
 
 HOSTILE = "</script><img src=x onerror=alert(1)>"
 
@@ -24,14 +22,6 @@ HOSTILE = "</script><img src=x onerror=alert(1)>"
 @pytest.fixture
 def radio(tmp_path: Path) -> RadioFolder:
     return RadioFolder(tmp_path / "run")
-
-
-def data(page: Path) -> dict[str, Any]:
-    (script,) = re.findall(
-        r'<script type="application/json" id="run">(.*?)</script>', page.read_text(), re.DOTALL
-    )
-    found: dict[str, Any] = json.loads(script)
-    return found
 
 
 def shown(folder: Path) -> dict[str, Any]:
@@ -128,10 +118,6 @@ def test_a_radio_with_more_calls_than_can_be_shown_says_so(
     assert any("first 2 calls" in note and "3 later" in note for note in page["notes"])
 
 
-def test_a_run_without_calls_has_an_empty_radio(radio: RadioFolder) -> None:
-    assert shown(radio.close())["sections"]["radio"] == {"calls": [], "advisories": []}
-
-
 def test_hostile_words_stay_data(radio: RadioFolder) -> None:
     radio.call("one", 1.0, HOSTILE, HOSTILE, speaker=HOSTILE, engine=HOSTILE)
     radio.voice("two", 3.0, HOSTILE)
@@ -139,11 +125,3 @@ def test_hostile_words_stay_data(radio: RadioFolder) -> None:
     assert "onerror=alert(1)>" not in page.read_text()
     (call,) = data(page)["sections"]["radio"]["calls"]
     assert (call["who"], call["said"]) == (HOSTILE, HOSTILE)
-
-
-def test_a_transcript_of_another_version_costs_itself_alone(radio: RadioFolder) -> None:
-    radio.write("asr/119100", Event(t_ns=0, kind="finished", subject="", text=""))
-    page = shown(radio.call("one", 1.0, "Roger", "roger").close())
-    assert any("not as this version writes it" in note for note in page["notes"])
-    (call,) = page["sections"]["radio"]["calls"]
-    assert len(call["transcripts"]) == 1

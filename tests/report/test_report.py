@@ -35,6 +35,7 @@ from airhilt.report.tracks import ThinnedStates
 from airhilt.scenario import Scenario
 from airhilt.text import readable
 from airhilt.units import SECOND_NS
+from report_pages import shown
 
 HOSTILE = (
     "</script><script>alert(1)</script><!-- <img src=x onerror=alert(2)> &lt;b> \u2028 @@RUN@@"
@@ -53,16 +54,6 @@ def finished(encounter: Scenario, tmp_path_factory: pytest.TempPathFactory) -> P
 def folder(finished: Path, tmp_path: Path) -> Path:
     """A copy of it to damage."""
     return shutil.copytree(finished, tmp_path / "run")
-
-
-def shown(page: Path) -> dict[str, Any]:
-    """Return what the page was given to show."""
-    scripts = re.findall(
-        r'<script type="application/json" id="run">(.*?)</script>', page.read_text(), re.DOTALL
-    )
-    assert len(scripts) == 1
-    data: dict[str, Any] = json.loads(scripts[0])
-    return data
 
 
 def rewrite_log(folder: Path, *messages: tuple[str, Message]) -> None:
@@ -374,22 +365,21 @@ def test_a_killed_run_says_what_is_missing_and_shows_the_rest(folder: Path) -> N
     assert 0.0 < data["end_s"] < 30.0
 
 
-@pytest.mark.parametrize("size", [0, 5, 10, 300, 1500, 5000, 9999, 19_435])
+@pytest.mark.parametrize("size", [0, 300, 9999])
 def test_a_log_cut_anywhere_gives_a_page(folder: Path, size: int) -> None:
     log = folder / "log.mcap"
     log.write_bytes(log.read_bytes()[:size])
     assert shown(write_report(folder))["notes"]
 
 
-def test_a_latency_log_cut_in_a_line_counts_up_to_there(folder: Path) -> None:
+def test_latencies_that_break_off_are_counted_up_to_there_and_missing_ones_named(
+    folder: Path,
+) -> None:
     text = (folder / "latency.jsonl").read_text()
     (folder / "latency.jsonl").write_text(text[: len(text) // 2 + 7])
     assert shown(write_report(folder))["sections"]["latencies"]
-
-
-def test_missing_parts_are_named_on_the_page(folder: Path) -> None:
-    for name in ("log.mcap", "latency.jsonl"):
-        (folder / name).unlink()
+    (folder / "latency.jsonl").unlink()
+    (folder / "log.mcap").unlink()
     notes = " ".join(shown(write_report(folder))["notes"])
     assert "log.mcap" in notes
     assert "latency.jsonl" in notes
@@ -406,13 +396,10 @@ def test_a_summary_of_another_version_is_left_out_and_said(folder: Path) -> None
     ("key", "data"),
     [
         ("truth/event", b'{"kind": "of another version"}'),
-        ("truth/conflict", b'{"runway": 1, "actors": 2}'),
         ("advisory/ATC", b"[]"),
         ("status/asr", b"not JSON"),
         ("truth/runway/01-19", b'{"runway": 1}'),
         ("truth/state/AAL123", b'{"t_ns": 0, "latitude_deg": null, "phase": "\\x"}'),
-        ("truth/state/UAL9", b"{}"),
-        ("radio/119100/tx", b"{}"),
         ("asr/119100", b'{"id": "one", "slots": {}}'),
     ],
 )
@@ -472,25 +459,21 @@ def test_hostile_text_stays_data(folder: Path) -> None:
     info.realised["title"] = HOSTILE
     RunFolder(folder).write_info(info)
     before = write_report(folder, folder.parent / "before.html").read_text().lower()
-    rewrite_log(folder, ("advisory/ATC", hostile_advisory()))
+    states = [truth("AAL123", t_s, phase=HOSTILE) for t_s in (0.0, 1.0)]
+    rewrite_log(
+        folder,
+        *(("truth/state/AAL123", state) for state in states),
+        ("advisory/ATC", hostile_advisory()),
+    )
     page = write_report(folder)
     after = page.read_text().lower()
     for markup in ("<script", "</script", "<!--", "<img", "onerror=alert(2)>"):
         assert after.count(markup) == before.count(markup)
     (event,) = shown(page)["events"]
-    assert event["text"] == readable(HOSTILE)
-    assert shown(page)["scenario"]["title"] == readable(HOSTILE)
-
-
-def test_a_hostile_phase_stays_data(folder: Path) -> None:
-    states = [truth("AAL123", t_s, phase=HOSTILE) for t_s in (0.0, 1.0)]
-    before = write_report(folder, folder.parent / "before.html").read_text().lower()
-    rewrite_log(folder, *(("truth/state/AAL123", state) for state in states))
-    page = write_report(folder)
     (track,) = shown(page)["tracks"]
     assert [phase["what"] for phase in track["phases"]] == [readable(HOSTILE)]
-    for markup in ("<script", "</script", "<!--", "<img"):
-        assert page.read_text().lower().count(markup) == before.count(markup)
+    assert event["text"] == readable(HOSTILE)
+    assert shown(page)["scenario"]["title"] == readable(HOSTILE)
 
 
 def parts_of_the_page() -> str:

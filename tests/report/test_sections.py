@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -17,6 +15,7 @@ from airhilt.report.sections import load_sections
 from engine_package import installed
 from paths import DOCS
 from radio_folder import RadioFolder
+from report_pages import shown as data
 
 HOSTILE = "</script><script>alert(1)</script><!-- <img src=x onerror=alert(2)>"
 MODULE = """
@@ -68,14 +67,6 @@ def run_folder(tmp_path: Path) -> Path:
     return RadioFolder(tmp_path / "run").call("one", 1.0, "Roger").close()
 
 
-def data(page: Path) -> dict[str, Any]:
-    (script,) = re.findall(
-        r'<script type="application/json" id="run">(.*?)</script>', page.read_text(), re.DOTALL
-    )
-    found: dict[str, Any] = json.loads(script)
-    return found
-
-
 def test_sections_stand_in_their_order() -> None:
     sections, problems = load_sections()
     outer = [section.name for section in sections if not section.within]
@@ -125,6 +116,11 @@ def test_a_section_that_cannot_be_loaded_is_named_and_the_rest_is_shown(
         ("self._keys = []", "raise KeyError('begin')"),
         ("self._keys.append(logged.key)", "self.nothing.append(logged)"),
         ("return {", "return 1 / 0, {"),
+        ("return {", "return {1, 2}, {"),
+        ('"keys": self._keys', '"keys": float("nan")'),
+        ('keys=("truth/radio/",)', "keys=5"),
+        ("order=45", "order='late'"),
+        ("order=45", "order=45, within='nowhere'"),
     ],
 )
 def test_a_section_that_fails_is_named_and_the_rest_is_shown(
@@ -136,8 +132,7 @@ def test_a_section_that_fails_is_named_and_the_rest_is_shown(
         (tmp_path / f"{package}.html").write_text(TEMPLATE)
         html = write_report(run_folder).read_text()
     page = data(run_folder / "report.html")
-    (note,) = (note for note in page["notes"] if "'speakers' cannot be shown" in note)
-    assert re.search("KeyError|AttributeError|ZeroDivisionError", note)
+    assert sum("'speakers' cannot be shown" in note for note in page["notes"]) == 1
     assert "<section id='speakers'>" not in html
     assert len(page["sections"]["radio"]["calls"]) == 1
 
@@ -147,9 +142,6 @@ def test_a_section_that_fails_is_named_and_the_rest_is_shown(
     [
         "{{ data.nothing.at_all }}",
         "{% if %}",
-        "{{ none + 1 }}",
-        "{% include 'other.html' %}",
-        "{{ '\\ud800' }}",
     ],
 )
 def test_a_template_that_fails_is_named_and_the_rest_is_shown(
@@ -158,40 +150,6 @@ def test_a_template_that_fails_is_named_and_the_rest_is_shown(
     (speakers / "outside_speakers.html").write_text(template)
     page = data(write_report(run_folder))
     assert any("template of section 'speakers' cannot be shown" in note for note in page["notes"])
-    assert len(page["sections"]["radio"]["calls"]) == 1
-
-
-@pytest.mark.parametrize("suffix", [".html", ".js"])
-def test_a_file_of_a_section_that_is_not_utf_8_is_named_and_the_rest_is_shown(
-    speakers: Path, run_folder: Path, suffix: str
-) -> None:
-    (speakers / f"outside_speakers{suffix}").write_bytes(b"caf\xe9")
-    page = data(write_report(run_folder))
-    (note,) = (note for note in page["notes"] if "'speakers' cannot be shown" in note)
-    assert f"outside_speakers{suffix}: not UTF-8" in note
-    assert len(page["sections"]["radio"]["calls"]) == 1
-
-
-@pytest.mark.parametrize(
-    ("works", "fails"),
-    [
-        ("return {", "return {1, 2}, {"),
-        ("return {", "import numpy; return numpy.float32(1), {"),
-        ('"keys": self._keys', '"keys": float("nan")'),
-        ('keys=("truth/radio/",)', "keys=5"),
-        ("order=45", "order='late'"),
-        ("order=45", "order=45, within='nowhere'"),
-        ("order=45", "order=45, within='speakers'"),
-        ("order=45", "order=45, within='numbers'"),
-    ],
-)
-def test_a_section_with_wrong_data_or_place_is_named_and_the_rest_is_shown(
-    speakers: Path, run_folder: Path, works: str, fails: str
-) -> None:
-    source = (MODULE % HOSTILE).replace(works, fails)
-    (speakers / "outside_speakers.py").write_text(source)
-    page = data(write_report(run_folder))
-    assert any("'speakers' cannot be shown" in note for note in page["notes"])
     assert len(page["sections"]["radio"]["calls"]) == 1
 
 

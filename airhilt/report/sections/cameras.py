@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from airhilt.imaging.boxes import size_px
 from airhilt.imaging.matching import matches
@@ -14,13 +14,11 @@ from airhilt.metrics.detection_scores import MOST_PICTURES_BEHIND, must_be_found
 from airhilt.record import Logged, RunFolder
 from airhilt.record.pictures import OCCASIONS, PictureName
 from airhilt.record.run import result_problem
+from airhilt.report.data import RunData
 from airhilt.report.intervals import BridgedIntervals
 from airhilt.report.sections import Content, Section
 from airhilt.text import readable
 from airhilt.units import SECOND_NS
-
-if TYPE_CHECKING:
-    from airhilt.report.data import RunData
 
 Json = dict[str, Any]
 

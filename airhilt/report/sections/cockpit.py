@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from airhilt.messages import CockpitInstruments
 from airhilt.record import Logged, RunFolder
+from airhilt.report.data import RunData
 from airhilt.report.sections import Content, Section
 from airhilt.units import SECOND_NS
-
-if TYPE_CHECKING:
-    from airhilt.report.data import RunData
 
 Json = dict[str, Any]
 

@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from airhilt.report.data import RunData
 from airhilt.report.sections import Content, Section
-
-if TYPE_CHECKING:
-    from airhilt.report.data import RunData
 
 
 class Draws(Content):

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from airhilt.messages import Advisory
 from airhilt.record import Logged, RunFolder
+from airhilt.report.data import RunData
 from airhilt.report.sections import Content, Section
 from airhilt.text import readable
 from airhilt.units import SECOND_NS
-
-if TYPE_CHECKING:
-    from airhilt.report.data import RunData
 
 Json = dict[str, Any]
 MOST_ROWS = 300

@@ -25,17 +25,15 @@ function drawHistogram() {
   const holder = byId("histogram"), workers = data;
   if (!workers.length) { holder.replaceChildren(html("p", { class: "dim" }, "No worker finished a step.")); return; }
   const rowHeight = 74, chart = canvas(holder, workers.length * rowHeight + 44, "Histogram of latencies by worker"), { root, width } = chart;
-  const area = { left: 16, right: width - 24, bottom: workers.length * rowHeight };
+  const area = { left: 16, right: width - 24, top: 0, bottom: workers.length * rowHeight };
   const edges = workers.flatMap(({ bins }) => bins.flatMap((bin) => [bin.from_s, bin.to_s]));
   let low = Math.floor(Math.log10(Math.min(...edges)) + 1e-3), high = Math.ceil(Math.log10(Math.max(...edges)) - 1e-3);
   while (high - low < 3) { if (high < 0) high += 1; else low -= 1; }
   const x = scale(low, high, area.left, area.right);
-  for (let decade = low; decade <= high; decade += 1) {
-    const text = 10 ** decade >= 1 ? `${10 ** decade} s` : 10 ** decade >= 9e-4 ? `${Math.round(10 ** decade * 1e3)} ms` : `${Math.round(10 ** decade * 1e6)} µs`;
-    root.append(svg("line", { class: "gridline", x1: x(decade), x2: x(decade), y1: 0, y2: area.bottom }),
-      svg("text", { class: "tick", x: x(decade), y: area.bottom + 17, "text-anchor": "middle" }, text));
-  }
-  root.append(svg("text", { class: "unit", x: (area.left + area.right) / 2, y: area.bottom + 36, "text-anchor": "middle" }, "Latency (logarithmic); height: share of the worker's steps"));
+  x.ticks = ticks(low, high, 1);
+  x.format = (decade) => (10 ** decade >= 1 ? `${10 ** decade} s` : 10 ** decade >= 9e-4 ? `${Math.round(10 ** decade * 1e3)} ms` : `${Math.round(10 ** decade * 1e6)} µs`);
+  bottomAxis(root, area, x);
+  root.append(nameBelow(area, "Latency (logarithmic); height: share of the worker's steps", 36));
   workers.forEach((worker, i) => drawBars(root, worker, x, i * rowHeight, rowHeight, area, `var(--c${i % MOST_COLOURED})`));
 }
 

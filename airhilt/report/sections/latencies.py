@@ -6,15 +6,13 @@ import json
 import math
 from collections import Counter
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from airhilt.record import RunFolder
 from airhilt.record.latency import latency_lines
+from airhilt.report.data import RunData
 from airhilt.report.sections import Content, Section
 from airhilt.units import SECOND_NS
-
-if TYPE_CHECKING:
-    from airhilt.report.data import RunData
 
 Json = dict[str, Any]
 

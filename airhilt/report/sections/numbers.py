@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from airhilt.messages import FORMER_MODALITIES
 from airhilt.record import Logged, RunFolder
+from airhilt.report.data import RunData
 from airhilt.report.sections import Content, Section
-
-if TYPE_CHECKING:
-    from airhilt.report.data import RunData
 
 
 class Modalities(Content):

@@ -51,18 +51,7 @@ function drawPlan() {
   const width = Math.max(holder.clientWidth, 240), besides = innerWidth > 920;
   const chart = canvas(holder, besides ? Math.min(width * 1.5, 690) : Math.min(Math.max(width * 0.8, 300), 560), view.name === "All traffic" ? "Plan view of all tracks" : `Plan view: ${view.name}`);
   const { root } = chart, area = { left: airport ? 64 : 54, right: width - 12, top: 12, bottom: chart.height - 44 };
-  const box = view.box();
-  const spanX = Math.max((box.east.high - box.east.low) * view.pad, view.least), spanY = Math.max((box.north.high - box.north.low) * view.pad, view.least);
-  const perNm = Math.min((area.right - area.left) / spanX, (area.bottom - area.top) / spanY);
-  const half = { x: (area.right - area.left) / perNm / 2, y: (area.bottom - area.top) / perNm / 2 };
-  const centre = { x: (box.east.low + box.east.high) / 2, y: (box.north.low + box.north.high) / 2 };
-  const near = half.x < 1.5, unit = near ? 1 / METRE_PER_NM : 1; // so near that metres say more than miles
-  const step = niceStep(half.x * 2 / unit, (area.right - area.left) / 75) * unit;
-  const x = scale(centre.x - half.x, centre.x + half.x, area.left, area.right);
-  const y = scale(centre.y - half.y, centre.y + half.y, area.bottom, area.top);
-  x.ticks = ticks(centre.x - half.x, centre.x + half.x, step);
-  y.ticks = ticks(centre.y - half.y, centre.y + half.y, step);
-  x.format = y.format = (value) => (near ? whole(value / unit) : fixed(value, digitsOf(step)));
+  const { x, y, perNm, near } = planeScales(area, view.box(), view.pad, view.least, true);
   if (airport) drawAirport(clip(root, "airport-clip", area), x, y, perNm / METRE_PER_NM, area);
   axes(root, area, x, y, near ? { x: "East (m)", y: "North (m)" } : { x: "East (NM)", y: "North (NM)" });
   const ground = clip(root, "plan-clip", area);
@@ -162,7 +151,7 @@ function pointAway(track, px, py, taken, area, perNm) {
   const tx = Math.min(Math.max(wantedX, area.left + width / 2 + 4), area.right - width / 2 - 4);
   const spots = [0, 16, -16, 32, -32, 48].map((shift) => Math.min(Math.max(ey + shift + (tx === ex ? -Math.sign(dy) * 18 : 0), area.top + 12), area.bottom - 12));
   const boxes = spots.map((ty) => ({ left: tx - width / 2, right: tx + width / 2, top: ty - 9, bottom: ty + 9, ty }));
-  const box = boxes.find((own) => !taken.some((other) => own.left < other.right && own.right > other.left && own.top < other.bottom && own.bottom > other.top)) || boxes[0];
+  const box = boxes.find((own) => !taken.some((other) => overlap(own, other))) || boxes[0];
   taken.push(box);
   return svg("g", {}, arrowSymbol(ex, ey, Math.atan2(dx, -dy), track.colour), svg("text", { class: "halo bold", x: tx, y: box.ty + 4, "text-anchor": "middle", style: `fill: ${track.colour}` }, text));
 }
@@ -177,7 +166,7 @@ function placeBlock(track, state, px, py, taken, area) {
       const cx = px + dx * (far + width / 2 - (dy ? 8 : 0)), cy = py + dy * (far + height / 2 - 2);
       const box = { left: cx - width / 2, right: cx + width / 2, top: cy - height / 2, bottom: cy + height / 2 };
       const inside = box.left > area.left && box.right < area.right && box.top > area.top && box.bottom < area.bottom;
-      if (!inside || taken.some((other) => box.left < other.right && box.right > other.left && box.top < other.bottom && box.bottom > other.top)) continue;
+      if (!inside || taken.some((other) => overlap(box, other))) continue;
       taken.push(box);
       const text = lines.map((line, i) => svg("text", { class: i ? "halo" : "halo bold", x: cx, y: box.top + 12 + i * 15, "text-anchor": "middle", style: i ? null : `fill: ${track.colour}` }, line));
       return svg("g", {}, far > 14 ? svg("line", { x1: px, y1: py, x2: cx, y2: cy, stroke: "var(--dim)", opacity: .6 }) : null, ...text);

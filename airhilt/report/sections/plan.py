@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from airhilt.messages import CameraFrame, CameraInfo, CameraView, Detections
-from airhilt.record import Logged
+from airhilt.record import Logged, RunFolder
+from airhilt.report.data import RunData
 from airhilt.report.sections import Content, Section
 from airhilt.units import DEGREE, SECOND_NS
-
-if TYPE_CHECKING:
-    from airhilt.record import RunFolder
-    from airhilt.report.data import RunData
 
 Json = dict[str, Any]
 PERIOD_NS = SECOND_NS // 2

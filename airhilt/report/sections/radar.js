@@ -23,16 +23,9 @@ function surroundings(radar) {
 function drawRadar(radar, holder, number) {
   const width = Math.max(holder.clientWidth, 240), chart = canvas(holder, Math.min(Math.max(width * 0.75, 300), 560), `Plots of radar ${radar.site}`);
   const { root } = chart, area = { left: 54, right: width - 12, top: 12, bottom: chart.height - 44 };
-  const { east, north } = surroundings(radar), spanX = Math.max((east.high - east.low) * 1.3, 2), spanY = Math.max((north.high - north.low) * 1.3, 2);
-  const perNm = Math.min((area.right - area.left) / spanX, (area.bottom - area.top) / spanY);
-  const half = { x: (area.right - area.left) / perNm / 2, y: (area.bottom - area.top) / perNm / 2 }, middle = ({ low, high }) => (low + high) / 2;
+  const { east, north } = surroundings(radar), from = ({ low, high }, zero) => ({ low: low - zero, high: high - zero });
   const shift = { x: radar.east_nm, y: radar.north_nm }; // distances are from the antenna
-  const x = scale(middle(east) - half.x - shift.x, middle(east) + half.x - shift.x, area.left, area.right);
-  const y = scale(middle(north) - half.y - shift.y, middle(north) + half.y - shift.y, area.bottom, area.top);
-  const step = niceStep(half.x * 2, (area.right - area.left) / 75);
-  x.ticks = ticks(x.invert(area.left), x.invert(area.right), step);
-  y.ticks = ticks(y.invert(area.bottom), y.invert(area.top), step);
-  x.format = y.format = (value) => fixed(value, digitsOf(step));
+  const { x, y, perNm, step } = planeScales(area, { east: from(east, shift.x), north: from(north, shift.y) }, 1.3, 2);
   const ground = clip(root, `radar-clip-${number}`, area);
   if (airport) drawAirport(ground, (value) => x(value - shift.x), (value) => y(value - shift.y), perNm / METRE_PER_NM, area);
   drawRings(ground, x, y, perNm, area, step);

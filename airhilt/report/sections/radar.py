@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,13 +13,11 @@ from numpy.typing import NDArray
 from airhilt.geodesy.wgs84 import MEAN_RADIUS_M
 from airhilt.messages import PlotKind, RadarInfo, RadarPlot
 from airhilt.record import Logged, RunFolder
+from airhilt.report.data import RunData
 from airhilt.report.sections import Content, Section
+from airhilt.report.tracks import Track, Values
 from airhilt.surveillance.radar import plot_place
 from airhilt.units import DEGREE, NAUTICAL_MILE, SECOND_NS
-
-if TYPE_CHECKING:
-    from airhilt.report.data import RunData
-    from airhilt.report.tracks import Track, Values
 
 Json = dict[str, Any]
 

@@ -47,9 +47,7 @@ function drawSnr() {
   const levels = summary ? summary.radio.by_snr : [];
   byId("radio-snr").hidden = !levels.length;
   const heads = [["SNR", ""], ["Calls", "number"], ["Word error rate", "number"], ["Callsigns", "number"], ["Slots", "number"], ["False slots", "number"]];
-  byId("radio-snr").replaceChildren(html("table", {}, html("thead", {}, html("tr", {}, ...heads.map(([name, kind]) => html("th", { scope: "col", class: kind }, name)))),
-    html("tbody", {}, ...levels.map((level) => html("tr", {}, ...[decibels(level.snr_db), whole(level.calls), percent(level.wer), percent(level.callsign_accuracy), percent(level.slot_accuracy), whole(level.false_slots || 0)]
-      .map((text, i) => html("td", { class: heads[i][1] }, text)))))));
+  byId("radio-snr").replaceChildren(plainTable(heads, levels.map((level) => [decibels(level.snr_db), whole(level.calls), percent(level.wer), percent(level.callsign_accuracy), percent(level.slot_accuracy), whole(level.false_slots || 0)])));
 }
 
 function drawRadio() {

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ
 from airhilt.messages import AdvisoryAudio, SpokenTruth, Transcript
 from airhilt.metrics.calls import CallRecord, CallRecords, call_message
 from airhilt.metrics.words import align
 from airhilt.record import Logged, RunFolder
+from airhilt.report.data import RunData
 from airhilt.report.sections import Content, Section
 from airhilt.report.sounds import Sounds
 from airhilt.text import readable
 from airhilt.units import SECOND_NS
-
-if TYPE_CHECKING:
-    from airhilt.report.data import RunData
 
 Json = dict[str, Any]
 

@@ -2,20 +2,18 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from airhilt.messages import RunwayTruth
 from airhilt.record import Logged, RunFolder
+from airhilt.report.data import RunData
+from airhilt.report.events import runway_name
 from airhilt.report.intervals import Interval, Intervals
 from airhilt.report.sections import Content, Section
-from airhilt.report.text import runway_name
 from airhilt.text import readable
 from airhilt.units import NAUTICAL_MILE, SECOND_NS
-
-if TYPE_CHECKING:
-    from airhilt.report.data import RunData
 
 Json = dict[str, Any]
 

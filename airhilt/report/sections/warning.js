@@ -31,11 +31,10 @@ function drawBar() {
   const { root, width } = canvas(byId("warning-bar"), 96, "Parts of the time to first warning"), area = { left: 16, right: width - 16, top: 12, bottom: 48 };
   const spans = Object.keys(PARTS).map((part) => ({ part, value: parts[part], colour: colour(part) }));
   const low = Math.min(...spans.map(({ value }) => value), 0), high = spans.reduce((sum, { value }) => sum + Math.max(value, 0), 0);
-  const x = scale(low, Math.max(high, low + 1), area.left, area.right), step = niceTimeStep(Math.max(high - low, 1), 8);
-  for (const value of ticks(low, high, step)) {
-    root.append(svg("line", { class: "gridline", x1: x(value), x2: x(value), y1: area.top, y2: area.bottom }),
-      svg("text", { class: "tick", x: x(value), y: area.bottom + 17, "text-anchor": "middle" }, seconds(value)));
-  }
+  const x = scale(low, Math.max(high, low + 1), area.left, area.right);
+  x.ticks = ticks(low, high, niceTimeStep(Math.max(high - low, 1), 8));
+  x.format = (value) => seconds(value);
+  bottomAxis(root, area, x);
   let from = 0;
   for (const { part, value, colour } of spans) {
     const begin = value < 0 ? value : from, end = value < 0 ? 0 : from + value;
@@ -45,7 +44,7 @@ function drawBar() {
     root.append(bar);
     if (value > 0) from += value;
   }
-  root.append(svg("text", { class: "unit", x: (area.left + area.right) / 2, y: area.bottom + 38, "text-anchor": "middle" }, "Parts added up from the begin of the conflict, in the order of the table"));
+  root.append(nameBelow(area, "Parts added up from the begin of the conflict, in the order of the table", 38));
 }
 
 return { draw: drawTable, fit: drawBar };

@@ -37,6 +37,17 @@ function canvas(holder, height, label) {
   return { root, width, height };
 }
 
+/** Draws the lines of a grid across the axis at the bottom, with their labels. */
+function bottomAxis(root, area, x, noX = false) {
+  for (const value of x.ticks) {
+    const px = x(value);
+    root.append(svg("line", { class: "gridline", x1: px, x2: px, y1: area.top, y2: area.bottom }));
+    if (!noX) root.append(svg("text", { class: "tick", x: px, y: area.bottom + 17, "text-anchor": "middle" }, x.format(value)));
+  }
+}
+const nameBelow = (area, name, below = 34) => svg("text", { class: "unit", x: (area.left + area.right) / 2, y: area.bottom + below, "text-anchor": "middle" }, name);
+const frameOf = ({ left, right, top, bottom }) => svg("rect", { class: "frame", x: left, y: top, width: right - left, height: bottom - top });
+
 /** Draws a grid with labels below and at the left, and the frame around them. */
 function axes(root, area, x, y, names, noX = false) {
   const { left, right, top, bottom } = area;
@@ -45,15 +56,10 @@ function axes(root, area, x, y, names, noX = false) {
     root.append(svg("line", { class: "gridline", x1: left, x2: right, y1: py, y2: py }),
       svg("text", { class: "tick", x: left - 7, y: py + 4, "text-anchor": "end" }, y.format(value)));
   }
-  for (const value of x.ticks) {
-    const px = x(value);
-    root.append(svg("line", { class: "gridline", x1: px, x2: px, y1: top, y2: bottom }));
-    if (!noX) root.append(svg("text", { class: "tick", x: px, y: bottom + 17, "text-anchor": "middle" }, x.format(value)));
-  }
-  if (!noX) root.append(svg("text", { class: "unit", x: (left + right) / 2, y: bottom + 34, "text-anchor": "middle" }, names.x));
+  bottomAxis(root, area, x, noX);
+  if (!noX) root.append(nameBelow(area, names.x));
   const middle = (top + bottom) / 2;
-  root.append(svg("text", { class: "unit", x: 13, y: middle, "text-anchor": "middle", transform: `rotate(-90 13 ${middle})` }, names.y),
-    svg("rect", { class: "frame", x: left, y: top, width: right - left, height: bottom - top }));
+  root.append(svg("text", { class: "unit", x: 13, y: middle, "text-anchor": "middle", transform: `rotate(-90 13 ${middle})` }, names.y), frameOf(area));
 }
 
 function timeScale(area) {
@@ -68,6 +74,21 @@ function valueScale(low, high, from, to, most) {
   y.format = (value) => (Math.abs(step) >= 1 ? whole(value) : fixed(value, digitsOf(step)));
   return y;
 }
+
+/** Scales for a part of the plane in NM, on which a mile to the east is as long as one to the north. */
+function planeScales(area, { east, north }, pad, least, inMetres = false) {
+  const width = area.right - area.left, height = area.bottom - area.top, span = ({ low, high }) => Math.max((high - low) * pad, least);
+  const perNm = Math.min(width / span(east), height / span(north));
+  const along = ({ low, high }, length, from, to) => scale((low + high - length / perNm) / 2, (low + high + length / perNm) / 2, from, to);
+  const x = along(east, width, area.left, area.right), y = along(north, height, area.bottom, area.top);
+  const near = inMetres && width / perNm < 3, unit = near ? 1 / METRE_PER_NM : 1; // so near that metres say more than miles
+  const step = niceStep(width / perNm / unit, width / 75) * unit;
+  x.ticks = ticks(x.invert(area.left), x.invert(area.right), step);
+  y.ticks = ticks(y.invert(area.bottom), y.invert(area.top), step);
+  x.format = y.format = (value) => (near ? whole(value / unit) : fixed(value, digitsOf(step)));
+  return { x, y, perNm, step, near };
+}
+const overlap = (one, other) => one.left < other.right && one.right > other.left && one.top < other.bottom && one.bottom > other.top;
 function path(xs, ys, x, y) {
   return xs.map((value, i) => `${i ? "L" : "M"}${x(value).toFixed(1)} ${y(ys[i]).toFixed(1)}`).join("");
 }

@@ -13,10 +13,8 @@ function timelines(holder, names, label, gaps = []) {
   const middles = names.map((_, i) => { if (gaps.includes(i)) top += 10; top += ROW; return top - ROW / 2; });
   const area = { left, right: width - 14, top: 4, bottom: top + 4 }, chart = canvas(holder, area.bottom + 40, label), x = timeScale(area);
   drawWindow(chart.root, x, area);
-  for (const t of x.ticks) {
-    chart.root.append(svg("line", { class: "gridline", x1: x(t), x2: x(t), y1: area.top, y2: area.bottom }), svg("text", { class: "tick", x: x(t), y: area.bottom + 17, "text-anchor": "middle" }, x.format(t)));
-  }
-  chart.root.append(svg("text", { class: "unit", x: (area.left + area.right) / 2, y: area.bottom + 34, "text-anchor": "middle" }, "Time (s)"), svg("rect", { class: "frame", x: left, y: area.top, width: area.right - left, height: area.bottom - area.top }));
+  bottomAxis(chart.root, area, x);
+  chart.root.append(nameBelow(area, "Time (s)"), frameOf(area));
   gaps.forEach((i) => chart.root.append(svg("line", { class: "frame", x1: 0, x2: area.right, y1: middles[i] - ROW / 2 - 5, y2: middles[i] - ROW / 2 - 5, style: "stroke: var(--line)" })));
   names.forEach(({ text, head, colour }, i) => {
     if (head) chart.root.append(svg("text", { class: "bold", x: 2, y: middles[i] + 4 }, head));
