@@ -8,10 +8,11 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
+from airhilt.cosim.engines_in_use import engines_in_use
 from airhilt.cosim.equipment import with_requested_equipment
 from airhilt.cosim.option_checks import check_options
 from airhilt.cosim.participants import Participants
-from airhilt.cosim.provenance import engines_in_use, model_files, other_packages
+from airhilt.cosim.provenance import model_files, other_packages
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.requested_latency import requested_latency
 from airhilt.cosim.requested_radio import with_requested_radio
@@ -80,10 +81,11 @@ class Setup:
 
     def info(self, participants: Participants, pace: Pace, endpoint: str, renderer: str) -> RunInfo:
         """Return what ``run.json`` says of the run when it begins."""
-        options, engines = self.options, engines_in_use(self, participants)
+        named = self.options.model_copy(update={"assistant": participants.assistant})
+        engines = engines_in_use(named, self.scenario.equipment, participants.workers)
         return RunInfo(
             run=self.name,
-            options=options,
+            options=self.options,
             assistant=participants.assistant,
             pace=pace.name,
             scenario=self.given.model_dump(mode="json"),

@@ -17,7 +17,7 @@ from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import Decision, Received
 from airhilt.assistant.decision.engines import decision_engine
 from airhilt.assistant.decision.worker import DecisionWorker
-from airhilt.assistant.reference import families, reference_worker
+from airhilt.assistant.reference import reference_worker
 from airhilt.assistant.vision.detectors import FAMILY as DETECTORS
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.bus import free_endpoint
@@ -25,6 +25,7 @@ from airhilt.cli.doctor import examine
 from airhilt.cosim import cameras
 from airhilt.cosim.observer import Result
 from airhilt.cosim.replay import replay
+from airhilt.engine_families import FAMILIES
 from airhilt.engines import EngineFamily, Package
 from airhilt.errors import AirhiltError, SpeechError, VisionError, WorkerError
 from airhilt.messages import (
@@ -359,7 +360,7 @@ ENGINE = Engine("faulty", "fails", {create}{more})
 """
 
 
-@pytest.mark.parametrize("family", families(), ids=lambda family: family.word)
+@pytest.mark.parametrize("family", FAMILIES, ids=lambda family: family.word)
 def test_an_engine_that_cannot_be_made_is_named_with_the_cause(
     family: EngineFamily[Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -373,7 +374,7 @@ def test_an_engine_that_cannot_be_made_is_named_with_the_cause(
 
 
 @pytest.mark.parametrize(
-    ("family", "lacks"), list(zip(families(), LACKS, strict=True)), ids=lambda one: str(one)[:9]
+    ("family", "lacks"), list(zip(FAMILIES, LACKS, strict=True)), ids=lambda one: str(one)[:9]
 )
 def test_an_engine_that_makes_something_else_is_told_what_that_lacks(
     family: EngineFamily[Any], lacks: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

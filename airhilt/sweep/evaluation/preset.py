@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic import JsonValue
 
-from airhilt.assistant.reference import NO_ASSISTANT
+from airhilt.engine_families import NONE
 from airhilt.sweep.evaluation.tables import Table
 from airhilt.sweep.specification import Specification, first_seeds
 
@@ -51,7 +51,7 @@ class Choice:
 
         Without an assistant nobody recognises or detects, so engines for that are left out.
         """
-        unused = ("asr", "detector") if settled["assistant"] == NO_ASSISTANT else ()
+        unused = ("asr", "detector") if settled["assistant"] == NONE else ()
         given = {name: value for name, value in self.options.items() if name not in unused}
         return Specification.model_validate(
             {
