@@ -77,7 +77,6 @@ from airhilt.messages.radio import (
     TransmissionOpened,
 )
 from airhilt.messages.run import (
-    FORMER_MODALITIES,
     AirportBriefing,
     Briefing,
     Clock,

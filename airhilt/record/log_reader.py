@@ -334,12 +334,10 @@ class LogReader:
 
 
 def _is_data_intact(stream: BinaryIO, data_end: int) -> bool:
-    """Return whether the CRC-32 of everything before the index is right, if there is one."""
+    """Return whether the CRC-32 of everything before the index is right."""
     opcode, length, expected = DATA_END.unpack(_read(stream, max(data_end, 0), DATA_END.size))
     if (opcode, length) != (Opcode.DATA_END, 4):
         return False
-    if expected == 0:
-        return True  # Version 0.5 wrote none.
     crc = 0
     for begin in range(0, data_end, BLOCK_BYTES):
         crc = zlib.crc32(_read(stream, begin, min(BLOCK_BYTES, data_end - begin)), crc)

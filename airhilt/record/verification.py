@@ -24,7 +24,7 @@ from airhilt.record.signature import (
     public_key,
     sign,
 )
-from airhilt.record.sweep_folder import FILES, SweepFolder, SweepFolderError, is_sweep
+from airhilt.record.sweep_folder import SweepFolder, SweepFolderError, is_sweep
 from airhilt.units import SECOND_NS
 
 MADE_AGAIN = ("report.html", "frequency-*.wav", "frequency-*.txt", "figures/*")
@@ -46,7 +46,6 @@ class Verification:
     state
         ``intact``: each file of the manifest is as it was written. ``unfinished``: a run has no
         manifest, because it was killed or goes on; a sweep has not written its tables yet.
-        ``unchecked``: a sweep of version 0.5, which has no manifest.
     ended
         How far an unfinished log can be read, in words, or what tables an unfinished sweep has;
         empty for another.
@@ -62,14 +61,11 @@ class Verification:
         ``unchecked``: there is one, and no key was given.
     key
         Fingerprint of the key that was given, empty without one.
-    has_digest
-        False if ``run.json`` or ``sweep.json`` has no hash of itself, as version 0.5 wrote none:
-        what it says was not checked, and of the files of a run the log alone.
     """
 
     run: str
     kind: Literal["run", "sweep"]
-    state: Literal["intact", "damaged", "unfinished", "unchecked"]
+    state: Literal["intact", "damaged", "unfinished"]
     ended: str = ""
     files: int = 0
     problems: tuple[str, ...] = ()
@@ -77,7 +73,6 @@ class Verification:
     made_again: tuple[str, ...] = ()
     signature: Literal["absent", "unchecked", "good", "bad"] = "absent"
     key: str = ""
-    has_digest: bool = True
 
     @property
     def exit_code(self) -> int:
@@ -98,17 +93,7 @@ class Verification:
                 head = "damaged"
             case "unfinished":
                 head = f"unfinished: the {self.kind} was killed, or is still going on; {self.ended}"
-            case "unchecked":
-                head = (
-                    "not checked: sweep.json has no hashes of sweep.parquet and machine.parquet, "
-                    "as in version 0.5"
-                )
         lines = [f"{self.run}: {head}", *(f"  {problem}" for problem in self.problems)]
-        if self.kind == "run" and not self.has_digest:
-            lines.append(
-                "run.json has no hash of itself, as in version 0.5, and was not checked; of the "
-                "files, those in its manifest were"
-            )
         lines.append(f"signature: {self._signature_text()}")
         if self.additional:
             lines.append(f"not written by the {self.kind}: {', '.join(self.additional)}")
@@ -170,14 +155,8 @@ def _sign_intact(folder: RunFolder | SweepFolder, signer: Ed25519PrivateKey) -> 
     found = verify(folder.path)
     if found.state != "intact":
         said = f": {found.problems[0]}" if found.problems else ""
-        state = "not checked" if found.state == "unchecked" else found.state
         raise SignatureError(
-            f"{folder.path}: {state}{said}; expected a {found.kind} that is intact"
-        )
-    if not found.has_digest:
-        raise SignatureError(
-            f"{folder.path}: recorded by an earlier version, whose manifest has its log alone; "
-            "expected a run of this version"
+            f"{folder.path}: {found.state}{said}; expected a {found.kind} that is intact"
         )
     sign(folder, signer)
 
@@ -220,7 +199,6 @@ def _run(folder: RunFolder) -> Verification:
         tuple(problems),
         additional,
         made_again,
-        has_digest=bool(info.digest),
     )
 
 
@@ -265,10 +243,6 @@ def _sweep(folder: SweepFolder) -> Verification:
     except SweepFolderError as error:
         return Verification(path, "sweep", "damaged", problems=(_below(folder.path, error),))
     tables = folder.table_path.name, folder.machine_path.name
-    if "digest" not in info and FILES not in info:
-        missing = tuple(f"{name}: missing" for name in tables if not (folder.path / name).is_file())
-        state: Literal["damaged", "unchecked"] = "damaged" if missing else "unchecked"
-        return Verification(path, "sweep", state, problems=missing, has_digest=False)
     problems = [
         digest_problem(folder.info_path.name, info),
         *(f"sweep.json: its manifest has no {name}" for name in tables if name not in files),
