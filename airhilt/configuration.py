@@ -6,7 +6,6 @@ the unit and the source. An `airhilt.engines.Engine` names the model of its own.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from pathlib import Path
@@ -47,14 +46,8 @@ def read_configuration(path: Path) -> dict[str, Any]:
         document = bounded_json.parse(read_file(path, bounded_json.MOST_BYTES))
     except OSError as error:
         raise AirhiltError(f"{path}: cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise AirhiltError(f"{path}: no text in UTF-8; expected a JSON object") from None
-    except json.JSONDecodeError as error:
-        raise AirhiltError(
-            f"{path}: no JSON: {error.msg}, line {error.lineno}; expected a JSON object"
-        ) from None
     except ValueError as error:
-        raise AirhiltError(f"{path}: {error}; expected a JSON object") from None
+        raise AirhiltError(f"{path}: no JSON: {error}; expected a JSON object") from None
     if not isinstance(document, dict):
         raise AirhiltError(f"{path}: found {shown(document)}; expected a JSON object")
     return document

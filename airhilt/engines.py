@@ -82,10 +82,6 @@ class Command:
         return f"apt install {self.debian}"
 
 
-def _takes_nothing(_text: str) -> bool:
-    return False
-
-
 @dataclass(frozen=True)
 class Engine(Generic[T_co]):
     """One member of a family: how it is asked for, what it needs, and how it is made.
@@ -123,7 +119,7 @@ class Engine(Generic[T_co]):
     create: Callable[..., T_co]
     argument: str = ""
     is_argument_required: bool = False
-    takes: Callable[[str], bool] = _takes_nothing
+    takes: Callable[[str], bool] = lambda _: False
     usage: str = ""
     requires: tuple[Requirement, ...] = ()
     is_remote: bool = False
@@ -220,8 +216,7 @@ class EngineFamily(Family, Generic[T]):
             No engine is meant, or more than one, or it cannot be made. The error is of the class
             that the family declares.
         """
-        engine, argument = self.choose(text)
-        return self.make(engine, argument, engine.configured(configuration))
+        return self.make(*self.choose(text), configuration)
 
     def require_known(self, text: str) -> None:
         """Complain about a text that means no engine and is none of `words`; nothing is loaded.
@@ -252,13 +247,15 @@ class EngineFamily(Family, Generic[T]):
             f"{', '.join(sorted(having))}"
         )
 
-    def make(self, engine: Engine[T], argument: str, configuration: BaseModel | None = None) -> T:
+    def make(
+        self, engine: Engine[T], argument: str, configuration: Mapping[str, Any] | None = None
+    ) -> T:
         """Return what an engine makes of an argument, checked against the family's protocol.
 
         Parameters
         ----------
         configuration
-            Its configuration; None: the one with the defaults, if it has one.
+            Values of its configuration; None: the defaults.
 
         Raises
         ------
@@ -266,9 +263,8 @@ class EngineFamily(Family, Generic[T]):
             It cannot be made, or is no such thing.
         """
         text = f"{engine.name}:{argument}" if argument else engine.name
-        if configuration is None:
-            configuration = engine.configured(None)
-        more = () if configuration is None else (configuration,)
+        configured = engine.configured(configuration)
+        more = () if configured is None else (configured,)
         try:
             made = engine.create(argument, *more)
             product: type[Any] = resolve_name(self.product)

@@ -6,7 +6,14 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from airhilt.assistant.language_model import LanguageModelSettings, UsesLanguageModel
-from airhilt.engine_families import ASSISTANTS, DETECTORS, RECOGNISERS, VOICES, WORDINGS
+from airhilt.engine_families import (
+    ASSISTANTS,
+    DETECTORS,
+    FAMILIES,
+    RECOGNISERS,
+    VOICES,
+    WORDINGS,
+)
 from airhilt.errors import LanguageModelError, WorkerError
 from airhilt.messages import SPEAK_MIN_LEVEL, Severity
 from airhilt.phraseology.numbers import Style
@@ -56,9 +63,8 @@ def reference_worker(
             return vision_worker(engine or DETECTORS.default, name)
         case "decision":
             return decision_worker(engine or ASSISTANTS.default, name, configuration=configuration)
-    raise WorkerError(
-        f"no reference worker {kind!r}; expected decision, enhancement, asr, tts or vision"
-    )
+    kinds = sorted({family.modality for family in FAMILIES})
+    raise WorkerError(f"no reference worker {kind!r}; expected one of {', '.join(kinds)}")
 
 
 def enhancement_worker(engine: str, name: str = "enhancement") -> Worker:
