@@ -64,7 +64,7 @@ def configured(model: type[C], given: Mapping[str, Any], what: str) -> C:
     Raises
     ------
     AirhiltError
-        There is nothing of a name; the message gives the nearest. Or a value is beyond its limit.
+        A name is unknown, and the message gives the nearest; or a value is beyond its limit.
     """
     try:
         return model.model_validate(given)
@@ -108,7 +108,7 @@ def _unknown(model: type[BaseModel], place: tuple[str, ...]) -> str:
 def settings(
     model: type[BaseModel], above: tuple[str, ...] = ()
 ) -> Iterator[tuple[tuple[str, ...], FieldInfo]]:
-    """Yield the place of each field of a model, and of those of models inside, with the field."""
+    """Yield the path and the field of each setting of a model, nested models included."""
     for name, field in model.model_fields.items():
         place = (*above, name)
         yield place, field

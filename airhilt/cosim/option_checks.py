@@ -57,7 +57,7 @@ def check_options(options: Options, scenario: Scenario) -> None:
 
 
 def _against(options: Options, name: str, needs: tuple[str, ...]) -> Iterator[str]:
-    """Yield in words what leaves out, or does not bring, what an option needs."""
+    """Yield the reasons in words why an option does nothing: something that it needs is absent."""
     for need in needs:
         flag = flag_of(Options.model_fields[need])
         spelling = need if flag is None else flag.name
@@ -73,7 +73,7 @@ def _against(options: Options, name: str, needs: tuple[str, ...]) -> Iterator[st
 
 
 def _require_use_of_enhancer(options: Options, topology: str) -> None:
-    """Complain about an enhancer of which nobody has anything.
+    """Complain about an enhancer whose output nobody would use.
 
     Raises
     ------
@@ -93,7 +93,7 @@ def _require_use_of_enhancer(options: Options, topology: str) -> None:
 
 
 def _require_evidence(options: Options) -> None:
-    """Complain about modalities of which an engine of AIRHILT reads none.
+    """Complain about modalities that leave an engine of AIRHILT nothing to read.
 
     Raises
     ------

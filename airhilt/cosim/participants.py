@@ -160,7 +160,7 @@ def _external_assistant(options: Options) -> str:
 
 
 def _require_used(options: Options, assistant: str) -> None:
-    """Complain about a configuration that nobody has.
+    """Complain about a configuration of an assistant that the run does not make.
 
     Raises
     ------
@@ -175,12 +175,12 @@ def _require_used(options: Options, assistant: str) -> None:
 
 
 def _require_no_programs(options: Options, programs: Sequence[str]) -> None:
-    """Complain about a program that hears what the assistant is not to be given.
+    """Complain about limited modalities where a program without grants reads the whole bus.
 
     Raises
     ------
     WorkerError
-        One takes no grants, and so reads whatever it likes.
+        There is such a program.
     """
     if programs and options.modalities != Options.model_fields["modalities"].default:
         raise WorkerError(

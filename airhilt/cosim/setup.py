@@ -1,4 +1,4 @@
-"""The setup of a run: everything that is settled before workers connect to it."""
+"""The setup of a run: everything that is known before workers connect to it."""
 
 from __future__ import annotations
 
@@ -121,7 +121,7 @@ def check_given(given: Scenario, options: Options) -> None:
 
 
 def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
-    """Settle what a run needs, and put everybody where they begin.
+    """Resolve everything that a run needs, and put its actors at their first positions.
 
     Raises
     ------
@@ -175,7 +175,7 @@ def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
 
 
 def _cache_problems() -> list[str]:
-    """Return in a sentence what keeps later runs from having what this one makes, if anything.
+    """Return a sentence if the cache cannot be written, for the use of later runs.
 
     Raises
     ------

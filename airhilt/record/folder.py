@@ -10,7 +10,7 @@ import platform
 from contextlib import suppress
 from io import BufferedReader
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Final, Literal
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
@@ -22,7 +22,7 @@ from airhilt.messages import WorkerDescription
 from airhilt.options import Options
 from airhilt.record.manifest import FileRecord, digest, manifest
 
-FORMAT = 2
+FORMAT: Final = 2
 RECORDED_VERSIONS = (
     "jsbsim",
     "numpy",
@@ -64,7 +64,7 @@ class RunInfo(BaseModel):
     """``run.json``: everything needed to run it again, and how it ended."""
 
     model_config = ConfigDict(extra="forbid")
-    format: int = FORMAT
+    format: Literal[2] = FORMAT
     phase: Literal["running", "finished", "stopped"] = "running"
     cause: str = ""
     run: str
