@@ -6,7 +6,6 @@ the unit and the source. An `airhilt.engines.Engine` names the model of its own.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from pathlib import Path
@@ -47,14 +46,8 @@ def read_configuration(path: Path) -> dict[str, Any]:
         document = bounded_json.parse(read_file(path, bounded_json.MOST_BYTES))
     except OSError as error:
         raise AirhiltError(f"{path}: cannot be read: {error.strerror}") from None
-    except UnicodeDecodeError:
-        raise AirhiltError(f"{path}: no text in UTF-8; expected a JSON object") from None
-    except json.JSONDecodeError as error:
-        raise AirhiltError(
-            f"{path}: no JSON: {error.msg}, line {error.lineno}; expected a JSON object"
-        ) from None
     except ValueError as error:
-        raise AirhiltError(f"{path}: {error}; expected a JSON object") from None
+        raise AirhiltError(f"{path}: no JSON: {error}; expected a JSON object") from None
     if not isinstance(document, dict):
         raise AirhiltError(f"{path}: found {shown(document)}; expected a JSON object")
     return document
@@ -71,7 +64,7 @@ def configured(model: type[C], given: Mapping[str, Any], what: str) -> C:
     Raises
     ------
     AirhiltError
-        There is nothing of a name; the message gives the nearest. Or a value is beyond its limit.
+        A name is unknown, and the message gives the nearest; or a value is beyond its limit.
     """
     try:
         return model.model_validate(given)
@@ -115,7 +108,7 @@ def _unknown(model: type[BaseModel], place: tuple[str, ...]) -> str:
 def settings(
     model: type[BaseModel], above: tuple[str, ...] = ()
 ) -> Iterator[tuple[tuple[str, ...], FieldInfo]]:
-    """Yield the place of each field of a model, and of those of models inside, with the field."""
+    """Yield the path and the field of each setting of a model, nested models included."""
     for name, field in model.model_fields.items():
         place = (*above, name)
         yield place, field

@@ -1,7 +1,8 @@
 """Engines: members of a family that the command line chooses by name, path or address.
 
-Speech recognisers, voices, detectors, decision engines and wordings are such families. A member is
-one module with one `Engine`, or an entry point that names one:
+Speech recognisers, voices, detectors, decision engines and wordings are such families
+(`airhilt.engine_families`). A member is one module with one `Engine`, or an entry point that names
+one:
 
     [project.entry-points."airhilt.asr"]
     mine = "my_package.asr:ENGINE"
@@ -12,30 +13,20 @@ from __future__ import annotations
 import importlib.metadata
 import shutil
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
+from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any, Generic, Protocol, TypeVar
 
 from airhilt.errors import AirhiltError
 from airhilt.host.library import nearest
 from airhilt.host.services import is_service
-from airhilt.plugins import Family, Members, missing
+from airhilt.plugins import Family, missing
 
 if TYPE_CHECKING:
     from pydantic import BaseModel
 
-ASR = "embedded"
-"""Recogniser of a run unless another is named."""
-ENHANCER = "none"
-"""Enhancer of a run unless another is named: none."""
-TTS = "espeak"
-"""Voices of a run unless others are named."""
-DETECTOR = "embedded"
-"""Detector of a run unless another is named."""
-ASSISTANT = "reference"
-"""Decision engine of a run unless another is named."""
-WORDING = "template"
-"""Wording of advisories unless another is named."""
 RENDERER_HELP = (
     "What draws pictures: auto (open3d where it is installed, otherwise embree), embree, "
     "open3d, moderngl, or a renderer of another package."
@@ -91,10 +82,6 @@ class Command:
         return f"apt install {self.debian}"
 
 
-def _takes_nothing(_text: str) -> bool:
-    return False
-
-
 @dataclass(frozen=True)
 class Engine(Generic[T_co]):
     """One member of a family: how it is asked for, what it needs, and how it is made.
@@ -132,7 +119,7 @@ class Engine(Generic[T_co]):
     create: Callable[..., T_co]
     argument: str = ""
     is_argument_required: bool = False
-    takes: Callable[[str], bool] = _takes_nothing
+    takes: Callable[[str], bool] = lambda _: False
     usage: str = ""
     requires: tuple[Requirement, ...] = ()
     is_remote: bool = False
@@ -185,24 +172,41 @@ class EngineFamily(Family, Generic[T]):
     Attributes
     ----------
     product
-        Protocol that each engine must be an instance of.
+        Protocol that what each engine makes must be an instance of, as ``module:Name``.
+    modality
+        Modality of the workers that use its engines; empty: it is no family of a run.
+    option
+        Field of `airhilt.options.Options` that chooses the engine.
+    help
+        Help of that option.
+    default
+        Engine, or word in its place, unless another is named.
+    words
+        Words that the option takes in the place of an engine.
+    needs
+        Other options without which the option does nothing.
+    sends
+        What a run sends to a service that is an engine of it, in words.
     """
 
+    attribute: str = "ENGINE"
     protocol: type[Engine[T]] = Engine
-    product: type[Any] = object
+    product: str = "builtins:object"
+    modality: str = ""
+    option: str = ""
+    help: str = ""
+    default: str = ""
+    words: tuple[str, ...] = ()
+    needs: tuple[str, ...] = ()
+    sends: str = ""
 
-    def create(
-        self, text: str, also: Sequence[str] = (), configuration: Mapping[str, Any] | None = None
-    ) -> T:
+    def create(self, text: str, configuration: Mapping[str, Any] | None = None) -> T:
         """Return the engine for what a person has written.
 
         Parameters
         ----------
         text
             ``NAME``, ``NAME:ARGUMENT``, a path, or an address.
-        also
-            Words that the caller takes in the place of an engine, such as ``none``, for error
-            messages.
         configuration
             Values of its configuration; None: the defaults.
 
@@ -212,16 +216,10 @@ class EngineFamily(Family, Generic[T]):
             No engine is meant, or more than one, or it cannot be made. The error is of the class
             that the family declares.
         """
-        engine, argument = self.choose(text, also)
-        return self.make(engine, argument, engine.configured(configuration))
+        return self.make(*self.choose(text), configuration)
 
-    def require_known(self, text: str, also: Sequence[str] = ()) -> None:
-        """Complain about a text that means no engine; one that is named is not loaded.
-
-        Parameters
-        ----------
-        also
-            Words that the caller takes in the place of an engine, such as ``none``.
+    def require_known(self, text: str) -> None:
+        """Complain about a text that means no engine and is none of `words`; nothing is loaded.
 
         Raises
         ------
@@ -229,9 +227,8 @@ class EngineFamily(Family, Generic[T]):
             No engine is meant, or more than one.
         """
         name = text.partition(":")[0]
-        is_own = any(point.name == name for point in self.own())
-        if text not in also and not is_own and name not in self.names():
-            self.choose(text, also)
+        if text not in self.words and name not in self.names():
+            self._choose(text, self.words)
 
     def configuration_model(self, name: str) -> type[BaseModel]:
         """Return the model of the configuration of an engine.
@@ -244,19 +241,21 @@ class EngineFamily(Family, Generic[T]):
         engine, _ = self.choose(name)
         if engine.configuration is not None:
             return engine.configuration
-        having = [each.name for each in _loadable(self.scan()) if each.configuration is not None]
+        having = [each.name for each in self._loadable() if each.configuration is not None]
         raise self.error(
             f"{self.word} {name!r} has no configuration; expected one that has: "
             f"{', '.join(sorted(having))}"
         )
 
-    def make(self, engine: Engine[T], argument: str, configuration: BaseModel | None = None) -> T:
+    def make(
+        self, engine: Engine[T], argument: str, configuration: Mapping[str, Any] | None = None
+    ) -> T:
         """Return what an engine makes of an argument, checked against the family's protocol.
 
         Parameters
         ----------
         configuration
-            Its configuration; None: the one with the defaults, if it has one.
+            Values of its configuration; None: the defaults.
 
         Raises
         ------
@@ -264,12 +263,12 @@ class EngineFamily(Family, Generic[T]):
             It cannot be made, or is no such thing.
         """
         text = f"{engine.name}:{argument}" if argument else engine.name
-        if configuration is None:
-            configuration = engine.configured(None)
-        more = () if configuration is None else (configuration,)
+        configured = engine.configured(configuration)
+        more = () if configured is None else (configured,)
         try:
             made = engine.create(argument, *more)
-            fits = isinstance(made, self.product)
+            product: type[Any] = resolve_name(self.product)
+            fits = isinstance(made, product)
         except AirhiltError:
             raise
         except (Exception, SystemExit) as error:
@@ -277,12 +276,12 @@ class EngineFamily(Family, Generic[T]):
                 f"{self.word} {text!r} cannot be made: {type(error).__name__}: {error}"
             ) from error
         if not fits:
-            lacks = ", ".join(missing(made, self.product))
+            lacks = ", ".join(missing(made, product))
             raise self.error(f"{self.word} {text!r}: what it makes, {made!r}, has no {lacks}")
         return made
 
-    def choose(self, text: str, also: Sequence[str] = ()) -> tuple[Engine[T], str]:
-        """Return the engine that a text asks for, and the argument for it; `also` as in `create`.
+    def choose(self, text: str) -> tuple[Engine[T], str]:
+        """Return the engine that a text asks for, and the argument for it.
 
         Raises
         ------
@@ -290,14 +289,17 @@ class EngineFamily(Family, Generic[T]):
             No engine is meant, or more than one, or one cannot say whether it is. The error is of
             the class that the family declares.
         """
-        installed = self.scan()
+        return self._choose(text, ())
+
+    def _choose(self, text: str, words: Sequence[str]) -> tuple[Engine[T], str]:
+        """Return what `choose` does; an error names the words that could be there instead."""
         name, _, argument = text.partition(":")
-        if name in installed.names() and not is_service(text):
-            engine: Engine[T] = installed.load(name)
+        if name in self.names() and not is_service(text):
+            engine: Engine[T] = self.load(name)
             if engine.accepts(argument):
                 return engine, argument
             raise self.error(f"{self.word} {text!r}: expected {engine.forms()}")
-        engines = _loadable(installed)
+        engines = self._loadable()
         takers = [engine for engine in engines if self._takes(engine, text)]
         if len(takers) == 1:
             return takers[0], text
@@ -307,8 +309,8 @@ class EngineFamily(Family, Generic[T]):
         if text and Path(text).exists():
             problem, meant = f"no {self.word} knows such files", ""
         else:
-            problem, meant = "there is none of that name", _suggestion(name, engines, also)
-        forms = _forms(engines, also)
+            problem, meant = "there is none of that name", _suggestion(name, engines, words)
+        forms = _forms(engines, words)
         raise self.error(f"{self.word} {text!r}: {problem}; expected {forms}{meant}")
 
     def _takes(self, engine: Engine[T], text: str) -> bool:
@@ -320,29 +322,26 @@ class EngineFamily(Family, Generic[T]):
                 f"{type(error).__name__}: {error}"
             ) from error
 
+    def _loadable(self) -> list[Engine[T]]:
+        """Return the engines that can be loaded: by name, those with an address last."""
+        found: list[Engine[T]] = []
+        for name in self.names():
+            with suppress(AirhiltError):  # Doctor says what is wrong with it.
+                found.append(self.load(name))
+        return sorted(found, key=lambda engine: bool(engine.usage))
 
-def _forms(engines: Sequence[Engine[Any]], also: Sequence[str]) -> str:
+
+def _forms(engines: Sequence[Engine[Any]], words: Sequence[str]) -> str:
     """Return what may be written, for error messages."""
-    words = [
+    forms = [
         f"{engine.forms()} (needs {lacks})" if (lacks := engine.lacks()) else engine.forms()
         for engine in engines
     ]
-    *others, last = [*words, *also]
+    *others, last = [*forms, *words]
     return f"{', '.join(others)}, or {last}" if others else last
 
 
-def _suggestion(name: str, engines: Sequence[Engine[Any]], also: Sequence[str]) -> str:
+def _suggestion(name: str, engines: Sequence[Engine[Any]], words: Sequence[str]) -> str:
     named = [engine.name for engine in engines if not engine.usage]
-    tail = nearest(name, [*named, *also])
+    tail = nearest(name, [*named, *words])
     return tail if "did you mean" in tail else ""
-
-
-def _loadable(installed: Members) -> list[Engine[Any]]:
-    """Return the engines that can be loaded: by name, those with an address last."""
-    found: list[Engine[Any]] = []
-    for name in installed.names():
-        try:
-            found.append(installed.load(name))
-        except AirhiltError:  # Doctor says what is wrong with it.
-            continue
-    return sorted(found, key=lambda engine: bool(engine.usage))

@@ -8,7 +8,7 @@ cosim`` makes its flags of them, and ``run.json`` holds them whole, so that a re
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -20,21 +20,26 @@ from pydantic import (
     Field,
     StringConstraints,
     ValidationError,
-    model_validator,
 )
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError
 
 from airhilt.configuration import read_configuration
-from airhilt.engines import ASR, DETECTOR, ENHANCER, RENDERER_HELP, TTS, WORDING
+from airhilt.engine_families import (
+    ASSISTANTS,
+    DETECTORS,
+    ENHANCERS,
+    RECOGNISERS,
+    VOICES,
+    WORDINGS,
+)
+from airhilt.engines import RENDERER_HELP, EngineFamily
 from airhilt.errors import AirhiltError, first_problem, shown
 from airhilt.host.library import nearest
 from airhilt.messages import Modality, RadarKind
 from airhilt.scenario.models import Topology
 from airhilt.scenario.models.weather import Visibility
 
-FORMER_NAMES = {"listen": "endpoint"}
-"""Names that options had up to version 0.4, still understood, by what they are now."""
 RUN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,79}")
 """Names of runs: one chunk of a key of Zenoh, and of a path."""
 LONGEST_S = 86_400.0
@@ -59,8 +64,6 @@ class Flag:
         Shown in the help where the option's own default (None) says nothing.
     needs
         Names of the options without which this one does nothing.
-    former
-        Spellings of earlier versions: understood, but not shown.
     in_sweeps
         False for what belongs to one run alone, such as its folder, and for programs that attach
         to it.
@@ -73,9 +76,13 @@ class Flag:
     metavar: str | None = None
     default: str = ""
     needs: tuple[str, ...] = ()
-    former: tuple[str, ...] = ()
     in_sweeps: bool = True
     help_of_one_run: str = ""
+
+
+def _engine_flag(family: EngineFamily[Any], metavar: str = "ENGINE") -> Flag:
+    """Return the flag by which the command line chooses an engine of a family."""
+    return Flag(f"--{family.option}", family.help, metavar, needs=family.needs)
 
 
 def _one_chunk(name: str) -> str:
@@ -127,12 +134,9 @@ class Options(BaseModel):
     ] = False
     assistant: Annotated[
         str | None,
-        Flag(
-            "--assistant",
-            "Who decides: reference, paper, another assistant that `airhilt doctor` names, the "
-            "address of a service, or none.",
-            "NAME",
-            default="reference, external if a worker or program of yours may decide",
+        replace(
+            _engine_flag(ASSISTANTS, "NAME"),
+            default=f"{ASSISTANTS.default}, external if a worker or program of yours may decide",
             help_of_one_run="Or external: a worker or program of yours.",
         ),
     ] = None
@@ -186,7 +190,6 @@ class Options(BaseModel):
             "Where the bus accepts connections, such as tcp/127.0.0.1:7447.",
             "ENDPOINT",
             default="a free port",
-            former=("--listen",),
             in_sweeps=False,
         ),
     ] = None
@@ -337,16 +340,7 @@ class Options(BaseModel):
             in_sweeps=False,
         ),
     ] = False
-    detector: Annotated[
-        str,
-        Flag(
-            "--detector",
-            "What looks at pictures: embedded, embedded:FILE.onnx, yolo:FILE, the address of a "
-            "service, or none.",
-            "ENGINE",
-            needs=("cameras", "assistant"),
-        ),
-    ] = DETECTOR
+    detector: Annotated[str, _engine_flag(DETECTORS)] = DETECTORS.default
     visibility_m: Annotated[
         Visibility | None,
         Flag(
@@ -386,25 +380,8 @@ class Options(BaseModel):
             needs=("speech",),
         ),
     ] = None
-    asr: Annotated[
-        str,
-        Flag(
-            "--asr",
-            "What recognises speech: embedded, whisper:FOLDER, or the address of a service.",
-            "ENGINE",
-            needs=("speech", "assistant"),
-        ),
-    ] = ASR
-    enhancer: Annotated[
-        str,
-        Flag(
-            "--enhancer",
-            "What reduces noise before speech is recognised, with --topology asr_first: spectral, "
-            "an enhancer of another package, or none.",
-            "ENGINE",
-            needs=("speech",),
-        ),
-    ] = ENHANCER
+    asr: Annotated[str, _engine_flag(RECOGNISERS)] = RECOGNISERS.default
+    enhancer: Annotated[str, _engine_flag(ENHANCERS)] = ENHANCERS.default
     partial_transcripts: Annotated[
         bool,
         Flag(
@@ -414,19 +391,8 @@ class Options(BaseModel):
             needs=("speech", "assistant"),
         ),
     ] = False
-    tts: Annotated[
-        str,
-        Flag(
-            "--tts",
-            "What speaks: espeak, flite, coqui:FOLDER, or the address of a service.",
-            "ENGINE",
-            needs=("speech",),
-        ),
-    ] = TTS
-    wording: Annotated[
-        str,
-        Flag("--wording", "What turns an advisory into words.", "NAME", needs=("assistant",)),
-    ] = WORDING
+    tts: Annotated[str, _engine_flag(VOICES)] = VOICES.default
+    wording: Annotated[str, _engine_flag(WORDINGS, "NAME")] = WORDINGS.default
     llm: Annotated[
         str | None,
         Flag(
@@ -517,16 +483,6 @@ class Options(BaseModel):
         """Modalities that the assistant is given."""
         return frozenset(self.modalities.split("+"))
 
-    @model_validator(mode="before")
-    @classmethod
-    def _understand_former_names(cls, given: Any) -> Any:
-        if not isinstance(given, dict):
-            return given
-        for former, present in FORMER_NAMES.items():
-            if former in given and present in given:
-                raise ValueError(f"{former} is the former name of {present}; expected one of them")
-        return {FORMER_NAMES.get(name, name): value for name, value in given.items()}
-
 
 def options_of(given: dict[str, Any]) -> Options:
     """Return the options that keywords of Python name.
@@ -538,10 +494,10 @@ def options_of(given: dict[str, Any]) -> Options:
     AirhiltError
         A value is not what the option takes.
     """
-    known = [*Options.model_fields, *FORMER_NAMES]
+    known = list(Options.model_fields)
     for name in given:
         if name not in known:
-            raise TypeError(f"no option named {name!r}{nearest(name, list(Options.model_fields))}")
+            raise TypeError(f"no option named {name!r}{nearest(name, known)}")
     try:
         return Options(**given)
     except ValidationError as error:

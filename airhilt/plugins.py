@@ -61,47 +61,13 @@ class Family:
             if not found.name.startswith("_") and found.name not in self.not_members
         ]
 
-    def scan(self) -> Members:
-        """Return where all members are, in AIRHILT and in every installed package."""
-        return Members(self, (*self.own(), *declared(self.group)))
+    def is_own(self, name: str) -> bool:
+        """Return whether AIRHILT has a member of that name."""
+        return any(point.name == name for point in self.own())
 
     def names(self) -> list[str]:
-        """Return the names of all members, sorted."""
-        return self.scan().names()
-
-    def load(self, name: str) -> Any:
-        """Return the object of a member; no other package is looked at for one of AIRHILT.
-
-        Raises
-        ------
-        AirhiltError
-            There is none of that name, or more than one in other packages, or it cannot be loaded.
-            It is of the class that the family declares.
-        """
-        own = [point for point in self.own() if point.name == name]
-        return (Members(self, tuple(own)) if own else self.scan()).load(name)
-
-    def origin(self, name: str) -> str:
-        """Return name and version of the other package that has a member; empty for AIRHILT's."""
-        if any(point.name == name for point in self.own()):
-            return ""
-        found = [point.dist for point in declared(self.group).select(name=name) if point.dist]
-        return f"{found[0].name} {found[0].version}" if found else ""
-
-
-@dataclass(frozen=True)
-class Members:
-    """The members of a family as one scan has found them: AIRHILT's first.
-
-    Who asks for several of them scans once and asks this.
-    """
-
-    family: Family
-    points: tuple[EntryPoint, ...]
-
-    def names(self) -> list[str]:
-        """Return the names of all members, sorted."""
-        return sorted({point.name for point in self.points})
+        """Return the names of all members, in AIRHILT and in every installed package, sorted."""
+        return sorted({point.name for point in self._points()})
 
     def load(self, name: str) -> Any:
         """Return the object of a member.
@@ -112,42 +78,51 @@ class Members:
             There is none of that name, or more than one, or it cannot be loaded. It is of the
             class that the family declares.
         """
-        family = self.family
-        found = [point for point in self.points if point.name == name]
+        found = [point for point in self._points() if point.name == name]
         if not found:
-            raise family.error(f"no {family.word} named {name!r}{nearest(name, self.names())}")
+            raise self.error(f"no {self.word} named {name!r}{nearest(name, self.names())}")
         if len(found) > 1:
             where = ", ".join(point.value for point in found)
-            raise family.error(f"there is more than one {family.word} named {name!r}: {where}")
+            raise self.error(f"there is more than one {self.word} named {name!r}: {where}")
         try:
             member = found[0].load()
-            fits = isinstance(member, family.protocol) and getattr(member, "name", name) == name
+            fits = isinstance(member, self.protocol) and getattr(member, "name", name) == name
         except (Exception, SystemExit) as error:  # A script without a guard ends when imported.
-            raise family.error(
-                f"{family.word} {name!r} cannot be loaded from {found[0].value}: "
+            raise self.error(
+                f"{self.word} {name!r} cannot be loaded from {found[0].value}: "
                 f"{type(error).__name__}: {error}"
             ) from error
         if not fits:
-            lacks = ", ".join(missing(member, family.protocol))
-            raise family.error(
-                f"{found[0].value} is no {family.word} named {name!r}: {member!r}"
+            lacks = ", ".join(missing(member, self.protocol))
+            raise self.error(
+                f"{found[0].value} is no {self.word} named {name!r}: {member!r}"
                 + (f" has no {lacks}" if lacks else "")
             )
         return member
 
+    def origin(self, name: str) -> str:
+        """Return name and version of the other package that has a member; empty for AIRHILT's."""
+        if self.is_own(name):
+            return ""
+        found = [point.dist for point in _declared(self.group) if point.name == name and point.dist]
+        return f"{found[0].name} {found[0].version}" if found else ""
 
-def declared(group: str) -> EntryPoints:
+    def _points(self) -> list[EntryPoint]:
+        return [*self.own(), *_declared(self.group)]
+
+
+def _declared(group: str) -> EntryPoints:
     """Return the entry points of a group that installed packages declare.
 
     The metadata of all packages are read once, which takes 7 ms of CPU, and again when one of the
     folders in which packages are installed has changed: a package comes and goes with a folder
     of metadata.
     """
-    return _declared(group, tuple((folder, _changed_ns(folder)) for folder in sys.path))
+    return _read(group, tuple((folder, _changed_ns(folder)) for folder in sys.path))
 
 
 @lru_cache
-def _declared(group: str, _folders: tuple[tuple[str, int], ...]) -> EntryPoints:
+def _read(group: str, _folders: tuple[tuple[str, int], ...]) -> EntryPoints:
     return entry_points(group=group)
 
 
@@ -158,7 +133,7 @@ def _changed_ns(folder: str) -> int:
 
 
 def missing(thing: object, protocol: type[Any]) -> list[str]:
-    """Return the public names that a protocol, with what it extends, has and a thing has not."""
+    """Return the public members of a protocol, and of those that it extends, that a thing lacks."""
     parts = [each for each in protocol.__mro__[1:] if getattr(each, "_is_protocol", False)]
     every = (name for part in (protocol, *parts) for name in (*vars(part), *_annotated(part)))
     names = dict.fromkeys(every)

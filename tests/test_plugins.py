@@ -40,5 +40,5 @@ def test_the_metadata_of_packages_are_read_once_as_long_as_none_comes_or_goes(
     monkeypatch.setattr(plugins, "entry_points", counted)
     monkeypatch.syspath_prepend(tmp_path)
     for _ in range(3):
-        PARROTS.scan()
+        PARROTS.names()
     assert read == [PARROTS.group]

@@ -27,7 +27,7 @@ import standard_output
 from airhilt.assistant.decision.engines.reference import ReferenceConfig, ReferenceEngine
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
-from airhilt.engines import TTS
+from airhilt.engine_families import VOICES
 from airhilt.phraseology import TAU_ASR
 from guard.beliefs import beliefs_of, wrong
 
@@ -66,7 +66,9 @@ def main() -> None:
     parser.add_argument("--scenarios", default=SCENARIOS, help="names, separated by commas")
     parser.add_argument("--snr", default="clean,10,0", help="ratios in dB, separated by commas")
     parser.add_argument("--seeds", type=int, default=2, help="number of seeds, from 0 on")
-    parser.add_argument("--tts", default=TTS, help="what speaks: an engine, or an address")
+    parser.add_argument(
+        "--tts", default=VOICES.default, help="what speaks: an engine, or an address"
+    )
     parser.add_argument("--out", type=Path, required=True, help="folder for the rows")
     given = parser.parse_args()
     given.out.mkdir(parents=True, exist_ok=True)

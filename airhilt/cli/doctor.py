@@ -8,15 +8,17 @@ import re
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 from airhilt._version import __version__
+from airhilt.engine_families import FAMILIES
 from airhilt.engines import Engine, EngineFamily
 from airhilt.errors import AirhiltError
 from airhilt.host import library
 from airhilt.host.caches import cache_folder, write_problem
-from airhilt.plugins import Family, Members
+from airhilt.plugins import Family
 
 NO_NAME = re.compile(r"[^A-Za-z0-9._-]")
 """Character that ends the name at the beginning of a requirement."""
@@ -102,21 +104,18 @@ def _version(name: str) -> str:
 
 def _engines() -> list[Finding]:
     """Look at the engines of all families; those that every run has by default are needed."""
-    from airhilt.assistant.reference import DEFAULTS, families
-
     return [
-        _engine(family, installed, name, needed=name == DEFAULTS[family.group])
-        for family in families()
-        for installed in [family.scan()]
-        for name in installed.names()
+        _engine(family, name, needed=name == family.default)
+        for family in FAMILIES
+        for name in family.names()
     ]
 
 
-def _engine(family: EngineFamily[Any], installed: Members, name: str, needed: bool) -> Finding:
+def _engine(family: EngineFamily[Any], name: str, needed: bool) -> Finding:
     """Look for what an engine needs, and load it if its name alone is enough for that."""
     title = f"{family.word} {name}"
     try:
-        engine: Engine[Any] = installed.load(name)
+        engine: Engine[Any] = family.load(name)
     except AirhiltError as error:
         return Finding(title, "", needed, str(error), is_broken=True)
     try:
@@ -125,8 +124,8 @@ def _engine(family: EngineFamily[Any], installed: Members, name: str, needed: bo
         if engine.accepts("") and not engine.usage:
             family.make(engine, "")
     except AirhiltError as error:
-        is_own = any(point.name == name for point in family.own())  # Its files may be missing.
-        return Finding(title, "", needed, str(error), is_broken=not is_own)
+        is_broken = not family.is_own(name)  # Files of AIRHILT's own may be missing.
+        return Finding(title, "", needed, str(error), is_broken)
     packages = "".join(f"{requirement.found()}, " for requirement in engine.requires)
     return Finding(title, f"({packages}{engine.summary})", needed)
 
@@ -144,22 +143,21 @@ def _families() -> list[Finding]:
     sensors = [point.name for point in SENSORS.own()]
     return [
         *_members(SENSORS, load_sensor_type, needed=sensors),
-        *_members(KINDS, Members.load),
-        *_members(SECTIONS, load_member),
-        *_members(SWEEP_SECTIONS, load_member),
-        *_members(COMMANDS, Members.load),
+        *_members(KINDS, KINDS.load),
+        *_members(SECTIONS, partial(load_member, SECTIONS)),
+        *_members(SWEEP_SECTIONS, partial(load_member, SWEEP_SECTIONS)),
+        *_members(COMMANDS, COMMANDS.load),
     ]
 
 
 def _members(
-    family: Family, load: Callable[[Members, str], object], needed: Sequence[str] = ()
+    family: Family, load: Callable[[str], object], needed: Sequence[str] = ()
 ) -> list[Finding]:
     """Load all members of a family: a line on those that can be used, and one on each other."""
-    installed = family.scan()
     usable, broken = [], []
-    for name in installed.names():
+    for name in family.names():
         try:
-            load(installed, name)
+            load(name)
             usable.append(name)
         except AirhiltError as error:
             title = f"{family.word} {name}"
@@ -184,8 +182,8 @@ def _renderer(name: str, *, needed: bool) -> Finding:
     try:
         probe(name)
     except RendererError as error:
-        is_own = any(point.name == name for point in FAMILY.own())  # Its library may be missing.
-        return Finding(f"renderer {name}", "", needed, str(error), is_broken=not is_own)
+        is_broken = not FAMILY.is_own(name)  # The library of AIRHILT's own may be missing.
+        return Finding(f"renderer {name}", "", needed, str(error), is_broken)
     return Finding(f"renderer {name}", "(draws)", needed=needed)
 
 

@@ -11,7 +11,7 @@ import click
 from airhilt._version import __version__
 from airhilt.cli.notices import tell
 from airhilt.errors import AirhiltError
-from airhilt.plugins import Family, Members
+from airhilt.plugins import Family
 
 COMMANDS = Family("command", "airhilt.commands", "airhilt.cli.commands", "COMMAND", click.Command)
 CONTEXT = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
@@ -21,30 +21,22 @@ INTERRUPTED = 130
 class Commands(click.Group):
     """The commands of the family; each is loaded when it is asked for."""
 
-    def list_commands(self, ctx: click.Context) -> list[str]:
+    def list_commands(self, ctx: click.Context) -> list[str]:  # noqa: ARG002
         """Return the names of all commands."""
-        return _installed(ctx).names()
+        return COMMANDS.names()
 
-    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:  # noqa: ARG002
         """Return a command, None if there is none of that name.
 
         One that cannot be loaded is there with the cause for its help; calling it is an error.
         """
-        commands = _installed(ctx)
-        if cmd_name not in commands.names():
+        if cmd_name not in COMMANDS.names():
             return None
         try:
-            command: click.Command = commands.load(cmd_name)
+            command: click.Command = COMMANDS.load(cmd_name)
         except AirhiltError as error:
             return _broken(cmd_name, error)
         return command
-
-
-def _installed(ctx: click.Context) -> Members:
-    """Return the commands that are installed, found once in a call of the command line."""
-    commands: Members = ctx.meta.get(COMMANDS.group) or COMMANDS.scan()
-    ctx.meta[COMMANDS.group] = commands
-    return commands
 
 
 def _broken(name: str, error: AirhiltError) -> click.Command:

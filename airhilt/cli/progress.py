@@ -12,7 +12,7 @@ from rich.table import Table
 from rich.text import Text
 
 from airhilt.cosim.observer import Observer, Snapshot
-from airhilt.messages import FORMER_MODALITIES, Advisory, Severity
+from airhilt.messages import Advisory, Severity
 from airhilt.metrics.summary import (
     LatencyStatistics,
     RadioStatistics,
@@ -386,9 +386,5 @@ def _yes(value: bool) -> str:
 
 
 def _modalities(summary: Summary) -> list[str]:
-    """Return the state of each modality in words, once under its present name."""
-    return [
-        f"{name} {state}"
-        for name, state in summary.modalities.items()
-        if name not in FORMER_MODALITIES
-    ]
+    """Return the state of each modality in words."""
+    return [f"{name} {state}" for name, state in summary.modalities.items()]

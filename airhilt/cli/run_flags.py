@@ -62,33 +62,21 @@ def options_given(context: click.Context) -> Options:
 
 
 def _click_option(name: str, field: FieldInfo, flag: Flag) -> click.Option:
-    spellings = [flag.name, *flag.former, name]
+    spellings = [flag.name, name]
     default = flag.default
     text = f"{flag.help} {flag.help_of_one_run}".rstrip()
     if field.annotation is bool:
         is_on = bool(field.default)
-        return _Flag(spellings, is_flag=True, flag_value=not is_on, default=is_on, help=text)
+        return click.Option(spellings, is_flag=True, flag_value=not is_on, default=is_on, help=text)
     if not default and field.default not in (None, ()):
         default = f"{field.default:g}" if isinstance(field.default, float) else str(field.default)
-    return _Flag(
+    return click.Option(
         spellings,
         type=_type(field.annotation),
         multiple=get_origin(field.annotation) is tuple,
         metavar=flag.metavar,
         help=f"{text}  [default: {default}]" if default else text,
     )
-
-
-class _Flag(click.Option):
-    """An option whose former spellings are understood, but left out of the help."""
-
-    def get_help_record(self, ctx: click.Context) -> tuple[str, str] | None:
-        """Return the present spelling and the explanation."""
-        shown, self.opts = self.opts, self.opts[:1]
-        try:
-            return super().get_help_record(ctx)
-        finally:
-            self.opts = shown
 
 
 def _type(annotation: Any) -> Any:

@@ -41,7 +41,7 @@ def _option(name: str) -> click.Option:
     assert flag is not None
     if field.annotation is bool:
         return click.Option(
-            [flag.name, *flag.former, name],
+            [flag.name, name],
             is_flag=True,
             flag_value=not field.default,
             default=bool(field.default),
@@ -51,7 +51,7 @@ def _option(name: str) -> click.Option:
     is_one = is_multiple or name in (*WHOLE, CONFIGURATION)
     metavar = flag.metavar or name.upper()
     return click.Option(
-        [flag.name, *flag.former, name],
+        [flag.name, name],
         metavar=metavar if is_one else f"{metavar},...",
         multiple=is_multiple,
         help=flag.help,

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from airhilt.assistant.reference import NO_ASSISTANT, NO_DETECTOR
 from airhilt.cosim.observer import Observer
 from airhilt.cosim.participants import Participants
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import Setup
+from airhilt.engine_families import NONE
 from airhilt.errors import RendererError, RunStopped
 from airhilt.messages import Message, ModalityState
 from airhilt.options import Options
@@ -186,8 +186,8 @@ def started_renderers(
         or options.endpoint is not None
         or bool(options.attach)
         or (
-            options.detector != NO_DETECTOR
-            and options.assistant != NO_ASSISTANT
+            options.detector != NONE
+            and options.assistant != NONE
             and "vision" in options.given_modalities
         )
     )

@@ -5,19 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
 
-from airhilt.assistant.decision.engines import FAMILY, decision_engine
 from airhilt.assistant.decision.worker import DecisionWorker
-from airhilt.assistant.reference import (
-    EXTERNAL,
-    NO_ASSISTANT,
-    NO_DETECTOR,
-    NO_ENHANCER,
-    families,
-    is_own_engine,
-)
 from airhilt.assistant.wording.engines.template import Template
+from airhilt.cosim.engines_in_use import is_own_engine
 from airhilt.cosim.given_modalities import inputs_given
-from airhilt.engines import ASSISTANT
+from airhilt.engine_families import ASSISTANTS, EXTERNAL, FAMILIES, NONE
 from airhilt.errors import AirhiltError, shown
 from airhilt.options import MODALITIES, Options, flag_of
 from airhilt.scenario import Scenario
@@ -52,18 +44,20 @@ def check_options(options: Options, scenario: Scenario) -> None:
             f"--advisory-channel frequency: {scenario.name!r} has no radio calls, and so no "
             "frequency; expected cockpit"
         )
-    if options.enhancer != NO_ENHANCER:
+    if options.enhancer != NONE:
         _require_use_of_enhancer(options, topology)
-    _require_known_engines(options)
+    for family in FAMILIES:
+        if (text := getattr(options, family.option)) is not None:
+            family.require_known(text)
     if options.assistant_config is not None:
-        assistant, _ = FAMILY.choose(options.assistant or ASSISTANT)
+        assistant, _ = ASSISTANTS.choose(options.assistant or ASSISTANTS.default)
         assistant.configured(options.assistant_config)
     _require_evidence(options)
     require_known_equipment((*scenario.equipment, *options.equipment))
 
 
 def _against(options: Options, name: str, needs: tuple[str, ...]) -> Iterator[str]:
-    """Yield in words what leaves out, or does not bring, what an option needs."""
+    """Yield the reasons in words why an option does nothing: something that it needs is absent."""
     for need in needs:
         flag = flag_of(Options.model_fields[need])
         spelling = need if flag is None else flag.name
@@ -72,14 +66,14 @@ def _against(options: Options, name: str, needs: tuple[str, ...]) -> Iterator[st
                 yield f"without {spelling}; expected both or none"
             elif not getattr(options, need):
                 yield f"with {spelling}; expected only one of the two"
-        elif options.assistant == NO_ASSISTANT or (
+        elif options.assistant == NONE or (
             options.assistant == EXTERNAL and name in ("wording", "llm", "assistant_config")
         ):
             yield f"with {spelling} {options.assistant}; expected only one of the two"
 
 
 def _require_use_of_enhancer(options: Options, topology: str) -> None:
-    """Complain about an enhancer of which nobody has anything.
+    """Complain about an enhancer whose output nobody would use.
 
     Raises
     ------
@@ -99,34 +93,19 @@ def _require_use_of_enhancer(options: Options, topology: str) -> None:
 
 
 def _require_evidence(options: Options) -> None:
-    """Complain about modalities of which an engine of AIRHILT reads none.
+    """Complain about modalities that leave an engine of AIRHILT nothing to read.
 
     Raises
     ------
     WorkerError
         Nothing of the traffic is left to it.
     """
-    name = options.assistant or ASSISTANT
+    name = options.assistant or ASSISTANTS.default
     if options.given_modalities.issuperset(MODALITIES) or not is_own_engine(name):
         return
-    engine = decision_engine(name, configuration=options.assistant_config)
+    engine = ASSISTANTS.create(name, options.assistant_config)
     inputs = DecisionWorker(engine, Template()).description.inputs
     inputs_given(name, inputs, options.given_modalities)
-
-
-def _require_known_engines(options: Options) -> None:
-    named = {
-        "airhilt.enhancers": (options.enhancer, (NO_ENHANCER,)),
-        "airhilt.asr": (options.asr, ()),
-        "airhilt.tts": (options.tts, ()),
-        "airhilt.detectors": (options.detector, (NO_DETECTOR,)),
-        "airhilt.assistants": (options.assistant, (NO_ASSISTANT, EXTERNAL)),
-        "airhilt.wording": (options.wording, ()),
-    }
-    for family in families():
-        text, also = named[family.group]
-        if text is not None:
-            family.require_known(text, also)
 
 
 def require_known_equipment(names: Iterable[str]) -> None:
@@ -137,7 +116,7 @@ def require_known_equipment(names: Iterable[str]) -> None:
     AirhiltError
         An engine is not there, or asks a program elsewhere.
     """
-    family = replace(FAMILY, word="equipment")
+    family = replace(ASSISTANTS, word="equipment")
     for name in names:
         if family.choose(name)[0].is_remote:
             raise AirhiltError(

@@ -5,23 +5,14 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from airhilt.assistant.language_model import LanguageModelSettings
-from airhilt.assistant.reference import (
-    EXTERNAL,
-    NO_DETECTOR,
-    NO_ENHANCER,
-    Engines,
-    is_remote,
-    reference_workers,
-    speak_min_level,
-)
 from airhilt.bus.attach import RESERVED, attach
 from airhilt.bus.session import Bus
+from airhilt.cosim.engines_in_use import engines_in_use, is_remote, other_machines
 from airhilt.cosim.equipment import equipment_of, require_no_equipment
 from airhilt.cosim.given_modalities import limited
-from airhilt.cosim.other_machines import other_machines
 from airhilt.cosim.recorded import Recorded
-from airhilt.engines import ASSISTANT
+from airhilt.cosim.reference_workers import reference_workers, speak_min_level
+from airhilt.engine_families import ASSISTANTS, EXTERNAL
 from airhilt.errors import WorkerError
 from airhilt.messages import Modality, Severity
 from airhilt.options import Options
@@ -116,17 +107,15 @@ def connect(
         assistant = _external_assistant(options)
     else:
         may_decide = "decision" in taken or bool(programs)
-        assistant = options.assistant or (EXTERNAL if may_decide else ASSISTANT)
+        assistant = options.assistant or (EXTERNAL if may_decide else ASSISTANTS.default)
     _require_used(options, assistant)
-    engines = _engines(options, scenario)
-    reference = reference_workers(
-        assistant, scenario.radio, taken, engines, people_speak=bool(options.seat)
-    )
+    options = options.model_copy(update={"assistant": assistant})
+    reference = reference_workers(options, scenario, taken)
     made = [_participant(worker, "in process") for worker in reference]
     if recorded.is_replay:
-        _require_no_service(made, assistant, engines)
+        _require_no_service(made, options)
     else:
-        for sentence in other_machines(assistant, engines):
+        for sentence in other_machines(options, engines_in_use(options, (), made)):
             notice(sentence)
     workers += made
     workers = [limited(worker, options.given_modalities) for worker in workers]
@@ -135,7 +124,7 @@ def connect(
     return Participants(assistant, tuple(workers), tuple(programs))
 
 
-def _require_no_service(workers: Sequence[Participant], assistant: str, engines: Engines) -> None:
+def _require_no_service(workers: Sequence[Participant], options: Options) -> None:
     """Complain about a worker of a replay that would ask a service.
 
     A run records what each service answers, so that its replay sends nothing, and no key, to the
@@ -147,11 +136,11 @@ def _require_no_service(workers: Sequence[Participant], assistant: str, engines:
         The record names a service, and has not the worker that asked it.
     """
     for worker in workers:
-        description = worker.description
-        if is_remote(description.modality, assistant, engines):
+        if is_remote(options, worker.description.modality):
             raise WorkerError(
-                f"worker {description.name!r}: the record names a service for it, and has none of "
-                "its answers; expected a record that was not changed: a replay asks no service"
+                f"worker {worker.description.name!r}: the record names a service for it, and has "
+                "none of its answers; expected a record that was not changed: a replay asks no "
+                "service"
             )
 
 
@@ -171,7 +160,7 @@ def _external_assistant(options: Options) -> str:
 
 
 def _require_used(options: Options, assistant: str) -> None:
-    """Complain about a configuration that nobody has.
+    """Complain about a configuration of an assistant that the run does not make.
 
     Raises
     ------
@@ -186,12 +175,12 @@ def _require_used(options: Options, assistant: str) -> None:
 
 
 def _require_no_programs(options: Options, programs: Sequence[str]) -> None:
-    """Complain about a program that hears what the assistant is not to be given.
+    """Complain about limited modalities where a program without grants reads the whole bus.
 
     Raises
     ------
     WorkerError
-        One takes no grants, and so reads whatever it likes.
+        There is such a program.
     """
     if programs and options.modalities != Options.model_fields["modalities"].default:
         raise WorkerError(
@@ -221,39 +210,3 @@ def _require_different_names(workers: Sequence[Participant], programs: Sequence[
                     f"two workers are named {name!r} and {other!r}: an id that begins with "
                     f"'{other}-' would be of both; expected a name that does not begin the other"
                 )
-
-
-def _engines(options: Options, scenario: Scenario) -> Engines:
-    is_read = (
-        "asr" in options.given_modalities
-        or scenario.radio.topology == "asr_first"
-        or bool(options.seat)
-    )
-    return Engines(
-        asr=options.asr if options.speech and is_read else None,
-        tts=options.tts if options.speech else None,
-        detector=_detector(options, scenario),
-        wording=options.wording,
-        llm=_language_model(options),
-        configuration=options.assistant_config,
-        shares_detections=options.share_pictures,
-        partial_transcripts=options.partial_transcripts,
-        enhancer=None if options.enhancer == NO_ENHANCER else options.enhancer,
-    )
-
-
-def _language_model(options: Options) -> LanguageModelSettings | None:
-    if options.llm is None:
-        return None
-    return LanguageModelSettings(
-        options.llm, options.llm_model, options.llm_deadline_s, options.seed
-    )
-
-
-def _detector(options: Options, scenario: Scenario) -> str | None:
-    """Return the engine that looks at pictures, None if there are none or nobody is to look."""
-    if not options.cameras or not scenario.cameras or options.detector == NO_DETECTOR:
-        return None
-    if "vision" not in options.given_modalities:
-        return None
-    return options.detector

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 from pydantic import TypeAdapter
 
-from airhilt.assistant.reference import NO_ENHANCER, Engines, is_remote
 from airhilt.audio.pcm import SAMPLE_BYTES
+from airhilt.cosim.engines_in_use import is_remote
 from airhilt.cosim.recorded import Recorded, UnregisteredMessage
 from airhilt.errors import SpeechError
 from airhilt.messages import (
@@ -124,19 +124,11 @@ def depends_on_log(info: RunInfo) -> bool:
 
 def _elsewhere(info: RunInfo) -> list[WorkerDescription]:
     """Return the workers whose results cannot be had again by computing them here."""
-    options = info.options
-    engines = Engines(
-        options.asr,
-        options.tts,
-        options.detector,
-        options.wording,
-        enhancer=None if options.enhancer == NO_ENHANCER else options.enhancer,
-    )
+    options = info.options.model_copy(update={"assistant": info.assistant})
     return [
         worker.description
         for worker in info.workers
-        if worker.where != "in process"
-        or is_remote(worker.description.modality, info.assistant, engines)
+        if worker.where != "in process" or is_remote(options, worker.description.modality)
     ]
 
 

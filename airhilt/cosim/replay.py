@@ -42,10 +42,6 @@ AS_RECORDED = {
 came of them."""
 
 
-BEFORE_0_5 = ("0.1.", "0.2.", "0.3.", "0.4.")
-"""Beginnings of the versions whose logs have other names for modalities and fields."""
-
-
 @dataclass(frozen=True)
 class Verdict:
     """The result of comparing a replay with its recording."""
@@ -93,7 +89,6 @@ def replay(path: Path, observer: Observer | None = None) -> Verdict:
             f"{folder.path}: made with --no-voice-recording, so that what people said is not in "
             "it; expected a run with their voices"
         )
-    _require_comparable(info, folder)
     _require_inputs(original)
     latencies = original.latencies()
     recorded_log = list(original.messages())
@@ -132,22 +127,6 @@ def _configuration(info: RunInfo) -> dict[str, Any] | None:
         if worker.description.modality == "decision" and worker.where == "in process":
             return worker.description.configuration or None
     return None
-
-
-def _require_comparable(info: RunInfo, folder: RunFolder) -> None:
-    """Refuse a recording whose messages have other names than those of now.
-
-    Raises
-    ------
-    RunFolderError
-        It was made by version 0.4 or earlier.
-    """
-    version = info.versions.get("airhilt", "")
-    if version.startswith(BEFORE_0_5):
-        raise RunFolderError(
-            f"{folder.path}: recorded by AIRHILT {version}, whose messages have other names; "
-            "expected a run of 0.5 or later. `airhilt report` reads it"
-        )
 
 
 def _require_inputs(original: Run) -> None:

@@ -1,4 +1,4 @@
-"""The setup of a run: everything that is settled before workers connect to it."""
+"""The setup of a run: everything that is known before workers connect to it."""
 
 from __future__ import annotations
 
@@ -8,10 +8,11 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
+from airhilt.cosim.engines_in_use import engines_in_use
 from airhilt.cosim.equipment import with_requested_equipment
 from airhilt.cosim.option_checks import check_options
 from airhilt.cosim.participants import Participants
-from airhilt.cosim.provenance import engines_in_use, model_files, other_packages
+from airhilt.cosim.provenance import model_files, other_packages
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.requested_latency import requested_latency
 from airhilt.cosim.requested_radio import with_requested_radio
@@ -80,10 +81,11 @@ class Setup:
 
     def info(self, participants: Participants, pace: Pace, endpoint: str, renderer: str) -> RunInfo:
         """Return what ``run.json`` says of the run when it begins."""
-        options, engines = self.options, engines_in_use(self, participants)
+        named = self.options.model_copy(update={"assistant": participants.assistant})
+        engines = engines_in_use(named, self.scenario.equipment, participants.workers)
         return RunInfo(
             run=self.name,
-            options=options,
+            options=self.options,
             assistant=participants.assistant,
             pace=pace.name,
             scenario=self.given.model_dump(mode="json"),
@@ -119,7 +121,7 @@ def check_given(given: Scenario, options: Options) -> None:
 
 
 def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
-    """Settle what a run needs, and put everybody where they begin.
+    """Resolve everything that a run needs, and put its actors at their first positions.
 
     Raises
     ------
@@ -173,7 +175,7 @@ def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
 
 
 def _cache_problems() -> list[str]:
-    """Return in a sentence what keeps later runs from having what this one makes, if anything.
+    """Return a sentence if the cache cannot be written, for the use of later runs.
 
     Raises
     ------

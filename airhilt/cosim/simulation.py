@@ -15,13 +15,13 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from airhilt.assistant.reference import is_own_engine
 from airhilt.bus.access import ROLES, WITHOUT_KEYS
 from airhilt.bus.endpoints import what_is_open
 from airhilt.bus.session import Bus
 from airhilt.cosim.advisory_hints import AdvisoryHints
 from airhilt.cosim.briefing import briefing_of
 from airhilt.cosim.cameras import Vision, open_vision, started_renderers
+from airhilt.cosim.engines_in_use import is_own_engine
 from airhilt.cosim.events import EventPublisher
 from airhilt.cosim.external_programs import ExternalPrograms
 from airhilt.cosim.language_model_notices import LanguageModelNotices

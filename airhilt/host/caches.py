@@ -25,8 +25,8 @@ LIMIT = "AIRHILT_CACHE_LIMIT_MB"
 DEFAULT_LIMIT_MB = 2000.0
 KINDS = ("aircraft", "backgrounds", "detections", "pictures", "rays", "voices")
 """Kinds of entries that AIRHILT keeps itself; each is a folder in `cache_folder`."""
-ENTRY = re.compile(r"[0-9a-f]{64}.*\.(entry|partial|pcm)")
-"""Name of an entry, of one that is being written, and of an entry of versions up to 0.5."""
+ENTRY = re.compile(r"[0-9a-f]{64}.*\.(entry|partial)")
+"""Name of an entry, and of one that is being written."""
 GROWTH = 0.05
 """Part of the limit that is written, by all processes together, between two looks at the size."""
 _DIGEST_BYTES = hashlib.sha256().digest_size

@@ -78,7 +78,6 @@ from airhilt.messages.radio import (
     TransmissionOpened,
 )
 from airhilt.messages.run import (
-    FORMER_MODALITIES,
     AirportBriefing,
     Briefing,
     Clock,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Field
+from pydantic import Field
 
 from airhilt.messages.base import Message, Part, VisibleClass
 
@@ -24,14 +24,7 @@ class Clock(Message):
     )
 
 
-FORMER_MODALITIES = {"speech": "asr", "voice": "tts"}
-"""Names that modalities had up to version 0.4, still understood, by what they are now."""
-Modality = Annotated[
-    Literal["adsb", "radio", "enhancement", "asr", "tts", "vision", "decision", "equipment"],
-    BeforeValidator(
-        lambda given: FORMER_MODALITIES.get(given, given) if isinstance(given, str) else given
-    ),
-]
+Modality = Literal["adsb", "radio", "enhancement", "asr", "tts", "vision", "decision", "equipment"]
 ModalityState = Literal["on", "off", "lost", "not evaluated"]
 
 

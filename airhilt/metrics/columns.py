@@ -36,7 +36,7 @@ their own."""
 KNOWN_KEYS: Mapping[str, tuple[str, ...]] = {
     "latencies": STAGES,
     "evidence": MODALITIES,
-    "modalities": get_args(get_args(Modality)[0]),
+    "modalities": get_args(Modality),
     "hearing": get_args(HearingTruth.model_fields["outcome"].annotation),
 }
 """Keys of the fields that are dictionaries; other keys, such as a worker's own, have no column."""
@@ -108,7 +108,7 @@ class FlatRow:
     def values(self, content: Mapping[str, Any]) -> dict[str, Value]:
         """Return the values by the names of their columns, of a model as JSON has it.
 
-        What an earlier version did not write is null.
+        What the content does not have is null.
 
         Raises
         ------
@@ -211,8 +211,7 @@ def metrics_of(summary: Summary | Mapping[str, Any]) -> dict[str, Value]:
     Parameters
     ----------
     summary
-        The summary of a run, or the content of its ``summary.json``. What an earlier version did
-        not write is null.
+        The summary of a run, or the content of its ``summary.json``.
 
     Raises
     ------

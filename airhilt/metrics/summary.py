@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from typing import Literal
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, field_validator
+from pydantic import BaseModel, ConfigDict, Field
 
-from airhilt.messages import FORMER_MODALITIES, ModalityState, NasaTlx, Severity
+from airhilt.messages import ModalityState, NasaTlx, Severity
 from airhilt.world.truth.runways import IncursionCategory
 
 Stage = str
@@ -526,19 +526,9 @@ class Summary(BaseModel):
         description="age of what the assistant had to judge by, by modality; empty: nobody decided",
     )
     modalities: dict[str, ModalityState] = Field(description="state of the modality at the end")
-    """``speech`` and ``voice`` are former names of ``asr`` and ``tts``, kept for scripts that read
-    them."""
     ended_actors: dict[str, str]
     real_time_factor: float
     cpu_s: float = Field(
         description="CPU time of the run in its own process and its children, such as the "
         "renderer, in s"
     )
-
-    @field_validator("modalities")
-    @classmethod
-    def _under_both_names(cls, given: dict[str, ModalityState]) -> dict[str, ModalityState]:
-        """Add to the modalities that were renamed the other of their two names."""
-        former = {old: given[new] for old, new in FORMER_MODALITIES.items() if new in given}
-        present = {new: given[old] for old, new in FORMER_MODALITIES.items() if old in given}
-        return present | given | former

@@ -10,9 +10,9 @@ import platform
 from contextlib import suppress
 from io import BufferedReader
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Final, Literal
 
-from pydantic import BaseModel, ConfigDict, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, ValidationError
 
 from airhilt._version import __version__
 from airhilt.errors import RunFolderError, first_line, first_problem, shown
@@ -22,7 +22,7 @@ from airhilt.messages import WorkerDescription
 from airhilt.options import Options
 from airhilt.record.manifest import FileRecord, digest, manifest
 
-FORMAT = 2
+FORMAT: Final = 2
 RECORDED_VERSIONS = (
     "jsbsim",
     "numpy",
@@ -64,7 +64,7 @@ class RunInfo(BaseModel):
     """``run.json``: everything needed to run it again, and how it ended."""
 
     model_config = ConfigDict(extra="forbid")
-    format: int = FORMAT
+    format: Literal[2] = FORMAT
     phase: Literal["running", "finished", "stopped"] = "running"
     cause: str = ""
     run: str
@@ -93,25 +93,7 @@ class RunInfo(BaseModel):
     """Name and version of the package of each member in use that is not AIRHILT's, such as that of
     ``kind moose``."""
     digest: str = ""
-    """Hash of all of the above; empty in runs of version 0.5."""
-
-    @model_validator(mode="before")
-    @classmethod
-    def _understand_earlier(cls, given: Any) -> Any:
-        """Return a record of version 0.5 or earlier as one of now."""
-        if not isinstance(given, dict):
-            return given
-        if isinstance(hashes := given.get("hashes"), dict):
-            records = {name: {"sha256": value} for name, value in hashes.items()}
-            given = {key: value for key, value in given.items() if key != "hashes"}
-            given["files"] = records
-        if given.get("format") != 1:
-            return given
-        options = dict(given.get("options") or {})
-        options["attach"] = options.pop("attached", ())
-        resolved = {name: options.pop(name, "") for name in ("assistant", "pace")}
-        kept = {name: value for name, value in options.items() if value != ""}
-        return given | resolved | {"options": kept, "format": FORMAT}
+    """Hash of all of the above."""
 
 
 def versions() -> dict[str, str]:

@@ -24,8 +24,7 @@ class FileRecord(BaseModel):
 
     model_config = ConfigDict(extra="forbid", frozen=True)
     sha256: str
-    size_bytes: int | None = None
-    """Size of the file; None in runs of version 0.5, which did not record it."""
+    size_bytes: int
 
 
 def manifest(folder: Path, files: Iterable[Path]) -> dict[str, FileRecord]:
@@ -73,7 +72,7 @@ def problem_of(folder: Path, name: str, record: FileRecord, manifest_name: str =
     try:
         with open_inside(folder, folder / place) as stream:
             size_bytes = os.fstat(stream.fileno()).st_size
-            if record.size_bytes not in (None, size_bytes):
+            if record.size_bytes != size_bytes:
                 return (
                     f"{name}: damaged or changed: it has {size_bytes} bytes, and "
                     f"{manifest_name} says {record.size_bytes}"

@@ -41,7 +41,7 @@ class Run:
         self.info: RunInfo = folder.info()
         self.log_damage = _log_problem(folder, self.info)
         lines = (
-            _info_problem(folder, self.info),
+            _info_problem(folder),
             self.log_damage,
             *(self._problem(path) for path in (folder.latency_path, folder.summary_path)),
         )
@@ -133,24 +133,18 @@ def open_run(path: str | Path, notice: Notice | None = None) -> Run:
 def result_problem(folder: RunFolder, info: RunInfo, path: Path) -> str:
     """Return in words why a file is not one that the run wrote, empty if it is.
 
-    A run that goes on or was killed, and one of version 0.5, has no record of its pictures and
-    videos. Of those nothing is said.
+    A run that goes on or was killed has no record of its pictures and videos. Of those nothing is
+    said.
     """
     name = path.relative_to(folder.path).as_posix()
     record = info.files.get(name)
     if record is not None:
         return problem_of(folder.path, name, record)
-    has_manifest = info.phase != "running" and info.digest
-    return f"{name}: not written by the run" if has_manifest else ""
+    return "" if info.phase == "running" else f"{name}: not written by the run"
 
 
-def _info_problem(folder: RunFolder, info: RunInfo) -> str:
-    """Return in words why ``run.json`` is not as the run wrote it, empty if it is.
-
-    One of version 0.5 has no hash of itself.
-    """
-    if not info.digest:
-        return ""
+def _info_problem(folder: RunFolder) -> str:
+    """Return in words why ``run.json`` is not as the run wrote it, empty if it is."""
     try:
         document = bounded_json.parse(folder.read(folder.info_path))
     except (OSError, ValueError):

@@ -235,15 +235,13 @@ class SweepFolder:
     def damage(self) -> tuple[str, ...]:
         """Return a line for ``sweep.json`` and each table that is not as the sweep wrote it.
 
-        A sweep of version 0.5 has no hashes, and nothing is said of it.
-
         Raises
         ------
         SweepFolderError
             ``sweep.json`` cannot be read.
         """
         info, files = self.info(), self.files()
-        problems = [digest_problem(self.info_path.name, info)] if "digest" in info else []
+        problems = [digest_problem(self.info_path.name, info)]
         problems += [
             problem_of(self.path, table.name, files[table.name], self.info_path.name)
             for table in (self.table_path, self.machine_path)

@@ -21,12 +21,12 @@ from airhilt.record.signature import (
     public_key,
     sign,
 )
-from airhilt.record.sweep_folder import FILES, SweepFolder, SweepFolderError, is_sweep
+from airhilt.record.sweep_folder import SweepFolder, SweepFolderError, is_sweep
 from airhilt.units import SECOND_NS
 
 MADE_AGAIN = ("report.html", "frequency-*.wav", "frequency-*.txt", "figures/*")
 """Names of the files that commands make from a run or a sweep, and that no manifest has."""
-State = Literal["intact", "damaged", "unfinished", "unchecked"]
+State = Literal["intact", "damaged", "unfinished"]
 DAMAGED, UNFINISHED = 1, 3
 """Exit codes of what is damaged, or not that of the key, and of what has no end or no manifest."""
 
@@ -44,7 +44,6 @@ class Verification:
     state
         ``intact``: each file of the manifest is as it was written. ``unfinished``: a run has no
         manifest, because it was killed or goes on; a sweep has not written its tables yet.
-        ``unchecked``: a sweep of version 0.5, which has no manifest.
     ended
         How far an unfinished log can be read, in words, or what tables an unfinished sweep has;
         empty for another.
@@ -60,9 +59,6 @@ class Verification:
         ``unchecked``: there is one, and no key was given.
     key
         Fingerprint of the key that was given, empty without one.
-    has_digest
-        False if ``run.json`` or ``sweep.json`` has no hash of itself, as version 0.5 wrote none:
-        what it says was not checked, and of the files of a run the log alone.
     """
 
     run: str
@@ -75,7 +71,6 @@ class Verification:
     made_again: tuple[str, ...] = ()
     signature: Literal["absent", "unchecked", "good", "bad"] = "absent"
     key: str = ""
-    has_digest: bool = True
 
     @property
     def exit_code(self) -> int:
@@ -96,17 +91,7 @@ class Verification:
                 head = "damaged"
             case "unfinished":
                 head = f"unfinished: the {self.kind} was killed, or is still going on; {self.ended}"
-            case "unchecked":
-                head = (
-                    "not checked: sweep.json has no hashes of sweep.parquet and machine.parquet, "
-                    "as in version 0.5"
-                )
         lines = [f"{self.run}: {head}", *(f"  {problem}" for problem in self.problems)]
-        if self.kind == "run" and not self.has_digest:
-            lines.append(
-                "run.json has no hash of itself, as in version 0.5, and was not checked; of the "
-                "files, those in its manifest were"
-            )
         lines.append(f"signature: {self._signature_text()}")
         if self.additional:
             lines.append(f"not written by the {self.kind}: {', '.join(self.additional)}")
@@ -167,12 +152,8 @@ def sign_folder(path: Path, key: Path) -> str:
         found = verify(path)
         if found.state != "intact":
             said = f": {found.problems[0]}" if found.problems else ""
-            state = "not checked" if found.state == "unchecked" else found.state
-            raise SignatureError(f"{path}: {state}{said}; expected a {found.kind} that is intact")
-        if not found.has_digest:
             raise SignatureError(
-                f"{path}: recorded by an earlier version, whose manifest has its log alone; "
-                "expected a run of this version"
+                f"{path}: {found.state}{said}; expected a {found.kind} that is intact"
             )
         sign(folder, signer)
     return fingerprint(signer.public_key())
@@ -195,7 +176,7 @@ def _run(folder: RunFolder) -> Verification:
     except RunFolderError as error:
         return replace(found, problems=(_below(folder.path, error),))
     problems = Run(folder).damage_of_all_files()
-    found = replace(found, files=len(info.files), has_digest=bool(info.digest))
+    found = replace(found, files=len(info.files))
     if info.phase == "running":
         state: State = "damaged" if problems else "unfinished"
         return replace(found, state=state, problems=problems, ended=_ended(folder))
@@ -234,10 +215,6 @@ def _sweep(folder: SweepFolder) -> Verification:
     except SweepFolderError as error:
         return replace(found, problems=(_below(folder.path, error),))
     tables = folder.table_path.name, folder.machine_path.name
-    if "digest" not in info and FILES not in info:
-        missing = tuple(f"{name}: missing" for name in tables if not (folder.path / name).is_file())
-        state: State = "damaged" if missing else "unchecked"
-        return replace(found, state=state, problems=missing, has_digest=False)
     problems = [
         digest_problem(folder.info_path.name, info),
         *(f"sweep.json: its manifest has no {name}" for name in tables if name not in files),

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from airhilt.messages import FORMER_MODALITIES
 from airhilt.record import Logged, RunInfo
 from airhilt.text import readable
 from airhilt.units import SECOND_NS
@@ -131,10 +130,9 @@ def _transcript(message: Json, logged: Logged) -> Json:
 
 
 def _status(message: Json, _: Logged) -> Json:
-    modality = message["modality"]
     return {
         "kind": "status",
-        "who": FORMER_MODALITIES.get(modality, modality),
+        "who": message["modality"],
         "state": message["state"],
         "text": message["cause"],
     }

@@ -8,7 +8,7 @@ from typing import Any
 from pydantic.dataclasses import dataclass
 
 from airhilt.errors import AirhiltError
-from airhilt.plugins import Family, Members
+from airhilt.plugins import Family
 
 
 @dataclass(frozen=True)
@@ -51,7 +51,7 @@ def cannot_be_shown(section: str, error: Exception) -> str:
     return f"The section {section!r} cannot be shown: {cause}"
 
 
-def load_member(installed: Members, name: str) -> Any:
+def load_member(family: Family, name: str) -> Any:
     """Return a section whose template and script can be read.
 
     Raises
@@ -59,8 +59,8 @@ def load_member(installed: Members, name: str) -> Any:
     AirhiltError
         It cannot be loaded, stands in no section, or its template or script cannot be read.
     """
-    section: PageSection = installed.load(name)
-    if section.within and section.within not in installed.names():
+    section: PageSection = family.load(name)
+    if section.within and section.within not in family.names():
         raise AirhiltError(f"there is no section {section.within!r} that it stands in")
     try:
         section.template(), section.script()
@@ -73,10 +73,9 @@ def load_members(family: Family) -> tuple[list[Any], list[str]]:
     """Return all sections of a page in their order, and a sentence on each that cannot be shown."""
     sections: list[PageSection] = []
     problems: list[str] = []
-    installed = family.scan()
-    for name in installed.names():
+    for name in family.names():
         try:
-            sections.append(load_member(installed, name))
+            sections.append(load_member(family, name))
         except AirhiltError as error:
             problems.append(cannot_be_shown(name, error))
     return sorted(sections, key=lambda section: (section.order, section.name)), problems

@@ -20,7 +20,7 @@ from typing import Any, Protocol, runtime_checkable
 from airhilt.errors import ScenarioError, SensorError
 from airhilt.host.library import nearest
 from airhilt.messages import WORKER_OUTPUTS, Message
-from airhilt.plugins import Family, Members
+from airhilt.plugins import Family
 from airhilt.scenario.models import Scenario
 from airhilt.sim import LatencySpec, Scheduler, StepRecord
 from airhilt.world.actors.actor import Actor
@@ -172,8 +172,7 @@ def load_sensor_types(asked: Collection[str] = ()) -> tuple[list[SensorType], li
     ScenarioError
         A sensor type that is asked for is not installed.
     """
-    installed = FAMILY.scan()
-    names = installed.names()
+    names = FAMILY.names()
     for name in asked:
         if name not in names:
             raise ScenarioError(f"sensors: no sensor named {name!r}{nearest(name, names)}")
@@ -182,7 +181,7 @@ def load_sensor_types(asked: Collection[str] = ()) -> tuple[list[SensorType], li
     problems: list[str] = []
     for name in names:
         try:
-            types.append(load_sensor_type(installed, name))
+            types.append(load_sensor_type(name))
         except SensorError as error:
             if name in needed:
                 raise
@@ -190,7 +189,7 @@ def load_sensor_types(asked: Collection[str] = ()) -> tuple[list[SensorType], li
     return types, problems
 
 
-def load_sensor_type(installed: Members, name: str) -> SensorType:
+def load_sensor_type(name: str) -> SensorType:
     """Return a sensor type.
 
     Raises
@@ -198,7 +197,7 @@ def load_sensor_type(installed: Members, name: str) -> SensorType:
     SensorError
         It cannot be loaded, or its name or its keys belong to something else.
     """
-    sensor_type: SensorType = installed.load(name)
+    sensor_type: SensorType = FAMILY.load(name)
     if name in RESERVED:
         raise SensorError(f"a sensor is named {name!r}, and those keys are not a sensor's")
     try:

@@ -16,7 +16,7 @@ from typing import Any
 from pydantic import JsonValue, ValidationError
 
 from airhilt.cosim.latency_presets import PRESETS
-from airhilt.engines import ASSISTANT
+from airhilt.engine_families import ASSISTANTS
 from airhilt.errors import AirhiltError, ScenarioError, shown
 from airhilt.host import library
 from airhilt.options import Options
@@ -264,7 +264,7 @@ def _plan(document: Json, options: Json, combination: Combination, checks: RunCh
     plan = Plan(document, {ASSISTANT_OPTION: None, **options})
     for each, value in combination:
         plan = each.put(plan, value)
-    assistant = plan.options[ASSISTANT_OPTION] or ASSISTANT
+    assistant = plan.options[ASSISTANT_OPTION] or ASSISTANTS.default
     plan = Plan(plan.document, plan.options | {ASSISTANT_OPTION: assistant})
     problems: list[str] = []
     try:

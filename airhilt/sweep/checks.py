@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from airhilt.assistant.reference import EXTERNAL
 from airhilt.cosim.option_checks import check_options
 from airhilt.cosim.requested_latency import requested_latency
 from airhilt.cosim.requested_radio import with_requested_radio
+from airhilt.engine_families import EXTERNAL
 from airhilt.errors import AirhiltError
 from airhilt.options import Options
 from airhilt.scenario import Scenario

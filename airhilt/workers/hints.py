@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from airhilt.engines import ASSISTANT
+from airhilt.engine_families import ASSISTANTS
 from airhilt.messages import (
     CONTROLLER,
     SPEAK_MIN_LEVEL,
@@ -18,7 +18,7 @@ PAGE = "docs/workers.md#what-makes-somebody-act"
 
 def is_reference(description: WorkerDescription) -> bool:
     """Return whether a worker decides by the reference engine, whose advisories need no hint."""
-    return description.engine == ASSISTANT
+    return description.engine == ASSISTANTS.default
 
 
 def no_action(advisory: Advisory, follows: Callable[[Recommendation], bool] | None) -> str | None:

@@ -60,7 +60,7 @@ def test_a_client_of_the_feed_hears_both_aircraft(encounter: Scenario, tmp_path:
     listener = threading.Thread(target=listen)
     listener.start()
     short = encounter.model_copy(update={"duration_s": 8.0})
-    run(short, out=tmp_path / "run", listen=endpoint, pace="realtime", assistant="none")
+    run(short, out=tmp_path / "run", endpoint=endpoint, pace="realtime", assistant="none")
     listener.join(timeout=30.0)
     assert {line.split(",")[4] for line in heard} == {"A1B2C3", "A4D5E6"}
     assert heard[-1].split(",")[11] == pytest.approx("35000")

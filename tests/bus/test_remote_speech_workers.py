@@ -80,7 +80,7 @@ def test_speech_workers_in_other_processes_give_the_same_log(
     endpoint = free_endpoint()
     with reference_worker("asr", endpoint), reference_worker("tts", endpoint):
         outside = run(
-            short, out=tmp_path / "outside", latency="fixed", listen=endpoint,
+            short, out=tmp_path / "outside", latency="fixed", endpoint=endpoint,
             attach=("asr", "tts"),
         ).folder  # fmt: skip
     assert logged(inside, "asr/", Transcript)
@@ -95,7 +95,7 @@ def test_an_attached_recogniser_gets_every_sample_and_speaks_for_the_run(
 ) -> None:
     endpoint = free_endpoint()
     with hashing_recogniser(endpoint) as recogniser:
-        result = run(short, out=tmp_path / "run", listen=endpoint, attach=("asr",))
+        result = run(short, out=tmp_path / "run", endpoint=endpoint, attach=("asr",))
         assert recogniser.wait(timeout=10.0) == 0
     sent = logged(result.folder, "radio/", Transmission)
     heard = logged(result.folder, "asr/", Transcript)
@@ -113,7 +113,7 @@ def test_a_recogniser_may_take_a_call_chunk_by_chunk_while_it_lasts(
     endpoint = free_endpoint()
     with process(EXAMPLES / "streaming_asr_worker.py", endpoint):
         result = run(
-            short, out=tmp_path / "run", latency="fixed:0.1", listen=endpoint,
+            short, out=tmp_path / "run", latency="fixed:0.1", endpoint=endpoint,
             attach=("streaming",),
         )  # fmt: skip
     sent = logged(result.folder, "radio/", Transmission)
@@ -149,7 +149,7 @@ def test_a_recogniser_that_dies_or_freezes_is_lost_and_the_run_goes_on(
     endpoint = free_endpoint()
     with hashing_recogniser(endpoint) as recogniser:
         result = run(
-            short, out=tmp_path / "run", latency="fixed", listen=endpoint, attach=("asr",),
+            short, out=tmp_path / "run", latency="fixed", endpoint=endpoint, attach=("asr",),
             step_timeout_s=1.0, observer=ActsAt(10.0, recogniser, number),
         )  # fmt: skip
     sent = [one.id for one in logged(result.folder, "radio/", Transmission)]
@@ -168,7 +168,7 @@ def voiced(short: Scenario, tmp_path_factory: pytest.TempPathFactory) -> Path:
     out = tmp_path_factory.mktemp("voiced") / "run"
     endpoint = free_endpoint()
     with reference_worker("tts", endpoint):
-        run(short, out=out, listen=endpoint, attach=("tts",))
+        run(short, out=out, endpoint=endpoint, attach=("tts",))
     return out
 
 
@@ -210,7 +210,7 @@ def test_without_the_voice_that_died_advisories_are_read(short: Scenario, tmp_pa
     endpoint = free_endpoint()
     with reference_worker("tts", endpoint) as voice:
         result = run(
-            short, out=tmp_path / "run", latency="fixed", listen=endpoint, attach=("tts",),
+            short, out=tmp_path / "run", latency="fixed", endpoint=endpoint, attach=("tts",),
             step_timeout_s=1.0, observer=ActsAt(1.0, voice, signal.SIGKILL),
         )  # fmt: skip
     assert result.summary.modalities["tts"] == "lost"

@@ -69,7 +69,7 @@ def test_an_attached_detector_gets_every_pixel_and_looks_for_the_run(
     with process("-c", HASHING_DETECTOR, endpoint) as detector:
         result = run(
             glance, out=tmp_path / "run", latency="fixed:0.01", speech=False,
-            renderer="embree", listen=endpoint, attach=("vision",),
+            renderer="embree", endpoint=endpoint, attach=("vision",),
         )  # fmt: skip
         assert detector.wait(timeout=10.0) == 0
     frames = {(one.camera, one.seq): one for one in logged(result.folder, "camera/", CameraFrame)}
@@ -89,7 +89,7 @@ def test_the_example_detector_looks_for_the_run(glance: Scenario, tmp_path: Path
     with process(EXAMPLES / "vision_worker.py", endpoint) as detector:
         result = run(
             glance, out=tmp_path / "run", latency="fixed:0.01", speech=False,
-            renderer="embree", listen=endpoint, attach=("mine",),
+            renderer="embree", endpoint=endpoint, attach=("mine",),
         )  # fmt: skip
         assert detector.wait(timeout=10.0) == 0
     told = logged(result.folder, "vision/", Detections)

@@ -45,7 +45,7 @@ def test_a_worker_in_another_process_gives_the_same_log(
     endpoint = free_endpoint()
     with decision_worker(endpoint) as worker:
         outside = run(
-            encounter, out=tmp_path / "outside", latency="fixed", listen=endpoint,
+            encounter, out=tmp_path / "outside", latency="fixed", endpoint=endpoint,
             attach=("decision",),
         ).folder  # fmt: skip
         assert worker.wait(timeout=10.0) == 0
@@ -63,7 +63,7 @@ def test_an_attached_worker_knows_the_separation_of_the_scenario(
     endpoint = free_endpoint()
     with decision_worker(endpoint):
         outside = run(
-            scenario, out=tmp_path / "outside", speech=False, latency="fixed", listen=endpoint,
+            scenario, out=tmp_path / "outside", speech=False, latency="fixed", endpoint=endpoint,
             attach=("decision",),
         ).folder  # fmt: skip
     assert (outside / "log.mcap").read_bytes() == (inside / "log.mcap").read_bytes()
@@ -85,7 +85,7 @@ def test_a_worker_that_wakes_by_itself_is_replayed(encounter: Scenario, tmp_path
             out=tmp_path / "run",
             speech=False,
             latency="fixed",
-            listen=endpoint,
+            endpoint=endpoint,
             attach=("decision",),
         ).folder
     steps = [json.loads(line) for line in (folder / "latency.jsonl").read_text().splitlines()]
@@ -111,7 +111,7 @@ def test_a_program_without_grants_that_dies_is_noticed_too(
     short = encounter.model_copy(update={"duration_s": 4.0})
     endpoint = free_endpoint()
     options: dict[str, Any] = {
-        "listen": endpoint,
+        "endpoint": endpoint,
         "attach": ("plain",),
         "strict": strict,
         "observer": Kills(),
@@ -141,7 +141,7 @@ def test_a_worker_that_dies_or_freezes_is_noticed_and_the_run_goes_on(
     endpoint = free_endpoint()
     with decision_worker(endpoint) as worker:
         result = run(
-            brief, out=tmp_path / "run", speech=False, latency=latency, listen=endpoint,
+            brief, out=tmp_path / "run", speech=False, latency=latency, endpoint=endpoint,
             attach=("decision",), step_timeout_s=1.0, observer=ActsAt(3.0, worker, number),
         )  # fmt: skip
     assert result.summary.outcome == "finished"
@@ -165,7 +165,7 @@ def test_strict_stops_with_the_cause(brief: Scenario, tmp_path: Path) -> None:
         pytest.raises(RunStopped, match=r"--strict asks: worker 'decision'"),
     ):
         run(
-            brief, out=tmp_path / "run", speech=False, listen=endpoint, attach=("decision",),
+            brief, out=tmp_path / "run", speech=False, endpoint=endpoint, attach=("decision",),
             strict=True, observer=ActsAt(3.0, worker, signal.SIGKILL),
         )  # fmt: skip
     info = RunFolder(tmp_path / "run").info()
@@ -178,7 +178,7 @@ def test_the_example_on_the_sdk_works(encounter: Scenario, tmp_path: Path) -> No
     endpoint = free_endpoint()
     with process(EXAMPLES / "sdk_worker.py", endpoint) as worker:
         result = run(
-            encounter, out=tmp_path / "run", speech=False, listen=endpoint, attach=("simple",)
+            encounter, out=tmp_path / "run", speech=False, endpoint=endpoint, attach=("simple",)
         )
         assert worker.wait(timeout=10.0) == 0
     assert result.summary.assistant == "external"
@@ -192,7 +192,9 @@ def test_the_example_in_plain_zenoh_makes_the_run_real_time_and_counts(
     short = encounter.model_copy(update={"duration_s": 4.0})
     endpoint = free_endpoint()
     with process(EXAMPLES / "plain_zenoh_worker.py", endpoint):
-        result = run(short, out=tmp_path / "run", speech=False, listen=endpoint, attach=("plain",))
+        result = run(
+            short, out=tmp_path / "run", speech=False, endpoint=endpoint, attach=("plain",)
+        )
     assert RunFolder(result.folder).info().pace == "realtime"
     assert RunFolder(result.folder).info().unregistered_programs
     assert [told.id for told in result.summary.advisories] == ["plain-1"]
@@ -277,7 +279,7 @@ def test_a_worker_that_breaks_the_contract_ends_the_run_with_its_name(
 ) -> None:
     endpoint = free_endpoint()
     with process("-c", BAD_WORKER, endpoint, answer), pytest.raises(WorkerError) as caught:
-        run(encounter, out=tmp_path / "run", speech=False, listen=endpoint, attach=("bad",))
+        run(encounter, out=tmp_path / "run", speech=False, endpoint=endpoint, attach=("bad",))
     assert "'bad'" in str(caught.value)
     assert said in str(caught.value)
     assert "\n" not in str(caught.value)
@@ -306,7 +308,7 @@ def test_a_worker_of_the_sdk_whose_step_has_a_part_of_another_type_is_lost(
     endpoint = free_endpoint()
     short = encounter.model_copy(update={"duration_s": 3.0})
     with process("-c", ODD_WORKER, endpoint):
-        result = run(short, out=tmp_path / "run", speech=False, listen=endpoint, attach=("odd",))
+        result = run(short, out=tmp_path / "run", speech=False, endpoint=endpoint, attach=("odd",))
     assert result.summary.outcome == "finished"
     (lost,) = [
         json.loads(logged.data)["cause"]
@@ -380,7 +382,7 @@ def test_a_command_from_outside_moves_an_aircraft(encounter: Scenario, tmp_path:
             short,
             out=tmp_path / "run",
             speech=False,
-            listen=endpoint,
+            endpoint=endpoint,
             assistant="none",
             observer=commands,
         )

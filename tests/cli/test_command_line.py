@@ -101,7 +101,7 @@ def test_modalities_left_out_are_off(airhilt_command: Any, encounter_file: Path)
     modalities = json.loads(done.stdout)["modalities"]
     assert modalities == {
         "adsb": "on", "radio": "on", "asr": "off", "tts": "off", "vision": "off",
-        "decision": "off", "speech": "off", "voice": "off",
+        "decision": "off",
     }  # fmt: skip
 
 
@@ -132,7 +132,7 @@ def test_doctor_finds_everything(airhilt_command: Any) -> None:
         (("cosim", "--scenario", "s02a_headon", "--latency", "slow"), "lognormal"),
         (("cosim", "--scenario", "s02a_headon", "--latency", "replay:x"), "no run here"),
         (("cosim", "--scenario", "s02a_headon", "--seed", "-1"), "expected 0 or more"),
-        (("cosim", "--scenario", "s02a_headon", "--listen", "nonsense"), "tcp/127.0.0.1:7447"),
+        (("cosim", "--scenario", "s02a_headon", "--endpoint", "nonsense"), "tcp/127.0.0.1:7447"),
         (
             ("cosim", "--scenario", "s02a_headon", "--attach", "x", "--attach-timeout", "0.3"),
             "did not attach",
@@ -174,7 +174,7 @@ def test_a_port_in_use_is_named(airhilt_command: Any, tmp_path: Path) -> None:
         taken.bind(("127.0.0.1", 0))
         taken.listen()
         endpoint = f"tcp/127.0.0.1:{taken.getsockname()[1]}"
-        done = airhilt_command("cosim", "--scenario", "s02a_headon", "--listen", endpoint)
+        done = airhilt_command("cosim", "--scenario", "s02a_headon", "--endpoint", endpoint)
     assert_is_a_users_mistake(done, endpoint, "--endpoint")
     assert list(tmp_path.iterdir()) == []
 

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from importlib.metadata import EntryPoints, entry_points
 from pathlib import Path
 from typing import Any
 
 import pytest
 from click.shell_completion import get_completion_class
 
-from airhilt import plugins
 from airhilt.cli.main import cli
 from engine_package import installed
 
@@ -81,18 +79,3 @@ def test_a_command_that_ends_the_process_on_import_does_not_end_the_help(
         done = airhilt_command("--help")
     assert done.returncode == 0
     assert "SystemExit: 7" in done.stdout
-
-
-@pytest.mark.parametrize("arguments", [("--help",), ("schema", "--help")])
-def test_the_command_line_looks_for_commands_once(
-    airhilt_command: Any, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...]
-) -> None:
-    scans = []
-
-    def scan(group: str) -> EntryPoints:
-        scans.append(group)
-        return entry_points(group=group)
-
-    monkeypatch.setattr(plugins, "declared", scan)
-    assert airhilt_command(*arguments).returncode == 0
-    assert scans == ["airhilt.commands"]

@@ -108,7 +108,12 @@ def test_a_killed_run_may_be_damaged_too(airhilt_command: Any, run_copy: Path) -
 
 def test_a_manifest_cannot_name_a_file_elsewhere(airhilt_command: Any, run_copy: Path) -> None:
     (run_copy.parent / "secret.txt").write_text("secret")
-    tamper(run_copy, lambda document: document["files"].update({"../secret.txt": {"sha256": "0"}}))
+    tamper(
+        run_copy,
+        lambda document: document["files"].update(
+            {"../secret.txt": {"sha256": "0", "size_bytes": 6}}
+        ),
+    )
     code, found = verified(airhilt_command, run_copy)
     assert code == 1
     assert found["problems"][0].startswith("../secret.txt: outside of the folder")
@@ -118,7 +123,7 @@ def test_a_manifest_with_a_name_that_no_file_can_have_is_named(
     airhilt_command: Any, run_copy: Path
 ) -> None:
     folder = RunFolder(run_copy)
-    record = FileRecord(sha256="0" * 64)
+    record = FileRecord(sha256="0" * 64, size_bytes=0)
     files = folder.manifest() | {"x" * 5000: record, "a\0b": record, ".": record}
     folder.write_info(folder.info().model_copy(update={"files": files}))
     done = airhilt_command("verify", run_copy)
@@ -262,40 +267,14 @@ def test_a_key_of_the_wrong_kind_is_a_named_mistake(
     assert (done.returncode, "cannot be read" in done.stderr) == (2, True)
 
 
-def test_a_run_that_has_no_hash_of_its_manifest_is_not_signed(
+def test_a_run_without_a_hash_of_its_record_is_damaged_and_not_signed(
     airhilt_command: Any, keys: Path, run_copy: Path
 ) -> None:
-    """Earlier versions wrote none: a signature would say nothing about the other files."""
     path = run_copy / "run.json"
     document = json.loads(path.read_text())
-    del document["digest"]
-    path.write_text(json.dumps(document))
-    done = airhilt_command("sign", run_copy, "--key", keys)
-    assert done.returncode == 2
-    assert "recorded by an earlier version, whose manifest has its log alone" in done.stderr
-    assert not (run_copy / "run.json.sig").exists()
-
-
-def test_a_run_without_a_hash_of_its_record_is_told_to_be_checked_in_part(
-    airhilt_command: Any, run_copy: Path
-) -> None:
-    """Whoever changes a run on purpose can make it look like one of version 0.5."""
-    path = run_copy / "run.json"
-    document = json.loads(path.read_text())
-    document |= {"digest": "", "files": {"log.mcap": document["files"]["log.mcap"]}}
-    document["options"]["seed"] = 7
-    path.write_text(json.dumps(document))
+    path.write_text(json.dumps(document | {"digest": ""}))
     code, found = verified(airhilt_command, run_copy)
-    assert (code, found["state"], found["has_digest"]) == (0, "intact", False)
-    done = airhilt_command("verify", run_copy)
-    assert (
-        "run.json has no hash of itself, as in version 0.5, and was not checked; of the files,"
-        in (done.stdout)
-    )
-
-
-def test_a_run_with_a_hash_of_its_record_is_checked_as_a_whole(
-    airhilt_command: Any, run_copy: Path
-) -> None:
-    assert "only" not in airhilt_command("verify", run_copy).stdout
-    assert verified(airhilt_command, run_copy)[1]["has_digest"]
+    assert (code, found["state"]) == (1, "damaged")
+    assert found["problems"] == ["run.json: damaged or changed: not what its digest says"]
+    done = airhilt_command("sign", run_copy, "--key", keys)
+    assert (done.returncode, "expected a run that is intact" in done.stderr) == (2, True)

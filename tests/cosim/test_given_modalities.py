@@ -10,7 +10,7 @@ import pytest
 
 import airhilt
 from airhilt import Input, Scenario, Step
-from airhilt.assistant.equipment import equipment_worker
+from airhilt.cosim.equipment import equipment_worker
 from airhilt.cosim.given_modalities import limited
 from airhilt.cosim.option_checks import check_options
 from airhilt.cosim.replay import replay

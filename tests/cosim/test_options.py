@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +13,7 @@ from airhilt.cosim.observer import Observer
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.replay import replay
 from airhilt.cosim.setup import set_up
-from airhilt.errors import AirhiltError, RunFolderError
+from airhilt.errors import AirhiltError
 from airhilt.options import Options, flag_of, options_of
 from airhilt.record import RunFolder
 from airhilt.report import write_report
@@ -53,10 +52,6 @@ def test_an_argument_of_another_type_is_named(given: dict[str, Any], words: str)
 def test_a_run_is_not_named_by_what_is_no_part_of_a_key(name: str) -> None:
     with pytest.raises(AirhiltError, match=r"option run_name: found .*expected at most 80 letters"):
         airhilt.run("s02a_headon", run_name=name)
-
-
-def test_a_former_name_is_still_understood() -> None:
-    assert options_of({"listen": "tcp/127.0.0.1:7447"}).endpoint == "tcp/127.0.0.1:7447"
 
 
 def test_every_option_that_the_command_line_spells_is_a_flag_of_a_run() -> None:
@@ -113,44 +108,6 @@ def test_a_configuration_of_a_worker_of_the_user_is_refused(
 ) -> None:
     with pytest.raises(AirhiltError, match="--assistant-config would do nothing: a worker"):
         airhilt.run(encounter, out=tmp_path / "run", assistant_config={}, workers=[reference()])
-
-
-def test_a_record_of_the_first_format_is_understood(encounter: Scenario, tmp_path: Path) -> None:
-    folder = airhilt.run(
-        encounter, out=tmp_path / "run", latency="fixed", speech=False, cameras=False
-    ).folder
-    path = folder / "run.json"
-    record = json.loads(path.read_text())
-    record["format"] = 1
-    assistant, pace = record.pop("assistant"), record.pop("pace")
-    record["options"] = {
-        "seed": 0, "assistant": assistant, "pace": pace, "latency": "fixed", "attached": ["mine"],
-        "cameras": False, "speech": False, "strict": False, "snr_db": None,
-        "radio_profile": None, "topology": None, "asr": "", "tts": "", "renderer": "",
-        "detector": "",
-    }  # fmt: skip
-    path.write_text(json.dumps(record))
-    info = RunFolder(folder).info()
-    assert (info.assistant, info.pace) == ("reference", "virtual")
-    assert info.options.attach == ("mine",)
-    assert info.options.asr == Options().asr
-
-
-def test_a_former_and_a_present_name_together_are_refused() -> None:
-    with pytest.raises(AirhiltError, match="former name of endpoint"):
-        options_of({"listen": "tcp/127.0.0.1:1", "endpoint": "tcp/127.0.0.1:2"})
-
-
-def test_a_run_of_an_earlier_version_is_not_replayed(encounter: Scenario, tmp_path: Path) -> None:
-    folder = airhilt.run(
-        encounter.model_copy(update={"duration_s": 1.0}), out=tmp_path / "run", speech=False,
-        cameras=False,
-    ).folder  # fmt: skip
-    record = json.loads((folder / "run.json").read_text())
-    record["versions"]["airhilt"] = "0.4.0"
-    (folder / "run.json").write_text(json.dumps(record))
-    with pytest.raises(RunFolderError, match=r"recorded by AIRHILT 0\.4\.0"):
-        replay(folder)
 
 
 @pytest.mark.parametrize(

@@ -85,7 +85,7 @@ def test_the_crews_return_to_their_levels_when_the_conflict_is_over(tmp_path: Pa
 def test_the_example_in_plain_zenoh_keeps_separation(tmp_path: Path) -> None:
     """The run goes by the wall clock, here 20 times as fast."""
     endpoint, observer = free_endpoint(), Notices()
-    options: Any = {"pace": "20x", "speech": False, "cameras": False, "listen": endpoint}
+    options: Any = {"pace": "20x", "speech": False, "cameras": False, "endpoint": endpoint}
     with process(EXAMPLES / "plain_zenoh_worker.py", endpoint):
         result = run(
             load("s02a_headon"), out=tmp_path / "run", attach=("plain",), observer=observer,

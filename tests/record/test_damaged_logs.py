@@ -271,18 +271,6 @@ def test_another_layout_of_the_record_is_not_damage(run_copy: Path) -> None:
     assert quiet(run_copy).damage == ()
 
 
-def test_a_record_of_version_0_5_has_the_hash_of_its_log_alone(run_copy: Path) -> None:
-    path = run_copy / "run.json"
-    document = json.loads(path.read_text())
-    files = document.pop("files")
-    del document["digest"]
-    document["hashes"] = {"log.mcap": files["log.mcap"]["sha256"]}
-    path.write_text(json.dumps(document))
-    assert quiet(run_copy).damage == ()
-    flip(run_copy / "log.mcap", 8 * 2000)
-    assert quiet(run_copy).damage
-
-
 def test_a_changed_sound_is_named_when_all_files_are_asked_for(run_copy: Path) -> None:
     folder = RunFolder(run_copy)
     sound = run_copy / "audio" / "call-1.wav"

@@ -13,7 +13,7 @@ import pytest
 
 from airhilt.errors import AirhiltError
 from airhilt.metrics.measures import MISSED
-from airhilt.record.manifest import manifest
+from airhilt.record.manifest import digest, manifest
 from airhilt.record.sweep_folder import SweepFolder
 from airhilt.report.figures import Figures, embedded
 from airhilt.report.sweeps import write_sweep_report
@@ -263,7 +263,8 @@ def test_a_page_says_that_a_table_was_changed_after_the_sweep(tmp_path: Path) ->
     table = folder / "sweep.parquet"
     document = json.loads((folder / "sweep.json").read_text())
     files = {name: record.model_dump() for name, record in manifest(folder, [table]).items()}
-    (folder / "sweep.json").write_text(json.dumps(document | {"files": files}))
+    document["files"] = files
+    (folder / "sweep.json").write_text(json.dumps(document | {"digest": digest(document)}))
     pq.write_table(pq.read_table(table), table, compression="none")
     told: list[str] = []
     (note,) = data_of(write_sweep_report(folder, notice=told.append))["notes"]

@@ -104,7 +104,7 @@ def first_detection(folder: Path) -> tuple[Path, PictureName]:
 def without_manifest(folder: Path) -> Run:
     """Open a run as one that was killed, which has no record of its pictures."""
     run = open_run(folder)
-    run.info = run.info.model_copy(update={"files": {}, "digest": ""})
+    run.info = run.info.model_copy(update={"files": {}, "phase": "running"})
     return run
 
 

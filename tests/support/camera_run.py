@@ -9,11 +9,11 @@ from typing import Any, cast
 import pytest
 
 from airhilt import load
-from airhilt.assistant.reference import reference_workers
 from airhilt.cosim import cameras as vision
 from airhilt.cosim import participants as team
 from airhilt.cosim import simulation as cosim
 from airhilt.cosim.observer import Result
+from airhilt.cosim.reference_workers import reference_workers
 from airhilt.options import Options
 from airhilt.scenario import Scenario
 from oracle import BlankSceneRenderer, Oracle
@@ -41,9 +41,9 @@ def camera_run(
         oracle._renderer = BlankSceneRenderer(realised)
         return oracle._renderer
 
-    def workers(assistant: Any, radio: Any, taken: Any, engines: Any, **options: bool) -> list[Any]:
-        others = reference(assistant, radio, taken, engines._replace(detector=None), **options)
-        return [*others, oracle] if assistant != "none" else others
+    def workers(given: Options, scenario: Scenario, taken: Any) -> list[Any]:
+        others = reference(given.model_copy(update={"detector": "none"}), scenario, taken)
+        return [*others, oracle] if given.assistant != "none" else others
 
     patch.setattr(vision, "_start_renderers", lambda *_: None)
     patch.setattr(vision, "_open_renderer", open_scene_renderer)

@@ -17,12 +17,12 @@ import numpy as np
 import pytest
 
 from airhilt import load
-from airhilt.assistant.reference import reference_workers
 from airhilt.assistant.vision.detector import Found
 from airhilt.assistant.vision.tracker import Tracker
 from airhilt.cosim import cameras as vision
 from airhilt.cosim import participants as team
 from airhilt.cosim import simulation as cosim
+from airhilt.cosim.reference_workers import reference_workers
 from airhilt.imaging.masks import Mask
 from airhilt.messages import (
     CameraFrame,
@@ -238,9 +238,9 @@ def watched(
 
     reference = reference_workers
 
-    def workers(assistant: Any, radio: Any, taken: Any, engines: Any, **options: bool) -> Any:
+    def workers(given: Options, scenario: Scenario, taken: Any) -> Any:
         made.append(oracle(cast(Any, None), seed, smallest_px))
-        others = reference(assistant, radio, taken, engines._replace(detector=None), **options)
+        others = reference(given.model_copy(update={"detector": "none"}), scenario, taken)
         return [*others, made[0]]
 
     patch.setattr(vision, "_start_renderers", lambda *_: None)

@@ -14,6 +14,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from airhilt.metrics.columns import Column, column_of, metric_columns
+from airhilt.record.manifest import digest
 
 TYPES = {
     "string": pa.string(), "bool": pa.bool_(), "int64": pa.int64(), "float64": pa.float64(),
@@ -76,7 +77,8 @@ def write_sweep(folder: Path, rows: Sequence[Row], ended: Sequence[Row] = (), **
                for row in (*rows, *ended)]  # fmt: skip
     pq.write_table(table(MACHINE, machine), folder / "machine.parquet")
     document = {"format": 1, "specification": {"scenarios": ["s01a_*"]}, "runs": len(machine)}
-    (folder / "sweep.json").write_text(json.dumps(document | info))
+    document |= info
+    (folder / "sweep.json").write_text(json.dumps(document | {"digest": digest(document)}))
     return folder
 
 

@@ -34,8 +34,7 @@ def verify(folder: Path, key: Path | None, as_json: bool) -> None:
     Without --key this finds damage. Only a signature tells that nobody changed it on purpose.
 
     Exit code 0: intact, and signed by the key if one is given. 1: damaged, or not signed by the
-    key. 3: unfinished, because it was killed or is still going on; or a sweep of version 0.5,
-    whose tables cannot be checked.
+    key. 3: unfinished, because it was killed or is still going on.
     """
     from airhilt.record.verification import verify as verify_folder
 

@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 
 from airhilt.cli.parameters import SECONDS
+from airhilt.engine_families import FAMILIES
 
 
 @click.command(
@@ -18,7 +19,9 @@ Examples:
   airhilt worker decision --tls lab-keys
 """
 )
-@click.argument("kind", type=click.Choice(["decision", "enhancement", "asr", "tts", "vision"]))
+@click.argument(
+    "kind", type=click.Choice(list(dict.fromkeys(family.modality for family in FAMILIES)))
+)
 @click.option("--engine", metavar="ENGINE", help="Engine, as for `airhilt cosim`.")
 @click.option(
     "--assistant-config",

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from airhilt.messages import FORMER_MODALITIES
 from airhilt.record import Logged, RunFolder
 from airhilt.report.data import RunData
 from airhilt.report.sections import Content, Section
@@ -21,17 +20,12 @@ class Modalities(Content):
     def take(self, logged: Logged) -> None:
         """Receive a `Status`."""
         status = json.loads(logged.data)
-        self._states[_present(status["modality"])] = status["state"]
+        self._states[status["modality"]] = status["state"]
 
     def as_json(self, run: RunData) -> dict[str, Any]:
         """Return the states in the order of the log; those of the summary count."""
         final = {} if run.summary is None else run.summary.modalities
-        return {"modalities": self._states | {_present(name): final[name] for name in final}}
-
-
-def _present(modality: str) -> str:
-    """Return the present name of a modality."""
-    return FORMER_MODALITIES.get(modality, modality)
+        return {"modalities": self._states | final}
 
 
 SECTION = Section("numbers", order=20, module=__file__, content=Modalities, keys=("status/",))

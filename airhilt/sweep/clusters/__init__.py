@@ -73,5 +73,5 @@ FAMILY = EngineFamily[Cluster](
     __name__,
     "CLUSTER",
     error=ClusterError,
-    product=Cluster,
+    product=f"{__name__}:Cluster",
 )

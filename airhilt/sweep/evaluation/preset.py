@@ -8,7 +8,7 @@ from typing import Any
 
 from pydantic import JsonValue
 
-from airhilt.assistant.reference import NO_ASSISTANT
+from airhilt.engine_families import FAMILIES, NONE
 from airhilt.sweep.evaluation.tables import Table
 from airhilt.sweep.specification import Specification, first_seeds
 
@@ -51,8 +51,13 @@ class Choice:
 
         Without an assistant nobody recognises or detects, so engines for that are left out.
         """
-        unused = ("asr", "detector") if settled["assistant"] == NO_ASSISTANT else ()
-        given = {name: value for name, value in self.options.items() if name not in unused}
+        is_assisted = settled["assistant"] != NONE
+        needing = {family.option for family in FAMILIES if "assistant" in family.needs}
+        given = {
+            name: value
+            for name, value in self.options.items()
+            if is_assisted or name not in needing
+        }
         return Specification.model_validate(
             {
                 "scenarios": list(scenarios),

@@ -6,14 +6,12 @@ Voices of another package are found by an entry point of the group ``airhilt.tts
 
 from __future__ import annotations
 
+from airhilt.engine_families import VOICES
 from airhilt.engines import EngineFamily
-from airhilt.errors import SpeechError
 from airhilt.voices.cache import CachedTts
 from airhilt.voices.engine import TtsEngine
 
-FAMILY = EngineFamily[TtsEngine](
-    "voice", "airhilt.tts", __name__, "ENGINE", error=SpeechError, product=TtsEngine
-)
+FAMILY: EngineFamily[TtsEngine] = VOICES
 
 
 def tts_engine(name: str) -> TtsEngine:

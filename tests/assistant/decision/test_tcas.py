@@ -9,8 +9,8 @@ import pytest
 
 from airhilt.assistant.decision.engines import decision_engine
 from airhilt.assistant.decision.worker import DecisionWorker
-from airhilt.assistant.equipment import equipment_worker
 from airhilt.assistant.wording.engines.template import Template
+from airhilt.cosim.equipment import equipment_worker
 from airhilt.errors import AirhiltError
 from airhilt.messages import Climb, MaintainLevel
 from interrogation import Jet, Meeting

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 import pytest
@@ -12,7 +11,6 @@ import pytest
 from airhilt.assistant.asr.engine import Recognised
 from airhilt.assistant.asr.worker import AsrWorker
 from airhilt.assistant.enhancement.worker import EnhancementWorker
-from airhilt.assistant.reference import Engines, reference_workers
 from airhilt.audio.pcm import Audio, from_pcm, to_pcm
 from airhilt.cosim.option_checks import check_options
 from airhilt.cosim.requested_latency import STAGES
@@ -20,7 +18,6 @@ from airhilt.errors import AirhiltError, SpeechError, WorkerError
 from airhilt.messages import EnhancedTransmission, Transcript, Transmission
 from airhilt.metrics.latencies import StageLatencies
 from airhilt.options import Options
-from airhilt.phraseology.numbers import Style
 from airhilt.sim.worker import Input
 from airhilt.units import SECOND_NS
 from airhilt.workers.pool import parse_output
@@ -50,11 +47,6 @@ class Loudness:
 
     def recognise(self, audio: Audio, callsigns: Sequence[str]) -> Recognised:
         return Recognised(f"{float(np.abs(audio).max()):.2f}", (), 1.0)
-
-
-class RadioSetup(NamedTuple):
-    topology: str = "asr_first"
-    phraseology: Style = "faa"
 
 
 def transmission(samples: int = 1_600) -> Input:
@@ -100,21 +92,6 @@ def test_enhanced_audio_must_be_what_its_header_says_and_on_its_frequency() -> N
         parse_output("w", output.key, output.payload[2:], 0, output.attachment)
     with pytest.raises(WorkerError, match="expected the frequency in the key"):
         parse_output("w", "enhanced/118000", output.payload, 0, output.attachment)
-
-
-def test_a_run_has_the_stage_if_it_names_an_enhancer() -> None:
-    def inputs(enhancer: str | None) -> dict[str, list[str]]:
-        engines = Engines(asr="embedded", enhancer=enhancer)
-        workers = reference_workers("none", RadioSetup(), (), engines)
-        return {
-            worker.description.name: [each.key for each in worker.description.inputs]
-            for worker in workers
-        }
-
-    assert inputs(None) == {"asr": ["radio/*/tx", "briefing"]}
-    assert inputs("spectral") == {
-        "enhancement": ["radio/*/tx"], "asr": ["enhanced/*", "briefing"],
-    }  # fmt: skip
 
 
 def test_its_latency_is_a_stage_of_its_own() -> None:

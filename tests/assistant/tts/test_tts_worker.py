@@ -7,12 +7,10 @@ from typing import Any
 
 import pytest
 
-from airhilt.assistant.reference import Engines, reference_workers
 from airhilt.assistant.tts import TtsWorker
 from airhilt.audio.pcm import Audio, from_pcm
 from airhilt.errors import SpeechError
 from airhilt.messages import Advisory, AdvisoryAudio, Evidence, Severity
-from airhilt.scenario.models import Radio
 from airhilt.sim.worker import Input, Output
 from airhilt.voices.engine import VoiceSpec
 from tone import Tone
@@ -95,17 +93,3 @@ class Broken(Tone):
 def test_a_voice_that_fails_is_the_loss_of_the_worker_by_name() -> None:
     with pytest.raises(SpeechError, match="no breath"):
         spoken(TtsWorker(Broken()), advisory())
-
-
-@pytest.mark.parametrize(
-    ("given", "levels"),
-    [(None, ["CAUTION", "WARNING"]), ({"speak_min_level": "WARNING"}, ["WARNING"])],
-)
-@pytest.mark.parametrize("assistant", ["paper", "reference"])
-def test_the_assistant_says_from_which_severity_on_it_is_spoken(
-    assistant: str, given: dict[str, str] | None, levels: list[str]
-) -> None:
-    engines = Engines(tts="espeak", configuration=given)
-    voice = reference_workers(assistant, Radio(), ("asr", "vision"), engines)[0]
-    assert isinstance(voice, TtsWorker)
-    assert [level for level in Severity if voice.speaks(advisory(severity=level))] == levels

@@ -7,11 +7,10 @@ import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, NoReturn, cast
+from typing import Any, cast
 
 import pytest
 
-from airhilt import plugins
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.world.mover import Creature, Driven
@@ -159,23 +158,13 @@ def test_a_kind_goes_by_no_other_name_than_its_own(
         load_kind("coach")
 
 
-def test_two_kinds_of_one_name_are_refused_where_all_kinds_are_listed(
+def test_two_kinds_of_one_name_are_refused(
     added: Path, other_package: Path, bus_and_drone: tuple[str, str]
 ) -> None:
     for folder in (added, other_package):
         (folder / "drone.py").write_text(bus_and_drone[1])
     with pytest.raises(ScenarioError, match="more than one kind named 'drone'"):
-        FAMILY.scan().load("drone")
-
-
-def test_a_kind_of_airhilt_is_loaded_without_a_look_at_other_packages(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    def scan(group: str) -> NoReturn:
-        raise AssertionError(f"looked for {group}")
-
-    monkeypatch.setattr(plugins, "declared", scan)
-    assert load_kind("deer").name == "deer"
+        load_kind("drone")
 
 
 def test_the_guide_lists_all_kinds() -> None:

@@ -7,12 +7,10 @@ its `airhilt.engines.Engine`, such as ``mine = "my_package.asr:ENGINE"``.
 from __future__ import annotations
 
 from airhilt.assistant.asr.engine import AsrEngine
+from airhilt.engine_families import RECOGNISERS
 from airhilt.engines import EngineFamily
-from airhilt.errors import SpeechError
 
-FAMILY = EngineFamily[AsrEngine](
-    "recogniser", "airhilt.asr", __name__, "ENGINE", error=SpeechError, product=AsrEngine
-)
+FAMILY: EngineFamily[AsrEngine] = RECOGNISERS
 
 
 def asr_engine(name: str) -> AsrEngine:

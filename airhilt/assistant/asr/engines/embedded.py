@@ -15,7 +15,7 @@ from typing import Annotated
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import AliasChoices, BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from airhilt.assistant.asr.alternatives import WordCurve, log_odds, same_units, with_same
 from airhilt.assistant.asr.beam_search import BeamSearch, aligned
@@ -80,10 +80,7 @@ class Card(BaseModel):
     """Calibration of the product of the confidences of a call's words."""
     least_word_confidence: Confidence
     """Confidence below which words are left out."""
-    best_word_threshold: Annotated[
-        Confidence,
-        Field(validation_alias=AliasChoices("best_word_threshold", "least_surest_word")),
-    ]
+    best_word_threshold: Confidence
     """Confidence that the best word must have; below it nobody speaks in the transmission."""
     language_weight: Annotated[float, Field(ge=0.0, le=10.0)]
     """Weight of the language model against the network."""

@@ -6,30 +6,21 @@ names its `airhilt.engines.Engine`, such as ``mine = "my_package.assistant:ENGIN
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any
 
 from airhilt.assistant.decision.engine import DecisionEngine
+from airhilt.engine_families import ASSISTANTS
 from airhilt.engines import EngineFamily
 
-FAMILY = EngineFamily[DecisionEngine](
-    "assistant",
-    "airhilt.assistants",
-    __name__,
-    "ENGINE",
-    product=DecisionEngine,
-)
+FAMILY: EngineFamily[DecisionEngine] = ASSISTANTS
 
 
-def decision_engine(
-    name: str, also: Sequence[str] = (), configuration: Mapping[str, Any] | None = None
-) -> DecisionEngine:
+def decision_engine(name: str, configuration: Mapping[str, Any] | None = None) -> DecisionEngine:
     """Return the decision engine of a name such as ``reference``.
 
     Parameters
     ----------
-    also
-        Words that the caller takes in the place of a name, such as ``none``, for error messages.
     configuration
         Values of its configuration; None: the defaults.
 
@@ -38,4 +29,4 @@ def decision_engine(
     AirhiltError
         There is none of that name, or it cannot be loaded, or its configuration is wrong.
     """
-    return FAMILY.create(name, also, configuration)
+    return FAMILY.create(name, configuration)

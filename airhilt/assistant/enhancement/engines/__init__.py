@@ -7,20 +7,7 @@ names its `airhilt.engines.Engine`, such as ``mine = "my_package.enhancer:ENGINE
 from __future__ import annotations
 
 from airhilt.assistant.enhancement.engine import Enhancer
+from airhilt.engine_families import ENHANCERS
 from airhilt.engines import EngineFamily
-from airhilt.errors import SpeechError
 
-FAMILY = EngineFamily[Enhancer](
-    "enhancer", "airhilt.enhancers", __name__, "ENGINE", error=SpeechError, product=Enhancer
-)
-
-
-def enhancer(name: str) -> Enhancer:
-    """Return the enhancer of a name such as ``spectral``.
-
-    Raises
-    ------
-    SpeechError
-        There is none of that name, or it cannot be loaded.
-    """
-    return FAMILY.create(name)
+FAMILY: EngineFamily[Enhancer] = ENHANCERS

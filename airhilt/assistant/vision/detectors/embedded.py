@@ -15,7 +15,7 @@ from typing import Annotated
 
 import numpy as np
 import onnxruntime
-from pydantic import AliasChoices, BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from airhilt.assistant.vision.detector import GRID_PX, Found, Picture, once
 from airhilt.assistant.vision.refiner import Refiner, RefinerCard
@@ -85,11 +85,8 @@ class Card(BaseModel):
 
     It gives one false detection a minute and camera; docs/detector.md says how many elsewhere."""
     calibration: Calibration = Calibration()
-    refiner: Annotated[
-        RefinerCard | None, Field(validation_alias=AliasChoices("refiner", "second_look"))
-    ] = None
-    """Second network; None where the first one's findings are final. Older cards have it as
-    ``second_look``."""
+    refiner: RefinerCard | None = None
+    """Second network; None where the first one's findings are final."""
 
 
 class EmbeddedDetector:

@@ -7,19 +7,7 @@ its `airhilt.engines.Engine`, such as ``mine = "my_package.wording:ENGINE"``.
 from __future__ import annotations
 
 from airhilt.assistant.wording.engine import AdvisoryWording
+from airhilt.engine_families import WORDINGS
 from airhilt.engines import EngineFamily
 
-FAMILY = EngineFamily[AdvisoryWording](
-    "wording", "airhilt.wording", __name__, "ENGINE", product=AdvisoryWording
-)
-
-
-def advisory_wording(name: str) -> AdvisoryWording:
-    """Return the wording of a name such as ``template``.
-
-    Raises
-    ------
-    AirhiltError
-        There is none of that name, or it cannot be loaded.
-    """
-    return FAMILY.create(name)
+FAMILY: EngineFamily[AdvisoryWording] = WORDINGS

@@ -6,7 +6,7 @@ from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import product
 
-from airhilt.assistant.reference import NO_ASSISTANT
+from airhilt.engine_families import NONE
 from airhilt.sweep.evaluation import scores
 from airhilt.sweep.evaluation.assistants import ASSISTANTS, REFERENCE, shipped_scenarios
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
@@ -39,8 +39,8 @@ def specifications(choice: Choice) -> Mapping[str, Specification]:
     """Return a sweep for each assistant, and those of ablation and topologies."""
     scenarios = shipped_scenarios()
     settled = {"latency": "fixed"}
-    nobody = {**settled, "assistant": NO_ASSISTANT}
-    found = {NO_ASSISTANT: choice.specification(list(scenarios), nobody)}
+    nobody = {**settled, "assistant": NONE}
+    found = {NONE: choice.specification(list(scenarios), nobody)}
     for each in ASSISTANTS:
         own = [name for name, one in scenarios.items() if each.applies_to(one)]
         options = {**settled, "assistant": each.name, "modalities": each.modalities}
@@ -65,7 +65,7 @@ def _given(choice: Choice) -> Mapping[str, str]:
 def tables(results: Results) -> Sequence[Table]:
     """Return the tables: families, harms, severities, modalities, topologies."""
     rows = results.rows
-    baselines = Baselines.of(rows[NO_ASSISTANT], rows["well_clear"])
+    baselines = Baselines.of(rows[NONE], rows["well_clear"])
     return tuple(_tables(results, baselines))
 
 
@@ -124,7 +124,7 @@ def _of_scenario_family(results: Results, sweep: str, family: str) -> bool:
 
 def _harms(results: Results, baselines: Baselines) -> Table:
     """Return what became, by scenario, of the runs with harm to the pair without an assistant."""
-    names = (NO_ASSISTANT, *(each.name for each in ASSISTANTS))
+    names = (NONE, *(each.name for each in ASSISTANTS))
     counts = {name: _harm_counts(results.rows[name], baselines) for name in names}
     return Table(
         name="harms",
@@ -132,7 +132,7 @@ def _harms(results: Results, baselines: Baselines) -> Table:
         columns=("scenario", *names),
         rows=tuple(
             (scenario, *(counts[name].get(scenario, NOTHING) for name in names))
-            for scenario in counts[NO_ASSISTANT]
+            for scenario in counts[NONE]
         ),
         notes=(
             "Number of runs by the worst that they came to, of those in which the pair came to "
@@ -219,7 +219,7 @@ def _compared(
 
 
 def _names(results: Results) -> list[str]:
-    return [*sorted({row["family"] for row in results.rows[NO_ASSISTANT]}), EVERYTHING]
+    return [*sorted({row["family"] for row in results.rows[NONE]}), EVERYTHING]
 
 
 def _of_family(rows: Sequence[Row], family: str) -> list[Row]:

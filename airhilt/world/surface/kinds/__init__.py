@@ -43,8 +43,7 @@ def load_kind(name: str, category: Category | None = None) -> Kind[Any]:
     kind: Kind[Any] = FAMILY.load(name)
     if category is not None and kind.category != category:
         raise ScenarioError(f"{name!r} is a kind of {kind.category}; expected one of {category}")
-    is_own = any(point.name == name for point in FAMILY.own())
-    return kind if is_own else GuardedKind(kind)
+    return kind if FAMILY.is_own(name) else GuardedKind(kind)
 
 
 def animal_labels(more: Iterable[str] = ()) -> tuple[VisibleClass, ...]:
