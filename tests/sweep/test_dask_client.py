@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from concurrent.futures import CancelledError
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -11,12 +12,13 @@ import pytest
 from distributed import KilledWorker
 
 from airhilt.errors import AirhiltError
-from airhilt.sweep.clusters import FAMILY, ClusterError, openness
+from airhilt.sweep import scheduler
 from airhilt.sweep.dask_client import IN_HAND_PER_THREAD, Workers, outcomes, prepared
 from airhilt.sweep.dask_worker import RunnerPlugin
 from airhilt.sweep.environment import Environment
 from airhilt.sweep.outcome import Outcome, Request
 from airhilt.sweep.runner_process import Limits
+from airhilt.sweep.scheduler import SchedulerError, connect, openness, require_scheduler
 from fake_dask import FakeClient, FakeFuture
 from runners import request
 
@@ -59,7 +61,7 @@ def test_the_user_need_not_wait_for_workers(no_waiting: None) -> None:
 
 
 def test_a_scheduler_that_goes_is_lost(no_waiting: None) -> None:
-    with pytest.raises(ClusterError, match="tcp://head:8786 is lost; what was finished is kept"):
+    with pytest.raises(SchedulerError, match="tcp://head:8786 is lost; what was finished is kept"):
         Workers(client(-1), lambda _: None).threads()
 
 
@@ -69,7 +71,7 @@ def test_a_scheduler_that_goes_is_lost(no_waiting: None) -> None:
 def test_another_version_of_dask_is_refused_by_name(where: str, name: str) -> None:
     other = client(**{where: {"distributed": "2020.1.0"}})
     with (
-        pytest.raises(ClusterError, match=f"{name} has distributed 2020.1.0, and this process"),
+        pytest.raises(SchedulerError, match=f"{name} has distributed 2020.1.0, and this process"),
         prepared(other, plugin()),
     ):
         pass
@@ -145,11 +147,22 @@ def test_what_ends_a_sweep_is_told_as_it_is(error: Exception, status: str, told:
         ended(FakeClient(ends=lambda _: FakeFuture(error, status)))
 
 
-def test_a_scheduler_that_is_not_there_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("airhilt.sweep.clusters.address.TIMEOUT_S", 0.1)
-    cluster = FAMILY.create("tcp://127.0.0.1:1")
+@pytest.mark.parametrize("content", [None, "no JSON", "{}", '{"address": "tcp://127.0.0.1:1"}'])
+def test_a_scheduler_that_is_not_there_is_told(
+    content: str | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(scheduler, "TIMEOUT_S", 0.1)
+    where = "tcp://127.0.0.1:1"
+    if content is not None:
+        where = str(tmp_path / "scheduler.json")
+        Path(where).write_text(content)
     with (
-        pytest.raises(AirhiltError, match=r"scheduler tcp://127\.0\.0\.1:1: not there"),
-        cluster.connect(1, None),
+        pytest.raises(SchedulerError, match=f"scheduler {where}: not there"),
+        connect(where, 1, None),
     ):
         pass
+
+
+def test_a_word_that_is_no_scheduler_is_refused_with_what_is_expected() -> None:
+    with pytest.raises(SchedulerError, match=r"slurm: no such file; expected local.*recipes"):
+        require_scheduler("slurm")

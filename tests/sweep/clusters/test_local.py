@@ -6,13 +6,12 @@ import pytest
 from distributed import Client
 from distributed.security import Security
 
-from airhilt.sweep.clusters.local import LocalWorkers
-from airhilt.sweep.dask_client import quiet_dask
+from airhilt.sweep.scheduler import LOCAL, connect
 
 
 def test_nobody_else_on_the_machine_can_reach_them() -> None:
     """Whoever reaches a scheduler of Dask can run programs as its user."""
-    with quiet_dask(), LocalWorkers().connect(1, None) as client:
+    with connect(LOCAL, 1, None) as client:
         assert client.submit(abs, -7).result(timeout=60) == 7
         (worker,) = client.scheduler_info()["workers"]
         for address in (client.scheduler.address, worker):
