@@ -12,7 +12,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.text import Text
 
-from airhilt.cli.words import counted
+from airhilt.cli.output import counted
 from airhilt.sweep.engine import SweepObserver
 from airhilt.sweep.outcome import Outcome
 from airhilt.text import LONGEST_LINE, readable

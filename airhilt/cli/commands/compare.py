@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from airhilt.cli.notices import tell
+from airhilt.cli.output import tell
 
 FILE_WIDTH = 120
 """Characters of a line where standard output is no terminal."""

@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from airhilt.cli.notices import tell
-from airhilt.cli.output import echo_json
+from airhilt.cli.output import echo_json, tell
 from airhilt.cli.parameters import allow_path_option
 from airhilt.cli.station_flags import (
     Agreed,

@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from airhilt.cli.notices import tell
+from airhilt.cli.output import tell
 
 
 @click.command(

@@ -59,7 +59,7 @@ def test_jobs_of_slurm_give_the_bytes_of_a_sweep_on_this_machine(
     recipe: Path, sweep_command: SweepCommand, table_bytes: bytes, tmp_path: Path
 ) -> None:
     out = tmp_path / "sweep"
-    command = [sys.executable, recipe, *sweep_command(out, "--scheduler", "scheduler.json")]
+    command = [sys.executable, str(recipe), *sweep_command(out, "--scheduler", "scheduler.json")]
     with (
         slurm() as environment,
         subprocess.Popen(
