@@ -95,7 +95,8 @@ def specification_given(
     if scenarios:
         document["scenarios"] = list(scenarios)
     if seeds is not None:
-        document["seeds"] = _seeds(seeds)
+        is_count = seeds.isdecimal()
+        document["seeds"] = first_seeds(int(seeds)) if is_count else _placed("seeds", seeds)[1]
     if sample is not None:
         drawn = _sample(sample)
     if drawn and not intervals:
@@ -175,39 +176,21 @@ def _said(context: click.Context, set_: tuple[str, ...]) -> Iterator[tuple[str, 
 
 
 def _placed(path: str, text: str) -> tuple[Place, Any]:
-    """Return what a text of values is in a sweep file."""
-    values = _values(path, text)
-    if isinstance(values, Range):
-        return "axes", values.model_dump(by_alias=True, exclude_none=True)
-    if isinstance(values, Interval):
-        return "intervals", values.model_dump(by_alias=True)
-    return "axes", list(values)
-
-
-def _seeds(text: str) -> Any:
-    """Return the seeds of a text: a number of them, or values."""
-    if text.isdecimal():
-        return first_seeds(int(text))
-    values = _values("seeds", text)
-    return (
-        values.model_dump(by_alias=True, exclude_none=True)
-        if isinstance(values, Interval)
-        else list(values)
-    )
-
-
-def _values(name: str, text: str) -> Range | Interval | tuple[Any, ...]:
-    """Return what a person writes for the values of a parameter.
+    """Return what a text of values is in a sweep file.
 
     Raises
     ------
     AirhiltError
-        It is none; the name begins the message.
+        It is no text of values; the path begins the message.
     """
     try:
-        return read_values(text)
+        values = read_values(text)
     except AirhiltError as error:
-        raise AirhiltError(f"{name}: {error}") from None
+        raise AirhiltError(f"{path}: {error}") from None
+    if isinstance(values, Interval):
+        place: Place = "axes" if isinstance(values, Range) else "intervals"
+        return place, values.model_dump(by_alias=True, exclude_none=True)
+    return "axes", list(values)
 
 
 def _sample(text: str) -> Json:
