@@ -70,7 +70,7 @@ def estimate(specification: Specification, work: Work) -> Estimate:
     runner = RunnerProcess(renderer, work.limits)
     try:
         by_key = {case.key(runner.environment): case for case in grid}
-        finished = by_keys(folder.finished_so_far(part_schema()), by_key)
+        finished = by_keys(folder.finished(part_schema(), None), by_key)
         left = missing_of(by_key, finished, work.retry)
         probe = _probe(left[0], by_key[left[0]], runner) if left else None
     finally:

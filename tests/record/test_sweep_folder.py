@@ -134,10 +134,8 @@ def test_parts_of_other_versions_lose_no_column_when_many_become_one(folder: Swe
 @pytest.mark.parametrize(
     ("columns", "reason"),
     [
-        ({"key": [7], "status": ["finished"]}, "its column key has the type int64, not string"),
         ({"key": ["a"]}, "it has no column status"),
         ({"status": ["finished"]}, "it has no column key"),
-        ({"key": ["a", None], "status": ["failed"] * 2}, "its column key is null in some rows"),
         ({"key": ["a"], "status": ["finished"], "value": ["much"]}, "column value: "),
     ],
 )
@@ -216,7 +214,7 @@ def test_a_sweep_that_was_killed_before_it_had_tables_is_told(tmp_path: Path) ->
     assert not begun.is_there
     begun.write_next_info(INFO)
     assert begun.is_there
-    with pytest.raises(AirhiltError, match="has no tables yet; give its command again"):
+    with pytest.raises(AirhiltError, match="no tables yet; give the command of the sweep again"):
         SweepFolder.open(tmp_path)
 
 
@@ -275,10 +273,3 @@ def test_what_a_killed_sweep_left_half_written_is_removed_by_the_next(folder: Sw
     with folder.locked():
         assert not any(half.exists() for half in halves)
     assert keys(folder) == ["a"]
-
-
-def test_of_a_folder_that_cannot_be_made_nothing_is_said_to_be_kept(tmp_path: Path) -> None:
-    (tmp_path / "file").write_text("")
-    with pytest.raises(AirhiltError, match="cannot be written") as told:
-        SweepFolder(tmp_path / "file" / "sweep").create()
-    assert "kept" not in str(told.value)
