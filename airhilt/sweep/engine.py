@@ -16,13 +16,12 @@ from airhilt.record.sweep_folder import GRID, SweepFolder, SweepFolderError
 from airhilt.sweep.cases import Case, cases
 from airhilt.sweep.crashes import SAME_CRASHES, Crashes
 from airhilt.sweep.dask_client import Workers, described, outcomes, prepared
-from airhilt.sweep.dask_worker import RunnerPlugin
+from airhilt.sweep.dask_worker import RunnerPlugin, probe_in
 from airhilt.sweep.environment import Environment, environment
 from airhilt.sweep.order import apart
 from airhilt.sweep.outcome import OF_THE_MACHINE, Outcome, Request
 from airhilt.sweep.runner_process import Limits, RunnerProcess
 from airhilt.sweep.scheduler import connect, openness, require_scheduler
-from airhilt.sweep.shared_folder import probe_in
 from airhilt.sweep.specification import Specification
 from airhilt.sweep.tables import folder_name, grid_sha256, part_of, part_schema, tables_of
 from airhilt.sweep.work import Work, default_workers

@@ -20,10 +20,9 @@ from airhilt.host.files import content_sha256
 from airhilt.scenario import Scenario
 from airhilt.sweep import files
 from airhilt.sweep.cases import Case, cases
-from airhilt.sweep.environment import Environment, environment, require_same
+from airhilt.sweep.environment import PACKAGE_FILES, Environment, environment, require_same
 from airhilt.sweep.files import NamedFiles
-from airhilt.sweep.other_packages import PACKAGE_FILES
-from airhilt.sweep.specification import Specification, specification_of
+from airhilt.sweep.specification import Sample, Specification, specification_of
 from engine_package import installed
 from shortened import shortened
 
@@ -362,9 +361,6 @@ def test_software_that_differs_is_told_by_name() -> None:
 def test_samples_lie_in_their_intervals_and_are_the_same_again(
     method: str, count: int, seed: int
 ) -> None:
-    from airhilt.sweep.sampling import points
-    from airhilt.sweep.specification import Sample
-
     sample = Sample.model_validate(
         {
             "method": method,
@@ -376,8 +372,8 @@ def test_samples_lie_in_their_intervals_and_are_the_same_again(
             },
         }
     )
-    found = list(points(sample))
-    assert found == list(points(sample))
+    found = sample.points()
+    assert found == sample.points()
     assert len(found) == count
     assert all(
         -5 <= point["snr_db"] <= 20 and 400 <= point["visibility_m"] <= 10_000 for point in found

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +17,6 @@ from airhilt.record.sweep_folder import SweepFolder
 from airhilt.scenario import Scenario
 from airhilt.sweep.axes import listed
 from airhilt.sweep.engine import SweepObserver, SweepResult
-from airhilt.sweep.evaluation import assistants
 from airhilt.sweep.evaluation.assistants import ASSISTANTS, shipped_scenarios
 from airhilt.sweep.evaluation.engine import Evaluation, evaluate
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
@@ -33,19 +31,8 @@ from airhilt.sweep.evaluation.scores import (
 from airhilt.sweep.evaluation.tables import Quantity, Table, number, share
 from airhilt.sweep.runner_process import Limits
 from airhilt.sweep.work import Work
-from airhilt.world.loading import load
 from shortened import shortened
 from sweep_tables import sweep_row, write_sweep
-
-
-@pytest.fixture(autouse=True, scope="module")
-def scenarios_read_once() -> Iterator[None]:
-    """Each test asks for all scenarios that ship, which take seconds to read."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(assistants, "load", kept := cache(load))
-        patch.setattr(paper, "load", kept)
-        yield
-
 
 NO_CAMERAS = Choice(1, {"cameras": False})
 EVERYTHING = Choice(1, {})
