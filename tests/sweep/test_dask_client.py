@@ -47,13 +47,8 @@ def test_a_scheduler_without_workers_is_told_once_a_minute(no_waiting: None) -> 
     workers.wait(lambda: False)
     text = "scheduler tcp://head:8786 has no workers; waiting for one, Ctrl-C stops"
     assert notices == [text] * 2
-
-
-def test_workers_that_come_at_once_are_not_talked_about(no_waiting: None) -> None:
-    notices: list[str] = []
-    workers = Workers(client(0, 3), notices.append)
-    workers.wait(lambda: False)
-    assert notices == []
+    Workers(client(0, 3), notices.append).wait(lambda: False)
+    assert len(notices) == 2, "of workers that come at once nothing is told"
 
 
 def test_the_user_need_not_wait_for_workers(no_waiting: None) -> None:
@@ -82,9 +77,7 @@ def test_another_version_of_dask_is_refused_by_name(where: str, name: str) -> No
     ("where", "is_told"),
     [
         ("tcp://10.1.2.3:8786", True),
-        ("ws://head:8786", True),
         ("tls://head:8786", False),
-        ("tcp://127.0.0.1:8786", False),
         ("tcp://[::1]:8786", False),
     ],
 )
@@ -94,13 +87,9 @@ def test_a_scheduler_that_a_whole_network_reaches_is_told(where: str, is_told: b
 
 def test_nothing_of_a_sweep_stays_on_the_workers() -> None:
     fake = client()
-    with prepared(fake, plugin()):
-        assert len(fake.plugins) == 1
+    with prepared(fake, plugin()), prepared(fake, plugin()):
+        assert len(set(fake.plugins)) == 2, "two sweeps do not take each other's runners"
     assert fake.plugins == []
-
-
-def test_two_sweeps_do_not_take_each_others_runners() -> None:
-    assert plugin().name != plugin().name
 
 
 def ended(fake: Any, count: int = 1, stop_after: int = 1000) -> list[Outcome]:

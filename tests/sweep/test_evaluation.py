@@ -20,7 +20,7 @@ from airhilt.sweep.engine import SweepObserver, SweepResult
 from airhilt.sweep.evaluation.assistants import ASSISTANTS, shipped_scenarios
 from airhilt.sweep.evaluation.engine import Evaluation, evaluate
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
-from airhilt.sweep.evaluation.presets import FAMILY, full, paper
+from airhilt.sweep.evaluation.presets import full, paper
 from airhilt.sweep.evaluation.scores import (
     Baselines,
     avoided,
@@ -352,12 +352,6 @@ def test_tables_of_others_are_not_replaced(small: Preset, tmp_path: Path) -> Non
     with pytest.raises(AirhiltError, match=r"evaluation\.md of no evaluation"):
         evaluate(small, Choice(1, {}), Work(tmp_path), unwatched)
     assert (tmp_path / "evaluation.md").read_text() == "mine"
-
-
-def test_presets_are_found_by_their_names() -> None:
-    assert FAMILY.names() == ["full", "paper"]
-    with pytest.raises(AirhiltError, match="no preset named 'papre'; did you mean 'paper'"):
-        FAMILY.load("papre")
 
 
 def test_the_help_tells_the_limits_of_a_run() -> None:
