@@ -148,14 +148,9 @@ def _with_value(document: Json, path: str, value: Any) -> Json:
             f"parameter {path}: {also}{document['name']!r} has no {error.chunk!r}{where}"
             f"{nearest(error.chunk, known)}"
         ) from None
+    drawn = [(each, locate(changed, each["path"])) for each in changed["perturbations"]]
     changed["perturbations"] = [
-        each
-        for each in changed["perturbations"]
-        if not _is_place(locate(changed, each["path"]), container, key)
+        each for each, place in drawn if not (place[0] is container and place[1] == key)
     ]
     container[key] = value
     return changed
-
-
-def _is_place(place: tuple[Any, str | int], container: Any, key: str | int) -> bool:
-    return place[0] is container and place[1] == key

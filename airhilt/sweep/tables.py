@@ -10,7 +10,7 @@ from typing import Any
 
 import pyarrow as pa
 
-from airhilt.metrics.columns import Column, column_of, metric_columns
+from airhilt.metrics.columns import Column, Kind, column_of, metric_columns
 from airhilt.sweep.cases import Case
 from airhilt.sweep.outcome import OF_THE_MACHINE, Machine, Outcome
 
@@ -143,22 +143,22 @@ def _parameter_columns(cases: Sequence[Case], names: Mapping[str, str]) -> list[
     """Return a column for each parameter that is not among the first columns already."""
     known = {column.name for column in IDENTITY}
     return [
-        _parameter_column(name, [case.parameters.get(path) for case in cases])
+        column_of(
+            name, _kind(case.parameters.get(path) for case in cases), "parameter of the sweep"
+        )
         for path, name in names.items()
         if name not in known
     ]
 
 
-def _parameter_column(path: str, values: Sequence[Any]) -> Column:
+def _kind(values: Iterable[Any]) -> Kind:
+    """Return the type of a column of values."""
     kinds = {type(value) for value in values if value is not None}
-    description = "parameter of the sweep"
     if kinds == {bool}:
-        return column_of(path, "bool", description)
+        return "bool"
     if kinds == {int}:
-        return column_of(path, "int64", description)
-    if kinds and kinds <= {int, float}:
-        return column_of(path, "float64", description)
-    return column_of(path, "string", description)
+        return "int64"
+    return "float64" if kinds and kinds <= {int, float} else "string"
 
 
 def _table(columns: Sequence[Column], rows: Sequence[Mapping[str, Any]]) -> pa.Table:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -78,26 +77,32 @@ def cosim(
     **_: object,
 ) -> None:
     """Run a scenario and leave a run folder."""
+    from airhilt.cli.live_page import live_page
     from airhilt.cli.progress import ProgressLine, print_summary
     from airhilt.cli.run_flags import options_given
     from airhilt.cosim.setup import check_given
     from airhilt.cosim.simulation import run
+    from airhilt.scenario.seats import named_seats, seats_of
     from airhilt.world.loading import load
 
     options = options_given(context)
-    if not view and not options.seat:
+    has_page = view or bool(options.seat)
+    if not has_page:
         refuse_page_options("--view or --seat")
     if agreed and not options.seat:
         raise click.UsageError("--agreed would do nothing without --seat")
     loaded = load(scenario, allowed)
-    if view or options.seat:
+    if has_page:
         options = _for_page(loaded, options)
         page.address()  # The process of the page would complain too late.
     check_given(loaded, options)
-    told = _agreed_arguments(loaded, options, agreed)
+    uses = agreed_by_seat(agreed, named_seats(options.seat, loaded))
     with ExitStack() as stack:
-        if view or options.seat:
-            _serve_page(loaded, options, stack, [*page.arguments(), *told])
+        if has_page:
+            seats = seats_of(options.seat, loaded)
+            told = [f"--agreed={seat}={use}" for seat, use in uses.items()]
+            arguments = [*page.arguments(), *told]
+            stack.enter_context(live_page(options.endpoint, options.tls, seats, arguments))
         tell("getting ready; a run that is killed before its folder is there leaves nothing")
         with ProgressLine(scenario) as progress:
             result = run(loaded, options, progress)
@@ -119,31 +124,6 @@ def _for_page(scenario: Scenario, options: Options) -> Options:
     if any(actor.callsign in seats for actor in scenario.actors):
         options = options.model_copy(update={"cockpit": True})
     return options
-
-
-def _serve_page(
-    scenario: Scenario, options: Options, stack: ExitStack, arguments: Sequence[str]
-) -> None:
-    """Serve the page of a run, with arguments of `airhilt view`, until the stack is closed."""
-    from airhilt.cli.live_page import live_page
-    from airhilt.scenario.seats import seats_of
-
-    seats = seats_of(options.seat, scenario)
-    stack.enter_context(live_page(options.endpoint, options.tls, seats, arguments))
-
-
-def _agreed_arguments(scenario: Scenario, options: Options, agreed: Sequence[Agreed]) -> list[str]:
-    """Return the arguments of `airhilt view` that tell who has agreed to a use of voice and words.
-
-    Raises
-    ------
-    click.UsageError
-        Somebody has no seat in the run, or has agreed to two uses.
-    """
-    from airhilt.scenario.seats import named_seats
-
-    seats = named_seats(options.seat, scenario)
-    return [f"--agreed={seat}={use}" for seat, use in agreed_by_seat(agreed, seats).items()]
 
 
 COMMAND = cosim
