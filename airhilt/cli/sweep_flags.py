@@ -9,6 +9,7 @@ from typing import Any, Literal
 import click
 from click.core import ParameterSource
 
+from airhilt.cli.run_flags import option_of
 from airhilt.configuration import read_configuration
 from airhilt.errors import AirhiltError, shown
 from airhilt.options import Options, flag_of
@@ -39,23 +40,9 @@ def _option(name: str) -> click.Option:
     field = Options.model_fields[name]
     flag = flag_of(field)
     assert flag is not None
-    if field.annotation is bool:
-        return click.Option(
-            [flag.name, *flag.former, name],
-            is_flag=True,
-            flag_value=not field.default,
-            default=bool(field.default),
-            help=flag.help,
-        )
-    is_multiple = field.annotation == tuple[str, ...]
-    is_one = is_multiple or name in (*WHOLE, CONFIGURATION)
+    is_one = field.annotation == tuple[str, ...] or name in (*WHOLE, CONFIGURATION)
     metavar = flag.metavar or name.upper()
-    return click.Option(
-        [flag.name, *flag.former, name],
-        metavar=metavar if is_one else f"{metavar},...",
-        multiple=is_multiple,
-        help=flag.help,
-    )
+    return option_of(name, flag, flag.help, metavar if is_one else f"{metavar},...")
 
 
 def specification_given(

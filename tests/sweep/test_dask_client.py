@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from concurrent.futures import CancelledError
-from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
@@ -12,13 +11,12 @@ import pytest
 from distributed import KilledWorker
 
 from airhilt.errors import AirhiltError
-from airhilt.sweep import scheduler
 from airhilt.sweep.dask_client import IN_HAND_PER_THREAD, Workers, outcomes, prepared
 from airhilt.sweep.dask_worker import RunnerPlugin
 from airhilt.sweep.environment import Environment
 from airhilt.sweep.outcome import Outcome, Request
 from airhilt.sweep.runner_process import Limits
-from airhilt.sweep.scheduler import SchedulerError, connect, openness, require_scheduler
+from airhilt.sweep.scheduler import SchedulerError
 from fake_dask import FakeClient, FakeFuture
 from runners import request
 
@@ -73,18 +71,6 @@ def test_another_version_of_dask_is_refused_by_name(where: str, name: str) -> No
     assert other.plugins == []
 
 
-@pytest.mark.parametrize(
-    ("where", "is_told"),
-    [
-        ("tcp://10.1.2.3:8786", True),
-        ("tls://head:8786", False),
-        ("tcp://[::1]:8786", False),
-    ],
-)
-def test_a_scheduler_that_a_whole_network_reaches_is_told(where: str, is_told: bool) -> None:
-    assert ("no TLS" in openness(where)) is is_told
-
-
 def test_nothing_of_a_sweep_stays_on_the_workers() -> None:
     fake = client()
     with prepared(fake, plugin()), prepared(fake, plugin()):
@@ -134,24 +120,3 @@ def test_a_run_under_which_workers_die_is_its_crash() -> None:
 def test_what_ends_a_sweep_is_told_as_it_is(error: Exception, status: str, told: str) -> None:
     with pytest.raises(AirhiltError, match=told):
         ended(FakeClient(ends=lambda _: FakeFuture(error, status)))
-
-
-@pytest.mark.parametrize("content", [None, "no JSON", "{}", '{"address": "tcp://127.0.0.1:1"}'])
-def test_a_scheduler_that_is_not_there_is_told(
-    content: str | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(scheduler, "TIMEOUT_S", 0.1)
-    where = "tcp://127.0.0.1:1"
-    if content is not None:
-        where = str(tmp_path / "scheduler.json")
-        Path(where).write_text(content)
-    with (
-        pytest.raises(SchedulerError, match=f"scheduler {where}: not there"),
-        connect(where, 1, None),
-    ):
-        pass
-
-
-def test_a_word_that_is_no_scheduler_is_refused_with_what_is_expected() -> None:
-    with pytest.raises(SchedulerError, match=r"slurm: no such file; expected local.*recipes"):
-        require_scheduler("slurm")
