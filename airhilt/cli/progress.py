@@ -29,7 +29,7 @@ STYLES = {
     Severity.WARNING: "bold red",
 }
 LEAST_STALE_SHARE = 0.01
-"""Share of the time, from which it is told that evidence was stale."""
+"""Share of the time with stale evidence from which a row tells it."""
 NOT_COUNTED = "not counted: cameras left exposures out"
 """Value of the nuisance alerts where adaptive cameras leave exposures out."""
 

@@ -105,7 +105,7 @@ def station_options(command: F) -> F:
 
 
 def agreed_option(command: F) -> F:
-    """Add the option that says to what people at seats have agreed, as a parameter ``agreed``."""
+    """Add the option that says what people at seats have agreed to, as a parameter ``agreed``."""
     option: Any = click.option(
         "--agreed",
         multiple=True,
@@ -119,7 +119,7 @@ def agreed_option(command: F) -> F:
 
 
 def agreed_by_seat(agreed: Iterable[Agreed], seats: Mapping[str, str]) -> dict[str, Use]:
-    """Return to what people have agreed, by the seats of a run.
+    """Return the use of voice or words that people have agreed to, by the seats of a run.
 
     Parameters
     ----------

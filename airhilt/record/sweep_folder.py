@@ -47,8 +47,8 @@ UNREADABLE = (OSError, ValueError)
 REQUIRED = ("key", "status")
 """Columns of a part that say which run a row is, and whether it counts."""
 GRID = "grid_sha256"
-"""Name, in ``sweep.json`` and in the metadata of both tables, of what says that they are of one
-sweep."""
+"""Name, in ``sweep.json`` and in the metadata of both tables, of the hash of the sweep that they
+are of."""
 AGAIN = "give the command of the sweep again, it makes the tables from the runs that are finished"
 """Remedy in errors about tables."""
 FILES = "files"

@@ -89,7 +89,7 @@ class Case:
         return self.has_cameras and parse_latency(latency, PRESETS).of("vision").kind != "measured"
 
     def key(self, environment: Environment) -> str:
-        """Return what tells this run from all others: a SHA-256 in hexadecimal."""
+        """Return the SHA-256 of all that decides the result of this run, in hexadecimal."""
         whole = {
             "scenario": self.document,
             "options": self.options,

@@ -32,7 +32,7 @@ OPTIONS_OF_PATHS = {
 PLACES_OF_OPTIONS = {
     option: tuple(path.split(".")) for path, option in OPTIONS_OF_PATHS.items()
 } | {"assistant_config": (ASSISTANT,)}
-"""Keys that lead to what these options replace, or to what they are the whole of."""
+"""Keys that lead to the value, or to all values, that an option replaces."""
 
 
 @dataclass(frozen=True)

@@ -88,7 +88,7 @@ def tables_of(
 
 
 def grid_sha256(cases: Mapping[str, Case]) -> str:
-    """Return what tells the tables of one sweep from those of others: by runs and columns.
+    """Return the SHA-256 of the keys and parameters of a sweep, which identifies its tables.
 
     Parameters
     ----------

@@ -57,7 +57,7 @@ def test_before_a_run_begins_a_person_is_told_that_its_folder_is_not_there_yet(
     monkeypatch.setattr("airhilt.cosim.simulation.run", begin)
     done = airhilt_command("cosim", "--scenario", encounter_file, "--out", "run")
     assert done.stderr.splitlines() == [
-        "airhilt: getting ready; a run that is killed before its folder is there leaves nothing",
+        "airhilt: starting; the run folder appears in a moment",
         "airhilt: begun",
     ]
     assert not (encounter_file.parent / "run").exists()

@@ -103,7 +103,7 @@ def cosim(
             told = [f"--agreed={seat}={use}" for seat, use in uses.items()]
             arguments = [*page.arguments(), *told]
             stack.enter_context(live_page(options.endpoint, options.tls, seats, arguments))
-        tell("getting ready; a run that is killed before its folder is there leaves nothing")
+        tell("starting; the run folder appears in a moment")
         with ProgressLine(scenario) as progress:
             result = run(loaded, options, progress)
         if as_json:
