@@ -206,7 +206,6 @@ def run_sweep(
     sample: Mapping[str, Any] | None = None,
     workers: int | None = None,
     scheduler: str = "local",
-    scheduler_config: Mapping[str, Any] | None = None,
     keep: str = "none",
     retry: bool = False,
     **options: Any,
@@ -233,9 +232,7 @@ def run_sweep(
     workers
         Number of worker processes; None: as many as this machine has cores and memory for.
     scheduler
-        Cluster as ``--scheduler`` names it: ``local``, ``slurm``, the address of a scheduler ...
-    scheduler_config
-        Settings of the scheduler (docs/clusters.md).
+        ``local``, the address of a Dask scheduler, or its scheduler file (docs/clusters.md).
     keep
         Run folders that stay: ``none``, ``failed``, ``all``, or ``sample:5`` for five of them.
     retry
@@ -265,7 +262,6 @@ def run_sweep(
         Path(out),
         workers=workers,
         scheduler=scheduler,
-        scheduler_config=scheduler_config,
         keep=kept,
         sample=sampled,
         retry=retry,

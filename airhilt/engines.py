@@ -111,7 +111,7 @@ class Engine(Generic[T_co]):
         takes its results from the record.
     configuration
         Model of its configuration, whose fields all have defaults; None: it has none. For decision
-        engines, ``--assistant-config`` gives the values, for clusters ``--scheduler-config``.
+        engines, ``--assistant-config`` gives the values.
     """
 
     name: str

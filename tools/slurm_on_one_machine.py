@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Run a command beside a SLURM of its own: munged, slurmctld and slurmd on this machine.
 
-    tools/slurm_on_one_machine.py airhilt sweep --scheduler slurm --scheduler-config slurm.json ...
+    tools/slurm_on_one_machine.py python slurm.py airhilt sweep --scheduler scheduler.json ...
+
+``slurm.py`` is the recipe of docs/clusters.md.
 
 It needs Debian's packages slurm-wlm and munge, and root. Configuration, keys and logs are in a
 temporary folder, and everything ends with the command. The one partition is called ``main``.

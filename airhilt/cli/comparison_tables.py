@@ -4,22 +4,31 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
 from airhilt.report.comparison.runs import RunComparison
 from airhilt.report.comparison.sweeps import SweepComparison
 from airhilt.report.comparison.words import measure_row, metric_row
-from airhilt.text import readable
+from airhilt.text import LONGEST_LINE, readable
+
+FILE_WIDTH = 120
+"""Characters of a line where standard output is no terminal."""
 
 
-def tables(found: RunComparison | SweepComparison) -> Iterator[Table | str]:
-    """Yield the lines and tables of a comparison."""
-    return _sweeps(found) if isinstance(found, SweepComparison) else _runs(found)
+def print_comparison(found: RunComparison | SweepComparison) -> None:
+    """Print the lines and tables of a comparison on standard output."""
+    console = Console(highlight=False)
+    if not console.is_terminal:
+        console.width = FILE_WIDTH
+    for each in _sweeps(found) if isinstance(found, SweepComparison) else _runs(found):
+        console.print(Text(readable(each, LONGEST_LINE)) if isinstance(each, str) else each)
 
 
 def _sweeps(found: SweepComparison) -> Iterator[Table | str]:
-    alone = f"{found.alone_first} of {found.first}, {found.alone_second} of {found.second}"
+    alone_first, alone_second = found.without_partner
+    alone = f"{alone_first} of {found.first}, {alone_second} of {found.second}"
     by = ", ".join(found.paired_by)
     draws = "" if found.draws == found.pairs else f", of {found.draws} scenarios with a seed"
     yield f"{found.pairs} pairs{draws} by {by}; without a partner: {alone}"
@@ -56,7 +65,7 @@ def _runs(found: RunComparison) -> Iterator[Table | str]:
             texts = (row[name] for name in ("name", "unit", "first", "second", "difference"))
             table.add_row(*(Text(readable(text)) for text in texts))
         yield table
-    yield f"{found.equal} metrics have the same value in both"
+    yield f"{found.equal_metrics} metrics have the same value in both"
 
 
 def _table(title: str, heads: list[str]) -> Table:

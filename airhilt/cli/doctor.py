@@ -7,7 +7,7 @@ import platform
 import re
 import sys
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -24,10 +24,7 @@ NO_NAME = re.compile(r"[^A-Za-z0-9._-]")
 """Character that ends the name at the beginning of a requirement."""
 EMBREE = "embree"
 """Renderer of a plain install."""
-OPTIONAL = {
-    "av": "video",
-    "resvg-py": "plot",
-}
+OPTIONAL = {"av": "video", "resvg-py": "plot"}
 """Extras by the package that they bring."""
 
 
@@ -42,10 +39,6 @@ class Finding:
     remedy: str = ""
     is_broken: bool = False
     """True if it is installed, and does not work."""
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return it for JSON."""
-        return asdict(self)
 
     def __str__(self) -> str:
         if self.found:
@@ -67,7 +60,7 @@ def examine() -> list[Finding]:
         *_families(),
         _cache(),
     ]
-    return [*findings, *[_extra(name, extra) for name, extra in OPTIONAL.items()]]
+    return [*findings, *[_package(name, extra) for name, extra in OPTIONAL.items()]]
 
 
 def _packages() -> list[Finding]:
@@ -85,14 +78,11 @@ def _packages() -> list[Finding]:
     return [_package(NO_NAME.split(requirement, 1)[0]) for requirement in needed]
 
 
-def _package(name: str) -> Finding:
-    remedy = f"{sys.executable} -m pip install {name}"
-    return Finding(name, _version(name), needed=True, remedy=remedy)
-
-
-def _extra(name: str, extra: str) -> Finding:
-    remedy = f"{sys.executable} -m pip install 'airhilt[{extra}]'"
-    return Finding(name, _version(name), needed=False, remedy=remedy)
+def _package(name: str, extra: str = "") -> Finding:
+    """Look for a package; one that an extra of AIRHILT brings is not needed."""
+    what = f"'airhilt[{extra}]'" if extra else name
+    remedy = f"{sys.executable} -m pip install {what}"
+    return Finding(name, _version(name), needed=not extra, remedy=remedy)
 
 
 def _version(name: str) -> str:

@@ -13,7 +13,7 @@ from typing import TextIO
 
 import click
 
-from airhilt.cli.notices import tell
+from airhilt.cli.output import tell
 
 FORWARDING_S = 1.0
 """Longest wait for the last lines of the page, in s: a browser that it opened may hold the pipe."""

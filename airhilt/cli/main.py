@@ -9,7 +9,7 @@ from typing import NoReturn
 import click
 
 from airhilt._version import __version__
-from airhilt.cli.notices import tell
+from airhilt.cli.output import tell
 from airhilt.errors import AirhiltError
 from airhilt.plugins import Family
 

@@ -1,4 +1,4 @@
-"""Prints what may have text from outside in it, such as names in a file that somebody sent."""
+"""Output of the commands, which may have text in it from a file that somebody sent."""
 
 from __future__ import annotations
 
@@ -11,6 +11,21 @@ def echo(text: object, err: bool = False) -> None:
     """Print lines, none of which can command the terminal or is very long."""
     for line in str(text).splitlines():
         click.echo(readable(line, LONGEST_LINE), err=err)
+
+
+def tell(text: str) -> None:
+    """Print a line for a person that is no result of a command, on standard error."""
+    echo(f"airhilt: {text}", err=True)
+
+
+def tell_page(url: str) -> None:
+    """Print where a page is, once it can be opened."""
+    click.echo(f"{url}   (end with Ctrl+C)")
+
+
+def counted(count: int, noun: str) -> str:
+    """Return a count with its noun, such as ``1 run`` or ``2 runs``."""
+    return f"{count} {noun}{'s' * (count != 1)}"
 
 
 def echo_json(document: str) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterator
 from pathlib import Path
 from types import TracebackType
 
@@ -11,20 +12,15 @@ from rich.live import Live
 from rich.table import Table
 from rich.text import Text
 
+from airhilt.cli.output import counted
 from airhilt.cosim.observer import Observer, Snapshot
 from airhilt.messages import Advisory, Severity
-from airhilt.metrics.summary import (
-    LatencyStatistics,
-    RadioStatistics,
-    Summary,
-    VisionStatistics,
-    WarningParts,
-)
+from airhilt.metrics.summary import RadioStatistics, Summary, VisionStatistics
 from airhilt.text import LONGEST_LINE, readable
 from airhilt.units import FOOT, NAUTICAL_MILE
 
 PLAIN_PERIOD_S = 5.0
-"""Between two lines where standard error is no terminal."""
+"""Time between two lines where standard error is no terminal, in s."""
 REFRESHES_A_SECOND = 8
 STYLES = {
     Severity.INFO: "",
@@ -33,7 +29,9 @@ STYLES = {
     Severity.WARNING: "bold red",
 }
 LEAST_STALE_SHARE = 0.01
-"""Share of the time, from which it is told that evidence was stale."""
+"""Share of the time with stale evidence from which a row tells it."""
+NOT_COUNTED = "not counted: cameras left exposures out"
+"""Value of the nuisance alerts where adaptive cameras leave exposures out."""
 
 
 class ProgressLine(Observer):
@@ -122,53 +120,56 @@ def print_summary(summary: Summary, folder: Path) -> None:
     console.print(f"run folder: {folder}", markup=False)
 
 
-def _rows(summary: Summary) -> list[tuple[str, str]]:
-    return [
-        ("scenario", f"{summary.scenario}, seed {summary.seed}"),
-        ("assistant", _assistant(summary)),
-        ("outcome", summary.outcome),
-        (
-            "simulated",
-            f"{summary.duration_s:.1f} s, {_factor(summary.real_time_factor)} x real time, "
-            f"{summary.cpu_s:.2f} s of CPU",
-        ),
-        ("conflict begins", _seconds(summary.t_conflict_s)),
-        ("conflict window", _conflict_window(summary)),
-        ("first warning", _seconds(summary.t_first_warning_s)),
-        ("time to first warning", _seconds(summary.time_to_first_warning_s)),
-        *_part_rows(summary.first_warning_parts),
-        ("before closest approach", _seconds(summary.lead_before_closest_approach_s)),
-        (
-            "before TCAS TA / RA",
-            f"{_seconds(summary.margin_over_tcas_ta_s)} / "
-            f"{_seconds(summary.margin_over_tcas_ra_s)}",
-        ),
-        *_equipment_rows(summary),
-        (
-            "least separation",
-            f"horizontal {_distance(summary.min_horizontal_separation_m)} while vertical was lost, "
-            f"vertical {_height(summary.min_vertical_separation_m)} while horizontal was lost",
-        ),
-        *_approach_rows(summary),
-        ("loss of separation", _yes(summary.loss_of_separation)),
-        ("NMAC", _yes(summary.nmac)),
-        ("collision", _yes(summary.collision)),
-        *_incursion_rows(summary),
-        *_declared_rows(summary),
-        ("avoided", "-" if summary.avoided is None else _yes(summary.avoided)),
-        ("nuisance alerts", _nuisance(summary.nuisance_alerts)),
-        *_dropped_rows(summary),
-        ("radio", _radio(summary.radio)),
-        *_recognition_rows(summary),
-        *_vision_rows(summary.vision),
-        *_evidence_rows(summary),
-        ("modalities", ", ".join(_modalities(summary))),
-        *((f"{actor} ended", cause) for actor, cause in summary.ended_actors.items()),
+def _rows(summary: Summary) -> Iterator[tuple[str, str]]:
+    """Yield label and value of each number; what a run did not have has no row."""
+    yield "scenario", f"{summary.scenario}, seed {summary.seed}"
+    has_assistant = summary.assistant != "none"
+    yield "assistant", summary.assistant if has_assistant else "none: nobody was warned"
+    yield "outcome", summary.outcome
+    speed = f"{_factor(summary.real_time_factor)} x real time, {summary.cpu_s:.2f} s of CPU"
+    yield "simulated", f"{summary.duration_s:.1f} s, {speed}"
+    yield "conflict begins", _seconds(summary.t_conflict_s)
+    yield "conflict window", _conflict_window(summary)
+    yield "first warning", _seconds(summary.t_first_warning_s)
+    yield "time to first warning", _seconds(summary.time_to_first_warning_s)
+    if (parts := summary.first_warning_parts) is not None:
+        spans = {
+            "speech": parts.speech_s,
+            "recognition": parts.recognition_s,
+            "evidence": parts.evidence_s,
+            "decision": parts.decision_s,
+            "voice": parts.voice_s,
+        }
+        yield "consists of", ", ".join(f"{name} {_seconds(span)}" for name, span in spans.items())
+    yield "before closest approach", _seconds(summary.lead_before_closest_approach_s)
+    ta, ra = summary.margin_over_tcas_ta_s, summary.margin_over_tcas_ra_s
+    yield "before TCAS TA / RA", f"{_seconds(ta)} / {_seconds(ra)}"
+    for each in summary.equipment:
+        warning, action = _seconds(each.t_first_warning_s), _seconds(each.t_first_action_s)
+        yield f"equipment {each.equipment}", f"warning {warning}, action {action}"
+    yield from _separation_rows(summary)
+    if summary.unassisted_as_declared is False:
+        yield "as declared", "no: nobody was warned, and the declared outcome did not come about"
+    yield "avoided", "-" if summary.avoided is None else _yes(summary.avoided)
+    alerts = summary.nuisance_alerts
+    yield "nuisance alerts", str(alerts) if alerts is not None else NOT_COUNTED
+    if dropped := [f"{count:,} on {what}" for what, count in summary.messages_dropped.items()]:
+        yield "dropped messages", ", ".join(dropped)
+    yield "radio", _radio(summary.radio)
+    yield from _recognition_rows(summary)
+    yield from _vision_rows(summary.vision)
+    stale = [
+        f"{modality} {each.stale_share:.0%} of the time, up to {each.max_s:.0f} s old"
+        for modality, each in summary.evidence.items()
+        if each.stale_share >= LEAST_STALE_SHARE
     ]
-
-
-def _nuisance(alerts: int | None) -> str:
-    return "not counted: cameras left exposures out" if alerts is None else str(alerts)
+    if stale:
+        yield "stale evidence", "; ".join(stale)
+    states = summary.modalities.items()
+    present = (f"{name} {state}" for name, state in states)
+    yield "modalities", ", ".join(present)
+    for actor, cause in summary.ended_actors.items():
+        yield f"{actor} ended", cause
 
 
 def _conflict_window(summary: Summary) -> str:
@@ -177,82 +178,27 @@ def _conflict_window(summary: Summary) -> str:
     return f"{summary.t_window_s:.2f} to {summary.t_conflict_end_s:.2f} s"
 
 
-def _part_rows(parts: WarningParts | None) -> list[tuple[str, str]]:
-    """Return a row on what the time to first warning consists of, if there was a warning."""
-    if parts is None:
-        return []
-    spans = {
-        "speech": parts.speech_s,
-        "recognition": parts.recognition_s,
-        "evidence": parts.evidence_s,
-        "decision": parts.decision_s,
-        "voice": parts.voice_s,
-    }
-    return [("consists of", ", ".join(f"{name} {_seconds(span)}" for name, span in spans.items()))]
-
-
-def _equipment_rows(summary: Summary) -> list[tuple[str, str]]:
-    """Return a row for each piece of equipment, on when it warned and told what to do."""
-    return [
-        (
-            f"equipment {each.equipment}",
-            f"warning {_seconds(each.t_first_warning_s)}, action {_seconds(each.t_first_action_s)}",
-        )
-        for each in summary.equipment
-    ]
-
-
-def _approach_rows(summary: Summary) -> list[tuple[str, str]]:
-    """Return a row on the closest approach, if there was one."""
-    approach = summary.closest_approach
-    if approach is None:
-        return []
-    distances = f"{_distance(approach.horizontal_m)}, {_height(approach.vertical_m)}"
-    return [("closest approach", f"{distances} at {approach.t_s:.1f} s")]
-
-
-def _declared_rows(summary: Summary) -> list[tuple[str, str]]:
-    """Return a row if the outcome that the scenario declares did not come about unassisted."""
-    if summary.unassisted_as_declared is not False:
-        return []
-    return [("as declared", "no: nobody was warned, and the declared outcome did not come about")]
-
-
-def _dropped_rows(summary: Summary) -> list[tuple[str, str]]:
-    """Return a row on the messages of programs that were dropped, if any were."""
-    counts = [f"{number:,} on {what}" for what, number in summary.messages_dropped.items()]
-    return [("dropped messages", ", ".join(counts))] if counts else []
-
-
-def _evidence_rows(summary: Summary) -> list[tuple[str, str]]:
-    """Return a row if the assistant had nothing fresh to judge by for some of the time."""
-    stale = [
-        f"{modality} {each.stale_share:.0%} of the time, up to {each.max_s:.0f} s old"
-        for modality, each in summary.evidence.items()
-        if each.stale_share >= LEAST_STALE_SHARE
-    ]
-    return [("stale evidence", "; ".join(stale))] if stale else []
-
-
-def _incursion_rows(summary: Summary) -> list[tuple[str, str]]:
-    """Return a row for each runway incursion."""
-    rows = []
-    for incursion in summary.runway_incursions:
-        way = f"in the way of {incursion.user}" if incursion.user else "nobody uses it"
-        near = "" if incursion.closest_m is None else f", {incursion.closest_m:.0f} m apart"
-        severity = (
-            incursion.category
-            if incursion.category == "accident"
-            else f"category {incursion.category}"
-        )
-        rows.append(
-            (
-                "runway incursion",
-                f"{severity}: {incursion.intruder} on {incursion.runway} at {incursion.t_s:.1f} s, "
-                f"{way}{near}",
-            )
-        )
-    return rows
+def _separation_rows(summary: Summary) -> Iterator[tuple[str, str]]:
+    """Yield rows on how near the pair came, and on runway incursions."""
+    horizontal = _distance(summary.min_horizontal_separation_m)
+    vertical = _height(summary.min_vertical_separation_m)
+    yield (
+        "least separation",
+        f"horizontal {horizontal} while vertical was lost, "
+        f"vertical {vertical} while horizontal was lost",
+    )
+    if (nearest := summary.closest_approach) is not None:
+        apart = f"{_distance(nearest.horizontal_m)}, {_height(nearest.vertical_m)}"
+        yield "closest approach", f"{apart} at {nearest.t_s:.1f} s"
+    yield "loss of separation", _yes(summary.loss_of_separation)
+    yield "NMAC", _yes(summary.nmac)
+    yield "collision", _yes(summary.collision)
+    for each in summary.runway_incursions:
+        severity = each.category if each.category == "accident" else f"category {each.category}"
+        way = f"in the way of {each.user}" if each.user else "nobody uses it"
+        near = "" if each.closest_m is None else f", {each.closest_m:.0f} m apart"
+        where = f"{each.intruder} on {each.runway} at {each.t_s:.1f} s"
+        yield "runway incursion", f"{severity}: {where}, {way}{near}"
 
 
 def _radio(radio: RadioStatistics) -> str:
@@ -267,19 +213,18 @@ def _radio(radio: RadioStatistics) -> str:
         "without a transcript": radio.transcripts_missing or 0,
         "words of noise alone": radio.hallucinated or 0,
     }
-    plural = "" if radio.transmissions == 1 else "s"
     counts = [f"{count} {what}" for what, count in wrong.items() if count]
-    return ", ".join([f"{radio.transmissions} transmission{plural}", *counts])
+    return ", ".join([counted(radio.transmissions, "transmission"), *counts])
 
 
-def _recognition_rows(summary: Summary) -> list[tuple[str, str]]:
-    """Return a row on speech recognition, if there was any.
+def _recognition_rows(summary: Summary) -> Iterator[tuple[str, str]]:
+    """Yield a row on speech recognition, if there was any.
 
     Where no callsign or no slot was said, there is no share of them.
     """
     radio, after_end = summary.radio, summary.latencies["asr_after_end"]
     if radio.wer is None:
-        return []
+        return
     shares = {
         "word error rate": radio.wer,
         "callsigns": radio.callsign_accuracy,
@@ -288,15 +233,14 @@ def _recognition_rows(summary: Summary) -> list[tuple[str, str]]:
     parts = [f"{name} {_percent(share)}" for name, share in shares.items() if share is not None]
     if after_end.p95_s is not None:
         parts.append(f"p95 {_latency(after_end.p95_s)} after the end")
-    return [("recognition", ", ".join(parts))]
+    yield "recognition", ", ".join(parts)
 
 
-def _vision_rows(vision: VisionStatistics) -> list[tuple[str, str]]:
-    """Return rows on what cameras took and what was seen in it, if anything was."""
+def _vision_rows(vision: VisionStatistics) -> Iterator[tuple[str, str]]:
+    """Yield rows on what cameras took and what was seen in it, if anything was."""
     if vision.taken is None:
-        return []
-    count = len(vision.cameras)
-    parts = [f"{count} camera{'' if count == 1 else 's'}", f"{vision.taken} pictures"]
+        return
+    parts = [counted(len(vision.cameras), "camera"), f"{vision.taken} pictures"]
     if vision.exposures_left_out:
         parts.append(f"{vision.exposures_left_out} exposures left out")
     if vision.looked_at is not None:
@@ -306,34 +250,22 @@ def _vision_rows(vision: VisionStatistics) -> list[tuple[str, str]]:
             f"recall {_percent(vision.recall)} of {vision.sightings}",
             _false(vision),
         ]
-    warnings = []
+    yield "vision", ", ".join(parts)
     if vision.missed:
-        warnings.append(("missed", f"{vision.missed} pictures, the first: {vision.why_missed}"))
+        yield "missed", f"{vision.missed} pictures, the first: {vision.why_missed}"
     elif vision.looked_at == 0:
-        warnings.append(("missed", "no picture had been looked at when the run ended"))
-    return [
-        ("vision", ", ".join(parts)),
-        *warnings,
-        *(
-            (
-                "first seen",
-                f"{first.actor} at {first.t_s:.1f} s by {first.camera}, {first.range_m:.0f} m off, "
-                f"{first.size_px:.0f} px long",
-            )
-            for first in vision.first_detections
-        ),
-    ]
+        yield "missed", "no picture had been looked at when the run ended"
+    for first in vision.first_detections:
+        where = f"{first.range_m:.0f} m off, {first.size_px:.0f} px long"
+        yield "first seen", f"{first.actor} at {first.t_s:.1f} s by {first.camera}, {where}"
 
 
 def _false(vision: VisionStatistics) -> str:
     """Return the rate of false detections, by picture where exposures were left out."""
     if vision.exposures_left_out:
         return f"{_percent(vision.false_per_picture)} false detections per picture"
-    return f"{_rate(vision.false_confirmed_per_minute)} confirmed false"
-
-
-def _rate(per_minute: float | None) -> str:
-    return "-" if per_minute is None else f"{per_minute:.2f}/min"
+    rate = vision.false_confirmed_per_minute
+    return f"{'-' if rate is None else f'{rate:.2f}/min'} confirmed false"
 
 
 def _factor(times: float) -> str:
@@ -349,24 +281,18 @@ def _latency_table(summary: Summary) -> Table:
     for column in table.columns[1:]:
         column.justify = "right"
     for stage, statistics in summary.latencies.items():
-        table.add_row(stage, str(statistics.n), *_numbers(statistics))
+        times = map(_latency, (statistics.p50_s, statistics.p95_s, statistics.max_s))
+        table.add_row(stage, str(statistics.n), *times)
     return table
 
 
-def _numbers(statistics: LatencyStatistics) -> list[str]:
-    values = (statistics.p50_s, statistics.p95_s, statistics.max_s)
-    return ["-" if value is None else _latency(value) for value in values]
-
-
-def _latency(seconds: float) -> str:
+def _latency(seconds: float | None) -> str:
     """Return a time in the unit that suits it."""
+    if seconds is None:
+        return "-"
     if seconds < 1e-3:
         return f"{seconds * 1e6:.0f} us"
     return f"{seconds * 1e3:.3g} ms" if seconds < 1.0 else f"{seconds:.3g} s"
-
-
-def _assistant(summary: Summary) -> str:
-    return "none: nobody was warned" if summary.assistant == "none" else summary.assistant
 
 
 def _seconds(value: float | None) -> str:
@@ -383,8 +309,3 @@ def _height(value: float | None) -> str:
 
 def _yes(value: bool) -> str:
     return "yes" if value else "no"
-
-
-def _modalities(summary: Summary) -> list[str]:
-    """Return the state of each modality in words."""
-    return [f"{name} {state}" for name, state in summary.modalities.items()]

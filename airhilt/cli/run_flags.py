@@ -62,21 +62,26 @@ def options_given(context: click.Context) -> Options:
 
 
 def _click_option(name: str, field: FieldInfo, flag: Flag) -> click.Option:
-    spellings = [flag.name, name]
     default = flag.default
     text = f"{flag.help} {flag.help_of_one_run}".rstrip()
+    if not default and field.default not in (None, ()):
+        default = f"{field.default:g}" if isinstance(field.default, float) else str(field.default)
+    if default and field.annotation is not bool:
+        text += f"  [default: {default}]"
+    return option_of(name, flag, text, flag.metavar, _type(field.annotation))
+
+
+def option_of(
+    name: str, flag: Flag, text: str, metavar: str | None, kind: Any = str
+) -> click.Option:
+    """Return the option of the command line for an option of a run; a switch for a truth value."""
+    spellings = [flag.name, name]
+    field = Options.model_fields[name]
     if field.annotation is bool:
         is_on = bool(field.default)
         return click.Option(spellings, is_flag=True, flag_value=not is_on, default=is_on, help=text)
-    if not default and field.default not in (None, ()):
-        default = f"{field.default:g}" if isinstance(field.default, float) else str(field.default)
-    return click.Option(
-        spellings,
-        type=_type(field.annotation),
-        multiple=get_origin(field.annotation) is tuple,
-        metavar=flag.metavar,
-        help=f"{text}  [default: {default}]" if default else text,
-    )
+    is_multiple = get_origin(field.annotation) is tuple
+    return click.Option(spellings, type=kind, multiple=is_multiple, metavar=metavar, help=text)
 
 
 def _type(annotation: Any) -> Any:

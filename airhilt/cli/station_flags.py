@@ -17,7 +17,7 @@ from airhilt.errors import StationError
 from airhilt.station.address import DEFAULT_HOST, DEFAULT_PORT, Address
 
 F = TypeVar("F", bound=Callable[..., Any])
-FILE = click.Path(path_type=Path, dir_okay=False)
+FILE = click.Path(path_type=Path, exists=True, dir_okay=False)
 NEEDED = ("fastapi", "uvicorn", "websockets")
 """Packages of the extra ``station``."""
 
@@ -47,9 +47,6 @@ class PageOptions:
                 f"the page needs {', '.join(missing)}, not installed: pip install "
                 "'airhilt[station]'"
             )
-        for path in (self.certificate, self.key):
-            if path is not None and not path.is_file():
-                raise StationError(f"{path}: no such file; expected a PEM file")
         _check_certificate(self.certificate, self.key)
         try:
             token = "" if self.token_file is None else self.token_file.read_text("utf-8").strip()

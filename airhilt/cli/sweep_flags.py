@@ -9,6 +9,7 @@ from typing import Any, Literal
 import click
 from click.core import ParameterSource
 
+from airhilt.cli.run_flags import option_of
 from airhilt.configuration import read_configuration
 from airhilt.errors import AirhiltError, shown
 from airhilt.options import Options, flag_of
@@ -39,23 +40,9 @@ def _option(name: str) -> click.Option:
     field = Options.model_fields[name]
     flag = flag_of(field)
     assert flag is not None
-    if field.annotation is bool:
-        return click.Option(
-            [flag.name, name],
-            is_flag=True,
-            flag_value=not field.default,
-            default=bool(field.default),
-            help=flag.help,
-        )
-    is_multiple = field.annotation == tuple[str, ...]
-    is_one = is_multiple or name in (*WHOLE, CONFIGURATION)
+    is_one = field.annotation == tuple[str, ...] or name in (*WHOLE, CONFIGURATION)
     metavar = flag.metavar or name.upper()
-    return click.Option(
-        [flag.name, name],
-        metavar=metavar if is_one else f"{metavar},...",
-        multiple=is_multiple,
-        help=flag.help,
-    )
+    return option_of(name, flag, flag.help, metavar if is_one else f"{metavar},...")
 
 
 def specification_given(
@@ -95,7 +82,8 @@ def specification_given(
     if scenarios:
         document["scenarios"] = list(scenarios)
     if seeds is not None:
-        document["seeds"] = _seeds(seeds)
+        is_count = seeds.isdecimal()
+        document["seeds"] = first_seeds(int(seeds)) if is_count else _placed("seeds", seeds)[1]
     if sample is not None:
         drawn = _sample(sample)
     if drawn and not intervals:
@@ -175,39 +163,21 @@ def _said(context: click.Context, set_: tuple[str, ...]) -> Iterator[tuple[str, 
 
 
 def _placed(path: str, text: str) -> tuple[Place, Any]:
-    """Return what a text of values is in a sweep file."""
-    values = _values(path, text)
-    if isinstance(values, Range):
-        return "axes", values.model_dump(by_alias=True, exclude_none=True)
-    if isinstance(values, Interval):
-        return "intervals", values.model_dump(by_alias=True)
-    return "axes", list(values)
-
-
-def _seeds(text: str) -> Any:
-    """Return the seeds of a text: a number of them, or values."""
-    if text.isdecimal():
-        return first_seeds(int(text))
-    values = _values("seeds", text)
-    return (
-        values.model_dump(by_alias=True, exclude_none=True)
-        if isinstance(values, Interval)
-        else list(values)
-    )
-
-
-def _values(name: str, text: str) -> Range | Interval | tuple[Any, ...]:
-    """Return what a person writes for the values of a parameter.
+    """Return what a text of values is in a sweep file.
 
     Raises
     ------
     AirhiltError
-        It is none; the name begins the message.
+        It is no text of values; the path begins the message.
     """
     try:
-        return read_values(text)
+        values = read_values(text)
     except AirhiltError as error:
-        raise AirhiltError(f"{name}: {error}") from None
+        raise AirhiltError(f"{path}: {error}") from None
+    if isinstance(values, Interval):
+        place: Place = "axes" if isinstance(values, Range) else "intervals"
+        return place, values.model_dump(by_alias=True, exclude_none=True)
+    return "axes", list(values)
 
 
 def _sample(text: str) -> Json:

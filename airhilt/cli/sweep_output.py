@@ -7,8 +7,8 @@ from dataclasses import asdict
 
 import click
 
+from airhilt.cli.output import counted
 from airhilt.cli.sweep_progress import duration
-from airhilt.cli.words import counted
 from airhilt.host.files import sha256
 from airhilt.sweep.engine import SweepResult
 from airhilt.sweep.estimate import Estimate

@@ -12,13 +12,13 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 from rich.text import Text
 
-from airhilt.cli.words import counted
+from airhilt.cli.output import counted
 from airhilt.sweep.engine import SweepObserver
 from airhilt.sweep.outcome import Outcome
 from airhilt.text import LONGEST_LINE, readable
 
 LINE_PERIOD_S = 10.0
-"""Between two lines where standard error is no terminal."""
+"""Time between two lines where standard error is no terminal, in s."""
 
 
 class SweepProgress(SweepObserver):
@@ -33,10 +33,16 @@ class SweepProgress(SweepObserver):
     def __init__(self, quiet: bool) -> None:
         self._console = Console(stderr=True, highlight=False)
         self._quiet = quiet
-        self._progress: Progress | None = None
-        self._task: int | None = None
-        self._signals = 0
-        self._total = self._done = self._before = self._failed = 0
+        self._bar = Progress(
+            TextColumn("{task.description}"),
+            BarColumn(),
+            MofNCompleteColumn(),
+            TextColumn("{task.fields[rate]}"),
+            TimeRemainingColumn(),
+            console=self._console,
+            disable=quiet or not self._console.is_terminal,
+        )
+        self._signals = self._total = self._done = self._before = self._failed = 0
         self._begun = self._printed = time.monotonic()
 
     @property
@@ -57,21 +63,11 @@ class SweepProgress(SweepObserver):
         """Show how many runs there are, and who does them."""
         self._total, self._done, self._before = total, finished, finished
         self._begun = time.monotonic()
-        if self._quiet:
-            return
-        had = f", {finished} of them finished before" if finished else ""
-        self._console.print(f"{counted(total, 'run')}{had}; {workers}", soft_wrap=True)
-        if self._console.is_terminal:
-            self._progress = Progress(
-                TextColumn("{task.description}"),
-                BarColumn(),
-                MofNCompleteColumn(),
-                TextColumn("{task.fields[rate]}"),
-                TimeRemainingColumn(),
-                console=self._console,
-            )
-            self._task = self._progress.add_task("sweep", total=total, completed=finished, rate="")
-            self._progress.start()
+        if not self._quiet:
+            had = f", {finished} of them finished before" if finished else ""
+            self._console.print(f"{counted(total, 'run')}{had}; {workers}", soft_wrap=True)
+        self._bar.add_task("sweep", total=total, completed=finished, rate="")
+        self._bar.start()
 
     def ended(self, outcome: Outcome) -> None:
         """Count a run."""
@@ -79,9 +75,10 @@ class SweepProgress(SweepObserver):
         if outcome.status != "finished":
             self._failed += 1
             self.notice(f"run {outcome.key[:16]} {outcome.status}: {outcome.cause}")
-        if self._progress is not None and self._task is not None:
-            self._progress.update(self._task, completed=self._done, rate=self._rate())  # type: ignore[arg-type]
-        elif not self._quiet and time.monotonic() - self._printed > LINE_PERIOD_S:
+        for task in self._bar.task_ids:
+            self._bar.update(task, completed=self._done, rate=self._rate())
+        is_due = time.monotonic() - self._printed > LINE_PERIOD_S
+        if is_due and not self._quiet and not self._console.is_terminal:
             self._printed = time.monotonic()
             self._console.print(
                 f"{self._done} of {self._total} runs, {self._rate()}, {self._left()} left",
@@ -121,8 +118,8 @@ class SweepProgress(SweepObserver):
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        if self._progress is not None:
-            self._progress.stop()
+        if not self._bar.disable:
+            self._bar.stop()
 
     def _per_second(self) -> float:
         return (self._done - self._before) / max(time.monotonic() - self._begun, 1e-6)

@@ -17,21 +17,14 @@ FLAGS: tuple[Callable[[Any], Any], ...] = (
         "--scheduler",
         default="local",
         show_default=True,
-        metavar="NAME_OR_ADDRESS",
-        help="Who does the runs: local, slurm, pbs, lsf, kubernetes, or the address of a Dask "
-        "scheduler.",
-    ),
-    click.option(
-        "--scheduler-config",
-        type=click.Path(path_type=Path, dir_okay=False),
-        metavar="FILE",
-        help="Settings of the scheduler, such as queue and account, a JSON file.",
+        metavar="ADDRESS_OR_FILE",
+        help="Who does the runs: local, or a Dask scheduler by its address or scheduler file.",
     ),
     click.option(
         "--workers",
         type=click.IntRange(min=1),
         metavar="N",
-        help="Number of workers.  [default: by cores and memory]",
+        help="Number of local workers.  [default: by cores and memory]",
     ),
     click.option(
         "--keep",
@@ -82,7 +75,7 @@ def work_given(given: Mapping[str, Any], out: Path) -> Work:
         One of them is wrong.
     """
     from airhilt.sweep.runner_process import Limits
-    from airhilt.sweep.work import Work, keep_of, read_settings, require_dashboard
+    from airhilt.sweep.work import Work, keep_of, require_dashboard
 
     require_dashboard(given["dashboard"])
     keep, sample = keep_of(given["keep"])
@@ -92,7 +85,6 @@ def work_given(given: Mapping[str, Any], out: Path) -> Work:
         limits=Limits(**limits),
         workers=given["workers"],
         scheduler=given["scheduler"],
-        scheduler_config=read_settings(given["scheduler_config"]),
         keep=keep,
         sample=sample,
         dashboard=given["dashboard"],

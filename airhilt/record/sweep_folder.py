@@ -12,7 +12,7 @@ import json
 import os
 import uuid
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path, PurePosixPath
 from typing import TYPE_CHECKING, Any
 
@@ -43,14 +43,14 @@ UNFINISHED = f"*{PARTIAL}"
 SMALL_BYTES = 1_000_000
 """Size up to which a part is small."""
 UNREADABLE = (OSError, ValueError)
-"""Exceptions of a table that cannot be read."""
+"""Exceptions of a file that cannot be read."""
 REQUIRED = ("key", "status")
-"""Columns of a part that say which run a row is, and whether it counts: texts, never null."""
+"""Columns of a part that say which run a row is, and whether it counts."""
 GRID = "grid_sha256"
-"""Name, in ``sweep.json`` and in the metadata of both tables, of what says that they are of one
-sweep."""
-
-
+"""Name, in ``sweep.json`` and in the metadata of both tables, of the hash of the sweep that they
+are of."""
+AGAIN = "give the command of the sweep again, it makes the tables from the runs that are finished"
+"""Remedy in errors about tables."""
 FILES = "files"
 """Name, in ``sweep.json``, of the manifest: both tables, and the ``run.json`` of each run folder
 that was kept, which has the manifest of that run."""
@@ -104,10 +104,7 @@ class SweepFolder:
         folder = cls(path)
         if not folder.info_path.is_file():
             if folder.is_there:
-                raise SweepFolderError(
-                    f"{path}: the sweep has no tables yet; give its command again, it makes them "
-                    "from the runs that are finished"
-                )
+                raise SweepFolderError(f"{path}: no tables yet; {AGAIN}")
             raise SweepFolderError(f"{path}: no sweep here; expected a folder with a sweep.json")
         tell_damage(path, folder.damage(), notice)
         return folder
@@ -121,7 +118,7 @@ class SweepFolder:
             It holds something else, or cannot be written.
         """
         self.require_usable()
-        with _told(self.path, has_runs=self.parts_path.is_dir()):
+        with _writing(self.path):
             make_folder(self.parts_path)
             os.close(self._open_lock())
 
@@ -166,7 +163,7 @@ class SweepFolder:
         SweepFolderError
             Another process has it.
         """
-        with _told(self.path):
+        with _writing(self.path):
             stream = os.fdopen(self._open_lock(), "w")
         with stream:
             try:
@@ -201,10 +198,8 @@ class SweepFolder:
         """
         try:
             loaded = bounded_json.parse(self.read(self.info_path))
-        except OSError as error:
-            raise SweepFolderError(f"{self.info_path}: cannot be read: {error.strerror}") from None
-        except ValueError as error:
-            raise SweepFolderError(f"{self.info_path}: cannot be read: {error}") from None
+        except UNREADABLE as error:
+            raise SweepFolderError(f"{self.info_path}: cannot be read: {_reason(error)}") from None
         if not isinstance(loaded, dict) or loaded.get("format") != FORMAT:
             raise SweepFolderError(f"{self.info_path}: expected a sweep.json of format {FORMAT}")
         return loaded
@@ -265,40 +260,42 @@ class SweepFolder:
         if len(small) > MOST_PARTS:
             self._put_together(small, runs.schema)
 
-    def finished(self, schema: pa.Schema, notice: Callable[[str], None]) -> pa.Table:
+    def finished(self, schema: pa.Schema, notice: Callable[[str], None] | None) -> pa.Table:
         """Return all finished runs; a run that was finished twice has two rows.
 
-        Parts that are damaged, or whose columns cannot be those of the schema, are set aside and
-        told. What a part of another version does not have is null.
+        What a part of another version does not have is null. The runs of a part that is damaged, or
+        whose columns cannot be those of the schema, are missing.
 
         Parameters
         ----------
         schema
             Names and types of the columns that are returned.
+        notice
+            Is told of each such part, which is set aside. None leaves the folder as it is, while
+            another sweep writes.
         """
-        return _joined(schema, (self._read_part(part, schema, notice) for part in self._parts()))
+        import pyarrow as pa
 
-    def finished_so_far(self, schema: pa.Schema) -> pa.Table:
-        """Return what `finished` does and leave the folder as it is, while another sweep writes."""
-        return _joined(schema, (_fitting(part, schema)[0] for part in self._parts()))
+        tables = [schema.empty_table()]
+        for part in self._parts():
+            try:
+                tables.append(_cast(_read_part(part), schema))
+            except UNREADABLE as error:
+                if notice is not None:
+                    aside = part.with_suffix(".damaged")
+                    with _writing(part):
+                        part.replace(aside)
+                    notice(
+                        f"{part} is damaged ({_reason(error)}): set aside as {aside.name}, its "
+                        "runs are missing"
+                    )
+        return pa.concat_tables(tables)
 
     def _parts(self) -> list[Path]:
         return sorted(self.parts_path.glob("*.parquet"))
 
     def _write_part(self, runs: pa.Table) -> None:
         _write_table(runs, self.parts_path / f"{uuid.uuid4().hex}.parquet")
-
-    def _read_part(
-        self, part: Path, schema: pa.Schema, notice: Callable[[str], None]
-    ) -> pa.Table | None:
-        """Return a part, None if it is damaged: it is set aside and told."""
-        table, reason = _fitting(part, schema)
-        if table is None:
-            aside = part.with_suffix(".damaged")
-            with _told(part):
-                part.replace(aside)
-            notice(f"{part} is damaged ({reason}): set aside as {aside.name}, its runs are missing")
-        return table
 
     def _put_together(self, parts: Sequence[Path], schema: pa.Schema) -> None:
         """Replace parts by one; a kill in between leaves runs twice, which have one key.
@@ -309,11 +306,11 @@ class SweepFolder:
 
         read: dict[Path, pa.Table] = {}
         for part in parts:
-            table, _ = _table_or_reason(part)
-            if table is None or not table.schema.equals(schema):  # No column is to be lost.
-                self._of_others.add(part)
-            else:
-                read[part] = table
+            with suppress(*UNREADABLE):
+                table = _read_part(part)
+                if table.schema.equals(schema):  # No column is to be lost.
+                    read[part] = table
+        self._of_others.update(part for part in parts if part not in read)
         if len(read) < 2:
             return
         self._write_part(pa.concat_tables(list(read.values())))
@@ -336,20 +333,20 @@ class SweepFolder:
             Content of ``sweep.json`` but for the manifest; its ``grid_sha256`` goes into the tables
             too.
         """
-        with _told(self.signature_path):
+        with _writing(self.signature_path):
             self.signature_path.unlink(missing_ok=True)
         mark = {GRID: str(info[GRID])}
         _write_table(table.replace_schema_metadata(mark), self.table_path)
         _write_table(machine.replace_schema_metadata(mark), self.machine_path)
         _write_info(self.info_path, self._sealed(info, machine["folder"].to_pylist()))
-        with _told(self.next_info_path):
+        with _writing(self.next_info_path):
             self.next_info_path.unlink(missing_ok=True)
 
     def _sealed(self, info: Mapping[str, Any], kept: Iterable[str | None]) -> dict[str, Any]:
         """Return the content of ``sweep.json`` with its manifest, and with its own hash."""
         runs = (self.runs_path / PurePosixPath(name).name for name in kept if name)
         files = (self.table_path, self.machine_path, *(RunFolder(run).info_path for run in runs))
-        with _told(self.path):
+        with _writing(self.path):
             records = manifest(self.path, files)
         sealed = {**info, FILES: {name: record.model_dump() for name, record in records.items()}}
         return sealed | {"digest": digest(sealed)}
@@ -372,10 +369,7 @@ class SweepFolder:
         table = _read_table(path)
         found = (table.schema.metadata or {}).get(GRID.encode(), b"").decode()
         if found != self.info().get(GRID, ""):
-            raise SweepFolderError(
-                f"{path}: not of the sweep in {self.info_path.name}; give the command of the sweep "
-                "again, it makes the tables from the runs that are finished"
-            )
+            raise SweepFolderError(f"{path}: not of the sweep in {self.info_path.name}; {AGAIN}")
         return table
 
 
@@ -397,71 +391,49 @@ def is_sweep(path: Path) -> bool:
 
 
 def _write_info(path: Path, info: Mapping[str, Any]) -> None:
-    with _told(path):
+    with _writing(path):
         replace_file(path, f"{json.dumps(info, indent=2)}\n".encode())
 
 
-def _joined(schema: pa.Schema, tables: Iterable[pa.Table | None]) -> pa.Table:
-    import pyarrow as pa
+def _read_part(part: Path) -> pa.Table:
+    """Return the table of a part as it was written.
 
-    there = [table for table in tables if table is not None]
-    return pa.concat_tables([schema.empty_table(), *there])
-
-
-def _fitting(part: Path, schema: pa.Schema) -> tuple[pa.Table | None, str]:
-    """Return the table of a part with the columns of a schema, or None and what is wrong."""
-    table, reason = _table_or_reason(part)
-    return (None, reason) if table is None else _cast(table, schema)
-
-
-def _table_or_reason(part: Path) -> tuple[pa.Table | None, str]:
-    """Return the table of a part, or None and what is wrong with it."""
-    try:
-        table = parse_table(read_inside(part.parents[1], part, LARGEST_BYTES))
-    except UNREADABLE as error:
-        return None, str(error).splitlines()[0]
-    reason = _misfit(table)
-    return (None, reason) if reason else (table, "")
-
-
-def _misfit(table: pa.Table) -> str:
-    """Return what is wrong with the columns of a part, empty if nothing is."""
-    import pyarrow as pa
-
-    names = table.column_names
-    if len(set(names)) < len(names):
-        return "it has two columns of one name"
+    Raises
+    ------
+    OSError, ValueError
+        It is damaged, or does not have what is `REQUIRED`.
+    """
+    table = parse_table(read_inside(part.parents[1], part, LARGEST_BYTES))
     for name in REQUIRED:
         if name not in table.column_names:
-            return f"it has no column {name}"
-        if not pa.types.is_string(table[name].type):
-            return f"its column {name} has the type {table[name].type}, not string"
-        if table[name].null_count:
-            return f"its column {name} is null in some rows"
-    return ""
+            raise ValueError(f"it has no column {name}")
+    return table
 
 
-def _cast(table: pa.Table, schema: pa.Schema) -> tuple[pa.Table | None, str]:
-    """Return a table with the columns of a schema, or None and which one it cannot have.
+def _cast(table: pa.Table, schema: pa.Schema) -> pa.Table:
+    """Return a table with the columns of a schema; columns that it does not have are null.
 
-    Columns that it does not have are null.
+    Raises
+    ------
+    ValueError
+        A column cannot have the type that the schema says.
     """
     import pyarrow as pa
 
     if table.schema.equals(schema):
-        return table, ""
-    there = set(table.column_names)
+        return table
     columns = []
     for field in schema:
+        is_there = field.name in table.column_names
         try:
             columns.append(
                 table[field.name].cast(field.type)
-                if field.name in there
+                if is_there
                 else pa.nulls(table.num_rows, field.type)
             )
-        except pa.ArrowException as error:
-            return None, f"column {field.name}: {str(error).splitlines()[0]}"
-    return pa.table(columns, schema=schema), ""
+        except (pa.ArrowException, KeyError) as error:  # KeyError: two columns have that name.
+            raise ValueError(f"column {field.name}: {_reason(error)}") from None
+    return pa.table(columns, schema=schema)
 
 
 def _write_table(table: pa.Table, path: Path) -> None:
@@ -471,7 +443,7 @@ def _write_table(table: pa.Table, path: Path) -> None:
 
     sink = pa.BufferOutputStream()
     pq.write_table(table, sink, compression="zstd", store_schema=True)
-    with _told(path):
+    with _writing(path):
         replace_file(path, sink.getvalue().to_pybytes())
 
 
@@ -479,31 +451,23 @@ def _read_table(path: Path) -> pa.Table:
     try:
         return parse_table(read_inside(path.parent, path, LARGEST_BYTES))
     except FileNotFoundError:
-        raise SweepFolderError(
-            f"{path}: not there; give the command of the sweep again, it makes the tables from the "
-            "runs that are finished"
-        ) from None
+        raise SweepFolderError(f"{path}: not there; {AGAIN}") from None
     except UNREADABLE as error:
-        reason = str(error).splitlines()[0]
-        raise SweepFolderError(
-            f"{path}: damaged ({reason}); give the command of the sweep again, it makes the tables "
-            "from the runs that are finished"
-        ) from None
+        raise SweepFolderError(f"{path}: damaged ({_reason(error)}); {AGAIN}") from None
+
+
+def _reason(error: Exception) -> str:
+    """Return what is wrong in one line, without the path that an error of the system has."""
+    return str(getattr(error, "strerror", None) or error).partition("\n")[0]
 
 
 @contextmanager
-def _told(path: Path, has_runs: bool = True) -> Iterator[None]:
-    """Turn an error of the disk into one for people.
-
-    Parameters
-    ----------
-    has_runs
-        False: no run was finished before.
-    """
+def _writing(path: Path) -> Iterator[None]:
+    """Convert OSError to SweepFolderError."""
     try:
         yield
     except OSError as error:
-        kept = "what was finished before is kept; make room, or " if has_runs else ""
         raise SweepFolderError(
-            f"{path}: cannot be written: {error.strerror}; {kept}choose another folder with --out"
+            f"{path}: cannot be written: {error.strerror}; what was finished before is kept; make "
+            "room, or choose another folder with --out"
         ) from None

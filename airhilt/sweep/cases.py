@@ -7,7 +7,7 @@ import hashlib
 import itertools
 import json
 import math
-from collections import Counter
+from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -30,7 +30,6 @@ from airhilt.sweep.environment import Environment
 from airhilt.sweep.files import NamedFiles
 from airhilt.sweep.parameters import ASSISTANT as ASSISTANT_OPTION
 from airhilt.sweep.parameters import Parameter, Plan, parameter
-from airhilt.sweep.sampling import points
 from airhilt.sweep.specification import Specification
 from airhilt.world.checks import check
 from airhilt.world.loading import load
@@ -90,7 +89,7 @@ class Case:
         return self.has_cameras and parse_latency(latency, PRESETS).of("vision").kind != "measured"
 
     def key(self, environment: Environment) -> str:
-        """Return what tells this run from all others: a SHA-256 in hexadecimal."""
+        """Return the SHA-256 of all that decides the result of this run, in hexadecimal."""
         whole = {
             "scenario": self.document,
             "options": self.options,
@@ -123,7 +122,7 @@ def cases(specification: Specification, allowed: Sequence[Path] = ()) -> list[Ca
     combinations = list(_combinations(specification))
     checks, files = RunChecks(seeds), NamedFiles()
     found: list[Case] = []
-    problems = _Problems()
+    problems: defaultdict[str, list[str]] = defaultdict(list)
     for scenario in scenarios:
         document = scenario.model_dump(mode="json")
         require_different_places([each for each, _ in combinations[0]], document)
@@ -132,12 +131,13 @@ def cases(specification: Specification, allowed: Sequence[Path] = ()) -> list[Ca
                 plan = _plan(document, specification.options, combination, checks)
                 named = files.of(plan.document, plan.options)
             except AirhiltError as error:
-                told = getattr(error, "problems", (str(error),))
-                problems.add(scenario.name, combination, told)
+                for problem in getattr(error, "problems", (str(error),)):
+                    told = problem.removeprefix(f"{scenario.name}: ")
+                    problems[told].append(_named(scenario.name, combination))
                 continue
             parameters = {each.path: each.value(plan) for each, _ in combination}
             found += [Case(plan.document, plan.options, seed, parameters, named) for seed in seeds]
-    problems.require_none()
+    _require_none(problems)
     return found
 
 
@@ -187,7 +187,7 @@ Combination = tuple[tuple[Parameter, JsonValue], ...]
 def _combinations(specification: Specification) -> Iterator[Combination]:
     """Yield every combination of values of the axes with every point that is drawn."""
     axes = [(parameter(path), _distinct(listed(v))) for path, v in specification.axes.items()]
-    drawn = [] if specification.sample is None else list(points(specification.sample))
+    drawn = [] if specification.sample is None else specification.sample.points()
     of_sample = [parameter(path) for path in drawn[0]] if drawn else []
     given = [parameter(name) for name in specification.options]
     paths = [each.path for each in (*of_sample, *(each for each, _ in axes), *given)]
@@ -209,48 +209,33 @@ def _distinct(values: Sequence[JsonValue]) -> list[JsonValue]:
     return list(first.values())
 
 
-class _Refused(AirhiltError):
-    """Runs that cannot be, with all that is wrong with them."""
+def _require_none(problems: Mapping[str, Sequence[str]]) -> None:
+    """Complain about the problems of a grid, each with the first of the runs that have it.
 
-    def __init__(self, problems: Sequence[str]) -> None:
-        super().__init__("\n".join(problems))
-        self.problems = problems
+    Parameters
+    ----------
+    problems
+        Runs by the problem that they have.
+
+    Raises
+    ------
+    AirhiltError
+        There are some.
+    """
+    lines = [
+        f"{where[0]}: {problem}" + (f" ({len(where) - 1} more)" if len(where) > 1 else "")
+        for problem, where in problems.items()
+    ]
+    if lines:
+        more = len(lines) - SHOWN_PROBLEMS
+        tail = [f"... and {more} more"] if more > 0 else []
+        raise AirhiltError("\n".join([*lines[:SHOWN_PROBLEMS], *tail]))
 
 
-class _Problems:
-    """Problems of a grid; one that many combinations have is told once, with the first of them."""
-
-    def __init__(self) -> None:
-        self._first: dict[str, str] = {}
-        self._more: Counter[str] = Counter()
-
-    def add(self, scenario: str, combination: Combination, problems: Sequence[str]) -> None:
-        """Add the problems of a scenario with a combination of values."""
-        values = ", ".join(f"{each.path}={json.dumps(value)}" for each, value in combination)
-        for told in problems:
-            problem = told.removeprefix(f"{scenario}: ")
-            if problem in self._first:
-                self._more[problem] += 1
-            else:
-                self._first[problem] = f"{scenario} with {values}" if values else scenario
-
-    def require_none(self) -> None:
-        """Complain about all of them.
-
-        Raises
-        ------
-        AirhiltError
-            There are some.
-        """
-        lines = [
-            f"{where}: {problem}"
-            + (f" ({self._more[problem]} more)" if self._more[problem] else "")
-            for problem, where in self._first.items()
-        ]
-        if lines:
-            more = len(lines) - SHOWN_PROBLEMS
-            tail = [f"... and {more} more"] if more > 0 else []
-            raise AirhiltError("\n".join([*lines[:SHOWN_PROBLEMS], *tail]))
+def _named(scenario: str, combination: Combination) -> str:
+    """Return the runs of a scenario with some values in words."""
+    values = ", ".join(f"{each.path}={json.dumps(value)}" for each, value in combination)
+    return f"{scenario} with {values}" if values else scenario
 
 
 def _plan(document: Json, options: Json, combination: Combination, checks: RunChecks) -> Plan:
@@ -278,7 +263,7 @@ def _plan(document: Json, options: Json, combination: Combination, checks: RunCh
     if not problems:
         problems += checks.problems(checked, scenario)
     if problems:
-        raise _Refused(problems)
+        raise ScenarioError("\n".join(problems), tuple(problems))
     written = scenario.model_dump(mode="json") if plan.document is not document else document
     return Plan(written, checked.model_dump(mode="json", exclude_defaults=True))
 

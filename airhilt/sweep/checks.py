@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 from airhilt.cosim.option_checks import check_options
@@ -24,17 +24,22 @@ class RunChecks:
 
     def __init__(self, seeds: Sequence[int]) -> None:
         self._seeds = seeds
-        self._channels: dict[str, str] = {}
+        self._channels: dict[str, AirhiltError | None] = {}
 
     def problems(self, options: Options, scenario: Scenario) -> list[str]:
         """Return all that is wrong with the runs of a scenario with some options."""
-        checks: tuple[Callable[[], None], ...] = (
-            lambda: check_options(options, scenario),
-            lambda: _require_own_assistant(options),
-            lambda: self._require_latency(options, scenario),
-            lambda: self._require_channel(options, scenario),
-        )
-        return [problem for check in checks for problem in _problems(check)]
+        problems = []
+        for check in (
+            check_options,
+            _require_own_assistant,
+            self._require_latency,
+            self._require_channel,
+        ):
+            try:
+                check(options, scenario)
+            except AirhiltError as error:
+                problems.append(str(error))
+        return problems
 
     def _require_latency(self, options: Options, scenario: Scenario) -> None:
         seeds = self._seeds if options.latency.startswith(REPLAY) else self._seeds[:1]
@@ -47,9 +52,13 @@ class RunChecks:
             return
         profile = with_requested_radio(options, scenario).radio.profile or DEFAULT_PROFILE
         if profile not in self._channels:
-            self._channels[profile] = next(_problems(lambda: select_channel(profile)), "")
-        if self._channels[profile]:
-            raise AirhiltError(self._channels[profile])
+            self._channels[profile] = None
+            try:
+                select_channel(profile)
+            except AirhiltError as error:
+                self._channels[profile] = error
+        if problem := self._channels[profile]:
+            raise problem
 
 
 def require_different_places(parameters: Sequence[Parameter], document: dict[str, Any]) -> None:
@@ -71,17 +80,10 @@ def require_different_places(parameters: Sequence[Parameter], document: dict[str
                 )
 
 
-def _require_own_assistant(options: Options) -> None:
+def _require_own_assistant(options: Options, _scenario: Scenario) -> None:
     if options.assistant == EXTERNAL:
         raise AirhiltError(
             "--assistant external: no worker or program of yours attaches to the runs of a sweep, "
             "so nobody would decide; expected an assistant that `airhilt doctor` names, one of a "
             "package of yours, or the address of a service (docs/decision.md)"
         )
-
-
-def _problems(check: Callable[[], object]) -> Iterator[str]:
-    try:
-        check()
-    except AirhiltError as error:
-        yield str(error)

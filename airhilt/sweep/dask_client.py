@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 import queue
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -10,13 +9,12 @@ from concurrent.futures import CancelledError
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any
 
-import dask
 from distributed import KilledWorker
 
 from airhilt.errors import AirhiltError, first_line
-from airhilt.sweep.clusters import ClusterError
 from airhilt.sweep.dask_worker import RunnerPlugin, run_case
 from airhilt.sweep.outcome import Machine, Outcome, Request
+from airhilt.sweep.scheduler import SchedulerError
 
 if TYPE_CHECKING:
     from distributed import Client, Future
@@ -31,30 +29,8 @@ NOTICE_PERIOD_S = 60.0
 """Period at which it is told again, in s."""
 SAME_VERSIONS = ("dask", "distributed")
 """Packages whose versions decide whether processes of Dask understand each other."""
-LOGGERS = ("distributed", "distributed.client")
-"""Names of the loggers of Dask, each with a level of its own."""
 LOST = (OSError, RuntimeError, ValueError, CancelledError)
 """Errors of Dask if the scheduler is not there any more; TimeoutError is an OSError."""
-
-
-@contextmanager
-def quiet_dask() -> Iterator[None]:
-    """Print nothing that Dask logs, unless its own configuration says what is logged.
-
-    What matters of it comes as an error or a notice; the rest are tracebacks of lost connections.
-    """
-    if dask.config.get("logging", None):
-        yield
-        return
-    loggers = [logging.getLogger(name) for name in LOGGERS]
-    levels = [logger.level for logger in loggers]
-    for logger in loggers:
-        logger.setLevel(logging.CRITICAL + 1)
-    try:
-        yield
-    finally:
-        for logger, level in zip(loggers, levels, strict=True):
-            logger.setLevel(level)
 
 
 class Workers:
@@ -78,7 +54,7 @@ class Workers:
 
         Raises
         ------
-        ClusterError
+        SchedulerError
             The scheduler is lost.
         """
         now = time.monotonic()
@@ -105,7 +81,7 @@ def prepared(client: Client, plugin: RunnerPlugin) -> Iterator[None]:
 
     Raises
     ------
-    ClusterError
+    SchedulerError
         Versions differ, or a worker refuses or cannot load it.
     """
     _require_same_dask(client)
@@ -116,7 +92,7 @@ def prepared(client: Client, plugin: RunnerPlugin) -> Iterator[None]:
     except LOST:
         raise _lost(client) from None
     except Exception as error:  # What a worker raised; most often it has no AIRHILT to import.
-        raise ClusterError(
+        raise SchedulerError(
             f"{address(client)}: workers cannot be prepared ({first_line(error)}); expected "
             "AIRHILT to be installed there, as here"
         ) from None
@@ -140,7 +116,7 @@ def _require_same_dask(client: Client) -> None:
         for name in SAME_VERSIONS:
             theirs = versions["packages"].get(name)
             if theirs != own[name]:
-                raise ClusterError(
+                raise SchedulerError(
                     f"{where} has {name} {theirs}, and this process {own[name]}; expected the same "
                     "version everywhere"
                 )
@@ -235,14 +211,14 @@ def _outcome(client: Client, future: Future[str], request: Request) -> Outcome:
     except (CancelledError, OSError) as error:
         if future.status != "error":  # It is not the task that has raised it.
             raise _lost(client) from None
-        raise ClusterError(
+        raise SchedulerError(
             f"{address(client)}: a worker cannot run anything: {first_line(error)}; what was "
             "finished is kept, and the same command with the same --out does the rest"
         ) from None
 
 
-def _lost(client: Client) -> ClusterError:
-    return ClusterError(
+def _lost(client: Client) -> SchedulerError:
+    return SchedulerError(
         f"{address(client)} is lost; what was finished is kept, and the same command with "
         "the same --out does the rest"
     )

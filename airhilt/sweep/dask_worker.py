@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import threading
 import time
 import uuid
@@ -12,10 +13,11 @@ from pathlib import Path
 from distributed import Reschedule, Worker, WorkerPlugin, get_worker
 from tornado.ioloop import PeriodicCallback
 
+from airhilt.errors import AirhiltError
+from airhilt.record.sweep_folder import SweepFolderError
 from airhilt.sweep.environment import Environment, require_same
 from airhilt.sweep.outcome import Request
 from airhilt.sweep.runner_process import Limits, RunnerProcess, RunnerStopped
-from airhilt.sweep.shared_folder import require_seen
 
 IDLE_S = 600.0
 """Time after which a runner that nobody asks is ended, in s: its sweep may have been killed."""
@@ -132,8 +134,13 @@ class RunnerPlugin(WorkerPlugin):
             runner.close()
 
     def _require_seen(self) -> None:
-        if self._probe is not None:
-            require_seen(self._probe, self._where)
+        """Complain about a worker that could not leave run folders where the sweep is."""
+        probe = self._probe
+        if probe is not None and not (probe.exists() and os.access(probe.parent, os.W_OK)):
+            raise AirhiltError(
+                f"worker {self._where}: does not see {probe.parent}, or cannot write there; "
+                "expected --out on a file system that all workers share, or --keep none"
+            )
 
 
 def run_case(request: str, plugin: str) -> str:
@@ -154,3 +161,24 @@ def run_case(request: str, plugin: str) -> str:
     found = get_worker().plugins[plugin]
     assert isinstance(found, RunnerPlugin)
     return found.run(Request.model_validate_json(request))
+
+
+@contextmanager
+def probe_in(folder: Path) -> Iterator[Path]:
+    """Put a file into a folder for the workers to look for; it goes with the context.
+
+    Raises
+    ------
+    SweepFolderError
+        It cannot be written.
+    """
+    probe = folder.absolute() / f".probe-{uuid.uuid4().hex}"
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        probe.touch()
+    except OSError as error:
+        raise SweepFolderError(f"{folder}: cannot be written: {error.strerror}") from None
+    try:
+        yield probe
+    finally:
+        probe.unlink(missing_ok=True)

@@ -14,15 +14,14 @@ from typing import TYPE_CHECKING, Any
 from airhilt.errors import AirhiltError
 from airhilt.record.sweep_folder import GRID, SweepFolder, SweepFolderError
 from airhilt.sweep.cases import Case, cases
-from airhilt.sweep.clusters import FAMILY, Cluster, openness
 from airhilt.sweep.crashes import SAME_CRASHES, Crashes
-from airhilt.sweep.dask_client import Workers, described, outcomes, prepared, quiet_dask
-from airhilt.sweep.dask_worker import RunnerPlugin
+from airhilt.sweep.dask_client import Workers, described, outcomes, prepared
+from airhilt.sweep.dask_worker import RunnerPlugin, probe_in
 from airhilt.sweep.environment import Environment, environment
 from airhilt.sweep.order import apart
 from airhilt.sweep.outcome import OF_THE_MACHINE, Outcome, Request
 from airhilt.sweep.runner_process import Limits, RunnerProcess
-from airhilt.sweep.shared_folder import probe_in
+from airhilt.sweep.scheduler import connect, openness, require_scheduler
 from airhilt.sweep.specification import Specification
 from airhilt.sweep.tables import folder_name, grid_sha256, part_of, part_schema, tables_of
 from airhilt.sweep.work import Work, default_workers
@@ -77,7 +76,7 @@ def sweep(
         finished before is kept.
     """
     observer = observer or SweepObserver()
-    cluster = FAMILY.create(work.scheduler, configuration=work.scheduler_config)
+    require_scheduler(work.scheduler)
     grid = cases(specification, work.allowed)
     renderer = renderer_of(grid)
     own = _own_environment(renderer, work.limits)
@@ -95,7 +94,7 @@ def sweep(
                 is_kept = any(request.keep != "none" for request in requests)
                 probe = stack.enter_context(probe_in(folder.runs_path)) if is_kept else None
                 plugin = RunnerPlugin(renderer, work.limits, own, probe)
-                _run_missing(requests, info, folder, work, cluster, plugin, observer)
+                _run_missing(requests, info, folder, work, plugin, observer)
             finished = _finished(folder, by_key, observer)
         table, machine = tables_of(by_key, finished)
         folder.write_tables(table, machine, info)
@@ -227,11 +226,10 @@ def _run_missing(
     info: Mapping[str, Any],
     folder: SweepFolder,
     work: Work,
-    cluster: Cluster,
     plugin: RunnerPlugin,
     observer: SweepObserver,
 ) -> None:
-    """Let the workers of a cluster run what is missing; keep each outcome as it comes.
+    """Let the workers of a scheduler run what is missing; keep each outcome as it comes.
 
     After many crashes with one cause no more is begun.
 
@@ -246,7 +244,7 @@ def _run_missing(
     def stops() -> bool:
         return observer.stops or crashes.are_enough
 
-    with quiet_dask(), cluster.connect(count, work.dashboard) as client:
+    with connect(work.scheduler, count, work.dashboard) as client:
         if notice := openness(client.scheduler_info()["address"]):
             observer.notice(notice)
         workers = Workers(client, observer.notice)

@@ -2,20 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import hashlib
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
+from importlib.metadata import distributions
+from importlib.util import find_spec
 from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict
 
 from airhilt.errors import AirhiltError
 from airhilt.host import library
+from airhilt.host.files import sha256
 from airhilt.record.folder import versions
-from airhilt.sweep.other_packages import PACKAGE_FILES, files_sha256, other_packages, package_sha256
 
 NOT_RESULTS = ("cli", "library", "report", "sweep")
 """Parts of the package that decide no results, and its copy of `LIBRARY`."""
 LIBRARY = ("aircraft", "airports")
 """Kinds of files that scenarios refer to by name."""
+GROUPS = "airhilt."
+"""Beginning of the groups of entry points by which packages add something."""
+OWN = "airhilt"
+"""Name of AIRHILT's own distribution."""
+PACKAGE_FILES = (".py", ".onnx", ".json", ".csv", ".txt", ".npz")
+"""Endings of the files of a package that decide results: code, models and their data."""
 
 
 class Environment(BaseModel):
@@ -52,13 +62,16 @@ def environment(renderer: str) -> Environment:
         from airhilt.sensors.cameras.renderers import require_renderer
 
         taken = require_renderer(renderer)
-    others = other_packages()
+    packages = _other_packages()
     return Environment(
         versions=versions(),
-        code_sha256=_code_sha256(),
+        code_sha256=_sha256_of(_own_files()),
         renderer=taken,
-        packages={name: each.version for name, each in others.items()},
-        packages_sha256={name: package_sha256(each) for name, each in others.items()},
+        packages={name: version for name, (version, _) in packages.items()},
+        packages_sha256={
+            name: _sha256_of(each for module in modules for each in _files_of_module(module))
+            for name, (_, modules) in packages.items()
+        },
     )
 
 
@@ -103,11 +116,7 @@ def _different_versions(expected: Mapping[str, str], found: Mapping[str, str]) -
     ]
 
 
-def _code_sha256() -> str:
-    return files_sha256(_files())
-
-
-def _files() -> Iterator[tuple[Path, Path]]:
+def _own_files() -> Iterator[tuple[Path, Path]]:
     """Yield folder and path of each file that decides results."""
     package = Path(__file__).resolve().parents[1]
     for path in sorted(package.rglob("*")):
@@ -117,3 +126,41 @@ def _files() -> Iterator[tuple[Path, Path]]:
         folder = library.folder(kind)
         for path in sorted(folder.rglob("*.json")):
             yield folder, path
+
+
+def _other_packages() -> dict[str, tuple[str, list[str]]]:
+    """Return the packages that declare an entry point of AIRHILT's, by their names, sorted.
+
+    Each has its version, and the modules at the top level that its entry points name.
+    """
+    found: dict[str, tuple[str, list[str]]] = {}
+    for each in distributions():
+        points = [point for point in each.entry_points if point.group.startswith(GROUPS)]
+        if points and each.name != OWN and each.name not in found:  # The first is imported.
+            modules = {point.module.partition(".")[0] for point in points}
+            found[each.name] = each.version, sorted(modules)
+    return dict(sorted(found.items()))
+
+
+def _sha256_of(files: Iterable[tuple[Path, Path]]) -> str:
+    """Return the SHA-256 of files, each given after the folder to which its name is relative."""
+    digest = hashlib.sha256()
+    for root, path in files:
+        digest.update(f"{path.relative_to(root).as_posix()}\0{sha256(path)}\n".encode())
+    return digest.hexdigest()
+
+
+def _files_of_module(module: str) -> Iterator[tuple[Path, Path]]:
+    """Yield folder and path of the files of a module or package; nothing of it is imported."""
+    spec = None
+    with suppress(ImportError, ValueError):  # What cannot be imported says so when it is asked for.
+        spec = find_spec(module)
+    if spec is None:
+        return
+    for place in spec.submodule_search_locations or ():
+        folder = Path(place)
+        for path in sorted(folder.rglob("*")):
+            if path.suffix in PACKAGE_FILES and path.is_file():
+                yield folder, path
+    if spec.submodule_search_locations is None and spec.origin:
+        yield Path(spec.origin).parent, Path(spec.origin)

@@ -8,12 +8,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from airhilt.errors import AirhiltError
+from airhilt.host.child_process import available_cores
 from airhilt.record.sweep_folder import SweepFolder
 from airhilt.sweep.cases import Case, cases
-from airhilt.sweep.clusters import FAMILY
 from airhilt.sweep.engine import by_keys, missing_of, renderer_of
 from airhilt.sweep.outcome import Machine, Request
 from airhilt.sweep.runner_process import RunnerProcess
+from airhilt.sweep.scheduler import LOCAL, require_scheduler
 from airhilt.sweep.specification import Specification
 from airhilt.sweep.tables import part_schema
 from airhilt.sweep.work import Work, default_workers
@@ -36,7 +37,7 @@ class Estimate:
     workers
         Number of workers that would be asked for.
     at_once
-        Number of runs that would go on at a time; None: only the cluster knows.
+        Number of runs that would go on at a time; None: only the scheduler knows.
     total_s
         Wall time of the runs that are left, if all were like the probe and the workers as fast as
         this machine; None if it is not known how many go on at a time.
@@ -61,7 +62,7 @@ def estimate(specification: Specification, work: Work) -> Estimate:
     AirhiltError
         Something that was given is wrong, or the probe failed.
     """
-    cluster = FAMILY.create(work.scheduler, configuration=work.scheduler_config)
+    require_scheduler(work.scheduler)
     grid = cases(specification, work.allowed)
     renderer = renderer_of(grid)
     folder = SweepFolder(work.out)
@@ -69,13 +70,13 @@ def estimate(specification: Specification, work: Work) -> Estimate:
     runner = RunnerProcess(renderer, work.limits)
     try:
         by_key = {case.key(runner.environment): case for case in grid}
-        finished = by_keys(folder.finished_so_far(part_schema()), by_key)
+        finished = by_keys(folder.finished(part_schema(), None), by_key)
         left = missing_of(by_key, finished, work.retry)
         probe = _probe(left[0], by_key[left[0]], runner) if left else None
     finally:
         runner.close()
     workers = work.workers or default_workers(renderer)
-    at_once = cluster.concurrency(workers)
+    at_once = min(workers, available_cores()) if work.scheduler == LOCAL else None
     return Estimate(
         runs=len(by_key),
         finished=len(by_key) - len(left),

@@ -86,7 +86,7 @@ def _texts(value: Any) -> Iterator[str]:
 
 
 def _path_in(text: str) -> str:
-    """Return the path that a text may be; empty if it looks like a name."""
+    """Interpret a text as a path; empty if it is a name."""
     argument = text.partition(":")[2]
     return argument or (text if "/" in text or Path(text).suffix else "")
 

@@ -32,7 +32,7 @@ OPTIONS_OF_PATHS = {
 PLACES_OF_OPTIONS = {
     option: tuple(path.split(".")) for path, option in OPTIONS_OF_PATHS.items()
 } | {"assistant_config": (ASSISTANT,)}
-"""Keys that lead to what these options replace, or to what they are the whole of."""
+"""Keys that lead to the value, or to all values, that an option replaces."""
 
 
 @dataclass(frozen=True)
@@ -148,14 +148,9 @@ def _with_value(document: Json, path: str, value: Any) -> Json:
             f"parameter {path}: {also}{document['name']!r} has no {error.chunk!r}{where}"
             f"{nearest(error.chunk, known)}"
         ) from None
+    drawn = [(each, locate(changed, each["path"])) for each in changed["perturbations"]]
     changed["perturbations"] = [
-        each
-        for each in changed["perturbations"]
-        if not _is_place(locate(changed, each["path"]), container, key)
+        each for each, place in drawn if not (place[0] is container and place[1] == key)
     ]
     container[key] = value
     return changed
-
-
-def _is_place(place: tuple[Any, str | int], container: Any, key: str | int) -> bool:
-    return place[0] is container and place[1] == key

@@ -66,7 +66,7 @@ def main(arguments: Sequence[str]) -> None:
 def run_request(
     request: Request, keeper: RendererKeeper | None = None, scratch: Path | None = None
 ) -> Outcome:
-    """Return what becomes of a run; its folder stays if the request says so.
+    """Run one case and return its outcome, even after an error; its folder stays if asked for.
 
     Parameters
     ----------
@@ -135,7 +135,7 @@ def _summary(
 
 
 def _emptied(folder: Path) -> Path:
-    """Return a folder in which an earlier attempt at this run has left nothing."""
+    """Delete what an earlier attempt at this run left, and return its folder."""
     with suppress(FileNotFoundError):
         rmtree(folder)
     folder.parent.mkdir(parents=True, exist_ok=True)

@@ -27,6 +27,28 @@ class Sample(BaseModel):
         min_length=1, description="interval of each parameter, by its path"
     )
 
+    def points(self) -> list[dict[str, float]]:
+        """Return the points: a value of each parameter, by its path.
+
+        The same sample gives the same points, and a longer Sobol sequence begins with the shorter
+        one.
+        """
+        from scipy.stats import qmc
+
+        size = len(self.intervals)
+        if self.method == "sobol":
+            bits = max(self.count - 1, 1).bit_length()
+            shares = qmc.Sobol(size, rng=self.seed).random_base2(bits)[: self.count]
+        else:
+            shares = qmc.LatinHypercube(size, rng=self.seed).random(self.count)
+        return [
+            {
+                path: interval.at(float(share))
+                for (path, interval), share in zip(self.intervals.items(), row, strict=True)
+            }
+            for row in shares
+        ]
+
 
 class Specification(BaseModel):
     """All runs of a sweep: every scenario with every seed and every combination of the axes.

@@ -10,7 +10,7 @@ from typing import Any
 
 import pyarrow as pa
 
-from airhilt.metrics.columns import Column, column_of, metric_columns
+from airhilt.metrics.columns import Column, Kind, column_of, metric_columns
 from airhilt.sweep.cases import Case
 from airhilt.sweep.outcome import OF_THE_MACHINE, Machine, Outcome
 
@@ -25,6 +25,12 @@ ENDING = (
     Column("status", "string", "", "finished, or failed: it raised an error"),
     Column("cause", "string", "", "the error in one line; empty if it finished"),
 )
+
+
+def _of_machine(name: str, kind: Kind, unit: str) -> Column:
+    return Column(name, kind, unit, str(Machine.model_fields[name].description))
+
+
 MACHINE = (
     Column("key", "string", "", "key of the run in sweep.parquet"),
     Column(
@@ -35,21 +41,13 @@ MACHINE = (
         "over_memory, crashed",
     ),
     Column("cause", "string", "", "what ended it, in one line; empty if it finished"),
-    Column("wall_s", "float64", "s", str(Machine.model_fields["wall_s"].description)),
-    Column("cpu_s", "float64", "s", str(Machine.model_fields["cpu_s"].description)),
-    Column(
-        "peak_memory_mb", "float64", "MB", str(Machine.model_fields["peak_memory_mb"].description)
-    ),
-    Column("host", "string", "", str(Machine.model_fields["host"].description)),
-    Column("process", "int64", "", str(Machine.model_fields["process"].description)),
+    _of_machine("wall_s", "float64", "s"),
+    _of_machine("cpu_s", "float64", "s"),
+    _of_machine("peak_memory_mb", "float64", "MB"),
+    _of_machine("host", "string", ""),
+    _of_machine("process", "int64", ""),
     Column("folder", "string", "", "run folder in the sweep folder; empty if it was not kept"),
 )
-TYPES = {
-    "string": pa.string(),
-    "bool": pa.bool_(),
-    "int64": pa.int64(),
-    "float64": pa.float64(),
-}
 
 
 def part_schema() -> pa.Schema:
@@ -88,7 +86,7 @@ def tables_of(
 
 
 def grid_sha256(cases: Mapping[str, Case]) -> str:
-    """Return what tells the tables of one sweep from those of others: by runs and columns.
+    """Return the SHA-256 of the keys and parameters of a sweep, which identifies its tables.
 
     Parameters
     ----------
@@ -143,22 +141,22 @@ def _parameter_columns(cases: Sequence[Case], names: Mapping[str, str]) -> list[
     """Return a column for each parameter that is not among the first columns already."""
     known = {column.name for column in IDENTITY}
     return [
-        _parameter_column(name, [case.parameters.get(path) for case in cases])
+        column_of(
+            name, _kind(case.parameters.get(path) for case in cases), "parameter of the sweep"
+        )
         for path, name in names.items()
         if name not in known
     ]
 
 
-def _parameter_column(path: str, values: Sequence[Any]) -> Column:
+def _kind(values: Iterable[Any]) -> Kind:
+    """Return the type of a column of values."""
     kinds = {type(value) for value in values if value is not None}
-    description = "parameter of the sweep"
     if kinds == {bool}:
-        return column_of(path, "bool", description)
+        return "bool"
     if kinds == {int}:
-        return column_of(path, "int64", description)
-    if kinds and kinds <= {int, float}:
-        return column_of(path, "float64", description)
-    return column_of(path, "string", description)
+        return "int64"
+    return "float64" if kinds and kinds <= {int, float} else "string"
 
 
 def _table(columns: Sequence[Column], rows: Sequence[Mapping[str, Any]]) -> pa.Table:
@@ -167,15 +165,15 @@ def _table(columns: Sequence[Column], rows: Sequence[Mapping[str, Any]]) -> pa.T
         [
             pa.field(
                 column.name,
-                TYPES[column.type],
+                pa.type_for_alias(column.type),
                 metadata={"unit": column.unit, "description": column.description},
             )
             for column in columns
         ]
     )
     arrays = [
-        pa.array([_cell(row.get(column.name), column) for row in rows], TYPES[column.type])
-        for column in columns
+        pa.array([_cell(row.get(column.name), column) for row in rows], field.type)
+        for column, field in zip(columns, schema, strict=True)
     ]
     return pa.table(arrays, schema=schema)
 

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, get_args
+from typing import get_args
 
 import psutil
 
 from airhilt.engines import Package
 from airhilt.errors import AirhiltError
 from airhilt.host.child_process import available_cores
-from airhilt.sweep.clusters import LOCAL
 from airhilt.sweep.outcome import Keep
 from airhilt.sweep.runner_process import MEGABYTE, Limits
+from airhilt.sweep.scheduler import LOCAL
 
 RUN_MB = 600.0
 """Memory of a worker without cameras: its runner, and Dask's own process."""
@@ -31,10 +31,9 @@ class Work:
     out
         Folder of the sweep.
     scheduler
-        Cluster as the command line names it.
+        ``local``, the address of a Dask scheduler, or its scheduler file.
     workers
-        Number of workers to start, if the scheduler is not there already; None: as many as this
-        machine has cores and memory for.
+        Number of local workers; None: as many as this machine has cores and memory for.
     keep
         Runs whose folders stay.
     sample
@@ -52,7 +51,6 @@ class Work:
     limits: Limits = field(default_factory=Limits)
     workers: int | None = None
     scheduler: str = LOCAL
-    scheduler_config: Mapping[str, Any] | None = None
     keep: Keep = "none"
     sample: int = 0
     dashboard: str | None = None
@@ -97,16 +95,3 @@ def require_dashboard(address: str | None) -> None:
         raise AirhiltError(
             f"--dashboard {address}: Dask draws it with bokeh, which is missing: {bokeh.remedy()}"
         )
-
-
-def read_settings(path: Path | None) -> Mapping[str, Any] | None:
-    """Return the settings of a scheduler in a file, None without one.
-
-    Raises
-    ------
-    AirhiltError
-        It cannot be read, or holds something else than an object.
-    """
-    from airhilt.configuration import read_configuration
-
-    return None if path is None else read_configuration(path)

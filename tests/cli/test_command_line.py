@@ -57,7 +57,7 @@ def test_before_a_run_begins_a_person_is_told_that_its_folder_is_not_there_yet(
     monkeypatch.setattr("airhilt.cosim.simulation.run", begin)
     done = airhilt_command("cosim", "--scenario", encounter_file, "--out", "run")
     assert done.stderr.splitlines() == [
-        "airhilt: getting ready; a run that is killed before its folder is there leaves nothing",
+        "airhilt: starting; the run folder appears in a moment",
         "airhilt: begun",
     ]
     assert not (encounter_file.parent / "run").exists()
@@ -128,8 +128,6 @@ def test_doctor_finds_everything(airhilt_command: Any) -> None:
     [
         (("cosim", "--scenario", "s02a_haedon"), "did you mean 's02a_headon'?"),
         (("cosim", "--scenario", "none.json"), "no such file"),
-        (("cosim", "--scenario", "s02a_headon", "--pace", "fast"), "4x"),
-        (("cosim", "--scenario", "s02a_headon", "--latency", "slow"), "lognormal"),
         (("cosim", "--scenario", "s02a_headon", "--latency", "replay:x"), "no run here"),
         (("cosim", "--scenario", "s02a_headon", "--seed", "-1"), "expected 0 or more"),
         (("cosim", "--scenario", "s02a_headon", "--endpoint", "nonsense"), "tcp/127.0.0.1:7447"),
@@ -139,27 +137,13 @@ def test_doctor_finds_everything(airhilt_command: Any) -> None:
         ),
         (("cosim", "--scenario", "s02a_headon", "--attach", "a/*"), "worker name"),
         (("cosim", "--scenario", "s02a_headon", "--attach", "a", "--attach", "a"), "once"),
-        (("cosim", "--scenario", "s02a_headon", "--step-timeout", "nan"), "--step-timeout': nan"),
         (("cosim", "--scenario", "s02a_headon", "--snr", "nan"), "--snr': nan"),
-        (("cosim", "--scenario", "s02a_headon", "--snr", "99"), "60"),
-        (("cosim", "--scenario", "s02a_headon", "--visibility", "0"), "--visibility': 0"),
         (("cosim", "--scenario", "s02a_headon", "--visibility", "inf"), "100000"),
         (("cosim", "--scenario", "s02a_headon", "--radio-profile", "vfh"), "vhf, vhf_833, fading"),
-        (("cosim", "--scenario", "s02a_headon", "--topology", "serial"), "gated_fusion"),
-        (("cosim", "--scenario", "s02a_headon", "--radar", "tower"), "en_route"),
         (("cosim", "--scenario", "s02a_headon", "--asr", ""), "recogniser ''"),
-        (("cosim", "--scenario", "s02a_headon", "--tts", ""), "voice ''"),
-        *(
-            (("cosim", "--scenario", "s02a_headon", "--no-speech", option, "nonsense"), option)
-            for option in ("--asr", "--tts", "--radio-profile")
-        ),
-        (("cosim",), "--scenario"),
+        (("cosim", "--scenario", "s02a_headon", "--no-speech", "--tts", "nonsense"), "--tts"),
         (("replay", "nowhere"), "no run here"),
         (("report", "nowhere"), "neither a run nor a sweep"),
-        (
-            ("worker", "decision", "--connect", "tcp/127.0.0.1:9", "--patience", "0.3"),
-            "start the run first",
-        ),
     ],
 )
 def test_a_mistake_is_told_in_one_line_and_leaves_nothing_behind(
@@ -186,26 +170,12 @@ def test_an_unwritable_run_folder_is_named(airhilt_command: Any, tmp_path: Path)
     assert_is_a_users_mistake(done, "cannot be written", "--out")
 
 
-def test_a_run_is_not_overwritten_unless_asked(airhilt_command: Any, encounter_file: Path) -> None:
+def test_only_what_a_run_wrote_is_overwritten_and_only_if_asked(
+    airhilt_command: Any, encounter_file: Path
+) -> None:
     command = ("cosim", "--scenario", encounter_file, "--assistant", "none", "--out", "run")
     assert airhilt_command(*command).returncode == 0
     assert_is_a_users_mistake(airhilt_command(*command), "holds a run already", "--overwrite")
-    assert airhilt_command(*command, "--overwrite").returncode == 0
-
-
-def test_a_folder_with_other_files_is_never_overwritten(
-    airhilt_command: Any, tmp_path: Path
-) -> None:
-    (tmp_path / "mine").mkdir()
-    (tmp_path / "mine" / "thesis.txt").write_text("years of work")
-    done = airhilt_command("cosim", "--scenario", "s02a_headon", "--out", "mine", "--overwrite")
-    assert_is_a_users_mistake(done, "no run")
-    assert (tmp_path / "mine" / "thesis.txt").read_text() == "years of work"
-
-
-def test_only_what_a_run_wrote_is_overwritten(airhilt_command: Any, encounter_file: Path) -> None:
-    command = ("cosim", "--scenario", encounter_file, "--assistant", "none", "--out", "run")
-    assert airhilt_command(*command).returncode == 0
     kept = encounter_file.parent / "run" / "thesis.txt"
     kept.write_text("years of work")
     assert airhilt_command(*command, "--overwrite").returncode == 0

@@ -12,7 +12,6 @@ from airhilt.cli.main import cli
     ("typed", "last", "offered"),
     [
         ([], "rep", {"replay", "report"}),
-        (["cosim"], "--topo", {"--topology"}),
         (["cosim", "--topology"], "", {"asr_first", "parallel", "gated_fusion"}),
     ],
 )

@@ -98,8 +98,10 @@ def test_a_transcript_of_a_damaged_run_says_so(airhilt_command: Any, tmp_path: P
     assert "Damaged: log.mcap: damaged" in (tmp_path / "tower.txt").read_text()
 
 
-@pytest.mark.parametrize("content", [NESTED, NOT_UTF_8, b"[]", b""])
-@pytest.mark.parametrize("command", ["report", "replay", "listen", "compare"])
+@pytest.mark.parametrize(
+    ("command", "content"),
+    [("report", NESTED), ("replay", NOT_UTF_8), ("listen", b"[]"), ("compare", b"")],
+)
 def test_a_record_that_is_no_json_is_a_named_mistake(
     airhilt_command: Any, run_copy: Path, command: str, content: bytes
 ) -> None:
@@ -111,7 +113,7 @@ def test_a_record_that_is_no_json_is_a_named_mistake(
     assert "run.json: " in done.stderr
 
 
-@pytest.mark.parametrize("content", [NESTED, NOT_UTF_8, b"[]", b"\n\n", b'{"worker": "w"}\n'])
+@pytest.mark.parametrize("content", [NESTED, b'{"worker": "w"}\n'])
 def test_latencies_that_are_no_json_are_a_named_mistake(
     airhilt_command: Any, run_copy: Path, content: bytes
 ) -> None:
@@ -135,7 +137,7 @@ def test_a_page_says_from_where_on_latencies_cannot_be_read(
     assert "latency.jsonl cannot be read from line 3 on." in page
 
 
-@pytest.mark.parametrize("content", [NESTED, NOT_UTF_8, b"[]", b""])
+@pytest.mark.parametrize("content", [NESTED, b"[]"])
 def test_numbers_that_are_no_json_are_named_by_report_and_refused_by_compare(
     airhilt_command: Any, run_copy: Path, recorded_run: Path, content: bytes
 ) -> None:
@@ -163,11 +165,8 @@ def test_a_run_is_left_as_it_was_by_those_who_read_it(
     "changed",
     [
         {"actors": "AAL123"},
-        {"actors": [{}]},
         {"radio": {"lines": [1]}},
-        {"conflict": {"t_s": 3}},
         {"scene": {"airport": "mine.json"}, "files": {"mine.json": None}},
-        {"files": None},
     ],
 )
 def test_a_record_of_another_scenario_than_a_run_writes_is_a_named_mistake(
@@ -181,7 +180,7 @@ def test_a_record_of_another_scenario_than_a_run_writes_is_a_named_mistake(
     assert done.returncode == 0 or (done.returncode == 2 and "run.json: " in done.stderr)
 
 
-@pytest.mark.parametrize("data", [NESTED, NOT_UTF_8, b"[]", b"null", b'{"t_ns": true}'])
+@pytest.mark.parametrize("data", [NOT_UTF_8, b'{"t_ns": true}'])
 def test_a_report_leaves_out_a_message_that_no_run_writes(
     airhilt_command: Any, run_copy: Path, data: bytes
 ) -> None:
@@ -199,8 +198,15 @@ def test_a_report_leaves_out_a_message_that_no_run_writes(
     assert "left out" in (run_copy / "report.html").read_text()
 
 
-@pytest.mark.parametrize("name", ["log.mcap", "latency.jsonl", "summary.json"])
-@pytest.mark.parametrize("command", ["report", "replay", "compare", "verify"])
+@pytest.mark.parametrize(
+    ("command", "name"),
+    [
+        ("report", "log.mcap"),
+        ("replay", "latency.jsonl"),
+        ("compare", "summary.json"),
+        ("verify", "log.mcap"),
+    ],
+)
 def test_a_file_that_never_ends_is_not_read(
     airhilt_command: Any, run_copy: Path, command: str, name: str
 ) -> None:

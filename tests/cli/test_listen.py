@@ -169,17 +169,12 @@ def test_a_frequency_that_nobody_used_is_refused_with_those_in_use(recording: Re
         write_frequency(recording.close(), 121_500)
 
 
-def test_a_sound_file_that_was_exchanged_is_refused(recording: Recording) -> None:
+def test_a_sound_file_that_was_exchanged_or_is_gone_is_named(recording: Recording) -> None:
     recording.call("1", 0.0, 0.1)
     folder = recording.close()
     write_wav(folder / "audio" / "1.wav", np.full(16_000, 0.3, np.float32))
     with pytest.raises(RunFolderError, match=r"1\.wav: not the sound that the log vouches for"):
         write_frequency(folder)
-
-
-def test_a_sound_file_that_is_gone_is_named(recording: Recording) -> None:
-    recording.call("1", 0.0, 0.1)
-    folder = recording.close()
     (folder / "audio" / "1.wav").unlink()
     with pytest.raises(RunFolderError, match=r"1\.wav: cannot be read"):
         write_frequency(folder)
@@ -266,17 +261,10 @@ def test_sound_of_another_length_than_the_log_says_is_refused(
     assert not (tmp_path / "tower.wav").exists()
 
 
-@pytest.mark.parametrize("begin_s", [90_000.0, 1e9])
+@pytest.mark.parametrize("begin_s", [90_000.0, 9e9])
 def test_a_call_at_a_time_that_no_run_has_is_refused(
     recording: Recording, tmp_path: Path, begin_s: float
 ) -> None:
-    recording.call("1", 1.0, 0.1)
-    recording.call("2", begin_s, 0.2)
-    with pytest.raises(RunFolderError, match="2 has times that no run has"):
-        write_frequency(recording.close(), out=tmp_path / "tower.wav")
-
-
-def test_a_time_too_long_for_a_number_is_refused(recording: Recording, tmp_path: Path) -> None:
-    recording.silent_call("1", 9e9)
+    recording.silent_call("1", begin_s)
     with pytest.raises(RunFolderError, match="1 has times that no run has"):
         write_frequency(recording.close(), out=tmp_path / "tower.wav")

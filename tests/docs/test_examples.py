@@ -73,7 +73,13 @@ def is_possible(command: str) -> bool:
 
 
 EXAMPLES = [example for page in PAGES for example in examples(page)]
-PYTHON = [example for example in EXAMPLES if example.language == "python"]
+CLUSTERS = ("from dask_jobqueue", "from dask_kubernetes")
+PYTHON = [
+    one
+    for one in EXAMPLES
+    if one.language == "python" and not any(package in one.text for package in CLUSTERS)
+]
+"""Examples in Python; the recipe for SLURM has a test of its own, marked ``slurm``."""
 CHEAP_PYTHON = [one for one in PYTHON if not re.search(r"read_sweep\(|snapshot\(", one.text)]
 """Examples that neither read tables nor draw a picture."""
 

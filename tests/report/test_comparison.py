@@ -54,7 +54,7 @@ def test_two_assistants_are_paired_by_scenario_seed_and_parameters(tmp_path: Pat
     found = sweeps(folder, assistants=("paper", "reference"))
     assert found.paired_by == ("scenario", "seed", "snr_db")
     assert found.differing == {"assistant": ("paper", "reference")}
-    assert (found.pairs, found.alone_first, found.alone_second) == (3, 1, 6)
+    assert (found.pairs, found.without_partner) == (3, (1, 6))
     avoided = found_of(found, "avoided")
     assert avoided.difference.value == 100.0
     assert (avoided.test.only_first, avoided.test.only_second) == (0, 3)

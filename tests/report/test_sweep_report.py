@@ -89,12 +89,6 @@ def test_the_page_asks_for_nothing_from_elsewhere(written: Path) -> None:
     assert not re.search(r"""(src|href)=["'](?:https?:)?//""", text)
 
 
-def test_the_specification_keeps_its_lines(written: Path) -> None:
-    page = (written / "report.html").read_text()
-    (shown,) = re.findall(r"<pre[^>]*>(.*?)</pre>", page, re.DOTALL)
-    assert len(shown.splitlines()) > 3
-
-
 def test_no_text_of_a_run_becomes_markup(written: Path) -> None:
     text = (written / "report.html").read_text()
     assert "<script>alert" not in text
@@ -178,8 +172,7 @@ def test_many_values_are_put_into_bins_that_hold_each_of_them_once() -> None:
 @pytest.mark.parametrize(
     ("values", "unit", "is_logarithmic"),
     [([400.0, 800.0, 1600.0, 5000.0], "m", True), ([100.0, 200.0, 300.0], "m", False),
-     ([0.0, 10.0, 100.0], "m", False), ([1.0, 10.0, 100.0], "dB", False),
-     ([1.0, 100.0], "m", False)],
+     ([0.0, 10.0, 100.0], "m", False), ([1.0, 10.0, 100.0], "dB", False)],
 )  # fmt: skip
 def test_an_axis_is_logarithmic_where_its_levels_are(
     values: list[float], unit: str, is_logarithmic: bool
@@ -193,9 +186,8 @@ def test_a_parameter_that_a_run_leaves_to_its_scenario_is_at_no_level() -> None:
     assert axis._at(Level("0", 0.0)).tolist() == [True, False, False]
 
 
-@pytest.mark.parametrize(("number", "text"), [(0.0, "0"), (10000.0, "10000"), (0.25, "0.25")])
-def test_a_level_is_written_without_a_power_of_ten(number: float, text: str) -> None:
-    assert number_text(number) == text
+def test_a_level_is_written_without_a_power_of_ten() -> None:
+    assert [number_text(number) for number in (0.0, 10_000.0, 0.25)] == ["0", "10000", "0.25"]
 
 
 def test_the_overview_has_a_row_for_each_family_and_assistant(tmp_path: Path) -> None:

@@ -32,7 +32,7 @@ from airhilt.station.live import LiveRun
 from airhilt.station.pictures import Picture
 from airhilt.station.subscription import Sound
 from seats import state_of
-from stations import PATIENCE_S, PretendedRun, do, named, opened, seat_page, wish
+from stations import PATIENCE_S, PretendedRun, named, opened, seat_page, wish
 
 SECOND = 1_000_000_000
 TOWER_KHZ, GROUND_KHZ = 119_100, 121_700

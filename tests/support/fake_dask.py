@@ -87,5 +87,5 @@ class FakeClient:
 
     @contextmanager
     def connect(self, *_: object) -> Iterator[FakeClient]:
-        """Return itself: it stands for its cluster too."""
+        """Return itself, in the place of `airhilt.sweep.scheduler.connect`."""
         yield self

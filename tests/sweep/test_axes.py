@@ -19,16 +19,13 @@ from airhilt.sweep.axes import Interval, Range, listed, read_values
     [
         ("0:20:5", (0, 5, 10, 15, 20)),
         ("0:19:5", (0, 5, 10, 15)),
-        ("0:1:0.1", (0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1)),
-        ("-5:5:5", (-5, 0, 5)),
+        ("-0.1:0.2:0.1", (-0.1, 0, 0.1, 0.2)),
         ("7:7:1", (7,)),
         ("log:1:1000:4", (1, 10, 100, 1000)),
-        ("400,800,1600", (400, 800, 1600)),
-        ("reference, paper", ("reference", "paper")),
+        ("reference, 400", ("reference", 400)),
         ("true,false,null", (True, False, None)),
         ('["fixed,asr=fixed:2", "measured"]', ("fixed,asr=fixed:2", "measured")),
         ("lognormal:0.5", ("lognormal:0.5",)),
-        ("5", (5,)),
     ],
 )
 def test_what_a_person_writes_gives_values(text: str, values: tuple[object, ...]) -> None:
@@ -48,10 +45,8 @@ def test_two_numbers_are_an_interval_to_draw_from() -> None:
 @pytest.mark.parametrize(
     ("text", "problem"),
     [
-        ("", "one is empty"),
         ("1,,2", "one is empty"),
         ("20:0:5", "smaller end first"),
-        ("0:20:0", "greater than 0"),
         ("0:20:-5", "greater than 0"),
         ("0:1e9:0.001", "more than 1000000 values"),
         ("log:0:10:3", "positive"),

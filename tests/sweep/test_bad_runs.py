@@ -57,13 +57,13 @@ def test_each_bad_run_has_its_cause_and_the_others_are_done(
         },
         "test",
     )
-    work = Work(tmp_path / "sweep", Limits(wall_s=60.0, memory_mb=1500.0), workers=1)
+    work = Work(tmp_path / "sweep", Limits(wall_s=20.0, memory_mb=1500.0), workers=1)
     with installed(tmp_path, monkeypatch, "airhilt.assistants", "bad", ASSISTANT):
         result = sweep(specification, work, SweepObserver())
     causes = {row["status"]: row["cause"] for row in result.folder.machine().to_pylist()}
     assert causes.keys() == {"crashed", "over_memory", "over_time", "finished"}
     assert "signal 9" in causes["crashed"]
     assert "1500 MB (--run-memory)" in causes["over_memory"]
-    assert "60 s (--run-timeout)" in causes["over_time"]
+    assert "20 s (--run-timeout)" in causes["over_time"]
     (row,) = result.folder.table().to_pylist()
     assert (row["assistant"], row["status"]) == ("none", "finished"), "what any machine would give"

@@ -20,10 +20,9 @@ from airhilt.host.files import content_sha256
 from airhilt.scenario import Scenario
 from airhilt.sweep import files
 from airhilt.sweep.cases import Case, cases
-from airhilt.sweep.environment import Environment, environment, require_same
+from airhilt.sweep.environment import PACKAGE_FILES, Environment, environment, require_same
 from airhilt.sweep.files import NamedFiles
-from airhilt.sweep.other_packages import PACKAGE_FILES
-from airhilt.sweep.specification import Specification, specification_of
+from airhilt.sweep.specification import Sample, Specification, specification_of
 from engine_package import installed
 from shortened import shortened
 
@@ -99,15 +98,11 @@ def test_two_spellings_of_one_parameter_are_one() -> None:
         ({"axes": {"snr": [5]}}, "did you mean 'snr_db'"),
         ({"axes": {"actors.AAL12.initial.cas_kt": [5]}}, "did you mean 'AAL123'"),
         ({"axes": {"assistant.tau_as": [0.5]}}, "did you mean 'tau_asr'"),
-        ({"axes": {"snr_db": []}}, "at least 1 item"),
         ({"axes": {"seed": [1]}}, "--seeds"),
         ({"axes": {"out": ["/tmp"]}}, "belongs to one run"),
-        ({"seeds": [1.5]}, "expected integers"),
         ({"seeds": [-1]}, "expected integers"),
-        ({"scenarios": []}, "at least 1 item"),
         ({"axes": {"assistant": ["refrence"]}}, "did you mean 'reference'"),
         ({"axes": {"assistant.tau_asr": [0.5]}, "options": {"assistant": "none"}}, "do nothing"),
-        ({"axis": {}}, "axis"),
         ({"options": {"snr_dbb": 1}}, "unknown field; did you mean 'snr_db'"),
         ({"axes": {"name": ["other"]}}, "parameter name"),
     ],
@@ -115,19 +110,6 @@ def test_two_spellings_of_one_parameter_are_one() -> None:
 def test_what_cannot_be_run_is_refused_by_name(fields: dict[str, Any], problem: str) -> None:
     with pytest.raises(AirhiltError, match=problem):
         grid(**fields)
-
-
-def test_all_that_is_wrong_with_a_grid_is_told_at_once() -> None:
-    wrong: dict[str, list[JsonValue]] = {
-        "visibility_m": [-4, 0, -7],
-        "assistant": ["nobody"],
-        "actors.AAL123.initial.cas_kt": [9000],
-    }
-    with pytest.raises(AirhiltError) as told:
-        grid(axes=wrong)
-    lines = str(told.value).splitlines()
-    for found in ("found -4", "found 0", "found -7", "nobody", "cas_kt"):
-        assert any(found in line for line in lines), (found, lines)
 
 
 def test_a_grid_without_end_is_refused_before_it_is_made() -> None:
@@ -169,6 +151,7 @@ def test_all_values_that_a_scenario_refuses_are_told_at_once() -> None:
     told = str(refused.value)
     assert all(value in told for value in ("9000", "-3", "99"))
     assert "cas_kt=250, snr_db=0" not in told
+    assert all(line.count("s02a_headon") == 1 for line in told.splitlines())
 
 
 def test_all_values_that_a_run_would_refuse_are_told_at_once(tmp_path: Path) -> None:
@@ -207,25 +190,13 @@ def encounter_of_a_second(encounter: Scenario) -> Scenario:
     ("one", "other"),
     [
         ("actors.0.initial.cas_kt", "actors.AAL123.initial.cas_kt"),
-        ("actors.AAL123.initial", "actors.0.initial.cas_kt"),
         ("radio", "snr_db"),
-        ("weather", "visibility_m"),
         ("assistant.tau_asr", "assistant_config"),
     ],
 )
 def test_two_parameters_of_one_place_are_refused_by_name(one: str, other: str) -> None:
     with pytest.raises(AirhiltError, match=f"parameters {one} and {other}: one would replace"):
         grid(axes={one: [250], other: [260]})
-
-
-def test_no_assistant_named_is_the_one_that_a_run_has() -> None:
-    assert keys(grid(options={"assistant": None})) == keys(grid())
-
-
-def test_a_problem_names_its_scenario_once() -> None:
-    with pytest.raises(AirhiltError) as told:
-        grid(axes={"actors.AAL123.initial.cas_kt": [-5]})
-    assert str(told.value).count("s02a_headon") == 1
 
 
 def test_a_scenario_file_that_is_none_is_named(tmp_path: Path) -> None:
@@ -274,17 +245,8 @@ def test_whatever_changes_a_run_changes_its_key() -> None:
 
 
 def test_an_option_that_is_written_out_is_the_same_run() -> None:
+    assert keys(grid()) == keys(grid(options={"assistant": None}))
     assert keys(grid()) == keys(grid(axes={"assistant": ["reference"]}, options={"speech": True}))
-
-
-def test_a_model_that_was_trained_again_is_another_run(tmp_path: Path) -> None:
-    model = tmp_path / "mine.onnx"
-    found = []
-    for content in (b"one", b"two", b"one"):
-        model.write_bytes(content)
-        (case,) = grid(options={"asr": f"embedded:{model}"})
-        found.append(case.key(HERE))
-    assert found[0] == found[2] != found[1]
 
 
 def test_a_channel_that_a_scenario_names_is_part_of_the_key(tmp_path: Path) -> None:
@@ -362,9 +324,6 @@ def test_software_that_differs_is_told_by_name() -> None:
 def test_samples_lie_in_their_intervals_and_are_the_same_again(
     method: str, count: int, seed: int
 ) -> None:
-    from airhilt.sweep.sampling import points
-    from airhilt.sweep.specification import Sample
-
     sample = Sample.model_validate(
         {
             "method": method,
@@ -376,8 +335,8 @@ def test_samples_lie_in_their_intervals_and_are_the_same_again(
             },
         }
     )
-    found = list(points(sample))
-    assert found == list(points(sample))
+    found = sample.points()
+    assert found == sample.points()
     assert len(found) == count
     assert all(
         -5 <= point["snr_db"] <= 20 and 400 <= point["visibility_m"] <= 10_000 for point in found

@@ -35,7 +35,7 @@ def test_a_cause_may_tell_where_and_which() -> None:
 
 @pytest.mark.parametrize(
     "between",
-    [outcome("k"), outcome("k", "over_time", FULL), outcome("k", "crashed", "its process ended")],
+    [outcome("k", "over_time", FULL), outcome("k", "crashed", "its process ended")],
 )
 def test_anything_else_in_between_is_a_new_beginning(between: Outcome) -> None:
     half = crashed(count=SAME_CRASHES - 1)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -18,11 +17,10 @@ from airhilt.record.sweep_folder import SweepFolder
 from airhilt.scenario import Scenario
 from airhilt.sweep.axes import listed
 from airhilt.sweep.engine import SweepObserver, SweepResult
-from airhilt.sweep.evaluation import assistants
 from airhilt.sweep.evaluation.assistants import ASSISTANTS, shipped_scenarios
 from airhilt.sweep.evaluation.engine import Evaluation, evaluate
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
-from airhilt.sweep.evaluation.presets import FAMILY, full, paper
+from airhilt.sweep.evaluation.presets import full, paper
 from airhilt.sweep.evaluation.scores import (
     Baselines,
     avoided,
@@ -33,19 +31,8 @@ from airhilt.sweep.evaluation.scores import (
 from airhilt.sweep.evaluation.tables import Quantity, Table, number, share
 from airhilt.sweep.runner_process import Limits
 from airhilt.sweep.work import Work
-from airhilt.world.loading import load
 from shortened import shortened
 from sweep_tables import sweep_row, write_sweep
-
-
-@pytest.fixture(autouse=True, scope="module")
-def scenarios_read_once() -> Iterator[None]:
-    """Each test asks for all scenarios that ship, which take seconds to read."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(assistants, "load", kept := cache(load))
-        patch.setattr(paper, "load", kept)
-        yield
-
 
 NO_CAMERAS = Choice(1, {"cameras": False})
 EVERYTHING = Choice(1, {})
@@ -365,12 +352,6 @@ def test_tables_of_others_are_not_replaced(small: Preset, tmp_path: Path) -> Non
     with pytest.raises(AirhiltError, match=r"evaluation\.md of no evaluation"):
         evaluate(small, Choice(1, {}), Work(tmp_path), unwatched)
     assert (tmp_path / "evaluation.md").read_text() == "mine"
-
-
-def test_presets_are_found_by_their_names() -> None:
-    assert FAMILY.names() == ["full", "paper"]
-    with pytest.raises(AirhiltError, match="no preset named 'papre'; did you mean 'paper'"):
-        FAMILY.load("papre")
 
 
 def test_the_help_tells_the_limits_of_a_run() -> None:

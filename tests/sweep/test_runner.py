@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from airhilt import load
-from airhilt.errors import AirhiltError, RendererLost, ScenarioError, disk_failed
+from airhilt.errors import RendererLost, ScenarioError, disk_failed
 from airhilt.sensors.cameras.renderer_process import RendererProcess
 from airhilt.sweep import runner
 from airhilt.sweep.files import NamedFiles, require_planned
@@ -25,11 +25,9 @@ FULL = OSError(28, "No space left on device")
     ("error", "status"),
     [
         (disk_failed("log.mcap", FULL), "crashed"),
-        (FULL, "crashed"),
         (MemoryError(), "crashed"),
         (RendererLost("the process that draws has ended"), "crashed"),
         (ScenarioError("a speed that nothing flies"), "failed"),
-        (AirhiltError("an engine that is not there"), "failed"),
         (ZeroDivisionError(), "failed"),
     ],
 )

@@ -7,7 +7,6 @@ import shutil
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
-from types import SimpleNamespace
 from typing import Any, ClassVar
 
 import pytest
@@ -55,8 +54,7 @@ class Sweeps:
     ) -> tuple[SweepResult, list[str]]:
         """Return the result, and what the user is told."""
         client = fake or FakeClient(ends=ends)
-        family = SimpleNamespace(create=lambda *_, **__: client)
-        self._patch.setattr(engine, "FAMILY", family)
+        self._patch.setattr(engine, "connect", client.connect)
         observer = Noted()
         return sweep(first(seeds), Work(self.out, **work), observer), observer.notices
 
@@ -251,7 +249,7 @@ def test_runs_share_pictures_where_it_changes_nothing(
     options: dict[str, Any], shares: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     client = FakeClient(ends=finishes)
-    monkeypatch.setattr(engine, "FAMILY", SimpleNamespace(create=lambda *_, **__: client))
+    monkeypatch.setattr(engine, "connect", client.connect)
     monkeypatch.setattr(engine, "_own_environment", lambda *_: environment(""))
     asked = {"scenarios": ["s02a_headon"], "options": {"speech": False, **options}}
     sweep(specification_of(asked, "test"), Work(tmp_path / "sweep"))

@@ -4,18 +4,10 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
-from airhilt.cli.notices import tell
-
-FILE_WIDTH = 120
-"""Characters of a line where standard output is no terminal."""
-
-if TYPE_CHECKING:
-    from airhilt.report.comparison.runs import RunComparison
-    from airhilt.report.comparison.sweeps import SweepComparison
+from airhilt.cli.output import tell
 
 
 def _pair(
@@ -67,25 +59,13 @@ def compare(
     if as_json:
         click.echo(json.dumps(found.as_json(), indent=2))
     else:
-        _print(found)
+        from airhilt.cli.comparison_tables import print_comparison
+
+        print_comparison(found)
     if out is not None:
         from airhilt.report.comparison.page import write_comparison
 
         click.echo(write_comparison(found, out), err=as_json)
-
-
-def _print(found: RunComparison | SweepComparison) -> None:
-    from rich.console import Console
-    from rich.text import Text
-
-    from airhilt.cli.comparison_tables import tables
-    from airhilt.text import LONGEST_LINE, readable
-
-    console = Console(highlight=False)
-    if not console.is_terminal:
-        console.width = FILE_WIDTH
-    for each in tables(found):
-        console.print(Text(readable(each, LONGEST_LINE)) if isinstance(each, str) else each)
 
 
 COMMAND = compare

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from airhilt.cli.notices import tell
-from airhilt.cli.output import echo_json
+from airhilt.cli.output import echo_json, tell
 from airhilt.cli.parameters import allow_path_option
 from airhilt.cli.station_flags import (
     PageOptions,
@@ -74,24 +72,28 @@ def cosim(
     **_: object,
 ) -> None:
     """Run a scenario and leave a run folder."""
+    from airhilt.cli.live_page import live_page
     from airhilt.cli.progress import ProgressLine, print_summary
     from airhilt.cli.run_flags import options_given
     from airhilt.cosim.setup import check_given
     from airhilt.cosim.simulation import run
+    from airhilt.scenario.seats import seats_of
     from airhilt.world.loading import load
 
     options = options_given(context)
-    if not view and not options.seat:
+    has_page = view or bool(options.seat)
+    if not has_page:
         refuse_page_options("--view or --seat")
     loaded = load(scenario, allowed)
-    if view or options.seat:
+    if has_page:
         options = _for_page(loaded, options)
         page.address()  # The process of the page would complain too late.
     check_given(loaded, options)
     with ExitStack() as stack:
-        if view or options.seat:
-            _serve_page(loaded, options, stack, page.arguments())
-        tell("getting ready; a run that is killed before its folder is there leaves nothing")
+        if has_page:
+            seats = seats_of(options.seat, loaded)
+            stack.enter_context(live_page(options.endpoint, options.tls, seats, page.arguments()))
+        tell("starting; the run folder appears in a moment")
         with ProgressLine(scenario) as progress:
             result = run(loaded, options, progress)
         if as_json:
@@ -112,17 +114,6 @@ def _for_page(scenario: Scenario, options: Options) -> Options:
     if any(actor.callsign in seats for actor in scenario.actors):
         options = options.model_copy(update={"cockpit": True})
     return options
-
-
-def _serve_page(
-    scenario: Scenario, options: Options, stack: ExitStack, arguments: Sequence[str]
-) -> None:
-    """Serve the page of a run, with arguments of `airhilt view`, until the stack is closed."""
-    from airhilt.cli.live_page import live_page
-    from airhilt.scenario.seats import seats_of
-
-    seats = seats_of(options.seat, scenario)
-    stack.enter_context(live_page(options.endpoint, options.tls, seats, arguments))
 
 
 COMMAND = cosim

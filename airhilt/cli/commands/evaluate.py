@@ -10,9 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from airhilt.cli.notices import tell
-from airhilt.cli.output import echo
-from airhilt.cli.words import counted
+from airhilt.cli.output import counted, echo, tell
 from airhilt.cli.work_flags import work_flags, work_given
 
 if TYPE_CHECKING:

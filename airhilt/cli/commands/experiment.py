@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from airhilt.cli.notices import tell
+from airhilt.cli.output import tell, tell_page
 from airhilt.cli.station_flags import PageOptions, refuse_page_options, station_options
 
 if TYPE_CHECKING:
@@ -69,7 +69,7 @@ def experiment(
 
         team = [Progress(plan, folder, name) for name in plan.team_of(participant)]
         app = experiment_app(Conductor(team, page.of_another_page()))
-        serve(app, address, opened=_opened, notice=tell, browser=not page.no_browser)
+        serve(app, address, opened=tell_page, notice=tell, browser=not page.no_browser)
     teams = plan.teams if participant is None else (plan.team_of(participant),)
     for name in chain(*teams):
         progress = Progress(plan, folder, name)
@@ -88,10 +88,6 @@ def experiment(
 
 def _shown(progress: Progress, trial: Trial) -> str:
     return f"{trial.name} (done)" if progress.is_done(trial) else trial.name
-
-
-def _opened(url: str) -> None:
-    click.echo(f"{url}   (end with Ctrl+C)")
 
 
 COMMAND = experiment

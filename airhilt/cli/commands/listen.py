@@ -7,8 +7,7 @@ from pathlib import Path
 
 import click
 
-from airhilt.cli.notices import tell
-from airhilt.cli.output import echo
+from airhilt.cli.output import echo, tell
 
 
 @click.command(

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from airhilt.cli.notices import tell
-from airhilt.cli.words import counted
+from airhilt.cli.output import counted, tell
 from airhilt.errors import AirhiltError
 from airhilt.host.files import replace_file
 

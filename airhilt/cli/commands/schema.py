@@ -7,7 +7,7 @@ from typing import Any
 
 import click
 
-from airhilt.cli.notices import tell
+from airhilt.cli.output import tell
 
 
 @click.command(
@@ -19,7 +19,6 @@ Examples:
   airhilt schema --assistant reference
   airhilt schema --sweep > sweep.schema.json
   airhilt schema --experiment > plan.schema.json
-  airhilt schema --scheduler slurm
 """
 )
 @click.option("--scenario", is_flag=True, help="The schema of scenario files instead.")
@@ -29,23 +28,18 @@ Examples:
 )
 @click.option("--sweep", is_flag=True, help="The schema of sweep files instead.")
 @click.option("--experiment", is_flag=True, help="The schema of plans of experiments instead.")
-@click.option(
-    "--scheduler", metavar="NAME", help="The schema of a scheduler's configuration instead."
-)
 def schema(
     scenario: bool,
     services: bool,
     assistant: str | None,
     sweep: bool,
     experiment: bool,
-    scheduler: str | None,
 ) -> None:
     """Print the JSON Schemas of all messages on the bus."""
-    given = (scenario, services, assistant is not None, sweep, experiment, scheduler is not None)
+    given = (scenario, services, assistant is not None, sweep, experiment)
     if sum(given) > 1:
         raise click.UsageError(
-            "--scenario, --services, --assistant, --sweep, --experiment, --scheduler: expected one "
-            "of them"
+            "--scenario, --services, --assistant, --sweep, --experiment: expected one of them"
         )
     document: dict[str, Any]
     if services:
@@ -56,10 +50,6 @@ def schema(
         from airhilt.assistant.decision.engines import FAMILY as ASSISTANTS
 
         document = ASSISTANTS.configuration_model(assistant).model_json_schema()
-    elif scheduler is not None:
-        from airhilt.sweep.clusters import FAMILY as SCHEDULERS
-
-        document = SCHEDULERS.configuration_model(scheduler).model_json_schema()
     elif sweep:
         from airhilt.sweep.specification import Specification
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from airhilt.cli.notices import tell
+from airhilt.cli.output import tell, tell_page
 from airhilt.cli.station_flags import PageOptions, station_options
 
 FOLDER = click.Path(path_type=Path, file_okay=False)
@@ -55,16 +55,12 @@ def station(page: PageOptions, runs: Path, scenarios: tuple[Path, ...]) -> None:
     debriefs = Debriefs(runs.resolve(), started.state_of, page.of_another_page())
     app = home_app(ScenarioChoices(scenarios), started, debriefs, [*ASSISTANTS.names(), "none"])
     try:
-        serve(app, address, opened=_opened, notice=tell, browser=not page.no_browser)
+        serve(app, address, opened=tell_page, notice=tell, browser=not page.no_browser)
     finally:
         debriefs.close()
         for run in started.runs():
             if started.state(run) != "ended":
                 tell(f"{run.name} goes on; kill -INT {run.process} ends it")
-
-
-def _opened(url: str) -> None:
-    click.echo(f"{url}   (end with Ctrl+C)")
 
 
 COMMAND = station

@@ -11,7 +11,7 @@ from typing import Any
 
 import click
 
-from airhilt.cli.notices import tell
+from airhilt.cli.output import tell
 from airhilt.cli.parameters import allow_path_option
 from airhilt.cli.work_flags import work_flags, work_given
 

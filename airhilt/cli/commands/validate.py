@@ -6,8 +6,7 @@ from pathlib import Path
 
 import click
 
-from airhilt.cli.notices import tell
-from airhilt.cli.output import echo
+from airhilt.cli.output import echo, tell
 from airhilt.cli.parameters import allow_path_option
 from airhilt.errors import AirhiltError, ScenarioError
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from airhilt.cli.notices import tell
+from airhilt.cli.output import tell, tell_page
 from airhilt.cli.station_flags import (
     PageOptions,
     station_options,
@@ -91,7 +91,7 @@ def _show_recorded(run_folders: Sequence[Path], address: Address, browser: bool)
             debriefs.append(Debrief(open_run(folder, tell)))
             stack.callback(debriefs[-1].close)
         app = debrief_app(debriefs[0]) if len(debriefs) == 1 else two_debriefs_app(debriefs)
-        serve(app, address, opened=_opened, notice=tell, browser=browser)
+        serve(app, address, opened=tell_page, notice=tell, browser=browser)
 
 
 def _show_live(
@@ -132,15 +132,11 @@ def _show_live(
         serve(
             live_app(subscription, browsers),
             address,
-            opened=_opened,
+            opened=tell_page,
             notice=refused,
             browser=browser,
             is_over=lambda: run.is_over and browsers.has_been_empty(LINGER_S),
         )
-
-
-def _opened(url: str) -> None:
-    click.echo(f"{url}   (end with Ctrl+C)")
 
 
 COMMAND = view

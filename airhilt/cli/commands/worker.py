@@ -6,7 +6,6 @@ from pathlib import Path
 
 import click
 
-from airhilt.cli.parameters import SECONDS
 from airhilt.engine_families import FAMILIES
 
 
@@ -44,7 +43,7 @@ Examples:
 @click.option("--name", default=None, help="Name of the worker.  [default: its kind]")
 @click.option(
     "--patience",
-    type=SECONDS,
+    type=click.FloatRange(0.0, 86_400.0, min_open=True),
     default=30.0,
     show_default=True,
     metavar="SECONDS",

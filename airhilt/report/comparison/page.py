@@ -52,10 +52,9 @@ def write_comparison(comparison: RunComparison | SweepComparison, page: Path) ->
 
 
 def _of_sweeps(comparison: SweepComparison, figures: Figures) -> Json:
-    drawn = _draw(comparison, figures)
     return {
         **comparison.as_json(),
-        "drawn": drawn,
+        "drawn": _draw(comparison, figures),
         "families": [
             {"name": name, "rows": [measure_row(each) for each in found]}
             for name, found in comparison.families.items()

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import asdict, dataclass
+from typing import Any, ClassVar
 
 from airhilt.errors import AirhiltError
 from airhilt.metrics.columns import Value, metric_columns, metrics_of
@@ -45,7 +45,7 @@ class RunComparison:
         Options that differ: name, and the value of each run.
     metrics
         The metrics that differ.
-    equal
+    equal_metrics
         Number of metrics that both have with the same value.
     parted_s
         Time of the first event that only one of the runs has, None if all are the same.
@@ -57,23 +57,14 @@ class RunComparison:
     second: str
     settings: dict[str, tuple[str, str]]
     metrics: list[MetricDifference]
-    equal: int
+    equal_metrics: int
     parted_s: float | None
     events: tuple[list[Json], list[Json]]
-    kind: str = "runs"
+    kind: ClassVar = "runs"
 
     def as_json(self) -> Json:
         """Return the comparison for scripts."""
-        return {
-            "kind": self.kind,
-            "first": self.first,
-            "second": self.second,
-            "settings": {name: list(values) for name, values in self.settings.items()},
-            "metrics": [vars(each) for each in self.metrics],
-            "equal_metrics": self.equal,
-            "parted_s": self.parted_s,
-            "events": [*self.events],
-        }
+        return {"kind": self.kind, **asdict(self)}
 
 
 def compare_runs(first: Run, second: Run, names: tuple[str, str]) -> RunComparison:
@@ -103,7 +94,7 @@ def compare_runs(first: Run, second: Run, names: tuple[str, str]) -> RunComparis
             )
             for name in differing
         ],
-        equal=sum(rows[0][name] == rows[1][name] is not None for name in rows[0]),
+        equal_metrics=sum(rows[0][name] == rows[1][name] is not None for name in rows[0]),
         parted_s=parted_s,
         events=events,
     )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
@@ -92,8 +92,8 @@ class SweepComparison:
     draws
         Number of scenarios with a seed that the pairs are of. Pairs of one draw, which differ in
         other parameters, depend on each other and count as one group.
-    alone_first, alone_second
-        Number of runs without a partner.
+    without_partner
+        Number of runs of each side without a partner.
     families
         The differences by family; first of all families if there are more.
     """
@@ -104,22 +104,15 @@ class SweepComparison:
     differing: dict[str, tuple[str, str]]
     pairs: int
     draws: int
-    alone_first: int
-    alone_second: int
+    without_partner: tuple[int, int]
     families: dict[str, list[MeasureDifference]]
-    kind: str = "sweeps"
+    kind: ClassVar = "sweeps"
 
     def as_json(self) -> Json:
         """Return the comparison for scripts."""
         return {
             "kind": self.kind,
-            "first": self.first,
-            "second": self.second,
-            "paired_by": list(self.paired_by),
-            "differing": {name: list(values) for name, values in self.differing.items()},
-            "pairs": self.pairs,
-            "draws": self.draws,
-            "without_partner": [self.alone_first, self.alone_second],
+            **vars(self),
             "families": {
                 name: [each.as_json() for each in found] for name, found in self.families.items()
             },
@@ -153,8 +146,7 @@ def compare_sides(first: Side, second: Side) -> SweepComparison:
         differing=differing,
         pairs=len(pairs),
         draws=pairs.groupby(list(ALWAYS)).ngroups,
-        alone_first=len(first.runs) - len(pairs),
-        alone_second=len(second.runs) - len(pairs),
+        without_partner=(len(first.runs) - len(pairs), len(second.runs) - len(pairs)),
         families=_by_family(pairs),
     )
 

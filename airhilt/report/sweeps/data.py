@@ -32,14 +32,6 @@ ALL_FAMILIES = "all"
 """Name of the group of all scenarios."""
 
 
-@dataclass(frozen=True)
-class ColumnInfo:
-    """Unit and meaning of a column, as the file has them."""
-
-    unit: str
-    description: str
-
-
 @dataclass
 class SweepData:
     """One sweep.
@@ -55,7 +47,7 @@ class SweepData:
     machine
         Rows of ``machine.parquet``: all runs.
     columns
-        The columns of `runs`, by name.
+        ``unit`` and ``description`` of the columns of `runs`, by name.
     parameters
         Names of the columns that are parameters of the grid.
     page
@@ -68,7 +60,7 @@ class SweepData:
     info: Json
     runs: DataFrame
     machine: DataFrame
-    columns: dict[str, ColumnInfo]
+    columns: dict[str, dict[str, str]]
     parameters: tuple[str, ...]
     page: Path
     notes: list[str] = field(default_factory=list)
@@ -86,7 +78,8 @@ class SweepData:
     def axes(self) -> list[Axis]:
         """Return the parameters that have more than one value, and the assistant if it has."""
         names = ("assistant", *self.parameters)
-        found = (axis_of(name, self.finished[name], self._unit(name)) for name in names)
+        finished = self.finished
+        found = [axis_of(name, finished[name], self.columns[name]["unit"]) for name in names]
         return [axis for axis in found if len(axis.levels) > 1]
 
     def families(self) -> list[tuple[str, DataFrame]]:
@@ -109,9 +102,6 @@ class SweepData:
         """Return the address of a file in the sweep folder, as the page has to give it."""
         return Path(os.path.relpath(path, self.page.absolute().parent)).as_posix()
 
-    def _unit(self, name: str) -> str:
-        return self.columns[name].unit
-
 
 def _families(runs: DataFrame) -> Series:
     """Return the family of each run, with a name for those that have none."""
@@ -126,15 +116,14 @@ def read_sweep_data(folder: SweepFolder, page: Path) -> SweepData:
     AirhiltError
         A table is not there, is damaged, or is not one of a sweep.
     """
-    info, table, machine = folder.info(), folder.table(), folder.machine()
-    parameters = parameters_of(table, str(folder.table_path))
+    info, table = folder.info(), folder.table()
     return SweepData(
         folder=folder,
         info=info,
         runs=frame_of(table),
-        machine=frame_of(machine),
-        columns={each.name: _column_info(each) for each in table.schema},
-        parameters=parameters,
+        machine=frame_of(folder.machine()),
+        columns={each.name: _meaning(each) for each in table.schema},
+        parameters=parameters_of(table, str(folder.table_path)),
         page=page,
         notes=[*(f"Damaged: {line}." for line in folder.damage()), *_notes(table)],
     )
@@ -173,6 +162,6 @@ def parameters_of(table: pa.Table, origin: str) -> tuple[str, ...]:
     return tuple(names[first : names.index(AFTER_PARAMETERS)])
 
 
-def _column_info(column: pa.Field) -> ColumnInfo:
-    given = {key.decode(): value.decode() for key, value in (column.metadata or {}).items()}
-    return ColumnInfo(given.get("unit", ""), given.get("description", ""))
+def _meaning(column: pa.Field) -> dict[str, str]:
+    given = column.metadata or {}
+    return {name: given.get(name.encode(), b"").decode() for name in ("description", "unit")}

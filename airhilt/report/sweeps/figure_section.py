@@ -2,31 +2,15 @@
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
-from pydantic.dataclasses import dataclass
-
 from airhilt.report.sweeps.data import SweepData
-from airhilt.report.sweeps.sections import SweepSection
 
 Json = dict[str, Any]
 
-HERE = Path(__file__)
+HERE = __file__
+"""Module of the sections of figures: their template and script are those beside it."""
 PX_PER_IN = 96.0
-
-
-@dataclass(frozen=True)
-class FigureSection(SweepSection):
-    """A section of figures; its template and script are those beside this module."""
-
-    def template(self) -> str:
-        """Return the Jinja template."""
-        return HERE.with_suffix(".html").read_text("utf-8")
-
-    def script(self) -> str:
-        """Return the script."""
-        return HERE.with_suffix(".js").read_text("utf-8")
 
 
 def figure_json(

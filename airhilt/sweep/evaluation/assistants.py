@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fnmatch import fnmatch
+from functools import cache
 from typing import Literal
 
 from airhilt.host import library
@@ -72,8 +73,9 @@ ASSISTANTS = (
 """Assistants that are compared, in the order of the tables."""
 
 
+@cache
 def shipped_scenarios() -> Mapping[str, Scenario]:
-    """Return the scenarios that ship with AIRHILT, by name."""
+    """Return the scenarios that ship with AIRHILT, by name, sorted; they are read once."""
     return {
         name: load(library.find("scenarios", name)) for name in sorted(library.names("scenarios"))
     }

@@ -117,12 +117,10 @@ def evaluate(
             if observer.stops:
                 return None
     rows = {name: _finished(each) for name, each in sweeps.items()}
-    absent = (
-        *_absent({name: each.failed for name, each in sweeps.items()}, "failed"),
-        *_absent({name: each.missing for name, each in sweeps.items()}, "did not begin"),
-    )
+    failed = _absent({name: each.failed for name, each in sweeps.items()}, "failed")
+    missing = _absent({name: each.missing for name, each in sweeps.items()}, "did not begin")
     tables = tuple(
-        table.model_copy(update={"notes": (*table.notes, *absent)})
+        table.model_copy(update={"notes": (*table.notes, *failed, *missing)})
         for table in preset.tables(Results(choice, rows))
     )
     evaluation = Evaluation(work.out, preset.name, choice, sweeps, tables)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -21,11 +21,6 @@ class Quantity(BaseModel):
     high: float | None = Field(description="upper end of the interval")
     n: int = Field(description="number of runs that it rests on")
     text: str = Field(description="how tables write it")
-
-    @classmethod
-    def of(cls, found: Estimate, text: str) -> Quantity:
-        """Return an estimate with its text."""
-        return cls(value=found.value, low=found.low, high=found.high, n=found.n, text=text)
 
 
 Cell = Quantity | int | str
@@ -55,37 +50,35 @@ class Table(BaseModel):
 
 def share(found: Estimate) -> Quantity:
     """Return a share of runs as a cell: ``13 of 18 (49 to 88 %)``."""
-    if found.value is None:
-        return Quantity.of(found, NOTHING)
-    text = f"{round(found.value * found.n)} of {found.n}"
-    if found.low is not None and found.high is not None:
-        text += f" ({100.0 * found.low:.0f} to {100.0 * found.high:.0f} %)"
-    return Quantity.of(found, text)
-
-
-def number(found: Estimate, digits: int = 1) -> Quantity:
-    """Return a number as a cell: ``7.4 (7.3 to 7.6)``."""
-    if found.value is None:
-        return Quantity.of(found, NOTHING)
-    text = _rounded(found.value, digits)
-    if found.low is not None and found.high is not None:
-        text += f" ({_rounded(found.low, digits)} to {_rounded(found.high, digits)})"
-    return Quantity.of(found, text)
+    return _quantity(found, lambda value: f"{round(value * found.n)} of {found.n}", _percent, " %")
 
 
 def percent(found: Estimate) -> Quantity:
     """Return a share that is not one of runs as a cell: ``72 % (49 to 88 %)``."""
-    if found.value is None:
-        return Quantity.of(found, NOTHING)
-    text = f"{100.0 * found.value:.0f} %"
-    if found.low is not None and found.high is not None:
-        text += f" ({100.0 * found.low:.0f} to {100.0 * found.high:.0f} %)"
-    return Quantity.of(found, text)
+    return _quantity(found, lambda value: f"{_percent(value)} %", _percent, " %")
 
 
-def _rounded(value: float, digits: int) -> str:
-    """Return a number with some digits; zero has no sign."""
-    return f"{round(value, digits) + 0.0:.{digits}f}"
+def number(found: Estimate, digits: int = 1) -> Quantity:
+    """Return a number as a cell: ``7.4 (7.3 to 7.6)``; zero has no sign."""
+
+    def written(value: float) -> str:
+        return f"{round(value, digits) + 0.0:.{digits}f}"
+
+    return _quantity(found, written, written)
+
+
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.0f}"
+
+
+def _quantity(
+    found: Estimate, value: Callable[[float], str], end: Callable[[float], str], unit: str = ""
+) -> Quantity:
+    """Return an estimate with its text: its value, and the ends of its interval in brackets."""
+    text = NOTHING if found.value is None else value(found.value)
+    if found.value is not None and found.low is not None and found.high is not None:
+        text += f" ({end(found.low)} to {end(found.high)}{unit})"
+    return Quantity(value=found.value, low=found.low, high=found.high, n=found.n, text=text)
 
 
 def _text(cell: Cell) -> str:

@@ -9,7 +9,8 @@ from airhilt.metrics.measures import AVOIDED, IN_TIME, NOMINAL_NUISANCE, NUISANC
 from airhilt.report.figures import COLOURS, INK, Figures
 from airhilt.report.sweeps.axes import Axis, axis_of
 from airhilt.report.sweeps.data import SweepData
-from airhilt.report.sweeps.figure_section import FigureSection, figure_json, section_json
+from airhilt.report.sweeps.figure_section import HERE, figure_json, section_json
+from airhilt.report.sweeps.sections import SweepSection
 from airhilt.report.sweeps.words import number, short
 
 if TYPE_CHECKING:
@@ -124,4 +125,4 @@ def _bars(axes: Axes, measure: Measure, bars: list[Estimate], place: int, among:
                       fontsize=7.5)  # fmt: skip
 
 
-SECTION = FigureSection("ablation", order=25, module=__file__, content=content)
+SECTION = SweepSection("ablation", order=25, module=HERE, content=content)

@@ -21,7 +21,8 @@ from airhilt.metrics.measures import (
 from airhilt.report.figures import COLOURS, MARKERS, Figures
 from airhilt.report.sweeps.axes import Axis, Level
 from airhilt.report.sweeps.data import SweepData
-from airhilt.report.sweeps.figure_section import FigureSection, figure_json, section_json
+from airhilt.report.sweeps.figure_section import HERE, figure_json, section_json
+from airhilt.report.sweeps.sections import SweepSection
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -107,4 +108,4 @@ def _curve(axes: Axes, place: int, assistant: str, curve: Curve) -> None:
     axes.fill_between(xs, found[:, 1], found[:, 2], color=colour, alpha=0.16, linewidth=0)
 
 
-SECTION = FigureSection("curves", order=40, module=__file__, content=content)
+SECTION = SweepSection("curves", order=40, module=HERE, content=content)

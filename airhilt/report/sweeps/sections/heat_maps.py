@@ -18,7 +18,8 @@ from airhilt.metrics.measures import (
 from airhilt.report.figures import DIM, PANEL, Figures
 from airhilt.report.sweeps.axes import Axis, heat_map_axes
 from airhilt.report.sweeps.data import SweepData
-from airhilt.report.sweeps.figure_section import FigureSection, figure_json, section_json
+from airhilt.report.sweeps.figure_section import HERE, figure_json, section_json
+from airhilt.report.sweeps.sections import SweepSection
 from airhilt.report.sweeps.words import short
 
 if TYPE_CHECKING:
@@ -152,4 +153,4 @@ def _square(axes: Axes, column: int, row: int, colour: tuple[float, float, float
     )
 
 
-SECTION = FigureSection("heat_maps", order=30, module=__file__, content=content)
+SECTION = SweepSection("heat_maps", order=30, module=HERE, content=content)

@@ -73,8 +73,7 @@ def content(sweep: SweepData, figures: Figures) -> dict[str, Any]:  # noqa: ARG0
         "columns": [
             {
                 "name": name,
-                "description": sweep.columns[name].description,
-                "unit": sweep.columns[name].unit,
+                **sweep.columns[name],
                 "shown": name in always,
                 "is_parameter": name in sweep.parameters or name in BEFORE_PARAMETERS,
                 "values": _values(runs[name]),

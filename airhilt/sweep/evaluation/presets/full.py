@@ -66,16 +66,10 @@ def tables(results: Results) -> Sequence[Table]:
     """Return the tables: families, harms, severities, modalities, topologies."""
     rows = results.rows
     baselines = Baselines.of(rows[NONE], rows["well_clear"])
-    return tuple(_tables(results, baselines))
-
-
-def _tables(results: Results, baselines: Baselines) -> Iterator[Table]:
-    yield _families(results, baselines)
-    yield _harms(results, baselines)
-    yield _severities(results, baselines)
-    yield _modalities(results, baselines)
-    if TOPOLOGIES in results.rows:
-        yield _topologies(results, baselines)
+    makers = [_families, _harms, _severities, _modalities]
+    if TOPOLOGIES in rows:
+        makers.append(_topologies)
+    return tuple(make(results, baselines) for make in makers)
 
 
 def _families(results: Results, baselines: Baselines) -> Table:
@@ -107,7 +101,8 @@ def _notes(results: Results) -> Iterator[str]:
         left_out = [
             name
             for name, one in scenarios.items()
-            if not each.applies_to(one) and _of_scenario_family(results, each.name, one.family)
+            if not each.applies_to(one)
+            and any(row["family"] == one.family for row in results.rows[each.name])
         ]
         if left_out:
             yield f"`{each.name}` does not apply to {', '.join(f'`{name}`' for name in left_out)}."
@@ -116,10 +111,6 @@ def _notes(results: Results) -> Iterator[str]:
             "Without cameras: who has no transponder (S01C, S02C, `s01b_dropped_hold`) is known by "
             "radio calls alone, if at all."
         )
-
-
-def _of_scenario_family(results: Results, sweep: str, family: str) -> bool:
-    return any(row["family"] == family for row in results.rows[sweep])
 
 
 def _harms(results: Results, baselines: Baselines) -> Table:

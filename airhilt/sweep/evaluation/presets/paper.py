@@ -9,14 +9,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from airhilt.cosim.latency_presets import ASR_S, TTS_S, VISION_S
-from airhilt.host import library
 from airhilt.metrics.estimates import median_of
+from airhilt.sweep.evaluation.assistants import shipped_scenarios
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results, Row
 from airhilt.sweep.evaluation.scores import known, mean, share
 from airhilt.sweep.evaluation.tables import NOTHING, Cell, Table, number
 from airhilt.sweep.evaluation.tables import share as share_cell
 from airhilt.sweep.specification import Specification
-from airhilt.world.loading import load
 
 FAMILY = "S01A"
 SWEEP = "s01a"
@@ -37,8 +36,8 @@ def specifications(choice: Choice) -> Mapping[str, Specification]:
 
 def variants() -> list[str]:
     """Return the names of the scenarios of the family that have a conflict."""
-    loaded = {name: load(library.find("scenarios", name)) for name in library.names("scenarios")}
-    return [name for name, one in loaded.items() if one.family == FAMILY and one.conflict]
+    scenarios = shipped_scenarios().items()
+    return [name for name, one in scenarios if one.family == FAMILY and one.conflict]
 
 
 def tables(results: Results) -> Sequence[Table]:
