@@ -191,18 +191,19 @@ def started_renderers(
             and "vision" in options.given_modalities
         )
     )
-    links: list[RendererLink] = []
-    if options.cameras and scenario.cameras and (may_look or recorded.has_pictures):
-        with suppress(OSError):  # It is started again when it is asked, which says what is wrong.
-            if keeper is not None:
-                links.append(keeper.link())
-            else:
-                _start_renderers(links, scenario, options)
-    try:
+    with ExitStack() as stack:
+        links: list[RendererLink] = []
+        if options.cameras and scenario.cameras and (may_look or recorded.has_pictures):
+            with suppress(
+                OSError
+            ):  # It is started again when it is asked: that says what is wrong.
+                if keeper is not None:
+                    links.append(keeper.link())
+                else:
+                    for link in _start_renderers(scenario, options):
+                        stack.callback(link.close)
+                        links.append(link)
         yield links
-    finally:
-        for link in links:
-            link.release()
 
 
 @contextmanager
@@ -241,7 +242,7 @@ def open_vision(
         if not unavailable_reason and (_has_viewers(setup, participants) or recorded.has_pictures):
             try:
                 renderer = _open_renderer(setup.scenario, options, links)
-                stack.enter_context(renderer)
+                stack.callback(renderer.close)
             except RendererError as error:
                 if recorded.is_replay:
                     raise RendererError(f"cannot be replayed here: {error}") from None
@@ -263,13 +264,13 @@ def _has_viewers(setup: Setup, participants: Participants) -> bool:
     return options.cameras and bool(setup.scenario.cameras) and (is_watched or options.video)
 
 
-def _start_renderers(links: list[RendererLink], scenario: Scenario, options: Options) -> None:
-    """Start processes that draw for one run; where not all can be started, the others are there."""
+def _start_renderers(scenario: Scenario, options: Options) -> Iterator[RendererLink]:
+    """Yield processes that draw for one run, as they are started."""
     from airhilt.sensors.cameras.renderer_link import RendererLink
     from airhilt.sensors.cameras.renderer_pool import processes_for
 
     for _ in range(1 if options.share_pictures else processes_for(scenario)):
-        links.append(RendererLink())
+        yield RendererLink()
 
 
 def _open_renderer(
