@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
-from typing import TYPE_CHECKING, Protocol
-
-import numpy as np
-import numpy.typing as npt
+from typing import TYPE_CHECKING
 
 from airhilt.assistant.reference import NO_ASSISTANT, NO_DETECTOR
 from airhilt.cosim.observer import Observer
@@ -16,7 +13,7 @@ from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import Setup
 from airhilt.errors import RendererError, RunStopped
-from airhilt.messages import Message, ModalityState
+from airhilt.messages import ModalityState
 from airhilt.options import Options
 from airhilt.record.pictures import KeyPictures
 from airhilt.record.video import VideoRecorder
@@ -24,24 +21,13 @@ from airhilt.scenario import Scenario
 from airhilt.scenario.conflict_pair import pair_of
 from airhilt.sensors.cameras import AUTO
 from airhilt.sim import Director, StepRecord
-from airhilt.sim.payload import Payload
 
 if TYPE_CHECKING:
-    from airhilt.sensors.cameras.frame import Prospect
-    from airhilt.sensors.cameras.pictures import CameraPicture, PictureSource
+    from airhilt.sensors.cameras.pictures import PictureSource
     from airhilt.sensors.cameras.renderer_link import RendererKeeper, RendererLink
     from airhilt.sensors.cameras.renderer_pool import RendererPool
     from airhilt.sensors.cameras.renderer_process import RendererProcess
-    from airhilt.sensors.cameras.scene.bodies import BodyState
     from airhilt.sensors.cameras.sensor import CameraSensor
-
-
-class Recorder(Protocol):
-    """Keeps something of what is published, until it is closed."""
-
-    def take(self, key: str, message: Message, payload: Payload) -> None: ...  # noqa: D102
-
-    def close(self) -> None: ...  # noqa: D102
 
 
 class Vision:
@@ -73,7 +59,7 @@ class Vision:
         self._is_watched = is_watched
         self._notice = notice
         self._sensor: CameraSensor | None = None
-        self._recorders: list[Recorder] = []
+        self._recorders: list[KeyPictures | VideoRecorder] = []
 
     @property
     def renderer(self) -> str:
@@ -123,14 +109,13 @@ class Vision:
             self._recorders.append(VideoRecorder(video_path, notice=self._notice))
         for recorder in self._recorders:
             router.observe(recorder.take)
-        loss = setup.recorded.cameras_lost
         renderer = self._renderer
         source: PictureSource = DrawnPictures(renderer)
         if isinstance(renderer, RendererProcess) and renderer.identity:
             source = SharedPictures(renderer)
         self._sensor = CameraSensor(
             director,
-            source if loss is None else _UntilLost(source, *loss),
+            source,
             setup.scenario.cameras,
             setup.site,
             setup.actors,
@@ -138,6 +123,7 @@ class Vision:
             state_at_ns=state_at_ns,
             publish=router.publish,
             lost=lost,
+            loss=setup.recorded.cameras_lost,
         )
 
     def start(self) -> None:
@@ -296,37 +282,3 @@ def _tell(text: str, is_strict: bool, notice: Callable[[str], None]) -> None:
             f"not begun, as --strict asks: {text}; leave cameras out with --no-cameras"
         )
     notice(text)
-
-
-class _UntilLost:
-    """Takes pictures up to the instant at which an earlier run could take no more."""
-
-    def __init__(self, source: PictureSource, lost_ns: int, cause: str) -> None:
-        self.own_aircraft: Mapping[str, npt.NDArray[np.bool_]] = source.own_aircraft
-        self._source = source
-        self._lost_ns = lost_ns
-        self._cause = cause
-
-    def take(
-        self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
-    ) -> list[CameraPicture]:
-        """Take them.
-
-        Raises
-        ------
-        RendererError
-            The earlier run could not.
-        """
-        self._require_not_lost(t_ns)
-        return self._source.take(names, bodies, t_ns)
-
-    def prospects(
-        self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
-    ) -> dict[str, Prospect]:
-        """Return what pictures would show; it raises what `take` does."""
-        self._require_not_lost(t_ns)
-        return self._source.prospects(names, bodies, t_ns)
-
-    def _require_not_lost(self, t_ns: int) -> None:
-        if t_ns >= self._lost_ns:
-            raise RendererError(self._cause)

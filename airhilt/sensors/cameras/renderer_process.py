@@ -180,6 +180,7 @@ class RendererProcess:
     def close(self) -> None:
         """End the process, unless it was given."""
         self._planes.clear()
+        self._last.clear()
         if self._owned:
             self._link.close()
 

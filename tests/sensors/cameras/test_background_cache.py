@@ -97,7 +97,7 @@ def test_other_code_has_it_drawn(monkeypatch: pytest.MonkeyPatch) -> None:
     drawn = Drawn()
     backgrounds().get(View(LENS, EYE), 3, drawn)
     monkeypatch.setattr(
-        "airhilt.sensors.cameras.scene.background_cache.source_sha256", lambda *_: "other code"
+        "airhilt.sensors.cameras.scene.background_cache.packages_sha256", lambda *_: "other code"
     )
     backgrounds().get(View(LENS, EYE), 3, drawn)
     assert drawn.times == 2
