@@ -354,9 +354,7 @@ class SceneRenderer:
             shine(colour, distance_m, self._fixed_lights.seen(view, self._light))
 
     def _layer(self, seen: VisibleBody, part: Part, drawn: Samples, behind_m: Floats) -> Layer:
-        number = self._numbers[seen.body.actor]
-        return Layer.of(number, seen.window, seen.box, seen.whole, seen.range_m, drawn,
-                        part.samples, behind_m)  # fmt: skip
+        return Layer.of(self._numbers[seen.body.actor], seen, drawn, part.samples, behind_m)
 
     def _own_layer(self, name: str, body: BodyState, pose: Pose, view: View) -> Layer | None:
         """Return the camera's own aircraft; it is drawn anew when its light has changed."""

@@ -54,6 +54,24 @@ class _Glare(NamedTuple):
     colour: Floats
 
 
+class RayCaster:
+    """A library that casts rays, as a backend of pictures."""
+
+    def open(self, landscape: Mesh, light: Illumination) -> RayRenderer:
+        """Return a renderer of a landscape.
+
+        Raises
+        ------
+        RendererError
+            The library, or one of the system that it needs, is not installed.
+        """
+        return RayRenderer(landscape, light, self.scene_builder())
+
+    def scene_builder(self) -> SceneBuilder:
+        """Return what makes scenes of triangles; it raises what `open` does."""
+        raise NotImplementedError
+
+
 class RayRenderer:
     """Draws by casting rays.
 
