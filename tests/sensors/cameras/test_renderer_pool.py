@@ -64,14 +64,6 @@ def test_half_of_the_cores_draw_and_not_more_than_cameras_move(
     assert processes_for(scenario.model_copy(update={"cameras": fixed})) == 1
 
 
-def test_where_no_process_is_bound_to_cores_all_of_them_count(
-    scenario: Scenario, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.delattr(os, "sched_getaffinity")
-    monkeypatch.setattr(os, "cpu_count", lambda: 4)
-    assert processes_for(scenario) == 2
-
-
 @pytest.mark.slow
 def test_a_pool_takes_the_same_pictures_as_one_process(
     scenario: Scenario, names: list[str], links: list[RendererLink]

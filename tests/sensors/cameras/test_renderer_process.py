@@ -144,18 +144,6 @@ def test_a_still_that_cannot_be_written_is_named_with_what_to_do(tmp_path: Path)
         write_png(blank(), tmp_path / "file" / "a.png")
 
 
-def test_a_still_for_which_there_is_no_room_leaves_the_last_one(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    write_png(blank(), tmp_path / "a.png")
-    before = (tmp_path / "a.png").read_bytes()
-    monkeypatch.setattr("airhilt.host.files.write_new", full_disk)
-    with pytest.raises(CameraError, match=r"a\.png: .*No space left.*make room") as caught:
-        write_png(blank(), tmp_path / "a.png", boxes=True)
-    assert "\n" not in str(caught.value)
-    assert (tmp_path / "a.png").read_bytes() == before
-
-
 def test_a_renderer_that_cannot_be_started_is_lost(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(subprocess, "Popen", full_disk)
     with pytest.raises(RendererLost, match="cannot be started: No space left"):
@@ -276,15 +264,6 @@ def test_nothing_is_drawn_again_when_nothing_changes(process: RendererProcess) -
     assert again.unchanged
     assert again.t_ns == 1
     assert again.colour is first.colour
-
-
-@pytest.mark.slow
-def test_the_tail_camera_comes_with_the_mask_of_its_aircraft() -> None:
-    mount = {"type": "actor", "actor": "AAL123", "station": "tail"}
-    with RendererProcess(washington(mount=mount), renderer="embree") as opened:
-        mask = opened.own_aircraft["field"]
-    assert mask.shape == (90, 160)
-    assert 0.02 < mask.mean() < 0.8
 
 
 # The last: it leaves nothing to draw with.
