@@ -49,7 +49,7 @@ class PictureSource(Protocol):
         Raises
         ------
         RendererError
-            It cannot, and never will again.
+            No more pictures can be taken.
         """
         ...
 
@@ -61,7 +61,7 @@ class PictureSource(Protocol):
         Raises
         ------
         RendererError
-            It cannot, and never will again.
+            No more pictures can be taken.
         """
         ...
 

@@ -130,7 +130,7 @@ class RendererProcess:
     def prospects(
         self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
     ) -> dict[str, Prospect]:
-        """Return what pictures of an instant would show, by camera, without taking them.
+        """Return what the pictures of an instant would show, by camera, without taking them.
 
         It raises what `shoot` does.
         """
@@ -139,7 +139,7 @@ class RendererProcess:
         return {name: Prospect(views[name], has_body[name]) for name in names}
 
     def views(self, names: Sequence[str], bodies: Sequence[BodyState]) -> dict[str, View]:
-        """Return what cameras look at while bodies are where they are.
+        """Return the views of cameras by name.
 
         Raises
         ------

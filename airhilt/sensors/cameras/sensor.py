@@ -68,7 +68,7 @@ class Exposures:
 
 
 class CameraSensor:
-    """Lets the cameras of a scenario expose, all that are due at an instant in one pass.
+    """Schedules the exposures of a scenario's cameras; those due at an instant share one pass.
 
     A picture is published at the end of its exposure; drawing it takes no simulation time. The
     camera of an aircraft that has come to its end gives no more pictures.

@@ -214,7 +214,7 @@ class RayRenderer:
         return pieces.reshape(x.shape)
 
     def _highest(self, eye: Doubles) -> np.float32:
-        """Return the slope, up over along and at least 0, above which all is sky."""
+        """Return the slope (height over distance, at least 0) above which there is only sky."""
         middles, radii, tops = self._raised
         if not len(tops):
             return np.float32(0.0)

@@ -80,7 +80,7 @@ class Layer:
         distance_m: Floats,
         instance: npt.NDArray[np.uint8],
     ) -> None:
-        """Put it before what is already in a picture."""
+        """Draw the layer over a picture."""
         rows, columns = self.window.slices
         part = colour[rows, columns]
         part[...] = np.rint(part * (1.0 - self.cover[..., None]) + self.colour).astype(np.uint8)
@@ -89,7 +89,7 @@ class Layer:
         distance_m[rows, columns][filled] = self.distance_m[filled]
 
     def hide(self, seen: Floats, window: Window) -> None:
-        """Take from what is seen of a farther layer in a window what this one covers."""
+        """Reduce the visible part of a farther layer, in its window, by what this layer covers."""
         left, top = max(window.left, self.window.left), max(window.top, self.window.top)
         right = min(window.right, self.window.right)
         bottom = min(window.bottom, self.window.bottom)
