@@ -236,7 +236,11 @@ def open_vision(
                 if error.is_of_machine:
                     observer.machine_failed(unavailable_reason)
                 text = f"vision is not evaluated: {unavailable_reason}"
-                _tell(text, options.strict, observer.notice)
+                if options.strict:
+                    raise RunStopped(
+                        f"not begun, as --strict asks: {text}; leave cameras out with --no-cameras"
+                    ) from None
+                observer.notice(text)
         is_watched = participants.does("vision")
         yield Vision(setup, renderer, unavailable_reason, is_watched, observer.notice)
 
@@ -274,11 +278,3 @@ def _open_renderer(
         link=links[0] if links else None,
         shares_pictures=options.share_pictures,
     )
-
-
-def _tell(text: str, is_strict: bool, notice: Callable[[str], None]) -> None:
-    if is_strict:
-        raise RunStopped(
-            f"not begun, as --strict asks: {text}; leave cameras out with --no-cameras"
-        )
-    notice(text)
