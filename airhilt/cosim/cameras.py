@@ -180,9 +180,7 @@ def started_renderers(
     with ExitStack() as stack:
         links: list[RendererLink] = []
         if options.cameras and scenario.cameras and (may_look or recorded.has_pictures):
-            with suppress(
-                OSError
-            ):  # It is started again when it is asked: that says what is wrong.
+            with suppress(OSError):  # A later start tells what is wrong.
                 if keeper is not None:
                     links.append(keeper.link())
                 else:
