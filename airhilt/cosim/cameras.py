@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
-from typing import TYPE_CHECKING, Protocol
-
-import numpy as np
-import numpy.typing as npt
+from typing import TYPE_CHECKING
 
 from airhilt.cosim.observer import Observer
 from airhilt.cosim.participants import Participants
@@ -16,7 +13,7 @@ from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import Setup
 from airhilt.engine_families import NONE
 from airhilt.errors import RendererError, RunStopped
-from airhilt.messages import Message, ModalityState
+from airhilt.messages import ModalityState
 from airhilt.options import Options
 from airhilt.record.pictures import KeyPictures
 from airhilt.record.video import VideoRecorder
@@ -24,24 +21,13 @@ from airhilt.scenario import Scenario
 from airhilt.scenario.conflict_pair import pair_of
 from airhilt.sensors.cameras import AUTO
 from airhilt.sim import Director, StepRecord
-from airhilt.sim.payload import Payload
 
 if TYPE_CHECKING:
-    from airhilt.sensors.cameras.frame import Prospect
-    from airhilt.sensors.cameras.pictures import CameraPicture, PictureSource
+    from airhilt.sensors.cameras.pictures import PictureSource
     from airhilt.sensors.cameras.renderer_link import RendererKeeper, RendererLink
     from airhilt.sensors.cameras.renderer_pool import RendererPool
     from airhilt.sensors.cameras.renderer_process import RendererProcess
-    from airhilt.sensors.cameras.scene.bodies import BodyState
     from airhilt.sensors.cameras.sensor import CameraSensor
-
-
-class Recorder(Protocol):
-    """Keeps something of what is published, until it is closed."""
-
-    def take(self, key: str, message: Message, payload: Payload) -> None: ...  # noqa: D102
-
-    def close(self) -> None: ...  # noqa: D102
 
 
 class Vision:
@@ -73,7 +59,7 @@ class Vision:
         self._is_watched = is_watched
         self._notice = notice
         self._sensor: CameraSensor | None = None
-        self._recorders: list[Recorder] = []
+        self._recorders: list[KeyPictures | VideoRecorder] = []
 
     @property
     def renderer(self) -> str:
@@ -123,14 +109,13 @@ class Vision:
             self._recorders.append(VideoRecorder(video_path, notice=self._notice))
         for recorder in self._recorders:
             router.observe(recorder.take)
-        loss = setup.recorded.cameras_lost
         renderer = self._renderer
         source: PictureSource = DrawnPictures(renderer)
         if isinstance(renderer, RendererProcess) and renderer.identity:
             source = SharedPictures(renderer)
         self._sensor = CameraSensor(
             director,
-            source if loss is None else _UntilLost(source, *loss),
+            source,
             setup.scenario.cameras,
             setup.site,
             setup.actors,
@@ -138,6 +123,7 @@ class Vision:
             state_at_ns=state_at_ns,
             publish=router.publish,
             lost=lost,
+            loss=setup.recorded.cameras_lost,
         )
 
     def start(self) -> None:
@@ -191,18 +177,17 @@ def started_renderers(
             and "vision" in options.given_modalities
         )
     )
-    links: list[RendererLink] = []
-    if options.cameras and scenario.cameras and (may_look or recorded.has_pictures):
-        with suppress(OSError):  # It is started again when it is asked, which says what is wrong.
-            if keeper is not None:
-                links.append(keeper.link())
-            else:
-                _start_renderers(links, scenario, options)
-    try:
+    with ExitStack() as stack:
+        links: list[RendererLink] = []
+        if options.cameras and scenario.cameras and (may_look or recorded.has_pictures):
+            with suppress(OSError):  # A later start tells what is wrong.
+                if keeper is not None:
+                    links.append(keeper.link())
+                else:
+                    for link in _start_renderers(scenario, options):
+                        stack.callback(link.close)
+                        links.append(link)
         yield links
-    finally:
-        for link in links:
-            link.release()
 
 
 @contextmanager
@@ -241,7 +226,7 @@ def open_vision(
         if not unavailable_reason and (_has_viewers(setup, participants) or recorded.has_pictures):
             try:
                 renderer = _open_renderer(setup.scenario, options, links)
-                stack.enter_context(renderer)
+                stack.callback(renderer.close)
             except RendererError as error:
                 if recorded.is_replay:
                     raise RendererError(f"cannot be replayed here: {error}") from None
@@ -249,7 +234,11 @@ def open_vision(
                 if error.is_of_machine:
                     observer.machine_failed(unavailable_reason)
                 text = f"vision is not evaluated: {unavailable_reason}"
-                _tell(text, options.strict, observer.notice)
+                if options.strict:
+                    raise RunStopped(
+                        f"not begun, as --strict asks: {text}; leave cameras out with --no-cameras"
+                    ) from None
+                observer.notice(text)
         is_watched = participants.does("vision")
         yield Vision(setup, renderer, unavailable_reason, is_watched, observer.notice)
 
@@ -263,13 +252,13 @@ def _has_viewers(setup: Setup, participants: Participants) -> bool:
     return options.cameras and bool(setup.scenario.cameras) and (is_watched or options.video)
 
 
-def _start_renderers(links: list[RendererLink], scenario: Scenario, options: Options) -> None:
-    """Start processes that draw for one run; where not all can be started, the others are there."""
+def _start_renderers(scenario: Scenario, options: Options) -> Iterator[RendererLink]:
+    """Yield processes that draw for one run, as they are started."""
     from airhilt.sensors.cameras.renderer_link import RendererLink
     from airhilt.sensors.cameras.renderer_pool import processes_for
 
     for _ in range(1 if options.share_pictures else processes_for(scenario)):
-        links.append(RendererLink())
+        yield RendererLink()
 
 
 def _open_renderer(
@@ -287,45 +276,3 @@ def _open_renderer(
         link=links[0] if links else None,
         shares_pictures=options.share_pictures,
     )
-
-
-def _tell(text: str, is_strict: bool, notice: Callable[[str], None]) -> None:
-    if is_strict:
-        raise RunStopped(
-            f"not begun, as --strict asks: {text}; leave cameras out with --no-cameras"
-        )
-    notice(text)
-
-
-class _UntilLost:
-    """Takes pictures up to the instant at which an earlier run could take no more."""
-
-    def __init__(self, source: PictureSource, lost_ns: int, cause: str) -> None:
-        self.own_aircraft: Mapping[str, npt.NDArray[np.bool_]] = source.own_aircraft
-        self._source = source
-        self._lost_ns = lost_ns
-        self._cause = cause
-
-    def take(
-        self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
-    ) -> list[CameraPicture]:
-        """Take them.
-
-        Raises
-        ------
-        RendererError
-            The earlier run could not.
-        """
-        self._require_not_lost(t_ns)
-        return self._source.take(names, bodies, t_ns)
-
-    def prospects(
-        self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
-    ) -> dict[str, Prospect]:
-        """Return what pictures would show; it raises what `take` does."""
-        self._require_not_lost(t_ns)
-        return self._source.prospects(names, bodies, t_ns)
-
-    def _require_not_lost(self, t_ns: int) -> None:
-        if t_ns >= self._lost_ns:
-            raise RendererError(self._cause)

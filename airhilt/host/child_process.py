@@ -1,7 +1,7 @@
-"""A process of AIRHILT's own, started and asked from this one.
+"""Child processes: each answers the questions that this process asks it.
 
-Questions and answers are lines of JSON on two pipes. What the process prints goes to a temporary
-file, whose last line says why it ended.
+Questions and answers are lines of JSON on two pipes. A third pipe takes what the child prints; its
+last line says why the child ended. A child ends as soon as its parent does.
 """
 
 from __future__ import annotations
@@ -9,36 +9,26 @@ from __future__ import annotations
 import json
 import os
 import resource
-import selectors
 import subprocess
 import sys
-import tempfile
 import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
-from typing import IO, Any
+from queue import Empty, SimpleQueue
+from threading import Thread
+from typing import Any
 
 import psutil
 
-MOST_PRINTED_BYTES = 1 << 20
-"""Size of the process's output at which it is thrown away."""
+WATCH_S = 0.5
+"""Period at which a process that owes an answer is watched, in s."""
 LAST_PRINTED_BYTES = 1 << 12
 """Size of the end of the output in which its last line is looked for."""
 
 
-STOPPED_FOR_S = 4.0
-"""Time for which a process may be stopped, as by SIGSTOP, before it is given up, in s."""
-LOOK_PERIOD_S = 1.0
-"""Time between two looks at a process that owes an answer, in s."""
-
-
 class NoAnswer(Exception):
     """The process did not answer in time, and was killed."""
-
-
-class Stopped(NoAnswer):
-    """The process was stopped, as by SIGSTOP, and was killed."""
 
 
 class Ended(Exception):
@@ -46,7 +36,7 @@ class Ended(Exception):
 
 
 class ChildProcess:
-    """A process that waits for questions.
+    """A process of AIRHILT's own that runs `serve`.
 
     Parameters
     ----------
@@ -73,26 +63,30 @@ class ChildProcess:
         pass_fds: Sequence[int] = (),
         environment: Mapping[str, str | None] | None = None,
     ) -> None:
-        self._printed = tempfile.TemporaryFile(buffering=0)  # noqa: SIM115
         questions, ask = os.pipe()
         answers, answer = os.pipe()
-        self._process = subprocess.Popen(  # noqa: S603 - our own module
-            [*command, str(questions), str(answer), *arguments],
-            stdin=subprocess.DEVNULL,
-            stdout=self._printed,
-            stderr=self._printed,
-            # Ctrl-C is for this process, which then ends the other one itself.
-            start_new_session=True,
-            pass_fds=(questions, answer, *pass_fds),
-            env=environment_with(environment or {}),
-        )
-        os.close(questions)
-        os.close(answer)
-        self._questions: IO[bytes] = os.fdopen(ask, "wb")
-        self._answers: IO[bytes] = os.fdopen(answers, "rb", buffering=0)
-        self._unread = b""
-        self._was_asked = False
-        self._is_asked = False
+        self._questions, self._answers = os.fdopen(ask, "wb"), os.fdopen(answers, "rb")
+        try:
+            self._process = subprocess.Popen(  # noqa: S603 - our own module
+                [*command, str(questions), str(answer), *arguments],
+                stdin=subprocess.DEVNULL,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+                # Ctrl-C is for this process, which then ends the other one itself.
+                start_new_session=True,
+                pass_fds=(questions, answer, *pass_fds),
+                env=environment_with(environment or {}),
+            )
+        except OSError:
+            self._questions.close()
+            self._answers.close()
+            raise
+        finally:
+            os.close(questions)
+            os.close(answer)
+        self._last_printed = b""
+        self._printing = Thread(target=self._read_printed, daemon=True)
+        self._printing.start()
 
     @property
     def process_id(self) -> int:
@@ -100,18 +94,12 @@ class ChildProcess:
         return self._process.pid
 
     @property
-    def is_idle(self) -> bool:
-        """True if it lives, and has answered all that it was asked."""
-        return not self._is_asked and self._process.poll() is None
+    def is_alive(self) -> bool:
+        """True if it can be asked."""
+        return self._process.poll() is None
 
-    def ask(
-        self,
-        question: Mapping[str, Any],
-        patience_s: float,
-        watch: Callable[[], None] | None = None,
-        watch_period_s: float = 1.0,
-    ) -> Any:
-        """Return the answer to a question.
+    def ask(self, question: Any, patience_s: float, watch: Callable[[], None] | None = None) -> Any:
+        """Return the answer to a question. If there is none, for any reason, the process is killed.
 
         Parameters
         ----------
@@ -121,101 +109,112 @@ class ChildProcess:
         Raises
         ------
         NoAnswer
-            There was none within the patience; `Stopped` if the process was stopped meanwhile.
+            There was none within the patience.
         Ended
             The process has ended.
         """
-        if self._is_asked:  # The answer that is still owed would be taken for the one to this.
-            self._process.kill()
-            raise Ended(self._how_it_ended())
-        self._was_asked = self._is_asked = True
+        line, answers = json.dumps(question).encode() + b"\n", SimpleQueue[bytes]()
+        Thread(target=self._exchange, args=(line, answers), daemon=True).start()
         try:
-            self._questions.write(json.dumps(question).encode() + b"\n")
-            self._questions.flush()
-        except (OSError, ValueError):
-            raise Ended(self._how_it_ended()) from None
-        return self.answer(patience_s, watch, watch_period_s)
+            answer = _within(patience_s, answers, watch)
+        except BaseException:  # The answer that is still owed must not be taken for the next one.
+            self.kill()
+            raise
+        if not answer.endswith(b"\n"):
+            raise Ended(self._how_it_ended())
+        return json.loads(answer)
 
-    def answer(
-        self,
-        patience_s: float,
-        watch: Callable[[], None] | None = None,
-        watch_period_s: float = 1.0,
-    ) -> Any:
-        """Return the next answer, to no question of its own; else as `ask`."""
-        try:
-            line = self._line(patience_s, watch, watch_period_s)
-        except (OSError, ValueError):
-            line = b""
-        if not line:
-            raise Ended(self._how_it_ended())
-        self._discard_output()
-        self._is_asked = False
-        return json.loads(line)
+    def kill(self) -> None:
+        """Kill the process and all that it has started; another thread may be asking it."""
+        if self.is_alive:
+            with suppress(psutil.Error):
+                for each in psutil.Process(self.process_id).children(recursive=True):
+                    with suppress(psutil.Error):
+                        each.kill()
+            self._process.kill()
+        self._process.wait()
 
     def close(self) -> None:
-        """End the process; a question that it has not read is lost with it."""
-        try:
-            with suppress(OSError, subprocess.TimeoutExpired):
-                self._questions.close()
-                if self._was_asked:
-                    self._process.wait(5.0)
-        finally:
-            self._process.kill()
-            self._process.wait()
-            self._answers.close()
-            self._printed.close()
+        """End the process."""
+        self.kill()
+        self._printing.join(1.0)
+        with suppress(OSError):  # A question that it has not read is lost with it.
+            self._questions.close()
+        self._answers.close()
 
-    def _line(
-        self, patience_s: float, watch: Callable[[], None] | None, watch_period_s: float
-    ) -> bytes:
-        """Return the next line of answers; empty when there will be none."""
-        now_s = time.monotonic()
-        until_s, stopped_s = now_s + patience_s, now_s + STOPPED_FOR_S
-        with selectors.DefaultSelector() as selector:
-            selector.register(self._answers, selectors.EVENT_READ)
-            while b"\n" not in self._unread:
-                now_s = time.monotonic()
-                if not self._is_stopped():
-                    stopped_s = now_s + STOPPED_FOR_S
-                if now_s >= min(until_s, stopped_s):
-                    self._process.kill()
-                    raise Stopped if now_s >= stopped_s else NoAnswer
-                wait_s = LOOK_PERIOD_S if watch is None else watch_period_s
-                if not selector.select(min(until_s - now_s, wait_s)):
-                    if watch is not None:
-                        watch()
-                    continue
-                part = self._answers.read(1 << 16)
-                if not part:
-                    return b""
-                self._unread += part
-        line, _, self._unread = self._unread.partition(b"\n")
-        return line
+    def _exchange(self, question: bytes, answers: SimpleQueue[bytes]) -> None:
+        """Ask a question; the answer is not a whole line if the process has ended."""
+        answer = b""
+        with suppress(OSError, ValueError):
+            self._questions.write(question)
+            self._questions.flush()
+            answer = self._answers.readline()
+        answers.put(answer)
 
-    def _is_stopped(self) -> bool:
-        """Return whether the process does nothing until somebody lets it go on."""
-        if not hasattr(os, "waitid"):
-            return False  # macOS has it from Python 3.13 on.
-        try:
-            look = os.WSTOPPED | os.WNOHANG | os.WNOWAIT
-            return os.waitid(os.P_PID, self._process.pid, look) is not None
-        except ChildProcessError:
-            return False
-
-    def _discard_output(self) -> None:
-        """Throw much output away: the process writes where this side's file stands too."""
-        if os.fstat(self._printed.fileno()).st_size > MOST_PRINTED_BYTES:
-            self._printed.seek(0)
-            self._printed.truncate()
+    def _read_printed(self) -> None:
+        """Keep the end of what the process prints, however much that is."""
+        assert self._process.stdout is not None
+        with self._process.stdout as printed:
+            while part := os.read(printed.fileno(), 1 << 16):
+                self._last_printed = (self._last_printed + part)[-LAST_PRINTED_BYTES:]
 
     def _how_it_ended(self) -> str:
         with suppress(subprocess.TimeoutExpired):
             self._process.wait(5.0)
-        self._printed.seek(max(os.fstat(self._printed.fileno()).st_size - LAST_PRINTED_BYTES, 0))
-        last = self._printed.read().decode(errors="replace").strip().splitlines()[-1:]
+        self.kill()
+        self._printing.join(1.0)
+        code = self._process.returncode
+        last = self._last_printed.decode(errors="replace").strip().splitlines()[-1:]
         cause = f": {last[0]}" if last else ""
-        return f"({exit_text(self._process.returncode)}){cause}"
+        return f"(signal {-code}){cause}" if code < 0 else f"(exit code {code}){cause}"
+
+
+def _within(
+    patience_s: float, answers: SimpleQueue[bytes], watch: Callable[[], None] | None
+) -> bytes:
+    until_s = time.monotonic() + patience_s
+    while (left_s := until_s - time.monotonic()) > 0.0:
+        with suppress(Empty):
+            return answers.get(timeout=min(left_s, WATCH_S))
+        if watch is not None:
+            watch()
+    raise NoAnswer
+
+
+def serve(
+    questions: int,
+    answers: int,
+    answer: Callable[[Any], str],
+    at_end: Callable[[], None] = lambda: None,
+) -> None:
+    """Answer the questions of the parent; end this process with them, whatever it is doing.
+
+    Parameters
+    ----------
+    questions, answers
+        Descriptors that the process was given by its `ChildProcess`.
+    answer
+        Returns the answer to a question, as a line of JSON.
+    at_end
+        Is called when there are no more questions.
+    """
+    waiting: SimpleQueue[bytes] = SimpleQueue()
+
+    def read() -> None:
+        with os.fdopen(questions, "rb") as lines:
+            for line in lines:
+                waiting.put(line)
+        at_end()
+        os._exit(0)
+
+    Thread(target=read, daemon=True).start()
+    with os.fdopen(answers, "wb") as told:
+        while True:
+            try:
+                told.write(answer(json.loads(waiting.get())).encode() + b"\n")
+            except MemoryError:
+                sys.exit("out of memory")
+            told.flush()
 
 
 def cpu_s() -> float:
@@ -234,11 +233,6 @@ def available_cores() -> int:
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1  # macOS binds no process to cores.
-
-
-def exit_text(code: int | None) -> str:
-    """Return how a process ended, in words."""
-    return f"signal {-code}" if code is not None and code < 0 else f"exit code {code}"
 
 
 def command_of(module: str) -> tuple[str, ...]:

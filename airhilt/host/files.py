@@ -15,6 +15,7 @@ from contextlib import contextmanager, suppress
 from functools import cache
 from io import BufferedReader, BufferedWriter
 from pathlib import Path
+from types import ModuleType
 
 PARTIAL = ".partial"
 """End of the name of a file that is being written."""
@@ -203,6 +204,11 @@ def source_sha256(*paths: Path) -> str:
         for file in sorted(path.rglob("*.py")) if path.is_dir() else [path]:
             digest.update(f"{file.name}\0{sha256(file)}\n".encode())
     return digest.hexdigest()
+
+
+def packages_sha256(*packages: ModuleType) -> str:
+    """Return the SHA-256 of the code of some packages."""
+    return source_sha256(*(Path(place) for package in packages for place in package.__path__))
 
 
 def content_sha256(path: Path) -> str:

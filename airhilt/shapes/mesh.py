@@ -53,6 +53,11 @@ class Mesh:
     glow: Floats
     sunlit: Floats
 
+    @property
+    def arrays(self) -> tuple[Floats, Floats, Floats, Floats, Floats]:
+        """All arrays, in the order of the attributes."""
+        return self.corners, self.normals, self.colours, self.glow, self.sunlit
+
     def __len__(self) -> int:
         return len(self.corners)
 
@@ -83,13 +88,7 @@ class Mesh:
 
     def part(self, wanted: npt.NDArray[np.bool_]) -> Mesh:
         """Return those triangles for which ``wanted`` is true."""
-        return Mesh(
-            self.corners[wanted],
-            self.normals[wanted],
-            self.colours[wanted],
-            self.glow[wanted],
-            self.sunlit[wanted],
-        )
+        return Mesh(*(array[wanted] for array in self.arrays))
 
     def moved(self, right_m: float = 0.0, ahead_m: float = 0.0, up_m: float = 0.0) -> Mesh:
         """Return the mesh moved by an offset."""
@@ -132,12 +131,7 @@ class Mesh:
 
 def join(meshes: Sequence[Mesh]) -> Mesh:
     """Return several meshes as one."""
-    return Mesh(
-        *(
-            np.concatenate([getattr(mesh, name) for mesh in meshes])
-            for name in ("corners", "normals", "colours", "glow", "sunlit")
-        )
-    )
+    return Mesh(*map(np.concatenate, zip(*(mesh.arrays for mesh in meshes), strict=True)))
 
 
 def box(

@@ -1,29 +1,27 @@
 """The process that runs cases, one after the other.
 
-It tells its `Environment` first, and then for each `Request` one `Outcome`: lines of JSON on two
-pipes. It is a process of its own so that a run that hangs, eats memory or crashes can be ended
-without the worker that asked for it. `airhilt.sweep.runner_process` starts it, and it ends when
-there are no more questions.
+It tells its `Environment` when it is asked first, and then for each `Request` one `Outcome`. It is
+a process of its own so that a run that hangs, eats memory or crashes can be ended without the
+worker that asked for it. `airhilt.sweep.runner_process` starts it.
 """
 
 from __future__ import annotations
 
 import os
-import queue
 import socket
 import sys
 import tempfile
-import threading
 import time
-from collections.abc import Sequence
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from shutil import rmtree
+from typing import Any
 
 from airhilt.cosim.observer import Observer
 from airhilt.cosim.simulation import run
 from airhilt.errors import AirhiltError, failure_in, is_of_machine
-from airhilt.host.child_process import cpu_s
+from airhilt.host.child_process import cpu_s, serve
 from airhilt.metrics.columns import metrics_of
 from airhilt.metrics.summary import Summary
 from airhilt.options import Options
@@ -34,33 +32,23 @@ from airhilt.sweep.files import require_planned
 from airhilt.sweep.outcome import Machine, Outcome, Request, Status
 
 
-def main(arguments: Sequence[str]) -> None:
-    """Tell the environment, and run what is asked for until the questions end.
+def answer(question: Any, keeper: RendererKeeper, scratch: Path) -> str:
+    """Run what is asked for, or tell the environment, as JSON.
 
     Parameters
     ----------
-    arguments
-        Descriptors of questions and answers, the renderer that the runs ask for (empty without
-        cameras), and a folder for what is not kept of them.
+    question
+        A `Request`; first the renderer that the runs ask for, empty without cameras.
+    scratch
+        Folder for what is not kept of the runs.
     """
-    questions, answers = (int(number) for number in arguments[:2])
-    renderer, scratch = arguments[2], Path(arguments[3])
-    with os.fdopen(answers, "w", encoding="utf-8") as told:
+    if "renderer" in question:
         try:
-            text = environment(renderer).model_dump_json()
+            return environment(question["renderer"]).model_dump_json()
         except AirhiltError as error:
             sys.exit(str(error))
-        told.write(text + "\n")
-        told.flush()
-        requests: queue.SimpleQueue[str] = queue.SimpleQueue()
-        reading = threading.Thread(target=_read, args=(questions, requests, scratch), daemon=True)
-        reading.start()
-        keeper = RendererKeeper()
-        while True:
-            request = Request.model_validate_json(requests.get())
-            outcome = run_request(request, keeper, scratch)
-            told.write(outcome.model_dump_json() + "\n")
-            told.flush()
+    request = Request.model_validate(question)
+    return run_request(request, keeper, scratch).model_dump_json()
 
 
 def run_request(
@@ -142,14 +130,13 @@ def _emptied(folder: Path) -> Path:
     return folder
 
 
-def _read(questions: int, requests: queue.SimpleQueue[str], scratch: Path) -> None:
-    """Pass on the lines of questions; end the process when they do, whatever it is doing."""
-    with os.fdopen(questions, encoding="utf-8") as lines:
-        for line in lines:
-            requests.put(line)
-    rmtree(scratch, ignore_errors=True)  # The worker may have been killed, and leave it to nobody.
-    os._exit(0)
+def main(questions: int, answers: int, scratch: Path) -> None:
+    """Answer on the pipes of these descriptors."""
+    keeper = RendererKeeper()
+    # The worker may have been killed, and leave the folder to nobody.
+    remove = partial(rmtree, scratch, ignore_errors=True)
+    serve(questions, answers, lambda question: answer(question, keeper, scratch), remove)
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    main(int(sys.argv[1]), int(sys.argv[2]), Path(sys.argv[3]))

@@ -5,9 +5,8 @@ from __future__ import annotations
 import socket
 import tempfile
 import time
-from contextlib import ExitStack, suppress
+from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any
 
 import psutil
 
@@ -29,8 +28,6 @@ them the others, too, but a worker without a nanny has none, and neither has the
 libraries of linear algebra would start a thread for each core there."""
 STARTING_S = 120.0
 """Time that a runner has to start, in s."""
-WATCH_S = 0.5
-"""Period at which memory is measured, in s."""
 MEGABYTE = 1e6
 
 
@@ -73,7 +70,7 @@ class RunnerProcess:
         self._limits = limits
         self._peak_mb = 0.0
         self._is_stopped = False
-        self._child, self.environment = self._start()
+        self._start()
 
     def run(self, request: Request) -> Outcome:
         """Return what becomes of a run, whatever it does.
@@ -85,12 +82,11 @@ class RunnerProcess:
         """
         begun = time.perf_counter()
         self._peak_mb = 0.0
+        status: Status
         try:
-            answer: Any = self._child.ask(
-                request.model_dump(), self._limits.wall_s, self._watch, WATCH_S
-            )
+            answer = self._child.ask(request.model_dump(), self._limits.wall_s, self._watch)
         except NoAnswer:
-            status: Status = "over_time"
+            status = "over_time"
             cause = f"took longer than {self._limits.wall_s:g} s (--run-timeout)"
         except _OverMemory:
             status = "over_memory"
@@ -98,25 +94,24 @@ class RunnerProcess:
         except Ended as ended:
             status, cause = "crashed", f"its process has ended {ended}"
         else:
-            self._watch_quietly()
+            self._measure()
             outcome = Outcome.model_validate(answer)
             machine = outcome.machine.model_copy(update={"peak_memory_mb": self._peak_mb})
             return outcome.model_copy(update={"machine": machine})
-        process_id = self._child.process_id
+        machine = Machine(
+            wall_s=time.perf_counter() - begun,
+            cpu_s=None,
+            peak_memory_mb=self._peak_mb,
+            host=socket.gethostname(),
+            process=self._child.process_id,
+        )
         self.close()
         if self._is_stopped:
             raise RunnerStopped
         is_kept = False
         with suppress(OSError):  # The run has its cause already.
             is_kept = request.settle(request.partial_folder, status)
-        self._child, self.environment = self._start()
-        machine = Machine(
-            wall_s=time.perf_counter() - begun,
-            cpu_s=None,
-            peak_memory_mb=self._peak_mb,
-            host=socket.gethostname(),
-            process=process_id,
-        )
+        self._start()
         return Outcome(
             key=request.key, status=status, cause=cause, is_kept=is_kept, machine=machine
         )
@@ -124,44 +119,39 @@ class RunnerProcess:
     def stop(self) -> None:
         """End the process, while another thread waits for it; `close` does the rest."""
         self._is_stopped = True
-        _end_tree(self._child.process_id)
+        self._child.kill()
 
     def close(self) -> None:
         """End the process and what it has started, and remove what its runs have left."""
-        _end_tree(self._child.process_id)
-        self._started.close()
+        self._child.close()
+        self._scratch.cleanup()
 
-    def _start(self) -> tuple[ChildProcess, Environment]:
-        with ExitStack() as started:
-            try:
-                scratch = started.enter_context(_scratch())
-                child = ChildProcess(COMMAND, [self._renderer, scratch], environment=ENVIRONMENT)
-            except OSError as error:
-                raise _not_started(
-                    f"({error.strerror or error}); expected a few kB where temporary files are "
-                    "(TMPDIR), and room for one more process"
-                ) from None
-            started.callback(child.close)
-            try:
-                found = Environment.model_validate(child.answer(STARTING_S))
-            except (Ended, NoAnswer) as problem:
-                raise _not_started(str(problem) or f"within {STARTING_S:.0f} s") from None
-            self._started = started.pop_all()
-            return child, found
+    def _start(self) -> None:
+        try:
+            self._scratch = tempfile.TemporaryDirectory(  # The runner may be killed.
+                prefix="airhilt-runner-", ignore_cleanup_errors=True
+            )
+            self._child = ChildProcess(COMMAND, [self._scratch.name], environment=ENVIRONMENT)
+        except OSError as error:
+            raise _not_started(
+                f"({error.strerror or error}); expected a few kB where temporary files are "
+                "(TMPDIR), and room for one more process"
+            ) from None
+        try:
+            found = self._child.ask({"renderer": self._renderer}, STARTING_S)
+        except (Ended, NoAnswer) as problem:
+            self.close()
+            raise _not_started(str(problem) or f"within {STARTING_S:.0f} s") from None
+        self.environment = Environment.model_validate(found)
 
     def _watch(self) -> None:
         """Measure the memory of the run; complain if it is too much."""
-        self._watch_quietly()
+        self._measure()
         if self._peak_mb > self._limits.memory_mb:
             raise _OverMemory
 
-    def _watch_quietly(self) -> None:
+    def _measure(self) -> None:
         self._peak_mb = max(self._peak_mb, _memory_mb(self._child.process_id))
-
-
-def _scratch() -> tempfile.TemporaryDirectory[str]:
-    """Return a folder for what a runner leaves; a process that is killed removes nothing itself."""
-    return tempfile.TemporaryDirectory(prefix="airhilt-runner-", ignore_cleanup_errors=True)
 
 
 def _not_started(why: str) -> RunnerError:
@@ -179,12 +169,3 @@ def _memory_mb(process_id: int) -> float:
             with suppress(psutil.Error):
                 total += each.memory_info().rss / MEGABYTE
     return total
-
-
-def _end_tree(process_id: int) -> None:
-    """Kill a process and all that it has started."""
-    with suppress(psutil.Error):
-        process = psutil.Process(process_id)
-        for each in (*process.children(recursive=True), process):
-            with suppress(psutil.Error):
-                each.kill()

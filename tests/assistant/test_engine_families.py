@@ -170,7 +170,7 @@ def test_a_run_looks_with_a_detector_of_another_package(
     monkeypatch.setattr(
         cameras, "_open_renderer", lambda scenario, *_: BlankSceneRenderer(scenario)
     )
-    monkeypatch.setattr(cameras, "_start_renderers", lambda *_: None)
+    monkeypatch.setattr(cameras, "_start_renderers", lambda *_: ())
     scenario = passing().model_copy(update={"duration_s": 2.0})
     result = run(
         scenario,

@@ -45,7 +45,7 @@ def camera_run(
         others = reference(given.model_copy(update={"detector": "none"}), scenario, taken)
         return [*others, oracle] if given.assistant != "none" else others
 
-    patch.setattr(vision, "_start_renderers", lambda *_: None)
+    patch.setattr(vision, "_start_renderers", lambda *_: ())
     patch.setattr(vision, "_open_renderer", open_scene_renderer)
     patch.setattr(team, "reference_workers", workers)
     given = Options(**{"latency": "fixed", "speech": False, "out": out} | options)

@@ -10,7 +10,6 @@ import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from types import TracebackType
 from typing import Any, cast
 
 import numpy as np
@@ -78,16 +77,8 @@ class BlankSceneRenderer:
         """By camera and time."""
         self._blanks: dict[tuple[int, int], np.ndarray] = {}
 
-    def __enter__(self) -> BlankSceneRenderer:
-        return self
-
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        at: TracebackType | None,
-    ) -> None:
-        pass
+    def close(self) -> None:
+        """Do nothing."""
 
     def shoot(self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int) -> list[Frame]:
         return [self._picture(name, {body.actor: body for body in bodies}, t_ns) for name in names]
@@ -243,7 +234,7 @@ def watched(
         others = reference(given.model_copy(update={"detector": "none"}), scenario, taken)
         return [*others, made[0]]
 
-    patch.setattr(vision, "_start_renderers", lambda *_: None)
+    patch.setattr(vision, "_start_renderers", lambda *_: ())
     patch.setattr(vision, "_open_renderer", open_scene_renderer)
     patch.setattr(team, "reference_workers", workers)
     options = Options(seed=seed, out=out, latency="fixed")

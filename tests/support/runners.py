@@ -15,11 +15,13 @@ ENVIRONMENT = Environment(versions={"airhilt": "1"}, code_sha256="0" * 64, rende
 SOURCE = f"""
 import json, os, sys, time
 questions, answers = os.fdopen(int(sys.argv[1])), os.fdopen(int(sys.argv[2]), "w")
-print({ENVIRONMENT.model_dump_json()!r}, file=answers, flush=True)
 for line in questions:
     asked = json.loads(line)
+    if "renderer" in asked:
+        print({ENVIRONMENT.model_dump_json()!r}, file=answers, flush=True)
+        continue
     key = asked["key"]
-    scratch = sys.argv[4] + "/" + key
+    scratch = sys.argv[3] + "/" + key
     os.makedirs(scratch if asked["keep"] == "none" else asked["folder"] + ".partial")
     if key == "eats":
         eaten = b"x" * 200_000_000

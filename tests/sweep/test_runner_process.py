@@ -93,9 +93,9 @@ def test_a_runner_has_one_thread_and_its_own_memory_whoever_starts_it(
 
 
 def test_a_disk_on_which_no_runner_can_be_started_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(**_: object) -> None:
+    def full(*_: object, **__: object) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("tempfile.TemporaryFile", full)
+    monkeypatch.setattr("tempfile.TemporaryDirectory", full)
     with pytest.raises(RunnerError, match=r"on .* \(No space left on device\); expected .*TMPDIR"):
         RunnerProcess("", LIMITS)

@@ -34,7 +34,7 @@ class CameraState(NamedTuple):
     taken: int = 0
 
     def to_json(self) -> list[Any]:
-        """Return it as JSON has it."""
+        """Return the state as JSON."""
         drawings = [
             [*each.view.pose.position_m, *each.view.pose.rotation.ravel().tolist(), *each[1:]]
             for each in self.drawings
@@ -43,7 +43,7 @@ class CameraState(NamedTuple):
 
     @classmethod
     def of_json(cls, given: Sequence[Any], lens: Intrinsics) -> CameraState:
-        """Return the state that is given as `to_json` does."""
+        """Return the state that `to_json` returned."""
         drawings, own, taken = given
         return cls(
             tuple(_drawing(each, lens) for each in drawings),

@@ -59,12 +59,12 @@ class Camera:
         return self.at.actor if isinstance(self.at, Mount) else None
 
     def view(self, bodies: Mapping[str, BodyState]) -> View:
-        """Return what it looks at while bodies are where they are.
+        """Return the view of the camera.
 
         Raises
         ------
         CameraError
-            It is mounted on something that is not there, or nowhere.
+            The actor that carries the camera is not there, or its pose is not finite.
         """
         if isinstance(self.at, Pose):
             return View(self.intrinsics, self.at)
@@ -87,7 +87,7 @@ def cameras_of(scenario: Scenario, site: ScenarioSite) -> dict[str, Camera]:
     Raises
     ------
     CameraError
-        One is none.
+        A camera is invalid.
     """
     local_frame = local_frame_of(site)
     types = {
@@ -110,7 +110,7 @@ def cameras_named(scenario: Scenario, names: Sequence[str]) -> dict[str, Camera]
     Raises
     ------
     CameraError
-        There is no camera of one of the names, or it is none.
+        There is no camera of one of the names, or it is invalid.
     """
     known = cameras_of(scenario, ScenarioSite.of(scenario))
     return {name: find_camera(known, name) for name in names}

@@ -10,6 +10,8 @@ from typing import Protocol
 from airhilt.imaging.masks import Mask
 from airhilt.imaging.view import View
 from airhilt.sensors.cameras.frame import Frame, Prospect, Sighting
+from airhilt.sensors.cameras.renderer_pool import RendererPool
+from airhilt.sensors.cameras.renderer_process import RendererProcess
 from airhilt.sensors.cameras.scene.bodies import BodyState
 from airhilt.sim.payload import Payload
 
@@ -49,7 +51,7 @@ class PictureSource(Protocol):
         Raises
         ------
         RendererError
-            It cannot, and never will again.
+            No more pictures can be taken.
         """
         ...
 
@@ -61,45 +63,30 @@ class PictureSource(Protocol):
         Raises
         ------
         RendererError
-            It cannot, and never will again.
+            No more pictures can be taken.
         """
         ...
 
 
-class FrameSource(Protocol):
-    """Source of drawn pictures: `airhilt.sensors.cameras.renderer_process.RendererProcess`."""
-
-    @property
-    def own_aircraft(self) -> Mapping[str, Mask]: ...  # noqa: D102
-
-    def shoot(  # noqa: D102
-        self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
-    ) -> list[Frame]: ...
-
-    def prospects(  # noqa: D102
-        self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
-    ) -> dict[str, Prospect]: ...
-
-
 class DrawnPictures:
-    """Draws each picture; it raises what the source of its frames does."""
+    """Draws each picture; it raises what the renderer does."""
 
-    def __init__(self, frames: FrameSource) -> None:
-        self.own_aircraft = frames.own_aircraft
-        self._frames = frames
+    def __init__(self, renderer: RendererProcess | RendererPool) -> None:
+        self.own_aircraft = renderer.own_aircraft
+        self._renderer = renderer
         self._last: dict[str, CameraPicture] = {}
 
     def take(
         self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
     ) -> list[CameraPicture]:
         """Take the pictures."""
-        return [self._picture(frame) for frame in self._frames.shoot(names, bodies, t_ns)]
+        return [self._picture(frame) for frame in self._renderer.shoot(names, bodies, t_ns)]
 
     def prospects(
         self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
     ) -> dict[str, Prospect]:
         """Return what pictures of an instant would show, by camera, without taking them."""
-        return self._frames.prospects(names, bodies, t_ns)
+        return self._renderer.prospects(names, bodies, t_ns)
 
     def _picture(self, frame: Frame) -> CameraPicture:
         """Return a frame as a picture; where it is the last one again, so is its hash."""

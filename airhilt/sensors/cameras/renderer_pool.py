@@ -6,9 +6,8 @@ their number changes no picture.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import ExitStack
 from typing import TypeVar
 
 from airhilt.host.child_process import available_cores
@@ -47,8 +46,7 @@ class RendererPool:
     Parameters
     ----------
     links
-        Processes that have been started, at most as many as there are cameras; they are released
-        with this pool.
+        Processes that have been started, at most as many as there are cameras; they stay.
 
     Attributes
     ----------
@@ -69,23 +67,13 @@ class RendererPool:
         self, scenario: Scenario, links: Sequence[RendererLink], renderer: str = AUTO
     ) -> None:
         shares = shared_out(scenario, len(links))
-        with ExitStack() as stack:
-            self._threads = stack.enter_context(ThreadPoolExecutor(len(links)))
+        with ThreadPoolExecutor(len(links)) as threads:
             opened = [
-                self._threads.submit(RendererProcess, scenario, names, renderer, link=link)
+                threads.submit(RendererProcess, scenario, names, renderer, link=link)
                 for names, link in zip(shares, links, strict=True)
             ]
-            for future in opened:
-                if future.exception() is None:
-                    stack.callback(future.result().close)
-            processes = [future.result() for future in opened]
-            self._open = stack.pop_all()
-        self._process_of = {
-            name: process
-            for names, process in zip(shares, processes, strict=True)
-            for name in names
-        }
-        self._processes = processes
+        processes = [future.result() for future in opened]
+        self._shares = list(zip(processes, shares, strict=True))
         self.renderer = processes[0].renderer
         self.own_aircraft: Mapping[str, Mask] = {
             name: mask for process in processes for name, mask in process.own_aircraft.items()
@@ -96,11 +84,8 @@ class RendererPool:
 
         It raises what `RendererProcess.shoot` does.
         """
-        frames = {
-            frame.camera: frame
-            for some in self._each(names, lambda each, its: each.shoot(its, bodies, t_ns))
-            for frame in some
-        }
+        parts = self._each(names, lambda process, its: process.shoot(its, bodies, t_ns))
+        frames = {frame.camera: frame for part in parts for frame in part}
         return [frames[name] for name in names]
 
     def prospects(
@@ -110,28 +95,22 @@ class RendererPool:
 
         It raises what `RendererProcess.shoot` does.
         """
-        parts = self._each(names, lambda each, its: each.prospects(its, bodies, t_ns))
+        parts = self._each(names, lambda process, its: process.prospects(its, bodies, t_ns))
         return {name: prospect for part in parts for name, prospect in part.items()}
 
     def _each(
         self, names: Sequence[str], ask: Callable[[RendererProcess, list[str]], Answer]
-    ) -> Iterator[Answer]:
-        """Yield what each process answers that has some of the cameras, all asked at once."""
-        asked = []
-        for process in self._processes:
-            if its := [name for name in names if self._process_of[name] is process]:
-                asked.append(self._threads.submit(ask, process, its))
-        for future in asked:
-            future.exception()  # All have answered before the first error is told.
-        for future in asked:
-            yield future.result()
+    ) -> list[Answer]:
+        """Return what each process answers that has some of the cameras, all asked at once."""
+        with ThreadPoolExecutor(len(self._shares)) as threads:
+            asked = [
+                threads.submit(ask, process, its)
+                for process, share in self._shares
+                if (its := [name for name in names if name in share])
+            ]
+        return [future.result() for future in asked]
 
     def close(self) -> None:
-        """End the processes."""
-        self._open.close()
-
-    def __enter__(self) -> RendererPool:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
+        """Take no more pictures; the processes stay."""
+        for process, _ in self._shares:
+            process.close()

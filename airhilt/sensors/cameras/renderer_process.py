@@ -2,21 +2,12 @@
 
 from __future__ import annotations
 
-import mmap
-import subprocess
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from contextlib import closing
 from dataclasses import replace
 from typing import Any
 
-from airhilt.errors import CameraError, RendererError, RendererLost, ScenarioError
-from airhilt.host.child_process import (
-    STOPPED_FOR_S,
-    Ended,
-    NoAnswer,
-    Stopped,
-    environment_with,
-    exit_text,
-)
+from airhilt.errors import RendererLost
 from airhilt.imaging.masks import Mask, mask_of
 from airhilt.imaging.view import View
 from airhilt.scenario import Scenario
@@ -24,13 +15,10 @@ from airhilt.sensors.cameras import AUTO, STILL_SAMPLES
 from airhilt.sensors.cameras.camera_state import CameraState
 from airhilt.sensors.cameras.frame import Frame, Prospect, Sighting
 from airhilt.sensors.cameras.mounts import Camera, cameras_named, find_camera
-from airhilt.sensors.cameras.renderer_link import COMMAND, ENVIRONMENT, RendererLink
+from airhilt.sensors.cameras.renderer_link import Planes, RendererLink, pixels_bytes, planes_of
 from airhilt.sensors.cameras.scene.bodies import BodyState
 from airhilt.sensors.cameras.scene.projected_box import Box
-from airhilt.sensors.cameras.shared_pixels import camera_bytes, places_of, planes
 
-ERRORS = {error.__name__: error for error in (CameraError, RendererError, ScenarioError)}
-"""Errors that go from one process to the other by their names."""
 STARTING_S = 120.0
 """Time that the process has to open its scene, in s."""
 PATIENCE_S = 60.0
@@ -50,7 +38,7 @@ class RendererProcess:
         Time for the pictures of one instant, before the renderer is given up. The time to draw
         all that the cameras see, sample by sample, is added.
     link
-        A process that has been started before; it is released with this one.
+        A process that has been started before, which stays; None: a new one, which ends with this.
     shares_pictures
         True if other runs may have the same pictures.
 
@@ -93,13 +81,18 @@ class RendererProcess:
         samples = sum(_samples(camera, supersampling) for camera in self._cameras.values())
         drawing_s = samples / SLOWEST_SAMPLES_PER_S
         self._patience_s = patience_s + drawing_s
-        self._places = places_of(self._cameras)
         self._last: dict[str, Frame] = {}
         self._shares_pictures = shares_pictures
         self.states: dict[str, Any] = dict.fromkeys(self._cameras, CameraState().to_json())
-        self._link, self._pixels = self._connect(link)
+        self._planes: dict[str, Planes] = {}
+        self._owned = link is None
         try:
-            opened = self._ask(
+            self._link = link or RendererLink()
+        except OSError as error:
+            raise _not_started(renderer, error) from None
+        try:
+            self._planes = self._share_memory()
+            opened = self._link.draw(
                 {
                     "scenario": scenario.model_dump(mode="json"),
                     "cameras": wanted,
@@ -108,6 +101,7 @@ class RendererProcess:
                     "shares_pictures": shares_pictures,
                 },
                 STARTING_S + drawing_s,
+                renderer,
             )
         except BaseException:
             self.close()
@@ -136,7 +130,7 @@ class RendererProcess:
     def prospects(
         self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
     ) -> dict[str, Prospect]:
-        """Return what pictures of an instant would show, by camera, without taking them.
+        """Return what the pictures of an instant would show, by camera, without taking them.
 
         It raises what `shoot` does.
         """
@@ -145,7 +139,7 @@ class RendererProcess:
         return {name: Prospect(views[name], has_body[name]) for name in names}
 
     def views(self, names: Sequence[str], bodies: Sequence[BodyState]) -> dict[str, View]:
-        """Return what cameras look at while bodies are where they are.
+        """Return the views of cameras by name.
 
         Raises
         ------
@@ -166,7 +160,7 @@ class RendererProcess:
         }
         if self._shares_pictures:
             question["states"] = [self.states[name] for name in names]
-        answer = self._ask(question, self._patience_s)
+        answer = self._link.draw(question, self._patience_s, self.renderer)
         if self._shares_pictures:
             self.states.update(zip(names, answer["states"], strict=True))
         return answer
@@ -176,7 +170,7 @@ class RendererProcess:
         last = self._last.get(name)
         if answer["unchanged"] and last is not None:
             return replace(last, t_ns=t_ns, view=view, sightings=sightings, unchanged=True)
-        colour, instance, distance = planes(self._pixels, self._places[name], self._cameras[name])
+        colour, distance, instance = self._planes[name]
         frame = Frame(
             name, t_ns, view, colour.copy(), distance.copy(), instance.copy(), sightings
         ).sealed()
@@ -184,11 +178,11 @@ class RendererProcess:
         return frame
 
     def close(self) -> None:
-        """End the process, unless it stays for another run."""
-        try:
-            self._link.release()
-        finally:
-            self._pixels.close()
+        """End the process, unless it was given."""
+        self._planes.clear()
+        self._last.clear()
+        if self._owned:
+            self._link.close()
 
     def __enter__(self) -> RendererProcess:
         return self
@@ -201,44 +195,13 @@ class RendererProcess:
         """Identifier of the other process."""
         return self._link.process_id
 
-    def _connect(self, link: RendererLink | None) -> tuple[RendererLink, mmap.mmap]:
-        """Return the process, and memory for the pictures of all cameras."""
-        size = max(sum(camera_bytes(camera) for camera in self._cameras.values()), 1)
+    def _share_memory(self) -> dict[str, Planes]:
+        lenses = {name: camera.intrinsics for name, camera in self._cameras.items()}
         try:
-            link = link or RendererLink()
-            link.shared.truncate(size)
-            return link, mmap.mmap(link.shared.fileno(), size)
+            self._link.shared.truncate(max(pixels_bytes(lenses.values()), 1))
+            return planes_of(self._link.shared.fileno(), lenses)
         except OSError as error:
-            if link is not None:
-                link.release()
-            raise RendererLost(
-                f"the renderer {self.renderer} has no room for pictures of {size / 1e6:.0f} MB and "
-                f"for what it prints: {error.strerror}; expected that much memory, and a few kB "
-                "where temporary files are (TMPDIR)"
-            ) from None
-
-    def _ask(self, question: Mapping[str, Any], patience_s: float) -> Any:
-        try:
-            answer = self._link.ask(question, patience_s)
-        except Stopped:
-            raise RendererLost(
-                f"the process of renderer {self.renderer} was stopped (SIGSTOP) for "
-                f"{STOPPED_FOR_S:.0f} s; no more pictures are drawn"
-            ) from None
-        except NoAnswer:
-            raise RendererLost(
-                f"the renderer {self.renderer} has not answered for {patience_s:.0f} s, "
-                f"with pictures of {_sizes(self._cameras.values())} pixels; no more are "
-                "drawn: take smaller ones (width_px, height_px) or another --renderer"
-            ) from None
-        except Ended as ended:
-            raise RendererLost(
-                f"the process of renderer {self.renderer} has ended {ended}; no more pictures "
-                "are drawn"
-            ) from None
-        if "error" in answer:
-            raise ERRORS.get(answer["error"], RendererError)(answer["text"])
-        return answer
+            raise _not_started(self.renderer, error) from None
 
 
 def probe(renderer: str) -> None:
@@ -249,38 +212,21 @@ def probe(renderer: str) -> None:
     RendererError
         It could not.
     """
-    try:
-        done = subprocess.run(  # noqa: S603 - our own module
-            [*COMMAND, renderer],
-            capture_output=True,
-            text=True,
-            env=environment_with(ENVIRONMENT),
-            timeout=STARTING_S,
-            check=False,
-        )
-    except subprocess.TimeoutExpired:
-        raise RendererError(
-            f"the renderer {renderer} has not drawn anything for {STARTING_S:.0f} s"
-        ) from None
-    if done.returncode:
-        last = done.stderr.strip().splitlines()[-1:]
-        raise RendererError(
-            last[0]
-            if last and done.returncode == 1
-            else f"the process of renderer {renderer} has ended ({exit_text(done.returncode)})"
-        )
+    with closing(RendererLink()) as link:
+        link.draw({"probe": renderer}, STARTING_S, renderer)
+
+
+def _not_started(renderer: str, error: OSError) -> RendererLost:
+    return RendererLost(
+        f"the renderer {renderer} cannot be started: {error.strerror}; expected memory for one "
+        "more process and its pictures"
+    )
 
 
 def _samples(camera: Camera, supersampling: int) -> int:
     """Return how many samples a picture has at most; a fixed camera's first one has more."""
     along = max(supersampling, STILL_SAMPLES) if camera.is_fixed else supersampling
     return camera.intrinsics.width_px * camera.intrinsics.height_px * along**2
-
-
-def _sizes(cameras: Iterable[Camera]) -> str:
-    """Return how large pictures are, for a message."""
-    sizes = {(camera.intrinsics.width_px, camera.intrinsics.height_px) for camera in cameras}
-    return ", ".join(f"{width} x {height}" for width, height in sorted(sizes))
 
 
 def _mask(runs: Sequence[int], camera: Camera) -> Mask:

@@ -45,7 +45,7 @@ TURN_STEPS = 24
 
 
 class _Content(NamedTuple):
-    """Everything that reaches into a picture, besides the landscape and rain."""
+    """Content of a picture, besides the landscape and rain."""
 
     drawn: list[VisibleBody]
     faint: list[VisibleBody]
@@ -205,7 +205,7 @@ class SceneRenderer:
         return found
 
     def state(self, name: str) -> CameraState:
-        """Return what pictures of a camera have left behind for the next one."""
+        """Return the state of a camera, from which its next picture is drawn."""
         own = self._own.get(name)
         moves = not self._cameras[name].is_fixed
         return CameraState(
@@ -215,7 +215,7 @@ class SceneRenderer:
         )
 
     def resume(self, name: str, state: CameraState) -> None:
-        """Let the next picture of a camera be drawn as if those had been that led to a state."""
+        """Continue from a state of a camera, as if the pictures that led to it had been drawn."""
         camera = self._cameras[name]
         self._plain.pop(name, None)
         self._own.pop(name, None)
@@ -289,7 +289,7 @@ class SceneRenderer:
         poses: Mapping[str, Pose],
         lights: Mapping[str, Sequence[Light]],
     ) -> _Content:
-        """Return what reaches into a picture."""
+        """Return the content of a picture."""
         mount = camera.at if isinstance(camera.at, Mount) else None
         others = [body for actor, body in bodies.items() if actor != camera.carrier]
         seen = [one for body in others if (one := self._bodies.seen(body, poses[body.actor], view))]
@@ -354,9 +354,7 @@ class SceneRenderer:
             shine(colour, distance_m, self._fixed_lights.seen(view, self._light))
 
     def _layer(self, seen: VisibleBody, part: Part, drawn: Samples, behind_m: Floats) -> Layer:
-        number = self._numbers[seen.body.actor]
-        return Layer.of(number, seen.window, seen.box, seen.whole, seen.range_m, drawn,
-                        part.samples, behind_m)  # fmt: skip
+        return Layer.of(self._numbers[seen.body.actor], seen, drawn, part.samples, behind_m)
 
     def _own_layer(self, name: str, body: BodyState, pose: Pose, view: View) -> Layer | None:
         """Return the camera's own aircraft; it is drawn anew when its light has changed."""

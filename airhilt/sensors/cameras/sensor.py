@@ -68,7 +68,7 @@ class Exposures:
 
 
 class CameraSensor:
-    """Lets the cameras of a scenario expose, all that are due at an instant in one pass.
+    """Schedules the exposures of a scenario's cameras; those due at an instant share one pass.
 
     A picture is published at the end of its exposure; drawing it takes no simulation time. The
     camera of an aircraft that has come to its end gives no more pictures.
@@ -86,6 +86,9 @@ class CameraSensor:
     lost
         Called when there will be no more pictures, with the cause, and true if that is of the
         machine.
+    loss
+        Time at which an earlier run, which is replayed, lost its pictures, in ns, and the cause;
+        None if it did not.
     """
 
     def __init__(
@@ -100,6 +103,7 @@ class CameraSensor:
         state_at_ns: Callable[[], int],
         publish: PublishPictures,
         lost: Callable[[str, bool], None],
+        loss: tuple[int, str] | None = None,
     ) -> None:
         self._director = director
         self._source = source
@@ -110,6 +114,7 @@ class CameraSensor:
         self._state_at_ns = state_at_ns
         self._publish = publish
         self._lost = lost
+        self._loss = loss
         self._exposures = {
             camera.name: Exposures(camera.rate_hz, seconds_to_ns(camera.phase_s))
             for camera in cameras
@@ -150,6 +155,9 @@ class CameraSensor:
         now_ns = self._director.now_ns
         due = [name for name in self._cameras if self._due_ns(name) == now_ns]
         able = [name for name in due if not self._has_ended(self._cameras[name])]
+        if able and self._loss is not None and now_ns >= self._loss[0]:
+            self._lost(self._loss[1], False)
+            return
         try:
             left_out, pictures = self._look(able, now_ns) if able else ({}, {})
         except (CameraError, RendererError) as error:

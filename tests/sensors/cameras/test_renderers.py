@@ -100,14 +100,20 @@ def drawing(airfield: Airfield) -> Iterator[dict[str, SceneRenderer]]:
 
 
 @pytest.fixture(scope="module")
-def pairs(airfield: Airfield, drawing: dict[str, SceneRenderer]) -> list[tuple[Frame, Frame]]:
+def frames(airfield: Airfield, drawing: dict[str, SceneRenderer]) -> list[Frame]:
+    """What the cameras see, by Embree."""
     names = [camera.name for camera in airfield.cameras]
+    return drawing["embree"].shoot(names, airfield.bodies, 0)
+
+
+@pytest.fixture(scope="module")
+def pairs(
+    airfield: Airfield, drawing: dict[str, SceneRenderer], frames: list[Frame]
+) -> list[tuple[Frame, Frame]]:
     if "moderngl" not in drawing:
         pytest.skip("moderngl is not installed")
-    first, second = (
-        drawing[name].shoot(names, airfield.bodies, 0) for name in ("embree", "moderngl")
-    )
-    return list(zip(first, second, strict=True))
+    names = [camera.name for camera in airfield.cameras]
+    return list(zip(frames, drawing["moderngl"].shoot(names, airfield.bodies, 0), strict=True))
 
 
 def test_masks_of_what_is_larger_than_12_pixels_agree(
@@ -147,18 +153,23 @@ def test_colours_and_distances_agree(pairs: list[tuple[Frame, Frame]]) -> None:
         assert (np.abs(ratio - 1.0) > 0.02).mean() < 0.005
 
 
-def test_a_box_goes_round_all_pixels_of_its_body(
-    drawing: dict[str, SceneRenderer], pairs: list[tuple[Frame, Frame]]
+def test_the_pixels_of_a_body_lie_in_its_box_and_at_its_distance(
+    drawing: dict[str, SceneRenderer], frames: list[Frame]
 ) -> None:
-    actors = drawing["embree"].actors
-    for frame, _ in pairs:
+    actors, compared = drawing["embree"].actors, 0
+    for frame in frames:
         for sighting in frame.sightings:
-            rows, columns = np.nonzero(frame.instance == actors.index(sighting.actor) + 1)
+            body = frame.instance == actors.index(sighting.actor) + 1
+            rows, columns = np.nonzero(body)
             if len(rows):
                 assert sighting.box.left - 1.0 <= columns.min()
                 assert columns.max() <= sighting.box.right + 1.0
                 assert sighting.box.top - 1.0 <= rows.min()
                 assert rows.max() <= sighting.box.bottom + 1.0
+                reach_m = 8.0 if sighting.actor == "fire_truck" else 30.0
+                assert np.abs(frame.distance_m[body] - sighting.range_m).max() < reach_m
+                compared += 1
+    assert compared >= 4
 
 
 @pytest.mark.parametrize("renderer", RENDERERS)
@@ -208,20 +219,10 @@ def test_more_actors_than_pictures_tell_apart_are_refused(airfield: Airfield) ->
         SceneRenderer(airfield.landscape, airfield.light, crowd, [], "embree")
 
 
-def test_distances_are_metric(
-    pairs: list[tuple[Frame, Frame]], drawing: dict[str, SceneRenderer]
-) -> None:
-    frame = pairs[0][0]
-    truck = next(s for s in frame.sightings if s.actor == "fire_truck")
-    number = drawing["embree"].actors.index("fire_truck") + 1
-    there = frame.distance_m[frame.instance == number]
-    assert np.abs(there - truck.range_m).max() < 8.0
-
-
 def test_a_tail_camera_sees_its_own_aircraft_and_does_not_report_it(
-    drawing: dict[str, SceneRenderer], pairs: list[tuple[Frame, Frame]]
+    drawing: dict[str, SceneRenderer], frames: list[Frame]
 ) -> None:
-    nose, tail = pairs[1][0], pairs[2][0]
+    _, nose, tail = frames
     own = drawing["embree"].actors.index("c310") + 1
     assert (tail.instance == own).mean() > 0.02
     assert not (nose.instance == own).any()
@@ -242,15 +243,6 @@ def test_the_mask_of_the_own_aircraft_covers_it_and_little_more(
         assert seen.sum() > 0.7 * mask.sum()
     assert not scene_renderer.own_aircraft("nose").any()
     assert not scene_renderer.own_aircraft("runway_01").any()
-
-
-@pytest.mark.parametrize("renderer", RENDERERS)
-def test_a_fixed_camera_gives_the_same_picture_again(
-    airfield: Airfield, drawing: dict[str, SceneRenderer], renderer: str
-) -> None:
-    first, again = (drawing[renderer].shoot(["runway_01"], airfield.bodies, 0)[0] for _ in range(2))
-    assert np.array_equal(first.colour, again.colour)
-    assert np.array_equal(first.instance, again.instance)
 
 
 @pytest.mark.parametrize("renderer", RENDERERS)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, cast
 
 import pytest
 
@@ -111,7 +111,7 @@ def shown(pictures: Sequence[CameraPicture]) -> list[Shown]:
 def test_what_is_found_what_is_drawn_and_what_is_drawn_later_are_what_a_run_alone_draws(
     scenario: Scenario, process: RendererProcess, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    alone = shown(taken(DrawnPictures(Alone(scenario))))
+    alone = shown(taken(DrawnPictures(cast(Any, Alone(scenario)))))
     assert shown(taken(SharedPictures(process))) == alone
     with monkeypatch.context() as patch:
         patch.setattr(process, "shoot", None)  # Nothing is drawn.
@@ -129,7 +129,7 @@ def test_a_run_that_leaves_the_others_draws_what_it_would_have_drawn_alone(
     scenario: Scenario, process: RendererProcess
 ) -> None:
     others = taken(SharedPictures(process))
-    alone = shown(taken(DrawnPictures(Alone(scenario)), aside_m=25.0))
+    alone = shown(taken(DrawnPictures(cast(Any, Alone(scenario))), aside_m=25.0))
     assert alone[-3:] != shown(others)[-3:]
     assert shown(taken(SharedPictures(process), aside_m=25.0)) == alone
 

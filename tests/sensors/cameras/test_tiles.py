@@ -59,14 +59,12 @@ def test_what_lies_between_the_middles_of_pixels_is_left_out() -> None:
     assert len(holding_a_middle(corners, VIEW.whole, 1)) <= len(drawn) < 100
 
 
-def test_what_crosses_the_plane_of_the_camera_is_drawn() -> None:
-    below = np.array([[(0.0, -500.0, 0.0), (400.0, 900.0, 0.0), (-400.0, 900.0, 0.0)]])
-    assert shown(below.astype(np.float32)) == {0}
-
-
-def test_what_is_behind_the_camera_is_left_out() -> None:
-    behind = np.array([[(0.0, -500.0, 0.0), (90.0, -400.0, 0.0), (-90.0, -400.0, 0.0)]])
-    assert not shown(behind.astype(np.float32))
+def test_what_crosses_the_plane_of_the_camera_is_drawn_and_what_is_behind_it_is_not() -> None:
+    below = [(0.0, -500.0, 0.0), (400.0, 900.0, 0.0), (-400.0, 900.0, 0.0)]
+    behind = [(0.0, -500.0, 0.0), (90.0, -400.0, 0.0), (-90.0, -400.0, 0.0)]
+    assert shown(np.array([below, behind], dtype=np.float32)) == {0}
+    depth_m = Tiles.of(np.array([below], dtype=np.float32)).shown_in(VIEW, VIEW.whole).depth_m
+    assert depth_m == pytest.approx(40.0, rel=0.3), "the ground below is not near"
 
 
 def test_nothing_in_the_window_is_nearer_than_what_is_told() -> None:
@@ -86,9 +84,3 @@ def test_nothing_in_the_window_is_nearer_than_what_is_told() -> None:
             assert (points[inside, 2] >= 0.999 * seen.depth_m).all()
             compared += int(inside.sum())
     assert compared > 1000
-
-
-def test_ground_below_the_camera_is_not_near() -> None:
-    below = np.array([[(0.0, -900.0, 0.0), (900.0, 900.0, 0.0), (-900.0, 900.0, 0.0)]])
-    depth_m = Tiles.of(below.astype(np.float32)).shown_in(VIEW, VIEW.whole).depth_m
-    assert depth_m == pytest.approx(40.0, rel=0.3)

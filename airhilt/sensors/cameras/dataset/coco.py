@@ -122,7 +122,7 @@ def _shots(
 
 
 def scene_renderer_of(sitting: Sitting, renderer: str) -> SceneRenderer:
-    """Return what draws a sitting; close it."""
+    """Return the renderer of a sitting; the caller closes it."""
     return SceneRenderer(
         sitting.landscape,
         sitting.light,
@@ -210,8 +210,8 @@ def _moving(realised: Scenario, count: int, seed: int, renderer: str) -> Iterato
 def export(pictures: Iterable[Picture], folder: Path, about: Mapping[str, Any]) -> dict[str, int]:
     """Write pictures and the truth about them, and return how many bodies of each class there are.
 
-    What there is when it breaks off is complete: the truth about those pictures is written too.
-    Before the first picture nothing is written.
+    If the export stops early, the annotations of the pictures written so far are complete. Nothing
+    is written before the first picture.
 
     Parameters
     ----------

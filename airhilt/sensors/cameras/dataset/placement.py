@@ -1,4 +1,4 @@
-"""Bodies before the camera of a random scene: who stands, drives, walks and flies there."""
+"""Places bodies in front of the camera of a random scene."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _FLYING = frozenset(kind for kind, *_ in (*AIRCRAFT, *BIRDS))
 def cast(
     sitting: Sitting, camera: str, draws: np.random.Generator, empty: float
 ) -> list[BodyState]:
-    """Return who stands, drives, walks and flies before a camera.
+    """Return the bodies in front of a camera.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ def _kind(actor: str) -> str:
 def _placed(
     sitting: Sitting, actor: str, view: View, draws: np.random.Generator
 ) -> BodyState | None:
-    """Return a body somewhere in a picture, None where there is no room for it."""
+    """Return a body somewhere in a picture; None if no place for it was found."""
     kind = _kind(actor)
     model = sitting.models[actor]
     aloft = kind in _FLYING and (sitting.layout is None or draws.random() < 0.6)

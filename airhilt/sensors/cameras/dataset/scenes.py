@@ -18,11 +18,7 @@ from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.imaging.view import Intrinsics, Pose
 from airhilt.scenario.models import Daylight, Weather
 from airhilt.sensors.cameras.mounts import Camera, station_mount
-from airhilt.sensors.cameras.scene.bodies import (
-    Model,
-    aircraft_model,
-    kind_model,
-)
+from airhilt.sensors.cameras.scene.bodies import Model, aircraft_model, kind_model
 from airhilt.sensors.cameras.scene.builder import air_and_sun
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.landscape import Landscape, airport_landscape, open_country
@@ -130,7 +126,8 @@ class Casting:
         stations: dict[str, str] = {}
         for index in range(5 if layout is not None else 8):
             carrier = f"carrier-{index}"
-            model = self._models[_pick([kind for kind, *_ in AIRCRAFT], draws)]
+            kind, *_ = AIRCRAFT[int(draws.integers(len(AIRCRAFT)))]
+            model = self._models[kind]
             models[carrier] = model
             station = "nose" if index % 5 < 3 else "tail"
             name = f"{station}-{index}"
@@ -224,7 +221,3 @@ def _standpoint(layout: Layout, draws: np.random.Generator) -> Pose:
         east, north = np.array((x0, y0)) + along * ahead + 5.0 * offset * across
         up = float(draws.uniform(2.5, 40.0))
     return Pose.of((float(east), float(north), up), azimuth, level)
-
-
-def _pick(kinds: Sequence[str], draws: np.random.Generator) -> str:
-    return kinds[int(draws.integers(len(kinds)))]

@@ -16,7 +16,7 @@ TOUCHED, UNTOUCHED = ((True,) * 4,) * 2, ((False,) * 4,) * 2
 
 
 class Canvas:
-    """The first corner of a frame buffer that only grows: pictures are drawn into it.
+    """Draws into the upper left corner of a frame buffer that only grows.
 
     There is never more than one: a buffer for each size would in time take all memory.
     """
@@ -29,7 +29,7 @@ class Canvas:
         self.size = 0, 0
 
     def clear(self, size: tuple[int, int], *, is_filled: bool = False) -> None:
-        """Begin a drawing of some size; if all of it will be filled, colours need no clearing."""
+        """Begin a drawing of some size; colours are not cleared if all of it will be filled."""
         width, height = (
             max(CANVAS_STEP_PX * math.ceil(side / CANVAS_STEP_PX), room)
             for side, room in zip(size, self._room, strict=True)

@@ -31,7 +31,7 @@ class Shown(NamedTuple):
     places
         Places of the triangles in the order of drawing.
     depth_m
-        Nothing of it in the window is nearer; infinite where nothing is shown.
+        Lower bound of the depth of these triangles in the window; infinite if there are none.
     """
 
     places: Numbers

@@ -1,4 +1,4 @@
-"""Pictures by casting rays: what a library that casts them must do, and nothing of how.
+"""Pictures by casting rays: what a library that casts them must provide.
 
 `airhilt.sensors.cameras.raycasting.renderer` makes pictures of what rays meet. Libraries differ in
 nothing but how fast they find it: `airhilt.sensors.cameras.renderers.embree` and

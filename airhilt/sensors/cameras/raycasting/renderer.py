@@ -54,6 +54,24 @@ class _Glare(NamedTuple):
     colour: Floats
 
 
+class RayCaster:
+    """A library that casts rays, as a backend of pictures."""
+
+    def open(self, landscape: Mesh, light: Illumination) -> RayRenderer:
+        """Return a renderer of a landscape.
+
+        Raises
+        ------
+        RendererError
+            The library, or one of the system that it needs, is not installed.
+        """
+        return RayRenderer(landscape, light, self.scene_builder())
+
+    def scene_builder(self) -> SceneBuilder:
+        """Return what makes scenes of triangles; it raises what `open` does."""
+        raise NotImplementedError
+
+
 class RayRenderer:
     """Draws by casting rays.
 
@@ -196,7 +214,7 @@ class RayRenderer:
         return pieces.reshape(x.shape)
 
     def _highest(self, eye: Doubles) -> np.float32:
-        """Return the slope, up over along and at least 0, above which all is sky."""
+        """Return the slope (height over distance, at least 0) above which there is only sky."""
         middles, radii, tops = self._raised
         if not len(tops):
             return np.float32(0.0)

@@ -7,7 +7,6 @@ import json
 import zlib
 from collections.abc import Callable
 from dataclasses import astuple
-from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
@@ -15,7 +14,7 @@ import numpy.typing as npt
 import airhilt.imaging
 import airhilt.sensors.cameras
 from airhilt.host.caches import CacheFolder
-from airhilt.host.files import source_sha256
+from airhilt.host.files import packages_sha256
 from airhilt.host.processor import processor_sha256
 from airhilt.imaging.view import View, Window
 from airhilt.shapes.mesh import Floats
@@ -44,8 +43,12 @@ class SharedRays:
         digest = hashlib.sha256(np.ascontiguousarray(corners).data)
         digest.update(np.ascontiguousarray(piece_of).data)
         self._scene = [
-            _code(), library, np.__version__, processor_sha256(), digest.hexdigest(),
-        ]  # fmt: skip
+            packages_sha256(airhilt.imaging, airhilt.sensors.cameras),
+            library,
+            np.__version__,
+            processor_sha256(),
+            digest.hexdigest(),
+        ]
         self._type = np.min_scalar_type(int(piece_of.max(initial=0)))
 
     def get(self, view: View, window: Window, cast: Callable[[], Pieces]) -> Pieces:
@@ -59,8 +62,3 @@ class SharedRays:
 
     def _packed(self, pieces: Pieces) -> bytes:
         return zlib.compress(pieces.astype(self._type).tobytes(), COMPRESSION)
-
-
-def _code() -> str:
-    packages = (airhilt.imaging, airhilt.sensors.cameras)
-    return source_sha256(*(Path(place) for package in packages for place in package.__path__))

@@ -11,15 +11,14 @@ import numpy.typing as npt
 from airhilt.errors import RendererError, first_line
 from airhilt.imaging.masks import Mask
 from airhilt.sensors.cameras.raycasting import Hits, SceneBuilder, Triangles
-from airhilt.sensors.cameras.raycasting.renderer import RayRenderer
-from airhilt.sensors.cameras.scene.illumination import Illumination
-from airhilt.shapes.mesh import Floats, Mesh
+from airhilt.sensors.cameras.raycasting.renderer import RayCaster
+from airhilt.shapes.mesh import Floats
 
 NOTHING = -1
 """Embree's number of the geometry that a ray meets where it meets none."""
 
 
-class Embree:
+class Embree(RayCaster):
     """Draws with Embree.
 
     embreex casts ray by ray on one thread and holds Python's interpreter lock meanwhile.
@@ -29,24 +28,8 @@ class Embree:
     distributions = ("embreex",)
     needs = "pip install embreex (there are wheels for Linux x86-64, macOS and Windows)"
 
-    def open(self, landscape: Mesh, light: Illumination) -> RayRenderer:
-        """Return a renderer of a landscape.
-
-        Raises
-        ------
-        RendererError
-            embreex is not installed.
-        """
-        return RayRenderer(landscape, light, self.scene_builder())
-
     def scene_builder(self) -> SceneBuilder:
-        """Return what makes scenes of triangles.
-
-        Raises
-        ------
-        RendererError
-            embreex is not installed.
-        """
+        """Return what makes scenes of triangles."""
         try:
             from embreex.rtcore import EmbreeDevice
         except ImportError as error:

@@ -93,7 +93,7 @@ class Background:
             self._draw(view, int(soon[0]), int(soon[-1]) + 1)
 
     def resume(self, drawings: Sequence[Drawing]) -> None:
-        """Draw what had been drawn when a camera had these drawings, or forget all for none."""
+        """Draw these drawings again; without any, forget what has been drawn."""
         self.drawings = ()
         self._views = []
         if drawings:
@@ -102,7 +102,7 @@ class Background:
             self._draw(view, first, end)
 
     def _has(self, view: View) -> bool:
-        """Return whether all has been drawn from just there."""
+        """Return whether every band was drawn from this pose."""
         return all(kept.pose is view.pose for kept in self._views)
 
     def _begin(self, view: View) -> None:

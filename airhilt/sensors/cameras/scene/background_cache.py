@@ -11,14 +11,13 @@ import json
 import zlib
 from collections.abc import Callable
 from dataclasses import astuple
-from pathlib import Path
 
 import numpy as np
 
 import airhilt.imaging
 import airhilt.sensors.cameras
 from airhilt.host.caches import CacheFolder
-from airhilt.host.files import source_sha256
+from airhilt.host.files import packages_sha256
 from airhilt.host.processor import processor_sha256
 from airhilt.imaging.view import View
 from airhilt.sensors.cameras.renderers import Samples, library_of
@@ -45,7 +44,8 @@ class BackgroundCache:
     ) -> None:
         self._folder = CacheFolder("backgrounds")
         self._scene = [
-            _code(), renderer, library, np.__version__, processor_sha256(), _content(landscape),
+            packages_sha256(airhilt.imaging, airhilt.sensors.cameras),
+            renderer, library, np.__version__, processor_sha256(), _content(landscape),
             light.sun.tolist(), light.visibility_m, light.overcast, light.background,
         ]  # fmt: skip
 
@@ -69,16 +69,10 @@ class BackgroundCache:
         return _unpacked(packed, lens.height_px, lens.width_px)
 
 
-def _code() -> str:
-    """Return the SHA-256 of the code that draws."""
-    packages = (airhilt.imaging, airhilt.sensors.cameras)
-    return source_sha256(*(Path(place) for package in packages for place in package.__path__))
-
-
 def _content(landscape: Landscape) -> str:
     """Return the SHA-256 of all that stands still and can be seen."""
     mesh, digest = landscape.mesh, hashlib.sha256(repr(landscape.lights).encode())
-    for array in (mesh.corners, mesh.normals, mesh.colours, mesh.glow, mesh.sunlit):
+    for array in mesh.arrays:
         digest.update(np.ascontiguousarray(array).data)
     return digest.hexdigest()
 

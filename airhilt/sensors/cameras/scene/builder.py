@@ -19,17 +19,17 @@ from airhilt.world.site import ScenarioSite
 
 FOGGY_M = 3000.0
 HAZY_M = 8000.0
-"""Visibilities, in m, between which the blue of the sky goes."""
+"""Visibilities between which the blue of the sky fades, in m."""
 BACKGROUND_EN_ROUTE = 5.0
 """Factor by which ground and clouds are seen farther than bodies en route: haze gets thinner with
 height, and the scenario's visibility is that at the height of the camera."""
 CLOUDS_UNDER_TRAFFIC = 0.6
-"""Height of the cloud tops, as a part of that of the lowest flight: no cloud hides a flight."""
+"""Height of the cloud tops as a share of the lowest flight's height: no cloud hides a flight."""
 LOWEST_CLOUDS_M = 400.0
 
 
 def light_of(scenario: Scenario, site: ScenarioSite) -> Illumination:
-    """Return how a scenario is lit."""
+    """Return the illumination of a scenario."""
     latitude_rad, _ = local_frame_of(site).origin
     return air_and_sun(scenario.weather, scenario.daylight, latitude_rad, site.layout is None)
 
@@ -37,7 +37,7 @@ def light_of(scenario: Scenario, site: ScenarioSite) -> Illumination:
 def air_and_sun(
     weather: Weather, daylight: Daylight, latitude_rad: float, en_route: bool
 ) -> Illumination:
-    """Return how a place is lit; what the rain takes from the visibility is counted."""
+    """Return the illumination of a place; rain reduces the visibility."""
     rain_m = rain_visibility_m(weather.rain_mm_h)
     visibility = 1.0 / (1.0 / weather.visibility_m + 1.0 / rain_m)
     thick = (HAZY_M - weather.visibility_m) / (HAZY_M - FOGGY_M)
@@ -48,7 +48,7 @@ def air_and_sun(
 
 
 def landscape_of(scenario: Scenario, site: ScenarioSite, light: Illumination) -> Landscape:
-    """Return what stands still in a scenario."""
+    """Return the landscape of a scenario."""
     if site.layout is not None:
         return airport_landscape(site.layout, light)
     heights = [
@@ -71,7 +71,7 @@ def open_scene_renderer(
     keeps_backgrounds: bool = False,
     shares_pictures: bool = False,
 ) -> SceneRenderer:
-    """Return what draws for cameras of a scenario: those named, or those that it declares.
+    """Return the renderer for cameras of a scenario: those named, or those that it declares.
 
     Parameters
     ----------

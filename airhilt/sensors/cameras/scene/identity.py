@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Iterable, Mapping
 from dataclasses import astuple
-from pathlib import Path
 
 import numpy as np
 
@@ -13,7 +12,7 @@ import airhilt.imaging
 import airhilt.sensors.cameras
 import airhilt.shapes
 import airhilt.world.surface.kinds
-from airhilt.host.files import source_sha256
+from airhilt.host.files import packages_sha256
 from airhilt.host.processor import processor_sha256
 from airhilt.sensors.cameras.mounts import Camera, Mount
 from airhilt.sensors.cameras.renderers import library_of
@@ -22,6 +21,9 @@ from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.landscape import Landscape
 from airhilt.shapes.mesh import Mesh
 from airhilt.world.surface.kinds import FAMILY
+
+CODE = airhilt.imaging, airhilt.sensors.cameras, airhilt.shapes, airhilt.world.surface.kinds
+"""Packages that draw, and that say what bodies look like."""
 
 
 def scene_identity(
@@ -44,7 +46,7 @@ def scene_identity(
         return ""
     digest = hashlib.sha256()
     for part in (
-        _code(), renderer, library, np.__version__,
+        packages_sha256(*CODE), renderer, library, np.__version__,
         processor_sha256(), light.sun.tolist(), light.visibility_m, light.overcast,
         light.background, rain_mm_h, landscape.lights, supersampling,
     ):  # fmt: skip
@@ -65,14 +67,6 @@ def scene_identity(
     return digest.hexdigest()
 
 
-def _code() -> str:
-    """Return the SHA-256 of the code that draws, and of what bodies look like."""
-    packages = (
-        airhilt.imaging, airhilt.sensors.cameras, airhilt.shapes, airhilt.world.surface.kinds,
-    )  # fmt: skip
-    return source_sha256(*(Path(place) for package in packages for place in package.__path__))
-
-
 def _add(digest: hashlib._Hash, mesh: Mesh) -> None:
-    for array in (mesh.corners, mesh.normals, mesh.colours, mesh.glow, mesh.sunlit):
+    for array in mesh.arrays:
         digest.update(np.ascontiguousarray(array).data)

@@ -58,7 +58,7 @@ class Illumination:
     visibility_m
         Meteorological visibility.
     overcast
-        0 a blue sky, 1 none: fog and rain whiten it.
+        Cover of the sky: 0 for blue, 1 for white, as fog and rain make it.
     background
         Factor by which ground and clouds are seen farther than bodies.
     """

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from airhilt.imaging.view import Window
 from airhilt.sensors.cameras.renderers import Samples
 from airhilt.sensors.cameras.scene.projected_box import Box
+from airhilt.sensors.cameras.scene.visible_bodies import VisibleBody
 from airhilt.shapes.mesh import Floats
 
 Number = TypeVar("Number", bound=np.generic)
@@ -50,15 +51,7 @@ class Layer:
 
     @classmethod
     def of(
-        cls,
-        number: int,
-        window: Window,
-        box: Box,
-        whole: Box,
-        range_m: float,
-        drawn: Samples,
-        samples: int,
-        behind_m: Floats,
+        cls, number: int, body: VisibleBody, drawn: Samples, samples: int, behind_m: Floats
     ) -> Layer:
         """Return the layer of a body that has been drawn before a landscape so far away."""
         distance = by_sample(drawn.distance_m, samples)
@@ -71,10 +64,10 @@ class Layer:
         count = np.float32(samples**2)
         return cls(
             number,
-            window,
-            box,
-            whole,
-            range_m,
+            body.window,
+            body.box,
+            body.whole,
+            body.range_m,
             float(is_body.sum()) / samples**2,
             np.add.reduce(seen, axis=0, dtype=np.float32) / count,
             np.add.reduce(colour, axis=0, dtype=np.float32) / count,
@@ -87,7 +80,7 @@ class Layer:
         distance_m: Floats,
         instance: npt.NDArray[np.uint8],
     ) -> None:
-        """Put it before what is already in a picture."""
+        """Draw the layer over a picture."""
         rows, columns = self.window.slices
         part = colour[rows, columns]
         part[...] = np.rint(part * (1.0 - self.cover[..., None]) + self.colour).astype(np.uint8)
@@ -96,7 +89,7 @@ class Layer:
         distance_m[rows, columns][filled] = self.distance_m[filled]
 
     def hide(self, seen: Floats, window: Window) -> None:
-        """Take from what is seen of a farther layer in a window what this one covers."""
+        """Reduce the visible part of a farther layer, in its window, by what this layer covers."""
         left, top = max(window.left, self.window.left), max(window.top, self.window.top)
         right = min(window.right, self.window.right)
         bottom = min(window.bottom, self.window.bottom)

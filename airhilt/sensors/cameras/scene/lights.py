@@ -171,17 +171,12 @@ def shine(picture: npt.NDArray[np.uint8], distance_m: Floats, spots: Sequence[Sp
     """Add lights to a picture where nothing stands before them."""
     for spot in spots:
         if distance_m[int(spot.row), int(spot.column)] >= spot.away_m - 1.5:
-            _splat(picture, spot.column, spot.row, spot.strength, spot.colour)
+            _splat(picture, spot)
 
 
-def _splat(
-    picture: npt.NDArray[np.uint8],
-    column: float,
-    row: float,
-    strength: float,
-    colour: tuple[float, ...],
-) -> None:
+def _splat(picture: npt.NDArray[np.uint8], spot: Spot) -> None:
     """Screen a spot over a picture; what is brighter than white grows instead."""
+    column, row, _, strength, colour = spot
     peak = min(strength, 1.0)
     radius = min(0.7 + 0.45 * math.log2(1.0 + strength), GREATEST_RADIUS_PX)
     reach = math.ceil(2.2 * radius)
@@ -189,9 +184,9 @@ def _splat(
     part = picture[top : int(row) + reach + 1, left : int(column) + reach + 1]
     rows = np.arange(top, top + part.shape[0])[:, None] + 0.5 - row
     columns = np.arange(left, left + part.shape[1])[None, :] + 0.5 - column
-    spot = peak * np.exp(-(rows**2 + columns**2) / (0.5 * radius * radius))
+    light = peak * np.exp(-(rows**2 + columns**2) / (0.5 * radius * radius))
     core = min(1.0, strength / 20.0)
     tint = np.asarray(colour) ** (1.0 / 2.2)
     tint = tint + (1.0 - tint) * core * 0.7
-    covered = spot[..., None] * tint
+    covered = light[..., None] * tint
     part[...] = (255.0 - (255.0 - part) * (1.0 - covered)).astype(np.uint8)

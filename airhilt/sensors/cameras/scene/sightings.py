@@ -13,7 +13,7 @@ from airhilt.sensors.cameras.scene.visible_bodies import VisibleBody
 
 
 class Sightings:
-    """Tells what is true of bodies.
+    """Computes the truth about the bodies in a picture.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ class Sightings:
     def of(
         self, layers: Sequence[Layer], faint: Sequence[VisibleBody], own: Layer | None = None
     ) -> tuple[Sighting, ...]:
-        """Return what is true of each body; layers are in order, the nearest last."""
+        """Return the sighting of each body; layers are ordered from far to near."""
         found = [self._sighting(one.body.actor, one.box, one.whole, one.range_m) for one in faint]
         for index, layer in enumerate(layers):
             if layer is own:

@@ -1,4 +1,4 @@
-"""Where bodies, their shadows and their lights are in a picture, before anything is drawn."""
+"""Projects bodies, their shadows and their lights into a picture, before anything is drawn."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ have one sample a pixel."""
 FAINTEST = 1.0 / 512.0
 """Least area in pixels, times the contrast that the air leaves, that changes a level of a pixel."""
 LEAST_BODY_PX = 2.0
-"""Least area of the box about a body, in pixels, before which a camera exposes at its rate."""
+"""Least area of a body's box, in square px, at which an adaptive camera exposes at its rate."""
 SHADOW_BELOW_M = 150.0
 SMALLEST_SHADOW_PX = 4.0
 SMALL_PX = 4000
@@ -29,7 +29,7 @@ SMALL_PX = 4000
 
 
 class VisibleBody(NamedTuple):
-    """A body that reaches into a picture: which mesh of it fits, where, and about it a box."""
+    """A body in a picture: the mesh to draw, its window and its boxes."""
 
     body: BodyState
     pose: Pose
@@ -52,7 +52,7 @@ class VisibleBody(NamedTuple):
 
 
 class VisibleBodies:
-    """The bodies of a scene as cameras have them before them.
+    """The bodies of a scene, projected into the pictures of its cameras.
 
     Parameters
     ----------
