@@ -13,10 +13,13 @@ from airhilt.assistant.asr.engines.http import HttpAsr
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.audio.wav import encode_wav
 from airhilt.errors import AirhiltError, SpeechError
+from airhilt.host.services import HttpService
 
 
 class Scripted:
     """Stands for the service: it keeps what it is sent, and always answers the same."""
+
+    parsed = HttpService.parsed
 
     def __init__(self, answer: Any) -> None:
         self.answer = answer if isinstance(answer, bytes) else json.dumps(answer).encode()

@@ -15,7 +15,7 @@ from airfield import NORTH, Airfield, Mover, lands, stands
 from airhilt import Scenario
 from airhilt.assistant.decision.adsb_consistency import AdsbConsistency, is_possible
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.engine import Decision, Received
+from airhilt.assistant.decision.engine import Decision, ReceivedMessage
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.errors import WorkerError
@@ -330,7 +330,7 @@ class Careless:
     name = "careless"
     reads: tuple[type[Message], ...] = (AdsbReport,)
 
-    def receive(self, received: Received) -> None: ...
+    def receive(self, received: ReceivedMessage) -> None: ...
 
     def decide(self, t_ns: int) -> Decision:
         alert = Alert(

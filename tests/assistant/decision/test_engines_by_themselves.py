@@ -10,7 +10,7 @@ import pytest
 
 from airfield import BRIEFING, ELEVATION_M, HOLD_M, NORTH, degrees
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.engine import Decision, Received
+from airhilt.assistant.decision.engine import Decision, ReceivedMessage
 from airhilt.assistant.decision.engines.llm import LanguageModelAssistant
 from airhilt.assistant.decision.engines.runway_status_lights import RunwayStatusLightEngine
 from airhilt.assistant.decision.engines.well_clear import WellClearEngine
@@ -28,7 +28,7 @@ def at(t_s: float) -> int:
 
 def give(engine: Any, t_s: float, *messages: Message) -> None:
     for message in messages:
-        engine.receive(Received(message, at(t_s), at(t_s)))
+        engine.receive(ReceivedMessage(message, at(t_s), at(t_s)))
 
 
 def report(

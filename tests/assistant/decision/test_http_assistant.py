@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from airhilt.assistant.decision.engine import Decision, Received
+from airhilt.assistant.decision.engine import Decision, ReceivedMessage
 from airhilt.assistant.decision.engines.http import HttpAssistant
 from airhilt.assistant.decision.service_messages import AssistantRequest
 from airhilt.assistant.decision.slices import Slices
@@ -75,7 +75,7 @@ def transcript(
 
 def tell(engine: HttpAssistant, message: Any, t_s: float) -> Decision:
     t_ns = int(t_s * SECOND_NS)
-    engine.receive(Received(message, t_ns, t_ns))
+    engine.receive(ReceivedMessage(message, t_ns, t_ns))
     return engine.decide(t_ns)
 
 
@@ -209,7 +209,7 @@ def test_pictures_of_a_camera_that_was_not_announced_are_left_out() -> None:
         camera="RWY_A", rate_hz=8.0, width_px=640, height_px=360, horizontal_fov_deg=45.0
     )
     for message in (info, known, unknown):
-        slices.receive(Received(message, SECOND_NS, SECOND_NS))
+        slices.receive(ReceivedMessage(message, SECOND_NS, SECOND_NS))
     assert [each.camera_id for each in slices.request(SECOND_NS).cameras] == ["RWY_A"]
 
 

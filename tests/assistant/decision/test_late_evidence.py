@@ -93,7 +93,7 @@ def test_who_brakes_is_not_taken_to_drive_on() -> None:
 
 
 def test_the_highest_level_that_has_lasted_is_told() -> None:
-    escalation = Escalation()
+    escalation = Escalation("one")
     for second, level in enumerate((Severity.CAUTION, Severity.WARNING, Severity.WARNING)):
         escalation.observe(level, second * SECOND_NS)
     assert escalation.rises(Severity.WARNING, 3 * SECOND_NS, 2.0)
@@ -101,7 +101,7 @@ def test_the_highest_level_that_has_lasted_is_told() -> None:
 
 
 def test_what_was_interrupted_has_not_lasted() -> None:
-    escalation = Escalation()
+    escalation = Escalation("one")
     escalation.observe(Severity.CAUTION, 0)
     escalation.observe(None, SECOND_NS)
     assert not escalation.rises(Severity.CAUTION, 2 * SECOND_NS, 1.0)

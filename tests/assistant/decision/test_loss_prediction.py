@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from airfield import BRIEFING
 from airhilt.assistant.decision.aerodrome import TrafficZone
-from airhilt.assistant.decision.guard import Guard
+from airhilt.assistant.decision.guard import ConfidenceGuard
 from airhilt.assistant.decision.loss_prediction import (
     Prediction,
     SeparationConfig,
@@ -209,7 +209,7 @@ def test_who_is_on_the_ground_loses_no_separation() -> None:
 
 
 def test_the_briefing_sets_the_minima() -> None:
-    watch = SeparationWatch(SeparationConfig(vertical_tolerance_ft=50.0), Guard())
+    watch = SeparationWatch(SeparationConfig(vertical_tolerance_ft=50.0), ConfidenceGuard())
     watch.take_briefing(BRIEFING)
     assert watch.config.standard == pytest.approx((5556.0, 304.8))
     assert watch.config.infringed.vertical_m == pytest.approx(950 * FOOT)

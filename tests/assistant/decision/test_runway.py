@@ -33,7 +33,7 @@ from airhilt.assistant.decision.clearance_conflicts import _opposed
 from airhilt.assistant.decision.clearances import Clearances
 from airhilt.assistant.decision.engines.reference import ReferenceConfig
 from airhilt.assistant.decision.escalation import Escalation
-from airhilt.assistant.decision.guard import Guard
+from airhilt.assistant.decision.guard import ConfidenceGuard
 from airhilt.assistant.decision.mobiles import is_on_pavement
 from airhilt.assistant.decision.threats import PAPER_TIME_TO_GO_S, RunwayConfig
 from airhilt.cosim.briefing import briefing_of
@@ -508,7 +508,7 @@ def test_clearances_for_both_ends_of_a_runway_are_a_caution() -> None:
     ],
 )
 def test_clearances_that_are_not_for_both_ends_do_not_oppose_each_other(second: str) -> None:
-    clearances = Clearances(Guard())
+    clearances = Clearances(ConfidenceGuard())
     heard("American 123, runway one niner, cleared to land.", 0, 5, clearances)
     heard(second, 10, 15, clearances)
     outlook = SimpleNamespace(
@@ -519,7 +519,7 @@ def test_clearances_that_are_not_for_both_ends_do_not_oppose_each_other(second: 
 
 
 def test_an_instruction_to_keep_off_that_is_not_read_back_is_told_for_two_minutes() -> None:
-    clearances = Clearances(Guard())
+    clearances = Clearances(ConfidenceGuard())
     clearances.take_opening(
         TransmissionOpened(id="1", frequency_khz=119100, t_tx_ns=10 * SECOND_NS)
     )
@@ -642,7 +642,7 @@ def in_force(clearances: Clearances, at_s: int) -> list[Any]:
 
 
 def test_a_clearance_is_in_force_as_it_was_read_back_until_it_is_old_or_withdrawn() -> None:
-    clearances = Clearances(Guard())
+    clearances = Clearances(ConfidenceGuard())
     heard("Ops one, cross runway zero one.", 0, 3, clearances)
     heard("Cross, ops one.", 4, 6, clearances)
     assert in_force(clearances, 10) == [("OPS1", "cross", "01")]
@@ -656,27 +656,27 @@ def test_a_clearance_is_in_force_as_it_was_read_back_until_it_is_old_or_withdraw
 
 
 def test_what_is_said_besides_leaves_a_clearance_in_force() -> None:
-    clearances = Clearances(Guard())
+    clearances = Clearances(ConfidenceGuard())
     heard("American one two three, runway one niner, cleared to land.", 0, 5, clearances)
     heard("American one two three, ident, maintain visual separation.", 10, 13, clearances)
     assert in_force(clearances, 14) == [("AAL123", "cleared_to_land", "19")]
 
 
 def test_a_clearance_to_be_expected_is_not_in_force() -> None:
-    clearances = Clearances(Guard())
+    clearances = Clearances(ConfidenceGuard())
     heard("American one two three, expect departure runway one niner.", 0, 5, clearances)
     assert in_force(clearances, 6) == []
 
 
 def test_a_readback_long_after_its_instruction_belongs_to_something_else() -> None:
-    clearances = Clearances(Guard())
+    clearances = Clearances(ConfidenceGuard())
     heard(CLEARED[1], 0, 5, clearances)
     heard(WRONG[1], 50, 55, clearances)
     assert list(clearances.discrepancies(56 * SECOND_NS)) == []
 
 
 def test_a_wrong_readback_that_nobody_corrects_is_forgotten_after_a_while() -> None:
-    clearances = Clearances(Guard())
+    clearances = Clearances(ConfidenceGuard())
     heard(CLEARED[1], 0, 5, clearances)
     heard(WRONG[1], 7, 10, clearances)
     assert len(list(clearances.discrepancies(11 * SECOND_NS))) == 1
@@ -685,7 +685,7 @@ def test_a_wrong_readback_that_nobody_corrects_is_forgotten_after_a_while() -> N
 
 @given(st.lists(st.sampled_from([None, *Severity]), min_size=1, max_size=40))
 def test_a_severity_that_is_told_only_rises(levels: list[Any]) -> None:
-    escalation, told = Escalation(), []
+    escalation, told = Escalation("one"), []
     for second, level in enumerate(levels):
         if level is None:
             escalation.is_over(second * 10**9, 1e9)
