@@ -356,22 +356,6 @@ def test_it_is_expected_to_level_off_where_it_was_cleared_to(
 
 
 @pytest.mark.parametrize(
-    ("ago_s", "rate_fpm", "expected_fpm"),
-    [(29.9, 0.0, -5000.0), (29.9, -6000.0, -6000.0), (30.1, -2000.0, -2000.0)],
-)
-def test_an_announced_emergency_descent_is_expected_to_10_000_ft(
-    ago_s: float, rate_fpm: float, expected_fpm: float
-) -> None:
-    """The level from which on oxygen is not needed (14 CFR 121.329)."""
-    said_ns = round((100.0 - ago_s) * SECOND_NS)
-    one = track(33_000.0, rate_fpm, descent_ns=said_ns, descent_id="mayday")
-    _, rate_m_s, target_m = one.profile()
-    assert rate_m_s / FOOT_PER_MINUTE == pytest.approx(expected_fpm)
-    assert target_m == (pytest.approx(10_000.0 * FOOT) if ago_s < 30.0 else None)
-    assert one.radio_id == ("mayday" if ago_s < 30.0 else "")
-
-
-@pytest.mark.parametrize(
     ("ago_s", "to_go_ft", "rate_fpm", "is_kept"),
     [
         (29.0, 2000.0, -1000.0, True),
@@ -392,22 +376,3 @@ def test_a_level_that_nobody_flies_to_is_forgotten_after_30_s(
                    t_adsb_in_ns=100 * SECOND_NS)  # fmt: skip
     one.update(newer, 10_000.0)
     assert (one.cleared_m is not None) is is_kept
-
-
-def test_a_velocity_is_the_mean_of_about_a_second() -> None:
-    one = Track.of(report(height_m=1000.0, ground_speed_kt=100.0, track_deg=90.0,
-                          vertical_rate_fpm=600.0), 3000.0)  # fmt: skip
-    assert one.velocity_east_m_s / KNOT == pytest.approx(100.0)
-    assert one.velocity_north_m_s == pytest.approx(0.0, abs=1e-9)
-    later = report(height_m=1000.0, ground_speed_kt=100.0, track_deg=0.0, vertical_rate_fpm=0.0,
-                   t_adsb_in_ns=SECOND_NS, callsign=None)  # fmt: skip
-    one.update(later, 3100.0)
-    assert one.velocity_east_m_s / KNOT == pytest.approx(60.0)
-    assert one.velocity_north_m_s / KNOT == pytest.approx(40.0)
-    assert one.vertical_rate_m_s / FOOT_PER_MINUTE == pytest.approx(360.0)
-    assert (one.t_ns, one.callsign) == (SECOND_NS, "AAL123")
-    assert one.altitude_m == pytest.approx(3100.0 * FOOT)
-    assert one.latitude_rad / DEGREE == pytest.approx(later.latitude_deg)
-    assert one.longitude_rad / DEGREE == pytest.approx(later.longitude_deg)
-    one.update(report(height_m=1000.0, ground_speed_kt=500.0), 9000.0)
-    assert one.altitude_m == pytest.approx(3100.0 * FOOT)  # That was older.
