@@ -31,7 +31,7 @@ from airhilt.messages import (
 from airhilt.units import SECOND_NS
 from airhilt.workers import check_worker
 from airhilt.workers.samples import sample_inputs
-from services import Slow, answering, breaking_off, nobody, redirecting, service
+from services import answering, breaking_off, nobody, redirecting, service
 
 Json = dict[str, Any]
 ADVISORY: Json = {
@@ -260,25 +260,10 @@ def test_a_service_that_fails_is_named(answer: Callable[..., None], words: str) 
         advisories_of(worker_of(nobody()), 2)
 
 
-def test_an_answer_after_the_deadline_is_not_waited_for() -> None:
-    late = Slow("silent", b'{"advisories": []}')
-    with service(late) as url:
-        engine = HttpAssistant(url, timeout_s=0.1)
-        with pytest.raises(WorkerError, match=r"has not answered for 0\.1 s"):
-            tell(engine, transcript("hello"), 2.0)
-        late.released.set()
-
-
 def test_an_address_with_a_password_is_refused_without_showing_it() -> None:
     with pytest.raises(WorkerError, match=r"http://127\.0\.0\.1:9000 contains a user") as raised:
         HttpAssistant("http://me:secret@127.0.0.1:9000/advise")
     assert "secret" not in str(raised.value)
-
-
-@pytest.mark.parametrize("url", ["http://", "http://[bad", "http://host:99999/", "http://a b/"])
-def test_what_is_no_address_is_refused_before_the_run(url: str) -> None:
-    with pytest.raises(WorkerError, match="is no address"):
-        HttpAssistant(url)
 
 
 def test_it_is_a_worker_that_a_run_takes() -> None:
