@@ -7,7 +7,7 @@ told without its size; the time to contact can.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -113,6 +113,11 @@ class _Encounter(NamedTuple):
     def ray(self) -> Ray:
         return self.track.last.ray
 
+    @property
+    def rank(self) -> int:
+        """Rank of its severity; -1 without one."""
+        return -1 if self.severity is None else self.severity.rank
+
     def past_ns(self, minima: Minima) -> int:
         """Return the time at which the two are past each other by the horizontal minimum.
 
@@ -188,8 +193,8 @@ class IntruderWatch:
 
     # --- what is seen -----------------------------------------------------------------------
 
-    def _encounters(self, t_ns: int) -> Iterator[_Encounter]:
-        """Yield what is seen in the air, the most urgent first."""
+    def _encounters(self, t_ns: int) -> list[_Encounter]:
+        """Return what is seen in the air, the most urgent first."""
         found = []
         for track in self._visual_tracks:
             carrier = track.carrier
@@ -201,8 +206,8 @@ class IntruderWatch:
             if approach is not None and not stays_in_place(track, approach):
                 severity = self._grade(track, approach, t_ns)
                 found.append(_Encounter(carrier, track, approach, severity))
-        found.sort(key=lambda each: (-_rank(each.severity), each.approach.time_s))
-        yield from found
+        found.sort(key=lambda each: (-each.rank, each.approach.time_s))
+        return found
 
     def _is_flying(self, view: CameraView) -> bool:
         """Return whether the aircraft that a camera is on is in the air."""
@@ -326,10 +331,6 @@ class IntruderWatch:
             recommendations={} if advice is None else {carrier: advice},
             active=active,
         )
-
-
-def _rank(severity: Severity | None) -> int:
-    return -1 if severity is None else severity.rank
 
 
 def _where(encounter: _Encounter) -> Where:

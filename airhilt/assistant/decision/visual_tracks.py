@@ -272,13 +272,14 @@ class VisualTracks:
         """Return the track number of a detection, the nearest track if it has none."""
         if detection.track_id is not None:
             return detection.track_id
-        near = [
-            (shift, number)
+        shifts = [
+            (_shift(track.last.box, detection.box, UNTRACKED_SHIFT, UNTRACKED_SHIFT_PX), number)
             for number, track in followed.items()
-            if number not in found and (shift := _step(track.last.box, detection.box)) <= 1.0
+            if number not in found
         ]
-        if near:
-            return min(near)[1]
+        shift, nearest = min(shifts, default=(math.inf, 0))
+        if shift <= 1.0:
+            return nearest
         self._unnumbered -= 1
         return self._unnumbered
 
@@ -289,10 +290,6 @@ class VisualTracks:
             for number, track in list(followed.items()):
                 if t_ns - track.heard_ns > BLIND_NS:
                     del followed[number]
-
-
-def _step(before: Box, now: Box) -> float:
-    return _shift(before, now, UNTRACKED_SHIFT, UNTRACKED_SHIFT_PX)
 
 
 def _shift(before: Box, now: Box, sizes: float, pixels: float) -> float:

@@ -127,7 +127,8 @@ def test_a_level_that_nobody_gave_is_expected_once_it_was_heard_twice(
     expected = []
     for number in range(2):
         is_misread(unheard, f"call {number}", UNSURE, 20.0 + 6.0 * number)
-        expected.append(tracks[b"AAL123".hex()[-6:]].cleared_m)
+        (aal123,) = (track for track in tracks if track.callsign == "AAL123")
+        expected.append(aal123.cleared_m)
     assert expected == [None, pytest.approx(34_000.0 * FOOT)]
 
 

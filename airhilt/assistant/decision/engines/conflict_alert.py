@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import Decision, ReceivedMessage
 from airhilt.assistant.decision.guard import ConfidenceGuard
 from airhilt.assistant.decision.loss_prediction import SeparationConfig
@@ -49,14 +48,12 @@ class ConflictAlertEngine:
 
     def decide(self, t_ns: int) -> Decision:
         """Return the alerts that are new or over."""
-        alerts = [_to_controller(alert) for alert in self._watch.judge(t_ns)]
+        alerts = [
+            replace(alert, recipients=(CONTROLLER,), recommendations={})
+            for alert in self._watch.judge(t_ns)
+        ]
         again_ns = t_ns + COASTING_NS if self._watch.has_conflict else None
         return Decision(alerts, again_ns=again_ns)
-
-
-def _to_controller(alert: Alert) -> Alert:
-    """Return an alert as the controller's display has it."""
-    return replace(alert, recipients=(CONTROLLER,), recommendations={})
 
 
 ENGINE = Engine(

@@ -218,14 +218,14 @@ def _unsupported(
     if advisory.kind == "readback_mismatch":
         is_misread = misread_turns(cited)
         return "" if is_misread else "it names no instruction that was read back differently"
-    named = {turn.callsign for turn in cited if _names(turn, advisory.runway)}
+    named = {
+        turn.callsign
+        for turn in cited
+        if any(each.runway == advisory.runway for each in turn.instructions)
+    }
     on_runway = {each for each in traffic if runway_of(each) == advisory.runway}
     missing = sorted(traffic - named - on_runway)
     return f"nothing shows {', '.join(missing)} on runway {advisory.runway}" if missing else ""
-
-
-def _names(turn: Turn, runway: str) -> bool:
-    return any(each.runway == runway for each in turn.instructions)
 
 
 def _ruled(callsign: str, situation: QuestionContext) -> Recommendation | None:
