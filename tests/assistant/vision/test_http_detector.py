@@ -89,17 +89,11 @@ class TestServiceThat:
     @pytest.mark.parametrize(
         ("answer", "problem"),
         [
-            (b"<html>", "Invalid JSON"),
             (b"\xff\xfe", "Invalid JSON"),
-            (b"", "Invalid JSON"),
-            ([], "object"),
             ({}, "detections: Field required"),
             ({"detections": [TRUCK | {"label": "A dog"}]}, "detections/0/label"),
             ({"detections": [TRUCK | {"confidence": 1.5}]}, "detections/0/confidence"),
-            ({"detections": [TRUCK | {"confidence": float("nan")}]}, "detections/0/confidence"),
-            ({"detections": [TRUCK | {"box": [1, 2, 3]}]}, "detections/0/box"),
             ({"detections": [TRUCK | {"box": [1, 2, float("inf"), 4]}]}, "detections/0/box"),
-            ({"detections": [TRUCK | {"box": [1, 2, "x", 4]}]}, "detections/0/box"),
             ({"detections": [TRUCK] * 1001}, "at most 1000"),
         ],
         ids=str,
