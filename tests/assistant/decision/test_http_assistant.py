@@ -197,13 +197,25 @@ def test_what_cannot_be_right_is_left_out_and_the_advisory_says_so() -> None:
     assert "ADS-B of AAL123" in wrong
 
 
-def test_pictures_of_a_camera_that_was_not_announced_are_left_out() -> None:
-    slices = Slices()
+def sampled() -> Detections:
+    """Return the detections in a picture of the end of the first second."""
     (sample,) = (
         Detections.model_validate_json(item.payload)
         for item in sample_inputs(SECOND_NS)
         if item.key.startswith("vision/")
     )
+    return sample
+
+
+@pytest.mark.parametrize(("t_s", "count"), [(1.9, 1), (2.1, 0)])
+def test_a_picture_is_given_for_a_second(t_s: float, count: int) -> None:
+    slices = Slices()
+    slices.receive(ReceivedMessage(sampled(), SECOND_NS, SECOND_NS))
+    assert len(slices.request(round(t_s * SECOND_NS)).cameras) == count
+
+
+def test_pictures_of_a_camera_that_was_not_announced_are_left_out() -> None:
+    slices, sample = Slices(), sampled()
     known, unknown = (sample.model_copy(update={"camera": name}) for name in ("RWY_A", "ELSEWHERE"))
     info = CameraInfo(
         camera="RWY_A", rate_hz=8.0, width_px=640, height_px=360, horizontal_fov_deg=45.0

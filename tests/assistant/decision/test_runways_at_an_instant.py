@@ -509,6 +509,13 @@ def test_birds_are_where_they_fly_to_when_the_arrival_comes(
     assert ("WARNING" in [each for *_, each in field.obstructions()]) is is_met
 
 
+def test_birds_are_not_taken_to_fly_straight_on_for_a_minute() -> None:
+    """They would be in the path after 58.6 s, and are 336 m beside it after 25 s."""
+    place = (-100.0, 586.0, glide_m(-100.0))
+    field = aloft(Field(arrival("AAL123", 60.0)), place, right_m_s=-10.0)
+    assert field.obstructions() == []
+
+
 @pytest.mark.parametrize(
     ("up_m", "up_m_s", "is_met"),
     [(-105.0, 1.0, True), (-105.0, 0.4, False), (-105.0, 0.0, False), (105.0, -1.0, True),

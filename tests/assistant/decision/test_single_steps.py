@@ -140,11 +140,14 @@ def test_two_fixes_together_are_weighed_by_their_covariances() -> None:
     )
 
 
-def velocity_after(seconds: float, speed: float, error_px: float = 0.0, seed: int = 1) -> Vector:
+def velocity_after(
+    seconds: float, speed: float, error_px: float = 0.0, seed: int = 1, stops_s: float = math.inf
+) -> Vector:
     """Return the measured velocity of a truck that drives 0.6 east and 0.8 north."""
 
     def drives(t_s: float) -> tuple[tuple[float, float, float], float]:
-        return (0.6 * speed * t_s, 80.0 + 0.8 * speed * t_s, 0.0), 0.0
+        way_m = speed * min(t_s, stops_s)
+        return (0.6 * way_m, 80.0 + 0.8 * way_m, 0.0), 0.0
 
     camera = Camera(
         "c", FIELD, standing((0.0, 0.0, 30.0), 0.0, -20.0), [Body("truck", *TRUCK, drives)],
@@ -179,6 +182,10 @@ def test_what_stands_seldom_has_a_velocity_by_the_errors_of_its_boxes() -> None:
 def test_what_creeps_with_four_times_the_error_of_its_speed_has_a_velocity() -> None:
     measured = [velocity_after(2.0, 0.5, 1.0, seed) for seed in range(40)]
     assert sum(each != (0.0, 0.0) for each in measured) >= 35
+
+
+def test_what_stopped_more_than_two_seconds_ago_stands() -> None:
+    assert velocity_after(4.5, 10.0, stops_s=2.0) == pytest.approx((0.0, 0.0), abs=0.1)
 
 
 @pytest.mark.parametrize("vertical_ft", [450.0, 1000.0])
