@@ -10,14 +10,13 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, TypeVar
 from urllib.parse import urlsplit
 
-from pydantic import BaseModel, ValidationError
-
 from airhilt.errors import AirhiltError, first_problem
 
 if TYPE_CHECKING:
     import httpx
+    from pydantic import BaseModel
 
-Answer = TypeVar("Answer", bound=BaseModel)
+Answer = TypeVar("Answer", bound="BaseModel")
 SCHEMES = ("http", "https")
 USAGE = "the address of a service"
 """Words for such an engine where error messages list what may be written."""
@@ -167,6 +166,8 @@ class HttpService:
         AirhiltError
             It is not of the model.
         """
+        from pydantic import ValidationError  # Not at the top: the help of the program needs none.
+
         try:
             return model.model_validate_json(data)
         except ValidationError as error:
