@@ -13,13 +13,15 @@ import os
 import time
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Literal, Protocol, runtime_checkable
+from typing import Any, Literal, Protocol, TypeVar, runtime_checkable
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from airhilt.errors import AirhiltError, LanguageModelError, first_problem
 from airhilt.host.services import HttpService, without_key, without_user
+from airhilt.messages import ModelExchange
 
+Answer = TypeVar("Answer", bound=BaseModel)
 KEY_VARIABLE = "AIRHILT_LLM_KEY"
 """Environment variable with the key of the endpoint; it is sent, and written nowhere."""
 MAXIMUM_BYTES = 1_000_000
@@ -107,7 +109,7 @@ class LanguageModel:
     def ask(self, instructions: str, question: str, schema: Mapping[str, Any]) -> str:
         """Return the answer: a text that should be JSON of a schema.
 
-        The caller checks that, and calls `accept` if it is.
+        The caller checks that, and calls `accept` if it is, as `answer_to` does.
 
         Raises
         ------
@@ -131,6 +133,30 @@ class LanguageModel:
             data = self._post(request | _format(schema, "json_object"), left_s)
             self._dialect = "json_object"
         return self._content(data)
+
+    def answer_to(
+        self,
+        exchange: ModelExchange,
+        instructions: str,
+        schema: Mapping[str, Any],
+        model: type[Answer],
+    ) -> tuple[Answer | None, ModelExchange]:
+        """Return the answer to the question of an exchange, and the exchange with what came of it.
+
+        Without a usable answer in time, it is None, and the exchange has the failure.
+        """
+        try:
+            text = self.ask(instructions, exchange.question, schema)
+        except LanguageModelError as error:
+            return None, exchange.model_copy(update={"failure": str(error)})
+        exchange = exchange.model_copy(update={"answer": text})
+        try:
+            answer = model.model_validate_json(text)
+        except ValidationError as error:
+            failure = f"the answer is not of the schema: {first_problem(error)}"
+            return None, exchange.model_copy(update={"failure": failure})
+        self.accept()
+        return answer, exchange
 
     def accept(self) -> None:
         """Record that the last answer is of its schema: the model goes on being asked."""

@@ -7,14 +7,16 @@ import re
 import threading
 from collections.abc import Mapping
 from contextlib import suppress
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 from urllib.parse import urlsplit
 
-from airhilt.errors import AirhiltError
+from airhilt.errors import AirhiltError, first_problem
 
 if TYPE_CHECKING:
     import httpx
+    from pydantic import BaseModel
 
+Answer = TypeVar("Answer", bound="BaseModel")
 SCHEMES = ("http", "https")
 USAGE = "the address of a service"
 """Words for such an engine where error messages list what may be written."""
@@ -155,6 +157,22 @@ class HttpService:
                 )
             blocks.append(block)
         return b"".join(blocks)
+
+    def parsed(self, data: bytes, model: type[Answer], expected: str) -> Answer:
+        """Return an answer in JSON as a model.
+
+        Raises
+        ------
+        AirhiltError
+            It is not of the model.
+        """
+        from pydantic import ValidationError  # Not at the top: the help of the program needs none.
+
+        try:
+            return model.model_validate_json(data)
+        except ValidationError as error:
+            what = f"answered {data[:60]!r}: {first_problem(error)}"
+            raise self.error(what, expected) from None
 
     def error(self, what: str, expected: str) -> AirhiltError:
         """Return the error that says what the service does and what was expected."""

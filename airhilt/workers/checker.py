@@ -73,7 +73,7 @@ def check_worker(
 def _problems(
     worker: Worker, inputs: Sequence[Input] | None, patience_s: float, hints: list[str]
 ) -> Iterator[str]:
-    """Yield what a run would not take; add to ``hints`` what it would take and nobody acts on."""
+    """Yield the problems that a run would refuse; add advisories without effect to ``hints``."""
     try:
         description = described(worker)
     except WorkerError as error:

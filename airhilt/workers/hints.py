@@ -22,7 +22,7 @@ def is_reference(description: WorkerDescription) -> bool:
 
 
 def no_action(advisory: Advisory, follows: Callable[[Recommendation], bool] | None) -> str | None:
-    """Return why nobody acts on an advisory that warns; None if somebody may, or it is for ATC.
+    """Return why nobody acts on a warning; None if somebody may act, or if it is for ATC.
 
     Parameters
     ----------

@@ -49,17 +49,23 @@ PIXELS = bytes(3 * VIEW.width_px * VIEW.height_px)
 def sample_inputs(t_ns: int) -> Iterator[Input]:
     """Yield an input of each kind, as if it arrived at a time after the first second of a run."""
     yield _json("clock", Clock(t_ns=t_ns, run="sample", pace="virtual", phase="running"))
-    yield _json("briefing", _briefing(t_ns))
+    briefing = Briefing(
+        t_ns=t_ns,
+        controller="Washington Center",
+        horizontal_separation_nm=5.0,
+        vertical_separation_ft=1000.0,
+        roster=tuple(
+            RosterEntry(callsign=callsign, category="aircraft", type="B738")
+            for callsign in ("AAL123", "DAL456")
+        ),
+    )
+    yield _json("briefing", briefing)
     yield _json("status/asr", Status(t_ns=t_ns, modality="asr", state="on"))
     yield _json("adsb/a00001", _report(t_ns, "a00001", "AAL123", 38.80))
     yield _json("adsb/a00002", _report(t_ns, "a00002", "DAL456", 38.90))
-    yield _raw("radio/118300/tx", _transmission(t_ns), SILENCE)
-    yield _json("asr/118300", _transcript(t_ns))
-    yield _json("camera/sample/info", _camera(t_ns))
-    yield _raw("camera/sample/frame", _frame(t_ns), PIXELS)
-    yield _json("vision/sample", _detections(t_ns))
-    yield _json("advisory/ATC", _advisory(t_ns))
-    yield _raw("tts/sample-1", _voice(t_ns), SILENCE)
+    yield from _call(t_ns)
+    yield from _pictures(t_ns)
+    yield from _advisory(t_ns)
 
 
 def _json(key: str, message: Message) -> Input:
@@ -72,19 +78,6 @@ def _raw(key: str, header: Message, data: bytes) -> Input:
 
 def _sha256(data: bytes) -> str:
     return hashlib.sha256(data).hexdigest()
-
-
-def _briefing(t_ns: int) -> Briefing:
-    return Briefing(
-        t_ns=t_ns,
-        controller="Washington Center",
-        horizontal_separation_nm=5.0,
-        vertical_separation_ft=1000.0,
-        roster=(
-            RosterEntry(callsign="AAL123", category="aircraft", type="B738"),
-            RosterEntry(callsign="DAL456", category="aircraft", type="B738"),
-        ),
-    )
 
 
 def _report(t_ns: int, icao24: str, callsign: str, latitude_deg: float) -> AdsbReport:
@@ -107,8 +100,9 @@ def _report(t_ns: int, icao24: str, callsign: str, latitude_deg: float) -> AdsbR
     )
 
 
-def _transmission(t_ns: int) -> Transmission:
-    return Transmission(
+def _call(t_ns: int) -> Iterator[Input]:
+    """Yield a transmission of silence, and the transcript of words that it may have had."""
+    transmission = Transmission(
         t_ns=t_ns,
         id=f"sample-{t_ns}",
         frequency_khz=118_300,
@@ -117,23 +111,23 @@ def _transmission(t_ns: int) -> Transmission:
         samples=len(SILENCE) // 2,
         sha256=_sha256(SILENCE),
     )
-
-
-def _transcript(t_ns: int) -> Transcript:
-    return Transcript(
+    yield _raw("radio/118300/tx", transmission, SILENCE)
+    transcript = Transcript(
         t_ns=t_ns,
-        id=f"sample-{t_ns}",
-        frequency_khz=118_300,
-        t_tx_ns=t_ns - SECOND_NS,
+        id=transmission.id,
+        frequency_khz=transmission.frequency_khz,
+        t_tx_ns=transmission.t_tx_ns,
         t_end_ns=t_ns,
         text="american one two three descend and maintain flight level three three zero",
         confidence=0.9,
         engine="sample",
     )
+    yield _json("asr/118300", transcript)
 
 
-def _camera(t_ns: int) -> CameraInfo:
-    return CameraInfo(
+def _pictures(t_ns: int) -> Iterator[Input]:
+    """Yield a camera, a black picture, and detections that might be in one."""
+    camera = CameraInfo(
         t_ns=t_ns,
         camera="sample",
         rate_hz=5.0,
@@ -141,10 +135,8 @@ def _camera(t_ns: int) -> CameraInfo:
         height_px=VIEW.height_px,
         horizontal_fov_deg=VIEW.horizontal_fov_deg,
     )
-
-
-def _frame(t_ns: int) -> CameraFrame:
-    return CameraFrame(
+    yield _json("camera/sample/info", camera)
+    frame = CameraFrame(
         t_ns=t_ns,
         camera="sample",
         seq=t_ns // SECOND_NS,
@@ -152,23 +144,22 @@ def _frame(t_ns: int) -> CameraFrame:
         view=VIEW,
         sha256=_sha256(PIXELS),
     )
-
-
-def _detections(t_ns: int) -> Detections:
-    found = Detection(label="airplane", confidence=0.9, box=(20.0, 20.0, 30.0, 25.0))
-    return Detections(
+    yield _raw("camera/sample/frame", frame, PIXELS)
+    detections = Detections(
         t_ns=t_ns,
         camera="sample",
-        seq=t_ns // SECOND_NS,
+        seq=frame.seq,
         t_frame_ns=t_ns,
         view=VIEW,
-        detections=(found,),
+        detections=(Detection(label="airplane", confidence=0.9, box=(20.0, 20.0, 30.0, 25.0)),),
         engine="sample",
     )
+    yield _json("vision/sample", detections)
 
 
-def _advisory(t_ns: int) -> Advisory:
-    return Advisory(
+def _advisory(t_ns: int) -> Iterator[Input]:
+    """Yield an advisory, and its voice."""
+    advisory = Advisory(
         t_ns=t_ns,
         id="sample-1",
         revision=0,
@@ -181,12 +172,10 @@ def _advisory(t_ns: int) -> Advisory:
         evidence=Evidence(sources=("adsb",)),
         t_ready_ns=t_ns,
     )
-
-
-def _voice(t_ns: int) -> AdvisoryAudio:
-    return AdvisoryAudio(
+    yield _json("advisory/ATC", advisory)
+    voice = AdvisoryAudio(
         t_ns=t_ns,
-        id="sample-1",
+        id=advisory.id,
         revision=0,
         recipient="ATC",
         text="American one two three and Delta four five six lose separation in 60 seconds.",
@@ -195,3 +184,4 @@ def _voice(t_ns: int) -> AdvisoryAudio:
         samples=len(SILENCE) // 2,
         sha256=_sha256(SILENCE),
     )
+    yield _raw("tts/sample-1", voice, SILENCE)

@@ -14,7 +14,7 @@ import pytest
 from airhilt import run
 from airhilt.assistant.asr.engines import FAMILY as RECOGNISERS
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.engine import Decision, Received
+from airhilt.assistant.decision.engine import Decision, ReceivedMessage
 from airhilt.assistant.decision.engines import decision_engine
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.reference import reference_worker
@@ -265,7 +265,7 @@ def test_an_assistant_that_reads_truth_is_refused() -> None:
         name = "cheat"
         reads = (ActorTruth,)
 
-        def receive(self, received: Received) -> None: ...
+        def receive(self, received: ReceivedMessage) -> None: ...
 
         def decide(self, t_ns: int) -> Decision:
             return Decision()

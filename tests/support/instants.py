@@ -11,7 +11,7 @@ from airhilt.assistant.decision.findings import Obstruction
 from airhilt.assistant.decision.line_of_sight import AirFix, GroundFix
 from airhilt.assistant.decision.mobiles import Mobile, Use
 from airhilt.assistant.decision.occupancy import SeenAloft, SeenOnGround
-from airhilt.assistant.decision.situation import SeenObstacle, Situation
+from airhilt.assistant.decision.situation import RunwaySituation, SeenObstacle
 from airhilt.assistant.decision.threats import RunwayConfig, Threat
 from airhilt.messages import AdsbReport
 from airhilt.units import DEGREE, FOOT, KNOT, SECOND_NS
@@ -70,7 +70,7 @@ class Field:
 
     def __init__(self, *reports: AdsbReport) -> None:
         assert BRIEFING.airport is not None
-        self.situation = Situation(BRIEFING.airport, BRIEFING)
+        self.situation = RunwaySituation(BRIEFING.airport, BRIEFING)
         for each in reports:
             self.situation.take_report(each, each.t_adsb_in_ns)
 

@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.engine import DecisionEngine, Received
+from airhilt.assistant.decision.engine import DecisionEngine, ReceivedMessage
 from airhilt.messages import (
     Climb,
     CockpitInstruments,
@@ -108,7 +108,7 @@ class Meeting:
         return self
 
     def _give(self, message: Message, t_ns: int) -> None:
-        self.engine.receive(Received(message, t_ns, t_ns))
+        self.engine.receive(ReceivedMessage(message, t_ns, t_ns))
 
     def _instruments(self, own: Jet, t_ns: int) -> CockpitInstruments:
         height_ft = own.altitude_ft - self.ground_ft

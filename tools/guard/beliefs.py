@@ -7,7 +7,7 @@ from pathlib import Path
 
 from airhilt.assistant.decision.air_tracks import AirTracks
 from airhilt.assistant.decision.clearances import Clearances
-from airhilt.assistant.decision.guard import Guard, call_of
+from airhilt.assistant.decision.guard import ConfidenceGuard, call_of
 from airhilt.assistant.decision.level_readbacks import LevelReadbacks
 from airhilt.assistant.decision.loss_prediction import SeparationStandard
 from airhilt.messages import AdsbReport, SpokenTruth, Transcript
@@ -21,7 +21,7 @@ class Beliefs:
     """Beliefs of somebody who hears the calls of a run, by the reference engine's own rules."""
 
     def __init__(self, tau_asr: float, callsigns: Iterable[str]) -> None:
-        guard = Guard(tau_asr)
+        guard = ConfidenceGuard(tau_asr)
         self._callsigns = tuple(callsigns)
         self._clearances = Clearances(guard)
         self._tracks = AirTracks()

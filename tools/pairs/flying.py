@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from airhilt.assistant.decision.engine import DecisionEngine, Received
+from airhilt.assistant.decision.engine import DecisionEngine, ReceivedMessage
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import offset_m
 from airhilt.messages import Severity
@@ -89,7 +89,7 @@ def fly(encounter: Encounter, engine: DecisionEngine, seed: int) -> Outcome:
             receiver.decode(sender, sender.velocity(state), t_ns)
             decoded = receiver.decode(sender, sender.position(state, t_ns), t_ns)
             if decoded is not None:
-                engine.receive(Received(decoded.report(t_ns), t_ns, t_ns))
+                engine.receive(ReceivedMessage(decoded.report(t_ns), t_ns, t_ns))
         for alert in engine.decide(t_ns).alerts:
             if alert.active:
                 first.setdefault(alert.severity, time_s)

@@ -1,4 +1,4 @@
-"""Weighs each piece of a call against the others that may have been said there, or none.
+"""Log-odds of each recognised piece of a call against its alternatives.
 
 A posterior tells how well a piece was heard, not whether another one would make sense there. "Go"
 before "around" is nearly sure even if it was heard badly; a digit is not, because any other would
@@ -28,7 +28,7 @@ LEAST_POSTERIOR = 1e-3
 NO_POSTERIOR = 1e-10
 """Posterior of a unit that was not heard at all, whose logarithm is not taken."""
 LARGEST_LOG_ODDS = log_odds_of(1.0)
-"""Log-odds beyond which nothing is surer."""
+"""Largest log-odds of a piece, and of its alternatives."""
 
 
 @dataclass(frozen=True)

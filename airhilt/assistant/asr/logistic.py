@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 LEAST_PROBABILITY = 1e-6
-"""Probability below which log-odds grow no more; likewise above the rest to one."""
+"""Least distance of a probability from 0 and from 1 in its log-odds."""
 
 
 def probability(log_odds: float) -> float:

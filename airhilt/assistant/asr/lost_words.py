@@ -1,4 +1,4 @@
-"""Words that were said and are not written: more was heard between two words than they have.
+"""Words that were said but are missing in a transcript, by the posteriors between its words.
 
 A word that is left out leaves no trace in a transcript, and may turn what is said: "at LANDER,
 turn left" becomes "turn left". The posteriors of the steps between two words show it, and whether
@@ -23,7 +23,7 @@ from airhilt.assistant.asr.logistic import probability
 LEAST_HEARD = 0.05
 """Posterior of all pieces together below which a step is silence or noise; there may be many."""
 MINUTE_HEARD = 0.1
-"""Sum of posteriors, in steps, far below which gaps differ no more."""
+"""Sum of posteriors, in steps, that is added before the logarithm: gaps far below are alike."""
 LEAST_INSERTED = 0.01
 """Posterior below which a piece is not tried in a gap."""
 NEVER_SAID = 1e-6

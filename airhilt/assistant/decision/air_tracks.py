@@ -38,9 +38,6 @@ class AirTracks:
     def __iter__(self) -> Iterator[Track]:
         yield from self._tracks.values()
 
-    def __getitem__(self, icao24: str) -> Track:
-        return self._tracks[icao24]
-
     def take_report(self, report: AdsbReport, t_ns: int) -> None:
         """Update the track of an aircraft at a time, or note that it is on the ground."""
         if report.altitude_ft is None:

@@ -9,11 +9,11 @@ from airhilt.assistant.decision.clearance_conflicts import clearance_conflicts
 from airhilt.assistant.decision.flight_path import in_flight_path
 from airhilt.assistant.decision.meeting_runways import meeting_uses
 from airhilt.assistant.decision.occupied_runway import occupied
-from airhilt.assistant.decision.situation import Situation
+from airhilt.assistant.decision.situation import RunwaySituation
 from airhilt.assistant.decision.threats import Outlook, RunwayConfig, Threat
 
 
-def threats_now(situation: Situation, config: RunwayConfig, t_ns: int) -> Iterator[Threat]:
+def threats_now(situation: RunwaySituation, config: RunwayConfig, t_ns: int) -> Iterator[Threat]:
     """Yield all threats; more than one may have the same key."""
     outlook = Outlook(situation, config, t_ns)
     uses = list(situation.uses.values())
@@ -26,7 +26,7 @@ def threats_now(situation: Situation, config: RunwayConfig, t_ns: int) -> Iterat
 
 
 def worst_threats(
-    config: RunwayConfig, situation: Situation, t_ns: int
+    config: RunwayConfig, situation: RunwaySituation, t_ns: int
 ) -> dict[tuple[str, ...], Threat]:
     """Return the most severe threat of each key, by the rules that are applied."""
     found = threats_now(situation, config, t_ns)

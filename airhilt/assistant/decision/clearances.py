@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
-from airhilt.assistant.decision.guard import Doubt, Guard
+from airhilt.assistant.decision.guard import ConfidenceGuard, Doubt
 from airhilt.assistant.decision.readback_silence import ReadbackSilence
 from airhilt.assistant.decision.repeats import RememberingGuard
 from airhilt.messages import Transcript, TransmissionOpened
@@ -40,7 +40,7 @@ class Clearance:
     radio_id
         Id of the transmission.
     is_certain
-        False if a slot of it is in doubt: it then makes nobody's presence on a runway right.
+        False if a slot of it is in doubt: it then allows nobody to be on a runway.
     """
 
     callsign: str
@@ -108,7 +108,7 @@ class Clearances:
     none.
     """
 
-    def __init__(self, guard: Guard) -> None:
+    def __init__(self, guard: ConfidenceGuard) -> None:
         self._guard = RememberingGuard(guard)
         self._doubts: dict[str, Doubt] = {}
         """The doubt about the last call of or to each callsign."""
@@ -166,10 +166,10 @@ class Clearances:
     def _address(self, callsign: str, addressed: _Addressed) -> None:
         """Note a call to somebody, whose readback is awaited.
 
-        Who has just read back, and is asked for it again, is told nothing new: another readback of
-        the same instruction is awaited. Until it comes, a call without an instruction, such as the
-        "roger" to the first one, changes nothing. "Say again" at any other time is about other
-        words, or is the crew's: nothing is awaited after it until there is another instruction.
+        After a request to say a readback again, another readback of the same instruction is
+        awaited. Until it comes, a call without an instruction, such as "roger", changes nothing.
+        Any other "say again" is about other words, or is the crew's: nothing is awaited after it
+        until the next instruction.
         """
         call, end_ns = addressed.call, addressed.transcript.t_end_ns
         told = self._read_back.get(callsign)
@@ -270,7 +270,7 @@ class Clearances:
         }
 
     def _suspect(self, callsign: str, doubts: Iterable[Doubt]) -> None:
-        """Note what is in doubt; somebody may be cleared by it, and may not hold any more."""
+        """Note doubts; their instructions may have cleared somebody, who then holds no more."""
         for doubt in doubts:
             self._doubts[callsign] = doubt
             said = doubt.said
@@ -292,8 +292,8 @@ class Clearances:
     ) -> tuple[Instruction, ...]:
         """Note where a readback is wrong, and return it with the runways that it leaves out.
 
-        A slot that agrees with the instruction is in doubt no more. One that does not, and is in
-        doubt on either side, makes no wrong readback yet.
+        A slot that agrees with the instruction is no longer in doubt. A slot that differs and is in
+        doubt in either call does not count as a wrong readback yet.
         """
         given = self._recent(callsign, transcript.t_tx_ns)
         complete = []

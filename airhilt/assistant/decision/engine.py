@@ -15,7 +15,7 @@ from airhilt.assistant.decision.alerts import Alert
 from airhilt.messages import Message, ModelExchange
 
 
-class Received(NamedTuple):
+class ReceivedMessage(NamedTuple):
     """One message as it reaches a decision engine.
 
     Attributes
@@ -64,7 +64,7 @@ class DecisionEngine(Protocol):
         """Classes of the messages that it wants."""
         ...
 
-    def receive(self, received: Received) -> None:
+    def receive(self, received: ReceivedMessage) -> None:
         """Update what is known with one message."""
         ...
 

@@ -2,28 +2,50 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from airhilt.messages import Severity
+from airhilt.assistant.decision.alerts import Alert
+from airhilt.assistant.decision.findings import Finding
+from airhilt.messages import AdvisoryKind, Evidence, Recommendation, Severity
 from airhilt.units import SECOND_NS
 
 
 @dataclass(slots=True)
 class Escalation:
-    """The severity of one conflict from first suspicion to its end."""
+    """The severity and the alerts of one conflict, from first suspicion to its end.
 
+    Attributes
+    ----------
+    id
+        Id of its alerts.
+    severity
+        Severity of its last alert; None before the first one.
+    """
+
+    id: str
     severity: Severity | None = None
-    """Severity told last; None before the first advisory."""
+    _revision: int = 0
     _since_ns: dict[Severity, int] = field(default_factory=dict)
     """Time since which the level has been that or higher, by severity."""
     _quiet_since_ns: int | None = None
     _tells_again: bool = False
 
+    @property
+    def is_for_crews(self) -> bool:
+        """True if crews and drivers are told of it: from a CAUTION on."""
+        return self.severity is not None and self.severity.rank >= Severity.CAUTION.rank
+
+    @property
+    def has_alert(self) -> bool:
+        """True if an alert has been made."""
+        return self._revision > 0
+
     def rises(self, level: Severity, t_ns: int, persistence_s: float) -> bool:
         """Update with the present level, and return whether a higher severity is to be told.
 
-        It is, once all levels for ``persistence_s`` were higher than the one told last; `severity`
-        is the least of them.
+        It is to be told once all levels of the last ``persistence_s`` were higher than the severity
+        told last. `severity` then becomes the lowest of these levels.
         """
         self._quiet_since_ns = None
         self.observe(level, t_ns)
@@ -39,9 +61,9 @@ class Escalation:
         return True
 
     def observe(self, level: Severity | None, t_ns: int) -> None:
-        """Note the level of a time at which nothing is told, None for no conflict.
+        """Note the level at a time at which nothing is told; None for no conflict.
 
-        What has lasted is judged by the times of the evidence, however seldom something is told.
+        How long a level has held is counted by the times of the evidence, not by those of alerts.
         """
         for severity in Severity:
             if level is None or severity.rank > level.rank:
@@ -72,3 +94,29 @@ class Escalation:
         if self._quiet_since_ns is None:
             self._quiet_since_ns = t_ns
         return t_ns - self._quiet_since_ns >= release_s * SECOND_NS
+
+    def alert(
+        self,
+        kind: AdvisoryKind,
+        recipients: tuple[str, ...],
+        traffic: tuple[str, ...],
+        evidence: Evidence,
+        finding: Finding | None,
+        recommendations: Mapping[str, Recommendation],
+        *,
+        active: bool = True,
+    ) -> Alert:
+        """Return the next alert; the last one is not active, and has no recommendations."""
+        revision, self._revision = self._revision, self._revision + 1
+        return Alert(
+            id=self.id,
+            revision=revision,
+            kind=kind,
+            severity=self.severity if self.severity is not None and active else Severity.INFO,
+            recipients=recipients,
+            traffic=traffic,
+            evidence=evidence,
+            finding=finding,
+            recommendations=recommendations if active else {},
+            active=active,
+        )

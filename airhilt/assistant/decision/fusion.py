@@ -14,7 +14,7 @@ Noise, and calls that blocked each other, may never give one."""
 class FusionGate:
     """A gate that is closed from the end of a call until its transcript has come.
 
-    Nothing waits for ADS-B reports: they come once a second at least.
+    The gate does not wait for ADS-B reports, which come at least once a second.
     """
 
     def __init__(self) -> None:

@@ -1,9 +1,9 @@
-"""The guard of the AIRHILT paper's ladder: what was heard with too little confidence is asked for.
+"""The guard of the AIRHILT paper's ladder: it finds slots heard with too little confidence.
 
 Each slot of an instruction that the engine acts on has the recogniser's least confidence in its
 words. The value of a slot has the parser's confidence too: "descend and maintain five thousand five
-hundred ten" may have been heard well, and makes no sense. Below tau_ASR the slot is in doubt: it is
-neither believed nor ignored (arXiv 2511.18718).
+hundred ten" may have been heard well, and makes no sense. Below tau_ASR the slot is in doubt: the
+engine neither believes nor ignores it, and asks for it (arXiv 2511.18718).
 """
 
 from __future__ import annotations
@@ -27,8 +27,8 @@ def call_of(
 ) -> Call:
     """Return the meaning of a transcript, with the confidences of its words.
 
-    Where the engine gives none, or not one for each word, the confidence in the whole stands for
-    that in each word. A level above the ceiling of an aircraft is in doubt.
+    Without a confidence for each word, each word has that of the whole. A level above the ceiling
+    of an aircraft is in doubt.
     """
     words = _by_word(transcript)
     return parse_call(transcript.text, callsigns, words, ceilings_ft=ceilings_ft)
@@ -49,7 +49,7 @@ class Doubt:
     callsign
         Callsign that was heard, or the likeliest one.
     is_answered
-        True if no readback is to come that may settle it.
+        True if no readback that may settle it is expected any more.
     """
 
     callsign: str
@@ -63,7 +63,7 @@ class Doubt:
     def of(
         cls, call: Call, said: Instruction, transcript: Transcript, slot: Slot, confidence: float
     ) -> Doubt | None:
-        """Return the doubt about a slot of a call, None if that is nobody's on the frequency."""
+        """Return the doubt about a slot of a call; None if the call names no known callsign."""
         callsign = call.match.callsign
         if callsign is None:
             return None
@@ -71,9 +71,9 @@ class Doubt:
 
 
 def slots(call: Call, said: Instruction) -> dict[Slot, float]:
-    """Return the slots of an instruction with their confidences, the first to be asked for first.
+    """Return the slots of an instruction with their confidences, in the order of questions.
 
-    The last one is its runway or its level.
+    The last slot is its runway or its level.
     """
     return {
         "callsign": AMBIGUOUS if call.match.ambiguous else call.match.score,
@@ -90,14 +90,14 @@ def value_slot(said: Instruction) -> Slot:
 def _value(said: Instruction) -> float:
     """Return the confidence in the runway or the level of an instruction.
 
-    One that is not named makes no sense of its own: only its words count.
+    Where neither is named, the confidence is that of the words alone.
     """
     is_named = said.runway is not None or said.altitude_ft is not None
     return said.details_confidence if is_named else said.details_heard
 
 
 @dataclass(frozen=True, slots=True)
-class Guard:
+class ConfidenceGuard:
     """Tells which slot of an instruction is in doubt; with a threshold of 0 it tells nothing."""
 
     tau_asr: float = TAU_ASR
@@ -116,9 +116,9 @@ class Guard:
     def doubt_of_rest(
         self, callsign: str, missing: Instruction, transcript: Transcript
     ) -> Doubt | None:
-        """Return the doubt that a call had an instruction that was not heard, None if it had not.
+        """Return the doubt whether a call had an instruction that was not recognised.
 
-        It may have had it where any of its words is in doubt.
+        It may have had it if any of its words is in doubt; None if none is.
         """
         least = min(_by_word(transcript), default=0.0)
         if least >= self.tau_asr:

@@ -58,7 +58,8 @@ def evasion(
 def _sense(track: VisualTrack, approach: Approach, vertical_rate_m_s: float) -> int:
     """Return 1 to climb and -1 to descend, away from where it is or will be."""
     above = approach.passes_above()
-    if abs(above) > ABOVE_SIZES and _is_told(approach):
+    turns = abs(approach.turning_rad_s[1]) > 2.0 * approach.turning_error
+    if abs(above) > ABOVE_SIZES and turns:
         return -1 if above > 0.0 else 1
     if track.label == "bird":
         return 1  # Birds that take fright dive.
@@ -66,8 +67,3 @@ def _sense(track: VisualTrack, approach: Approach, vertical_rate_m_s: float) -> 
     if abs(elevation_rad) > LEVEL_RAD:
         return -1 if elevation_rad > 0.0 else 1
     return -1 if vertical_rate_m_s < 0.0 else 1
-
-
-def _is_told(approach: Approach) -> bool:
-    """Return whether it turns up or down by more than two standard deviations."""
-    return abs(approach.turning_rad_s[1]) > 2.0 * approach.turning_error

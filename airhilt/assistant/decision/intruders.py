@@ -7,8 +7,8 @@ told without its size; the time to contact can.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from pydantic import Field, model_validator
@@ -113,6 +113,11 @@ class _Encounter(NamedTuple):
     def ray(self) -> Ray:
         return self.track.last.ray
 
+    @property
+    def rank(self) -> int:
+        """Rank of its severity; -1 without one."""
+        return -1 if self.severity is None else self.severity.rank
+
     def past_ns(self, minima: Minima) -> int:
         """Return the time at which the two are past each other by the horizontal minimum.
 
@@ -127,16 +132,13 @@ class _Encounter(NamedTuple):
         return self.track.last.t_ns + round(left_s * SECOND_NS)
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class _Ongoing:
     """One encounter from first suspicion to its end."""
 
-    id: str
-    carrier: str
     encounter: _Encounter
-    escalation: Escalation = field(default_factory=Escalation)
+    escalation: Escalation
     recommendation: Recommendation | None = None
-    revision: int = 0
     past_ns: int = 0
 
 
@@ -173,7 +175,7 @@ class IntruderWatch:
     def judge(self, t_ns: int) -> list[Alert]:
         """Return the alerts that are new, have risen, or are over."""
         told: list[Alert] = []
-        threatened: set[str] = set()
+        threatened: list[_Ongoing] = []
         for encounter in self._encounters(t_ns):
             ongoing = self._known(encounter)
             if ongoing is not None and encounter.approach.closing > 0.0:
@@ -181,18 +183,18 @@ class IntruderWatch:
             if encounter.severity is None:
                 continue
             ongoing = ongoing or self._new(encounter)
-            if ongoing.id not in threatened:
-                threatened.add(ongoing.id)
+            if ongoing not in threatened:
+                threatened.append(ongoing)
                 ongoing.encounter = encounter
                 told += self._raise(t_ns, ongoing, encounter.severity)
-        for ongoing in [ongoing for ongoing in self._ongoing if ongoing.id not in threatened]:
+        for ongoing in [each for each in self._ongoing if each not in threatened]:
             told += self._calm(t_ns, ongoing)
         return told
 
     # --- what is seen -----------------------------------------------------------------------
 
-    def _encounters(self, t_ns: int) -> Iterator[_Encounter]:
-        """Yield what is seen in the air, the most urgent first."""
+    def _encounters(self, t_ns: int) -> list[_Encounter]:
+        """Return what is seen in the air, the most urgent first."""
         found = []
         for track in self._visual_tracks:
             carrier = track.carrier
@@ -204,8 +206,8 @@ class IntruderWatch:
             if approach is not None and not stays_in_place(track, approach):
                 severity = self._grade(track, approach, t_ns)
                 found.append(_Encounter(carrier, track, approach, severity))
-        found.sort(key=lambda each: (-_rank(each.severity), each.approach.time_s))
-        yield from found
+        found.sort(key=lambda each: (-each.rank, each.approach.time_s))
+        return found
 
     def _is_flying(self, view: CameraView) -> bool:
         """Return whether the aircraft that a camera is on is in the air."""
@@ -250,7 +252,7 @@ class IntruderWatch:
         """Return the encounter that is known already, None if there is none."""
         for ongoing in self._ongoing:
             last = ongoing.encounter
-            if ongoing.carrier == encounter.carrier and (
+            if last.carrier == encounter.carrier and (
                 last.track is encounter.track
                 or last.ray.angle_to(encounter.ray) <= SAME_DIRECTION_RAD
             ):
@@ -259,7 +261,7 @@ class IntruderWatch:
 
     def _new(self, encounter: _Encounter) -> _Ongoing:
         self._count += 1
-        ongoing = _Ongoing(f"intruder-{self._count}", encounter.carrier, encounter)
+        ongoing = _Ongoing(encounter, Escalation(f"intruder-{self._count}"))
         ongoing.past_ns = encounter.past_ns(self._minima_from(encounter.track))
         self._ongoing.append(ongoing)
         return ongoing
@@ -300,21 +302,16 @@ class IntruderWatch:
 
     def _alert(self, t_ns: int, ongoing: _Ongoing, active: bool = True) -> Alert:
         """Return the alert about an encounter; crews are told from CAUTION on."""
-        encounter = ongoing.encounter
-        severity = ongoing.escalation.severity or Severity.INFO
-        to_crew = severity.rank >= Severity.CAUTION.rank
-        track = encounter.track
+        encounter, escalation = ongoing.encounter, ongoing.escalation
+        carrier, track = encounter.carrier, encounter.track
         since_s = (t_ns - track.last.t_ns) / SECOND_NS
         left_s = min(max(encounter.approach.time_s - since_s, 0.0), UNRELIABLE_S)
-        advice = ongoing.recommendation if active else None
+        advice = ongoing.recommendation
         unnamed = WILDLIFE if track.label == "bird" else UNIDENTIFIED
-        told = Alert(
-            id=ongoing.id,
-            revision=ongoing.revision,
+        return escalation.alert(
             kind="loss_of_separation",
-            severity=severity if active else Severity.INFO,
-            recipients=(ongoing.carrier, CONTROLLER) if to_crew else (CONTROLLER,),
-            traffic=(ongoing.carrier, track.explained_by or unnamed),
+            recipients=(carrier, CONTROLLER) if escalation.is_for_crews else (CONTROLLER,),
+            traffic=(carrier, track.explained_by or unnamed),
             evidence=Evidence(
                 sources=("vision", "adsb") if track.explained_by else ("vision",),
                 time_to_closest_approach_s=left_s,
@@ -325,21 +322,15 @@ class IntruderWatch:
                 shares={} if track.explained_by else {"vision": 1.0},
             ),
             finding=Intruder(
-                carrier=ongoing.carrier,
+                carrier=carrier,
                 is_birds=track.label == "bird",  # Nothing else flies, whatever it is taken for.
                 callsign=track.explained_by,
                 where=_where(encounter),
                 contact_s=left_s if left_s < UNRELIABLE_S else None,
             ),
-            recommendations={} if advice is None else {ongoing.carrier: advice},
+            recommendations={} if advice is None else {carrier: advice},
             active=active,
         )
-        ongoing.revision += 1
-        return told
-
-
-def _rank(severity: Severity | None) -> int:
-    return -1 if severity is None else severity.rank
 
 
 def _where(encounter: _Encounter) -> Where:

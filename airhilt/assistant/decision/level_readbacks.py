@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from airhilt.assistant.decision.air_tracks import AirTracks
 from airhilt.assistant.decision.findings import LevelMisread
-from airhilt.assistant.decision.guard import Doubt, Guard, call_of
+from airhilt.assistant.decision.guard import ConfidenceGuard, Doubt, call_of
 from airhilt.assistant.decision.loss_prediction import SeparationStandard
 from airhilt.assistant.decision.repeats import RememberingGuard
 from airhilt.assistant.decision.tracks import Track
@@ -41,7 +41,7 @@ class LevelReadbacks:
     go on.
     """
 
-    def __init__(self, tracks: AirTracks, guard: Guard) -> None:
+    def __init__(self, tracks: AirTracks, guard: ConfidenceGuard) -> None:
         self._tracks = tracks
         self._guard = RememberingGuard(guard)
         self._ceilings_ft: dict[str, float] = {}

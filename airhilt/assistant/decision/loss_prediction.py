@@ -13,7 +13,6 @@ from airhilt.configuration import Configuration, Seconds, require_order
 from airhilt.geodesy.relative_motion import (
     Minima,
     Relative,
-    VerticalProfile,
     relative,
     time_to_loss_s,
 )
@@ -193,7 +192,7 @@ def predict(
         loss_s,
         approach_s,
         motion.at(approach_s).distance_m,
-        _gap_m(profiles, approach_s),
+        abs(profiles[0].at(approach_s) - profiles[1].at(approach_s)),
         is_over,
     )
 
@@ -219,7 +218,3 @@ def _is_towers(first: Track, second: Track, loss_s: float | None, zone: TrafficZ
         return False
     then_ns = first.t_ns + round(loss_s * SECOND_NS)
     return zone.contains(first.at(then_ns)) and zone.contains(second.at(then_ns))
-
-
-def _gap_m(profiles: tuple[VerticalProfile, VerticalProfile], time_s: float) -> float:
-    return abs(profiles[0].at(time_s) - profiles[1].at(time_s))

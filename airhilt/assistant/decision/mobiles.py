@@ -22,8 +22,8 @@ FINAL_M = 5.0 * NAUTICAL_MILE
 ALIGNED_RAD = 15.0 * DEGREE
 FINAL_WIDTH_M = 120.0
 FINAL_WIDENING = 0.08
-"""An aircraft on final is this far from the centre line at most: a width in m, and a share of its
-distance."""
+"""Largest distance from the centre line on final: a width in m plus a share of the distance to the
+threshold."""
 STEEPEST = math.tan(5.0 * DEGREE)
 HEIGHT_ALLOWANCE_M = 150.0
 """Height above a steep glide path, in m, up to which an aircraft is on final."""
@@ -34,16 +34,16 @@ CLIMBING_M_S = 200 * FOOT_PER_MINUTE
 CLIMB_OUT_M = 300.0
 """Height, in m, up to which an aircraft that climbs along the runway uses it."""
 BEYOND_M = 2.0 * NAUTICAL_MILE
-"""Distance before or past the runway, in m, up to which it does."""
+"""Distance before or past the runway, in m, within which a climbing aircraft uses it."""
 STANDING_M_S = 1.5
 """Speeds below this, in m/s, are treated as standing."""
 ROLLING_M_S = 25.0 * KNOT
 """Speed that nobody reaches in taxiing along a runway, in m/s."""
 ACCELERATING_FROM_M_S = 5.0
 GAIN_M_S = 3.0
-"""Excess of the speed over its slow mean, in m/s, by which a slow departure is known."""
+"""Excess of the speed over its slow mean, in m/s, from which a slow mobile is departing."""
 SLOWING_M_S = 0.5
-"""Deficit of the speed to its slow mean, in m/s, by which one that brakes is known: about 1 kt, the
+"""Deficit of the speed to its slow mean, in m/s, from which a mobile is braking: about 1 kt, the
 step of reported speeds."""
 SLOW_SPEED_MEMORY = 0.9
 """Weight of the earlier speed in the slow mean; about 5 s."""

@@ -18,7 +18,7 @@ from airhilt.assistant.decision.visual_tracks import (
     VisualTracks,
     belief_in,
 )
-from airhilt.messages import CameraView, VisibleClass
+from airhilt.messages import VisibleClass
 from airhilt.units import SECOND_NS
 
 MOTION_NS = 2 * SECOND_NS
@@ -122,11 +122,8 @@ def _ground_fix(observation: Observation, aerodrome: Aerodrome) -> GroundFix | N
 
 def _line(observation: Observation, aerodrome: Aerodrome, ray: Ray) -> LineOfSight:
     view = observation.geometry.view
-    return LineOfSight(_place(view, aerodrome), view.height_m, ray, observation.geometry.error_rad)
-
-
-def _place(view: CameraView, aerodrome: Aerodrome) -> Vector:
-    return aerodrome.locate(view.latitude_deg, view.longitude_deg)
+    place = aerodrome.locate(view.latitude_deg, view.longitude_deg)
+    return LineOfSight(place, view.height_m, ray, observation.geometry.error_rad)
 
 
 def velocity_of(thing: SeenOnGround, aerodrome: Aerodrome) -> Vector:

@@ -1,4 +1,4 @@
-"""Calls that go on: the instructions that are certain before their end.
+"""Instructions that are certain in calls that have not ended yet.
 
 An instruction of a partial transcript is provisional once it is certain in two partial transcripts
 in a row. The whole transcript confirms or withdraws it, and so does the next partial one. A call
@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from airhilt.assistant.decision.fusion import PATIENCE_NS
-from airhilt.assistant.decision.guard import Guard, call_of
+from airhilt.assistant.decision.guard import ConfidenceGuard, call_of
 from airhilt.messages import PartialTranscript, Transcript
 from airhilt.phraseology import BESIDES, REPORTS, Call, Instruction
 
@@ -41,7 +41,7 @@ class _Partial:
 class PartialCalls:
     """The calls of which partial transcripts have come, and no whole one yet."""
 
-    def __init__(self, guard: Guard) -> None:
+    def __init__(self, guard: ConfidenceGuard) -> None:
         self._guard = guard
         self._calls: dict[str, _Partial] = {}
         self._ended: set[str] = set()

@@ -35,10 +35,21 @@ class Hazard:
 class _Ongoing:
     """One hazard from first suspicion to its end."""
 
-    id: str
     hazard: Hazard
-    escalation: Escalation = field(default_factory=Escalation)
-    revision: int = 0
+    escalation: Escalation
+
+    def alert(self, *, active: bool) -> Alert:
+        """Return the next alert of it."""
+        hazard = self.hazard
+        return self.escalation.alert(
+            hazard.kind,
+            hazard.recipients,
+            hazard.traffic,
+            hazard.evidence,
+            hazard.finding,
+            hazard.recommendations,
+            active=active,
+        )
 
 
 class RaisedAlerts:
@@ -84,12 +95,12 @@ class RaisedAlerts:
         ongoing = self._ongoing.get(key)
         if ongoing is None:
             self._count += 1
-            ongoing = self._ongoing[key] = _Ongoing(f"{self._name}-{self._count}", hazard)
+            ongoing = _Ongoing(hazard, Escalation(f"{self._name}-{self._count}"))
+            self._ongoing[key] = ongoing
         ongoing.hazard = hazard
         if not ongoing.escalation.rises(hazard.severity, t_ns, self._persistence_s):
             return []
-        severity = ongoing.escalation.severity or hazard.severity
-        return [self._alert(ongoing, severity, hazard.recommendations)]
+        return [ongoing.alert(active=True)]
 
     def _calm(self, t_ns: int, key: tuple[str, ...]) -> list[Alert]:
         ongoing = self._ongoing[key]
@@ -99,28 +110,4 @@ class RaisedAlerts:
         if not ongoing.escalation.is_over(t_ns, self._release_s):
             return []
         del self._ongoing[key]
-        return [self._alert(ongoing, Severity.INFO, {}, active=False)]
-
-    def _alert(
-        self,
-        ongoing: _Ongoing,
-        severity: Severity,
-        recommendations: Mapping[str, Recommendation],
-        *,
-        active: bool = True,
-    ) -> Alert:
-        hazard = ongoing.hazard
-        alert = Alert(
-            id=ongoing.id,
-            revision=ongoing.revision,
-            kind=hazard.kind,
-            severity=severity,
-            recipients=hazard.recipients,
-            traffic=hazard.traffic,
-            evidence=hazard.evidence,
-            finding=hazard.finding,
-            recommendations=recommendations,
-            active=active,
-        )
-        ongoing.revision += 1
-        return alert
+        return [ongoing.alert(active=False)]

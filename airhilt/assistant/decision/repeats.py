@@ -1,16 +1,16 @@
-"""What was heard twice alike is surer than what was heard once.
+"""Confidence in words that two calls repeat.
 
-A crew that is asked to confirm says the same words again. They are wrong only if both calls were
-heard wrongly. That takes the errors of two calls of one voice for independent, which they nearly
-are: see docs/decision.md, "Words in doubt". No more than two calls are joined, because no more were
-measured.
+A crew that is asked to confirm says the same words again. The words are wrong only if both calls
+were recognised wrongly. The errors of two calls of one voice are taken to be independent, which is
+nearly true: see docs/decision.md, "Words in doubt". At most two calls are joined, because no more
+were measured.
 """
 
 from __future__ import annotations
 
 from typing import NamedTuple
 
-from airhilt.assistant.decision.guard import Doubt, Guard, Slot, slots, value_slot
+from airhilt.assistant.decision.guard import ConfidenceGuard, Doubt, Slot, slots, value_slot
 from airhilt.messages import Transcript
 from airhilt.phraseology import Action, Call, Instruction
 from airhilt.units import SECOND_NS
@@ -34,15 +34,15 @@ class _Heard(NamedTuple):
 
 
 class RememberingGuard:
-    """The guard, which joins the confidences of a slot that was heard alike in two calls.
+    """A guard that joins the confidences of a slot with the same value in two calls.
 
-    Each slot is joined by itself, and with calls of the same side alone: whether a readback agrees
-    with its instruction is another question. Callsigns are left out, whose confidence is that of a
-    choice among those on the frequency. So are values that made no sense in both calls, however
-    well they were heard. Another value in between begins anew.
+    Each slot is joined separately, and only with calls of the same side: whether a readback agrees
+    with its instruction is another question. Callsigns are not joined, because their confidence is
+    that of a choice among those on the frequency. Values that made no sense in both calls are not
+    joined either, however well they were heard. A different value in between starts anew.
     """
 
-    def __init__(self, guard: Guard) -> None:
+    def __init__(self, guard: ConfidenceGuard) -> None:
         self._guard = guard
         self._heard: dict[_Key, list[_Heard]] = {}
         """Calls with the same value, the oldest first."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 from airhilt.assistant.decision.alerts import Alert
@@ -11,10 +11,10 @@ from airhilt.assistant.decision.assessment import worst, worst_threats
 from airhilt.assistant.decision.clarifications import Clarifications
 from airhilt.assistant.decision.clearance_conflicts import activity_of
 from airhilt.assistant.decision.escalation import Escalation
-from airhilt.assistant.decision.guard import Guard
+from airhilt.assistant.decision.guard import ConfidenceGuard
 from airhilt.assistant.decision.mobiles import Use
 from airhilt.assistant.decision.runway_advice import advice
-from airhilt.assistant.decision.situation import Situation
+from airhilt.assistant.decision.situation import RunwaySituation
 from airhilt.assistant.decision.threats import RunwayConfig, Snapshot, Threat
 from airhilt.assistant.decision.visual_tracks import VisualTracks
 from airhilt.messages import (
@@ -32,7 +32,7 @@ from airhilt.phraseology import Call
 
 PROVISIONAL = "provisional_instruction"
 """Name among the rules of an advisory that rests on an instruction of a call that went on."""
-Rules = Callable[[Situation, int], Mapping[tuple[str, ...], Threat]]
+Rules = Callable[[RunwaySituation, int], Mapping[tuple[str, ...], Threat]]
 """Rules of an engine: the threats on the runways at a time, each by its key."""
 
 
@@ -40,12 +40,10 @@ Rules = Callable[[Situation, int], Mapping[tuple[str, ...], Threat]]
 class _Ongoing:
     """One conflict from first suspicion to its end."""
 
-    id: str
     threat: Threat
-    escalation: Escalation = field(default_factory=Escalation)
+    escalation: Escalation
     told: frozenset[str] = frozenset()
     """Recipients that were told of it last, by the names that they had then."""
-    revision: int = 0
     tracks: tuple[str, ...] = ()
     """Addresses of those in conflict who are known by ADS-B."""
     is_provisional: bool = True
@@ -67,7 +65,7 @@ class RunwayWatch:
         self,
         config: RunwayConfig,
         visual_tracks: VisualTracks,
-        guard: Guard,
+        guard: ConfidenceGuard,
         rules: Rules | None = None,
     ) -> None:
         self.config = config
@@ -75,7 +73,7 @@ class RunwayWatch:
         self._clarifications = Clarifications("runway")
         self._rules = rules or partial(worst_threats, config)
         self._visual_tracks = visual_tracks
-        self._situation: Situation | None = None
+        self._situation: RunwaySituation | None = None
         self._ongoing: dict[tuple[str, ...], _Ongoing] = {}
         self._count = 0
 
@@ -102,7 +100,7 @@ class RunwayWatch:
     def take_briefing(self, briefing: Briefing) -> None:
         """Set the airport, and who is expected there."""
         if briefing.airport is not None and briefing.airport.runways:
-            self._situation = Situation(briefing.airport, briefing, self._guard)
+            self._situation = RunwaySituation(briefing.airport, briefing, self._guard)
 
     def take_report(self, report: AdsbReport, t_ns: int) -> None:
         """Update the position of an aircraft or a vehicle at a time."""
@@ -148,12 +146,11 @@ class RunwayWatch:
             if key not in threats or threats[key].severity is Severity.INFO:
                 ongoing.escalation.observe(None, t_ns)
 
-    def _threats(self, t_ns: int, situation: Situation) -> dict[tuple[str, ...], Threat]:
+    def _threats(self, t_ns: int, situation: RunwaySituation) -> dict[tuple[str, ...], Threat]:
         """Return what is wrong now, by what it is and the addresses of those who are in it.
 
-        A mobile that has not sent its callsign yet has its address for a name: once it has sent it,
-        the threat is still the same. A call that goes on may add a threat or make one more severe.
-        It takes none away.
+        A mobile is named by its address until it has sent its callsign; its threat stays the same
+        one. A call that has not ended may add a threat or make one more severe, but removes none.
         """
 
         def address(name: str) -> str:
@@ -174,13 +171,14 @@ class RunwayWatch:
         ongoing = self._ongoing.get(key)
         if ongoing is None:
             self._count += 1
-            ongoing = self._ongoing[key] = _Ongoing(f"runway-{self._count}", threat)
+            ongoing = _Ongoing(threat, Escalation(f"runway-{self._count}"))
+            self._ongoing[key] = ongoing
         ongoing.threat = threat
         ongoing.is_provisional = ongoing.is_provisional and bool(threat.provisional_ids)
         return ongoing
 
     def _raise(
-        self, t_ns: int, key: tuple[str, ...], threat: Threat, situation: Situation
+        self, t_ns: int, key: tuple[str, ...], threat: Threat, situation: RunwaySituation
     ) -> list[Alert]:
         if threat.severity is Severity.INFO:
             if key in self._ongoing:
@@ -205,7 +203,7 @@ class RunwayWatch:
             and (recommended := advice(mobile, threat, severity, situation, self.config))
             is not None
         }
-        return [self._alert(ongoing, severity, recommendations)]
+        return [self._alert(ongoing, recommendations)]
 
     def _calm(self, t_ns: int, key: tuple[str, ...]) -> list[Alert]:
         ongoing = self._ongoing[key]
@@ -217,9 +215,9 @@ class RunwayWatch:
         if not ongoing.escalation.is_over(t_ns, release_s):
             return []
         del self._ongoing[key]
-        return [self._alert(ongoing, Severity.INFO, {}, active=False)]
+        return [self._alert(ongoing, {}, active=False)]
 
-    def _ask(self, t_ns: int, situation: Situation) -> list[Alert]:
+    def _ask(self, t_ns: int, situation: RunwaySituation) -> list[Alert]:
         """Return questions for what is in doubt about a runway that somebody else uses."""
         snapshot = Snapshot(situation, t_ns)
         alerts: list[Alert] = []
@@ -232,23 +230,18 @@ class RunwayWatch:
     def _alert(
         self,
         ongoing: _Ongoing,
-        severity: Severity,
         recommendations: dict[str, Recommendation],
         active: bool = True,
     ) -> Alert:
         """Return the alert about a threat; crews and drivers are told from CAUTION on."""
-        threat, told = ongoing.threat, ongoing.escalation.severity or severity
-        groups = self.config.recipients
-        is_for_crews = "concerned" in groups and told.rank >= Severity.CAUTION.rank
+        threat, groups = ongoing.threat, self.config.recipients
+        is_for_crews = "concerned" in groups and ongoing.escalation.is_for_crews
         recipients = (
             *(threat.parties if is_for_crews else ()),
             *((CONTROLLER,) if "controller" in groups else ()),
         )
-        alert = Alert(
-            id=ongoing.id,
-            revision=ongoing.revision,
+        return ongoing.escalation.alert(
             kind=threat.kind,
-            severity=severity,
             recipients=recipients,
             traffic=threat.traffic,
             evidence=Evidence(
@@ -266,5 +259,3 @@ class RunwayWatch:
             recommendations=recommendations,
             active=active,
         )
-        ongoing.revision += 1
-        return alert

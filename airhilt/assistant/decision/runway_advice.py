@@ -5,7 +5,7 @@ from __future__ import annotations
 from airhilt.assistant.decision.aerodrome import Strip
 from airhilt.assistant.decision.findings import NotReadBack
 from airhilt.assistant.decision.mobiles import Mobile, lined_up_on
-from airhilt.assistant.decision.situation import Situation
+from airhilt.assistant.decision.situation import RunwaySituation
 from airhilt.assistant.decision.threats import RunwayConfig, Threat
 from airhilt.messages import CancelTakeoff, GoAround, HoldPosition, Recommendation, Severity
 
@@ -17,7 +17,7 @@ def advice(
     mobile: Mobile,
     threat: Threat,
     severity: Severity,
-    situation: Situation,
+    situation: RunwaySituation,
     config: RunwayConfig,
 ) -> Recommendation | None:
     """Return what a mobile should do to stay clear.

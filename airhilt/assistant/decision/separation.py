@@ -6,7 +6,7 @@ clearances. A conflict has one alert, which escalates.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from airhilt.assistant.decision.aerodrome import TrafficZone
 from airhilt.assistant.decision.air_tracks import AirTracks, Pair, Reach
@@ -14,7 +14,7 @@ from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.clarifications import Clarifications
 from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.findings import LevelMisread, LossOfSeparation
-from airhilt.assistant.decision.guard import Guard
+from airhilt.assistant.decision.guard import ConfidenceGuard
 from airhilt.assistant.decision.level_readbacks import LevelReadbacks
 from airhilt.assistant.decision.loss_prediction import (
     Prediction,
@@ -43,10 +43,8 @@ COASTING_NS = SECOND_NS
 class _Conflict:
     """One conflict from first suspicion to its end."""
 
-    id: str
     pair: Pair
-    escalation: Escalation = field(default_factory=Escalation)
-    revision: int = 0
+    escalation: Escalation
     recommendations: tuple[Recommendation | None, Recommendation | None] = (None, None)
 
 
@@ -57,7 +55,7 @@ class SeparationWatch:
     with a tower, which separates them by sight (FAA Order JO 7110.65, 7-2-1).
     """
 
-    def __init__(self, config: SeparationConfig, guard: Guard) -> None:
+    def __init__(self, config: SeparationConfig, guard: ConfidenceGuard) -> None:
         self.config = SeparationStandard(**config.model_dump())
         self._zone: TrafficZone | None = None
         self._tracks = AirTracks()
@@ -133,7 +131,7 @@ class SeparationWatch:
         return alerts
 
     def observe(self, t_ns: int) -> None:
-        """Note the conflicts of a time at which nothing is told; what is news stays news."""
+        """Note the conflicts at a time at which nothing is told; tracks with news keep it."""
         for pair in self._pairs_with_news(t_ns):
             level = self._level(self._predict(t_ns, pair))
             conflict = self._conflict_of(pair, level)
@@ -156,7 +154,8 @@ class SeparationWatch:
         conflict = self._conflicts.get(pair)
         if conflict is None and level is not None:
             self._count += 1
-            conflict = self._conflicts[pair] = _Conflict(f"separation-{self._count}", pair)
+            conflict = _Conflict(pair, Escalation(f"separation-{self._count}"))
+            self._conflicts[pair] = conflict
         return conflict
 
     def _judge(self, t_ns: int, pair: Pair) -> list[Alert]:
@@ -170,7 +169,7 @@ class SeparationWatch:
             return self._calm(t_ns, conflict, prediction)
         if not conflict.escalation.rises(level, t_ns, self.config.persistence_s):
             return []
-        if conflict.escalation.severity in (Severity.CAUTION, Severity.WARNING):
+        if conflict.escalation.is_for_crews:
             self._recommend(conflict, prediction)
         return [self._alert(conflict, prediction, active=True)]
 
@@ -178,8 +177,7 @@ class SeparationWatch:
         first, second = (self._tracks.present(icao24, t_ns) for icao24 in pair)
         is_on_ground = self._tracks.is_grounded(first) or self._tracks.is_grounded(second)
         conflict = self._conflicts.get(pair)
-        told = conflict.escalation.severity if conflict is not None else None
-        is_told = told is not None and told.rank >= Severity.CAUTION.rank
+        is_told = conflict is not None and conflict.escalation.is_for_crews
         return predict(first, second, self.config, self._zone, is_on_ground, is_told)
 
     def _calm(self, t_ns: int, conflict: _Conflict, prediction: Prediction) -> list[Alert]:
@@ -189,11 +187,10 @@ class SeparationWatch:
         going back would bring the conflict back: it stays until the two are past each other. If
         it does come back, it is told again.
         """
-        severity = conflict.escalation.severity
-        if severity is None:
+        if conflict.escalation.severity is None:
             del self._conflicts[conflict.pair]
             return []
-        if not prediction.is_over and severity.rank >= Severity.CAUTION.rank:
+        if not prediction.is_over and conflict.escalation.is_for_crews:
             conflict.escalation.stays_open(t_ns, self.config.release_s)
             return []
         if not conflict.escalation.is_over(t_ns, self.config.release_s):
@@ -214,30 +211,24 @@ class SeparationWatch:
             others,
             self.config.standard,
             self.config.infringed,
-            strong=conflict.escalation.severity is Severity.WARNING and conflict.revision > 0,
+            strong=conflict.escalation.severity is Severity.WARNING
+            and conflict.escalation.has_alert,
         )
         conflict.recommendations = (resolution.first, resolution.second)
 
     def _alert(self, conflict: _Conflict, prediction: Prediction, active: bool) -> Alert:
         """Return the alert about a conflict; crews are told from CAUTION on."""
-        severity = conflict.escalation.severity or Severity.INFO
-        to_crews = severity.rank >= Severity.CAUTION.rank
-        callsigns = prediction.callsigns
-        alert = Alert(
-            id=conflict.id,
-            revision=conflict.revision,
+        escalation, callsigns = conflict.escalation, prediction.callsigns
+        return escalation.alert(
             kind="loss_of_separation",
-            severity=severity if active else Severity.INFO,
-            recipients=(*callsigns, CONTROLLER) if to_crews else (CONTROLLER,),
+            recipients=(*callsigns, CONTROLLER) if escalation.is_for_crews else (CONTROLLER,),
             traffic=callsigns,
             evidence=prediction.evidence(),
             finding=LossOfSeparation(callsigns, prediction.time_to_loss_s),
             recommendations={
                 callsign: recommended
                 for callsign, recommended in zip(callsigns, conflict.recommendations, strict=True)
-                if recommended is not None and active
+                if recommended is not None
             },
             active=active,
         )
-        conflict.revision += 1
-        return alert

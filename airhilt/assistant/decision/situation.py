@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 from airhilt.assistant.decision.aerodrome import Aerodrome, Strip, Way, way_through
 from airhilt.assistant.decision.clearances import Clearances
-from airhilt.assistant.decision.guard import Guard, call_of
+from airhilt.assistant.decision.guard import ConfidenceGuard, call_of
 from airhilt.assistant.decision.mobiles import STANDING_M_S, Mobile, Use, use_of
 from airhilt.assistant.decision.occupancy import (
     SeenAloft,
@@ -97,18 +97,18 @@ class Supposed(NamedTuple):
         Ids of the transmissions of these calls.
     """
 
-    situation: Situation
+    situation: RunwaySituation
     radio_ids: tuple[str, ...]
 
 
-class Situation:
+class RunwaySituation:
     """The runways of an airport, and everybody near them."""
 
     def __init__(
-        self, airport: AirportBriefing, briefing: Briefing, guard: Guard | None = None
+        self, airport: AirportBriefing, briefing: Briefing, guard: ConfidenceGuard | None = None
     ) -> None:
         self.aerodrome = Aerodrome(airport)
-        self._guard = guard or Guard()
+        self._guard = guard or ConfidenceGuard()
         self.clearances = Clearances(self._guard)
         self._partial_calls = PartialCalls(self._guard)
         self.uses: dict[str, Use] = {}

@@ -6,7 +6,7 @@ from collections import deque
 from collections.abc import Mapping
 from types import MappingProxyType
 
-from airhilt.assistant.decision.engine import Received
+from airhilt.assistant.decision.engine import ReceivedMessage
 from airhilt.assistant.decision.input_checks import InputChecks
 from airhilt.assistant.decision.service_messages import (
     AssistantRequest,
@@ -58,7 +58,7 @@ class Slices:
         self._cameras: deque[Detections] = deque()
         self._tracks: dict[str, AdsbReport] = {}
 
-    def receive(self, received: Received) -> None:
+    def receive(self, received: ReceivedMessage) -> None:
         """Take in one message if it is believed; of two about one call, the first holds."""
         t_ns = received.t_ns
         match received.message:

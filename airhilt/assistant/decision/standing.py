@@ -19,8 +19,10 @@ from airhilt.units import DEGREE, SECOND_NS
 FLOCK_M = 20.0
 AIRLINER_M = 80.0
 """Largest sizes of a flock and of an aircraft, in m."""
-TOLD_SIGMAS, ALIKE_SIGMAS = 2.0, 3.0
-"""Errors from which a motion is told from none, and within which two motions are alike."""
+TOLD_SIGMAS = 2.0
+"""Standard deviations from which a motion counts as one."""
+ALIKE_SIGMAS = 3.0
+"""Standard deviations within which two motions count as the same."""
 SLACK = 0.25
 """Largest error of the motion of a cloud, as a share of it: its middle is not one place on it. An
 assumption."""

@@ -28,7 +28,7 @@ from airhilt.assistant.decision.findings import Obstruction, Obstructs
 from airhilt.assistant.decision.leaving import leaving_s
 from airhilt.assistant.decision.mobiles import ALIGNED_RAD, STANDING_M_S, TOUCHDOWN_M, Use
 from airhilt.assistant.decision.raised_alerts import Hazard
-from airhilt.assistant.decision.situation import Obstacle, Situation
+from airhilt.assistant.decision.situation import Obstacle, RunwaySituation
 from airhilt.configuration import Configuration, Seconds, require_order
 from airhilt.messages import CancelTakeoff, Evidence, GoAround, Recommendation, Severity
 from airhilt.units import SECOND_NS, wrap_angle
@@ -67,7 +67,7 @@ class SurfaceAlertConfig(Configuration):
 
 
 def predicted_collisions(
-    situation: Situation, config: SurfaceAlertConfig, responds_from: Severity, t_ns: int
+    situation: RunwaySituation, config: SurfaceAlertConfig, responds_from: Severity, t_ns: int
 ) -> Iterator[Hazard]:
     """Yield the collisions that crews are to be told of.
 
@@ -91,7 +91,7 @@ def predicted_collisions(
 
 
 def _time_to_go_s(
-    situation: Situation, use: Use, obstacle: Obstacle, margin_s: float, t_ns: int
+    situation: RunwaySituation, use: Use, obstacle: Obstacle, margin_s: float, t_ns: int
 ) -> float | None:
     """Return the time until somebody meets another on its runway; None if they do not meet.
 

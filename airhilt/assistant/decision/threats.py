@@ -22,7 +22,7 @@ from airhilt.assistant.decision.findings import (
 )
 from airhilt.assistant.decision.ladder import ScoreConfig
 from airhilt.assistant.decision.mobiles import BRAKING_M_S2, Use
-from airhilt.assistant.decision.situation import Situation
+from airhilt.assistant.decision.situation import RunwaySituation
 from airhilt.assistant.decision.visual_tracks import VisualTrack
 from airhilt.configuration import Configuration, Seconds, require_order
 from airhilt.messages import Severity
@@ -126,7 +126,7 @@ class Threat:
     key
         The same for the same conflict, from step to step.
     severity
-        INFO where all will be well, but is not yet.
+        INFO if the situation is expected to resolve itself, but has not yet.
     runway
         The direction that is used.
     parties
@@ -144,8 +144,7 @@ class Threat:
     shares
         Share of each modality in the judgement; empty where it cannot be told.
     provisional_ids
-        Ids of transmissions that went on: without what was heard of them so far there is no such
-        threat, or only a lesser one.
+        Ids of unfinished transmissions whose words so far cause the threat or make it more severe.
     """
 
     key: tuple[str, ...]
@@ -168,7 +167,7 @@ class Threat:
 class Snapshot:
     """The situation at one instant, with who is cleared where and who will be where when."""
 
-    def __init__(self, situation: Situation, t_ns: int) -> None:
+    def __init__(self, situation: RunwaySituation, t_ns: int) -> None:
         self.situation = situation
         self.t_ns = t_ns
         self.in_force = tuple(situation.clearances.in_force(t_ns))
@@ -207,7 +206,7 @@ class Snapshot:
     def cleared_to(self, callsign: str | None, strip: Strip) -> set[Action]:
         """Return what somebody is cleared to do on a runway; to cross it, only if that is certain.
 
-        To be cleared to cross makes it right to be there, all else only tells where somebody goes.
+        A clearance to cross allows the presence on the runway; the others only show a destination.
         """
         return {
             clearance.action
@@ -220,7 +219,7 @@ class Snapshot:
 class Outlook(Snapshot):
     """The situation at one instant, judged by the thresholds of the reference engine."""
 
-    def __init__(self, situation: Situation, config: RunwayConfig, t_ns: int) -> None:
+    def __init__(self, situation: RunwaySituation, config: RunwayConfig, t_ns: int) -> None:
         super().__init__(situation, t_ns)
         self.config = config
 

@@ -14,7 +14,7 @@ from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
 
 STALE_NS = 15 * SECOND_NS
 STALE_ON_GROUND_NS = 30 * SECOND_NS
-"""Silence after which reports are forgotten, in ns; who stands squitters every five seconds."""
+"""Silence after which reports are forgotten, in ns. A standing mobile squitters every 5 s."""
 HALF_SIZE_M: dict[EmitterCategory | None, float] = {
     "A1": 8.0, "A2": 14.0, "A3": 21.0, "A5": 38.0, "C1": 7.0, "C2": 7.0,
 }  # fmt: skip

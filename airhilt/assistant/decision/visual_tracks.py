@@ -17,13 +17,14 @@ from airhilt.messages import AdsbReport, Box, Briefing, Detection, Detections, V
 from airhilt.units import FOOT, SECOND_NS
 
 LOOK_NS = SECOND_NS // 2
-"""Length of one look, in ns: the errors of the pictures within it are alike."""
+"""Length of one look, in ns. The detector's errors in pictures of one look are correlated."""
 LOOKS = 6
 """Number of looks that are kept of each thing."""
 OBSERVED_NS = 5 * SECOND_NS
 """Time for which observations are kept, in ns."""
 BLIND_NS = 10 * SECOND_NS
-"""Time for which a thing is kept without new pictures, in ns: an outage clears no runway."""
+"""Time for which a thing is kept without new pictures, in ns, so that an outage of a camera does
+not clear a runway."""
 EXPLAINED_NS = 3 * SECOND_NS
 """Time for which a thing stays known by ADS-B, in ns."""
 DOUBT = 0.05
@@ -148,9 +149,9 @@ class VisualTrack:
     def belief(self) -> float:
         """Belief that it is there, from 0 to 1, by the looks that are over.
 
-        One look alone may err, all of them hardly. But pictures of what never moves are alike, and
-        so are their errors: a sign that is taken for a truck once always is. Its belief is that of
-        one look.
+        Looks at something that moves err independently. Pictures of something that never moves are
+        alike, and so are the errors in them: a sign that was taken for a truck once always is. Its
+        belief is that of one look.
         """
         if self.has_moved:
             return 1.0 - math.prod(1.0 - mean for mean in self._means())
@@ -271,13 +272,14 @@ class VisualTracks:
         """Return the track number of a detection, the nearest track if it has none."""
         if detection.track_id is not None:
             return detection.track_id
-        near = [
-            (shift, number)
+        shifts = [
+            (_shift(track.last.box, detection.box, UNTRACKED_SHIFT, UNTRACKED_SHIFT_PX), number)
             for number, track in followed.items()
-            if number not in found and (shift := _step(track.last.box, detection.box)) <= 1.0
+            if number not in found
         ]
-        if near:
-            return min(near)[1]
+        shift, nearest = min(shifts, default=(math.inf, 0))
+        if shift <= 1.0:
+            return nearest
         self._unnumbered -= 1
         return self._unnumbered
 
@@ -288,10 +290,6 @@ class VisualTracks:
             for number, track in list(followed.items()):
                 if t_ns - track.heard_ns > BLIND_NS:
                     del followed[number]
-
-
-def _step(before: Box, now: Box) -> float:
-    return _shift(before, now, UNTRACKED_SHIFT, UNTRACKED_SHIFT_PX)
 
 
 def _shift(before: Box, now: Box, sizes: float, pixels: float) -> float:

@@ -12,7 +12,7 @@ from airhilt.assistant.decision.engine import (
     DecisionEngine,
     HasConfiguration,
     NamesInputs,
-    Received,
+    ReceivedMessage,
 )
 from airhilt.assistant.decision.fusion import FusionGate
 from airhilt.assistant.wording.engine import AdvisoryWording, words
@@ -171,7 +171,7 @@ class DecisionWorker:
             self._gate.receive(message)
         if pattern in self._read:
             raw = b"" if item.attachment is None else item.payload
-            self._engine.receive(Received(message, item.t_in_ns, t_ns, raw))
+            self._engine.receive(ReceivedMessage(message, item.t_in_ns, t_ns, raw))
 
     def _answers(self, exchanges: Sequence[ModelExchange]) -> Iterator[Output]:
         """Yield what a language model was asked and answered, under the ids of the advisories."""

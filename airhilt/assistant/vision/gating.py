@@ -63,7 +63,7 @@ class _Looked(NamedTuple):
     Attributes
     ----------
     history
-        Hash of the pictures to which it is due.
+        Hash of the pictures that it depends on.
     """
 
     history: str

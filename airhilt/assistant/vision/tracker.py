@@ -26,7 +26,7 @@ from airhilt.units import SECOND_NS
 Array = npt.NDArray[np.float64]
 
 LIFE_S = 1.0
-"""Time without a finding, in ns, after which a track ends."""
+"""Time without a finding, in s, after which a track ends."""
 TENTATIVE_LIFE_S = 0.3
 """Likewise for a track that is not confirmed yet."""
 LEAST_MISSES = 2

@@ -230,13 +230,6 @@ def test_a_missing_file_is_named(name: str, folder: Path) -> None:
         Ctc(folder)
 
 
-def test_all_that_is_missing_is_named_at_once(tmp_path: Path) -> None:
-    with pytest.raises(SpeechError) as refused:
-        Ctc(tmp_path / "nowhere")
-    for name in FILES:
-        assert name in str(refused.value)
-
-
 @pytest.mark.parametrize("pieces", ["", "_alfa _bravo", "_alfa _bravo _charlie x", "\udcff" * 2])
 def test_pieces_that_do_not_fit_the_network_are_refused(pieces: str, folder: Path) -> None:
     (folder / "pieces.txt").write_bytes(pieces.encode("utf-8", "surrogateescape"))
@@ -250,12 +243,6 @@ def test_pieces_that_do_not_fit_the_network_are_refused(pieces: str, folder: Pat
     ("card", "wrong"),
     [
         ("", "Invalid JSON"),
-        ("[]", "object"),
-        ("{}", "word_curve"),
-        (
-            '{"word_curve": {"posterior_slope": "steep", "alternatives_slope": 1, "offset": 0}}',
-            "word_curve/posterior_slope",
-        ),
         (
             '{"word_curve": {"posterior_slope": NaN, "alternatives_slope": 1, "offset": 0}}',
             "word_curve/posterior_slope",

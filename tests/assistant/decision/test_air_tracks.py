@@ -10,6 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from airhilt.assistant.decision.air_tracks import AirTracks, Reach
+from airhilt.assistant.decision.tracks import Track
 from airhilt.geodesy.wgs84 import displaced
 from airhilt.messages import AdsbReport
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
@@ -32,6 +33,10 @@ def report(
         track_deg=0.0 if north_m_s >= 0.0 else 180.0, vertical_rate_fpm=up_m_s / FOOT_PER_MINUTE,
         nacp=9, nacv=2, receiver="field",
     )  # fmt: skip
+
+
+def track_of(tracks: AirTracks, icao24: str) -> Track:
+    return next(track for track in tracks if track.icao24 == icao24)
 
 
 def tracks_of(reports: Sequence[AdsbReport]) -> AirTracks:
@@ -93,7 +98,7 @@ def test_no_pair_that_meets_within_the_time_is_left_out(
             t_s = REACH.time_s * step / 10.0
             apart_m = abs(one[0] + one[2] * t_s - other[0] - other[2] * t_s)
             pair = (f"00000{first}", f"00000{second}")
-            below_m, above_m = (tracks[icao24].profile().at(t_s) for icao24 in pair)
+            below_m, above_m = (track_of(tracks, icao24).profile().at(t_s) for icao24 in pair)
             is_level = abs(below_m - above_m) < REACH.vertical_m - 1.0
             if apart_m < 0.99 * REACH.horizontal_m and is_level:
                 assert pair in together
@@ -126,9 +131,9 @@ def test_a_pair_has_been_silent_since_the_last_report_of_either() -> None:
 
 def test_who_reports_no_altitude_is_on_the_ground_until_the_next_one() -> None:
     tracks = tracks_of([report("00000a"), report("00000a", altitude_m=None, t_s=1.0)])
-    assert tracks.is_grounded(tracks["00000a"])
+    assert tracks.is_grounded(track_of(tracks, "00000a"))
     tracks.take_report(report("00000a", t_s=2.0), 2 * SECOND_NS)
-    assert not tracks.is_grounded(tracks["00000a"])
+    assert not tracks.is_grounded(track_of(tracks, "00000a"))
 
 
 def test_a_track_is_carried_on_to_the_present() -> None:
@@ -136,6 +141,6 @@ def test_a_track_is_carried_on_to_the_present() -> None:
     tracks.begin_step(0, [])
     later = tracks.present("00000a", 10 * SECOND_NS)
     assert later.altitude_m == pytest.approx(3050.0)
-    assert later.latitude_rad > tracks["00000a"].latitude_rad
-    assert tracks.by_callsign("00000A") is tracks["00000a"]
+    assert later.latitude_rad > track_of(tracks, "00000a").latitude_rad
+    assert tracks.by_callsign("00000A") is track_of(tracks, "00000a")
     assert tracks.addresses("00000A", "NOBODY") == ("00000a",)

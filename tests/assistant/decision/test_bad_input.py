@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -13,9 +12,8 @@ import pytest
 import airhilt
 from airfield import NORTH, Airfield, Mover, lands, stands
 from airhilt import Scenario
-from airhilt.assistant.decision.adsb_consistency import AdsbConsistency, is_possible
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.engine import Decision, Received
+from airhilt.assistant.decision.engine import Decision, ReceivedMessage
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.errors import WorkerError
@@ -147,45 +145,6 @@ def test_a_jump_on_to_the_runway_sends_nobody_around() -> None:
 
     field._report = report
     assert field.run(50.0).told == []
-
-
-def a_report(t_s: float, longitude_deg: float = -77.0, **values: Any) -> AdsbReport:
-    t_ns = round(t_s * SECOND_NS)
-    given: dict[str, Any] = {
-        "icao24": "a1b2c3", "callsign": "AAL123", "latitude_deg": 38.0,
-        "longitude_deg": longitude_deg, "altitude_ft": 10_000.0, "ground_speed_kt": 250.0,
-        "track_deg": 90.0, "vertical_rate_fpm": 0.0, "nacp": 9, "nacv": 2, "receiver": "r",
-        "t_adsb_in_ns": t_ns, "t_adsb_out_ns": t_ns,
-    }  # fmt: skip
-    return AdsbReport(**(given | values))
-
-
-@pytest.mark.parametrize(
-    ("values", "possible"),
-    [
-        ({"longitude_deg": -76.99}, True),  # 0.9 km in 2 s
-        ({"longitude_deg": -76.98}, False),  # 1.8 km in 2 s
-        ({"altitude_ft": 11_000.0}, True),
-        ({"altitude_ft": 12_000.0}, False),
-        ({"longitude_deg": -76.99, "nacp": 0}, True),
-    ],
-)
-def test_a_jump_is_what_no_aircraft_flies(values: dict[str, Any], possible: bool) -> None:
-    assert is_possible(a_report(0.0), a_report(2.0, **values)) == possible
-
-
-def test_on_the_ground_nobody_is_as_fast() -> None:
-    on_ground: dict[str, Any] = {"on_ground": True, "altitude_ft": None}
-    one, other = a_report(0.0, **on_ground), a_report(2.0, -76.99, **on_ground)
-    assert not is_possible(one, other)
-
-
-def test_an_old_report_does_not_become_what_others_are_compared_with() -> None:
-    adsb = AdsbConsistency()
-    times = itertools.count(1)
-    for t_s in (10.0, 4.0, 10.5):
-        report = a_report(t_s, -77.0 + 0.0014 * t_s)
-        assert adsb.contradiction(report, next(times) * SECOND_NS) == ()
 
 
 # --- transcripts ----------------------------------------------------------------------------
@@ -330,7 +289,7 @@ class Careless:
     name = "careless"
     reads: tuple[type[Message], ...] = (AdsbReport,)
 
-    def receive(self, received: Received) -> None: ...
+    def receive(self, received: ReceivedMessage) -> None: ...
 
     def decide(self, t_ns: int) -> Decision:
         alert = Alert(

@@ -139,15 +139,6 @@ def test_each_time_it_is_asked_for_a_readback_has_half_a_minute(asked_s: tuple[f
     assert {each.t_ready_ns for each in mismatches(airfield)} == {80 * 10**9}
 
 
-@pytest.mark.parametrize(("asked_s", "is_told"), [(139.0, True), (141.0, False)])
-def test_two_minutes_after_an_instruction_its_readback_is_not_asked_for_any_more(
-    asked_s: float, is_told: bool
-) -> None:
-    asked, again = (asked_s, SAY_AGAIN[1]), (asked_s + 6.0, WRONG[1])
-    airfield = field(CLEARED, RIGHT, asked, again).run(150)
-    assert bool(mismatches(airfield)) is is_told
-
-
 HOLD = (20.0, "American one two three, hold short of runway zero one.")
 HOLDS = (26.0, "Holding short of runway zero one, American one two three.")
 
@@ -226,12 +217,6 @@ def test_after_a_new_instruction_a_readback_belongs_to_that() -> None:
 
 def test_with_nobody_else_at_the_runway_it_does_not_matter() -> None:
     assert field(CLEARED, UNSURE_WRONG, is_busy=False).run(40).told == []
-
-
-def test_a_callsign_is_asked_about_once_a_minute_at_most() -> None:
-    again = [(34.0 + 8.0 * n, UNSURE_WRONG[1]) for n in range(6)]
-    airfield = field(CLEARED, UNSURE_WRONG, *again).run(84)
-    assert len(questions(airfield)) == 1
 
 
 @pytest.mark.parametrize("asking", ["Say again", "Confirm runway"])

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from airhilt.assistant.decision.clearances import Clearances
-from airhilt.assistant.decision.guard import Guard, call_of
+from airhilt.assistant.decision.guard import ConfidenceGuard, call_of
 from airhilt.messages import TransmissionOpened
 from airhilt.units import SECOND_NS
 from decisions import transcript
@@ -20,7 +20,7 @@ class Frequency:
     """Clearances that follow some calls; a word with a question mark is unsure."""
 
     def __init__(self, *calls: tuple[float, str], opened: bool = False) -> None:
-        self.clearances = Clearances(Guard())
+        self.clearances = Clearances(ConfidenceGuard())
         self._opened = opened
         for end_s, text in calls:
             self.hears(end_s, text)

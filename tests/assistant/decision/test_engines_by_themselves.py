@@ -10,10 +10,11 @@ import pytest
 
 from airfield import BRIEFING, ELEVATION_M, HOLD_M, NORTH, degrees
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.engine import Decision, Received
+from airhilt.assistant.decision.engine import Decision, ReceivedMessage
 from airhilt.assistant.decision.engines.llm import LanguageModelAssistant
 from airhilt.assistant.decision.engines.runway_status_lights import RunwayStatusLightEngine
 from airhilt.assistant.decision.engines.well_clear import WellClearEngine
+from airhilt.assistant.language_model import LanguageModel
 from airhilt.errors import LanguageModelError
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.messages import AdsbReport, Message, Severity, SurfaceTrack, Transcript, Turn
@@ -28,7 +29,7 @@ def at(t_s: float) -> int:
 
 def give(engine: Any, t_s: float, *messages: Message) -> None:
     for message in messages:
-        engine.receive(Received(message, at(t_s), at(t_s)))
+        engine.receive(ReceivedMessage(message, at(t_s), at(t_s)))
 
 
 def report(
@@ -146,6 +147,7 @@ class Model:
     """Answers as it is told to, and remembers the questions."""
 
     name = "test"
+    answer_to = LanguageModel.answer_to
 
     def __init__(self, severity: str = "INFO", is_there: bool = True) -> None:
         self.severity, self.is_there = severity, is_there

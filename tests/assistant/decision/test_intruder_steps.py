@@ -294,7 +294,7 @@ def at(seconds: float) -> int:
 
 
 def test_a_severity_is_told_once_it_has_held_and_again_only_when_it_rises() -> None:
-    told = Escalation()
+    told = Escalation("one")
     assert not told.rises(Severity.CAUTION, at(0.0), 1.0)
     assert not told.rises(Severity.CAUTION, at(0.999), 1.0)
     assert told.rises(Severity.WARNING, at(1.0), 1.0)
@@ -306,7 +306,7 @@ def test_a_severity_is_told_once_it_has_held_and_again_only_when_it_rises() -> N
 
 
 def test_a_severity_that_was_interrupted_begins_anew() -> None:
-    told = Escalation()
+    told = Escalation("one")
     told.observe(Severity.CAUTION, at(0.0))
     told.observe(None, at(0.5))
     assert not told.rises(Severity.CAUTION, at(1.0), 1.0)
@@ -314,11 +314,11 @@ def test_a_severity_that_was_interrupted_begins_anew() -> None:
 
 
 def test_information_alone_is_never_told() -> None:
-    assert not Escalation().rises(Severity.INFO, at(5.0), 0.0)
+    assert not Escalation("one").rises(Severity.INFO, at(5.0), 0.0)
 
 
 def test_a_conflict_is_over_once_it_has_been_quiet_for_long_enough() -> None:
-    told = Escalation()
+    told = Escalation("one")
     assert told.rises(Severity.CAUTION, at(0.0), 0.0)
     assert not told.is_over(at(1.0), 5.0)
     assert not told.is_over(at(5.999), 5.0)

@@ -241,11 +241,3 @@ def test_for_all_that_come_nearer_the_time_at_which_they_are_past_is_estimated_a
     seen.sees(2.125, 4.0).told(4.0)
     for each, past_ns in zip(seen.watch._ongoing, before, strict=True):
         assert each.past_ns != past_ns
-
-
-@pytest.mark.parametrize("name", ["near_sizes", "warning_sizes"])
-def test_a_passage_is_near_within_a_thousand_sizes_at_most(name: str) -> None:
-    assert getattr(IntruderConfig(near_sizes=1000.0, warning_sizes=1000.0), name) == 1000.0
-    for value in (0.0, 1000.1):
-        with pytest.raises(ValueError, match=name):
-            IntruderConfig(**{"near_sizes": 1000.0, "warning_sizes": 0.1} | {name: value})

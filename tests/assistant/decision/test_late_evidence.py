@@ -8,9 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from airfield import NORTH, Airfield, Mover, drives, lands
-from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.worker import DecisionWorker
-from airhilt.messages import Severity
 from airhilt.sim import Input
 from airhilt.units import SECOND_NS
 from airhilt.workers.protocol import Step
@@ -90,18 +88,3 @@ def test_who_brakes_is_not_taken_to_drive_on() -> None:
         Mover("OPS1", NORTH, drives(50.0, to_m=-100.0, braking=1.0), category="C2"),
     ]
     assert Airfield(movers).run(100).told == []
-
-
-def test_the_highest_level_that_has_lasted_is_told() -> None:
-    escalation = Escalation()
-    for second, level in enumerate((Severity.CAUTION, Severity.WARNING, Severity.WARNING)):
-        escalation.observe(level, second * SECOND_NS)
-    assert escalation.rises(Severity.WARNING, 3 * SECOND_NS, 2.0)
-    assert escalation.severity is Severity.WARNING
-
-
-def test_what_was_interrupted_has_not_lasted() -> None:
-    escalation = Escalation()
-    escalation.observe(Severity.CAUTION, 0)
-    escalation.observe(None, SECOND_NS)
-    assert not escalation.rises(Severity.CAUTION, 2 * SECOND_NS, 1.0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from airhilt.assistant.decision.air_tracks import AirTracks
-from airhilt.assistant.decision.guard import Guard
+from airhilt.assistant.decision.guard import ConfidenceGuard
 from airhilt.assistant.decision.level_readbacks import LevelReadbacks
 from airhilt.assistant.decision.loss_prediction import SeparationStandard
 from airhilt.messages import AdsbReport, RosterEntry
@@ -39,13 +39,13 @@ def tracks() -> AirTracks:
 @pytest.fixture
 def unheard(tracks: AirTracks) -> LevelReadbacks:
     """Nothing was said yet. One unsure word is in doubt, and two that were heard alike are not."""
-    return LevelReadbacks(tracks, Guard(0.7))
+    return LevelReadbacks(tracks, ConfidenceGuard(0.7))
 
 
 @pytest.fixture
 def readbacks(tracks: AirTracks) -> LevelReadbacks:
     """The lower one is told to climb by 2,000 ft."""
-    followed = LevelReadbacks(tracks, Guard())
+    followed = LevelReadbacks(tracks, ConfidenceGuard())
     assert is_misread(followed, "climb", CLIMB, 20.0) is False
     return followed
 
@@ -127,7 +127,8 @@ def test_a_level_that_nobody_gave_is_expected_once_it_was_heard_twice(
     expected = []
     for number in range(2):
         is_misread(unheard, f"call {number}", UNSURE, 20.0 + 6.0 * number)
-        expected.append(tracks[b"AAL123".hex()[-6:]].cleared_m)
+        (aal123,) = (track for track in tracks if track.callsign == "AAL123")
+        expected.append(aal123.cleared_m)
     assert expected == [None, pytest.approx(34_000.0 * FOOT)]
 
 
@@ -151,7 +152,7 @@ def test_traffic_is_near_the_levels_that_a_climb_leads_through(
     tracks.take_report(report("AAL123", -78.0, 90.0, 31_000.0), 0)
     other = report("DAL456", -76.0, 270.0, other_ft)
     tracks.take_report(other.model_copy(update={"vertical_rate_fpm": rate_fpm}), 0)
-    followed = LevelReadbacks(tracks, Guard())
+    followed = LevelReadbacks(tracks, ConfidenceGuard())
     is_misread(followed, "climb", CLIMB, 0.0)
     assert is_misread(followed, "readback", WRONG, 0.0) is is_near
 
@@ -173,7 +174,7 @@ def test_traffic_comes_within_the_minimum_in_ten_minutes(
     tracks = AirTracks()
     tracks.take_report(report("AAL123", -78.0, 90.0, 31_000.0), 0)
     tracks.take_report(report("DAL456", longitude_deg, track_deg, 34_000.0), 0)
-    followed = LevelReadbacks(tracks, Guard())
+    followed = LevelReadbacks(tracks, ConfidenceGuard())
     is_misread(followed, "climb", CLIMB, 0.0)
     assert is_misread(followed, "readback", WRONG, 0.0) is is_near
 
@@ -183,6 +184,6 @@ def test_one_that_is_far_away_does_not_hide_another() -> None:
     tracks.take_report(report("AAL123", -78.0, 90.0, 31_000.0), 0)
     tracks.take_report(report("UAL7", -60.0, 90.0, 34_000.0), 0)
     tracks.take_report(report("DAL456", -76.0, 270.0, 34_000.0), 0)
-    followed = LevelReadbacks(tracks, Guard())
+    followed = LevelReadbacks(tracks, ConfidenceGuard())
     is_misread(followed, "climb", CLIMB, 0.0)
     assert is_misread(followed, "readback", WRONG, 0.0)

@@ -327,15 +327,6 @@ def test_lines_of_sight_to_different_birds_do_not_meet() -> None:
     assert meeting(*diverging, 10.0) is None
 
 
-def test_a_box_at_the_edge_may_go_on() -> None:
-    camera = camera_at(
-        (0.0, 0.0, 5.0), 0.0, 0.0, Body("truck", 6, 2, 2, lambda _: ((37.0, 90.0, 0.0), 0.0))
-    )
-    box = camera.box(camera.bodies[0], 0.0)
-    assert PictureGeometry(camera.view(0.0)).touches_edge(box)
-    assert not PictureGeometry(camera.view(0.0)).touches_edge((10.0, 10.0, 20.0, 20.0))
-
-
 @pytest.mark.parametrize(
     ("box", "touches"),
     [

@@ -11,10 +11,10 @@ from typing import Any
 import pytest
 
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.engine import Decision, Received
+from airhilt.assistant.decision.engine import Decision, ReceivedMessage
 from airhilt.assistant.decision.engines.llm import LEAST_PERIOD_NS, LanguageModelAssistant
 from airhilt.assistant.decision.engines.reference import ReferenceEngine
-from airhilt.assistant.decision.language.question import Situation
+from airhilt.assistant.decision.language.question import QuestionContext
 from airhilt.assistant.decision.language.review import Answer, Reviewed, review
 from airhilt.assistant.decision.slices import Slices
 from airhilt.messages import (
@@ -72,16 +72,16 @@ def call(text: str, t_s: float, name: str = "c-1", confidence: float = 1.0) -> T
     )  # fmt: skip
 
 
-def situation(alerts: Sequence[Alert] = (CAUTION,), *messages: Message) -> Situation:
+def situation(alerts: Sequence[Alert] = (CAUTION,), *messages: Message) -> QuestionContext:
     """Return what the model knows at 60 s."""
     slices = Slices()
     for message in (BRIEFING, *messages):
-        slices.receive(Received(message, 0, 0))
+        slices.receive(ReceivedMessage(message, 0, 0))
     request = slices.request(60 * SECOND_NS)
-    return Situation.of(request, slices.callsigns(), {alert.id: alert for alert in alerts})
+    return QuestionContext.of(request, slices.callsigns(), {alert.id: alert for alert in alerts})
 
 
-def reviewed(about: Situation, runway: str | None = None, **answer: Any) -> Reviewed:
+def reviewed(about: QuestionContext, runway: str | None = None, **answer: Any) -> Reviewed:
     return review(Answer.model_validate(answer), about, lambda _: runway)
 
 
@@ -283,7 +283,7 @@ def test_tracks_are_given_for_15_s_and_calls_for_two_minutes_from_their_end(
     slices = Slices()
     heard = call("American one two three, go around", 200 - age_s)
     for message in (BRIEFING, report("AAL123", -77.0, 90.0, 200 - age_s), heard):
-        slices.receive(Received(message, 0, 0))
+        slices.receive(ReceivedMessage(message, 0, 0))
     request = slices.request(200 * SECOND_NS)
     assert (len(request.tracks), len(request.radio)) == (tracks, calls)
     assert request.ts_ms == 200_000
@@ -292,7 +292,7 @@ def test_tracks_are_given_for_15_s_and_calls_for_two_minutes_from_their_end(
 def test_a_call_is_given_as_it_was_heard_and_by_whom() -> None:
     slices = Slices()
     for message in (BRIEFING, CLEARED, READBACK.model_copy(update={"id": "c-2"})):
-        slices.receive(Received(message, 0, 0))
+        slices.receive(ReceivedMessage(message, 0, 0))
     to, by = slices.request(60 * SECOND_NS).radio
     assert (to.turn_id, to.ts_ms, to.end_ms, to.frequency_khz) == ("c-1", 50_000, 51_000, 118_300)
     assert (to.addressed_callsign, to.speaker) == ("UAL7", None)
@@ -304,7 +304,7 @@ def test_who_has_adsb_and_is_not_on_the_roster_is_known_too() -> None:
     slices = Slices()
     other = report("AAL123", -77.0, 90.0, 0.0).model_copy(update={"callsign": "BAW9"})
     for message in (BRIEFING, other):
-        slices.receive(Received(message, 0, 0))
+        slices.receive(ReceivedMessage(message, 0, 0))
     assert slices.callsigns() == ("AAL123", "BAW9", "DAL456", "UAL7")
 
 
@@ -316,14 +316,14 @@ class Encounter:
 
     def __init__(self, engine: Any, apart_deg: float = 0.0) -> None:
         self.decisions: list[tuple[float, Decision]] = []
-        engine.receive(Received(BRIEFING, 0, 0))
+        engine.receive(ReceivedMessage(BRIEFING, 0, 0))
         for step in range(1, 150):
             t_s, t_ns = float(step), step * SECOND_NS
             for callsign, begin_deg, sign in (("AAL123", -77.6, 1), ("DAL456", -76.7, -1)):
                 degrees = begin_deg + sign * t_s * 480 / 3600 / 60 / 0.7716
                 heard = report(callsign, degrees, 90.0 * (2 - sign), t_s)
                 north = {"latitude_deg": heard.latitude_deg + 0.5 * sign * apart_deg}
-                engine.receive(Received(heard.model_copy(update=north), t_ns, t_ns))
+                engine.receive(ReceivedMessage(heard.model_copy(update=north), t_ns, t_ns))
             self.decisions.append((t_s, engine.decide(t_ns)))
 
     def told(self) -> list[tuple[float, str, Severity]]:
@@ -392,7 +392,7 @@ def test_a_conflict_that_the_model_alone_sees_is_told_once_and_ends_when_it_is_p
 
     heard = call("American one two three, climb and maintain flight level two zero zero", 1.0)
     with assistant(saying(reply)) as engine:
-        engine.receive(Received(heard, SECOND_NS, SECOND_NS))
+        engine.receive(ReceivedMessage(heard, SECOND_NS, SECOND_NS))
         encounter = Encounter(engine, apart_deg=0.1)
     assert not Encounter(ReferenceEngine(), apart_deg=0.1).told()
     assert [(name, severity) for _, name, severity in encounter.told()] == [

@@ -11,14 +11,12 @@ from hypothesis import strategies as st
 
 from airfield import BRIEFING
 from airhilt.assistant.decision.aerodrome import TrafficZone
-from airhilt.assistant.decision.guard import Guard
 from airhilt.assistant.decision.loss_prediction import (
     Prediction,
     SeparationConfig,
     SeparationStandard,
     predict,
 )
-from airhilt.assistant.decision.separation import SeparationWatch
 from airhilt.assistant.decision.tracks import Track
 from airhilt.geodesy.wgs84 import displaced
 from airhilt.messages import Severity
@@ -208,13 +206,6 @@ def test_who_is_on_the_ground_loses_no_separation() -> None:
     assert (found.time_to_loss_s, found.is_over) == (None, True)
 
 
-def test_the_briefing_sets_the_minima() -> None:
-    watch = SeparationWatch(SeparationConfig(vertical_tolerance_ft=50.0), Guard())
-    watch.take_briefing(BRIEFING)
-    assert watch.config.standard == pytest.approx((5556.0, 304.8))
-    assert watch.config.infringed.vertical_m == pytest.approx(950 * FOOT)
-
-
 def test_a_prediction_rests_on_the_words_too_if_a_level_was_read_back() -> None:
     one, other = head_on(20_000.0)
     assert predicted(one, other).evidence().shares == {"adsb": 1.0}
@@ -224,20 +215,3 @@ def test_a_prediction_rests_on_the_words_too_if_a_level_was_read_back() -> None:
     assert (evidence.sources, evidence.radio_ids) == (("adsb", "radio"), ("call-1",))
     assert evidence.shares == {}
     assert evidence.tracks == ("a1", "b2")
-
-
-@pytest.mark.parametrize(
-    ("name", "most"), [("vertical_tolerance_ft", 500.0), ("hysteresis_m", 5000.0)]
-)
-def test_allowances_are_not_negative_and_not_as_large_as_the_minima(name: str, most: float) -> None:
-    for value in (0.0, most):
-        assert getattr(SeparationConfig(**{name: value}), name) == value
-    for value in (-0.1, most + 0.1):
-        with pytest.raises(ValueError, match=name):
-            SeparationConfig(**{name: value})
-
-
-@pytest.mark.parametrize("is_told", [False, True])
-def test_hysteresis_is_added_to_the_horizontal_minimum_alone(is_told: bool) -> None:
-    found = SeparationStandard().infringed_by(is_told)
-    assert found == pytest.approx((9260.0 + 180.0 * is_told, 925.0 * FOOT))

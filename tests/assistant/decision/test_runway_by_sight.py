@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -20,7 +19,6 @@ from airfield import (
     stands,
     takes_off,
 )
-from airhilt.assistant.decision.ladder import Score, ScoreConfig
 from airhilt.messages import Severity
 from airhilt.units import DEGREE
 from breadth import mostly_slow
@@ -88,52 +86,6 @@ def test_a_flicker_is_not_there() -> None:
     truck = silent(stands(800))
     flicker = on_tower(truck.body("truck", TRUCK), confidence=0.4, recall=0.1)
     assert look_at(arrival(), truck, cameras=[flicker]).worst.rank <= Severity.ADVISORY.rank
-
-
-def test_what_one_camera_shows_with_little_confidence_must_persist() -> None:
-    truck = silent(drives(25.0, from_m=-120.0, to_m=0.0))
-    body = truck.body("truck", TRUCK)
-
-    def warned_s(*cameras: Camera) -> float:
-        field = look_at(arrival(), truck, cameras=cameras)
-        assert field.worst is Severity.WARNING
-        return next(t_s for t_s, a in field.told if "vision" in a.evidence.sources[:1])
-
-    faint = warned_s(on_tower(body, confidence=0.3))
-    assert warned_s(on_tower(body, confidence=0.9)) <= faint
-
-
-def test_what_never_moves_is_as_sure_as_one_look() -> None:
-    """A sign that is taken for a truck is taken for one in every picture."""
-    sign = still("truck", at(800.0, 30.0), TRUCK)
-    field = look_at(arrival(), cameras=[on_tower(sign, confidence=0.5)])
-    assert field.worst is Severity.ADVISORY
-    assert {advisory.recipient for _, advisory in field.told} == {"ATC"}
-    truck = silent(drives(12.0, from_m=-120.0, to_m=0.0))
-    moved = on_tower(truck.body("truck", TRUCK), confidence=0.5)
-    assert look_at(arrival(), truck, cameras=[moved]).worst is Severity.WARNING
-
-
-def test_two_cameras_that_agree_need_not_wait() -> None:
-    """It comes into view on the runway, as out of mist."""
-    truck = silent(lambda t_s: (800.0, 0.0 if t_s > 0.0 else -5000.0, None))
-
-    def told_s(*cameras: Camera) -> float:
-        def appears(one: Camera) -> Camera:
-            one.bodies = [
-                replace(body, at=lambda t_s, at=body.at: at(t_s if t_s > 40.0 else -1e5))  # type: ignore[misc]
-                for body in one.bodies
-            ]
-            return one
-
-        field = look_at(arrival(), truck, cameras=[appears(one) for one in cameras])
-        return next(t_s for t_s, a in field.told if "vision" in a.evidence.sources[:1])
-
-    body = truck.body("truck", TRUCK)
-    alone = told_s(on_tower(body, confidence=0.8))
-    together = told_s(on_tower(body, confidence=0.5), beside_threshold(body, confidence=0.5))
-    assert together < alone
-    assert alone >= 41.0
 
 
 @pytest.mark.parametrize("label", mostly_slow(["truck", "bus"], "truck"))
@@ -266,35 +218,6 @@ def test_a_flock_that_rises_into_the_final_approach_sends_the_arrival_around() -
     assert field.advice("AAL123") == [("go_around", "01")]
 
 
-def test_a_flock_that_is_taken_for_an_aircraft_is_in_the_way_all_the_same() -> None:
-    bird = flock(lambda t_s: -280.0 + 15.0 * max(t_s - 45.0, 0.0), rises)
-    field = look_at(arrival(), cameras=approach_cameras(replace(bird, label="airplane")))
-    _, warning = field.first("WARNING")
-    assert "unidentified aircraft on final for runway 01" in warning.message
-    assert field.advice("AAL123") == [("go_around", "01")]
-
-
-@pytest.mark.parametrize("equipped", mostly_slow([True, False], False))
-def test_who_flies_as_fast_before_an_arrival_is_not_met(equipped: bool) -> None:
-    before = Mover("DAL456", NORTH, lands(LANDS_S - 20.0), equipped=equipped)
-    body = before.body("airplane", AIRLINER)
-    field = look_at(arrival(), before, cameras=approach_cameras(body), seconds=44.0)
-    assert Severity.WARNING not in {advisory.severity for _, advisory in field.told}
-
-
-@pytest.mark.parametrize(
-    "bird",
-    [
-        flock(lambda _: -280.0, lambda _: 0.0),
-        flock(lambda t_s: -400.0 - 15.0 * max(t_s - 45.0, 0.0), rises),
-        flock(lambda _: 0.0, lambda _: 400.0),
-    ],
-    ids=["sits beside the approach", "flies away from it", "passes high above it"],
-)
-def test_one_that_does_not_is_left_alone(bird: Body) -> None:
-    assert look_at(arrival(), cameras=approach_cameras(bird)).told == []
-
-
 def test_heights_of_cameras_are_above_the_airport_and_not_above_the_end_of_a_runway() -> None:
     """By the runway's elevation the arrival would be 127 m higher than it is."""
     airport = BRIEFING.airport
@@ -315,27 +238,6 @@ def test_of_birds_seen_by_one_camera_the_distance_is_not_known_and_so_it_is_a_ca
 
 
 # --- hints that are not enough alone --------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("vision", "activity", "communication", "severity"),
-    [
-        (1.0, 1.0, 1.0, Severity.CAUTION),
-        (0.8, 1.0, 0.0, Severity.CAUTION),
-        (0.5, 1.0, 1.0, Severity.CAUTION),
-        (0.79, 1.0, 0.0, Severity.ADVISORY),
-        (0.3, 1.0, 0.0, Severity.ADVISORY),
-        (0.0, 1.0, 1.0, Severity.ADVISORY),
-        (0.29, 1.0, 0.0, None),
-        (0.9, 0.0, 0.0, None),
-    ],
-)
-def test_hints_are_weighed_as_in_the_paper(
-    vision: float, activity: float, communication: float, severity: Severity | None
-) -> None:
-    assert (
-        Score.of(ScoreConfig(), vision, activity, communication).severity(ScoreConfig()) is severity
-    )
 
 
 def test_a_faint_sighting_is_for_the_controller_alone_until_somebody_reports_the_same() -> None:

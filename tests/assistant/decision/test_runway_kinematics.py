@@ -22,9 +22,9 @@ from airhilt.assistant.decision.mobiles import (
     lined_up_on,
     use_of,
 )
-from airhilt.assistant.decision.situation import Obstacle, Situation
+from airhilt.assistant.decision.situation import Obstacle, RunwaySituation
 from airhilt.assistant.decision.threats import Outlook, RunwayConfig, Threat
-from airhilt.messages import AdsbReport, Severity
+from airhilt.messages import Severity
 from airhilt.units import DEGREE, KNOT, SECOND_NS
 
 assert BRIEFING.airport is not None
@@ -253,43 +253,6 @@ def test_a_runway_is_used_by_who_rolls_flies_low_or_climbs_out(
     assert (found and (found.direction.ident, found.kind)) == expected
 
 
-@pytest.mark.parametrize(
-    ("along_m", "across_m", "is_used"),
-    [
-        (-3000.0, 355.0, True),  # 120 m and 8 % of 3 km.
-        (-3000.0, -355.0, True),
-        (-3000.0, 365.0, False),
-        (-9255.0, 0.0, True),  # 5 NM.
-        (-9265.0, 0.0, False),
-        (2050.0, 115.0, True),
-        (2050.0, 125.0, False),
-        (2150.0, 0.0, False),  # Past the end nobody lands any more.
-    ],
-)
-def test_the_final_is_a_funnel_of_5_nautical_miles(
-    along_m: float, across_m: float, is_used: bool
-) -> None:
-    who = mobile(along_m, across_m, height_m=55.0, speed_m_s=70.0, vertical_rate_m_s=-3.0)
-    assert (use_of(who, AERODROME.strips[:1]) is not None) is is_used
-
-
-def test_the_speed_is_a_mean_over_reports_that_follow_each_other_closely() -> None:
-    def report(t_s: int, ground_speed_kt: float) -> AdsbReport:
-        return AdsbReport(
-            icao24="a1b2c3", callsign="AAL123", receiver="field", on_ground=True,
-            t_adsb_in_ns=t_s * SECOND_NS, t_adsb_out_ns=t_s * SECOND_NS,
-            latitude_deg=38.85, longitude_deg=-77.04, altitude_ft=None,
-            ground_speed_kt=ground_speed_kt, track_deg=4.0, vertical_rate_fpm=0.0, nacp=9, nacv=2,
-        )  # fmt: skip
-
-    who = Mobile.of(report(0, 100.0), Vector(0.0, 0.0))
-    who.update(report(1, 110.0), Vector(0.0, 0.0))
-    assert who.speed_m_s / KNOT == pytest.approx(104.0)
-    assert who.slow_speed_m_s / KNOT == pytest.approx(101.0)
-    who.update(report(3, 50.0), Vector(0.0, 0.0))
-    assert who.speed_m_s / KNOT == who.slow_speed_m_s / KNOT == pytest.approx(50.0)
-
-
 def test_courses_and_sides_are_those_of_a_map() -> None:
     """East of a runway to the north is its right side, and the left one of the way back."""
     for ident, sign in (("01", 1.0), ("19", -1.0)):
@@ -308,7 +271,7 @@ def test_courses_and_sides_are_those_of_a_map() -> None:
 def meeting(first: Use, second: Use) -> list[Threat]:
     """Return what is told of two uses, at the time of their reports."""
     assert BRIEFING.airport is not None
-    situation = Situation(BRIEFING.airport, BRIEFING)
+    situation = RunwaySituation(BRIEFING.airport, BRIEFING)
     return list(meeting_uses(Outlook(situation, RunwayConfig(), 0), first, second))
 
 

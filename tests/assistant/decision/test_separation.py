@@ -9,16 +9,13 @@ import pytest
 
 from airhilt.assistant.decision.air_tracks import AirTracks
 from airhilt.assistant.decision.engines import decision_engine
-from airhilt.assistant.decision.tracks import Track
 from airhilt.messages import AdsbReport, Advisory, Severity
-from airhilt.units import FOOT, KNOT, SECOND_NS
+from airhilt.units import KNOT, SECOND_NS
 from breadth import mostly_slow
 from encounters import Encounter, Flight, State, head_on
 from judge_encounters import judged
 from pairs.flying import fly
 from pairs.geometry import draw
-
-CREWS = ("AAL123", "DAL456")
 
 
 @pytest.mark.parametrize(("encounters", "losses"), mostly_slow([(10, 1), (40, 5)], (10, 1)))
@@ -120,37 +117,6 @@ def report(t_s: float, altitude_ft: float, rate_fpm: float) -> AdsbReport:
         altitude_ft=altitude_ft, ground_speed_kt=480.0, track_deg=90.0, vertical_rate_fpm=rate_fpm,
         nacp=9, nacv=2, receiver="all", t_adsb_in_ns=t_ns, t_adsb_out_ns=t_ns,
     )  # fmt: skip
-
-
-@pytest.mark.parametrize(
-    ("rate_fpm", "is_expected"), [(1500.0, False), (-1500.0, True), (0.0, True)]
-)
-def test_a_level_that_was_read_back_lapses_once_the_aircraft_moves_away_from_it(
-    rate_fpm: float, is_expected: bool
-) -> None:
-    track = Track.of(report(0.0, 31_000.0, rate_fpm), 31_000.0)
-    track.clear(29_000.0 * FOOT, 0, "readback")
-    assert track.radio_id == ("readback" if rate_fpm < 0.0 else "")
-    for t_s in range(1, 41):
-        altitude_ft = 31_000.0 + rate_fpm / 60.0 * t_s
-        track.update(report(float(t_s), altitude_ft, rate_fpm), altitude_ft)
-        if t_s < 30:
-            assert track.cleared_m is not None
-    assert (track.cleared_m is not None) == is_expected
-
-
-@pytest.mark.parametrize(
-    ("words", "warned_s"), [("emergency descent", [24.0]), ("engine failure", [])]
-)
-def test_an_emergency_descent_is_expected_from_its_words_on(
-    words: str, warned_s: list[float]
-) -> None:
-    """The other crosses 4,000 ft below, and the descent is not to be seen yet."""
-    encounter = head_on(50.0, distance_nm=9.0, track_deg=180.0, altitude_ft=31_000.0)
-    encounter.flights[0].distance_nm = 9.0
-    encounter.calls = [(20.0, 23.0, f"Mayday mayday mayday, American one two three, {words}.")]
-    told = [t_s for t_s, each in encounter.fly().told if _is_first(each, Severity.WARNING)]
-    assert told[:1] == warned_s
 
 
 def test_the_track_of_an_aircraft_that_has_landed_is_dropped_though_it_still_reports() -> None:

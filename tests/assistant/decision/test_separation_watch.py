@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.guard import Guard
+from airhilt.assistant.decision.guard import ConfidenceGuard
 from airhilt.assistant.decision.loss_prediction import SeparationConfig
 from airhilt.assistant.decision.separation import SeparationWatch
 from airhilt.geodesy.local_frame import LocalFrame
@@ -40,7 +40,7 @@ class Sky:
     """Two aircraft that meet head-on at 400 m/s together, and lose separation at a time."""
 
     def __init__(self, lost_s: float = 170.0, config: SeparationConfig | None = None) -> None:
-        self.watch = SeparationWatch(config or SeparationConfig(), Guard())
+        self.watch = SeparationWatch(config or SeparationConfig(), ConfidenceGuard())
         self._apart_m = MINIMUM_M + 2.0 * SPEED_M_S * lost_s
         self.told: list[tuple[float, Alert]] = []
 

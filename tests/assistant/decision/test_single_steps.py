@@ -16,12 +16,10 @@ from airhilt.assistant.decision.call_order import CallOrder
 from airhilt.assistant.decision.clarifications import Clarifications
 from airhilt.assistant.decision.clearances import Clearances
 from airhilt.assistant.decision.findings import NotReadBack
-from airhilt.assistant.decision.guard import Doubt, Guard
+from airhilt.assistant.decision.guard import ConfidenceGuard, Doubt
 from airhilt.assistant.decision.intruder_advice import evasion
-from airhilt.assistant.decision.leaving import leaving_s
 from airhilt.assistant.decision.line_of_sight import GroundFix, PictureGeometry
-from airhilt.assistant.decision.loss_prediction import SeparationStandard, predict
-from airhilt.assistant.decision.mobiles import Mobile, use_of
+from airhilt.assistant.decision.mobiles import Mobile
 from airhilt.assistant.decision.occupancy import velocity_of
 from airhilt.assistant.decision.occupied_runway import _cannot_stop
 from airhilt.assistant.decision.runway_advice import advice
@@ -112,7 +110,7 @@ def test_a_callsign_may_be_asked_about_again_after_a_whole_minute() -> None:
 def test_a_clearance_that_nobody_uses_is_in_force_for_whole_minutes(
     words: str, minutes: int
 ) -> None:
-    clearances = Clearances(Guard())
+    clearances = Clearances(ConfidenceGuard())
     given = call(f"American one two three, {words}")
     clearances.take(parse_call(given.text, ("AAL123",)), given)
     (known,) = clearances.in_force(minutes * 60 * SECOND_NS)
@@ -142,11 +140,14 @@ def test_two_fixes_together_are_weighed_by_their_covariances() -> None:
     )
 
 
-def velocity_after(seconds: float, speed: float, error_px: float = 0.0, seed: int = 1) -> Vector:
+def velocity_after(
+    seconds: float, speed: float, error_px: float = 0.0, seed: int = 1, stops_s: float = math.inf
+) -> Vector:
     """Return the measured velocity of a truck that drives 0.6 east and 0.8 north."""
 
     def drives(t_s: float) -> tuple[tuple[float, float, float], float]:
-        return (0.6 * speed * t_s, 80.0 + 0.8 * speed * t_s, 0.0), 0.0
+        way_m = speed * min(t_s, stops_s)
+        return (0.6 * way_m, 80.0 + 0.8 * way_m, 0.0), 0.0
 
     camera = Camera(
         "c", FIELD, standing((0.0, 0.0, 30.0), 0.0, -20.0), [Body("truck", *TRUCK, drives)],
@@ -178,6 +179,15 @@ def test_what_stands_seldom_has_a_velocity_by_the_errors_of_its_boxes() -> None:
     assert velocity_after(2.0, 10.0, 1.0) == pytest.approx((6.0, 8.0), abs=1.5)
 
 
+def test_what_creeps_with_four_times_the_error_of_its_speed_has_a_velocity() -> None:
+    measured = [velocity_after(2.0, 0.5, 1.0, seed) for seed in range(40)]
+    assert sum(each != (0.0, 0.0) for each in measured) >= 35
+
+
+def test_what_stopped_more_than_two_seconds_ago_stands() -> None:
+    assert velocity_after(4.5, 10.0, stops_s=2.0) == pytest.approx((0.0, 0.0), abs=0.1)
+
+
 @pytest.mark.parametrize("vertical_ft", [450.0, 1000.0])
 def test_who_descends_goes_down_as_far_as_who_climbs_goes_up(vertical_ft: float) -> None:
     level = SimpleNamespace(
@@ -201,22 +211,6 @@ def test_who_descends_goes_down_as_far_as_who_climbs_goes_up(vertical_ft: float)
 
 
 # --- in the air -----------------------------------------------------------------------------
-
-
-def flying(north_m: float, east_m: float, north_m_s: float) -> Track:
-    latitude, longitude = FIELD.to_place(east_m, north_m)
-    return Track("a1b2c3", "AAL123", 0, latitude, longitude, 10_000.0, north_m_s, 0.0, 0.0)
-
-
-@pytest.mark.parametrize(("distance_m", "is_over"), [(45_000.0, False), (90_000.0, True)])
-def test_two_that_pass_clear_are_no_matter_while_no_turn_could_bring_them_together(
-    distance_m: float, is_over: bool
-) -> None:
-    """They near each other with 240 m/s, 15 km to the side: 43 km within the 180 s that count."""
-    first, second = flying(0.0, 0.0, 120.0), flying(distance_m, 15_000.0, -120.0)
-    found = predict(first, second, SeparationStandard(), None, is_on_ground=False, is_told=False)
-    assert found.time_to_loss_s is None
-    assert found.is_over is is_over
 
 
 def test_a_track_has_the_last_callsign_that_was_reported() -> None:
@@ -255,37 +249,6 @@ def test_the_track_of_an_intruder_comes_to_its_altitude_and_its_climb(
 
 
 # --- at a runway ----------------------------------------------------------------------------
-
-
-def near(along_m: float, height_m: float, **given: Any) -> Mobile:
-    latitude_deg, longitude_deg = degrees(NORTH.local(along_m, 0.0))
-    altitude_ft = (AERODROME.ground_m + height_m) / FOOT
-    return Mobile.of(
-        report(altitude_ft=altitude_ft, **given), AERODROME.locate(latitude_deg, longitude_deg)
-    )
-
-
-@pytest.mark.parametrize(
-    ("degrees_off", "kind"),
-    [(0.0, "arrival"), (10.0, "arrival"), (-10.0, "arrival"), (30.0, None), (-45.0, None)],
-)
-def test_who_flies_across_the_final_does_not_land(degrees_off: float, kind: str | None) -> None:
-    mobile = near(-3000.0, 150.0, vertical_rate_fpm=-700.0, track_deg=(4.0 + degrees_off) % 360.0)
-    use = use_of(mobile, AERODROME.strips)
-    assert (use and use.kind) == kind
-
-
-@pytest.mark.parametrize(
-    ("height_m", "vertical_rate_fpm", "kind"),
-    [(160.0, -700.0, "arrival"), (160.0, 0.0, None), (1500.0, -700.0, None)],
-)
-def test_who_is_too_high_or_flies_level_over_the_final_does_not_land(
-    height_m: float, vertical_rate_fpm: float, kind: str | None
-) -> None:
-    """A glide path of 5 degrees and 150 m more is at 412 m there, 3 km before the threshold."""
-    mobile = near(-3000.0, height_m, vertical_rate_fpm=vertical_rate_fpm)
-    use = use_of(mobile, AERODROME.strips)
-    assert (use and use.kind) == kind
 
 
 @pytest.mark.parametrize("speed_m_s", [5.0, 10.0, 20.0])
@@ -358,44 +321,6 @@ def test_an_error_of_position_to_one_side_is_that_of_one_axis(
     )
     strip = SimpleNamespace(margin_m=lambda _: 50.0)
     assert _cannot_stop(cast(Any, obstacle), cast(Any, strip), 0.67, 0.0) is cannot
-
-
-# --- leaving a runway -----------------------------------------------------------------------
-
-
-def leaves(
-    speed_m_s: float, kind: str | None = None, *, landed: bool = False, follows: bool = True
-) -> float | None:
-    """Return the time until somebody with 300 m of runway ahead has left it."""
-    mobile = SimpleNamespace(speed_m_s=speed_m_s, landed=landed)
-    obstacle = SimpleNamespace(mobile=mobile, way=Way(0.0, 300.0))
-    comes = SimpleNamespace(strip="01/19", direction="01")
-    own = None
-    if kind is not None:
-        own = SimpleNamespace(kind=kind, strip="01/19", direction="01" if follows else "19")
-    return leaving_s(cast(Any, obstacle), cast(Any, own), cast(Any, comes))
-
-
-@pytest.mark.parametrize(
-    ("speed_m_s", "given", "expected_s"),
-    [
-        (30.0, {"kind": "departure"}, 45.0 / 1.8),  # It lifts off at 75 m/s.
-        (80.0, {"kind": "departure"}, 0.0),
-        (30.0, {"kind": "departure", "follows": False}, None),  # It comes the other way.
-        (1.4, {}, None),
-        (1.6, {}, 300.0 / 1.6),
-        (10.0, {}, 30.0),
-        (40.0, {"landed": True}, 7.5),  # Straight on is faster than braking to turn off.
-        (9.0, {"landed": True}, 1.0 / 1.8 + 12.0),
-        (6.0, {"landed": True}, 12.0),
-        (9.0, {"kind": "rollout", "landed": True}, 1.0 / 1.8 + 12.0),
-    ],
-)
-def test_who_is_on_a_runway_has_left_it_once_it_is_across_has_turned_off_or_is_in_the_air(
-    speed_m_s: float, given: dict[str, Any], expected_s: float | None
-) -> None:
-    found = leaves(speed_m_s, **given)
-    assert found == (None if expected_s is None else pytest.approx(expected_s))
 
 
 # --- the order of calls ---------------------------------------------------------------------

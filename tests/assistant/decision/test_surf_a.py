@@ -50,22 +50,6 @@ def test_a_crew_that_lands_is_alerted_30_and_15_s_before_the_touchdown() -> None
     assert warning_s == pytest.approx(15.0 + 5.0, abs=1.5)
 
 
-def test_traffic_far_down_the_runway_is_alerted_before_the_touchdown_too() -> None:
-    field = airfield(arrival(), Mover("OPS1", NORTH, stands(1800.0), category="C2"))
-    (_, caution_s), (_, warning_s) = times(field)
-    assert caution_s == pytest.approx(30.0, abs=1.5)
-    assert warning_s == pytest.approx(15.0, abs=1.5)
-
-
-def test_who_crosses_slowly_near_the_threshold_is_met_where_it_crosses() -> None:
-    """On a runway that leads neither north nor east; the caution comes 30 s before."""
-    truck = Mover("OPS1", SOUTHEAST, drives(-8.0, along_m=100.0, speed_m_s=3.0), category="C2")
-    field = airfield(Mover("AAL123", SOUTHEAST, lands(THRESHOLD_S)), truck)
-    (first, left_s), *_ = times(field)
-    met_s = THRESHOLD_S + 100.0 / APPROACH_M_S
-    assert (first, TOUCHDOWN_S - left_s) == ("CAUTION", pytest.approx(met_s - 30.0, abs=1.0))
-
-
 def test_the_crew_is_told_what_is_there_and_nobody_else_is_told() -> None:
     field = airfield(arrival(), Mover("OPS1", NORTH, stands(800.0), category="C2"))
     assert {told.recipient for _, told in field.told} == {"AAL123"}
@@ -90,26 +74,12 @@ def test_a_truck_without_ads_b_is_not_seen() -> None:
     assert not airfield(arrival(), Mover("OPS1", NORTH, stands(800.0), equipped=False)).told
 
 
-def test_traffic_that_has_crossed_in_time_is_no_conflict() -> None:
-    truck = Mover("OPS1", NORTH, drives(35.0, speed_m_s=12.0), category="C2")
-    assert not airfield(arrival(), truck).told
-
-
-def test_traffic_that_can_stop_short_of_the_runway_is_no_conflict() -> None:
-    truck = Mover("OPS1", NORTH, drives(60.0, to_m=-90.0), category="C2")
-    assert not airfield(arrival(), truck).told
-
-
 def test_a_crew_on_its_roll_rejects_the_take_off_for_one_that_crosses() -> None:
     crosser = Mover("DAL456", NORTH, drives(30.0, along_m=1300.0, speed_m_s=10.0))
     roller = Mover("AAL123", NORTH, takes_off(20.0))
     field = airfield(roller, crosser, seconds=55.0)
     assert field.advice("AAL123") == [("cancel_takeoff", "01")]
     assert not field.to("DAL456")
-
-
-def test_a_preceding_departure_that_is_in_the_air_in_time_is_no_conflict() -> None:
-    assert not airfield(arrival(), Mover("DAL456", NORTH, takes_off(30.0))).told
 
 
 def test_an_arrival_to_a_crossing_runway_is_not_on_the_runway() -> None:

@@ -112,10 +112,6 @@ def test_a_climb_towards_traffic_above_is_levelled_off() -> None:
     assert flown.notes("AAL1")[1] == "level off, level off"
 
 
-def test_a_crew_that_does_not_respond_is_told_to_increase() -> None:
-    assert meeting(ONE, OTHER).fly().notes("AAL1")[-2].startswith("increase ")
-
-
 def test_once_there_is_room_enough_a_crew_is_told_to_level_off() -> None:
     flown = meeting(ONE, replace(OTHER, has_tcas=False), obeys=lambda _: True).fly()
     assert flown.notes("AAL1")[1:3] in (
@@ -177,27 +173,6 @@ def test_nor_is_one_whom_the_other_one_leaves_the_lower_side() -> None:
     assert flown.notes("AAL1")[1:-1] == ["monitor vertical speed"]
 
 
-class Returning(Jet):
-    """Comes to 1,500 m of the middle, draws away for half a minute, and comes back."""
-
-    def place_m(self, time_s: float) -> tuple[float, float]:
-        """Return the place at a time."""
-        if time_s < -60.0:
-            return 1500.0 - 100.0 * (time_s + 60.0), 0.0
-        return (1500.0 + 5.0 * (time_s + 60.0) if time_s < -30.0 else -55.0 * time_s), 0.0
-
-
-def test_who_comes_back_after_the_conflict_is_over_is_told_of_again() -> None:
-    """It never leaves DMOD, 1.1 NM, so that the thresholds hold all the time."""
-    returning = Returning("DAL2", "aaaaa2", 270.0, 0.0, 35_000.0, has_tcas=False)
-    told = meeting(replace(ONE, speed_kt=0.0), returning).fly().told
-    first, second = dict.fromkeys(alert.id for _, alert in told)
-    assert (first, second) == ("AAL1-1", "AAL1-2")
-    over_s = next(s for s, alert in told if alert.id == first and not alert.active)
-    again_s = next(s for s, alert in told if alert.id == second)
-    assert over_s > 30.0 > again_s > 15.0
-
-
 def test_an_intruder_on_the_ground_is_none() -> None:
     rolls = replace(OTHER, on_ground=True, altitude_ft=1200.0, speed_kt=120.0)
     assert meeting(replace(ONE, altitude_ft=2700.0, speed_kt=150.0), rolls).fly().told == []
@@ -206,12 +181,6 @@ def test_an_intruder_on_the_ground_is_none() -> None:
 def test_lost_replies_are_bridged() -> None:
     flown = meeting(ONE, replace(OTHER, silent_s=(-52.0, -47.0))).fly()
     assert flown.first_s("CAUTION") == pytest.approx(48.0, abs=2.0)
-
-
-def test_an_advisory_ends_if_the_intruder_replies_no_more() -> None:
-    flown = meeting(ONE, replace(OTHER, silent_s=(-30.0, 99.0)), end_s=-10.0).fly()
-    last = flown.to("AAL1")[-1]
-    assert not last.active
 
 
 def test_traffic_of_mode_c_is_followed_by_range_and_altitude() -> None:

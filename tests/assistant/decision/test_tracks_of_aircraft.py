@@ -95,23 +95,6 @@ def test_a_climb_ends_at_the_level_that_was_read_back() -> None:
     assert (found.profile().target_m, found.radio_id) == (33_000.0 * FOOT, "readback")
 
 
-@pytest.mark.parametrize(
-    ("cleared_ft", "rate_fpm", "ends_ft"),
-    [
-        (33_000.0, -1200.0, 25_000.0),  # It goes the other way.
-        (29_000.0, -1200.0, 29_000.0),
-        (29_000.0, 0.0, 31_000.0),  # It has not begun.
-        (31_000.0, 0.0, 31_000.0),
-    ],
-)
-def test_a_level_is_expected_only_of_who_moves_to_it(
-    cleared_ft: float, rate_fpm: float, ends_ft: float
-) -> None:
-    found = track(vertical_rate_fpm=rate_fpm)
-    found.clear(cleared_ft * FOOT, 0, "readback")
-    assert found.profile().at(300.0) == pytest.approx(ends_ft * FOOT)
-
-
 @pytest.mark.parametrize(("rate_fpm", "is_steep"), [(0.0, False), (-7000.0, True)])
 def test_an_emergency_descent_is_one_of_5_000_ft_min_to_10_000_ft_until_it_is_seen(
     rate_fpm: float, is_steep: bool

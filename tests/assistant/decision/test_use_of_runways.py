@@ -12,7 +12,6 @@ from airhilt.assistant.decision.aerodrome import (
     Aerodrome,
     Direction,
     Strip,
-    TrafficZone,
     Vector,
     opposite,
     way_through,
@@ -21,15 +20,12 @@ from airhilt.assistant.decision.mobiles import (
     Mobile,
     Use,
     is_on_pavement,
-    lined_up_on,
     use_of,
 )
-from airhilt.assistant.decision.status_lights import RedLights, StatusLightConfig, StatusLights
 from airhilt.assistant.decision.surface_traffic import SurfaceTraffic, Target
 from airhilt.assistant.decision.tracks import Track
-from airhilt.geodesy.wgs84 import displaced
 from airhilt.messages import AdsbReport, SurfaceTrack
-from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE, SECOND_NS
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
 
 assert BRIEFING.airport is not None
 AERODROME = Aerodrome(BRIEFING.airport)
@@ -128,28 +124,6 @@ def test_it_flies_along_the_runway_within_15_degrees(off_deg: float, expected: s
 # --- on the ground ------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("along_m", "across_m", "speed_kt", "expected"),
-    [
-        (500.0, 0.0, 25.1, "departure"),
-        (500.0, 0.0, 24.9, None),
-        (500.0, 47.0, 60.0, "departure"),  # 22.5 m, and 25 m for the position and the size.
-        (500.0, 48.0, 60.0, None),
-        (500.0, -47.0, 60.0, "departure"),
-        (500.0, -48.0, 60.0, None),
-        (-499.0, 0.0, 60.0, "departure"),
-        (-501.0, 0.0, 60.0, None),
-        (2599.0, 0.0, 60.0, "departure"),
-        (2601.0, 0.0, 60.0, None),
-    ],
-)
-def test_on_the_ground_it_takes_off_if_it_rolls_on_the_pavement(
-    along_m: float, across_m: float, speed_kt: float, expected: str | None
-) -> None:
-    assert kind(along_m, across_m, None, ground_speed_kt=speed_kt) == expected
-    assert kind(along_m, across_m, None, ground_speed_kt=speed_kt, emitter_category="C2") is None
-
-
 def test_who_has_landed_rolls_out_until_it_is_in_the_air_again() -> None:
     lands = mobile(300.0, 0.0, 5.0)
     lands.update(report(400.0, t_adsb_in_ns=SECOND_NS), at(400.0))
@@ -159,25 +133,6 @@ def test_who_has_landed_rolls_out_until_it_is_in_the_air_again() -> None:
     assert use.kind == "rollout"
     lands.update(report(900.0, 0.0, 5.0, t_adsb_in_ns=2 * SECOND_NS), at(900.0))
     assert not lands.landed
-
-
-@pytest.mark.parametrize(
-    ("before_kt", "now_kt", "landed", "is_rolling"),
-    [
-        (5.0, 11.5, False, True),  # It gains 3 m/s on its mean, above 5 m/s.
-        (5.0, 10.6, False, False),
-        (0.0, 9.4, False, False),
-        (5.0, 11.5, True, False),
-        (30.0, 24.9, False, False),
-        (30.0, 25.1, True, True),
-    ],
-)
-def test_it_rolls_if_it_is_fast_or_gathers_speed(
-    before_kt: float, now_kt: float, landed: bool, is_rolling: bool
-) -> None:
-    one = mobile(500.0)
-    one.speed_m_s, one.slow_speed_m_s, one.landed = now_kt * KNOT, before_kt * KNOT, landed
-    assert one.is_rolling is is_rolling
 
 
 def test_speeds_are_means_of_about_one_second_and_of_five() -> None:
@@ -201,37 +156,6 @@ def test_who_was_a_vehicle_once_is_one_and_keeps_its_callsign() -> None:
     assert other.callsign == "AAL123"
 
 
-@pytest.mark.parametrize(("slower_m_s", "travelled_m"), [(0.49, 120.0), (0.51, 0.0)])
-def test_who_brakes_is_not_carried_on(slower_m_s: float, travelled_m: float) -> None:
-    one = mobile(0.0)
-    one.slow_speed_m_s = one.speed_m_s + slower_m_s
-    assert one.travelled_m(2 * SECOND_NS) == pytest.approx(travelled_m)
-    assert one.travelled_m(-SECOND_NS) == 0.0
-
-
-@pytest.mark.parametrize(
-    ("along_m", "across_m", "off_deg", "given", "is_lined_up"),
-    [
-        (50.0, 0.0, 0.0, {}, True),
-        (50.0, 0.0, 14.0, {}, True),
-        (50.0, 0.0, 16.0, {}, False),
-        (50.0, 49.0, 0.0, {}, False),
-        (50.0, 0.0, 0.0, {"emitter_category": "C1"}, False),
-    ],
-)
-def test_who_stands_along_the_runway_is_lined_up(
-    along_m: float, across_m: float, off_deg: float, given: dict[str, Any], is_lined_up: bool
-) -> None:
-    one = mobile(
-        along_m, across_m, track_deg=NORTH.course_deg + off_deg, ground_speed_kt=0.0, **given
-    )
-    found = lined_up_on(one, strip())
-    assert (found is not None and found.ident == "01") is is_lined_up
-    one.landed = True
-    assert lined_up_on(one, strip()) is None
-    assert lined_up_on(mobile(50.0, 0.0, 10.0), strip()) is None
-
-
 @pytest.mark.parametrize(("displaced_m", "along_m", "is_on"), [(0.0, -501.0, False),
                                                                (300.0, -799.0, True),
                                                                (300.0, -801.0, False)])  # fmt: skip
@@ -251,39 +175,10 @@ def use(kind: Any, along_m: float, speed_m_s: float) -> Use:
     return Use(one, strip(), direction(), kind, along_m)
 
 
-@pytest.mark.parametrize(
-    ("kind", "along_m", "speed_m_s", "to_m", "expected_s"),
-    [
-        ("departure", 100.0, 0.0, 1000.0, math.sqrt(2.0 * 900.0 / 1.8)),
-        ("departure", 100.0, 30.0, 1000.0, (math.sqrt(900.0 + 3.6 * 900.0) - 30.0) / 1.8),
-        ("departure", 100.0, 30.0, 99.0, None),
-        ("arrival", -700.0, 70.0, 0.0, 10.0),
-        ("arrival", -700.0, 70.0, 400.0, 1100.0 / 70.0),  # Touchdown 400 m past the threshold.
-        ("arrival", -700.0, 70.0, 1000.0,
-         1100.0 / 70.0 + (70.0 - math.sqrt(4900.0 - 3.6 * 600.0)) / 1.8),
-        ("arrival", -700.0, 70.0, 1800.0, None),  # It has stopped before.
-        ("arrival", 600.0, 50.0, 900.0, (50.0 - math.sqrt(2500.0 - 3.6 * 300.0)) / 1.8),
-        ("arrival", -5.0, 0.5, 0.0, 5.0),  # Nobody comes slower than 1 m/s.
-        ("rollout", 600.0, 50.0, 900.0, (50.0 - math.sqrt(2500.0 - 3.6 * 300.0)) / 1.8),
-        ("rollout", 600.0, 50.0, 1290.0, (50.0 - math.sqrt(2500.0 - 3.6 * 690.0)) / 1.8),
-        ("rollout", 600.0, 50.0, 1300.0, None),
-        ("rollout", 600.0, 50.0, 599.0, None),
-    ],
-)  # fmt: skip
-def test_a_departure_accelerates_and_a_landing_brakes_by_1_8_m_s2(
-    kind: str, along_m: float, speed_m_s: float, to_m: float, expected_s: float | None
-) -> None:
-    using = use(kind, along_m, speed_m_s)
-    found = using.time_to_s(to_m, 0)
-    assert found == (None if expected_s is None else pytest.approx(expected_s))
-    if expected_s is not None:
-        later = using.time_to_s(to_m, 2 * SECOND_NS)
-        assert later == pytest.approx(max(expected_s - 2.0, 0.0))
-
-
 def test_the_time_to_the_threshold_is_that_of_its_speed_and_0_beyond() -> None:
     assert use("arrival", -700.0, 70.0).time_to_threshold_s(SECOND_NS) == pytest.approx(9.0)
     assert use("arrival", -0.5, 0.2).time_to_threshold_s(0) == pytest.approx(0.5)
+    assert use("arrival", -0.5, 0.2).time_to_s(0.0, 0) == pytest.approx(0.5)
     assert use("arrival", 20.0, 70.0).time_to_threshold_s(0) == 0.0
 
 
@@ -307,24 +202,6 @@ def test_the_other_direction_of_a_runway_is_18_more_with_the_other_side(
     ident: str, other: str
 ) -> None:
     assert opposite(ident) == other
-
-
-@pytest.mark.parametrize(
-    ("east_nm", "above_ft", "is_inside"),
-    [(4.99, 2499.0, True), (5.01, 1000.0, False), (-4.99, 1000.0, True), (-5.01, 1000.0, False),
-     (0.0, 2501.0, False)],
-)  # fmt: skip
-def test_the_zone_of_a_tower_reaches_5_nm_and_2500_ft(
-    east_nm: float, above_ft: float, is_inside: bool
-) -> None:
-    """Class D (FAA AIM 3-2-5)."""
-    zone = TrafficZone.of(BRIEFING.airport)  # type: ignore[arg-type]
-    assert zone is not None
-    centre = (zone.latitude_rad, zone.longitude_rad)
-    latitude, longitude = displaced(centre, 0.0, east_nm * NAUTICAL_MILE, 0.0)
-    altitude_m = ELEVATION_M + above_ft * FOOT
-    track = Track("a", "A", 0, latitude, longitude, altitude_m, 0.0, 0.0, 0.0)
-    assert zone.contains(track) is is_inside
 
 
 @pytest.mark.parametrize(
@@ -443,157 +320,6 @@ def test_a_target_is_carried_on_by_its_speed() -> None:
     assert standing.point_at(2 * SECOND_NS) == standing.point
 
 
-# --- runway status lights -----------------------------------------------------------------------
-
-
-def lights(*tracks: SurfaceTrack, t_s: float = 0.0, **config: Any) -> list[RedLights]:
-    found = StatusLights(AERODROME, StatusLightConfig(**config))
-    return list(found.lit(traffic(*tracks), round(t_s * SECOND_NS)))
-
-
-def entrance(*tracks: SurfaceTrack, **config: Any) -> bool:
-    return any(each.lights == "entrance" for each in lights(*tracks, **config))
-
-
-def waits(along_m: float, speed_m_s: float = 3.0, across_m: float = 150.0) -> SurfaceTrack:
-    """Return a truck to the right of the runway that drives towards it, and has it ahead."""
-    return surface(
-        0.0, along_m, across_m, speed_m_s=speed_m_s, heading_deg=-90.0, track=9, callsign="OPS1",
-        icao24="abcdef",
-    )  # fmt: skip
-
-
-@pytest.mark.parametrize(
-    ("along_m", "speed_m_s", "height_m", "across_m", "is_lit"),
-    [
-        (-1850.0, 70.0, 100.0, 0.0, True),
-        (-1855.0, 70.0, 100.0, 0.0, False),  # A nautical mile.
-        (-1387.0, 56.0, 100.0, 0.0, True),
-        (-1392.0, 56.0, 100.0, 0.0, False),  # Three quarters below 110 kt.
-        (-1392.0, 57.0, 100.0, 0.0, True),
-        (-1000.0, 70.0, 237.0, 0.0, True),  # 150 m above 5 degrees.
-        (-1000.0, 70.0, 239.0, 0.0, False),
-        (-1000.0, 70.0, 100.0, 199.0, True),  # 120 m, and 8 % of the distance.
-        (-1000.0, 70.0, 100.0, 201.0, False),
-        (500.0, 70.0, 10.0, 0.0, True),
-        (2110.0, 70.0, 10.0, 0.0, False),
-    ],
-)
-def test_an_arrival_lights_the_entrances_from_a_mile_on(
-    along_m: float, speed_m_s: float, height_m: float, across_m: float, is_lit: bool
-) -> None:
-    """Three quarters of one if it is slow (AIM 2-1-6; MIT Lincoln Laboratory)."""
-    arrives = surface(0.0, along_m, across_m, speed_m_s=speed_m_s, height_m=height_m)
-    assert entrance(arrives, waits(2050.0)) is is_lit
-
-
-@pytest.mark.parametrize(("off_deg", "is_lit"), [(14.9, True), (15.1, False), (-15.1, False)])
-def test_only_who_flies_along_the_runway_lights_them(off_deg: float, is_lit: bool) -> None:
-    arrives = surface(0.0, -1000.0, speed_m_s=70.0, height_m=60.0, heading_deg=off_deg)
-    assert entrance(arrives, waits(1500.0)) is is_lit
-
-
-@pytest.mark.parametrize(("speed_kt", "is_lit"), [(29.9, False), (30.1, True)])
-def test_a_departure_lights_them_from_30_kt(speed_kt: float, is_lit: bool) -> None:
-    rolls = surface(0.0, 100.0, speed_m_s=speed_kt * KNOT)
-    assert entrance(rolls, waits(1500.0)) is is_lit
-
-
-@pytest.mark.parametrize(("ahead_s", "is_lit"), [(3.1, True), (2.9, False)])
-def test_they_go_out_3_s_before_it_passes(ahead_s: float, is_lit: bool) -> None:
-    rolls = surface(0.0, 100.0, speed_m_s=40.0)
-    assert entrance(rolls, waits(100.0 + 40.0 * ahead_s)) is is_lit
-
-
-@pytest.mark.parametrize(
-    ("speed_kt", "ahead_m", "is_lit"),
-    [(81.0, 1400.0, True), (79.0, 1200.0, True), (79.0, 1240.0, False), (35.0, 500.0, True),
-     (33.0, 300.0, False)],
-)  # fmt: skip
-def test_a_landing_below_80_kt_lights_what_it_reaches_in_30_s_and_one_that_taxies_nothing(
-    speed_kt: float, ahead_m: float, is_lit: bool
-) -> None:
-    """Taxiing is below 34 kt (AIM 2-1-6)."""
-    rolls = [surface(0.0, 400.0, speed_m_s=70.0, height_m=5.0),
-             surface(1.0, 500.0, speed_m_s=speed_kt * KNOT)]  # fmt: skip
-    crosses = waits(500.0 + ahead_m).model_copy(update={"t_track_ns": SECOND_NS})
-    assert entrance(*rolls, crosses, t_s=1.0) is is_lit
-
-
-@pytest.mark.parametrize(
-    ("speed_m_s", "beside_m", "is_disregarded", "can_stop"),
-    [
-        (1.9, 110.0, False, True),  # It does not move on.
-        (5.0, 110.0, False, True),  # 5 s and 2 m/s2: 31 m are enough before the area.
-        (5.0, 80.0, True, True),
-        (8.2, 80.0, True, False),
-    ],
-)
-def test_who_cannot_stop_before_the_area_disregards_red(
-    speed_m_s: float, beside_m: float, is_disregarded: bool, can_stop: bool
-) -> None:
-    arrives = surface(0.0, -1000.0, speed_m_s=70.0, height_m=60.0)
-    stands = waits(1500.0, 3.0, beside_m)  # So that its direction is known.
-    moves = waits(1500.0, speed_m_s, beside_m)
-    (red,) = lights(arrives, stands, moves)
-    assert (red.is_disregarded, red.can_stop) == (is_disregarded, can_stop)
-    assert (red.runway, red.viewer.callsign, red.because.callsign) == ("01", "OPS1", "AAL123")
-
-
-@pytest.mark.parametrize(("beside_m", "is_lit"), [(170.0, True), (185.0, False)])
-def test_they_are_seen_from_100_m_of_the_hold_line(beside_m: float, is_lit: bool) -> None:
-    """It is 76 m from the centre line."""
-    arrives = surface(0.0, -1000.0, speed_m_s=70.0, height_m=60.0)
-    assert entrance(arrives, waits(1500.0, 3.0, beside_m)) is is_lit
-
-
-def hold(*tracks: SurfaceTrack) -> list[RedLights]:
-    red = [each for each in lights(*tracks) if each.lights == "take-off hold"]
-    return [each for each in red if each.viewer.number == 1]
-
-
-def in_position(along_m: float = 50.0, speed_m_s: float = 3.0) -> SurfaceTrack:
-    return surface(0.0, along_m, speed_m_s=speed_m_s)
-
-
-@pytest.mark.parametrize(
-    ("along_m", "across_m", "speed_m_s", "heading_deg", "is_lit"),
-    [
-        (900.0, 0.0, 0.0, None, True),
-        (40.0, 0.0, 0.0, None, False),  # Behind it.
-        (900.0, 32.0, 0.0, None, True),  # 22.5 m of pavement, and 10 m beside it.
-        (900.0, 33.0, 0.0, None, False),
-        (900.0, -15.0, 10.0, -90.0, False),  # Off the pavement in less than 3 s.
-        (900.0, 15.0, 10.0, -90.0, True),
-        (900.0, 88.0, 8.0, -90.0, True),  # 15.75 m before where it is surely in the area, 16 m to
-        (900.0, 88.5, 8.0, -90.0, False),  # brake.
-        (900.0, 88.0, 8.0, 90.0, False),
-        (900.0, 60.0, 1.9, -90.0, False),
-    ],
-)
-def test_take_off_hold_lights_are_red_for_who_is_ahead_or_is_about_to_enter(
-    along_m: float, across_m: float, speed_m_s: float, heading_deg: float | None, is_lit: bool
-) -> None:
-    other = surface(
-        0.0, along_m, across_m, speed_m_s=speed_m_s, heading_deg=heading_deg, track=9,
-        callsign="OPS1",
-    )  # fmt: skip
-    assert bool(hold(in_position(), other)) is is_lit
-
-
-@pytest.mark.parametrize(("along_m", "is_lit"), [(571.0, True), (572.0, False)])
-def test_take_off_hold_lights_reach_1875_ft(along_m: float, is_lit: bool) -> None:
-    other = surface(0.0, 1500.0, heading_deg=None, track=9)
-    assert bool(hold(in_position(along_m), other)) is is_lit
-
-
-@pytest.mark.parametrize(("speed_m_s", "is_disregarded"), [(3.0, False), (14.0, True)])
-def test_who_rolls_disregards_them(speed_m_s: float, is_disregarded: bool) -> None:
-    other = surface(0.0, 1500.0, heading_deg=None, track=9)
-    (red,) = hold(in_position(speed_m_s=speed_m_s), other)
-    assert red.is_disregarded is is_disregarded
-
-
 # --- tracks in flight ---------------------------------------------------------------------------
 
 
@@ -630,22 +356,6 @@ def test_it_is_expected_to_level_off_where_it_was_cleared_to(
 
 
 @pytest.mark.parametrize(
-    ("ago_s", "rate_fpm", "expected_fpm"),
-    [(29.9, 0.0, -5000.0), (29.9, -6000.0, -6000.0), (30.1, -2000.0, -2000.0)],
-)
-def test_an_announced_emergency_descent_is_expected_to_10_000_ft(
-    ago_s: float, rate_fpm: float, expected_fpm: float
-) -> None:
-    """The level from which on oxygen is not needed (14 CFR 121.329)."""
-    said_ns = round((100.0 - ago_s) * SECOND_NS)
-    one = track(33_000.0, rate_fpm, descent_ns=said_ns, descent_id="mayday")
-    _, rate_m_s, target_m = one.profile()
-    assert rate_m_s / FOOT_PER_MINUTE == pytest.approx(expected_fpm)
-    assert target_m == (pytest.approx(10_000.0 * FOOT) if ago_s < 30.0 else None)
-    assert one.radio_id == ("mayday" if ago_s < 30.0 else "")
-
-
-@pytest.mark.parametrize(
     ("ago_s", "to_go_ft", "rate_fpm", "is_kept"),
     [
         (29.0, 2000.0, -1000.0, True),
@@ -666,22 +376,3 @@ def test_a_level_that_nobody_flies_to_is_forgotten_after_30_s(
                    t_adsb_in_ns=100 * SECOND_NS)  # fmt: skip
     one.update(newer, 10_000.0)
     assert (one.cleared_m is not None) is is_kept
-
-
-def test_a_velocity_is_the_mean_of_about_a_second() -> None:
-    one = Track.of(report(height_m=1000.0, ground_speed_kt=100.0, track_deg=90.0,
-                          vertical_rate_fpm=600.0), 3000.0)  # fmt: skip
-    assert one.velocity_east_m_s / KNOT == pytest.approx(100.0)
-    assert one.velocity_north_m_s == pytest.approx(0.0, abs=1e-9)
-    later = report(height_m=1000.0, ground_speed_kt=100.0, track_deg=0.0, vertical_rate_fpm=0.0,
-                   t_adsb_in_ns=SECOND_NS, callsign=None)  # fmt: skip
-    one.update(later, 3100.0)
-    assert one.velocity_east_m_s / KNOT == pytest.approx(60.0)
-    assert one.velocity_north_m_s / KNOT == pytest.approx(40.0)
-    assert one.vertical_rate_m_s / FOOT_PER_MINUTE == pytest.approx(360.0)
-    assert (one.t_ns, one.callsign) == (SECOND_NS, "AAL123")
-    assert one.altitude_m == pytest.approx(3100.0 * FOOT)
-    assert one.latitude_rad / DEGREE == pytest.approx(later.latitude_deg)
-    assert one.longitude_rad / DEGREE == pytest.approx(later.longitude_deg)
-    one.update(report(height_m=1000.0, ground_speed_kt=500.0), 9000.0)
-    assert one.altitude_m == pytest.approx(3100.0 * FOOT)  # That was older.

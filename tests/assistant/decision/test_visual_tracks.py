@@ -403,13 +403,3 @@ def test_what_has_no_number_is_not_taken_for_what_has_one() -> None:
     )
     both = shown(0.0, None).model_copy(update={"detections": found})
     assert len(list(followed(both))) == 2
-
-
-@pytest.mark.parametrize(("cameras", "is_allowed"), [(0, False), (1, True), (100, True),
-                                                     (101, False)])  # fmt: skip
-def test_as_many_cameras_may_be_asked_for_as_there_can_be(cameras: int, is_allowed: bool) -> None:
-    if is_allowed:
-        assert SightConfig(cameras=cameras).cameras == cameras
-    else:
-        with pytest.raises(ValueError, match="cameras"):
-            SightConfig(cameras=cameras)

@@ -7,7 +7,7 @@ import io
 import json
 import re
 from http.server import BaseHTTPRequestHandler
-from typing import Any, get_args
+from typing import Any
 
 import numpy as np
 import pytest
@@ -20,13 +20,8 @@ from airhilt.errors import VisionError
 from airhilt.imaging.masks import Mask
 from pictures import background, with_blobs
 from services import (
-    Slow,
-    Slowness,
     answering,
-    breaking_off,
-    endless,
     nobody,
-    redirecting,
     service,
 )
 
@@ -84,37 +79,6 @@ class TestServiceThat:
         with pytest.raises(VisionError, match=f"detector http: {url} is not there: .*refused"):
             ask(url)
 
-    def test_has_no_address(self) -> None:
-        for url in ("tower", "file:///etc/passwd", "http://", "http://a:b/"):
-            with pytest.raises(VisionError, match="is no address"):
-                HttpDetector(url)
-
-    @pytest.mark.parametrize("how", get_args(Slowness))
-    def test_is_slow(self, how: Slowness) -> None:
-        slow = Slow(how, b'{"detections": []}')
-        with service(slow) as url:
-            with pytest.raises(VisionError, match=r"has not answered for 0\.3 s"):
-                ask(url, 0.3)
-            slow.released.set()
-
-    def test_answers_without_an_end(self) -> None:
-        with (
-            service(endless) as url,
-            pytest.raises(VisionError, match="answers with more than 1000000 bytes"),
-        ):
-            ask(url)
-
-    def test_breaks_off(self) -> None:
-        with service(breaking_off) as url, pytest.raises(VisionError, match="broke off"):
-            ask(url)
-
-    def test_sends_elsewhere(self) -> None:
-        with (
-            service(redirecting("http://127.0.0.1:9/")) as url,
-            pytest.raises(VisionError, match="HTTP status 303"),
-        ):
-            ask(url)
-
     def test_fails(self) -> None:
         with (
             service(answering(b"no memory", status=500)) as url,
@@ -125,17 +89,11 @@ class TestServiceThat:
     @pytest.mark.parametrize(
         ("answer", "problem"),
         [
-            (b"<html>", "Invalid JSON"),
             (b"\xff\xfe", "Invalid JSON"),
-            (b"", "Invalid JSON"),
-            ([], "object"),
             ({}, "detections: Field required"),
             ({"detections": [TRUCK | {"label": "A dog"}]}, "detections/0/label"),
             ({"detections": [TRUCK | {"confidence": 1.5}]}, "detections/0/confidence"),
-            ({"detections": [TRUCK | {"confidence": float("nan")}]}, "detections/0/confidence"),
-            ({"detections": [TRUCK | {"box": [1, 2, 3]}]}, "detections/0/box"),
             ({"detections": [TRUCK | {"box": [1, 2, float("inf"), 4]}]}, "detections/0/box"),
-            ({"detections": [TRUCK | {"box": [1, 2, "x", 4]}]}, "detections/0/box"),
             ({"detections": [TRUCK] * 1001}, "at most 1000"),
         ],
         ids=str,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable
-from http.server import BaseHTTPRequestHandler
 from typing import Any
 
 import pytest
@@ -18,7 +17,7 @@ from airhilt.assistant.wording.engines.template import Template
 from airhilt.errors import LanguageModelError
 from airhilt.messages import CONTROLLER, Evidence, GoAround, ModelExchange, Severity
 from language_models import Json, completion, saying, settings
-from services import Answer, Slow, answering, breaking_off, nobody, service
+from services import Answer, answering, breaking_off, nobody, service
 
 ALERT = Alert(
     id="19L-AAL123-UAL7",
@@ -135,14 +134,6 @@ def test_the_rule_s_text_goes_out_when_there_is_no_usable_answer(answer: Answer,
     assert why in exchange_of(spoken).failure
 
 
-def test_an_answer_after_the_deadline_is_not_waited_for() -> None:
-    late = Slow("silent", json.dumps(completion("{}")).encode())
-    spoken = worded(late, deadline_s=0.1)
-    late.released.set()
-    assert spoken.messages == RULE
-    assert "has not answered for 0.1 s" in exchange_of(spoken).failure
-
-
 def test_a_message_missing_in_the_answer_is_told_as_such() -> None:
     spoken = worded(saying(lambda question: {"m1": question["m1"]}))
     assert "missing" in exchange_of(spoken).rejections[0].reason
@@ -154,14 +145,6 @@ def test_what_is_not_spoken_is_not_reworded() -> None:
     shown = [Alert(**{**vars(ALERT), "severity": Severity.ADVISORY}),
              Alert(**{**vars(ALERT), "active": False})]  # fmt: skip
     assert not wording.words(shown).exchanges
-
-
-def test_a_model_that_never_answers_is_not_asked_for_ever() -> None:
-    wording = LanguageModelWording()
-    wording.use(settings(nobody()))
-    failures = [exchange_of(wording.words([ALERT])).failure for _ in range(MOST_FAILURES + 1)]
-    assert "is not there" in failures[0]
-    assert "is not asked any more" in failures[-1]
 
 
 @pytest.mark.parametrize(
@@ -225,38 +208,6 @@ def test_a_key_that_no_header_can_have_is_refused_unseen(monkeypatch: pytest.Mon
     with pytest.raises(LanguageModelError) as raised:
         LanguageModel(settings("http://127.0.0.1:1/v1"))
     assert "sk-secret" not in str(raised.value)
-
-
-@pytest.mark.parametrize(
-    "url", ["http://me:word@127.0.0.1/v1", "http://127.0.0.1/v1?key=word", "127.0.0.1:1/v1"]
-)
-def test_an_address_with_a_password_is_refused_without_showing_it(url: str) -> None:
-    with pytest.raises(LanguageModelError) as raised:
-        LanguageModel(settings(url))
-    assert "word" not in str(raised.value).replace("password", "")
-
-
-def test_an_endpoint_that_wants_the_schema_in_another_way_is_asked_so_from_then_on() -> None:
-    asked: list[Json] = []
-    understood = saying(echo(), asked)
-
-    def answer(handler: BaseHTTPRequestHandler, body: bytes) -> None:
-        if json.loads(body)["response_format"]["type"] == "json_object":
-            understood(handler, body)
-        else:
-            refused.append(body)
-            answering(b"response_format: Input should be 'text' or 'json_object'", 422)(
-                handler, body
-            )
-
-    refused: list[bytes] = []
-    with service(answer) as url:
-        wording = LanguageModelWording()
-        wording.use(settings(url))
-        spoken = [wording.words([ALERT]) for _ in range(2)]
-    assert not any(exchange_of(each).failure for each in spoken)
-    assert (len(refused), len(asked)) == (1, 2)
-    assert asked[0]["response_format"]["schema"]["required"] == ["m1", "m2"]
 
 
 def test_no_radio_call_reaches_the_model() -> None:

@@ -37,6 +37,12 @@ def test_without_noise_a_call_is_taken_when_it_ends_and_done_after_its_delay() -
     assert world.spoken("readback").in_reply_to == "clearance"
 
 
+def test_who_answers_leaves_a_moment_of_silence_after_a_call_that_it_waited_for() -> None:
+    world = World(CLEARANCE, READBACK, heard={("clearance", "AAL123"): MISSED}).run()
+    silence_ns = world.spoken("readback").t_tx_ns - world.spoken("clearance.repeat-1").t_end_ns
+    assert seconds_to_ns(0.2) <= silence_ns <= seconds_to_ns(1.0)
+
+
 def test_a_line_begins_when_its_transmission_does() -> None:
     world = World(CLEARANCE, READBACK).run()
     assert world.begun == [

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import BaseModel, ConfigDict
 
 from airhilt.assistant.asr.engine import Recognised
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.audio.wav import encode_wav
 from airhilt.engines import Engine
-from airhilt.errors import SpeechError, first_problem
+from airhilt.errors import SpeechError
 from airhilt.host.services import USAGE, HttpService, is_service
 from airhilt.messages import Confidence, Word
 from airhilt.phraseology.canonical import canonical
@@ -48,7 +48,9 @@ class HttpAsr:
         """Return what the service makes of the audio; it is not asked about empty audio."""
         if not audio.size:
             return Recognised("", (), 1.0)
-        answer = self._parse(self._service.post(encode_wav(audio), "audio/wav"))
+        data = self._service.post(encode_wav(audio), "audio/wav")
+        expected = 'JSON such as {"text": "...", "confidence": 0.9}'
+        answer = self._service.parsed(data, _Answer, expected)
         self._require_sayable(answer, len(audio) / SAMPLE_RATE_HZ)
         if answer.words:
             words = canonical((word.text, word.confidence) for word in answer.words)
@@ -70,15 +72,6 @@ class HttpAsr:
                     f"answered {count} words ({len(text)} letters) to {duration_s:.1f} s of audio",
                     f"at most {most} words, more than anybody says in that time",
                 )
-
-    def _parse(self, data: bytes) -> _Answer:
-        try:
-            return _Answer.model_validate_json(data)
-        except ValidationError as error:
-            raise self._service.error(
-                f"answered {data[:60]!r}: {first_problem(error)}",
-                'JSON such as {"text": "...", "confidence": 0.9}',
-            ) from None
 
 
 ENGINE = Engine(

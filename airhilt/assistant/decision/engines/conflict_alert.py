@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.engine import Decision, Received
-from airhilt.assistant.decision.guard import Guard
+from airhilt.assistant.decision.engine import Decision, ReceivedMessage
+from airhilt.assistant.decision.guard import ConfidenceGuard
 from airhilt.assistant.decision.loss_prediction import SeparationConfig
 from airhilt.assistant.decision.separation import COASTING_NS, SeparationWatch
 from airhilt.engines import Engine
@@ -17,7 +16,7 @@ LOOK_AHEAD_S = 120.0
 (EUROCONTROL-GUID-159, edition 1.0)."""
 
 
-HEARS_NOTHING = Guard(1.0)
+HEARS_NOTHING = ConfidenceGuard(1.0)
 """Guard of transcripts, of which there are none."""
 
 
@@ -39,7 +38,7 @@ class ConflictAlertEngine:
         )
         self._watch = SeparationWatch(config, HEARS_NOTHING)
 
-    def receive(self, received: Received) -> None:
+    def receive(self, received: ReceivedMessage) -> None:
         """Update tracks with a report, or the minima with the briefing."""
         match received.message:
             case AdsbReport() as report:
@@ -49,14 +48,12 @@ class ConflictAlertEngine:
 
     def decide(self, t_ns: int) -> Decision:
         """Return the alerts that are new or over."""
-        alerts = [_to_controller(alert) for alert in self._watch.judge(t_ns)]
+        alerts = [
+            replace(alert, recipients=(CONTROLLER,), recommendations={})
+            for alert in self._watch.judge(t_ns)
+        ]
         again_ns = t_ns + COASTING_NS if self._watch.has_conflict else None
         return Decision(alerts, again_ns=again_ns)
-
-
-def _to_controller(alert: Alert) -> Alert:
-    """Return an alert as the controller's display has it."""
-    return replace(alert, recipients=(CONTROLLER,), recommendations={})
 
 
 ENGINE = Engine(

@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from pydantic import ValidationError
-
 from airhilt.assistant.decision.alert_ledger import AlertLedger
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.engine import Decision, Received
+from airhilt.assistant.decision.engine import Decision, ReceivedMessage
 from airhilt.assistant.decision.service_messages import AssistantAnswer, ProposedAdvisory
 from airhilt.assistant.decision.slices import INPUTS, READS, Slices
 from airhilt.engines import Engine
-from airhilt.errors import WorkerError, first_problem
+from airhilt.errors import WorkerError
 from airhilt.host.services import USAGE, HttpService, is_service
 from airhilt.messages import Message, Transcript
 from airhilt.units import SECOND_NS
@@ -44,7 +42,7 @@ class HttpAssistant:
         """Time of the next request; None if nothing has arrived since the last one."""
         self._earliest_ns = 0
 
-    def receive(self, received: Received) -> None:
+    def receive(self, received: ReceivedMessage) -> None:
         """Keep one message for the next request."""
         self._slices.receive(received)
         is_call = isinstance(received.message, Transcript)
@@ -63,18 +61,11 @@ class HttpAssistant:
             return Decision(again_ns=self._due_ns)
         self._due_ns, self._earliest_ns = None, t_ns + PERIOD_NS
         request = self._slices.request(t_ns).model_dump_json().encode()
-        answer = self._parse(self._service.post(request, "application/json"))
+        data = self._service.post(request, "application/json")
+        expected = "an AssistantAnswer, see `airhilt schema --services`"
+        answer = self._service.parsed(data, AssistantAnswer, expected)
         news = self._ledger.update([_alert(each) for each in answer.advisories])
         return Decision([self._slices.checks.marked(each, t_ns) for each in news])
-
-    def _parse(self, data: bytes) -> AssistantAnswer:
-        try:
-            return AssistantAnswer.model_validate_json(data)
-        except ValidationError as error:
-            raise self._service.error(
-                f"answered {data[:60]!r}: {first_problem(error)}",
-                "an AssistantAnswer, see `airhilt schema --services`",
-            ) from None
 
 
 def _alert(proposed: ProposedAdvisory) -> Alert:

@@ -9,18 +9,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from pydantic import ValidationError
-
 from airhilt.assistant.decision.alert_ledger import AlertLedger
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.engine import Decision, Received
+from airhilt.assistant.decision.engine import Decision, ReceivedMessage
 from airhilt.assistant.decision.engines.reference import ReferenceConfig, ReferenceEngine
-from airhilt.assistant.decision.language.question import INSTRUCTIONS, Situation
+from airhilt.assistant.decision.language.question import INSTRUCTIONS, QuestionContext
 from airhilt.assistant.decision.language.review import Answer, Reviewed, judged, review
 from airhilt.assistant.decision.slices import Slices
 from airhilt.assistant.language_model import LanguageModel, LanguageModelSettings
 from airhilt.engines import Engine
-from airhilt.errors import LanguageModelError, first_problem
 from airhilt.messages import Message, ModelExchange, Severity, Transcript
 from airhilt.units import SECOND_NS
 
@@ -59,7 +56,7 @@ class LanguageModelAssistant:
         """Ask this language model."""
         self._model = LanguageModel(settings)
 
-    def receive(self, received: Received) -> None:
+    def receive(self, received: ReceivedMessage) -> None:
         """Give one message to the rules, and keep it for the next question."""
         self._rules.receive(received)
         self._slices.receive(received)
@@ -115,7 +112,7 @@ class LanguageModelAssistant:
         self._has_news, self._asked_ns = False, t_ns
         if self._model is None or not callsigns:
             return ()
-        situation = Situation.of(request, callsigns, self._open)
+        situation = QuestionContext.of(request, callsigns, self._open)
         exchange = ModelExchange(
             model=self._model.name,
             task="decision",
@@ -123,17 +120,9 @@ class LanguageModelAssistant:
             question=situation.question(),
             answer=None,
         )
-        try:
-            text = self._model.ask(INSTRUCTIONS, exchange.question, situation.schema())
-        except LanguageModelError as error:
-            return (exchange.model_copy(update={"failure": str(error)}),)
-        exchange = exchange.model_copy(update={"answer": text})
-        try:
-            answer = Answer.model_validate_json(text)
-        except ValidationError as error:
-            failure = f"the answer is not of the schema: {first_problem(error)}"
-            return (exchange.model_copy(update={"failure": failure}),)
-        self._model.accept()
+        answer, exchange = self._model.answer_to(exchange, INSTRUCTIONS, situation.schema(), Answer)
+        if answer is None:
+            return (exchange,)
         runway_of = self._rules.runways.runway_in_use
         self._reviewed = review(answer, situation, runway_of)
         self._reviewed_ns = t_ns

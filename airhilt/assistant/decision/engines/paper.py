@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from airhilt.assistant.decision.engine import Decision, Received
-from airhilt.assistant.decision.guard import Guard
+from airhilt.assistant.decision.engine import Decision, ReceivedMessage
+from airhilt.assistant.decision.guard import ConfidenceGuard
 from airhilt.assistant.decision.paper.ambiguity import AmbiguousCalls
 from airhilt.assistant.decision.paper.config import PaperConfig
 from airhilt.assistant.decision.paper.ladder import Ladder
@@ -37,10 +37,10 @@ class PaperEngine:
             persistence_s=0.0, release_s=config.release_s, recipients=config.recipients
         )
         self.runways = RunwayWatch(
-            timing, self.visual_tracks, Guard(config.tau_asr), ladder.threats
+            timing, self.visual_tracks, ConfidenceGuard(config.tau_asr), ladder.threats
         )
 
-    def receive(self, received: Received) -> None:
+    def receive(self, received: ReceivedMessage) -> None:
         """Update positions, visual tracks and clearances with one message."""
         match received.message:
             case AdsbReport() as report:

@@ -8,8 +8,8 @@ from types import MappingProxyType
 from pydantic import Field
 
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.engine import Decision, Received
-from airhilt.assistant.decision.guard import Guard
+from airhilt.assistant.decision.engine import Decision, ReceivedMessage
+from airhilt.assistant.decision.guard import ConfidenceGuard
 from airhilt.assistant.decision.input_checks import InputChecks
 from airhilt.assistant.decision.intruders import IntruderConfig, IntruderWatch
 from airhilt.assistant.decision.loss_prediction import SeparationConfig
@@ -83,7 +83,7 @@ class ReferenceEngine:
         self.checks = InputChecks()
         self.visual_tracks = VisualTracks(config.sight)
         self._observed_ns = 0
-        guard = Guard(config.tau_asr)
+        guard = ConfidenceGuard(config.tau_asr)
         self.separation = SeparationWatch(config.separation, guard)
         self.runways = RunwayWatch(config.runways, self.visual_tracks, guard)
         self.intruders = IntruderWatch(
@@ -93,7 +93,7 @@ class ReferenceEngine:
             lambda: self.separation.config.standard,
         )
 
-    def receive(self, received: Received) -> None:
+    def receive(self, received: ReceivedMessage) -> None:
         """Update tracks, clearances and belief with one message."""
         self._catch_up(received)
         match received.message:
@@ -117,7 +117,7 @@ class ReferenceEngine:
                 self.runways.take_briefing(briefing)
                 self.visual_tracks.take_briefing(briefing)
 
-    def _catch_up(self, received: Received) -> None:
+    def _catch_up(self, received: ReceivedMessage) -> None:
         """Note what was wrong when a message arrived that had to wait, before it is taken in.
 
         A busy engine gets many messages at once. What they show together has lasted since the

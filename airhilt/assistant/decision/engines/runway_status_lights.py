@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from airhilt.assistant.decision.aerodrome import Aerodrome
-from airhilt.assistant.decision.engine import Decision, Received
+from airhilt.assistant.decision.engine import Decision, ReceivedMessage
 from airhilt.assistant.decision.raised_alerts import Hazard, RaisedAlerts
 from airhilt.assistant.decision.status_lights import RedLights, StatusLightConfig, StatusLights
 from airhilt.assistant.decision.surface_traffic import SurfaceTraffic, Target
@@ -50,7 +50,7 @@ class RunwayStatusLightEngine:
         self._vehicles: frozenset[str] = frozenset()
         self._alerts = RaisedAlerts("lights", persistence_s=0.0, release_s=RELEASE_S)
 
-    def receive(self, received: Received) -> None:
+    def receive(self, received: ReceivedMessage) -> None:
         """Update the traffic with one message."""
         match received.message:
             case Briefing(airport=airport, roster=roster) if airport is not None:

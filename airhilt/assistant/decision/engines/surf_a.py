@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from airhilt.assistant.decision.engine import Decision, Received
+from airhilt.assistant.decision.engine import Decision, ReceivedMessage
 from airhilt.assistant.decision.raised_alerts import RaisedAlerts
-from airhilt.assistant.decision.situation import Situation
+from airhilt.assistant.decision.situation import RunwaySituation
 from airhilt.assistant.decision.surface_alerts import SurfaceAlertConfig, predicted_collisions
 from airhilt.engines import Engine
 from airhilt.errors import AirhiltError
@@ -36,14 +36,14 @@ class SurfaceAlertEngine:
     ) -> None:
         self.configuration = config = configuration or SurfaceAlertConfig()
         self._responds_from = responds_from
-        self._situation: Situation | None = None
+        self._situation: RunwaySituation | None = None
         self._alerts = RaisedAlerts("surf", config.persistence_s, config.release_s)
 
-    def receive(self, received: Received) -> None:
+    def receive(self, received: ReceivedMessage) -> None:
         """Update the traffic with one message."""
         match received.message:
             case Briefing(airport=airport) as briefing if airport is not None and airport.runways:
-                self._situation = Situation(airport, briefing)
+                self._situation = RunwaySituation(airport, briefing)
             case AdsbReport() as report if self._situation is not None:
                 self._situation.take_report(report, received.t_ns)
 

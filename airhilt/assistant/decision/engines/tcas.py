@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.engine import Decision, Received
+from airhilt.assistant.decision.engine import Decision, ReceivedMessage
 from airhilt.assistant.decision.tcas_unit import Coordination, TcasUnit
 from airhilt.engines import Engine
 from airhilt.errors import WorkerError
@@ -31,7 +31,7 @@ class TcasEngine:
         self._units: dict[str, TcasUnit] = {}
         self._instruments: dict[str, CockpitInstruments] = {}
 
-    def receive(self, received: Received) -> None:
+    def receive(self, received: ReceivedMessage) -> None:
         """Give a reply or instruments to the unit of their aircraft."""
         match received.message:
             case CockpitInstruments(callsign=callsign) as instruments:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from airhilt.assistant.decision.aerodrome import TrafficZone
 from airhilt.assistant.decision.air_tracks import AirTracks, Pair, Reach
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.engine import Decision, Received
+from airhilt.assistant.decision.engine import Decision, ReceivedMessage
 from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.findings import Announcement
 from airhilt.assistant.decision.remaining_clear import smallest_turn
@@ -64,9 +64,7 @@ are within DMOD after tau more at most."""
 class _Encounter:
     """One pair from its first alert to its last."""
 
-    id: str
-    escalation: Escalation = field(default_factory=Escalation)
-    revision: int = 0
+    escalation: Escalation
     recommendations: dict[str, Recommendation] = field(default_factory=dict)
 
 
@@ -88,7 +86,7 @@ class WellClearEngine:
         self._encounters: dict[Pair, _Encounter] = {}
         self._count = 0
 
-    def receive(self, received: Received) -> None:
+    def receive(self, received: ReceivedMessage) -> None:
         """Update a track with a report, or the terminal area with the briefing."""
         match received.message:
             case AdsbReport() as report:
@@ -121,7 +119,8 @@ class WellClearEngine:
             return
         if encounter is None:
             self._count += 1
-            encounter = self._encounters[pair] = _Encounter(f"well-clear-{self._count}")
+            encounter = _Encounter(Escalation(f"well-clear-{self._count}"))
+            self._encounters[pair] = encounter
         if encounter.escalation.rises(SEVERITIES[level.name], t_ns, persistence_s=0.0):
             if level is not PREVENTIVE:
                 encounter.recommendations = _turns(first, second, gap)
@@ -196,19 +195,15 @@ def _alert(
     *,
     is_active: bool = True,
 ) -> Alert:
-    severity = encounter.escalation.severity or Severity.INFO
+    severity = encounter.escalation.severity
     callsigns = (first.callsign, second.callsign)
-    revision, encounter.revision = encounter.revision, encounter.revision + 1
-    return Alert(
-        id=encounter.id,
-        revision=revision,
+    return encounter.escalation.alert(
         kind="loss_of_separation",
-        severity=severity if is_active else Severity.INFO,
         recipients=callsigns,
         traffic=callsigns,
         evidence=evidence,
         finding=Announcement(AURALS[severity]) if severity in AURALS else None,
-        recommendations=encounter.recommendations if is_active else {},
+        recommendations=encounter.recommendations,
         active=is_active,
     )
 

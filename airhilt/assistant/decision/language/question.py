@@ -61,7 +61,7 @@ class Turn(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Situation:
+class QuestionContext:
     """Situation as a language model is given it.
 
     Attributes
@@ -85,7 +85,7 @@ class Situation:
     @classmethod
     def of(
         cls, request: AssistantRequest, callsigns: tuple[str, ...], alerts: Mapping[str, Alert]
-    ) -> Situation:
+    ) -> QuestionContext:
         """Return the situation of some slices, and of the open alerts of the rules."""
         airport = request.context.airport if request.context else None
         runways = tuple(each.ident for each in airport.runways) if airport else ()

@@ -19,7 +19,7 @@ from dataclasses import dataclass, replace
 from pydantic import BaseModel, ConfigDict
 
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.language.question import ACTIONS, KINDS, Situation, Turn
+from airhilt.assistant.decision.language.question import ACTIONS, KINDS, QuestionContext, Turn
 from airhilt.assistant.decision.language.support import is_airborne_conflict, misread_turns
 from airhilt.messages import (
     CONTROLLER,
@@ -97,7 +97,7 @@ class Reviewed:
 
 def review(
     answer: Answer,
-    situation: Situation,
+    situation: QuestionContext,
     runway_of: Callable[[str], str | None],
 ) -> Reviewed:
     """Return what the rules accept of an answer, and why not the rest.
@@ -133,7 +133,7 @@ def judged(alert: Alert, severity: Severity) -> Alert:
     )
 
 
-def _against_judgement(judgement: Judgement, situation: Situation) -> str:
+def _against_judgement(judgement: Judgement, situation: QuestionContext) -> str:
     """Return why a judgement is refused; empty if it is not."""
     alert = situation.alerts.get(judgement.alert)
     if alert is None:
@@ -164,7 +164,7 @@ def _resolves(turn: Turn, now_ms: int) -> bool:
 
 
 def _against_advisory(
-    advisory: OwnAdvisory, situation: Situation, runway_of: Callable[[str], str | None]
+    advisory: OwnAdvisory, situation: QuestionContext, runway_of: Callable[[str], str | None]
 ) -> str:
     """Return why an advisory of the model's own is refused; empty if it is not."""
     traffic = set(advisory.traffic)
@@ -186,7 +186,7 @@ def _against_advisory(
     return _against_actions(advisory, situation) or _unsupported(advisory, situation, runway_of)
 
 
-def _against_actions(advisory: OwnAdvisory, situation: Situation) -> str:
+def _against_actions(advisory: OwnAdvisory, situation: QuestionContext) -> str:
     """Return which action the rules do not recommend; empty if they recommend all."""
     for each in advisory.actions:
         ruled = _ruled(each.callsign, situation)
@@ -199,7 +199,7 @@ def _against_actions(advisory: OwnAdvisory, situation: Situation) -> str:
 
 
 def _unsupported(
-    advisory: OwnAdvisory, situation: Situation, runway_of: Callable[[str], str | None]
+    advisory: OwnAdvisory, situation: QuestionContext, runway_of: Callable[[str], str | None]
 ) -> str:
     """Return what does not show the conflict; empty if tracks or calls show it."""
     traffic = set(advisory.traffic)
@@ -218,17 +218,17 @@ def _unsupported(
     if advisory.kind == "readback_mismatch":
         is_misread = misread_turns(cited)
         return "" if is_misread else "it names no instruction that was read back differently"
-    named = {turn.callsign for turn in cited if _names(turn, advisory.runway)}
+    named = {
+        turn.callsign
+        for turn in cited
+        if any(each.runway == advisory.runway for each in turn.instructions)
+    }
     on_runway = {each for each in traffic if runway_of(each) == advisory.runway}
     missing = sorted(traffic - named - on_runway)
     return f"nothing shows {', '.join(missing)} on runway {advisory.runway}" if missing else ""
 
 
-def _names(turn: Turn, runway: str) -> bool:
-    return any(each.runway == runway for each in turn.instructions)
-
-
-def _ruled(callsign: str, situation: Situation) -> Recommendation | None:
+def _ruled(callsign: str, situation: QuestionContext) -> Recommendation | None:
     """Return what the rules recommend to a callsign; None if they recommend nothing."""
     for alert in situation.alerts.values():
         if callsign in alert.recommendations:
@@ -236,7 +236,7 @@ def _ruled(callsign: str, situation: Situation) -> Recommendation | None:
     return None
 
 
-def _alert(advisory: OwnAdvisory, situation: Situation) -> Alert:
+def _alert(advisory: OwnAdvisory, situation: QuestionContext) -> Alert:
     """Return an advisory of the model's own as an alert, in words of this project."""
     traffic = tuple(sorted(advisory.traffic))
     what = advisory.kind.replace("_", " ")

@@ -20,7 +20,7 @@ from airhilt.assistant.decision.mobiles import Use
 from airhilt.assistant.decision.paper.ambiguity import AmbiguousCall, AmbiguousCalls
 from airhilt.assistant.decision.paper.config import PaperConfig
 from airhilt.assistant.decision.paper.occupants import Occupant, occupants
-from airhilt.assistant.decision.situation import Situation
+from airhilt.assistant.decision.situation import RunwaySituation
 from airhilt.assistant.decision.threats import Snapshot, Threat, cameras_of, obstruction
 from airhilt.assistant.decision.visual_tracks import VisualTracks
 from airhilt.messages import Severity
@@ -36,7 +36,7 @@ class Ladder:
         self._visual_tracks = visual_tracks
         self._ambiguous = ambiguous
 
-    def threats(self, situation: Situation, t_ns: int) -> Mapping[tuple[str, ...], Threat]:
+    def threats(self, situation: RunwaySituation, t_ns: int) -> Mapping[tuple[str, ...], Threat]:
         """Return the threats at a time, each by its key."""
         snapshot = Snapshot(situation, t_ns)
         found = (*self._by_words(snapshot), *self._by_occupancy(snapshot))

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from airhilt.assistant.decision.aerodrome import Strip, Vector
-from airhilt.assistant.decision.situation import Situation
+from airhilt.assistant.decision.situation import RunwaySituation
 from airhilt.assistant.decision.threats import UNIDENTIFIED, WILDLIFE
 from airhilt.assistant.decision.visual_tracks import (
     VisualTrack,
@@ -50,7 +50,7 @@ class Occupant(NamedTuple):
 
 
 def occupants(
-    situation: Situation, strip: Strip, visual_tracks: VisualTracks
+    situation: RunwaySituation, strip: Strip, visual_tracks: VisualTracks
 ) -> Iterator[Occupant]:
     """Yield who or what is on a runway.
 

@@ -7,11 +7,11 @@ import io
 from collections.abc import Mapping, Sequence
 
 from PIL import Image
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field
 
 from airhilt.assistant.vision.detector import Found, Picture, PictureMissed, Shot
 from airhilt.engines import Engine
-from airhilt.errors import VisionError, first_problem
+from airhilt.errors import VisionError
 from airhilt.host.services import USAGE, HttpService, is_service
 from airhilt.imaging.boxes import area
 from airhilt.imaging.masks import Mask
@@ -24,6 +24,10 @@ MOST_FOUND = 1_000
 """Largest number of detections in one picture."""
 MOST_FAILURES = 3
 """Number of requests in a row without an answer that end it."""
+EXPECTED = (
+    'JSON such as {"detections": [{"label": "airplane", "confidence": 0.9, '
+    '"box": [10, 20, 40, 30]}]}'
+)
 PNG_LEVEL = 1
 """Compression: pictures go to the same machine or the next, so fast comes before small."""
 
@@ -72,7 +76,8 @@ class HttpDetector:
         return self._detect(picture, headers_of(shot))
 
     def _detect(self, picture: Picture, headers: Mapping[str, str]) -> Sequence[Found]:
-        answer = self._parse(self._post(encode_png(picture), headers))
+        data = self._post(encode_png(picture), headers)
+        answer = self._service.parsed(data, _Answer, EXPECTED)
         placed = [self._placed(each, picture) for each in answer.detections]
         return [found for found in placed if area(found.box)]
 
@@ -100,16 +105,6 @@ class HttpDetector:
             )
         box = (max(left, 0.0), max(top, 0.0), min(right, float(columns)), min(bottom, float(rows)))
         return Found(each.label, each.confidence, box)
-
-    def _parse(self, data: bytes) -> _Answer:
-        try:
-            return _Answer.model_validate_json(data)
-        except ValidationError as error:
-            raise self._service.error(
-                f"answered {data[:60]!r}: {first_problem(error)}",
-                'JSON such as {"detections": [{"label": "airplane", "confidence": 0.9, '
-                '"box": [10, 20, 40, 30]}]}',
-            ) from None
 
 
 def headers_of(shot: Shot) -> dict[str, str]:

@@ -11,7 +11,7 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from pydantic import BaseModel, ConfigDict, RootModel, ValidationError
+from pydantic import BaseModel, ConfigDict, RootModel
 
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.language_model import LanguageModel, LanguageModelSettings
@@ -19,7 +19,6 @@ from airhilt.assistant.wording.engine import Worded
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.assistant.wording.fidelity import LONGEST, change
 from airhilt.engines import Engine
-from airhilt.errors import LanguageModelError, first_problem
 from airhilt.messages import SPEAK_MIN_LEVEL, ModelExchange, Rejection, Severity
 
 INSTRUCTIONS = (
@@ -105,21 +104,13 @@ def _reworded(
         question=question,
         answer=None,
     )
-    try:
-        answer = model.ask(INSTRUCTIONS, question, _schema(asked))
-    except LanguageModelError as error:
-        return {}, exchange.model_copy(update={"failure": str(error)})
-    exchange = exchange.model_copy(update={"answer": answer})
-    try:
-        given = _Answer.model_validate_json(answer).root
-    except ValidationError as error:
-        failure = f"the answer is not of the schema: {first_problem(error)}"
-        return {}, exchange.model_copy(update={"failure": failure})
-    model.accept()
+    answer, exchange = model.answer_to(exchange, INSTRUCTIONS, _schema(asked), _Answer)
+    if answer is None:
+        return {}, exchange
     kept: dict[tuple[str, str], str] = {}
     rejections: list[Rejection] = []
     for key, each in asked.items():
-        reworded = given.get(key)
+        reworded = answer.root.get(key)
         why = _refused(each, reworded)
         if reworded is not None and not why:
             kept[each.alert.id, each.recipient] = reworded.text.strip()
