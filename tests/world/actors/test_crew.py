@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 
 from airhilt.commands import (
     AltitudeCommand,
-    Command,
     EmergencyDescentCommand,
     GoAroundCommand,
     SpeedCommand,
@@ -299,9 +298,10 @@ def test_an_end_that_is_told_twice_is_no_harm(aircraft: Aircraft) -> None:
     assert level_ft(aircraft) == pytest.approx(5_000)
 
 
-@pytest.mark.parametrize(
-    ("command", "why"),
-    [
+def test_a_crew_is_unable_to_fly_what_its_aircraft_cannot(
+    subtests: pytest.Subtests, aircraft: Aircraft
+) -> None:
+    for command, why in [
         (SpeedCommand(action="speed", cas_kt=450), "unable 450 kt: a c172p flies 65 to 127 kt"),
         (SpeedCommand(action="speed", cas_kt=30), "unable 30 kt"),
         (AltitudeCommand(action="altitude", altitude_ft=-1_000), "unable -1000 ft: a c172p flies"),
@@ -317,16 +317,13 @@ def test_an_end_that_is_told_twice_is_no_harm(aircraft: Aircraft) -> None:
         ),
         (EmergencyDescentCommand(action="emergency_descent", altitude_ft=0), "unable 0 ft"),
         (GoAroundCommand(action="go_around", climb_to_ft=30_000), "unable 30000 ft"),
-    ],
-)
-def test_a_crew_is_unable_to_fly_what_its_aircraft_cannot(
-    aircraft: Aircraft, command: Command, why: str
-) -> None:
-    speed_m_s = aircraft.target_speed_m_s
-    with pytest.raises(Unable, match=why):
-        crew_of(aircraft).command(command)
-    assert level_ft(aircraft) == pytest.approx(5_000)
-    assert aircraft.target_speed_m_s == speed_m_s
+    ]:
+        with subtests.test(why):
+            speed_m_s = aircraft.target_speed_m_s
+            with pytest.raises(Unable, match=why):
+                crew_of(aircraft).command(command)
+            assert level_ft(aircraft) == pytest.approx(5_000)
+            assert aircraft.target_speed_m_s == speed_m_s
 
 
 def test_a_crew_flies_up_to_the_limits_of_its_aircraft(aircraft: Aircraft) -> None:

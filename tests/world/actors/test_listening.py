@@ -159,9 +159,8 @@ def test_a_readback_of_another_clearance_differs() -> None:
     assert LISTENER.differs(read, said)
 
 
-@pytest.mark.parametrize(
-    ("instruction", "command"),
-    [
+def test_an_instruction_makes_a_command(subtests: pytest.Subtests) -> None:
+    for instruction, command in [
         ({"action": "go_around"}, {"action": "go_around", "climb_to_ft": 3000.0}),
         ({"action": "cancel_takeoff"}, {"action": "cancel_takeoff"}),
         ({"action": "hold_position"}, {"action": "hold_position"}),
@@ -179,13 +178,10 @@ def test_a_readback_of_another_clearance_differs() -> None:
         ),
         ({"action": "heading", "heading_deg": 90.0}, {"action": "track", "track_deg": 90.0}),
         ({"action": "speed", "speed_kt": 180.0}, {"action": "speed", "cas_kt": 180.0}),
-    ],
-)
-def test_an_instruction_makes_a_command(
-    instruction: dict[Any, Any], command: dict[Any, Any]
-) -> None:
-    (made,) = commands_of([Instruction(**instruction)], "01")
-    assert made.model_dump(exclude_none=True, exclude={"via", "vacate"}) == command
+    ]:
+        with subtests.test(str((instruction, command))):
+            (made,) = commands_of([Instruction(**instruction)], "01")
+            assert made.model_dump(exclude_none=True, exclude={"via", "vacate"}) == command
 
 
 @pytest.mark.parametrize("action", ["line_up", "cleared_for_takeoff", "cleared_to_land"])
@@ -216,19 +212,17 @@ def test_what_holds_until_an_event_is_done_at_once() -> None:
     assert (command.action, command.cas_kt) == ("speed", 180.0)
 
 
-@pytest.mark.parametrize(
-    "said",
-    [
+def test_what_has_no_command_is_not_done_as_another(subtests: pytest.Subtests) -> None:
+    for said in [
         Instruction("cross_fix", position="lander", altitude_ft=5000.0, speed_kt=250.0),
         Instruction("altitude", sense="maintain", altitude_ft=5000.0, bound="or_less"),
         Instruction("hold_at", position="deer park"),
         Instruction("descend_via", position="hasty 2"),
         Instruction("turn_by", turn="left", turn_deg=20.0),
         Instruction("heading", heading_deg=270.0, condition="when airborne"),
-    ],
-)
-def test_what_has_no_command_is_not_done_as_another(said: Instruction) -> None:
-    assert commands_of([said], None) == ()
+    ]:
+        with subtests.test(str(said)):
+            assert commands_of([said], None) == ()
 
 
 def test_headings_that_are_said_are_magnetic() -> None:

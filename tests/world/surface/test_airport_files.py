@@ -68,28 +68,35 @@ def test_an_unknown_airport_gets_the_nearest_name() -> None:
         load_airport("KDCB")
 
 
-@pytest.mark.parametrize("icao", SHIPPED)
-def test_runways_are_as_long_as_published(icao: str) -> None:
-    layout = Layout(load_airport(icao))
-    for ident, feet in PUBLISHED_FT[icao].items():
-        assert layout.runway(ident).length_m == pytest.approx(feet * FOOT, abs=8.0), ident
+def test_runways_are_as_long_as_published(subtests: pytest.Subtests) -> None:
+    for icao in SHIPPED:
+        with subtests.test(icao):
+            layout = Layout(load_airport(icao))
+            for ident, feet in PUBLISHED_FT[icao].items():
+                assert layout.runway(ident).length_m == pytest.approx(feet * FOOT, abs=8.0), ident
 
 
-@pytest.mark.parametrize("icao", SHIPPED)
-def test_courses_come_from_the_coordinates(icao: str) -> None:
-    layout = Layout(load_airport(icao))
-    for ident, course in TRUE_DEG[icao].items():
-        assert math.degrees(layout.runway(ident).course_rad) == pytest.approx(course, abs=0.1)
+def test_courses_come_from_the_coordinates(subtests: pytest.Subtests) -> None:
+    for icao in SHIPPED:
+        with subtests.test(icao):
+            layout = Layout(load_airport(icao))
+            for ident, course in TRUE_DEG[icao].items():
+                assert math.degrees(layout.runway(ident).course_rad) == pytest.approx(
+                    course, abs=0.1
+                )
 
 
-@pytest.mark.parametrize("icao", SHIPPED)
-def test_runway_numbers_are_the_magnetic_headings_in_tens_of_degrees(icao: str) -> None:
-    for runway in load_airport(icao).runways:
-        for end in runway.ends:
-            assert end.heading_magnetic_deg is not None
-            number = float(end.ident[:2]) * 10.0
-            away = (end.heading_magnetic_deg - number + 180.0) % 360.0 - 180.0
-            assert abs(away) < 10.5, end.ident
+def test_runway_numbers_are_the_magnetic_headings_in_tens_of_degrees(
+    subtests: pytest.Subtests,
+) -> None:
+    for icao in SHIPPED:
+        with subtests.test(icao):
+            for runway in load_airport(icao).runways:
+                for end in runway.ends:
+                    assert end.heading_magnetic_deg is not None
+                    number = float(end.ident[:2]) * 10.0
+                    away = (end.heading_magnetic_deg - number + 180.0) % 360.0 - 180.0
+                    assert abs(away) < 10.5, end.ident
 
 
 def test_lengths_that_contradict_the_coordinates_are_noted() -> None:
@@ -99,14 +106,18 @@ def test_lengths_that_contradict_the_coordinates_are_noted() -> None:
     )
 
 
-@pytest.mark.parametrize(
-    ("icao", "east_deg"),
-    [("KDCA", -10.7), ("KSFO", 12.95), ("EHAM", 2.43), ("RJTT", -7.81), ("LSZH", 3.43)],
-)
-def test_magnetic_variation_is_that_of_the_world_magnetic_model(icao: str, east_deg: float) -> None:
-    variation = load_airport(icao).magnetic_variation
-    assert variation.epoch == 2025.0
-    assert variation.east_deg == pytest.approx(east_deg, abs=0.05)
+def test_magnetic_variation_is_that_of_the_world_magnetic_model(subtests: pytest.Subtests) -> None:
+    for icao, east_deg in [
+        ("KDCA", -10.7),
+        ("KSFO", 12.95),
+        ("EHAM", 2.43),
+        ("RJTT", -7.81),
+        ("LSZH", 3.43),
+    ]:
+        with subtests.test(icao):
+            variation = load_airport(icao).magnetic_variation
+            assert variation.epoch == 2025.0
+            assert variation.east_deg == pytest.approx(east_deg, abs=0.05)
 
 
 def test_what_nobody_surveyed_says_so() -> None:
@@ -125,18 +136,18 @@ def test_washington_tower_and_ground_are_on_their_frequencies() -> None:
     assert {("tower", 119_100), ("ground", 121_700), ("atis", 132_650)} <= frequencies
 
 
-@pytest.mark.parametrize(
-    ("icao", "name"),
-    [
+def test_imported_airports_are_what_the_importer_makes(subtests: pytest.Subtests) -> None:
+    for icao, name in [
         ("KSFO", "San Francisco International"),
         ("EHAM", "Amsterdam Schiphol"),
         ("RJTT", "Tokyo Haneda"),
         ("LSZH", "Zürich"),
-    ],
-)
-def test_imported_airports_are_what_the_importer_makes(icao: str, name: str) -> None:
-    made = import_airport(icao, RUNWAYS, FREQUENCIES, name=name, year=2025.0)
-    assert as_text(made) == library.find("airports", icao.lower()).read_text(encoding="utf-8")
+    ]:
+        with subtests.test(icao):
+            made = import_airport(icao, RUNWAYS, FREQUENCIES, name=name, year=2025.0)
+            assert as_text(made) == library.find("airports", icao.lower()).read_text(
+                encoding="utf-8"
+            )
 
 
 def test_washington_is_what_its_tool_makes(tmp_path: Path) -> None:
