@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import reprlib
 import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -140,3 +142,26 @@ def failure_in(error: Exception) -> str:
     frames = traceback.extract_tb(error.__traceback__)
     where = f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else ""
     return f"{first_line(error)}{where}"
+
+
+@contextmanager
+def blaming(
+    what: str, error: type[AirhiltError] = AirhiltError, *declared: type[Exception]
+) -> Iterator[None]:
+    """Raise what another package's code raises as an error that says what failed.
+
+    Parameters
+    ----------
+    what
+        What failed, such as ``sensor 'lidar' does not start``.
+    error
+        Class of the error.
+    declared
+        Exceptions that the code may raise; they pass unchanged, as an `AirhiltError` does.
+    """
+    try:
+        yield
+    except (AirhiltError, *declared):
+        raise
+    except Exception as cause:
+        raise error(f"{what}: {failure_in(cause)}") from cause

@@ -146,11 +146,12 @@ class Interrogator:
         self._icao24 = _icao24(self._own)
         self._phase_s = stream(context.seed, f"tcas/{callsign}").uniform(0.0, 1.0)
         self._targets = [
-            _target(
-                actor,
+            _Target(
                 spec,
-                spec.callsign in carriers,
-                stream(context.seed, f"tcas/{callsign}/{name}"),
+                actor,
+                spec.callsign in carriers and spec.transponder.mode == "S",
+                generator := stream(context.seed, f"tcas/{callsign}/{name}"),
+                generator.uniform(-RANGE_BIAS_M, RANGE_BIAS_M),
             )
             for name, actor in context.actors.items()
             if isinstance(spec := actor.spec, AircraftSpec)
@@ -219,15 +220,3 @@ class Interrogator:
 def _icao24(actor: Actor) -> str:
     assert isinstance(actor.spec, AircraftSpec)  # The checks of a scenario see to it.
     return actor.spec.icao24
-
-
-def _target(
-    actor: Actor, spec: AircraftSpec, carries_tcas: bool, generator: np.random.Generator
-) -> _Target:
-    return _Target(
-        spec=spec,
-        actor=actor,
-        has_tcas=carries_tcas and spec.transponder.mode == "S",
-        generator=generator,
-        bias_m=generator.uniform(-RANGE_BIAS_M, RANGE_BIAS_M),
-    )

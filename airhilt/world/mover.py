@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple, Protocol, TypeVar, runtime_checkable
 
+from airhilt.geodesy.relative_motion import Kinematics
 from airhilt.geodesy.wgs84 import Place, displaced
 from airhilt.shapes.sizes import Size
 
@@ -47,21 +48,11 @@ class SurfaceState(NamedTuple):
         return -self.velocity_down_m_s
 
 
-class Motion(Protocol):
+class Motion(Kinematics, Protocol):
     """Place and movement, which `SurfaceState` and the state of an aircraft both have."""
 
     @property
-    def latitude_rad(self) -> float: ...  # noqa: D102
-    @property
-    def longitude_rad(self) -> float: ...  # noqa: D102
-    @property
-    def altitude_m(self) -> float: ...  # noqa: D102
-    @property
     def height_agl_m(self) -> float: ...  # noqa: D102
-    @property
-    def velocity_north_m_s(self) -> float: ...  # noqa: D102
-    @property
-    def velocity_east_m_s(self) -> float: ...  # noqa: D102
     @property
     def velocity_down_m_s(self) -> float: ...  # noqa: D102
     @property

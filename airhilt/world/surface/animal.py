@@ -212,7 +212,7 @@ class AnimalBody:
     Raises
     ------
     ValueError
-        The place is none, a number is not finite, or it is to be in the air and does not fly.
+        The place is at a pole, or it is to be in the air and does not fly.
     """
 
     def __init__(
@@ -226,10 +226,6 @@ class AnimalBody:
         seed: int,
         height_m: float = 0.0,
     ) -> None:
-        if not (math.isfinite(heading_rad) and math.isfinite(ground_m)):
-            raise ValueError(f"heading {heading_rad} rad, ground {ground_m} m: not finite")
-        if not 0.0 <= height_m < math.inf:
-            raise ValueError(f"height_m is {height_m}; expected 0 or more")
         self.kind = kind
         self.ended: str | None = None
         self._ground_m = ground_m
@@ -321,10 +317,8 @@ class AnimalBody:
         Raises
         ------
         ValueError
-            It does not fly, the height is negative or no number, or the place is too far away.
+            It does not fly, or the place is too far away.
         """
-        if not 0.0 <= height_m < math.inf:
-            raise ValueError(f"height_m is {height_m}; expected 0 or more")
         usual = self._flight.height_m
         transit = height_m or (self._height if self._height > 0.0 else usual)
         self._move_origin()

@@ -137,7 +137,7 @@ class Vehicle:
     Raises
     ------
     ValueError
-        The place is none, or a number is not finite.
+        The place is at a pole.
     """
 
     on_ground = True
@@ -151,8 +151,6 @@ class Vehicle:
         ground_m: float,
         tick_s: float,
     ) -> None:
-        if not (math.isfinite(heading_rad) and math.isfinite(ground_m)):
-            raise ValueError(f"heading {heading_rad} rad, ground {ground_m} m: not finite")
         self.kind = kind
         self.dimensions = kind.dimensions
         self.ended: str | None = None

@@ -27,11 +27,9 @@ from airhilt.scenario.models import (
 )
 from airhilt.units import FOOT, KNOT, NAUTICAL_MILE, seconds_to_ns
 from airhilt.world.actors.actor import Actor
+from airhilt.world.actors.triggers import Test
 from airhilt.world.truth.conflicts import ConflictMonitor, Pair
 from airhilt.world.truth.runways import RunwayMonitor
-
-Test = Callable[[int], bool]
-"""Returns whether a condition is true at a time in ns."""
 
 
 class ConditionCompiler:

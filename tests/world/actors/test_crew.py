@@ -17,11 +17,10 @@ from airhilt.commands import (
 )
 from airhilt.geodesy.positions import GeodeticPosition
 from airhilt.messages import Advisory, Climb, Evidence, MaintainLevel, Severity, Turn
-from airhilt.scenario.models import Reactions
+from airhilt.scenario.models import AircraftSpec, Reactions
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
 from airhilt.world.actors.actor import Unable
 from airhilt.world.actors.crew import Crew
-from airhilt.world.actors.reactions import ReactionModel
 from airhilt.world.flight import Aircraft, Atmosphere, InitialCondition, load_aircraft_type
 from airhilt.world.site import ScenarioSite
 from breadth import examples
@@ -61,7 +60,8 @@ def crew_of(
 ) -> Crew:
     reactions = Reactions(reaction_median_s=median_s, reaction_sigma=sigma, compliance=compliance)
     centre = GeodeticPosition(type="geodetic", lat_deg=47.0, lon_deg=8.0)
-    return Crew(ReactionModel("AAL123", reactions, seed), aircraft, ScenarioSite(centre, 0.0))
+    spec = AircraftSpec.model_construct(callsign="AAL123", pilot=reactions)
+    return Crew(spec, aircraft, ScenarioSite(centre, 0.0), seed)
 
 
 def advisory(
@@ -363,7 +363,7 @@ def test_a_crew_climbs_as_high_as_it_can_for_an_advisory(aircraft: Aircraft) -> 
 
 def test_the_ground_below_counts(aircraft: Aircraft) -> None:
     centre = GeodeticPosition(type="geodetic", lat_deg=47.0, lon_deg=8.0)
-    model = ReactionModel("AAL123", Reactions(), 1)
-    crew = Crew(model, aircraft, ScenarioSite(centre, 3_000 * FOOT))
+    spec = AircraftSpec.model_construct(callsign="AAL123", pilot=Reactions())
+    crew = Crew(spec, aircraft, ScenarioSite(centre, 3_000 * FOOT), 1)
     with pytest.raises(Unable, match="3500 to 13000 ft here"):
         crew.command(AltitudeCommand(action="altitude", altitude_ft=3_400))

@@ -9,7 +9,7 @@ import pytest
 
 from airhilt.commands import TrackCommand
 from airhilt.phraseology import TAU_ASR, Action, Instruction, parse_call
-from airhilt.world.actors.listening import Listener, Understanding, commands_of
+from airhilt.world.actors.listening import Listener, Understanding
 
 ON_FREQUENCY = ("AAL123", "DAL456")
 SAID = "American one two three, climb and maintain flight level three three zero."
@@ -180,33 +180,33 @@ def test_an_instruction_makes_a_command(subtests: pytest.Subtests) -> None:
         ({"action": "speed", "speed_kt": 180.0}, {"action": "speed", "cas_kt": 180.0}),
     ]:
         with subtests.test(str((instruction, command))):
-            (made,) = commands_of([Instruction(**instruction)], "01")
+            (made,) = LISTENER.commands_of([Instruction(**instruction)], "01")
             assert made.model_dump(exclude_none=True, exclude={"via", "vacate"}) == command
 
 
 @pytest.mark.parametrize("action", ["line_up", "cleared_for_takeoff", "cleared_to_land"])
 def test_without_any_runway_there_is_nothing_to_do(action: Action) -> None:
-    assert commands_of([Instruction(action=action)], None) == ()
+    assert LISTENER.commands_of([Instruction(action=action)], None) == ()
 
 
 def test_a_level_with_a_takeoff_is_where_it_climbs_to() -> None:
     said = [Instruction("cleared_for_takeoff", "01"), Instruction("altitude", altitude_ft=6000.0)]
-    (command,) = commands_of(said, None)
+    (command,) = LISTENER.commands_of(said, None)
     assert (command.action, command.climb_to_ft) == ("take_off", 6000.0)
 
 
 def test_what_is_said_twice_is_done_once() -> None:
     said = [Instruction("stop"), Instruction("hold_short", "01")]
-    assert [command.action for command in commands_of(said, None)] == ["hold_position"]
+    assert [command.action for command in LISTENER.commands_of(said, None)] == ["hold_position"]
 
 
 def test_what_holds_on_a_condition_is_not_done_at_once() -> None:
     said = [Instruction("line_up", "01", condition="behind the landing cessna")]
-    assert commands_of(said, None) == ()
+    assert LISTENER.commands_of(said, None) == ()
 
 
 def test_what_holds_until_an_event_is_done_at_once() -> None:
-    (command,) = commands_of(
+    (command,) = LISTENER.commands_of(
         [Instruction("speed", speed_kt=180.0, until="until established")], None
     )
     assert (command.action, command.cas_kt) == ("speed", 180.0)
@@ -222,7 +222,7 @@ def test_what_has_no_command_is_not_done_as_another(subtests: pytest.Subtests) -
         Instruction("heading", heading_deg=270.0, condition="when airborne"),
     ]:
         with subtests.test(str(said)):
-            assert commands_of([said], None) == ()
+            assert LISTENER.commands_of([said], None) == ()
 
 
 def test_headings_that_are_said_are_magnetic() -> None:

@@ -13,11 +13,10 @@ from pydantic import TypeAdapter
 from airhilt.commands import Command
 from airhilt.geodesy.positions import RunwayPosition
 from airhilt.messages import Advisory, CancelTakeoff, Evidence, GoAround, HoldPosition, Severity
-from airhilt.scenario.models import Reactions
+from airhilt.scenario.models import AircraftSpec, Reactions
 from airhilt.units import FOOT, KNOT
 from airhilt.world.actors.actor import Unable
 from airhilt.world.actors.crew import Crew
-from airhilt.world.actors.reactions import ReactionModel
 from airhilt.world.flight import load_aircraft_type
 from airhilt.world.loading import load
 from airhilt.world.site import ScenarioSite
@@ -123,7 +122,8 @@ class Plane:
 
 
 def crew_of(plane: Any) -> Crew:
-    return Crew(ReactionModel("AAL1", Reactions(reaction_sigma=0.0), 1), plane, kdca())
+    reactions = Reactions(reaction_sigma=0.0)
+    return Crew(AircraftSpec.model_construct(callsign="AAL1", pilot=reactions), plane, kdca(), 1)
 
 
 def tell(crew: Crew, action: str, **arguments: Any) -> None:

@@ -17,7 +17,7 @@ from airhilt.world.flight.guard import (
     PITCH_LIMIT,
     SINK_FACTOR,
     STALL_FACTOR,
-    Guard,
+    FlightGuard,
 )
 from stand_ins import state_at
 
@@ -56,7 +56,7 @@ def test_the_guard_names_the_cause(
     ]:
         with subtests.test(str((change, cause))):
             aircraft = in_cruise("737")
-            assert Guard(aircraft.kind).check(aircraft.state._replace(**change)) == cause
+            assert FlightGuard(aircraft.kind).check(aircraft.state._replace(**change)) == cause
 
 
 def test_only_the_wheels_may_touch_the_ground_and_softly(
@@ -73,13 +73,13 @@ def test_only_the_wheels_may_touch_the_ground_and_softly(
         with subtests.test(str((change, cause))):
             aircraft = on_the_ground("737")
             state = aircraft.state._replace(**change)
-            assert Guard(aircraft.kind).check(state, may_touch=True, on_ground=True) == cause
+            assert FlightGuard(aircraft.kind).check(state, may_touch=True, on_ground=True) == cause
 
 
 def test_a_hop_on_the_takeoff_roll_is_no_stall(on_the_ground: Callable[..., Any]) -> None:
     aircraft = on_the_ground("737")
     hop = aircraft.state._replace(height_agl_m=0.5, calibrated_airspeed_m_s=70 * KNOT)
-    guard = Guard(aircraft.kind)
+    guard = FlightGuard(aircraft.kind)
     assert guard.check(hop, may_touch=True, on_ground=False) is None
     assert guard.check(hop, may_touch=False, on_ground=True) == "ground_contact"
 
@@ -110,5 +110,5 @@ def test_a_flight_that_has_just_reached_a_limit_ends_with_the_name_of_that_limit
     ]:
         with subtests.test(named):
             state = state_at(altitude_m=3_000.0, speed_m_s=250 * KNOT)._replace(**limit)
-            cause = Guard(load_aircraft_type("737")).check(state)
+            cause = FlightGuard(load_aircraft_type("737")).check(state)
             assert str(cause).startswith(f"envelope_exceeded: {named}")
