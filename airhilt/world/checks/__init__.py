@@ -14,10 +14,9 @@ from airhilt.world.checks.duplicates import shared_names
 from airhilt.world.checks.failures import idle_failures
 from airhilt.world.checks.perturbations import misplaced_perturbations
 from airhilt.world.checks.places import missing_airport, unknown_places
-from airhilt.world.checks.radio_lines import impossible_lines
+from airhilt.world.checks.radio_lines import impossible_lines, unsaid_lines
 from airhilt.world.checks.references import dangling_references
 from airhilt.world.checks.taxi_ways import missing_ways
-from airhilt.world.checks.unsaid_lines import unsaid_lines
 from airhilt.world.site import ScenarioSite
 
 __all__ = ["check", "check_file"]
