@@ -69,7 +69,7 @@ M = TypeVar("M", bound=Motion)
 
 
 def carried_on(state: M, elapsed_s: float) -> M:
-    """Return a state, which is a named tuple, a fraction of a tick later in straight movement."""
+    """Return the state a fraction of a tick later, after straight movement."""
     if elapsed_s == 0.0:
         return state
     latitude, longitude = displaced(
@@ -90,7 +90,7 @@ class Mover(Protocol):
     """A body that moves: an aircraft, a vehicle, an animal."""
 
     ended: str | None
-    """Reason for which it moves no more; None while it does. Those who find the reason set it."""
+    """Why it does not move any more; None while it moves. Set by whoever finds the reason."""
 
     @property
     def state(self) -> Motion:
@@ -128,7 +128,7 @@ class Driven(Mover, Protocol):
 
 @runtime_checkable
 class Creature(Mover, Protocol):
-    """A mover with a will of its own."""
+    """A mover that walks, runs, flies and flees."""
 
     @property
     def startled(self) -> bool:

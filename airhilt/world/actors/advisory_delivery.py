@@ -54,7 +54,7 @@ class AdvisoryDelivery:
         True if advisories are spoken on the recipients' frequencies: they get them when they have
         heard them to the end there.
     is_automaton
-        Says of a callsign that no person acts for it.
+        Returns whether no person acts for a callsign.
     event
         Called with the kind, the subject and the text of a reaction.
     """
@@ -109,7 +109,7 @@ class AdvisoryDelivery:
             self._deliver(waiting)
 
     def voice_lost(self) -> None:
-        """Go on without a voice: deliver now what waits for it."""
+        """Deliver all advisories that wait for the voice, which is lost."""
         self._is_voiced = False
         waiting: Sequence[Advisory] = list(self._unspoken.values())
         self._unspoken.clear()
@@ -117,7 +117,7 @@ class AdvisoryDelivery:
             self._deliver(advisory)
 
     def person_left(self, callsign: str) -> None:
-        """Let an automaton that acts for itself again know what is in force."""
+        """Deliver the advisories in force to an actor whose person has left its seat."""
         for name, (advisory, is_equipment) in list(self._told_people.items()):
             if self._by_address[advisory.recipient].spec.callsign == callsign:
                 del self._told_people[name]

@@ -1,4 +1,4 @@
-"""Checks of failures: whether there is something that each can change."""
+"""Checks of failures: whether each has something to change."""
 
 from __future__ import annotations
 

@@ -43,7 +43,7 @@ def dangling_references(scenario: Scenario) -> Iterator[Problem]:
 
 
 def _mentioned_actors(scenario: Scenario) -> Iterator[tuple[str, str]]:
-    """Yield every callsign that refers to an actor, with its path."""
+    """Yield the path and the callsign of every reference to an actor."""
     for path, model in models_of(scenario, ""):
         if isinstance(model, AircraftSpec | VehicleSpec | WildlifeSpec):
             continue

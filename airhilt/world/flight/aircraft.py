@@ -48,8 +48,8 @@ class Aircraft:
     procedures : ProcedureCommands
         Commands that begin a taxi, a takeoff, an approach or an emergency procedure.
     ended : str or None
-        Why it flies no more: ``ground_contact``, ``state_not_finite``, or ``envelope_exceeded:``
-        and what it exceeded. The state stays the last one before that.
+        Why the flight has ended: ``ground_contact``, ``state_not_finite``, or
+        ``envelope_exceeded:`` and what it exceeded. The state stays the last one before that.
 
     Raises
     ------

@@ -196,7 +196,7 @@ class AnimalBody:
     ground_m
         Height of the ground above WGS84.
     tick_s
-        Time by which `advance` goes on.
+        Time step of `advance`.
     seed
         Seed of its wandering and its reactions.
     height_m
@@ -207,7 +207,7 @@ class AnimalBody:
     state
         Place and movement now.
     ended
-        Reason for which it moves no more; None while it does.
+        Why it does not move any more; None while it moves.
 
     Raises
     ------
@@ -294,7 +294,7 @@ class AnimalBody:
         return self._gait or "walking"
 
     def stand(self) -> None:
-        """Come to a stand; in the air, land ahead and stand there."""
+        """Stop; in the air, land ahead and then stop."""
         self._end_flight()
         if self._height > 0.0:
             self._begin("flying", None, 0.0, lands=True)
@@ -408,7 +408,7 @@ class AnimalBody:
             self._begin("flying", (east, north), height, lands=self._height <= 0.0)
 
     def _move_origin(self) -> None:
-        """Begin a new local frame here, so that it is never far from its origin."""
+        """Move the origin of the local frame to the present place."""
         goal = None if self._goal is None else self._local_frame.to_place(*self._goal)
         self._local_frame = LocalFrame(
             (self.state.latitude_rad, self.state.longitude_rad), self._ground_m
@@ -488,7 +488,7 @@ class AnimalBody:
         self._climb = climb
 
     def _touch_down(self) -> None:
-        """Be on the ground again: walk the rest of the way, or stand if there is none."""
+        """Land: walk the rest of the way, or stand if none is left."""
         self._climb = 0.0
         if self._goal is None or self._fleeing:
             self._gait = None
@@ -496,7 +496,7 @@ class AnimalBody:
             self._begin("walking", self._goal, 0.0, lands=False)
 
     def _to_goal(self) -> tuple[float, float]:
-        """Return how far the goal is, and by how much to turn, wandering, to head for it."""
+        """Return the distance to the goal, and the turn towards it with the wandering added."""
         if self._goal is None:
             return math.inf, 0.0
         east, north = self._goal[0] - self._east, self._goal[1] - self._north

@@ -51,32 +51,16 @@ class GuardedKind:
         with self._blaming("mesh_of"):
             return self._kind.mesh_of(body, t_s)
 
-    def create(
-        self,
-        place: Place,
-        heading_rad: float,
-        *,
-        ground_m: float,
-        tick_s: float,
-        seed: int = 0,
-        height_m: float = 0.0,
-    ) -> Any:
+    def create(self, place: Place, heading_rad: float, **start: Any) -> Any:
         """Return a body of this kind.
 
         Raises
         ------
         ScenarioError
-            It failed, or what it returned does not move.
+            The kind failed, or what it returned does not move.
         """
         with self._blaming("create", ScenarioError, ValueError):
-            body = self._kind.create(
-                place,
-                heading_rad,
-                ground_m=ground_m,
-                tick_s=tick_s,
-                seed=seed,
-                height_m=height_m,
-            )
+            body = self._kind.create(place, heading_rad, **start)
         product = Driven if self.category == "vehicle" else Creature
         if lacks := missing(body, product):
             raise ScenarioError(

@@ -45,7 +45,7 @@ class VehicleKind(DrivenKind, BaseModel):
         Radar cross section; the default is that of a pickup truck (M. Skolnik, Introduction to
         Radar Systems, 3rd edition, table 2.2).
     cruise_m_s
-        Speed at which it is driven if no other is asked for.
+        Speed at which it is driven by default.
     lateral_m_s2
         Greatest acceleration across, in a corner.
     turning_radius_m
@@ -102,7 +102,7 @@ class _Stage(NamedTuple):
     limit_m_s: float
     """Greatest speed in it, for the acceleration across."""
     exit_squared: float
-    """Greatest square of the speed at its end from which braking is enough for all that comes."""
+    """Square of the greatest speed at its end from which the vehicle can brake for what follows."""
     beyond_m: float
     """Length of all that comes after it."""
 
@@ -123,7 +123,7 @@ class Vehicle:
     ground_m
         Height of the ground above WGS84.
     tick_s
-        Time by which `advance` goes on.
+        Time step of `advance`.
 
     Attributes
     ----------
@@ -132,7 +132,7 @@ class Vehicle:
     phase
         ``standing``, ``driving`` or ``stopping``: braking because of `stop`.
     ended
-        Reason for which it moves no more; None while it does.
+        Why it does not move any more; None while it moves.
 
     Raises
     ------
@@ -198,7 +198,7 @@ class Vehicle:
         self.phase = "driving" if self._stages else "standing"
 
     def stop(self) -> None:
-        """Brake to a stand on the path; `resume` goes on. Nothing happens to one that stands."""
+        """Brake to a stand on the path until `resume`; no-op for a standing vehicle."""
         if self.phase == "driving":
             self.phase = "stopping"
 
@@ -245,7 +245,7 @@ class Vehicle:
         self.state = self._state(*stage.element.at(self._along))
 
     def _come_to_a_stand(self) -> None:
-        """Cover what is left of the braking distance; at the end of the path, all that is left."""
+        """Stop at the end of the braking distance, or exactly at the end of the path."""
         stage = self._stages[self._index]
         length = stage.element.length_m
         braked = self._along + 0.5 * self._speed * self._speed / self.kind.braking_m_s2

@@ -153,5 +153,5 @@ class ConditionCompiler:
 
 
 def _each(tests: Sequence[Test], now_ns: int) -> list[bool]:
-    """Return the result of every test, also where one would do: some tests keep time."""
+    """Return the results of all tests: each must run at every tick, since some keep time."""
     return [test(now_ns) for test in tests]
