@@ -1,9 +1,11 @@
-"""Errors that a person can act on: what, where, what was expected, what to do."""
+"""Errors for people: what is wrong, where, what was expected, and what to do."""
 
 from __future__ import annotations
 
 import reprlib
 import traceback
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,8 +19,8 @@ class AirhiltError(Exception):
     Attributes
     ----------
     is_of_machine
-        True for what another machine, or another time, might not have: a process was killed, a
-        service does not answer, a disk is full.
+        True if the cause lies in the machine, not in the input: a process was killed, a service
+        does not answer, a disk is full.
     """
 
     exit_code = 2
@@ -60,7 +62,7 @@ class RunFolderError(AirhiltError):
 
 
 class SignatureError(AirhiltError):
-    """A key is none, or a run cannot be signed."""
+    """A file is no signing key, or a run cannot be signed."""
 
 
 class StationError(AirhiltError):
@@ -68,7 +70,7 @@ class StationError(AirhiltError):
 
 
 def disk_failed(path: str, error: OSError) -> RunFolderError:
-    """Return the error for a disk that takes no more in the middle of a run."""
+    """Return the error for a run folder that cannot be written any more."""
     return RunFolderError(
         f"{path}: cannot be written any more: {error.strerror}; make room, or choose another "
         "folder with --out"
@@ -84,7 +86,7 @@ class SpeechError(AirhiltError):
 
 
 class CameraError(AirhiltError):
-    """A camera cannot see: it stands in something, or its numbers are none of a camera."""
+    """A camera cannot be used: it stands inside an object, or its numbers are impossible."""
 
 
 class RendererError(AirhiltError):
@@ -110,7 +112,7 @@ class LanguageModelError(AirhiltError):
 
 
 def is_of_machine(error: BaseException) -> bool:
-    """Return true for what another machine, or another time, might not have."""
+    """Return whether the cause of an error lies in the machine, not in the input."""
     if isinstance(error, AirhiltError):
         return error.is_of_machine
     return isinstance(error, OSError | MemoryError)
@@ -140,3 +142,26 @@ def failure_in(error: Exception) -> str:
     frames = traceback.extract_tb(error.__traceback__)
     where = f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno})" if frames else ""
     return f"{first_line(error)}{where}"
+
+
+@contextmanager
+def blaming(
+    what: str, error: type[AirhiltError] = AirhiltError, *declared: type[Exception]
+) -> Iterator[None]:
+    """Raise what another package's code raises as an error that says what failed.
+
+    Parameters
+    ----------
+    what
+        What failed, such as ``sensor 'lidar' does not start``.
+    error
+        Class of the error.
+    declared
+        Exceptions that the code may raise; they pass unchanged, as an `AirhiltError` does.
+    """
+    try:
+        yield
+    except Exception as cause:
+        if isinstance(cause, (AirhiltError, *declared)):
+            raise
+        raise error(f"{what}: {failure_in(cause)}") from cause

@@ -1,4 +1,4 @@
-"""Reading JSON that anybody may have written: its size, depth and content are bounded first."""
+"""Reading JSON from untrusted files: size, depth and content are bounded."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ def parse(text: str, origin: str) -> Json:
     Raises
     ------
     ScenarioError
-        The text is not JSON, gives a field twice, or is beyond the limits of this module.
+        The text is not JSON, repeats a field, or exceeds a limit of this module.
     """
     try:
         document = json.loads(text, object_pairs_hook=_object, parse_int=_integer)

@@ -25,7 +25,7 @@ class Draw(BaseModel):
 
 
 class PathError(ValueError):
-    """A path leads to no value; the error knows the names that exist there."""
+    """A path leads to no value; ``known`` has the names that exist there."""
 
     def __init__(self, chunk: str, known: list[str]) -> None:
         super().__init__(chunk)

@@ -7,9 +7,9 @@ import itertools
 import json
 import types
 import typing
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
@@ -23,6 +23,9 @@ LONGEST_TEXT = 300
 """Number of characters that an error shows of what is wrong there."""
 MOST_CHARACTERS = 400
 """Number of characters of the mistakes that are told of a file beside a scenario."""
+
+
+M = TypeVar("M", bound=BaseModel)
 
 
 @dataclass(frozen=True)
@@ -39,6 +42,19 @@ class Problem:
         return f"{readable(path)}: {readable(self.text, LONGEST_TEXT)}"
 
 
+def unknown(path: str, sort: str, name: str, known: Collection[str], more: str = "") -> Problem:
+    """Return the problem of a name that refers to nothing, with the nearest known name.
+
+    Parameters
+    ----------
+    sort
+        What the name should be of, such as ``radio line``.
+    more
+        Further words at the end.
+    """
+    return Problem(path, f"no {sort} {name!r}{library.nearest(name, list(known))}{more}")
+
+
 def error_for(origin: str, problems: Sequence[Problem]) -> ScenarioError:
     """Return one error for all problems: its message names the first."""
     lines = tuple(f"{origin}: {problem}" for problem in problems)
@@ -46,15 +62,25 @@ def error_for(origin: str, problems: Sequence[Problem]) -> ScenarioError:
     return ScenarioError(lines[0] + more, lines)
 
 
-def no_file_of(kind: str, origin: str, error: ValidationError) -> ScenarioError:
-    """Return one error for what pydantic found wrong in a file beside a scenario, a line each.
+def validated(model: type[M], kind: str, document: Any, origin: str) -> M:
+    """Return the model of a document in a file beside a scenario.
 
     Parameters
     ----------
     kind
         What the file should be, such as ``an airport``.
+    origin
+        Name of the file in errors.
+
+    Raises
+    ------
+    ScenarioError
+        The document is wrong; the error has a line for each mistake.
     """
-    found = error.errors(include_url=False)
+    try:
+        return model.model_validate(document)
+    except ValidationError as error:
+        found = error.errors(include_url=False)
     lines = [
         f"\n  {Problem('.'.join(map(str, one['loc'])) or 'the file', one['msg'])}"
         for one in found[:MOST_CHARACTERS]  # A line has more than one character.
@@ -62,7 +88,7 @@ def no_file_of(kind: str, origin: str, error: ValidationError) -> ScenarioError:
     ends = list(itertools.accumulate(map(len, lines)))
     told = max(bisect.bisect(ends, MOST_CHARACTERS), 1)
     more = f"\n  and {len(found) - told} more" if len(found) > told else ""
-    return ScenarioError(f"{origin} is not {kind}:{''.join(lines[:told])}{more}")
+    raise ScenarioError(f"{origin} is not {kind}:{''.join(lines[:told])}{more}")
 
 
 def problems_of(error: ValidationError, model: type[BaseModel]) -> list[Problem]:

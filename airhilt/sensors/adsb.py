@@ -2,8 +2,7 @@
 
 Every actor with a transponder squitters its position, its velocity and its identification, each at
 its own random intervals. The receivers of the scenario hear some of it; a report leaves one
-receiver latency after the squitter that
-completes it.
+receiver latency after the squitter that completes it.
 """
 
 from __future__ import annotations

@@ -19,40 +19,12 @@ from typing import Any, Protocol, runtime_checkable
 
 from airhilt.errors import ScenarioError, SensorError
 from airhilt.host.library import nearest
-from airhilt.messages import WORKER_OUTPUTS, Message
+from airhilt.messages import BUS_MESSAGES, WORKER_OUTPUTS, Message
 from airhilt.plugins import Family
 from airhilt.scenario.models import Scenario
 from airhilt.sim import LatencySpec, Scheduler, StepRecord
 from airhilt.world.actors.actor import Actor
 from airhilt.world.site import ScenarioSite
-
-RESERVED = frozenset(
-    {
-        "speech",
-        "microphone",
-        "page",
-        "perceived",
-        "heard",
-        "seat",
-        "pace",
-        "notice",
-        "task",
-        "offer",
-        "listening",
-        "consent",
-        "question",
-        "workload",
-        "truth",
-        "status",
-        "clock",
-        "briefing",
-        "command",
-        "worker",
-        "radio",
-        "camera",
-    }
-) | frozenset(WORKER_OUTPUTS)
-"""First chunks of keys that belong to the run and to workers; no sensor type has such a name."""
 
 
 class Publish(Protocol):
@@ -113,6 +85,26 @@ class Sensor(Protocol):
 
     def unfinished(self) -> Sequence[StepRecord]:
         """Return latency records of measurements that are not published when the run ends."""
+
+
+class UntimedSensor(Sensor):
+    """Base class of sensors without a latency of their own in the latency log."""
+
+    def unfinished(self) -> Sequence[StepRecord]:
+        """Return nothing: there are no latency records."""
+        return ()
+
+
+class SensorGroup(UntimedSensor):
+    """Several sensors of one type, such as all radars of a scenario."""
+
+    def __init__(self, sensors: Sequence[UntimedSensor]) -> None:
+        self._sensors = sensors
+
+    def start(self) -> None:
+        """Start all sensors."""
+        for sensor in self._sensors:
+            sensor.start()
 
 
 @runtime_checkable
@@ -198,7 +190,8 @@ def load_sensor_type(name: str) -> SensorType:
         It cannot be loaded, or its name or its keys belong to something else.
     """
     sensor_type: SensorType = FAMILY.load(name)
-    if name in RESERVED:
+    taken = {key.split("/")[0] for key in BUS_MESSAGES} | {"worker", *WORKER_OUTPUTS}
+    if name in taken - {point.name for point in FAMILY.own()}:
         raise SensorError(f"a sensor is named {name!r}, and those keys are not a sensor's")
     try:
         declared = dict(sensor_type.messages)

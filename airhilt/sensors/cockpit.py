@@ -13,8 +13,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from airhilt.messages import CockpitInstruments, Message, VehiclePosition
-from airhilt.sensors.base import SensorContext
-from airhilt.sim import Priority, StepRecord
+from airhilt.sensors.base import SensorContext, UntimedSensor
+from airhilt.sim import Priority
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.surface.vehicle import Vehicle
@@ -47,7 +47,7 @@ class CockpitType:
 SENSOR = CockpitType()
 
 
-class Cockpits:
+class Cockpits(UntimedSensor):
     """The instruments of all aircraft that show them.
 
     Parameters
@@ -73,10 +73,6 @@ class Cockpits:
     def start(self) -> None:
         """Publish now, and then at a steady rate."""
         self._director.every(PERIOD_NS, self._read, Priority.SENSOR)
-
-    def unfinished(self) -> tuple[StepRecord, ...]:
-        """Return nothing: reading an instrument takes no time."""
-        return ()
 
     def _read(self) -> None:
         for callsign, aircraft in self._aircraft.items():

@@ -16,8 +16,8 @@ import numpy as np
 
 from airhilt.messages import Message, PlotKind, RadarInfo, RadarPlot
 from airhilt.scenario.models import AircraftSpec, Radar
-from airhilt.sensors.base import SensorContext
-from airhilt.sim import Priority, StepRecord
+from airhilt.sensors.base import SensorContext, SensorGroup, UntimedSensor
+from airhilt.sim import Priority
 from airhilt.sim.streams import stream
 from airhilt.surveillance.horizon import radio_horizon_m
 from airhilt.surveillance.radar import (
@@ -49,28 +49,13 @@ class RadarType:
         "radar/{site}": RadarPlot,
     }
 
-    def create(self, context: SensorContext) -> Radars | None:
+    def create(self, context: SensorContext) -> SensorGroup | None:
         """Return the radars of a run; None if the scenario has none."""
-        return Radars(context) if context.scenario.radars else None
+        radars = [TurningRadar(declared, context) for declared in context.scenario.radars]
+        return SensorGroup(radars) if radars else None
 
 
 SENSOR = RadarType()
-
-
-class Radars:
-    """All radars of a run."""
-
-    def __init__(self, context: SensorContext) -> None:
-        self._radars = [TurningRadar(declared, context) for declared in context.scenario.radars]
-
-    def start(self) -> None:
-        """Let all antennas turn."""
-        for radar in self._radars:
-            radar.start()
-
-    def unfinished(self) -> tuple[StepRecord, ...]:
-        """Return nothing: no measurement takes longer than its sector."""
-        return ()
 
 
 @dataclass
@@ -86,7 +71,7 @@ class _Target:
     """Angle by which the beam was past the target at the end of the last sector."""
 
 
-class TurningRadar:
+class TurningRadar(UntimedSensor):
     """One radar: turns its antenna and publishes its plots.
 
     Parameters

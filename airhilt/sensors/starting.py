@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
-from airhilt.errors import AirhiltError, SensorError, failure_in
+from airhilt.errors import AirhiltError, SensorError, blaming, failure_in
 from airhilt.messages import Message
 from airhilt.plugins import missing
 from airhilt.sensors.base import Publish, Sensor, SensorContext, SensorType
@@ -71,25 +71,13 @@ class _GuardedSensor:
 
     def start(self) -> None:
         """Schedule the first measurements."""
-        try:
+        with blaming(f"sensor {self.name!r} does not start", SensorError):
             self.sensor.start()
-        except AirhiltError:
-            raise
-        except Exception as error:
-            raise SensorError(
-                f"sensor {self.name!r} does not start: {failure_in(error)}"
-            ) from error
 
     def unfinished(self) -> Sequence[StepRecord]:
         """Return latency records of measurements that are not published when the run ends."""
-        try:
+        with blaming(f"sensor {self.name!r} cannot say what is unfinished", SensorError):
             steps = list(self.sensor.unfinished())
-        except AirhiltError:
-            raise
-        except Exception as error:
-            raise SensorError(
-                f"sensor {self.name!r} cannot say what is unfinished: {failure_in(error)}"
-            ) from error
         for step in steps:
             if not isinstance(step, StepRecord):
                 raise SensorError(

@@ -17,9 +17,9 @@ import numpy as np
 from airhilt.geodesy.wgs84 import Place, displaced, distance_m
 from airhilt.messages import Message, PlotKind, SurfaceTrack
 from airhilt.scenario.models import SurfaceSurveillance, WildlifeSpec
-from airhilt.sensors.base import SensorContext
+from airhilt.sensors.base import SensorContext, UntimedSensor
 from airhilt.sensors.radar import cross_section_m2, plot_kind
-from airhilt.sim import Priority, StepRecord
+from airhilt.sim import Priority
 from airhilt.sim.streams import stream
 from airhilt.surveillance import surface
 from airhilt.surveillance.squitters import ALTITUDE_STEP_FT, quantise
@@ -81,7 +81,7 @@ class _Target:
         return not isinstance(spec, WildlifeSpec) and spec.transponder.equipped
 
 
-class SurfaceSensor:
+class SurfaceSensor(UntimedSensor):
     """Measures all targets once a second, and publishes their tracks.
 
     Parameters
@@ -114,10 +114,6 @@ class SurfaceSensor:
     def start(self) -> None:
         """Measure now, and then every second."""
         self._director.every(surface.PERIOD_NS, self._measure, Priority.SENSOR)
-
-    def unfinished(self) -> tuple[StepRecord, ...]:
-        """Return nothing: the latency is the same for all measurements."""
-        return ()
 
     def _measure(self) -> None:
         """Measure all targets, and publish the tracks when they are ready."""

@@ -29,8 +29,8 @@ import numpy as np
 
 from airhilt.messages import Message, TcasReply
 from airhilt.scenario.models import AircraftSpec
-from airhilt.sensors.base import SensorContext
-from airhilt.sim import Priority, StepRecord
+from airhilt.sensors.base import SensorContext, SensorGroup, UntimedSensor
+from airhilt.sim import Priority
 from airhilt.sim.streams import stream
 from airhilt.surveillance.horizon import radio_horizon_m
 from airhilt.surveillance.radar import MODE_C_STEP_FT, Antenna
@@ -62,12 +62,13 @@ class TcasType:
     name = "tcas"
     messages: Mapping[str, type[Message]] = {"tcas/{callsign}": TcasReply}
 
-    def create(self, context: SensorContext) -> Interrogations | None:
+    def create(self, context: SensorContext) -> SensorGroup | None:
         """Return the sensor of a run; None if no aircraft interrogates."""
         carriers = context.scenario.tcas
         if not carriers and self.name in context.subscribed:
             carriers = must_carry(context.actors.values())
-        return Interrogations(carriers, context) if carriers else None
+        interrogators = [Interrogator(each, carriers, context) for each in carriers]
+        return SensorGroup(interrogators) if interrogators else None
 
 
 SENSOR = TcasType()
@@ -88,30 +89,6 @@ def must_carry(actors: Iterable[Actor]) -> tuple[str, ...]:
     )
 
 
-class Interrogations:
-    """The interrogations of all aircraft that carry TCAS.
-
-    Parameters
-    ----------
-    carriers
-        Callsigns of these aircraft.
-    context
-        Parts of the run that the sensor uses.
-    """
-
-    def __init__(self, carriers: Collection[str], context: SensorContext) -> None:
-        self._interrogators = [Interrogator(each, carriers, context) for each in carriers]
-
-    def start(self) -> None:
-        """Schedule the first interrogation of each aircraft."""
-        for interrogator in self._interrogators:
-            interrogator.start()
-
-    def unfinished(self) -> tuple[StepRecord, ...]:
-        """Return nothing: replies arrive in the instant of their interrogation."""
-        return ()
-
-
 @dataclass(frozen=True)
 class _Target:
     """An aircraft with a transponder, as one interrogator meets it."""
@@ -123,7 +100,7 @@ class _Target:
     bias_m: float
 
 
-class Interrogator:
+class Interrogator(UntimedSensor):
     """One aircraft's interrogations, once a second from a phase that is drawn.
 
     Parameters
@@ -146,11 +123,12 @@ class Interrogator:
         self._icao24 = _icao24(self._own)
         self._phase_s = stream(context.seed, f"tcas/{callsign}").uniform(0.0, 1.0)
         self._targets = [
-            _target(
-                actor,
+            _Target(
                 spec,
-                spec.callsign in carriers,
-                stream(context.seed, f"tcas/{callsign}/{name}"),
+                actor,
+                spec.callsign in carriers and spec.transponder.mode == "S",
+                generator := stream(context.seed, f"tcas/{callsign}/{name}"),
+                generator.uniform(-RANGE_BIAS_M, RANGE_BIAS_M),
             )
             for name, actor in context.actors.items()
             if isinstance(spec := actor.spec, AircraftSpec)
@@ -219,15 +197,3 @@ class Interrogator:
 def _icao24(actor: Actor) -> str:
     assert isinstance(actor.spec, AircraftSpec)  # The checks of a scenario see to it.
     return actor.spec.icao24
-
-
-def _target(
-    actor: Actor, spec: AircraftSpec, carries_tcas: bool, generator: np.random.Generator
-) -> _Target:
-    return _Target(
-        spec=spec,
-        actor=actor,
-        has_tcas=carries_tcas and spec.transponder.mode == "S",
-        generator=generator,
-        bias_m=generator.uniform(-RANGE_BIAS_M, RANGE_BIAS_M),
-    )

@@ -1,4 +1,4 @@
-"""A worker as the event loop knows it: inputs, outputs, and how it is called."""
+"""Inputs, outputs and call interface of a worker in the event loop."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class WorkerLost(Exception):
     Parameters
     ----------
     is_of_machine
-        True if another machine, or another time, might not have it.
+        True if the cause lies in the machine, not in the worker.
     """
 
     def __init__(self, text: str, is_of_machine: bool = False) -> None:

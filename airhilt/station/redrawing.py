@@ -28,7 +28,7 @@ from airhilt.sensors.cameras.renderer_process import RendererProcess
 from airhilt.sensors.cameras.scene.bodies import BodyState, has_landing_lights_on
 from airhilt.station.pictures import encoded
 from airhilt.units import DEGREE
-from airhilt.world.actors.flight import mesh_at
+from airhilt.world.actors.crew import mesh_at
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.kinds import load_kind
 

@@ -34,7 +34,7 @@ SKOLNIK
 The standard's 90 % is of all traffic, whatever its size. That it holds for the smallest aircraft at
 the study's range is an assumption that favours the radar: COVERAGE asks for 80 % in general.
 
-Figures that are called typical are those of such radars in general, and not from a specification.
+Figures called typical are usual for such radars; no specification gives them.
 
 Not modelled: systematic errors of range and north, false plots, reflections, garbled replies,
 weather, terrain, and the reduced sensitivity at short range that hides birds.

@@ -91,7 +91,7 @@ class SurfaceRate:
 
 
 class Transponder:
-    """Encodes position and velocity as the carrier's navigation has them, errors included.
+    """Encodes position and velocity with the errors of the carrier's navigation.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Scenarios that the world can hold: loaded, or drawn with a seed, and then checked."""
+"""Loading, drawing and checking of scenarios."""
 
 from __future__ import annotations
 

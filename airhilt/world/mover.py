@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple, Protocol, TypeVar, runtime_checkable
 
+from airhilt.geodesy.relative_motion import Kinematics
 from airhilt.geodesy.wgs84 import Place, displaced
 from airhilt.shapes.sizes import Size
 
@@ -47,21 +48,11 @@ class SurfaceState(NamedTuple):
         return -self.velocity_down_m_s
 
 
-class Motion(Protocol):
+class Motion(Kinematics, Protocol):
     """Place and movement, which `SurfaceState` and the state of an aircraft both have."""
 
     @property
-    def latitude_rad(self) -> float: ...  # noqa: D102
-    @property
-    def longitude_rad(self) -> float: ...  # noqa: D102
-    @property
-    def altitude_m(self) -> float: ...  # noqa: D102
-    @property
     def height_agl_m(self) -> float: ...  # noqa: D102
-    @property
-    def velocity_north_m_s(self) -> float: ...  # noqa: D102
-    @property
-    def velocity_east_m_s(self) -> float: ...  # noqa: D102
     @property
     def velocity_down_m_s(self) -> float: ...  # noqa: D102
     @property
@@ -78,7 +69,7 @@ M = TypeVar("M", bound=Motion)
 
 
 def carried_on(state: M, elapsed_s: float) -> M:
-    """Return a state, which is a named tuple, a fraction of a tick later in straight movement."""
+    """Return the state a fraction of a tick later, after straight movement."""
     if elapsed_s == 0.0:
         return state
     latitude, longitude = displaced(
@@ -99,7 +90,7 @@ class Mover(Protocol):
     """A body that moves: an aircraft, a vehicle, an animal."""
 
     ended: str | None
-    """Reason for which it moves no more; None while it does. Those who find the reason set it."""
+    """Why it does not move any more; None while it moves. Set by whoever finds the reason."""
 
     @property
     def state(self) -> Motion:
@@ -137,7 +128,7 @@ class Driven(Mover, Protocol):
 
 @runtime_checkable
 class Creature(Mover, Protocol):
-    """A mover with a will of its own."""
+    """A mover that walks, runs, flies and flees."""
 
     @property
     def startled(self) -> bool:

@@ -44,9 +44,10 @@ def contact(khz: int, sure: float = FULL) -> dict[str, Any]:
     return {"action": "contact", "frequency_khz": khz, "confidence": sure}
 
 
-@pytest.mark.parametrize(
-    ("text", "meant"),
-    [
+def test_a_value_alone_is_what_its_digits_or_its_one_word_show(subtests: pytest.Subtests) -> None:
+    """A heading with its side, a channel of the band from 118 to 137 MHz (ground has 121 MHz), a
+    code of four digits up to 7, a level above the 360 degrees that a heading can be."""
+    for text, meant in [
         ("left 270", heading(270.0, FULL, turn="left")),
         ("right 090", heading(90.0, FULL, turn="right")),
         ("left 360", heading(360.0, FULL, turn="left")),
@@ -65,14 +66,9 @@ def contact(khz: int, sure: float = FULL) -> dict[str, Any]:
         ("4512", {"action": "squawk", "squawk": "4512", "confidence": FULL}),
         ("0412", {"action": "squawk", "squawk": "0412", "confidence": FULL}),
         ("365", level(36_500.0, DOUBT)),
-    ],
-)
-def test_a_value_alone_is_what_its_digits_or_its_one_word_show(
-    text: str, meant: dict[str, Any]
-) -> None:
-    """A heading with its side, a channel of the band from 118 to 137 MHz (ground has 121 MHz), a
-    code of four digits up to 7, a level above the 360 degrees that a heading can be."""
-    assert read(text) == [meant]
+    ]:
+        with subtests.test(text):
+            assert read(text) == [meant]
 
 
 @pytest.mark.parametrize(("text", "khz"), [("1234", 123_400), ("1200", 120_000), ("2330", 123_300)])
@@ -80,16 +76,17 @@ def test_four_digits_up_to_7_that_a_channel_has_too_are_in_doubt(text: str, khz:
     assert read(text) == [contact(khz, DOUBT)]
 
 
-@pytest.mark.parametrize(
-    "text", ["left 000", "left 361", "360", "270", "137000", "139900", "8123", "7788", "20 up"]
-)
-def test_what_can_be_several_things_or_none_is_not_read(text: str) -> None:
-    assert read(text) == []
+def test_what_can_be_several_things_or_none_is_not_read(subtests: pytest.Subtests) -> None:
+    for text in ["left 000", "left 361", "360", "270", "137000", "139900", "8123", "7788", "20 up"]:
+        with subtests.test(text):
+            assert read(text) == []
 
 
-@pytest.mark.parametrize(
-    ("number", "beside", "meant"),
-    [
+def test_three_digits_are_a_speed_beside_a_heading_and_a_heading_beside_a_level(
+    subtests: pytest.Subtests,
+) -> None:
+    """Speeds are assigned in tens (FAA Order JO 7110.65, 5-7-2), headings in fives."""
+    for number, beside, meant in [
         ("270", "altitude", heading(270.0, DOUBT)),
         ("275", "altitude", heading(275.0, DOUBT)),
         ("360", "altitude", heading(360.0, DOUBT)),
@@ -101,13 +98,9 @@ def test_what_can_be_several_things_or_none_is_not_read(text: str) -> None:
         ("360", "heading", None),
         ("000", "altitude", None),
         ("151", "altitude", None),
-    ],
-)
-def test_three_digits_are_a_speed_beside_a_heading_and_a_heading_beside_a_level(
-    number: str, beside: str, meant: dict[str, Any] | None
-) -> None:
-    """Speeds are assigned in tens (FAA Order JO 7110.65, 5-7-2), headings in fives."""
-    assert read(number, beside) == ([] if meant is None else [meant])
+    ]:
+        with subtests.test(str((number, beside, meant))):
+            assert read(number, beside) == ([] if meant is None else [meant])
 
 
 def test_before_then_and_a_level_three_digits_are_the_speed_that_comes_first() -> None:
@@ -132,9 +125,9 @@ def test_values_follow_one_another_and_all_must_be_read() -> None:
     assert read("left 270 and") == []
 
 
-@pytest.mark.parametrize(
-    ("text", "last", "hpa"),
-    [
+def test_a_setting_stands_behind_a_level_or_shows_by_its_digits(subtests: pytest.Subtests) -> None:
+    """No code has an 8 or a 9, and no heading 995."""
+    for text, last, hpa in [
         ("2992", None, 1013.2),
         ("flight level 100 1013", None, 1013.0),
         ("flight level 100 995", None, 995.0),
@@ -143,32 +136,24 @@ def test_values_follow_one_another_and_all_must_be_read() -> None:
         ("3012", None, None),
         ("flight level 100 3012", None, 1020.0),
         ("995 flight level 100", None, None),
-    ],
-)
-def test_a_setting_stands_behind_a_level_or_shows_by_its_digits(
-    text: str, last: Any, hpa: float | None
-) -> None:
-    """No code has an 8 or a 9, and no heading 995."""
-    found = bare_values(text.split(), set(), last).pressure_hpa
-    assert found == (None if hpa is None else pytest.approx(hpa, abs=0.05))
+    ]:
+        with subtests.test(str((text, last, hpa))):
+            found = bare_values(text.split(), set(), last).pressure_hpa
+            assert found == (None if hpa is None else pytest.approx(hpa, abs=0.05))
 
 
-@pytest.mark.parametrize(
-    ("text", "feet", "knots"),
-    [
+def test_a_fix_is_crossed_at_thousands_of_feet_or_at_a_level(subtests: pytest.Subtests) -> None:
+    for text, feet, knots in [
         ("orbex at 9 250", 9_000.0, 250.0),
         ("orbex at 9 and 250", 9_000.0, 250.0),
         ("orbex at 12 and 210", 12_000.0, 210.0),
         ("orbex at flight level 100", 10_000.0, None),
         ("orbex at flight level 100 and 250", 10_000.0, 250.0),
-    ],
-)
-def test_a_fix_is_crossed_at_thousands_of_feet_or_at_a_level(
-    text: str, feet: float, knots: float | None
-) -> None:
-    (crossing,) = read(text)
-    assert (crossing["action"], crossing["position"]) == ("cross_fix", "orbex")
-    assert (crossing["altitude_ft"], crossing.get("speed_kt")) == (feet, knots)
+    ]:
+        with subtests.test(text):
+            (crossing,) = read(text)
+            assert (crossing["action"], crossing["position"]) == ("cross_fix", "orbex")
+            assert (crossing["altitude_ft"], crossing.get("speed_kt")) == (feet, knots)
 
 
 def test_a_word_of_the_grammar_is_no_fix() -> None:
@@ -186,9 +171,9 @@ def test_the_end_of_a_hold_is_no_value(text: str) -> None:
     assert read(text) == [heading(270.0, FULL, turn="left")]
 
 
-@pytest.mark.parametrize(
-    ("text", "kept"),
-    [
+def test_words_of_courtesy_are_left_out_at_both_ends(subtests: pytest.Subtests) -> None:
+    """But "right" may be the side of a heading or of a runway, and "one" one of its digits."""
+    for text, kept in [
         ("270 thank you good day", "270"),
         ("so copy 270 bye", "270"),
         ("right 270 bye", "right 270"),
@@ -199,8 +184,6 @@ def test_the_end_of_a_hold_is_no_value(text: str) -> None:
         ("270 have a nice 1", "270"),
         ("right", "right"),
         ("", ""),
-    ],
-)
-def test_words_of_courtesy_are_left_out_at_both_ends(text: str, kept: str) -> None:
-    """But "right" may be the side of a heading or of a runway, and "one" one of its digits."""
-    assert " ".join(without_courtesies(text.split())) == kept
+    ]:
+        with subtests.test(text):
+            assert " ".join(without_courtesies(text.split())) == kept

@@ -18,9 +18,10 @@ KNOWN = ("AAL123", "DAL456", "AFR7", "ACA88", "N12")
 AIRPORT = ("AAL123", "AAL132", "DAL456", "N172SP", "OPS1", "TUG2", "FIRE3", "PLOW4")
 
 
-@pytest.mark.parametrize(
-    ("text", "callsign", "addressed_first"),
-    [
+def test_an_instruction_begins_with_the_callsign_and_a_readback_ends_with_it(
+    subtests: pytest.Subtests,
+) -> None:
+    for text, callsign, addressed_first in [
         ("American one two three, climb and maintain FL330.", "AAL123", True),
         ("Climb and maintain FL330, American one two three.", "AAL123", False),
         ("Okay, American one two three, climb FL330", "AAL123", True),
@@ -39,18 +40,14 @@ AIRPORT = ("AAL123", "AAL132", "DAL456", "N172SP", "OPS1", "TUG2", "FIRE3", "PLO
         ("United five five, climb FL330", None, False),
         ("Delta four five six, traffic American one two three", "DAL456", True),
         ("climb flight level three three zero", None, False),
-    ],
-)
-def test_an_instruction_begins_with_the_callsign_and_a_readback_ends_with_it(
-    text: str, callsign: str | None, addressed_first: bool
-) -> None:
-    call = parse_call(text, KNOWN)
-    assert (call.callsign, call.addressed_first) == (callsign, addressed_first)
+    ]:
+        with subtests.test(text):
+            call = parse_call(text, KNOWN)
+            assert (call.callsign, call.addressed_first) == (callsign, addressed_first)
 
 
-@pytest.mark.parametrize(
-    ("spoken", "callsign"),
-    [
+def test_vehicles_and_registrations_are_heard_as_they_are_spoken(subtests: pytest.Subtests) -> None:
+    for spoken, callsign in [
         ("ops one", "OPS1"),
         ("operations one", "OPS1"),
         ("OPS 1", "OPS1"),
@@ -63,32 +60,27 @@ def test_an_instruction_begins_with_the_callsign_and_a_readback_ends_with_it(
         ("november 172 sierra papa", "N172SP"),
         ("Skyhawk one seven two s p", "N172SP"),
         ("American one three two", "AAL132"),
-    ],
-)
-def test_vehicles_and_registrations_are_heard_as_they_are_spoken(
-    spoken: str, callsign: str
+    ]:
+        with subtests.test(spoken):
+            call = parse_call(f"{spoken}, hold position", AIRPORT)
+            assert (call.callsign, call.addressed_first) == (callsign, True)
+            call = parse_call(f"holding position, {spoken}", AIRPORT)
+            assert (call.callsign, call.addressed_first) == (callsign, False)
+
+
+def test_registrations_are_abbreviated_to_their_first_sign_and_last_ones(
+    subtests: pytest.Subtests,
 ) -> None:
-    call = parse_call(f"{spoken}, hold position", AIRPORT)
-    assert (call.callsign, call.addressed_first) == (callsign, True)
-    call = parse_call(f"holding position, {spoken}", AIRPORT)
-    assert (call.callsign, call.addressed_first) == (callsign, False)
-
-
-@pytest.mark.parametrize(
-    ("spoken", "callsign"),
-    [
+    for spoken, callsign in [
         ("Cessna two sierra papa", "N172SP"),
         ("November sierra papa", "N172SP"),
         ("Golf charlie delta", "G-ABCD"),
         ("Golf alfa bravo charlie delta", "G-ABCD"),
         ("Speedbird eight", None),
-    ],
-)
-def test_registrations_are_abbreviated_to_their_first_sign_and_last_ones(
-    spoken: str, callsign: str | None
-) -> None:
-    known = ("N172SP", "G-ABCD", "BAW38")
-    assert parse_call(f"{spoken}, hold position", known).callsign == callsign
+    ]:
+        with subtests.test(spoken):
+            known = ("N172SP", "G-ABCD", "BAW38")
+            assert parse_call(f"{spoken}, hold position", known).callsign == callsign
 
 
 def test_an_abbreviation_that_two_could_have_is_ambiguous() -> None:
@@ -101,9 +93,8 @@ def test_an_abbreviation_that_two_could_have_is_ambiguous() -> None:
     assert (full.callsign, full.match.ambiguous) == ("N172SP", False)
 
 
-@pytest.mark.parametrize(
-    ("spoken", "callsign"),
-    [
+def test_misspelt_airlines_are_known_by_their_number(subtests: pytest.Subtests) -> None:
+    for spoken, callsign in [
         ("amercan one two three", "AAL123"),
         ("americans one two three", "AAL123"),
         ("speed bird three eight", "BAW38"),
@@ -111,18 +102,16 @@ def test_an_abbreviation_that_two_could_have_is_ambiguous() -> None:
         ("fed ex sixteen oh two", "FDX1602"),
         ("southwests five", "SWA5"),
         ("united one two three", None),
-    ],
-)
-def test_misspelt_airlines_are_known_by_their_number(spoken: str, callsign: str | None) -> None:
-    known = ("AAL123", "BAW38", "DLH4AB", "FDX1602", "SWA5")
-    call = parse_call(f"{spoken}, hold position", known)
-    assert call.callsign == callsign
-    assert 0.8 <= call.match.score <= 1.0 or callsign is None
+    ]:
+        with subtests.test(spoken):
+            known = ("AAL123", "BAW38", "DLH4AB", "FDX1602", "SWA5")
+            call = parse_call(f"{spoken}, hold position", known)
+            assert call.callsign == callsign
+            assert 0.8 <= call.match.score <= 1.0 or callsign is None
 
 
-@pytest.mark.parametrize(
-    ("said", "callsign"),
-    [
+def test_what_fits_only_one_names_it_but_not_for_certain(subtests: pytest.Subtests) -> None:
+    for said, callsign in [
         ("one two three, hold position", "AAL123"),
         ("banana one two three, hold position", "AAL123"),
         ("hold position, banana one twenty three", "AAL123"),
@@ -136,20 +125,18 @@ def test_misspelt_airlines_are_known_by_their_number(spoken: str, callsign: str 
         ("november one seven two zero papa, hold position", "N172SP"),
         ("november one heaven two sierra papa, hold position", "N172SP"),
         ("november one seven two sierra and uh papa, hold position", "N172SP"),
-    ],
-)
-def test_what_fits_only_one_names_it_but_not_for_certain(said: str, callsign: str) -> None:
-    known = ("AAL123", "DAL456", "AFR7", "N172SP")
-    call = parse_call(said, known)
-    assert call.callsign == callsign
-    is_full = said.startswith("november one seven two sierra and")
-    assert (call.match.score >= TAU_ASR) == is_full
-    assert call.confidence < TAU_ASR or is_full
+    ]:
+        with subtests.test(said):
+            known = ("AAL123", "DAL456", "AFR7", "N172SP")
+            call = parse_call(said, known)
+            assert call.callsign == callsign
+            is_full = said.startswith("november one seven two sierra and")
+            assert (call.match.score >= TAU_ASR) == is_full
+            assert call.confidence < TAU_ASR or is_full
 
 
-@pytest.mark.parametrize(
-    "said",
-    [
+def test_anothers_name_and_other_numbers_name_nobody(subtests: pytest.Subtests) -> None:
+    for said in [
         "united one two three, hold position",
         "Cessna one two three, hold position",
         "Speedbird seven, hold position",
@@ -159,10 +146,9 @@ def test_what_fits_only_one_names_it_but_not_for_certain(said: str, callsign: st
         "reduce one two three knots",
         "contact tower one one eight decimal one two three",
         "hold position via alfa seven",
-    ],
-)
-def test_anothers_name_and_other_numbers_name_nobody(said: str) -> None:
-    assert parse_call(said, ("AAL123", "AFR7", "DAL456")).callsign is None
+    ]:
+        with subtests.test(said):
+            assert parse_call(said, ("AAL123", "AFR7", "DAL456")).callsign is None
 
 
 def test_a_number_that_two_have_names_neither() -> None:
@@ -170,9 +156,8 @@ def test_a_number_that_two_have_names_neither() -> None:
     assert (match.ambiguous, len(match.candidates)) == (True, 2)
 
 
-@pytest.mark.parametrize(
-    ("said", "callsign"),
-    [
+def test_callsigns_of_all_kinds_are_heard_where_they_stand(subtests: pytest.Subtests) -> None:
+    for said, callsign in [
         ("Cleveland approach, Delta four five six, ready", "DAL456"),
         ("Phenom one seven two sierra papa, hold position", "N172SP"),
         ("Diamond star two sierra papa, hold position", "N172SP"),
@@ -187,11 +172,10 @@ def test_a_number_that_two_have_names_neither() -> None:
         ("Request flight following, Delta four five six", "DAL456"),
         ("Behind the landing traffic line up behind Delta four five six", "DAL456"),
         ("Caution wake turbulence departing Delta four five six, cleared for takeoff", None),
-    ],
-)
-def test_callsigns_of_all_kinds_are_heard_where_they_stand(said: str, callsign: str | None) -> None:
-    known = ("DAL456", "N172SP", "OEWZZ", "JA8089", "4XABC", "KLM68R", "XZQ39V")
-    assert parse_call(said, known).callsign == callsign
+    ]:
+        with subtests.test(said):
+            known = ("DAL456", "N172SP", "OEWZZ", "JA8089", "4XABC", "KLM68R", "XZQ39V")
+            assert parse_call(said, known).callsign == callsign
 
 
 def test_who_ends_a_call_is_its_speaker_whoever_else_is_named() -> None:
@@ -331,19 +315,17 @@ def test_a_misheard_digit_never_names_another_for_certain_unless_it_is_its_whole
     assert named in (None, f"DAL{heard}")
 
 
-@pytest.mark.parametrize(
-    ("spoken", "callsign"),
-    [
+def test_zeros_may_fill_a_flight_number_to_three_digits(subtests: pytest.Subtests) -> None:
+    for spoken, callsign in [
         ("emirates zero zero three", "UAE3"),
         ("emirates zero three zero", "UAE30"),
         ("emirates three", "UAE3"),
         ("gulf air zero zero six", "GFA6"),
         ("gulf air five zero six", "GFA506"),
-    ],
-)
-def test_zeros_may_fill_a_flight_number_to_three_digits(spoken: str, callsign: str) -> None:
-    known = ("UAE3", "UAE30", "GFA6", "GFA506")
-    assert parse_call(f"{spoken} hold position", known).callsign == callsign
+    ]:
+        with subtests.test(spoken):
+            known = ("UAE3", "UAE30", "GFA6", "GFA506")
+            assert parse_call(f"{spoken} hold position", known).callsign == callsign
 
 
 def test_the_speaker_may_correct_the_callsign_by_no() -> None:
@@ -359,9 +341,9 @@ ON_FREQUENCY = (
 )  # fmt: skip
 
 
-@pytest.mark.parametrize(
-    ("said", "callsign", "score"),
-    [
+def test_the_score_says_what_of_a_callsign_was_said(subtests: pytest.Subtests) -> None:
+    """As the table of docs/phraseology.md has it."""
+    for said, callsign, score in [
         ("american one two three", "AAL123", 1.0),
         ("american one two three heavy", "AAL123", 1.0),
         ("air france seven", "AFR7", 1.0),
@@ -426,36 +408,31 @@ ON_FREQUENCY = (
         ("one two three knots", None, 0.0),
         ("heading one two three", None, 0.0),
         ("climb flight level one two three", None, 0.0),
-    ],
-)
-def test_the_score_says_what_of_a_callsign_was_said(
-    said: str, callsign: str | None, score: float
+    ]:
+        with subtests.test(said):
+            match = parse_call(f"{said}, hold position", ON_FREQUENCY).match
+            assert (match.callsign, match.score) == (callsign, pytest.approx(score))
+
+
+def test_who_calls_a_unit_by_a_name_of_up_to_four_words_is_named_behind_it(
+    subtests: pytest.Subtests,
 ) -> None:
-    """As the table of docs/phraseology.md has it."""
-    match = parse_call(f"{said}, hold position", ON_FREQUENCY).match
-    assert (match.callsign, match.score) == (callsign, pytest.approx(score))
-
-
-@pytest.mark.parametrize(
-    ("unit", "callsign"),
-    [
+    """Otherwise the speaker is who is named at the end."""
+    for unit, callsign in [
         ("Tower", "DAL456"),
         ("Lake City Tower", "DAL456"),
         ("Salt Lake City Tower", "DAL456"),
         ("The Salt Lake City Tower", "AAL123"),
-    ],
-)
-def test_who_calls_a_unit_by_a_name_of_up_to_four_words_is_named_behind_it(
-    unit: str, callsign: str
-) -> None:
-    """Otherwise the speaker is who is named at the end."""
-    call = parse_call(f"{unit}, Delta four five six, good day American one two three", KNOWN)
-    assert call.callsign == callsign
+    ]:
+        with subtests.test(unit):
+            call = parse_call(
+                f"{unit}, Delta four five six, good day American one two three", KNOWN
+            )
+            assert call.callsign == callsign
 
 
-@pytest.mark.parametrize(
-    ("said", "is_ambiguous"),
-    [
+def test_who_is_named_beside_another_is_ambiguous(subtests: pytest.Subtests) -> None:
+    for said, is_ambiguous in [
         ("american one two three", False),
         ("american one two three or one two four", True),
         ("american one two three or delta four five six", True),
@@ -463,18 +440,18 @@ def test_who_calls_a_unit_by_a_name_of_up_to_four_words_is_named_behind_it(
         ("american one two three or one", False),
         ("american one two three and delta four five six", False),
         ("cessna one two three", True),
-    ],
-)
-def test_who_is_named_beside_another_is_ambiguous(said: str, is_ambiguous: bool) -> None:
-    match = parse_call(f"{said}, hold position", ON_FREQUENCY).match
-    assert match.ambiguous is is_ambiguous
-    scores = [each.score for each in match.candidates]
-    assert scores == sorted(scores, reverse=True)
+    ]:
+        with subtests.test(said):
+            match = parse_call(f"{said}, hold position", ON_FREQUENCY).match
+            assert match.ambiguous is is_ambiguous
+            scores = [each.score for each in match.candidates]
+            assert scores == sorted(scores, reverse=True)
 
 
-@pytest.mark.parametrize(
-    ("words", "is_spoken_of"),
-    [
+def test_words_before_a_callsign_show_whether_somebody_else_is_meant(
+    subtests: pytest.Subtests,
+) -> None:
+    for words, is_spoken_of in [
         ("follow | via", True),
         ("we follow |", False),
         ("will following |", False),
@@ -495,27 +472,21 @@ def test_who_is_named_beside_another_is_ambiguous(said: str, is_ambiguous: bool)
         ("the |", False),
         ("heavy heavy | climb", False),
         ("| climb", False),
-    ],
-)
-def test_words_before_a_callsign_show_whether_somebody_else_is_meant(
-    words: str, is_spoken_of: bool
-) -> None:
-    texts = words.split()
-    at = texts.index("|")
-    assert spoken_of(texts, at, at + 1) is is_spoken_of
+    ]:
+        with subtests.test(words):
+            texts = words.split()
+            at = texts.index("|")
+            assert spoken_of(texts, at, at + 1) is is_spoken_of
 
 
-@pytest.mark.parametrize(
-    ("first", "second", "expected"),
-    [
+def test_similarity_is_the_part_that_need_not_be_edited(subtests: pytest.Subtests) -> None:
+    """By the distance of Levenshtein: three edits make a sitting of a kitten."""
+    table = [
         ("", "", 1.0), ("a", "", 0.0), ("abc", "abc", 1.0), ("abc", "abd", 2 / 3),
         ("abc", "ab", 2 / 3), ("abc", "xabc", 0.75), ("abc", "acb", 1 / 3), ("abcd", "wxyz", 0.0),
         ("kitten", "sitting", 4 / 7),
-    ],
-)  # fmt: skip
-def test_similarity_is_the_part_that_need_not_be_edited(
-    first: str, second: str, expected: float
-) -> None:
-    """By the distance of Levenshtein: three edits make a sitting of a kitten."""
-    assert similarity(first, second) == pytest.approx(expected)
-    assert similarity(second, first) == pytest.approx(expected)
+    ]  # fmt: skip
+    for first, second, expected in table:
+        with subtests.test(str((first, second, expected))):
+            assert similarity(first, second) == pytest.approx(expected)
+            assert similarity(second, first) == pytest.approx(expected)

@@ -11,21 +11,19 @@ def written(text: str) -> str:
     return " ".join(word for word, _ in canonical((word, 1.0) for word in text.split()))
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
+def test_a_runway_is_written_one_way(subtests: pytest.Subtests) -> None:
+    table = [
         "runway 1L", "Runway 1 left,", "run way one left.", "Run-way 1-L", "RWY 1 L",
         "runway 1Left", "runway1L", "runway one L", "Runways 1 left", "runway one-left",
         "RUNWAY 1L",
-    ],
-)  # fmt: skip
-def test_a_runway_is_written_one_way(text: str) -> None:
-    assert written(text) == "runway one left"
+    ]  # fmt: skip
+    for text in table:
+        with subtests.test(text):
+            assert written(text) == "runway one left"
 
 
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
+def test_a_runways_number_is_spelled(subtests: pytest.Subtests) -> None:
+    for text, expected in [
         ("Runway 01", "runway zero one"),
         ("runway 19.", "runway one nine"),
         ("runway 1 9", "runway one nine"),
@@ -47,15 +45,13 @@ def test_a_runway_is_written_one_way(text: str) -> None:
         ("runway 350", "runway 350"),
         ("the runway", "the runway"),
         ("cross runway 1 and runway 4 right", "cross runway one and runway four right"),
-    ],
-)
-def test_a_runways_number_is_spelled(text: str, expected: str) -> None:
-    assert written(text) == expected
+    ]:
+        with subtests.test(text):
+            assert written(text) == expected
 
 
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
+def test_other_words_only_lose_their_dress(subtests: pytest.Subtests) -> None:
+    for text, expected in [
         ("American 123, climb 10,000.", "american 123 climb 10000"),
         ("Contact 118.3.", "contact 118.3"),
         ("Go-around!", "go around"),
@@ -64,10 +60,9 @@ def test_a_runways_number_is_spelled(text: str, expected: str) -> None:
         ("run", "run"),
         ("turn right heading 190", "turn right heading 190"),
         ("... \u2026", ""),
-    ],
-)
-def test_other_words_only_lose_their_dress(text: str, expected: str) -> None:
-    assert written(text) == expected
+    ]:
+        with subtests.test(text):
+            assert written(text) == expected
 
 
 def test_words_keep_the_confidence_of_what_they_came_from() -> None:

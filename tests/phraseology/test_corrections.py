@@ -24,9 +24,8 @@ def only(text: str) -> Instruction:
     return instruction
 
 
-@pytest.mark.parametrize(
-    ("text", "altitude_ft"),
-    [
+def test_a_level_takes_the_place_of_a_level(subtests: pytest.Subtests) -> None:
+    for text, altitude_ft in [
         ("climb flight level 350 correction 360", 36_000.0),
         ("climb flight level 350 correction flight level 360", 36_000.0),
         ("climb flight level 350 correction level 360", 36_000.0),
@@ -42,17 +41,17 @@ def only(text: str) -> Instruction:
         ("climb flight level 350 no 360", 36_000.0),
         ("climb one two thousand no one three thousand", 13_000.0),
         ("climb flight level 350 correction 360 correction 370", 37_000.0),
-    ],
-)
-def test_a_level_takes_the_place_of_a_level(text: str, altitude_ft: float) -> None:
-    climb = only(text)
-    assert (climb.action, climb.altitude_ft) == ("altitude", altitude_ft)
-    assert climb.confidence == pytest.approx(MENDED)
+    ]:
+        with subtests.test(text):
+            climb = only(text)
+            assert (climb.action, climb.altitude_ft) == ("altitude", altitude_ft)
+            assert climb.confidence == pytest.approx(MENDED)
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
+def test_what_was_said_does_not_count_any_more_where_no_value_takes_its_place(
+    subtests: pytest.Subtests,
+) -> None:
+    for text in [
         "climb flight level 350 correction 36",
         "climb flight level 350 correction 700",
         "climb flight level 350 correction",
@@ -60,17 +59,19 @@ def test_a_level_takes_the_place_of_a_level(text: str, altitude_ft: float) -> No
         "turn left heading 210 correction 000",
         "turn left heading 210 correction heading",
         "contact tower 118.35 correction 250.0",
-    ],
-)
-def test_what_was_said_does_not_count_any_more_where_no_value_takes_its_place(text: str) -> None:
-    for each in told(text):
-        assert (each.altitude_ft, each.heading_deg, each.frequency_khz) == (None, None, None)
-        assert each.confidence < 0.8
+    ]:
+        with subtests.test(text):
+            for each in told(text):
+                assert (each.altitude_ft, each.heading_deg, each.frequency_khz) == (
+                    None,
+                    None,
+                    None,
+                )
+                assert each.confidence < 0.8
 
 
-@pytest.mark.parametrize(
-    ("text", "instruction"),
-    [
+def test_a_value_takes_the_place_of_one_of_its_kind(subtests: pytest.Subtests) -> None:
+    table = [
         ("turn left heading 210 correction 220",
          Instruction("heading", turn="left", heading_deg=220.0)),
         ("turn left heading 210 correction 360",
@@ -86,16 +87,17 @@ def test_what_was_said_does_not_count_any_more_where_no_value_takes_its_place(te
         ("taxi via alpha bravo correction via charlie", Instruction("taxi", via=("C",))),
         ("taxi to runway 01 via alpha bravo correction alpha charlie",
          Instruction("taxi", "01", via=("A", "C"))),
-    ],
-)  # fmt: skip
-def test_a_value_takes_the_place_of_one_of_its_kind(text: str, instruction: Instruction) -> None:
-    assert only(text) == instruction
-    assert only(text).confidence == pytest.approx(MENDED)
+    ]  # fmt: skip
+    for text, instruction in table:
+        with subtests.test(text):
+            assert only(text) == instruction
+            assert only(text).confidence == pytest.approx(MENDED)
 
 
-@pytest.mark.parametrize(
-    ("text", "instruction"),
-    [
+def test_an_instruction_that_is_said_anew_keeps_what_is_not_said_again(
+    subtests: pytest.Subtests,
+) -> None:
+    table = [
         ("contact tower 118.35 correction 119.1",
          Instruction("contact", position="tower", frequency_khz=119_100)),
         ("contact tower 118.35 correction contact ground 121.9",
@@ -121,12 +123,10 @@ def test_a_value_takes_the_place_of_one_of_its_kind(text: str, instruction: Inst
         ("cleared to land runway 19, disregard the landing clearance, go around",
          Instruction("go_around")),
         ("cleared to land runway 19, disregard, go around", Instruction("go_around")),
-    ],
-)  # fmt: skip
-def test_an_instruction_that_is_said_anew_keeps_what_is_not_said_again(
-    text: str, instruction: Instruction
-) -> None:
-    assert only(text) == instruction
+    ]  # fmt: skip
+    for text, instruction in table:
+        with subtests.test(text):
+            assert only(text) == instruction
 
 
 def test_a_clearance_behind_a_bare_disregard_may_be_what_is_withdrawn() -> None:

@@ -13,9 +13,10 @@ from airhilt.phraseology.sounds import likeness, sign_of, spelled_sounds
 KNOWN = ("DAL456", "N172SP")
 
 
-@pytest.mark.parametrize(
-    ("said", "meant"),
-    [
+def test_a_word_that_sounds_like_the_one_that_fits_is_taken_for_it(
+    subtests: pytest.Subtests,
+) -> None:
+    for said, meant in [
         ("turn left hitting two seven zero", "turn left heading two seven zero"),
         ("turn lift heading two seven zero", "turn left heading two seven zero"),
         (
@@ -29,18 +30,18 @@ KNOWN = ("DAL456", "N172SP")
         ("squat four one two one", "squawk four one two one"),
         ("maintain two one zero nuts", "maintain two one zero knots"),
         ("climb and mainline five thousand", "climb and maintain five thousand"),
-    ],
-)
-def test_a_word_that_sounds_like_the_one_that_fits_is_taken_for_it(said: str, meant: str) -> None:
-    heard = parse_call(f"delta four five six {said}", KNOWN)
-    assert heard.instructions == parse_call(f"delta four five six {meant}", KNOWN).instructions
-    assert heard.instructions
-    assert heard.confidence < TAU_ASR
+    ]:
+        with subtests.test(said):
+            heard = parse_call(f"delta four five six {said}", KNOWN)
+            assert (
+                heard.instructions == parse_call(f"delta four five six {meant}", KNOWN).instructions
+            )
+            assert heard.instructions
+            assert heard.confidence < TAU_ASR
 
 
-@pytest.mark.parametrize(
-    "said",
-    [
+def test_where_no_other_fits_a_word_stays(subtests: pytest.Subtests) -> None:
+    for said in [
         "the meeting is at ten",
         "reading you five",
         "cleared to lander",
@@ -49,26 +50,24 @@ def test_a_word_that_sounds_like_the_one_that_fits_is_taken_for_it(said: str, me
         "conduct of flight",
         "squat",
         "hitting bumps",
-    ],
-)
-def test_where_no_other_fits_a_word_stays(said: str) -> None:
-    assert tokens(f"delta four five six {said}")[2:] == tokens(said)
-    assert parse_call(f"delta four five six {said}", KNOWN).instructions == ()
+    ]:
+        with subtests.test(said):
+            assert tokens(f"delta four five six {said}")[2:] == tokens(said)
+            assert parse_call(f"delta four five six {said}", KNOWN).instructions == ()
 
 
-@pytest.mark.parametrize(
-    ("before", "after", "is_mended"),
-    [("then", "", True), ("", "", False), ("", "by", False), ("direct", "", False),
-     ("then", "by", True)],
-)  # fmt: skip
 def test_the_first_word_and_the_name_of_a_fix_may_sound_like_anything(
-    before: str, after: str, is_mended: bool
+    subtests: pytest.Subtests,
 ) -> None:
-    words = [*before.split(), "clime", "flight", "level", "350", *after.split()]
-    confidences = [1.0] * len(words)
-    mend_by_sound(words, confidences)
-    assert ("climb" in words) is is_mended
-    assert (min(confidences) < 1.0) is is_mended
+    table = [("then", "", True), ("", "", False), ("", "by", False), ("direct", "", False),
+     ("then", "by", True)]  # fmt: skip
+    for before, after, is_mended in table:
+        with subtests.test(str((before, after, is_mended))):
+            words = [*before.split(), "clime", "flight", "level", "350", *after.split()]
+            confidences = [1.0] * len(words)
+            mend_by_sound(words, confidences)
+            assert ("climb" in words) is is_mended
+            assert (min(confidences) < 1.0) is is_mended
 
 
 def test_words_of_the_phraseology_are_never_replaced() -> None:

@@ -33,9 +33,10 @@ def acted_on(text: str) -> set[Any]:
     }
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
+def test_what_is_denied_asked_expected_or_somebody_elses_is_no_clearance(
+    subtests: pytest.Subtests,
+) -> None:
+    for text in [
         # denied
         "unable to land runway 01",
         "do not cross runway 01",
@@ -86,28 +87,39 @@ def acted_on(text: str) -> set[Any]:
         "to cross runway 01",
         "do cross runway 01",
         "you crossed runway 01 without clearance",
-    ],
-)
-def test_what_is_denied_asked_expected_or_somebody_elses_is_no_clearance(text: str) -> None:
-    for call in (f"American 123, {text}", f"{text}, American 123", f"Tower, American 123, {text}"):
-        assert clearances(call) == [], call
+    ]:
+        with subtests.test(text):
+            for call in (
+                f"American 123, {text}",
+                f"{text}, American 123",
+                f"Tower, American 123, {text}",
+            ):
+                assert clearances(call) == [], call
 
 
-@pytest.mark.parametrize(
-    "text",
-    ["{} of runway 01", "runway 01 is {}", "report {} of runway 01", "you are {}", "{} runway 01",
-     "{} to land runway 01", "{} for takeoff runway 01", "{} to cross runway 01",
-     "{} across runway 01", "{} for the option runway 01", "traffic is {}, cross runway 01"],
-)  # fmt: skip
-def test_clear_and_cleared_are_the_same_clearance_or_none(text: str) -> None:
+def test_clear_and_cleared_are_the_same_clearance_or_none(subtests: pytest.Subtests) -> None:
     """They sound alike, and the recogniser takes them for one word."""
-    for call in ("American 123, " + text, text + ", American 123"):
-        assert clearances(call.format("clear")) == clearances(call.format("cleared"))
+    table = [
+        "{} of runway 01",
+        "runway 01 is {}",
+        "report {} of runway 01",
+        "you are {}",
+        "{} runway 01",
+        "{} to land runway 01",
+        "{} for takeoff runway 01",
+        "{} to cross runway 01",
+        "{} across runway 01",
+        "{} for the option runway 01",
+        "traffic is {}, cross runway 01",
+    ]
+    for text in table:
+        with subtests.test(text):
+            for call in ("American 123, " + text, text + ", American 123"):
+                assert clearances(call.format("clear")) == clearances(call.format("cleared"))
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
+def test_but_clearances_among_such_words_are(subtests: pytest.Subtests) -> None:
+    for text in [
         "runway 01, line up and wait, traffic landing runway 33",
         "number two, follow the Cessna on short final, cleared to land runway 01",
         "number two following the Cessna, cleared to land runway 01",
@@ -118,10 +130,9 @@ def test_clear_and_cleared_are_the_same_clearance_or_none(text: str) -> None:
         "without delay, cross runway 01",
         "cleared to cross runway 01",
         "disregard my last, cross runway 01",
-    ],
-)
-def test_but_clearances_among_such_words_are(text: str) -> None:
-    assert [each.runway for each in clearances(f"American 123, {text}")] == ["01"]
+    ]:
+        with subtests.test(text):
+            assert [each.runway for each in clearances(f"American 123, {text}")] == ["01"]
 
 
 OFTEN_SAID = """
@@ -173,15 +184,16 @@ NOT_CLEARED = [
 ]
 
 
-@pytest.mark.parametrize("text", CLEARED)
-def test_words_that_are_lost_never_make_another_clearance(text: str) -> None:
+def test_words_that_are_lost_never_make_another_clearance(subtests: pytest.Subtests) -> None:
     """A runway that has lost a digit is asked for again: "one niner" may be all that is left."""
-    words = text.split()
-    whole = {(action, runway) for _, action, runway in acted_on(text)}
-    for lost in [*combinations(range(len(words)), 1), *combinations(range(len(words)), 2)]:
-        rest = " ".join(word for at, word in enumerate(words) if at not in lost)
-        made = {(action, runway) for _, action, runway in acted_on(rest)}
-        assert made <= whole, rest
+    for text in CLEARED:
+        with subtests.test(text):
+            words = text.split()
+            whole = {(action, runway) for _, action, runway in acted_on(text)}
+            for lost in [*combinations(range(len(words)), 1), *combinations(range(len(words)), 2)]:
+                rest = " ".join(word for at, word in enumerate(words) if at not in lost)
+                made = {(action, runway) for _, action, runway in acted_on(rest)}
+                assert made <= whole, rest
 
 
 def test_a_condition_outlives_any_word_that_is_lost() -> None:
@@ -190,12 +202,13 @@ def test_a_condition_outlives_any_word_that_is_lost() -> None:
         assert acted_on(" ".join([*words[:at], *words[at + 1 :]])) == set()
 
 
-@pytest.mark.parametrize("text", NOT_CLEARED)
-def test_words_that_are_lost_never_make_a_clearance(text: str) -> None:
-    words = text.split()
-    for lost in [*combinations(range(len(words)), 1), *combinations(range(len(words)), 2)]:
-        rest = " ".join(word for at, word in enumerate(words) if at not in lost)
-        assert acted_on(rest) == set(), rest
+def test_words_that_are_lost_never_make_a_clearance(subtests: pytest.Subtests) -> None:
+    for text in NOT_CLEARED:
+        with subtests.test(text):
+            words = text.split()
+            for lost in [*combinations(range(len(words)), 1), *combinations(range(len(words)), 2)]:
+                rest = " ".join(word for at, word in enumerate(words) if at not in lost)
+                assert acted_on(rest) == set(), rest
 
 
 @settings(deadline=None, max_examples=300)

@@ -70,24 +70,26 @@ def is_kept(words: list[str], at: int) -> bool:
     return words[at] in (*SIDES, "confirm")
 
 
-@pytest.mark.parametrize("text", CLEARED + NOT_CLEARED + LATER)
-def test_a_lost_word_never_makes_a_clearance(text: str) -> None:
-    words = text.split()
-    said = in_effect(text)
-    for at in range(len(words)):
-        if not is_kept(words, at):
-            rest = " ".join(words[:at] + words[at + 1 :])
-            assert in_effect(rest) <= said, rest
+def test_a_lost_word_never_makes_a_clearance(subtests: pytest.Subtests) -> None:
+    for text in CLEARED + NOT_CLEARED + LATER:
+        with subtests.test(text):
+            words = text.split()
+            said = in_effect(text)
+            for at in range(len(words)):
+                if not is_kept(words, at):
+                    rest = " ".join(words[:at] + words[at + 1 :])
+                    assert in_effect(rest) <= said, rest
 
 
-@pytest.mark.parametrize("text", CLEARED + NOT_CLEARED + LATER)
-def test_a_word_that_sounds_alike_never_makes_a_clearance(text: str) -> None:
-    words = text.split()
-    said = in_effect(text)
-    for at, word in enumerate(words):
-        for heard in CONFUSIONS.get(word, ()):
-            changed = " ".join([*words[:at], heard, *words[at + 1 :]])
-            assert in_effect(changed) <= said, changed
+def test_a_word_that_sounds_alike_never_makes_a_clearance(subtests: pytest.Subtests) -> None:
+    for text in CLEARED + NOT_CLEARED + LATER:
+        with subtests.test(text):
+            words = text.split()
+            said = in_effect(text)
+            for at, word in enumerate(words):
+                for heard in CONFUSIONS.get(word, ()):
+                    changed = " ".join([*words[:at], heard, *words[at + 1 :]])
+                    assert in_effect(changed) <= said, changed
 
 
 @settings(deadline=None, max_examples=200)
@@ -103,17 +105,20 @@ def test_words_put_in_never_make_a_clearance(text: str, noise: list[tuple[int, s
     assert in_effect(" ".join(words)) <= said
 
 
-@pytest.mark.parametrize("text", LATER)
-def test_what_waits_for_an_event_is_never_in_effect(text: str) -> None:
-    assert in_effect(text) == set()
-    assert all(each.is_conditional for each in parse_call(text, KNOWN).instructions)
+def test_what_waits_for_an_event_is_never_in_effect(subtests: pytest.Subtests) -> None:
+    for text in LATER:
+        with subtests.test(text):
+            assert in_effect(text) == set()
+            assert all(each.is_conditional for each in parse_call(text, KNOWN).instructions)
 
 
-@pytest.mark.parametrize("text", NOT_CLEARED)
-def test_what_is_expected_asked_or_talked_about_is_no_clearance(text: str) -> None:
-    assert in_effect(text) == set()
+def test_what_is_expected_asked_or_talked_about_is_no_clearance(subtests: pytest.Subtests) -> None:
+    for text in NOT_CLEARED:
+        with subtests.test(text):
+            assert in_effect(text) == set()
 
 
-@pytest.mark.parametrize("text", CLEARED)
-def test_the_clearances_are_clear_as_they_are(text: str) -> None:
-    assert in_effect(text)
+def test_the_clearances_are_clear_as_they_are(subtests: pytest.Subtests) -> None:
+    for text in CLEARED:
+        with subtests.test(text):
+            assert in_effect(text)

@@ -80,23 +80,25 @@ def untrue(text: str, said: list[Instruction]) -> list[Instruction]:
     return [each for each in in_effect(text) if not is_said(each, said)]
 
 
-@pytest.mark.parametrize("text", CALLS)
-def test_a_lost_word_never_makes_a_value(text: str) -> None:
-    words, said = text.split(), list(parse_call(text, KNOWN).instructions)
-    for at, word in enumerate(words):
-        if at >= 4 and word not in LOST_UNSEEN:
-            rest = " ".join(words[:at] + words[at + 1 :])
-            assert untrue(rest, said) == [], rest
+def test_a_lost_word_never_makes_a_value(subtests: pytest.Subtests) -> None:
+    for text in CALLS:
+        with subtests.test(text):
+            words, said = text.split(), list(parse_call(text, KNOWN).instructions)
+            for at, word in enumerate(words):
+                if at >= 4 and word not in LOST_UNSEEN:
+                    rest = " ".join(words[:at] + words[at + 1 :])
+                    assert untrue(rest, said) == [], rest
 
 
-@pytest.mark.parametrize("text", CALLS)
-def test_a_word_that_sounds_alike_never_makes_a_value(text: str) -> None:
-    words, said = text.split(), list(parse_call(text, KNOWN).instructions)
-    for at, word in enumerate(words):
-        for heard in CONFUSIONS.get(word, ()):
-            if at >= 4 and heard not in HEARD_UNSEEN:
-                changed = " ".join([*words[:at], heard, *words[at + 1 :]])
-                assert untrue(changed, said) == [], changed
+def test_a_word_that_sounds_alike_never_makes_a_value(subtests: pytest.Subtests) -> None:
+    for text in CALLS:
+        with subtests.test(text):
+            words, said = text.split(), list(parse_call(text, KNOWN).instructions)
+            for at, word in enumerate(words):
+                for heard in CONFUSIONS.get(word, ()):
+                    if at >= 4 and heard not in HEARD_UNSEEN:
+                        changed = " ".join([*words[:at], heard, *words[at + 1 :]])
+                        assert untrue(changed, said) == [], changed
 
 
 @settings(deadline=None, max_examples=300)
@@ -112,9 +114,10 @@ def test_words_put_in_never_make_a_value(text: str, noise: list[tuple[int, str]]
     assert untrue(" ".join(words), said) == []
 
 
-@pytest.mark.parametrize("text", CALLS)
-def test_the_calls_are_clear_as_they_are(text: str) -> None:
-    assert in_effect(text)
+def test_the_calls_are_clear_as_they_are(subtests: pytest.Subtests) -> None:
+    for text in CALLS:
+        with subtests.test(text):
+            assert in_effect(text)
 
 
 def test_an_animal_before_an_unknown_word_may_be_of_a_name_and_is_not_sure() -> None:

@@ -23,9 +23,10 @@ def only(text: str) -> Instruction:
     return instruction
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
+def test_spoken_digits_are_joined_to_numbers_and_a_comma_ends_one(
+    subtests: pytest.Subtests,
+) -> None:
+    for text, words in [
         ("flight level three five zero", "flight level 350"),
         ("Flight Level THREE FIFE ZERO", "flight level 350"),
         ("one two three, climb", "123 climb"),
@@ -38,10 +39,9 @@ def only(text: str) -> Instruction:
         ("heading 270 25", "heading 270 25"),
         ("AAL123", "aal 123"),
         ("", ""),
-    ],
-)
-def test_spoken_digits_are_joined_to_numbers_and_a_comma_ends_one(text: str, words: str) -> None:
-    assert tokens(text) == words.split()
+    ]:
+        with subtests.test(text):
+            assert tokens(text) == words.split()
 
 
 @settings(deadline=None)
@@ -51,9 +51,8 @@ def test_any_text_is_taken_apart(text: str) -> None:
     parse_call(text, KNOWN)
 
 
-@pytest.mark.parametrize(
-    ("text", "feet"),
-    [
+def test_a_level_is_read_only_where_the_words_say_one(subtests: pytest.Subtests) -> None:
+    for text, feet in [
         ("climb and maintain flight level three three zero", 33_000),
         ("descend flight level niner zero", 9_000),
         ("climb FL350", 35_000),
@@ -73,10 +72,9 @@ def test_any_text_is_taken_apart(text: str) -> None:
         ("climb to thousand", None),
         ("level", None),
         ("", None),
-    ],
-)
-def test_a_level_is_read_only_where_the_words_say_one(text: str, feet: int | None) -> None:
-    assert call_to(text).altitude_ft == feet
+    ]:
+        with subtests.test(text):
+            assert call_to(text).altitude_ft == feet
 
 
 @settings(deadline=None, max_examples=100)
@@ -104,19 +102,17 @@ def test_any_flight_level_is_read_digit_by_digit(level: int) -> None:
     assert call.altitude_ft == level * 100.0
 
 
-@pytest.mark.parametrize(
-    ("text", "sense"),
-    [
+def test_the_sense_is_that_of_the_first_word_that_has_one(subtests: pytest.Subtests) -> None:
+    for text, sense in [
         ("American one two three, climb and maintain FL330", "climb"),
         ("climbing FL330, American one two three", "climb"),
         ("American one two three, descend FL310", "descend"),
         ("descending FL310, American one two three", "descend"),
         ("American one two three, maintain FL310", "maintain"),
         ("American one two three, turn right heading zero niner zero", None),
-    ],
-)
-def test_the_sense_is_that_of_the_first_word_that_has_one(text: str, sense: str | None) -> None:
-    assert parse_call(text, KNOWN).sense == sense
+    ]:
+        with subtests.test(text):
+            assert parse_call(text, KNOWN).sense == sense
 
 
 def test_a_level_without_a_sense_is_no_instruction() -> None:
@@ -139,9 +135,8 @@ def said(text: str) -> list[Any]:
     return [(each.action, each.runway) for each in parse_call(text, AIRPORT).instructions]
 
 
-@pytest.mark.parametrize(
-    ("text", "meaning"),
-    [
+def test_a_call_says_what_about_which_runway(subtests: pytest.Subtests) -> None:
+    table = [
         (
             "American one two three, runway zero one, cleared to land, wind three five zero at 8",
             [("cleared_to_land", "01")],
@@ -173,24 +168,22 @@ def said(text: str) -> list[Any]:
         ("climb and maintain flight level three three zero", [("altitude", None)]),
         ("mayday, bird strike, engine failure", []),
         ("runway four zero, cleared to land", [("cleared_to_land", None)]),
-    ],
-)  # fmt: skip
-def test_a_call_says_what_about_which_runway(text: str, meaning: list[Any]) -> None:
-    assert said(text) == meaning
+    ]  # fmt: skip
+    for text, meaning in table:
+        with subtests.test(text):
+            assert said(text) == meaning
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
+def test_traffic_is_somebody_else(subtests: pytest.Subtests) -> None:
+    for text in [
         "Delta 456, runway 01, line up and wait, traffic three mile final runway 33",
         "Delta 456, line up and wait runway 01, traffic crossing runway 33",
         "Delta 456, traffic is leaving the runway at echo, runway 01, line up and wait",
         "Delta 456, behind the landing American 123, line up runway 01",
-    ],
-)
-def test_traffic_is_somebody_else(text: str) -> None:
-    assert said(text) == [("line_up", "01")]
-    assert parse_call(text, AIRPORT).callsign == "DAL456"
+    ]:
+        with subtests.test(text):
+            assert said(text) == [("line_up", "01")]
+            assert parse_call(text, AIRPORT).callsign == "DAL456"
 
 
 @settings(deadline=None)
@@ -205,9 +198,8 @@ def test_any_runway_is_read_digit_by_digit(number: int, side: str) -> None:
     assert said(f"cross runway {spoken}, ops one") == [("cross", ident)]
 
 
-@pytest.mark.parametrize(
-    ("text", "meant"),
-    [
+def test_an_instruction_has_what_is_said_about_it(subtests: pytest.Subtests) -> None:
+    table = [
         ("line up and wait runway 01 at bravo", Instruction("line_up", "01", "B")),
         ("behind the landing cessna line up and wait runway 01 behind",
          Instruction("line_up", "01", condition="behind the landing cessna")),
@@ -247,15 +239,14 @@ def test_any_runway_is_read_digit_by_digit(number: int, side: str) -> None:
          Instruction("altitude", sense="climb", altitude_ft=12_000.0)),
         ("climb now, maintain flight level 330",
          Instruction("altitude", sense="climb", altitude_ft=33_000.0, immediate=True)),
-    ],
-)  # fmt: skip
-def test_an_instruction_has_what_is_said_about_it(text: str, meant: Instruction) -> None:
-    assert only(text) == meant
+    ]  # fmt: skip
+    for text, meant in table:
+        with subtests.test(text):
+            assert only(text) == meant
 
 
-@pytest.mark.parametrize(
-    ("text", "as_written"),
-    [
+def test_what_recognisers_write_means_what_was_said(subtests: pytest.Subtests) -> None:
+    for text, as_written in [
         ("run way o one left clear to land", "runway 01L cleared to land"),
         ("runway zero 1 cleared two land", "runway 01 cleared to land"),
         ("uh hold um shore of runway zero one", "hold short of runway 01"),
@@ -269,15 +260,13 @@ def test_an_instruction_has_what_is_said_about_it(text: str, meant: Instruction)
         ("cleared for take off runway tree fife center", "cleared for takeoff runway 35C"),
         ("lineup and wait runway thirty three", "line up and wait runway 33"),
         ("contact tower one nineteen point one", "contact tower 119.1"),
-    ],
-)
-def test_what_recognisers_write_means_what_was_said(text: str, as_written: str) -> None:
-    assert call_to(text).instructions == call_to(as_written).instructions != ()
+    ]:
+        with subtests.test(text):
+            assert call_to(text).instructions == call_to(as_written).instructions != ()
 
 
-@pytest.mark.parametrize(
-    ("text", "kind"),
-    [
+def test_calls_are_of_kinds(subtests: pytest.Subtests) -> None:
+    for text, kind in [
         ("American 123, hold position", "instruction"),
         ("Hold position, American 123", "readback"),
         ("Tower, American 123, holding short runway 01", "report"),
@@ -297,15 +286,13 @@ def test_what_recognisers_write_means_what_was_said(text: str, as_written: str) 
         ("American 123, QNH 1013", "report"),
         ("American 123, whatever that was", "unknown"),
         ("", "unknown"),
-    ],
-)
-def test_calls_are_of_kinds(text: str, kind: str) -> None:
-    assert parse_call(text, KNOWN).kind == kind
+    ]:
+        with subtests.test(text):
+            assert parse_call(text, KNOWN).kind == kind
 
 
-@pytest.mark.parametrize(
-    ("text", "meant"),
-    [
+def test_the_last_word_counts(subtests: pytest.Subtests) -> None:
+    table = [
         ("climb FL330, correction, FL350",
          [Instruction("altitude", sense="climb", altitude_ft=35_000.0)]),
         ("climb FL330, correction, FL350, turn left heading 090",
@@ -326,10 +313,10 @@ def test_calls_are_of_kinds(text: str, kind: str) -> None:
          [Instruction("hold_short", "15")]),
         ("cleared for takeoff, I say again, cleared for takeoff runway 19",
          [Instruction("cleared_for_takeoff", "19")]),
-    ],
-)  # fmt: skip
-def test_the_last_word_counts(text: str, meant: list[Any]) -> None:
-    assert list(call_to(text).instructions) == meant
+    ]  # fmt: skip
+    for text, meant in table:
+        with subtests.test(text):
+            assert list(call_to(text).instructions) == meant
 
 
 def test_a_call_tells_more_than_instructions() -> None:
@@ -346,9 +333,9 @@ def test_a_call_tells_more_than_instructions() -> None:
     assert parse_call("Wilco, American 123", KNOWN).acknowledged
 
 
-@pytest.mark.parametrize(
-    ("words", "is_asked"),
-    [
+def test_words_may_be_asked_for_again(subtests: pytest.Subtests) -> None:
+    """A call that gives an instruction asks for none."""
+    for words, is_asked in [
         ("say again", True),
         ("confirm runway", True),
         ("confirm cleared to land runway 19", True),
@@ -361,19 +348,16 @@ def test_a_call_tells_more_than_instructions() -> None:
         ("confirmed", False),
         ("cleared to land runway 19", False),
         ("wind calm", False),
-    ],
-)
-def test_words_may_be_asked_for_again(words: str, is_asked: bool) -> None:
-    """A call that gives an instruction asks for none."""
-    assert call_to(words).asks_again is is_asked
+    ]:
+        with subtests.test(words):
+            assert call_to(words).asks_again is is_asked
 
 
 # --- confidence ------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("text", "confidence"),
-    [
+def test_confidence_is_that_of_the_least_sure_part(subtests: pytest.Subtests) -> None:
+    for text, confidence in [
         ("runway one niner, cleared to land", 1.0),
         ("cleared to land one niner", 0.85),
         ("cleared to land", 0.75),
@@ -394,10 +378,9 @@ def test_words_may_be_asked_for_again(words: str, is_asked: bool) -> None:
         ("maintain 24,000 feet", 0.6),
         ("climb flight level three three zero, correction, two four thousand", 0.54),
         ("mumble mumble", 0.0),
-    ],
-)
-def test_confidence_is_that_of_the_least_sure_part(text: str, confidence: float) -> None:
-    assert call_to(text).confidence == pytest.approx(confidence)
+    ]:
+        with subtests.test(text):
+            assert call_to(text).confidence == pytest.approx(confidence)
 
 
 def test_words_that_the_recogniser_is_not_sure_of_count_where_they_matter() -> None:

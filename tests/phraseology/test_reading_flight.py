@@ -19,9 +19,8 @@ def only(text: str) -> Instruction:
     return instruction
 
 
-@pytest.mark.parametrize(
-    ("text", "meant"),
-    [
+def test_an_instruction_has_what_is_said_about_it(subtests: pytest.Subtests) -> None:
+    table = [
         ("proceed direct deer park", Instruction("direct", position="deer park")),
         ("turn left direct line creek", Instruction("direct", position="line creek", turn="left")),
         ("cleared direct to cross city", Instruction("direct", position="cross city")),
@@ -64,15 +63,14 @@ def only(text: str) -> Instruction:
          Instruction("contact", position="boston approach", frequency_khz=124_500)),
         ("runway one niner taxi via alfa bravo two",
          Instruction("taxi", "19", via=("A", "B2"))),
-    ],
-)  # fmt: skip
-def test_an_instruction_has_what_is_said_about_it(text: str, meant: Instruction) -> None:
-    assert only(text) == meant
+    ]  # fmt: skip
+    for text, meant in table:
+        with subtests.test(text):
+            assert only(text) == meant
 
 
-@pytest.mark.parametrize(
-    ("text", "condition"),
-    [
+def test_what_waits_for_an_event_is_conditional(subtests: pytest.Subtests) -> None:
+    table = [
         ("when able proceed direct lander", "when able"),
         ("descend and maintain five thousand at pilot's discretion", "at pilot discretion"),
         ("when ready climb to flight level three one zero", "when ready"),
@@ -84,11 +82,11 @@ def test_an_instruction_has_what_is_said_about_it(text: str, meant: Instruction)
         ("fly runway heading after departure", "after departure"),
         ("contact tower crossing the marker", "crossing the marker"),
         ("after the boeing passes continue taxi via alfa", "after the boeing passes"),
-    ],
-)  # fmt: skip
-def test_what_waits_for_an_event_is_conditional(text: str, condition: str) -> None:
-    read = only(text)
-    assert (read.condition, read.is_conditional) == (condition, True)
+    ]  # fmt: skip
+    for text, condition in table:
+        with subtests.test(text):
+            read = only(text)
+            assert (read.condition, read.is_conditional) == (condition, True)
 
 
 @pytest.mark.parametrize(
@@ -103,9 +101,8 @@ def test_what_ends_at_an_event_is_in_effect_now(text: str, until: str) -> None:
     assert (read.until, read.is_conditional) == (until, False)
 
 
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [
+def test_what_is_expected_is_no_instruction(subtests: pytest.Subtests) -> None:
+    table = [
         ("expect flight level three five zero ten minutes after departure",
          Instruction("altitude", altitude_ft=35_000.0, condition="after departure")),
         ("expect i l s runway two seven left approach",
@@ -115,11 +112,11 @@ def test_what_ends_at_an_event_is_in_effect_now(text: str, until: str) -> None:
         ("expect direct lander", Instruction("direct", position="lander")),
         ("expect holding at deer park", Instruction("hold_at", position="deer park")),
         ("expect departure runway three six", Instruction("cleared_for_takeoff", "36")),
-    ],
-)  # fmt: skip
-def test_what_is_expected_is_no_instruction(text: str, expected: Instruction) -> None:
-    call = call_to(text)
-    assert (call.instructions, call.expected) == ((), (expected,))
+    ]  # fmt: skip
+    for text, expected in table:
+        with subtests.test(text):
+            call = call_to(text)
+            assert (call.instructions, call.expected) == ((), (expected,))
 
 
 def test_a_turn_given_with_the_takeoff_waits_for_it() -> None:
@@ -155,9 +152,8 @@ def test_then_puts_the_second_of_two_off() -> None:
     assert (first.condition, second.condition) == (None, "then")
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
+def test_words_about_other_things_are_no_instruction(subtests: pytest.Subtests) -> None:
+    for text in [
         "traffic two o'clock five miles heavy boeing descending flight level three five zero",
         "make a left three sixty",
         "stop squawk",
@@ -168,15 +164,13 @@ def test_then_puts_the_second_of_two_off() -> None:
         "continue taxi",
         "deer park altimeter two niner niner two",
         "the aircraft ahead was assigned heading two one zero",
-    ],
-)
-def test_words_about_other_things_are_no_instruction(text: str) -> None:
-    assert call_to(text).instructions == ()
+    ]:
+        with subtests.test(text):
+            assert call_to(text).instructions == ()
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
+def test_what_makes_no_sense_or_lacks_a_word_is_doubtful(subtests: pytest.Subtests) -> None:
+    for text in [
         "descend and maintain five five one zero",
         "descend two thousand seven hundred ten left",
         "climb and maintain one two twelve thousand",
@@ -191,12 +185,11 @@ def test_words_about_other_things_are_no_instruction(text: str) -> None:
         "runway two seven rime cleared to land",
         "runway two seven line up and wait cleared to land",
         "taxi runway one six via alfa krr bravo",
-    ],
-)
-def test_what_makes_no_sense_or_lacks_a_word_is_doubtful(text: str) -> None:
-    call = call_to(text)
-    assert call.instructions
-    assert min(each.confidence for each in call.instructions) < 0.8
+    ]:
+        with subtests.test(text):
+            call = call_to(text)
+            assert call.instructions
+            assert min(each.confidence for each in call.instructions) < 0.8
 
 
 def test_a_level_above_the_ceiling_of_the_aircraft_is_doubtful() -> None:
@@ -226,21 +219,19 @@ def test_a_level_for_later_is_not_that_of_the_call() -> None:
     assert call_to("climb to flight level three one zero").altitude_ft == 31_000.0
 
 
-@pytest.mark.parametrize(
-    ("text", "station", "khz", "confidence"),
-    [
+def test_a_frequency_may_lack_its_hundred_or_its_point_but_not_for_certain(
+    subtests: pytest.Subtests,
+) -> None:
+    """The band begins with a 1 everywhere, and ground control has 121 MHz."""
+    for text, station, khz, confidence in [
         ("contact tower one one eight decimal three", "tower", 118_300, 1.0),
         ("contact tower eighteen three", "tower", 118_300, 0.85),
         ("contact eighteen three", None, 118_300, 0.75),
         ("contact tower one eighteen three", "tower", 118_300, 0.85),
         ("monitor ground decimal nine", "ground", 121_900, 0.85),
         ("contact tower", "tower", None, 0.6),
-    ],
-)
-def test_a_frequency_may_lack_its_hundred_or_its_point_but_not_for_certain(
-    text: str, station: str | None, khz: int | None, confidence: float
-) -> None:
-    """The band begins with a 1 everywhere, and ground control has 121 MHz."""
-    contact = only(text)
-    assert (contact.position, contact.frequency_khz) == (station, khz)
-    assert contact.confidence == pytest.approx(confidence)
+    ]:
+        with subtests.test(text):
+            contact = only(text)
+            assert (contact.position, contact.frequency_khz) == (station, khz)
+            assert contact.confidence == pytest.approx(confidence)

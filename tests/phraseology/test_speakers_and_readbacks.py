@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import pytest
 
-from airhilt.phraseology import Speaker, agree, differences, parse_call
+from airhilt.phraseology import agree, differences, parse_call
 
 KNOWN = ("AAL123", "DAL456")
 
 
-@pytest.mark.parametrize(
-    ("text", "speaker"),
-    [
+def test_who_speaks_is_told_by_words_and_order(subtests: pytest.Subtests) -> None:
+    for text, speaker in [
         ("Delta 456, turn left heading 270", "controller"),
         ("Delta 456, Potomac approach, radar contact", "controller"),
         ("Delta 456, traffic two o'clock five miles, report in sight", "controller"),
@@ -22,12 +21,11 @@ KNOWN = ("AAL123", "DAL456")
         ("Climbing to flight level 330", "pilot"),
         ("Wilco, Delta 456", "pilot"),
         ("Mayday mayday mayday, Delta 456, engine failure", "pilot"),
-    ],
-)
-def test_who_speaks_is_told_by_words_and_order(text: str, speaker: Speaker) -> None:
-    said = parse_call(text, KNOWN).spoken
-    assert said.speaker == speaker
-    assert 0.5 < said.confidence <= 1.0
+    ]:
+        with subtests.test(text):
+            said = parse_call(text, KNOWN).spoken
+            assert said.speaker == speaker
+            assert 0.5 < said.confidence <= 1.0
 
 
 def test_what_either_could_say_tells_little() -> None:
@@ -40,9 +38,10 @@ def differing(given: str, read: str) -> tuple[str, ...]:
     return differences(told, answer)
 
 
-@pytest.mark.parametrize(
-    ("given", "read", "differs"),
-    [
+def test_a_readback_differs_in_what_it_changes_and_not_in_what_it_leaves_out(
+    subtests: pytest.Subtests,
+) -> None:
+    for given, read, differs in [
         ("turn left heading 270", "left heading 280", ("heading_deg",)),
         ("turn left heading 270", "right heading 280", ("turn", "heading_deg")),
         ("turn left heading 270", "heading 270", ()),
@@ -50,12 +49,9 @@ def differing(given: str, read: str) -> tuple[str, ...]:
         ("runway 27 left, line up and wait", "runway 27 right, line up and wait", ("runway",)),
         ("runway 27 left, line up and wait", "line up and wait", ()),
         ("squawk 4621", "squawk 4612", ("squawk",)),
-    ],
-)
-def test_a_readback_differs_in_what_it_changes_and_not_in_what_it_leaves_out(
-    given: str, read: str, differs: tuple[str, ...]
-) -> None:
-    assert differing(given, read) == differs
+    ]:
+        with subtests.test(str((given, read, differs))):
+            assert differing(given, read) == differs
 
 
 def test_instructions_agree_if_both_or_neither_wait_for_something() -> None:

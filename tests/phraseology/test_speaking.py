@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import Any, get_args
 
@@ -32,9 +31,10 @@ STYLES = ("faa", "icao")
 ON_FREQUENCY = ("AAL123", "BAW38", "DLH4AB", "UAL1200", "N172SP", "G-ABCD", "OPS2", "FIRE3")
 
 
-@pytest.mark.parametrize(
-    ("callsign", "faa", "icao"),
-    [
+def test_flights_are_called_in_group_form_by_the_faa_and_digit_by_digit_by_icao(
+    subtests: pytest.Subtests,
+) -> None:
+    for callsign, faa, icao in [
         ("AAL123", "American one twenty three", "American one two tree"),
         ("BAW38", "Speedbird thirty eight", "Speedbird tree eight"),
         ("UAL1200", "United twelve hundred", "United one two zero zero"),
@@ -46,13 +46,10 @@ ON_FREQUENCY = ("AAL123", "BAW38", "DLH4AB", "UAL1200", "N172SP", "G-ABCD", "OPS
         ("G-ABCD", *("Golf alfa bravo charlie delta",) * 2),
         ("OPS2", "Ops two", "Ops two"),
         ("PLOW9", "Snow plow niner", "Snow plow niner"),
-    ],
-)
-def test_flights_are_called_in_group_form_by_the_faa_and_digit_by_digit_by_icao(
-    callsign: str, faa: str, icao: str
-) -> None:
-    assert speak_callsign(callsign, "faa") == faa
-    assert speak_callsign(callsign, "icao") == icao
+    ]:
+        with subtests.test(callsign):
+            assert speak_callsign(callsign, "faa") == faa
+            assert speak_callsign(callsign, "icao") == icao
 
 
 def test_only_registrations_are_abbreviated() -> None:
@@ -62,9 +59,8 @@ def test_only_registrations_are_abbreviated() -> None:
     assert speak_abbreviated("AAL123", "icao") == speak_callsign("AAL123", "icao")
 
 
-@pytest.mark.parametrize(
-    ("speak", "value", "faa", "icao"),
-    [
+def test_values_are_spoken_as_the_manuals_have_it(subtests: pytest.Subtests) -> None:
+    table = [
         (speak_runway, "01", "runway one", "runway zero one"),
         (speak_runway, "19L", "runway one niner left", "runway one niner left"),
         (speak_runway, "35C", "runway three five center", "runway tree fife center"),
@@ -91,13 +87,11 @@ def test_only_registrations_are_abbreviated() -> None:
         (speak_wind, Wind(None, 0.0), "wind calm", "wind calm"),
         (speak_wind, Wind(None, 3.0), "wind variable at three", "wind variable tree knots"),
         (speak_pressure, 1013.25, "altimeter two niner niner two", "Q N H one zero one tree"),
-    ],
-)  # fmt: skip
-def test_values_are_spoken_as_the_manuals_have_it(
-    speak: Callable[..., Any], value: Wind | float | str, faa: str, icao: str
-) -> None:
-    assert speak(value, "faa") == faa
-    assert speak(value, "icao") == icao
+    ]  # fmt: skip
+    for speak, value, faa, icao in table:
+        with subtests.test(str((speak, value, faa, icao))):
+            assert speak(value, "faa") == faa
+            assert speak(value, "icao") == icao
 
 
 def test_calls_begin_with_the_callsign_and_readbacks_end_with_it() -> None:

@@ -34,9 +34,8 @@ from airhilt.phraseology.spoken_values import (
 )
 
 
-@pytest.mark.parametrize(
-    ("mhz", "fraction", "khz"),
-    [
+def test_a_frequency_is_a_channel_of_the_aeronautical_band(subtests: pytest.Subtests) -> None:
+    for mhz, fraction, khz in [
         ("118", "0", 118_000),  # The aeronautical band is from 117.975 to 137 MHz.
         ("117", "95", None),
         ("136", "975", 136_975),
@@ -49,44 +48,37 @@ from airhilt.phraseology.spoken_values import (
         ("132", "01", 132_010),
         ("132", "010", 132_010),
         ("132", "011", None),  # Channels are 5 kHz apart at least.
-    ],
-)
-def test_a_frequency_is_a_channel_of_the_aeronautical_band(
-    mhz: str, fraction: str, khz: int | None
-) -> None:
-    assert frequency_khz(mhz, fraction) == khz
+    ]:
+        with subtests.test(str((mhz, fraction, khz))):
+            assert frequency_khz(mhz, fraction) == khz
 
 
-@pytest.mark.parametrize(
-    ("digits", "hpa"),
-    [
+def test_a_setting_is_one_of_the_pressures_that_the_air_has(subtests: pytest.Subtests) -> None:
+    """29.92 inches of mercury are 1013.21 hPa, each 33.8639."""
+    table = [
         ("2992", 1013.21), ("2700", 914.3), ("2699", None), ("3150", 1066.7), ("3151", None),
         ("1013", 1013.0), ("0998", 998.0), ("900", 900.0), ("899", None), ("1060", 1060.0),
         ("1061", None),
-    ],
-)  # fmt: skip
-def test_a_setting_is_one_of_the_pressures_that_the_air_has(digits: str, hpa: float | None) -> None:
-    """29.92 inches of mercury are 1013.21 hPa, each 33.8639."""
-    assert hpa_of(digits) == (None if hpa is None else pytest.approx(hpa, abs=0.05))
+    ]  # fmt: skip
+    for digits, hpa in table:
+        with subtests.test(digits):
+            assert hpa_of(digits) == (None if hpa is None else pytest.approx(hpa, abs=0.05))
 
 
-@pytest.mark.parametrize(
-    ("text", "hpa"),
-    [
+def test_a_setting_has_its_word_before_it(subtests: pytest.Subtests) -> None:
+    for text, hpa in [
         ("altimeter 2992", 1013.21),
         ("altimeter is 29 decimal 92", 1013.21),
         ("qnh 1009", 1009.0),
         ("q n h now 987", 987.0),
         ("squawk 2992", None),
-    ],
-)
-def test_a_setting_has_its_word_before_it(text: str, hpa: float | None) -> None:
-    assert pressure_of(text) == (None if hpa is None else pytest.approx(hpa, abs=0.05))
+    ]:
+        with subtests.test(text):
+            assert pressure_of(text) == (None if hpa is None else pytest.approx(hpa, abs=0.05))
 
 
-@pytest.mark.parametrize(
-    ("text", "feet", "is_sure"),
-    [
+def test_a_level_is_sure_if_nothing_can_be_missing(subtests: pytest.Subtests) -> None:
+    for text, feet, is_sure in [
         ("flight level 330", 33_000.0, True),
         ("flight level 80", 8_000.0, False),  # It may have been 180.
         ("flight level 81", None, False),
@@ -96,53 +88,58 @@ def test_a_setting_has_its_word_before_it(text: str, hpa: float | None) -> None:
         ("4 thousand 500", 4_500.0, True),
         ("17 thousand", 17_000.0, True),
         ("19 thousand", 19_000.0, False),  # Above the transition altitude levels are said.
-    ],
-)
-def test_a_level_is_sure_if_nothing_can_be_missing(
-    text: str, feet: float | None, is_sure: bool
-) -> None:
-    found = LEVEL.search(text)
-    assert (found and level_ft(found)) == feet
-    if found and feet is not None:
-        assert (level_confidence(found) == 1.0) is is_sure
+    ]:
+        with subtests.test(text):
+            found = LEVEL.search(text)
+            assert (found and level_ft(found)) == feet
+            if found and feet is not None:
+                assert (level_confidence(found) == 1.0) is is_sure
 
 
-@pytest.mark.parametrize(
-    ("feet", "is_sure"),
-    [(3_500.0, True), (3_510.0, False), (17_900.0, True), (18_000.0, False), (100.0, True)],
-)
-def test_feet_come_in_hundreds_below_the_transition_altitude(feet: float, is_sure: bool) -> None:
-    assert (feet_confidence(feet) == 1.0) is is_sure
+def test_feet_come_in_hundreds_below_the_transition_altitude(subtests: pytest.Subtests) -> None:
+    for feet, is_sure in [
+        (3_500.0, True),
+        (3_510.0, False),
+        (17_900.0, True),
+        (18_000.0, False),
+        (100.0, True),
+    ]:
+        with subtests.test(str((feet, is_sure))):
+            assert (feet_confidence(feet) == 1.0) is is_sure
 
 
-@pytest.mark.parametrize(
-    ("kt", "is_sure"), [(250.0, True), (100.0, True), (90.0, False), (183.0, False), (999.0, False)]
-)
-def test_a_speed_is_a_multiple_of_the_step_and_has_three_digits(kt: float, is_sure: bool) -> None:
-    assert (speed_confidence(kt) == 1.0) is is_sure
+def test_a_speed_is_a_multiple_of_the_step_and_has_three_digits(subtests: pytest.Subtests) -> None:
+    for kt, is_sure in [
+        (250.0, True),
+        (100.0, True),
+        (90.0, False),
+        (183.0, False),
+        (999.0, False),
+    ]:
+        with subtests.test(str((kt, is_sure))):
+            assert (speed_confidence(kt) == 1.0) is is_sure
 
 
-@pytest.mark.parametrize(
-    ("number", "side", "runway"),
-    [("1", None, "01"), ("19", "left", "19L"), ("27", "right", "27R"), ("09", "centre", "09C")],
-)
-def test_a_runway_has_two_digits_and_the_letter_of_its_side(
-    number: str, side: str | None, runway: str
-) -> None:
-    assert designator(number, side) == runway
-    assert (runway_confidence(number) == 1.0) is (len(number) == 2)
+def test_a_runway_has_two_digits_and_the_letter_of_its_side(subtests: pytest.Subtests) -> None:
+    for number, side, runway in [
+        ("1", None, "01"),
+        ("19", "left", "19L"),
+        ("27", "right", "27R"),
+        ("09", "centre", "09C"),
+    ]:
+        with subtests.test(number):
+            assert designator(number, side) == runway
+            assert (runway_confidence(number) == 1.0) is (len(number) == 2)
 
 
-@pytest.mark.parametrize(
-    ("words", "name"), [("alfa", "A"), ("bravo 5", "B5"), ("kilo", "K"), ("zulu 12", "Z12")]
-)
-def test_a_taxiway_is_named_by_its_letter_and_number(words: str, name: str) -> None:
-    assert taxiway(words) == name
+def test_a_taxiway_is_named_by_its_letter_and_number(subtests: pytest.Subtests) -> None:
+    for words, name in [("alfa", "A"), ("bravo 5", "B5"), ("kilo", "K"), ("zulu 12", "Z12")]:
+        with subtests.test(words):
+            assert taxiway(words) == name
 
 
-@pytest.mark.parametrize(
-    ("text", "wind"),
-    [
+def test_a_wind_is_read_with_its_word_or_beside_a_clearance(subtests: pytest.Subtests) -> None:
+    for text, wind in [
         ("wind calm", Wind(None, 0.0)),
         ("wind 360 at 8", Wind(360.0, 8.0)),
         ("wind 361 at 8", None),
@@ -150,56 +147,50 @@ def test_a_taxiway_is_named_by_its_letter_and_number(words: str, name: str) -> N
         ("wind variable at 3", Wind(None, 3.0)),
         ("280 at 8 runway 27 cleared to land", Wind(280.0, 8.0)),
         ("280 at 8 runway 27 taxi", None),
-    ],
-)
-def test_a_wind_is_read_with_its_word_or_beside_a_clearance(text: str, wind: Wind | None) -> None:
-    assert wind_of(text) == wind
+    ]:
+        with subtests.test(text):
+            assert wind_of(text) == wind
 
 
 # --- as they are spoken ---------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("feet", "words"),
-    [
+def test_altitudes_are_spoken_in_thousands_and_from_18_000_ft_as_levels(
+    subtests: pytest.Subtests,
+) -> None:
+    """FAA Order JO 7110.65, 2-4-17 a and b; the transition altitude is that of 14 CFR 91.121."""
+    for feet, words in [
         (17_900.0, "one seven thousand niner hundred"),
         (18_000.0, "flight level one eight zero"),
         (1_000.0, "one thousand"),
         (900.0, "niner hundred feet"),
-    ],
-)
-def test_altitudes_are_spoken_in_thousands_and_from_18_000_ft_as_levels(
-    feet: float, words: str
-) -> None:
-    """FAA Order JO 7110.65, 2-4-17 a and b; the transition altitude is that of 14 CFR 91.121."""
-    assert speak_altitude(feet, "faa") == words
+    ]:
+        with subtests.test(words):
+            assert speak_altitude(feet, "faa") == words
 
 
-@pytest.mark.parametrize(
-    ("degrees", "words"),
-    [(0.0, "three six zero"), (360.0, "three six zero"), (5.4, "zero zero five"),
-     (359.6, "three six zero"), (90.0, "zero niner zero")],
-)  # fmt: skip
-def test_a_heading_has_three_digits_and_north_is_360(degrees: float, words: str) -> None:
+def test_a_heading_has_three_digits_and_north_is_360(subtests: pytest.Subtests) -> None:
     """FAA Order JO 7110.65, 2-4-17 e."""
-    assert speak_heading(degrees, "faa") == words
+    table = [(0.0, "three six zero"), (360.0, "three six zero"), (5.4, "zero zero five"),
+     (359.6, "three six zero"), (90.0, "zero niner zero")]  # fmt: skip
+    for degrees, words in table:
+        with subtests.test(str((degrees, words))):
+            assert speak_heading(degrees, "faa") == words
 
 
-@pytest.mark.parametrize(
-    ("khz", "faa", "icao"),
-    [
+def test_a_frequency_is_spoken_with_two_digits_or_three(subtests: pytest.Subtests) -> None:
+    """FAA Order JO 7110.65, 2-4-17 i; ICAO Annex 10 volume II, 5.2.1.7.3.4.3."""
+    for khz, faa, icao in [
         (121_900, "one two one point niner", "one two one decimal niner"),
         (121_000, "one two one point zero", "one two one decimal zero"),
         (118_025, "one one eight point zero two", "one one eight decimal zero two fife"),
         (132_010, "one three two point zero one zero", "one three two decimal zero one zero"),
         (126_550, "one two six point five five", "one two six decimal fife fife zero"),
-    ],
-)
-def test_a_frequency_is_spoken_with_two_digits_or_three(khz: int, faa: str, icao: str) -> None:
-    """FAA Order JO 7110.65, 2-4-17 i; ICAO Annex 10 volume II, 5.2.1.7.3.4.3."""
-    assert speak_frequency(khz, "faa") == faa
-    spoken = speak_frequency(khz, "icao")
-    assert spoken == icao.replace("one three two", "one tree two")
+    ]:
+        with subtests.test(faa):
+            assert speak_frequency(khz, "faa") == faa
+            spoken = speak_frequency(khz, "icao")
+            assert spoken == icao.replace("one three two", "one tree two")
 
 
 @pytest.mark.parametrize(
@@ -230,18 +221,16 @@ def test_pressures_and_mach_numbers_are_spoken_by_their_digits() -> None:
     assert speak_mach(0.785, "icao") == f"mach decimal {speak_digits('78', 'icao')}"
 
 
-@pytest.mark.parametrize(
-    ("feet", "words"),
-    [
+def test_thousands_and_hundreds_have_their_words(subtests: pytest.Subtests) -> None:
+    for feet, words in [
         (0, "zero"),
         (500, "five hundred"),
         (1_000, "one thousand"),
         (2_500, "two thousand five hundred"),
         (10_000, "one zero thousand"),
-    ],
-)
-def test_thousands_and_hundreds_have_their_words(feet: int, words: str) -> None:
-    assert speak_thousands(feet, "faa") == words
+    ]:
+        with subtests.test(words):
+            assert speak_thousands(feet, "faa") == words
 
 
 # --- sounds ---------------------------------------------------------------------------------

@@ -12,9 +12,8 @@ from airhilt.phraseology.words import Words, words_of
 from listed_forms import KNOWN, forms
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
+def test_numbers_that_follow_each_other_are_one(subtests: pytest.Subtests) -> None:
+    for text, words in [
         ("twenty five hundred", "2500"),
         ("one two hundred", "1200"),
         ("one hundred twenty five", "125"),
@@ -43,15 +42,14 @@ from listed_forms import KNOWN, forms
         ("118.35", "118 decimal 35"),
         ("0.78", "0 decimal 78"),
         ("three; four. five, six", "3 4 5 6"),
-    ],
-)
-def test_numbers_that_follow_each_other_are_one(text: str, words: str) -> None:
-    assert tokens(text) == words.split()
+    ]:
+        with subtests.test(text):
+            assert tokens(text) == words.split()
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
+def test_to_and_for_are_digits_where_a_number_goes_on(subtests: pytest.Subtests) -> None:
+    """Not before a unit, where a speed ends at a distance, or between a point and its runway."""
+    for text, words in [
         ("speed one eighty to four miles", "speed 180 to 4 miles"),
         ("one seventy to five", "170 to 5"),
         ("one seventy too five", "170 too 5"),
@@ -88,16 +86,15 @@ def test_numbers_that_follow_each_other_are_one(text: str, words: str) -> None:
         ("mike three to zero eight", "mike 3208"),
         ("november three for zero eight golf", "november 3408 golf"),
         ("delta three for five", "delta 345"),
-    ],
-)
-def test_to_and_for_are_digits_where_a_number_goes_on(text: str, words: str) -> None:
-    """Not before a unit, where a speed ends at a distance, or between a point and its runway."""
-    assert tokens(text) == words.split()
+    ]:
+        with subtests.test(text):
+            assert tokens(text) == words.split()
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
+def test_hesitations_are_left_out_with_their_and_but_not_between_two_numbers(
+    subtests: pytest.Subtests,
+) -> None:
+    for text, words in [
         ("climb uh three", "climb 3"),
         ("climb and uh maintain", "climb maintain"),
         ("climb and maintain", "climb and maintain"),
@@ -108,17 +105,13 @@ def test_to_and_for_are_digits_where_a_number_goes_on(text: str, words: str) -> 
         ("one sixty to four and uh eighteen three", "160 to 4 and 183"),
         ("please taxi", "taxi"),
         ("and", "and"),
-    ],
-)
-def test_hesitations_are_left_out_with_their_and_but_not_between_two_numbers(
-    text: str, words: str
-) -> None:
-    assert tokens(text) == words.split()
+    ]:
+        with subtests.test(text):
+            assert tokens(text) == words.split()
 
 
-@pytest.mark.parametrize(
-    ("text", "words"),
-    [
+def test_words_have_one_spelling(subtests: pytest.Subtests) -> None:
+    table = [
         ("take off", "takeoff"), ("run way", "runway"), ("x ray", "xray"), ("o clock", "o clock"),
         ("go round", "go around"), ("push back", "pushback"), ("re cleared", "recleared"),
         ("run to", "run to"), ("take", "take"), ("whole short", "hold short"),
@@ -131,15 +124,16 @@ def test_hesitations_are_left_out_with_their_and_but_not_between_two_numbers(
         ("the fox ran", "the fox ran"), ("kilo fox", "kilo foxtrot"),
         ("FL180", "flight level 180"), ("rwy 19", "runway 19"), ("canceled", "cancelled"),
         ("squack", "squawk"), ("wright", "right"), ("mayday's", "mayday"),
-    ],
-)  # fmt: skip
-def test_words_have_one_spelling(text: str, words: str) -> None:
-    assert tokens(text) == words.replace("o clock", "oclock").split()
+    ]  # fmt: skip
+    for text, words in table:
+        with subtests.test(text):
+            assert tokens(text) == words.replace("o clock", "oclock").split()
 
 
-@pytest.mark.parametrize(
-    ("text", "heard", "expected"),
-    [
+def test_a_word_is_as_sure_as_the_least_sure_of_those_that_it_is_made_of(
+    subtests: pytest.Subtests,
+) -> None:
+    for text, heard, expected in [
         ("level three five zero", (0.9, 0.8, 0.6, 0.7), (0.9, 0.6)),
         ("twenty five", (0.9, 0.5), (0.5,)),
         ("twenty five", (0.5, 0.9), (0.5,)),
@@ -160,12 +154,9 @@ def test_words_have_one_spelling(text: str, words: str) -> None:
         ("heading to one zero", (1.0, 0.8, 1.0, 1.0), (1.0, 0.72)),  # "To" sounds like 2.
         ("118.35 now", (0.6, 1.0), (0.6, 0.6, 0.6, 1.0)),
         ("via fox", (1.0, 0.8), (1.0, 0.8)),
-    ],
-)
-def test_a_word_is_as_sure_as_the_least_sure_of_those_that_it_is_made_of(
-    text: str, heard: tuple[float, ...], expected: tuple[float, ...]
-) -> None:
-    assert words_of(text, heard).confidences == pytest.approx(list(expected))
+    ]:
+        with subtests.test(str((text, heard, expected))):
+            assert words_of(text, heard).confidences == pytest.approx(list(expected))
 
 
 def test_where_all_words_were_heard_alike_no_instruction_is_surer_than_they_or_much_less() -> None:
@@ -179,34 +170,31 @@ def test_where_all_words_were_heard_alike_no_instruction_is_surer_than_they_or_m
             assert dim.details_heard in (pytest.approx(0.5 * told.details_heard), 1.0)
 
 
-@pytest.mark.parametrize(
-    ("unsure", "actions", "details"),
-    [
+def test_each_instruction_counts_the_words_of_its_action_and_of_its_details(
+    subtests: pytest.Subtests,
+) -> None:
+    for unsure, actions, details in [
         ("american", (1.0, 1.0), (1.0, 1.0)),
         ("climb", (0.4, 1.0), (1.0, 1.0)),
         ("level", (1.0, 1.0), (0.4, 1.0)),
         ("five", (1.0, 1.0), (0.4, 1.0)),
         ("left", (1.0, 0.4), (1.0, 1.0)),
         ("thanks", (1.0, 1.0), (1.0, 1.0)),
-    ],
-)
-def test_each_instruction_counts_the_words_of_its_action_and_of_its_details(
-    unsure: str, actions: tuple[float, ...], details: tuple[float, ...]
-) -> None:
-    text = "american one two three climb flight level three five zero thanks turn left heading one"
-    text += " zero zero"
-    heard = [0.4 if word == unsure else 1.0 for word in text.split()]
-    told = parse_call(text, ("AAL123",), heard).instructions
-    assert tuple(each.action_heard for each in told) == actions
-    assert tuple(each.details_heard for each in told) == details
+    ]:
+        with subtests.test(unsure):
+            text = "american one two three climb flight level three five zero thanks"
+            text += " turn left heading one zero zero"
+            heard = [0.4 if word == unsure else 1.0 for word in text.split()]
+            told = parse_call(text, ("AAL123",), heard).instructions
+            assert tuple(each.action_heard for each in told) == actions
+            assert tuple(each.details_heard for each in told) == details
 
 
 # --- numbers that run into each other -----------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("text", "split"),
-    [
+def test_a_number_with_more_digits_than_its_word_allows_is_two(subtests: pytest.Subtests) -> None:
+    for text, split in [
         ("level 34010", "level 340 10"),
         ("level 3401", "level 3401"),  # A single digit may be a slip.
         ("level 340", "level 340"),
@@ -234,11 +222,10 @@ def test_each_instruction_counts_the_words_of_its_action_and_of_its_details(
         ("heading 2704 right cleared", "heading 270 4 right cleared"),
         ("24 right cleared", "24 right cleared"),
         ("270 cleared", "270 cleared"),
-    ],
-)
-def test_a_number_with_more_digits_than_its_word_allows_is_two(text: str, split: str) -> None:
-    words = split_numbers(Words(text.split(), [1.0] * len(text.split())))
-    assert words.texts == split.split()
+    ]:
+        with subtests.test(text):
+            words = split_numbers(Words(text.split(), [1.0] * len(text.split())))
+            assert words.texts == split.split()
 
 
 def test_nobody_knows_where_the_first_of_two_numbers_ends() -> None:

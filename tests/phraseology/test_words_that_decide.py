@@ -85,19 +85,17 @@ def test_a_frequency_waits_for_the_departure_only_in_a_clearance_before_it() -> 
 # --- who is called --------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("words", "callsign"),
-    [
+def test_who_is_spoken_of_is_not_who_is_called(subtests: pytest.Subtests) -> None:
+    for words, callsign in [
         ("delta eighty eight negative traffic behind", "DAL88"),
         ("delta eighty eight hold position traffic behind", "DAL88"),
         ("american one two three follow delta eighty eight", "AAL123"),
         ("behind delta eighty eight line up and wait runway one", None),
         ("taxi behind the delta eighty eight via alpha", None),
         ("vacating runway one we follow delta eighty eight", "DAL88"),
-    ],
-)
-def test_who_is_spoken_of_is_not_who_is_called(words: str, callsign: str | None) -> None:
-    assert parse_call(words, KNOWN).callsign == callsign
+    ]:
+        with subtests.test(words):
+            assert parse_call(words, KNOWN).callsign == callsign
 
 
 def test_a_name_with_other_numbers_may_be_a_known_one_the_more_the_more_alike() -> None:
@@ -115,9 +113,8 @@ def test_a_holding_point_is_no_name_at_the_beginning_of_a_call() -> None:
 # --- words of readbacks ---------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("words", "kept"),
-    [
+def test_courtesies_are_left_out_and_sides_of_runways_kept(subtests: pytest.Subtests) -> None:
+    for words, kept in [
         ("roger 270 thanks", "270"),
         ("270 thank you good day", "270"),
         ("24 right", "24 right"),
@@ -126,15 +123,15 @@ def test_a_holding_point_is_no_name_at_the_beginning_of_a_call() -> None:
         ("and 270 to", "270"),
         ("5 thousand have a good 1", "5 thousand"),
         ("roger wilco", ""),
-    ],
-)
-def test_courtesies_are_left_out_and_sides_of_runways_kept(words: str, kept: str) -> None:
-    assert " ".join(without_courtesies(words.split())) == kept
+    ]:
+        with subtests.test(words):
+            assert " ".join(without_courtesies(words.split())) == kept
 
 
-@pytest.mark.parametrize("verb", ["do", "is", "could", "does", "would", "are", "had"])
-def test_not_is_a_word_of_its_own(verb: str) -> None:
-    assert tokens(f"{verb}n't") == [verb, "not"]
+def test_not_is_a_word_of_its_own(subtests: pytest.Subtests) -> None:
+    for verb in ["do", "is", "could", "does", "would", "are", "had"]:
+        with subtests.test(verb):
+            assert tokens(f"{verb}n't") == [verb, "not"]
 
 
 @pytest.mark.parametrize(
@@ -150,9 +147,8 @@ def test_for_is_four_only_where_it_completes_a_runway(words: str, runway: str | 
     assert runway is None or runway in found
 
 
-@pytest.mark.parametrize(
-    ("words", "is_doubtful"),
-    [
+def test_an_unknown_word_soon_after_a_runway_may_be_its_side(subtests: pytest.Subtests) -> None:
+    for words, is_doubtful in [
         ("runway 15 rime", True),
         ("runway 15 rime turnout", False),
         ("runway 15 and the rime", True),
@@ -163,28 +159,26 @@ def test_for_is_four_only_where_it_completes_a_runway(words: str, runway: str | 
         ("runway 15 left", False),
         ("hold short of 15 right |", False),
         ("runway 15 and left turn", False),
-    ],
-)
-def test_an_unknown_word_soon_after_a_runway_may_be_its_side(words: str, is_doubtful: bool) -> None:
-    assert has_unknown_side(words, 0, len(words)) is is_doubtful
+    ]:
+        with subtests.test(words):
+            assert has_unknown_side(words, 0, len(words)) is is_doubtful
 
 
 # --- numbers in groups ----------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("number", "spoken"),
-    [
+def test_a_number_is_spoken_in_pairs(subtests: pytest.Subtests) -> None:
+    """FAA Order JO 7110.65, 2-4-16: group form."""
+    table = [
         (0, "zero"), (9, "niner"), (10, "ten"), (19, "nineteen"), (20, "twenty"),
         (21, "twenty one"), (90, "ninety"), (99, "ninety niner"), (100, "one hundred"),
         (101, "one zero one"), (110, "one ten"), (119, "one nineteen"), (199, "one ninety niner"),
         (1005, "ten zero five"), (1200, "twelve hundred"), (1234, "twelve thirty four"),
         (9999, "ninety niner ninety niner"),
-    ],
-)  # fmt: skip
-def test_a_number_is_spoken_in_pairs(number: int, spoken: str) -> None:
-    """FAA Order JO 7110.65, 2-4-16: group form."""
-    assert speak_group(number, "faa") == spoken
+    ]  # fmt: skip
+    for number, spoken in table:
+        with subtests.test(spoken):
+            assert speak_group(number, "faa") == spoken
 
 
 # --- who speaks -----------------------------------------------------------------------------
@@ -198,9 +192,9 @@ def odds(text: str) -> float:
     return share / (1.0 - share)
 
 
-@pytest.mark.parametrize(
-    ("controllers", "pilots"),
-    [
+def test_each_sign_speaks_for_a_controller_or_for_a_pilot(subtests: pytest.Subtests) -> None:
+    """ICAO Annex 10 volume II, 5.2.1.7.3.2.3 and 5.2.1.9.2.2; FAA AIM 4-2-3."""
+    for controllers, pilots in [
         (f"{NAME} potomac approach good morning", f"{NAME} good morning to everybody there"),
         (f"{NAME} tower good morning", f"{NAME} good morning"),
         (f"{NAME} 270", "270"),
@@ -212,11 +206,9 @@ def odds(text: str) -> float:
         (f"{NAME} radar contact", f"{NAME} roger"),
         (f"{NAME} altimeter 2992", f"{NAME} 2992"),
         (f"{NAME} wind 280 at 8", f"{NAME} we copy"),
-    ],
-)
-def test_each_sign_speaks_for_a_controller_or_for_a_pilot(controllers: str, pilots: str) -> None:
-    """ICAO Annex 10 volume II, 5.2.1.7.3.2.3 and 5.2.1.9.2.2; FAA AIM 4-2-3."""
-    assert odds(controllers) < odds(pilots)
+    ]:
+        with subtests.test(controllers):
+            assert odds(controllers) < odds(pilots)
 
 
 def test_a_callsign_at_the_end_outweighs_one_word_of_a_controller_and_not_two() -> None:

@@ -42,18 +42,12 @@ def complaint(document: dict[str, Any]) -> str:
     return str(caught.value)
 
 
-@pytest.mark.parametrize("name", library.names("scenarios"))
-def test_each_shipped_scenario_loads_and_is_called_what_its_file_is(name: str) -> None:
-    assert load(name).name == name
-
-
 def test_there_are_shipped_scenarios_of_the_family_s02a() -> None:
     assert {load(name).family for name in library.names("scenarios")} >= {"S02A"}
 
 
-@pytest.mark.parametrize(
-    ("path", "value", "where", "what"),
-    [
+def test_what_is_wrong_with_a_field_is_told_with_its_path(subtests: pytest.Subtests) -> None:
+    for path, value, where, what in [
         ("weather", [], "weather", "found [], expected a JSON object"),
         ("actors/0", "x", "actors/0", 'found "x", expected a JSON object'),
         ("actors", {}, "actors", "found {}, expected a JSON list"),
@@ -71,24 +65,22 @@ def test_there_are_shipped_scenarios_of_the_family_s02a() -> None:
         ("actors/0/icao24", "XYZ", "actors/0/icao24", 'found "XYZ"'),
         ("scene/centre/lat_deg", 91, "scene/centre/lat_deg", "found 91"),
         ("separation/level_tolerance_ft", 500, "separation/level_tolerance_ft", "found 500"),
-    ],
-)
-def test_what_is_wrong_with_a_field_is_told_with_its_path(
-    path: str, value: Any, where: str, what: str
-) -> None:
-    message = complaint(changed(HEAD_ON, path, value))
-    assert f"test.json: {where}: " in message
-    assert what in message
+    ]:
+        with subtests.test(str((path, value, where, what))):
+            message = complaint(changed(HEAD_ON, path, value))
+            assert f"test.json: {where}: " in message
+            assert what in message
 
 
-@pytest.mark.parametrize("document", [[], 3, "x", None])
 def test_a_document_that_is_no_object_is_refused_with_the_fields_of_a_scenario(
-    document: Any,
+    subtests: pytest.Subtests,
 ) -> None:
-    assert complaint(document) == (
-        f"test.json: (top): found {json.dumps(document)}, expected a JSON object with the fields "
-        "name, title, family, scene, duration_s, actors"
-    )
+    for document in [[], 3, "x", None]:
+        with subtests.test(str(document)):
+            assert complaint(document) == (
+                f"test.json: (top): found {json.dumps(document)}, expected a JSON object with "
+                "the fields name, title, family, scene, duration_s, actors"
+            )
 
 
 @pytest.mark.parametrize(
@@ -175,9 +167,8 @@ def test_without_a_route_an_aircraft_needs_a_track() -> None:
 MISSPELT = FIRST[:-1] + "9"
 
 
-@pytest.mark.parametrize(
-    ("path", "value"),
-    [
+def test_an_unknown_actor_is_told_with_the_nearest(subtests: pytest.Subtests) -> None:
+    table = [
         ("conflict/actors/0", MISSPELT),
         ("conflict/opens_when", {"type": "separation_below", "actors": [MISSPELT, SECOND],
                                  "horizontal_nm": 5, "vertical_ft": 1000}),
@@ -189,14 +180,12 @@ MISSPELT = FIRST[:-1] + "9"
                               "text": "go", "commands": [{"actor": MISSPELT, "command":
                               {"action": "resume_route"}}]}]}),
         ("cameras", [{"name": "nose", "mount": {"type": "actor", "actor": MISSPELT}}]),
-    ],
-)  # fmt: skip
-def test_an_unknown_actor_is_told_with_the_nearest(
-    path: str, value: dict[Any, Any] | list[Any] | str
-) -> None:
-    message = complaint(changed(HEAD_ON, path, value))
-    assert f"no actor {MISSPELT!r}; did you mean {FIRST!r}?" in message
-    assert f"test.json: {path.split('/')[0]}/" in message
+    ]  # fmt: skip
+    for path, value in table:
+        with subtests.test(str((path, value))):
+            message = complaint(changed(HEAD_ON, path, value))
+            assert f"no actor {MISSPELT!r}; did you mean {FIRST!r}?" in message
+            assert f"test.json: {path.split('/')[0]}/" in message
 
 
 def test_an_unknown_actor_deep_in_a_condition_is_told_with_its_whole_path() -> None:
@@ -230,9 +219,8 @@ def test_a_pair_is_of_two() -> None:
 UNIFORM = {"type": "uniform", "limit": 1.0}
 
 
-@pytest.mark.parametrize(
-    ("path", "what"),
-    [
+def test_a_perturbation_leads_to_a_number(subtests: pytest.Subtests) -> None:
+    for path, what in [
         (f"actors/{FIRST}/initial/cas_kts", "no 'cas_kts' there; did you mean 'cas_kt'?"),
         (f"actors/{MISSPELT}/initial/cas_kt", f"did you mean {FIRST!r}?"),
         ("actors/7/initial/cas_kt", "no '7' there"),
@@ -242,14 +230,13 @@ UNIFORM = {"type": "uniform", "limit": 1.0}
         ("title", "expected the path of a number"),
         (f"actors/{FIRST}/initial", "expected the path of a number"),
         (f"actors/{FIRST}/transponder/equipped", "expected the path of a number"),
-    ],
-)
-def test_a_perturbation_leads_to_a_number(path: str, what: str) -> None:
-    message = complaint(
-        changed(HEAD_ON, "perturbations", [{"path": path, "distribution": UNIFORM}])
-    )
-    assert "test.json: perturbations/0/path: " in message
-    assert what in message
+    ]:
+        with subtests.test(path):
+            message = complaint(
+                changed(HEAD_ON, "perturbations", [{"path": path, "distribution": UNIFORM}])
+            )
+            assert "test.json: perturbations/0/path: " in message
+            assert what in message
 
 
 def test_a_number_is_perturbed_once() -> None:
@@ -270,26 +257,30 @@ def test_of_many_problems_the_first_is_told_in_one_line_and_all_are_kept() -> No
     assert len(caught.value.problems) == 12
 
 
-@pytest.mark.parametrize(
-    ("text", "where"),
-    [("{", "1:2"), ('{\n  "name": "a",\n  "x" 5\n}', "3:7"), ("", "1:1"), ("\ufeff{}", "1:1")],
-)
-def test_what_is_not_json_is_told_with_line_and_column(text: str, where: str) -> None:
-    with pytest.raises(ScenarioError, match=rf"^test\.json:{where}: not valid JSON"):
-        load_text(text, "test.json")
+def test_what_is_not_json_is_told_with_line_and_column(subtests: pytest.Subtests) -> None:
+    for text, where in [
+        ("{", "1:2"),
+        ('{\n  "name": "a",\n  "x" 5\n}', "3:7"),
+        ("", "1:1"),
+        ("\ufeff{}", "1:1"),
+    ]:
+        message = rf"^test\.json:{where}: not valid JSON"
+        with subtests.test(text), pytest.raises(ScenarioError, match=message):
+            load_text(text, "test.json")
 
 
-@pytest.mark.parametrize("text", ["[" * 100_000, "5", "null", '"text"', "[]"])
-def test_json_that_is_no_scenario_is_refused(text: str) -> None:
-    with pytest.raises(ScenarioError, match=r"^test\.json: "):
-        load_text(text, "test.json")
+def test_json_that_is_no_scenario_is_refused(subtests: pytest.Subtests) -> None:
+    for text in ["[" * 100_000, "5", "null", '"text"', "[]"]:
+        with subtests.test(text), pytest.raises(ScenarioError, match=r"^test\.json: "):
+            load_text(text, "test.json")
 
 
-@pytest.mark.parametrize("number", ["NaN", "Infinity", "-Infinity", "1e999"])
-def test_numbers_are_finite(number: str) -> None:
-    text = json.dumps(changed(HEAD_ON, "duration_s", "HERE")).replace('"HERE"', number)
-    with pytest.raises(ScenarioError, match=r"test\.json: duration_s: found"):
-        load_text(text, "test.json")
+def test_numbers_are_finite(subtests: pytest.Subtests) -> None:
+    for number in ["NaN", "Infinity", "-Infinity", "1e999"]:
+        with subtests.test(number):
+            text = json.dumps(changed(HEAD_ON, "duration_s", "HERE")).replace('"HERE"', number)
+            with pytest.raises(ScenarioError, match=r"test\.json: duration_s: found"):
+                load_text(text, "test.json")
 
 
 def test_a_number_of_five_thousand_digits_is_refused() -> None:
@@ -298,9 +289,8 @@ def test_a_number_of_five_thousand_digits_is_refused() -> None:
         load_text(text, "test.json")
 
 
-@pytest.mark.parametrize(
-    ("path", "value", "what"),
-    [
+def test_what_a_run_could_not_hold_is_refused_with_its_path(subtests: pytest.Subtests) -> None:
+    table = [
         ("radio/lines/0/at_s", 1e308, "found 1e+308: input should be less than or equal to 86400"),
         ("end_when/0", {"type": "time", "at_s": 1e308}, "less than or equal to 86400"),
         ("perturbations", [{"path": "duration_s", "distribution":
@@ -327,15 +317,13 @@ def test_a_number_of_five_thousand_digits_is_refused() -> None:
         ("title", "\x00", "a control character"),
         ("radio/lines/0/text", "x" * 30_000, "found a text of 30,000 characters"),
         ("sensors", {"mine": {"a": [1e999]}}, "not finite"),
-    ],
-)  # fmt: skip
-def test_what_a_run_could_not_hold_is_refused_with_its_path(
-    path: str, value: Any, what: str
-) -> None:
-    message = complaint(changed(VERTICAL, path, value))
-    assert message.startswith(f"test.json: {path}")
-    assert what in message
-    assert len(message) <= 500
+    ]  # fmt: skip
+    for path, value, what in table:
+        with subtests.test(str((path, value, what))):
+            message = complaint(changed(VERTICAL, path, value))
+            assert message.startswith(f"test.json: {path}")
+            assert what in message
+            assert len(message) <= 500
 
 
 def test_two_lines_do_not_wait_for_each_other() -> None:
@@ -371,14 +359,17 @@ def test_a_field_is_given_once() -> None:
         load_text(text.replace('"DAL456": {}', '"AAL123": {}'), "test.json")
 
 
-@pytest.mark.parametrize("depth", [20, 50, 200, 100_000])
-def test_conditions_are_nested_in_few_levels(depth: int) -> None:
-    text = json.dumps(changed(HEAD_ON, "end_when", ["HERE"]))
-    opening, closing = '{"type": "all_of", "conditions": [', "]}"
-    inner = opening * depth + '{"type": "time", "at_s": 5}' + closing * depth
-    with pytest.raises(ScenarioError, match="nested too deeply; expected at most 24") as caught:
-        load_text(text.replace('"HERE"', inner), "test.json")
-    assert len(str(caught.value)) <= 500
+def test_conditions_are_nested_in_few_levels(subtests: pytest.Subtests) -> None:
+    for depth in [20, 50, 200, 100_000]:
+        with subtests.test(str(depth)):
+            text = json.dumps(changed(HEAD_ON, "end_when", ["HERE"]))
+            opening, closing = '{"type": "all_of", "conditions": [', "]}"
+            inner = opening * depth + '{"type": "time", "at_s": 5}' + closing * depth
+            with pytest.raises(
+                ScenarioError, match="nested too deeply; expected at most 24"
+            ) as caught:
+                load_text(text.replace('"HERE"', inner), "test.json")
+            assert len(str(caught.value)) <= 500
 
 
 def test_a_file_has_a_greatest_size(tmp_path: Path) -> None:
@@ -419,11 +410,14 @@ def test_an_unknown_name_is_told_with_the_nearest() -> None:
         load("s02a_headone")
 
 
-@pytest.mark.parametrize("name", library.names("scenarios"))
-def test_a_scenario_written_as_json_reads_back_the_same(name: str) -> None:
-    scenario = load(name)
-    assert Scenario.model_validate_json(scenario.model_dump_json()) == scenario
-    assert load_text(scenario.model_dump_json(), "again") == scenario
+def test_each_shipped_scenario_is_called_what_its_file_is_and_reads_back_the_same(
+    subtests: pytest.Subtests,
+) -> None:
+    for name in library.names("scenarios"):
+        with subtests.test(name):
+            scenario = load(name)
+            assert scenario.name == name
+            assert load_text(scenario.model_dump_json(), "again") == scenario
 
 
 def test_a_file_may_name_its_schema_and_is_the_same_scenario() -> None:

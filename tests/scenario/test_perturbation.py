@@ -80,25 +80,23 @@ def test_a_normal_draw_has_the_spread_that_it_says() -> None:
     assert statistics.mean(d.realised - d.nominal for d in draws) == pytest.approx(0.0, abs=0.4)
 
 
-@pytest.mark.parametrize("name", library.names("scenarios"))
-def test_a_realised_scenario_has_nothing_left_to_draw(name: str) -> None:
-    realised, draws = realise(load(name), 7)
-    assert len(draws) == len(load(name).perturbations)
-    assert realised.perturbations == ()
-    assert realise(realised, 8) == (realised, [])
-
-
-@pytest.mark.parametrize("name", library.names("scenarios"))
-def test_nothing_but_what_is_declared_is_changed(name: str) -> None:
-    scenario = load(name)
-    realised, draws = realise(scenario, 7)
-    document = realised.model_dump(mode="json")
-    for draw in draws:
-        container, key = locate(document, draw.path)
-        assert container[key] == draw.realised
-        container[key] = draw.nominal
-    document["perturbations"] = scenario.model_dump(mode="json")["perturbations"]
-    assert Scenario.model_validate(document) == scenario
+def test_what_is_declared_is_drawn_once_and_nothing_else_is_changed(
+    subtests: pytest.Subtests,
+) -> None:
+    for name in library.names("scenarios"):
+        with subtests.test(name):
+            scenario = load(name)
+            realised, draws = realise(scenario, 7)
+            assert len(draws) == len(scenario.perturbations)
+            assert realise(realised, 8) == (realised, [])
+            document = realised.model_dump(mode="json")
+            assert document["perturbations"] == []
+            for draw in draws:
+                container, key = locate(document, draw.path)
+                assert container[key] == draw.realised
+                container[key] = draw.nominal
+            document["perturbations"] = scenario.model_dump(mode="json")["perturbations"]
+            assert Scenario.model_validate(document) == scenario
 
 
 def test_a_list_entry_is_named_by_callsign_id_or_name_or_by_its_index() -> None:

@@ -48,18 +48,19 @@ def test_an_833_khz_channel_is_one() -> None:
     assert load_text(json.dumps(document), "test.json").radio.lines[0].frequency_khz == 118_005
 
 
-@pytest.mark.parametrize(
-    "name",
-    [
+def test_a_line_is_not_named_like_a_call_that_is_not_in_the_script(
+    subtests: pytest.Subtests,
+) -> None:
+    table = [
         "clearance.repeat-1", "clearance.say-again-12", "clearance.readback",
         "readback.correction", "readback.correction.readback", "stuck-microphone.AAL123.9.119100",
         "clearance.Repeat-1",
-    ],
-)  # fmt: skip
-def test_a_line_is_not_named_like_a_call_that_is_not_in_the_script(name: str) -> None:
-    message = complaint(changed(roger={"id": name}))
-    assert f"radio/lines/2/id: found {name!r}" in message
-    assert "calls that are not in the script" in message
+    ]  # fmt: skip
+    for name in table:
+        with subtests.test(name):
+            message = complaint(changed(roger={"id": name}))
+            assert f"radio/lines/2/id: found {name!r}" in message
+            assert "calls that are not in the script" in message
 
 
 def test_what_only_contains_such_a_name_is_an_id() -> None:
@@ -81,18 +82,17 @@ def test_a_line_answers_one_before_it_on_its_frequency() -> None:
     assert "121500 kHz" in complaint(other)
 
 
-@pytest.mark.parametrize(
-    ("field", "value"),
-    [
+def test_settings_of_the_radio_have_limits(subtests: pytest.Subtests) -> None:
+    table = [
         ("snr_db", 100.0), ("snr_db", "loud"), ("topology", "serial"), ("readbacks", "none"),
         ("words_per_minute", 5.0), ("wet", 1.5), ("stations", {"AAL123": {"snr_db": 100.0}}),
         ("receivers", {"AAL123": {"snr_db": 100.0}}), ("receivers", {"AAL123": {}}),
-    ],
-)  # fmt: skip
-def test_settings_of_the_radio_have_limits(field: str, value: Any) -> None:
-    document = changed()
-    document["radio"][field] = value
-    assert f"radio/{field}" in complaint(document)
+    ]  # fmt: skip
+    for field, value in table:
+        with subtests.test(str((field, value))):
+            document = changed()
+            document["radio"][field] = value
+            assert f"radio/{field}" in complaint(document)
 
 
 def test_the_radio_of_a_station_belongs_to_somebody_in_the_scenario() -> None:

@@ -113,26 +113,27 @@ def test_only_aircraft_of_the_scenario_have_a_cockpit(callsign: str) -> None:
         asking(load("s01c_deer_delayed_warning"), callsign)
 
 
-@pytest.mark.parametrize("name", ["737", "B747", "c172p", "c310"])
-def test_every_type_of_aircraft_shows_gear_and_flaps(name: str) -> None:
-    kind = load_aircraft_type(name)
-    aircraft = Aircraft(
-        kind,
-        InitialCondition(
-            38.9 * DEGREE, -77.0 * DEGREE, 900.0, 0.0, kind.speeds.approach_kt * KNOT,
-            on_approach=True,
-        ),
-        seed=1,
-        atmosphere=Atmosphere(),
-    )  # fmt: skip
-    for _ in range(20):
-        aircraft.advance()
-    shown = instruments_of("N1", aircraft, None)
-    assert shown.north == "true"
-    assert shown.gear == 1.0
-    assert shown.radio_height_ft is None
-    assert shown.selected_airspeed_kt == pytest.approx(kind.speeds.approach_kt, abs=1.0)
-    assert shown.flaps == pytest.approx(kind.landing.flaps, abs=0.05)
+def test_every_type_of_aircraft_shows_gear_and_flaps(subtests: pytest.Subtests) -> None:
+    for name in ["737", "B747", "c172p", "c310"]:
+        with subtests.test(name):
+            kind = load_aircraft_type(name)
+            aircraft = Aircraft(
+                kind,
+                InitialCondition(
+                    38.9 * DEGREE, -77.0 * DEGREE, 900.0, 0.0, kind.speeds.approach_kt * KNOT,
+                    on_approach=True,
+                ),
+                seed=1,
+                atmosphere=Atmosphere(),
+            )  # fmt: skip
+            for _ in range(20):
+                aircraft.advance()
+            shown = instruments_of("N1", aircraft, None)
+            assert shown.north == "true"
+            assert shown.gear == 1.0
+            assert shown.radio_height_ft is None
+            assert shown.selected_airspeed_kt == pytest.approx(kind.speeds.approach_kt, abs=1.0)
+            assert shown.flaps == pytest.approx(kind.landing.flaps, abs=0.05)
 
 
 def shown_at(**state: float) -> CockpitInstruments:
@@ -146,20 +147,18 @@ def shown_at(**state: float) -> CockpitInstruments:
     return instruments_of("N1", cast(Aircraft, aircraft), None)
 
 
-@pytest.mark.parametrize(
-    ("height_ft", "shown_ft"), [(0, 0), (50, 50), (2499, 2499), (2500, 2500), (2501, None)]
-)
-def test_a_radio_altimeter_shows_heights_up_to_2500_ft(
-    height_ft: int, shown_ft: int | None
-) -> None:
+def test_a_radio_altimeter_shows_heights_up_to_2500_ft(subtests: pytest.Subtests) -> None:
     """The range of ARINC 707 ends there: 762 m."""
-    assert shown_at(height_agl_m=height_ft * 762.0 / 2500.0).radio_height_ft == shown_ft
+    for height_ft, shown_ft in [(0, 0), (50, 50), (2499, 2499), (2500, 2500), (2501, None)]:
+        with subtests.test(str((height_ft, shown_ft))):
+            assert shown_at(height_agl_m=height_ft * 762.0 / 2500.0).radio_height_ft == shown_ft
 
 
-@pytest.mark.parametrize("degrees", [-12.5, 0.0, 3.0, 7.1])
-def test_an_attitude_is_shown_in_degrees(degrees: float) -> None:
-    shown = shown_at(pitch_rad=math.radians(degrees), roll_rad=math.radians(2.0 * degrees))
-    assert (shown.pitch_deg, shown.roll_deg) == (degrees, 2.0 * degrees)
+def test_an_attitude_is_shown_in_degrees(subtests: pytest.Subtests) -> None:
+    for degrees in [-12.5, 0.0, 3.0, 7.1]:
+        with subtests.test(str(degrees)):
+            shown = shown_at(pitch_rad=math.radians(degrees), roll_rad=math.radians(2.0 * degrees))
+            assert (shown.pitch_deg, shown.roll_deg) == (degrees, 2.0 * degrees)
 
 
 def test_an_attitude_is_shown_to_a_tenth_of_a_degree() -> None:

@@ -104,9 +104,11 @@ class Field:
         return [each for each in published if isinstance(each, RadarPlot | SurfaceTrack)]
 
 
-@pytest.mark.parametrize(
-    ("kind", "range_nm", "height_ft", "has_echo", "has_reply"),
-    [
+def test_radars_see_as_far_as_their_sources_say(subtests: pytest.Subtests) -> None:
+    """The FAA gives 60 NM for the primary radar of the ASR-11; 120 and 250 NM are typical, and so
+    are the least ranges of 0.5 and 5 NM. What
+    stands in the air so near is taken for the ground by the primary radar."""
+    for kind, range_nm, height_ft, has_echo, has_reply in [
         ("terminal", 0.45, 500, False, False),
         ("terminal", 0.55, 500, False, True),
         ("en_route", 4.9, 3_000, False, False),
@@ -117,18 +119,12 @@ class Field:
         ("terminal", 120.3, 30_000, False, False),
         ("en_route", 249.7, 60_000, True, True),
         ("en_route", 250.3, 60_000, False, False),
-    ],
-)
-def test_radars_see_as_far_as_their_sources_say(
-    kind: RadarKind, range_nm: float, height_ft: float, has_echo: bool, has_reply: bool
-) -> None:
-    """The FAA gives 60 NM for the primary radar of the ASR-11; 120 and 250 NM are typical, and so
-    are the least ranges of 0.5 and 5 NM. What
-    stands in the air so near is taken for the ground by the primary radar."""
-    field = Field(kind)
-    plots = field.seen(radar.SENSOR, field.at_range(range_nm, height_ft * FOOT), 240.0)
-    assert any(plot.kind != "secondary" for plot in plots) == has_echo
-    assert any(plot.kind != "primary" for plot in plots) == has_reply
+    ]:
+        with subtests.test(str((kind, range_nm, height_ft, has_echo, has_reply))):
+            field = Field(kind)
+            plots = field.seen(radar.SENSOR, field.at_range(range_nm, height_ft * FOOT), 240.0)
+            assert any(plot.kind != "secondary" for plot in plots) == has_echo
+            assert any(plot.kind != "primary" for plot in plots) == has_reply
 
 
 def test_of_a_hundred_replies_two_have_no_valid_code_and_four_no_valid_altitude() -> None:
@@ -142,22 +138,20 @@ def test_of_a_hundred_replies_two_have_no_valid_code_and_four_no_valid_altitude(
     assert altitudes / len(plots) == pytest.approx(0.04, abs=0.015)
 
 
-@pytest.mark.parametrize(
-    ("height_ft", "kinds"),
-    [
+def test_over_an_airport_radar_sees_up_to_200_ft_and_transponders_are_located_in_class_d(
+    subtests: pytest.Subtests,
+) -> None:
+    """AIM 4-5-5 gives the height of the radar, and AIM 3-2-5 that of class D airspace."""
+    for height_ft, kinds in [
         (195.0, {"primary", "secondary", "combined"}),
         (205.0, {"secondary"}),
         (2_499.5, {"secondary"}),
         (2_500.5, set()),
-    ],
-)
-def test_over_an_airport_radar_sees_up_to_200_ft_and_transponders_are_located_in_class_d(
-    height_ft: float, kinds: set[str]
-) -> None:
-    """AIM 4-5-5 gives the height of the radar, and AIM 3-2-5 that of class D airspace."""
-    field = Field()
-    tracks = field.seen(surface.SENSOR, field.state(1_000.0, height_ft * FOOT), 120.0)
-    assert {track.kind for track in tracks} == kinds
+    ]:
+        with subtests.test(str((height_ft, kinds))):
+            field = Field()
+            tracks = field.seen(surface.SENSOR, field.state(1_000.0, height_ft * FOOT), 120.0)
+            assert {track.kind for track in tracks} == kinds
 
 
 @pytest.mark.parametrize(("north_m_s", "east_m_s"), [(0.0, 40.0), (-30.0, 0.0), (20.0, -35.0)])

@@ -15,10 +15,10 @@ from mcap.reader import make_reader
 import airhilt
 from airhilt.cosim.replay import replay
 from airhilt.errors import ScenarioError, SensorError, WorkerError
-from airhilt.messages import BUS_MESSAGES, WORKER_OUTPUTS, InputSpec, WorkerDescription
+from airhilt.messages import BUS_MESSAGES, InputSpec, WorkerDescription
 from airhilt.record import RunFolder, read_log
 from airhilt.scenario import Scenario
-from airhilt.sensors.base import FAMILY, RESERVED, load_sensor_types, sensor_messages
+from airhilt.sensors.base import load_sensor_types, sensor_messages
 from airhilt.sim.worker import Input
 from airhilt.workers import Step
 from airhilt.world.loading import load_text
@@ -363,8 +363,3 @@ def test_a_broken_sensor_that_nobody_asked_for_is_a_notice(
 def test_the_sensors_of_airhilt_declare_what_is_on_the_bus() -> None:
     own = sensor_messages(load_sensor_types()[0])
     assert {key: BUS_MESSAGES[key] for key in own} == own
-
-
-def test_every_first_chunk_belongs_to_a_sensor_or_is_reserved() -> None:
-    chunks = {key.split("/")[0] for key in BUS_MESSAGES} | set(WORKER_OUTPUTS) | {"worker"}
-    assert chunks == RESERVED | set(FAMILY.names())

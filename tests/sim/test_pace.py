@@ -60,21 +60,21 @@ def test_time_never_lies_before_the_last_event() -> None:
     assert pace.elapsed_ns(HOUR_NS) == HOUR_NS
 
 
-@pytest.mark.parametrize(
-    ("text", "name"),
-    [("virtual", "virtual"), ("realtime", "realtime"), ("1x", "realtime"), ("4x", "4x"),
-     ("0.5x", "0.5x"), ("1e3x", "1000x")],
-)  # fmt: skip
-def test_a_pace_is_known_by_its_name(text: str, name: str) -> None:
-    assert parse_pace(text).name == name
+def test_a_pace_is_known_by_its_name(subtests: pytest.Subtests) -> None:
+    table = [("virtual", "virtual"), ("realtime", "realtime"), ("1x", "realtime"), ("4x", "4x"),
+     ("0.5x", "0.5x"), ("1e3x", "1000x")]  # fmt: skip
+    for text, name in table:
+        with subtests.test(text):
+            assert parse_pace(text).name == name
 
 
-@pytest.mark.parametrize(
-    "text", ["", "fast", "4", "x", "0x", "-1x", "nanx", "infx", "1e7x", "four x", "realtime "]
-)
-def test_any_other_pace_is_refused_and_the_message_says_what_is_expected(text: str) -> None:
-    with pytest.raises(AirhiltError) as caught:
-        parse_pace(text)
-    message = str(caught.value)
-    assert repr(text) in message
-    assert all(word in message for word in ("virtual", "realtime", "4x"))
+def test_any_other_pace_is_refused_and_the_message_says_what_is_expected(
+    subtests: pytest.Subtests,
+) -> None:
+    for text in ["", "fast", "4", "x", "0x", "-1x", "nanx", "infx", "1e7x", "four x", "realtime "]:
+        with subtests.test(text):
+            with pytest.raises(AirhiltError) as caught:
+                parse_pace(text)
+            message = str(caught.value)
+            assert repr(text) in message
+            assert all(word in message for word in ("virtual", "realtime", "4x"))

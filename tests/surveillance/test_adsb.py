@@ -109,12 +109,15 @@ def position_errors_m(nacp: int, flights: int = 400) -> npt.NDArray[np.floating[
     return np.array(errors)
 
 
-@pytest.mark.parametrize("nacp", [6, 7, 8, 9])
-def test_95_percent_of_positions_lie_within_what_the_accuracy_category_says(nacp: int) -> None:
-    errors = position_errors_m(nacp)
-    share = np.mean(errors <= NACP_95_PERCENT_M[nacp])
-    assert 0.90 <= share <= 0.99
-    assert np.median(errors) > 0.2 * NACP_95_PERCENT_M[nacp]
+def test_95_percent_of_positions_lie_within_what_the_accuracy_category_says(
+    subtests: pytest.Subtests,
+) -> None:
+    for nacp in [6, 7, 8, 9]:
+        with subtests.test(str(nacp)):
+            errors = position_errors_m(nacp)
+            share = np.mean(errors <= NACP_95_PERCENT_M[nacp])
+            assert 0.90 <= share <= 0.99
+            assert np.median(errors) > 0.2 * NACP_95_PERCENT_M[nacp]
 
 
 def test_a_better_accuracy_category_has_a_smaller_error() -> None:
@@ -172,14 +175,16 @@ def test_the_finest_velocities_are_within_30_cm_s() -> None:
     assert speed_kt * KNOT == pytest.approx(1_000.0 * sigma_m_s * math.sqrt(2.0), abs=0.6)
 
 
-@pytest.mark.parametrize(("nacp", "limit_nm"), [(0, 20), (2, 4), (3, 2), (4, 1), (5, 0.5), (6, 0.3),
-                                                (7, 0.1), (8, 0.05)])  # fmt: skip
 def test_position_errors_are_in_proportion_to_the_nautical_miles_of_their_categories(
-    nacp: int, limit_nm: float
+    subtests: pytest.Subtests,
 ) -> None:
     """DO-260B gives the limits of the categories up to 8 in NM, and that of 1 is 10 NM."""
-    coarse, fine = (transponder(each)._position_error(0) for each in (1, nacp))
-    assert np.array(coarse) / np.array(fine) == pytest.approx(10.0 / limit_nm)
+    table = [(0, 20), (2, 4), (3, 2), (4, 1), (5, 0.5), (6, 0.3),
+                                                (7, 0.1), (8, 0.05)]  # fmt: skip
+    for nacp, limit_nm in table:
+        with subtests.test(str((nacp, limit_nm))):
+            coarse, fine = (transponder(each)._position_error(0) for each in (1, nacp))
+            assert np.array(coarse) / np.array(fine) == pytest.approx(10.0 / limit_nm)
 
 
 @pytest.mark.parametrize(("nacv", "limit_m_s"), [(1, 10.0), (2, 3.0), (3, 1.0)])
@@ -247,24 +252,22 @@ def test_after_a_minute_of_silence_a_position_takes_a_pair_again(
     assert second.position_deg == pytest.approx((47.0, 8.0), abs=1e-3)
 
 
-@pytest.mark.parametrize(
-    ("on_surface", "apart_ns", "is_decoded"),
-    [
+def test_a_pair_is_decoded_together_up_to_its_longest_time(subtests: pytest.Subtests) -> None:
+    """DO-260B, A.1.7.7 and A.1.7.8: 10 s in the air; 25 s on the surface above 25 kt."""
+    for on_surface, apart_ns, is_decoded in [
         (False, 10 * SECOND_NS, True),
         (False, 10 * SECOND_NS + 1, False),
         (True, 25 * SECOND_NS, True),
         (True, 25 * SECOND_NS + 1, False),
-    ],
-)
-def test_a_pair_is_decoded_together_up_to_its_longest_time(
-    on_surface: bool, apart_ns: int, is_decoded: bool
-) -> None:
-    """DO-260B, A.1.7.7 and A.1.7.8: 10 s in the air; 25 s on the surface above 25 kt."""
-    sender, station = transponder(nacp=11), receiver()
-    station.decode(sender, sender.velocity(HERE), 0)
-    encode = sender.surface_position if on_surface else sender.position
-    assert station.decode(sender, encode(HERE, 0), 0) is None
-    assert (station.decode(sender, encode(HERE, apart_ns), apart_ns) is not None) is is_decoded
+    ]:
+        with subtests.test(str((on_surface, apart_ns, is_decoded))):
+            sender, station = transponder(nacp=11), receiver()
+            station.decode(sender, sender.velocity(HERE), 0)
+            encode = sender.surface_position if on_surface else sender.position
+            assert station.decode(sender, encode(HERE, 0), 0) is None
+            assert (
+                station.decode(sender, encode(HERE, apart_ns), apart_ns) is not None
+            ) is is_decoded
 
 
 @pytest.mark.parametrize(
@@ -342,9 +345,8 @@ def test_a_movement_is_off_by_half_a_step_that_grows_with_the_speed(speed_kt: fl
     assert abs(movement_kt(speed_kt) - speed_kt) <= step_kt / 2 + 1e-9
 
 
-@pytest.mark.parametrize(
-    ("speed_kt", "movement"),
-    [
+def test_movements_are_those_of_the_table_in_do_260b(subtests: pytest.Subtests) -> None:
+    for speed_kt, movement in [
         (0.0, 0.0),
         (0.1, 0.0625),
         (0.125, 0.0625),
@@ -361,10 +363,9 @@ def test_a_movement_is_off_by_half_a_step_that_grows_with_the_speed(speed_kt: fl
         (142.0, 142.5),
         (175.0, 172.5),
         (200.0, 175.0),
-    ],
-)
-def test_movements_are_those_of_the_table_in_do_260b(speed_kt: float, movement: float) -> None:
-    assert movement_kt(speed_kt) == pytest.approx(movement)
+    ]:
+        with subtests.test(str((speed_kt, movement))):
+            assert movement_kt(speed_kt) == pytest.approx(movement)
 
 
 def test_the_steps_of_movements_follow_one_another_without_a_gap() -> None:

@@ -102,9 +102,8 @@ def test_a_pair_that_was_sent_on_the_move_gives_the_newest_position(
     assert off_m(decoded, newest) < resolution_m(latitude)
 
 
-@pytest.mark.parametrize(
-    ("boundary_deg", "zones_below"),
-    [
+def test_longitude_zones_are_those_of_the_table_in_do_260b(subtests: pytest.Subtests) -> None:
+    for boundary_deg, zones_below in [
         (10.47047130, 59),
         (14.82817437, 58),
         (23.54504487, 55),
@@ -118,17 +117,14 @@ def test_a_pair_that_was_sent_on_the_move_gives_the_newest_position(
         (85.75541621, 4),
         (86.53536998, 3),
         (87.0, 2),
-    ],
-)
-def test_longitude_zones_are_those_of_the_table_in_do_260b(
-    boundary_deg: float, zones_below: int | None
-) -> None:
-    step = 1e-6
-    below, above = (cpr.longitude_zones(boundary_deg + s) for s in (-step, step))
-    if zones_below is None:
-        assert below == above == 29
-    else:
-        assert (below, above) == (zones_below, zones_below - 1)
+    ]:
+        with subtests.test(str((boundary_deg, zones_below))):
+            step = 1e-6
+            below, above = (cpr.longitude_zones(boundary_deg + s) for s in (-step, step))
+            if zones_below is None:
+                assert below == above == 29
+            else:
+                assert (below, above) == (zones_below, zones_below - 1)
 
 
 def test_there_are_59_zones_at_the_equator_and_one_at_the_poles() -> None:

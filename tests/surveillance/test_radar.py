@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from airhilt.geodesy.wgs84 import distance_m
-from airhilt.messages import EmitterCategory, RadarInfo, RadarKind, RadarPlot
+from airhilt.messages import RadarInfo, RadarKind, RadarPlot
 from airhilt.surveillance.radar import (
     AIRCRAFT_CROSS_SECTION_M2,
     AZIMUTH_STEP_DEG,
@@ -137,15 +137,17 @@ def test_one_false_alarm_comes_in_a_million_cells() -> None:
     assert RADARS["terminal"].detection_probability(0.0, 1_000.0) == pytest.approx(1e-6)
 
 
-@pytest.mark.parametrize(
-    ("category", "square_metres"),
-    [("A0", 2.0), ("A1", 1.0), ("A2", 2.0), ("A3", 20.0), ("A5", 100.0)],
-)
-def test_aircraft_echo_as_in_the_table_of_skolnik(
-    category: EmitterCategory, square_metres: float
-) -> None:
+def test_aircraft_echo_as_in_the_table_of_skolnik(subtests: pytest.Subtests) -> None:
     """A small single-engine aircraft, a four-passenger jet, an airliner, and a jumbo jet."""
-    assert AIRCRAFT_CROSS_SECTION_M2[category] == square_metres
+    for category, square_metres in [
+        ("A0", 2.0),
+        ("A1", 1.0),
+        ("A2", 2.0),
+        ("A3", 20.0),
+        ("A5", 100.0),
+    ]:
+        with subtests.test(str((category, square_metres))):
+            assert AIRCRAFT_CROSS_SECTION_M2[category] == square_metres
 
 
 def test_the_steps_of_a_plot_are_those_of_asterix() -> None:
@@ -176,15 +178,17 @@ def test_a_plot_is_where_its_target_is(
     assert distance_m(place, there) < 0.004 * distance + 20.0
 
 
-@pytest.mark.parametrize(("slant_m", "ground_m"), [(5_000.0, 4_000.0), (3_000.0, 0.0),
-                                                   (2_900.0, 0.0), (3_000.4, 49.0)])  # fmt: skip
 def test_the_way_along_the_ground_is_the_third_side_of_a_triangle(
-    slant_m: float, ground_m: float
+    subtests: pytest.Subtests,
 ) -> None:
     """The antenna is at sea level, and the target 3 km above it."""
-    place, _ = place_of(slant_m, 90.0, 3_000.0 / FOOT, 0.0)
-    there = distance_m((38.85 * DEGREE, -77.04 * DEGREE), place)
-    assert there == pytest.approx(ground_m, rel=0.004, abs=1.0)
+    table = [(5_000.0, 4_000.0), (3_000.0, 0.0),
+                                                   (2_900.0, 0.0), (3_000.4, 49.0)]  # fmt: skip
+    for slant_m, ground_m in table:
+        with subtests.test(str((slant_m, ground_m))):
+            place, _ = place_of(slant_m, 90.0, 3_000.0 / FOOT, 0.0)
+            there = distance_m((38.85 * DEGREE, -77.04 * DEGREE), place)
+            assert there == pytest.approx(ground_m, rel=0.004, abs=1.0)
 
 
 def test_without_an_altitude_a_plot_is_taken_to_be_as_high_as_the_antenna() -> None:

@@ -33,9 +33,8 @@ HIGH = 35_000 * FOOT
 ALOFT = tcas.Own(HIGH, HIGH, HIGH)
 
 
-@pytest.mark.parametrize(
-    ("altitude_ft", "height_ft", "level", "traffic", "resolution"),
-    [
+def test_sensitivity_levels_are_those_of_the_table(subtests: pytest.Subtests) -> None:
+    for altitude_ft, height_ft, level, traffic, resolution in [
         (900, 900, 2, (20, 0.30, 850), None),
         (999, 999, 2, (20, 0.30, 850), None),
         (6_000, 900, 2, (20, 0.30, 850), None),
@@ -51,44 +50,33 @@ ALOFT = tcas.Own(HIGH, HIGH, HIGH)
         (41_999, 41_000, 7, (48, 1.30, 850), (35, 1.10, 700)),
         (42_000, 41_000, 7, (48, 1.30, 1200), (35, 1.10, 800)),
         (42_001, 42_001, 7, (48, 1.30, 1200), (35, 1.10, 800)),
-    ],
-)
-def test_sensitivity_levels_are_those_of_the_table(
-    altitude_ft: int,
-    height_ft: int,
-    level: int,
-    traffic: tuple[int, float, int],
-    resolution: tuple[int, float, int] | None,
-) -> None:
-    row = tcas.sensitivity_level(altitude_ft * FOOT, height_ft * FOOT)
+    ]:
+        with subtests.test(str((altitude_ft, height_ft, level, traffic, resolution))):
+            row = tcas.sensitivity_level(altitude_ft * FOOT, height_ft * FOOT)
 
-    def published(thresholds: tuple[int, float, int] | None) -> Any:
-        return thresholds and pytest.approx(
-            (thresholds[0], thresholds[1] * NAUTICAL_MILE, thresholds[2] * FOOT)
-        )
+            def published(thresholds: tuple[int, float, int] | None) -> Any:
+                return thresholds and pytest.approx(
+                    (thresholds[0], thresholds[1] * NAUTICAL_MILE, thresholds[2] * FOOT)
+                )
 
-    assert row.level == level
-    assert row.traffic == published(traffic)
-    assert row.resolution == published(resolution)
+            assert row.level == level
+            assert row.traffic == published(traffic)
+            assert row.resolution == published(resolution)
 
 
-@pytest.mark.parametrize(
-    ("altitude_ft", "height_ft", "alim_ft"),
-    [
+def test_advisories_aim_at_the_separation_of_the_table(subtests: pytest.Subtests) -> None:
+    """ALIM in table 2, from level 3 on."""
+    for altitude_ft, height_ft, alim_ft in [
         (2_000, 1_000, 300),
         (3_000, 2_350, 300),
         (5_000, 5_000, 350),
         (10_000, 9_000, 400),
         (20_000, 20_000, 600),
         (42_001, 42_001, 700),
-    ],
-)
-def test_advisories_aim_at_the_separation_of_the_table(
-    altitude_ft: int, height_ft: int, alim_ft: int
-) -> None:
-    """ALIM in table 2, from level 3 on."""
-    row = tcas.sensitivity_level(altitude_ft * FOOT, height_ft * FOOT)
-    assert row.alim_m == pytest.approx(alim_ft * FOOT)
+    ]:
+        with subtests.test(str((altitude_ft, height_ft, alim_ft))):
+            row = tcas.sensitivity_level(altitude_ft * FOOT, height_ft * FOOT)
+            assert row.alim_m == pytest.approx(alim_ft * FOOT)
 
 
 def head_on(seconds: float, closing_m_s: float = 500.0) -> Relative:
@@ -96,14 +84,18 @@ def head_on(seconds: float, closing_m_s: float = 500.0) -> Relative:
     return Relative(closing_m_s * seconds, 0.0, -closing_m_s, 0.0)
 
 
-@pytest.mark.parametrize(
-    ("seconds", "said"),
-    [(60.0, None), (49.0, None), (47.9, "tcas_ta"), (36.0, "tcas_ta"), (34.9, "tcas_ra")],
-)
 def test_head_on_at_fl350_the_traffic_advisory_comes_48_s_before_and_the_resolution_35_s(
-    seconds: float, said: str | None
+    subtests: pytest.Subtests,
 ) -> None:
-    assert tcas.alert(head_on(seconds), 0.0, 0.0, ALOFT) == said
+    for seconds, said in [
+        (60.0, None),
+        (49.0, None),
+        (47.9, "tcas_ta"),
+        (36.0, "tcas_ta"),
+        (34.9, "tcas_ra"),
+    ]:
+        with subtests.test(str((seconds, said))):
+            assert tcas.alert(head_on(seconds), 0.0, 0.0, ALOFT) == said
 
 
 @pytest.mark.parametrize("north_m", [300.0, 0.0, -300.0])
@@ -127,13 +119,17 @@ def test_within_dmod_it_speaks_even_if_the_two_draw_apart(
     assert tcas.alert(apart, 0.0, 0.0, ALOFT) == said
 
 
-@pytest.mark.parametrize(
-    ("gap_ft", "said"),
-    [(0, "tcas_ra"), (700, "tcas_ra"), (701, "tcas_ta"), (850, "tcas_ta"), (851, None)],
-)
-def test_level_traffic_counts_within_the_altitude_threshold(gap_ft: int, said: str | None) -> None:
-    for gap in (gap_ft, -gap_ft):
-        assert tcas.alert(head_on(30.0), gap * FOOT, 0.0, ALOFT) == said
+def test_level_traffic_counts_within_the_altitude_threshold(subtests: pytest.Subtests) -> None:
+    for gap_ft, said in [
+        (0, "tcas_ra"),
+        (700, "tcas_ra"),
+        (701, "tcas_ta"),
+        (850, "tcas_ta"),
+        (851, None),
+    ]:
+        with subtests.test(str((gap_ft, said))):
+            for gap in (gap_ft, -gap_ft):
+                assert tcas.alert(head_on(30.0), gap * FOOT, 0.0, ALOFT) == said
 
 
 def test_traffic_that_will_be_co_altitude_in_time_counts_and_that_which_leaves_does_not() -> None:
@@ -145,23 +141,24 @@ def test_traffic_that_will_be_co_altitude_in_time_counts_and_that_which_leaves_d
     assert tcas.alert(head_on(30.0), -gap, gap / 34.0, ALOFT) == "tcas_ra"
 
 
-@pytest.mark.parametrize(
-    ("height_ft", "said"),
-    [(499, None), (500, "tcas_ta"), (999, "tcas_ta"), (1_000, "tcas_ra")],
-)
-def test_near_the_ground_advisories_are_inhibited(height_ft: int, said: str | None) -> None:
-    height = height_ft * FOOT
-    own = tcas.Own(height, height, intruder_height_m=height)
-    assert tcas.alert(head_on(5.0), 0.0, 0.0, own) == said
+def test_near_the_ground_advisories_are_inhibited(subtests: pytest.Subtests) -> None:
+    for height_ft, said in [(499, None), (500, "tcas_ta"), (999, "tcas_ta"), (1_000, "tcas_ra")]:
+        with subtests.test(str((height_ft, said))):
+            height = height_ft * FOOT
+            own = tcas.Own(height, height, intruder_height_m=height)
+            assert tcas.alert(head_on(5.0), 0.0, 0.0, own) == said
 
 
-@pytest.mark.parametrize(
-    ("own_ft", "intruder_ft", "said"),
-    [(1_600, 300, None), (1_699, 379, None), (1_699, 380, "tcas_ra"), (1_700, 379, "tcas_ra")],
-)
-def test_an_intruder_on_the_ground_is_none(own_ft: int, intruder_ft: int, said: str | None) -> None:
-    own = tcas.Own(own_ft * FOOT, own_ft * FOOT, intruder_ft * FOOT)
-    assert tcas.alert(head_on(5.0), 0.0, 0.0, own) == said
+def test_an_intruder_on_the_ground_is_none(subtests: pytest.Subtests) -> None:
+    for own_ft, intruder_ft, said in [
+        (1_600, 300, None),
+        (1_699, 379, None),
+        (1_699, 380, "tcas_ra"),
+        (1_700, 379, "tcas_ra"),
+    ]:
+        with subtests.test(str((own_ft, intruder_ft, said))):
+            own = tcas.Own(own_ft * FOOT, own_ft * FOOT, intruder_ft * FOOT)
+            assert tcas.alert(head_on(5.0), 0.0, 0.0, own) == said
 
 
 def level(altitude_m: float) -> Callable[..., Any]:

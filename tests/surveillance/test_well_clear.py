@@ -45,23 +45,18 @@ def first_s(name: AlertName, speed_kt: float, rate_fpm: float = 0.0) -> int | No
     return None
 
 
-@pytest.mark.parametrize(
-    ("speed_kt", "rate_fpm", "corrective_s", "warning_s"),
-    [
+def test_alerts_begin_when_those_of_daidalus_do(subtests: pytest.Subtests) -> None:
+    """DAIDALUS 2.0.2 with its configuration of DO-365B, phase I, without uncertainties."""
+    for speed_kt, rate_fpm, corrective_s, warning_s in [
         (900.0, 0.0, 89, 59),
         (450.0 * math.sqrt(2.0), 0.0, 89, 59),
         (80.0, 0.0, 106, 76),
         (900.0, 2200.0, 67, 37),
         (150.0 * math.sqrt(2.0), 0.0, 93, 63),
-    ],
-    ids=["head-on", "crossing", "overtaking", "climbing through", "low crossing"],
-)
-def test_alerts_begin_when_those_of_daidalus_do(
-    speed_kt: float, rate_fpm: float, corrective_s: int, warning_s: int
-) -> None:
-    """DAIDALUS 2.0.2 with its configuration of DO-365B, phase I, without uncertainties."""
-    assert first_s("corrective", speed_kt, rate_fpm) == pytest.approx(corrective_s, abs=1)
-    assert first_s("warning", speed_kt, rate_fpm) == pytest.approx(warning_s, abs=1)
+    ]:
+        with subtests.test(str((speed_kt, rate_fpm, corrective_s, warning_s))):
+            assert first_s("corrective", speed_kt, rate_fpm) == pytest.approx(corrective_s, abs=1)
+            assert first_s("warning", speed_kt, rate_fpm) == pytest.approx(warning_s, abs=1)
 
 
 def test_traffic_that_passes_at_3_nm_is_well_clear() -> None:

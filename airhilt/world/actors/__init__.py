@@ -3,6 +3,5 @@
 from airhilt.world.actors.actor import Actor, Reaction, Unable
 from airhilt.world.actors.crew import Crew
 from airhilt.world.actors.factory import build_actors
-from airhilt.world.actors.flight import Flight
 
-__all__ = ["Actor", "Crew", "Flight", "Reaction", "Unable", "build_actors"]
+__all__ = ["Actor", "Crew", "Reaction", "Unable", "build_actors"]

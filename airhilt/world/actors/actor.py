@@ -71,4 +71,4 @@ class Actor(Protocol):
         """Return whether the actor follows recommendations of this kind in any situation."""
 
     def attend(self) -> None:
-        """Go on with what waits for its moment; called several times a second."""
+        """Take the next step that is due; called several times a second."""

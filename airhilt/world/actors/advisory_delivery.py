@@ -57,7 +57,7 @@ class AdvisoryDelivery:
         True if advisories are spoken on the recipients' frequencies: they get them when they have
         heard them to the end there.
     is_automaton
-        Says of a callsign that no person acts for it.
+        Returns whether no person acts for a callsign.
     event
         Called with the kind, the subject and the text of a reaction.
     """
@@ -114,7 +114,7 @@ class AdvisoryDelivery:
             self._deliver(waiting)
 
     def voice_lost(self) -> None:
-        """Go on without a voice: deliver now what waits for it."""
+        """Deliver all advisories that wait for the voice, which is lost."""
         self._is_voiced = False
         waiting: Sequence[Advisory] = list(self._unspoken.values())
         self._unspoken.clear()
@@ -122,7 +122,7 @@ class AdvisoryDelivery:
             self._deliver(advisory)
 
     def _person_left(self, seat: str) -> None:
-        """Let an automaton that acts for itself again know what is in force."""
+        """Deliver the advisories in force to an actor whose person has left its seat."""
         for name, (advisory, is_equipment) in list(self._told_people.items()):
             if key_chunk(self._by_address[advisory.recipient].spec.callsign) == seat:
                 del self._told_people[name]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
+from typing import Literal
 
 from airhilt.commands import (
     AltitudeCommand,
@@ -23,12 +24,14 @@ from airhilt.messages import (
     CancelTakeoff,
     Climb,
     Confirm,
+    EmitterCategory,
     GoAround,
     HoldPosition,
     MaintainLevel,
     Recommendation,
     Turn,
 )
+from airhilt.scenario.models import AircraftSpec
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
 from airhilt.world.actors.actor import Reaction, Unable
 from airhilt.world.actors.envelope import too_low, unflyable
@@ -38,19 +41,49 @@ from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.flight.procedures.emergency_descent import EmergencyDescent
 from airhilt.world.site import ScenarioSite
 
+GEAR_DOWN_BELOW_M = 600.0
+"""Height above the ground below which the gear is down, in m: on a glide path of 3 degrees, that is
+11 km before the threshold."""
+EMITTER_CATEGORIES: dict[str, EmitterCategory] = {
+    "jet": "A3",
+    "heavy_jet": "A5",
+    "piston_single": "A1",
+    "piston_twin": "A1",
+}
+
+
+def mesh_at(height_agl_m: float) -> str:
+    """Return the name of the mesh that an aircraft shows at a height above the ground, in m."""
+    return "gear" if height_agl_m < GEAR_DOWN_BELOW_M else "clean"
+
 
 class Crew:
-    """Carries out commands, unless it follows an advisory.
+    """Actor in an aircraft: carries out commands, unless it follows an advisory.
 
     A command that comes while an advisory is followed is deferred until the conflict is over.
     `RunwayOperations` carries out commands about runways and taxiways.
+
+    Parameters
+    ----------
+    spec
+        Declaration in the scenario.
+    aircraft
+        Aircraft that the crew flies.
+    site
+        Site of the scenario.
+    seed
+        Seed of the run; reaction times and compliance are drawn from it.
     """
 
-    def __init__(self, reactions: ReactionModel, aircraft: Aircraft, site: ScenarioSite) -> None:
-        self.callsign = reactions.callsign
-        self.aircraft = aircraft
+    category: Literal["aircraft"] = "aircraft"
+
+    def __init__(
+        self, spec: AircraftSpec, aircraft: Aircraft, site: ScenarioSite, seed: int
+    ) -> None:
+        self.spec = spec
+        self.body = aircraft
         self.runway_operations = RunwayOperations(aircraft, site)
-        self._reactions = reactions
+        self._reactions = ReactionModel(spec.callsign, spec.pilot, seed)
         self._site = site
         self._return_lateral: Callable[[], None] = partial(
             aircraft.en_route.hold_track, aircraft.state.track_rad
@@ -62,10 +95,28 @@ class Crew:
         self._has_turned = False
         self._has_route = False
 
+    @property
+    def bound_runway(self) -> str | None:
+        """Runway that the crew is going to use."""
+        return self.runway_operations.bound_runway
+
+    @property
+    def emitter_category(self) -> EmitterCategory:
+        """ADS-B emitter category that its transponder sends."""
+        return EMITTER_CATEGORIES[self.body.kind.category]
+
+    def mesh(self, t_s: float) -> str:  # noqa: ARG002
+        """Return the name of the mesh of its aircraft: with the gear down near the ground."""
+        return mesh_at(self.body.state.height_agl_m)
+
+    def follows(self, recommendation: Recommendation) -> bool:  # noqa: ARG002
+        """Return True: a crew follows every kind of recommendation."""
+        return True
+
     def fly_route(self, waypoints: list[Place]) -> None:
         """Fly a route; it is the one to go back to after an advisory."""
-        self.aircraft.en_route.fly_route(waypoints)
-        self._return_lateral = self.aircraft.en_route.resume_route
+        self.body.en_route.fly_route(waypoints)
+        self._return_lateral = self.body.en_route.resume_route
         self._has_route = True
 
     def command(self, command: Command) -> None:
@@ -82,12 +133,12 @@ class Crew:
             self._carry_out(command)
 
     def attend(self) -> None:
-        """Go on with what waits for its moment.
+        """Take the next step of a runway operation if it is due.
 
         Raises
         ------
         Unable
-            It cannot be carried out.
+            The step cannot be carried out.
         """
         try:
             self.runway_operations.attend()
@@ -95,7 +146,7 @@ class Crew:
             raise Unable(f"unable, {error}") from None
 
     def _carry_out(self, command: Command) -> None:
-        aircraft = self.aircraft
+        aircraft = self.body
         why = unflyable(command, aircraft.kind, aircraft.state.altitude_m, self._site.ground_m)
         if why is not None:
             raise Unable(f"unable {why}")
@@ -106,7 +157,7 @@ class Crew:
             raise Unable(f"unable, {error}") from None
 
     def _fly(self, command: Command) -> None:
-        aircraft = self.aircraft
+        aircraft = self.body
         match command:
             case AltitudeCommand(altitude_ft=altitude, vertical_rate_fpm=rate):
                 aircraft.en_route.hold_altitude(
@@ -180,21 +231,21 @@ class Crew:
         if not isinstance(recommendation, Turn):
             self._require_above_ground(recommendation)
         if not self._followed:
-            self._altitude_before_m = self.aircraft.target_altitude_m
+            self._altitude_before_m = self.body.target_altitude_m
         match recommendation:
             case Climb(altitude_ft=altitude, vertical_rate_fpm=rate, turn_deg=degrees):
-                self.aircraft.en_route.hold_altitude(altitude * FOOT, rate * FOOT_PER_MINUTE)
+                self.body.en_route.hold_altitude(altitude * FOOT, rate * FOOT_PER_MINUTE)
                 if degrees:
                     self._turn_by(degrees)
             case MaintainLevel(altitude_ft=altitude):
-                self.aircraft.en_route.hold_altitude(altitude * FOOT)
+                self.body.en_route.hold_altitude(altitude * FOOT)
             case Turn(degrees=degrees):
                 self._turn_by(degrees)
         self._followed[advisory.id] = advisory.revision
         return True
 
     def _require_above_ground(self, recommendation: Climb | MaintainLevel) -> None:
-        aircraft = self.aircraft
+        aircraft = self.body
         why = too_low(
             recommendation.altitude_ft,
             aircraft.kind,
@@ -205,22 +256,22 @@ class Crew:
             raise Unable(f"unable {why}")
 
     def _turn_by(self, degrees: float) -> None:
-        self.aircraft.en_route.turn_by(degrees * DEGREE)
+        self.body.en_route.turn_by(degrees * DEGREE)
         self._has_turned = True
 
     def _must_descend_below(self, recommendation: Climb | MaintainLevel | Turn) -> bool:
         """Return whether a crew without cabin pressure descends below a recommended level."""
         return (
             not isinstance(recommendation, Turn)
-            and self.aircraft.phase == EmergencyDescent.name
-            and recommendation.altitude_ft * FOOT > self.aircraft.target_altitude_m
+            and self.body.phase == EmergencyDescent.name
+            and recommendation.altitude_ft * FOOT > self.body.target_altitude_m
         )
 
     def _resume(self, advisory_id: str) -> bool:
         """Resume the flight before the advisory, unless another advisory is still followed."""
         if self._followed.pop(advisory_id, None) is None or self._followed:
             return False
-        self.aircraft.en_route.hold_altitude(self._altitude_before_m)
+        self.body.en_route.hold_altitude(self._altitude_before_m)
         if self._has_turned:
             self._has_turned = False
             self._return_lateral()

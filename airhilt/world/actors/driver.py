@@ -86,4 +86,4 @@ class Driver:
         return self.kind.command_for(recommendation) is not None
 
     def attend(self) -> None:
-        """Do nothing: nothing of a driver waits for its moment."""
+        """No-op: a driver has no delayed steps."""

@@ -22,7 +22,6 @@ from airhilt.units import DEGREE, FOOT, KNOT
 from airhilt.world.actors.actor import Actor, Unable
 from airhilt.world.actors.crew import Crew
 from airhilt.world.actors.driver import Driver
-from airhilt.world.actors.flight import Flight
 from airhilt.world.actors.reactions import ReactionModel
 from airhilt.world.actors.starts import airborne, on_final, on_ground
 from airhilt.world.actors.wildlife import Animal
@@ -78,7 +77,7 @@ class _Builder:
     def build(self, actor: ActorSpec) -> Actor:
         match actor:
             case AircraftSpec():
-                return self._flight(actor)
+                return self._crew(actor)
             case VehicleSpec():
                 return self._driver(actor)
             case WildlifeSpec():
@@ -87,7 +86,7 @@ class _Builder:
     def _seed_of(self, name: str) -> int:
         return int(stream(self.seed, name).integers(2**31))
 
-    def _flight(self, actor: AircraftSpec) -> Flight:
+    def _crew(self, actor: AircraftSpec) -> Crew:
         site = self.site
         kind = load_aircraft_type(actor.aircraft, self.scenario.files)
         route = [site.place(position) for position in actor.route]
@@ -108,7 +107,7 @@ class _Builder:
             terrain_elevation_m=site.ground_m,
             tick_s=self.tick_s,
         )
-        crew = Crew(ReactionModel(actor.callsign, actor.pilot, self.seed), aircraft, site)
+        crew = Crew(actor, aircraft, site, self.seed)
         match actor.initial:
             case OnFinal(runway=runway):
                 crew.runway_operations.begin_on_final(runway)
@@ -118,7 +117,7 @@ class _Builder:
             crew.fly_route(route)
         for command in actor.commands:
             crew.command(command)
-        return Flight(actor, aircraft, crew)
+        return crew
 
     def _driver(self, actor: VehicleSpec) -> Driver:
         kind = load_kind(actor.kind, "vehicle")

@@ -48,8 +48,24 @@ class Listener:
     def commands_of(
         self, instructions: Iterable[Instruction], bound_runway: str | None
     ) -> tuple[Command, ...]:
-        """Return the commands that instructions give here; see the function of that name."""
-        return commands_of(instructions, bound_runway, self.variation_deg)
+        """Return the commands that instructions give, as far as there is a command for each.
+
+        Headings are magnetic, and are flown as true tracks: without wind.
+
+        Instructions with a condition give none: their words do not say when it is met. A level that
+        comes with a takeoff or a go-around is the level that it climbs to. A level to cross a fix
+        at, or not to pass, is no level to fly to.
+        """
+        now = [instruction for instruction in instructions if not instruction.is_conditional]
+        levels = (one for one in now if one.action == "altitude" and one.bound is None)
+        level_ft = next((one.altitude_ft for one in levels if one.altitude_ft is not None), None)
+        climbs = any(one.action in ("cleared_for_takeoff", "go_around") for one in now)
+        found = [
+            _command_of(instruction, bound_runway, level_ft, self.variation_deg)
+            for instruction in now
+            if not climbs or instruction.action != "altitude"
+        ]
+        return tuple(dict.fromkeys(command for command in found if command is not None))
 
     def understand(
         self,
@@ -159,29 +175,6 @@ def _numbers(instruction: Instruction) -> tuple[float | None, ...]:
 def words(text: str) -> list[str]:
     """Return the words of a call without case and punctuation."""
     return re.findall(r"[a-z0-9]+", text.lower())
-
-
-def commands_of(
-    instructions: Iterable[Instruction], bound_runway: str | None, variation_deg: float = 0.0
-) -> tuple[Command, ...]:
-    """Return the commands that instructions give, as far as there is a command for each.
-
-    Headings are magnetic, and are flown as true tracks: without wind.
-
-    Instructions with a condition give none: their words do not say when it is met. A level that
-    comes with a takeoff or a go-around is the level that it climbs to. A level to cross a fix at,
-    or not to pass, is no level to fly to.
-    """
-    now = [instruction for instruction in instructions if not instruction.is_conditional]
-    levels = (one for one in now if one.action == "altitude" and one.bound is None)
-    level_ft = next((one.altitude_ft for one in levels if one.altitude_ft is not None), None)
-    climbs = [one for one in now if one.action in ("cleared_for_takeoff", "go_around")]
-    found = [
-        _command_of(instruction, bound_runway, level_ft, variation_deg)
-        for instruction in now
-        if not climbs or instruction.action != "altitude"
-    ]
-    return tuple(dict.fromkeys(command for command in found if command is not None))
 
 
 def _command_of(

@@ -122,12 +122,12 @@ class RunwayOperations:
         self._next = self._go_around_uncleared
 
     def attend(self) -> None:
-        """Go on with what waits for its moment.
+        """Take the next step of an operation if it is due.
 
         Raises
         ------
         Unable, ValueError, ScenarioError
-            Its moment has come, and it cannot be carried out: a landing becomes a go-around.
+            The step is due and cannot be carried out: a landing becomes a go-around.
         """
         following, self._next = self._next, None
         if following is not None and not following() and self._next is None:

@@ -64,7 +64,7 @@ def hold_beside(site: ScenarioSite, here: Place, runway: str) -> Hold:
 def exit_for(
     site: ScenarioSite, runway: RunwayEnd, speed_m_s: float, name: str | None
 ) -> Exit | None:
-    """Return the exit of a name, or the first that a normal rollout can take; None: no such exit.
+    """Return the named exit, or the first that a normal rollout can take; None if there is none.
 
     Raises
     ------

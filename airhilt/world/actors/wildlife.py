@@ -63,7 +63,7 @@ class Animal:
         return False
 
     def attend(self) -> None:
-        """Flee from what has come too near and moves."""
+        """Flee from a moving aircraft or vehicle that has come too near."""
         within_m = self.spec.startles_within_m
         if within_m <= 0.0 or self.body.startled:
             return

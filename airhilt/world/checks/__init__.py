@@ -1,4 +1,4 @@
-"""Checks of what no field of a scenario can know of another, or of the world."""
+"""Checks of a scenario across its fields and against the world."""
 
 from __future__ import annotations
 
@@ -14,10 +14,9 @@ from airhilt.world.checks.duplicates import shared_names
 from airhilt.world.checks.failures import idle_failures
 from airhilt.world.checks.perturbations import misplaced_perturbations
 from airhilt.world.checks.places import missing_airport, unknown_places
-from airhilt.world.checks.radio_lines import impossible_lines
+from airhilt.world.checks.radio_lines import impossible_lines, unsaid_lines
 from airhilt.world.checks.references import dangling_references
 from airhilt.world.checks.taxi_ways import missing_ways
-from airhilt.world.checks.unsaid_lines import unsaid_lines
 from airhilt.world.site import ScenarioSite
 
 __all__ = ["check", "check_file"]
@@ -34,7 +33,7 @@ def check(scenario: Scenario, origin: str) -> None:
     Raises
     ------
     ScenarioError
-        Something refers to nothing, or is outside what an aircraft flies.
+        A reference leads to nothing, or a value is outside the envelope of an aircraft.
     """
     _require_none(origin, list(_problems(scenario)))
 
@@ -63,7 +62,7 @@ def _require_none(origin: str, problems: Sequence[Problem]) -> None:
 
 
 def _problems(scenario: Scenario) -> Iterator[Problem]:
-    """Yield all problems; while two things share a name, only that."""
+    """Yield all problems; only the shared names if there are any."""
     shared = list(shared_names(scenario))
     if shared:
         yield from shared

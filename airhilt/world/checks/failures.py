@@ -1,11 +1,10 @@
-"""Checks of failures: whether there is something that each can change."""
+"""Checks of failures: whether each has something to change."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
 from airhilt.errors import AirhiltError
-from airhilt.host import library
 from airhilt.scenario.models import (
     AircraftSpec,
     CallsignConfused,
@@ -14,13 +13,12 @@ from airhilt.scenario.models import (
     Scenario,
     StuckMicrophone,
 )
-from airhilt.scenario.problems import Problem
+from airhilt.scenario.problems import Problem, unknown
 from airhilt.world.flight.aircraft_type import load_aircraft_type
 
 
 def idle_failures(scenario: Scenario) -> Iterator[Problem]:
     """Yield failures of lines that do not exist, and failures that would change nothing."""
-    line_ids = [line.id for line in scenario.radio.lines]
     lines = {line.id: line for line in scenario.radio.lines}
     for index, failure in enumerate(scenario.failures):
         path = f"failures/{index}"
@@ -31,10 +29,7 @@ def idle_failures(scenario: Scenario) -> Iterator[Problem]:
             yield from _microphone(path, failure, scenario)
             continue
         if failure.line not in lines:
-            yield Problem(
-                f"{path}/line",
-                f"no radio line {failure.line!r}{library.nearest(failure.line, line_ids)}",
-            )
+            yield unknown(f"{path}/line", "radio line", failure.line, lines)
             continue
         told = [scripted.actor for scripted in lines[failure.line].commands]
         field = next((name for name in ("actor", "meant") if hasattr(failure, name)), None)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Iterator
 
 from airhilt.errors import ScenarioError
 from airhilt.host import library
 from airhilt.messages import ASSISTANT
+from airhilt.scenario.conversation import unsayable_lines
 from airhilt.scenario.models import Scenario, WildlifeSpec
-from airhilt.scenario.problems import Problem
+from airhilt.scenario.problems import Problem, unknown
 from airhilt.scenario.vhf_channels import channel_spacing_khz
 
 GENERATED_ID = re.compile(
@@ -46,8 +47,7 @@ def impossible_lines(scenario: Scenario) -> Iterator[Problem]:
             )
         frequencies[line.id] = line.frequency_khz
     yield from _unknown_speakers(scenario)
-    yield from _unknown_stations(scenario)
-    yield from _unknown_receivers(scenario)
+    yield from _unknown_radios(scenario)
 
 
 def _unknown_speakers(scenario: Scenario) -> Iterator[Problem]:
@@ -58,37 +58,46 @@ def _unknown_speakers(scenario: Scenario) -> Iterator[Problem]:
     for index, line in enumerate(radio.lines):
         for field, name in (("speaker", line.speaker), ("to", line.to)):
             if name is not None and name not in known:
-                tail = library.nearest(name, list(known))
-                yield Problem(
+                yield unknown(
                     f"radio/lines/{index}/{field}",
-                    f"no actor or unit {name!r}{tail}; a unit besides the controller is declared "
-                    f'in radio/stations: {{"{name}": {{}}}}',
+                    "actor or unit",
+                    name,
+                    known,
+                    "; a unit besides the controller is declared in radio/stations: "
+                    f'{{"{name}": {{}}}}',
                 )
 
 
-def _unknown_stations(scenario: Scenario) -> Iterator[Problem]:
-    """Yield the stations of speakers that are not in the scenario."""
-    callsigns = [actor.callsign for actor in scenario.actors]
-    known = dict.fromkeys([*callsigns, *_units(scenario), ASSISTANT])
-    yield from _not_among(known, scenario.radio.stations, "radio/stations")
-
-
-def _unknown_receivers(scenario: Scenario) -> Iterator[Problem]:
-    """Yield the receivers of listeners that are not in the scenario; no animal listens."""
-    people = [one.callsign for one in scenario.actors if not isinstance(one, WildlifeSpec)]
-    known = dict.fromkeys([*people, *_units(scenario)])
-    yield from _not_among(known, scenario.radio.receivers, "radio/receivers")
-
-
-def _units(scenario: Scenario) -> list[str]:
-    """Return the controller, and all who speak or are addressed."""
+def _unknown_radios(scenario: Scenario) -> Iterator[Problem]:
+    """Yield stations and receivers of nobody in the scenario; no animal listens."""
     radio = scenario.radio
     named = [name for line in radio.lines for name in (line.speaker, line.to) if name]
-    return [*named, radio.controller]
+    units = [*named, radio.controller]
+    actors = [actor.callsign for actor in scenario.actors]
+    people = [one.callsign for one in scenario.actors if not isinstance(one, WildlifeSpec)]
+    for path, names, known in (
+        ("radio/stations", radio.stations, dict.fromkeys([*actors, *units, ASSISTANT])),
+        ("radio/receivers", radio.receivers, dict.fromkeys([*people, *units])),
+    ):
+        for name in names:
+            if name not in known:
+                yield unknown(f"{path}/{name}", "actor or unit", name, known)
 
 
-def _not_among(known: Collection[str], names: Iterable[str], path: str) -> Iterator[Problem]:
-    for name in names:
-        if name not in known:
-            tail = library.nearest(name, list(known))
-            yield Problem(f"{path}/{name}", f"no actor or unit {name!r}{tail}")
+def unsaid_lines(scenario: Scenario) -> Iterator[Problem]:
+    """Yield lines after the end of the run, and lines whose condition can never come true."""
+    unsayable = unsayable_lines(scenario)
+    for index, line in enumerate(scenario.radio.lines):
+        path = f"radio/lines/{index}"
+        if line.at_s >= scenario.duration_s:
+            yield Problem(
+                f"{path}/at_s",
+                f"found {line.at_s:g}, when the run has ended; expected less than duration_s, "
+                f"{scenario.duration_s:g}",
+            )
+        if line.id in unsayable:
+            yield Problem(
+                f"{path}/when",
+                "found a condition that never comes true: it waits for this line itself, for "
+                "lines that wait for it, or for a time after the run",
+            )

@@ -8,7 +8,7 @@ from airhilt.world.flight.airframe import Airframe
 from airhilt.world.flight.control import FlightControl
 from airhilt.world.flight.en_route_commands import EnRouteCommands
 from airhilt.world.flight.ground import GroundLaw
-from airhilt.world.flight.guard import Guard
+from airhilt.world.flight.guard import FlightGuard
 from airhilt.world.flight.phases import AircraftSystems
 from airhilt.world.flight.procedure_commands import ProcedureCommands
 from airhilt.world.flight.procedures.taxi import Standing
@@ -48,8 +48,8 @@ class Aircraft:
     procedures : ProcedureCommands
         Commands that begin a taxi, a takeoff, an approach or an emergency procedure.
     ended : str or None
-        Why it flies no more: ``ground_contact``, ``state_not_finite``, or ``envelope_exceeded:``
-        and what it exceeded. The state stays the last one before that.
+        Why the flight has ended: ``ground_contact``, ``state_not_finite``, or
+        ``envelope_exceeded:`` and what it exceeded. The state stays the last one before that.
 
     Raises
     ------
@@ -73,7 +73,7 @@ class Aircraft:
         self.kind = kind
         self.ended: str | None = None
         self._substeps = range(substeps)
-        self._guard = Guard(kind)
+        self._guard = FlightGuard(kind)
         self._failing: list[int] = []
         self._airframe = airframe = Airframe(
             kind, step_s=tick_s / substeps, seed=seed, terrain_elevation_m=terrain_elevation_m

@@ -12,7 +12,7 @@ from pydantic import Field
 from airhilt.host import library
 from airhilt.quantities import Name, Number, Share, VerticalRateFpm
 from airhilt.scenario import documents
-from airhilt.scenario.problems import no_file_of
+from airhilt.scenario.problems import validated
 from airhilt.shapes.aircraft.spec import AircraftCategory, AircraftDimensions, AircraftMesh
 
 MOST_GAIN = 1000
@@ -224,10 +224,7 @@ def load_aircraft_type(name: str, files: Mapping[str, Any] = MappingProxyType({}
         There is none, or its file is wrong: the message names the file, the place in it and
         what was expected.
     """
-    path = name if name in files else library.find("aircraft", name)
-    try:
-        if isinstance(path, str):
-            return AircraftType.model_validate(files[path])
-        return AircraftType.model_validate(documents.read(path))
-    except pydantic.ValidationError as error:
-        raise no_file_of("an aircraft type", str(path), error) from error
+    if name in files:
+        return validated(AircraftType, "an aircraft type", files[name], name)
+    path = library.find("aircraft", name)
+    return validated(AircraftType, "an aircraft type", documents.read(path), str(path))

@@ -9,7 +9,6 @@ from airhilt.units import FOOT_PER_MINUTE, wrap_angle
 from airhilt.world.flight.control import FlightControl
 from airhilt.world.flight.guidance import AltitudeClearance, Route
 from airhilt.world.flight.route import legs_through
-from airhilt.world.flight.state import require_finite
 
 
 class EnRouteCommands:
@@ -34,7 +33,7 @@ class EnRouteCommands:
         Raises
         ------
         ValueError
-            A waypoint is not on Earth, or none is away from here.
+            No waypoint is away from here.
         """
         state = self._control.state
         legs = legs_through((state.latitude_rad, state.longitude_rad), waypoints)
@@ -57,14 +56,7 @@ class EnRouteCommands:
             modes.lateral = self._route
 
     def hold_track(self, track_rad: float) -> None:
-        """Turn to a true track over the ground by the shorter side, and hold it.
-
-        Raises
-        ------
-        ValueError
-            It is not finite.
-        """
-        require_finite("track_rad", track_rad)
+        """Turn to a true track over the ground by the shorter side, and hold it."""
         self._control.commanded().lateral = self._control.modes.track(track_rad)
 
     def turn_by(self, angle_rad: float) -> None:
@@ -73,9 +65,8 @@ class EnRouteCommands:
         Raises
         ------
         ValueError
-            It is not finite, or more than a full circle.
+            It is more than a full circle.
         """
-        require_finite("angle_rad", angle_rad)
         if abs(angle_rad) > 2.0 * math.pi:
             raise ValueError(f"angle_rad is {angle_rad}; expected within +-2 pi")
         track = wrap_angle(self._control.state.track_rad + angle_rad)
@@ -97,19 +88,10 @@ class EnRouteCommands:
         -------
         AltitudeClearance
             The altitude and the rate that are flown.
-
-        Raises
-        ------
-        ValueError
-            A value is not finite, or the rate not positive.
         """
-        require_finite("altitude_m", altitude_m)
         control = self._control
         if vertical_rate_m_s is None:
             vertical_rate_m_s = control.systems.kind.speeds.climb_rate_fpm * FOOT_PER_MINUTE
-        require_finite("vertical_rate_m_s", vertical_rate_m_s)
-        if vertical_rate_m_s <= 0.0:
-            raise ValueError(f"vertical_rate_m_s is {vertical_rate_m_s}; expected more than 0")
         accepted = control.modes.accepted_clearance(
             altitude_m, vertical_rate_m_s, is_climb=altitude_m >= control.state.altitude_m
         )
@@ -129,13 +111,7 @@ class EnRouteCommands:
         -------
         float
             The airspeed that is flown, in m/s.
-
-        Raises
-        ------
-        ValueError
-            It is not finite.
         """
-        require_finite("calibrated_airspeed_m_s", calibrated_airspeed_m_s)
         control = self._control
         slowest, greatest = control.modes.speed_limits_m_s(control.state.altitude_m)
         accepted = min(max(calibrated_airspeed_m_s, slowest), greatest)

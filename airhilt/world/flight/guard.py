@@ -32,7 +32,7 @@ SINK_FACTOR = 3.0
 """Greatest sink rate, as a multiple of the type's greatest descent rate."""
 
 
-class Guard:
+class FlightGuard:
     """Watches the state of one aircraft of a type."""
 
     def __init__(self, kind: AircraftType) -> None:

@@ -135,7 +135,7 @@ class Route:
         return self._gain * wrap_angle(guide.course_rad + offset - state.track_rad)
 
     def _sequence(self, state: AircraftState, speed: float) -> None:
-        """Go on to the arc or the leg that is due at a ground speed."""
+        """Switch to the next arc or leg if it is due at this ground speed."""
         if self._arc is not None:
             if self._arc.to_go_m(state) <= 0.0:
                 self._arc = None

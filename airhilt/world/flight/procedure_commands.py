@@ -17,7 +17,6 @@ from airhilt.world.flight.procedures.landing import Flare
 from airhilt.world.flight.procedures.side_step import require_side_step
 from airhilt.world.flight.procedures.takeoff import RejectedTakeoff, TakeoffRoll, require_lined_up
 from airhilt.world.flight.procedures.taxi import Stand, Standing, Taxi, Way
-from airhilt.world.flight.state import require_finite
 from airhilt.world.flight.taxi_path import TaxiPath
 from airhilt.world.surface.runway import RunwayEnd
 
@@ -108,10 +107,9 @@ class ProcedureCommands:
         Raises
         ------
         ValueError
-            The aircraft is in the air or not lined up, or the altitude is not finite or not above.
+            The aircraft is in the air or not lined up, or the altitude is not above.
         """
         control = self._control
-        require_finite("climb_to_m", climb_to_m)
         control.require_on_ground("take_off", FASTEST_TAXI_M_S)
         line = Final(runway, control.systems.kind)
         require_lined_up(control.state, line)
@@ -183,11 +181,9 @@ class ProcedureCommands:
         Raises
         ------
         ValueError
-            No approach is flown, the wheels have touched, or the altitude is not finite or not
-            above.
+            No approach is flown, the wheels have touched, or the altitude is not above.
         """
         control = self._control
-        require_finite("climb_to_m", climb_to_m)
         if not isinstance(control.phase, Glide | Flare) or control.on_ground:
             raise ValueError(f"go_around in phase {control.phase.name}; expected glide or flare")
         control.require_climb(climb_to_m)
@@ -234,11 +230,10 @@ class ProcedureCommands:
         Raises
         ------
         ValueError
-            The altitude is not finite or not below, or the aircraft is on the ground.
+            The altitude is not below, or the aircraft is on the ground.
         """
         control = self._control
         control.require_airborne("emergency_descent")
-        require_finite("altitude_m", altitude_m)
         if altitude_m >= control.state.altitude_m:
             raise ValueError(
                 f"altitude_m is {altitude_m:.0f}; expected less than the altitude now, "

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import NamedTuple
 
 
@@ -57,11 +57,6 @@ class InitialCondition:
     """Place of an aircraft that begins in the air, and its flight there.
 
     On approach its gear is down and its flaps are set for landing; otherwise it is clean.
-
-    Raises
-    ------
-    ValueError
-        A value is not finite, the latitude is outside [-pi/2, pi/2] or the airspeed not positive.
     """
 
     latitude_rad: float
@@ -72,39 +67,18 @@ class InitialCondition:
     vertical_rate_m_s: float = 0.0
     on_approach: bool = False
 
-    def __post_init__(self) -> None:
-        for field in fields(self):
-            require_finite(field.name, getattr(self, field.name))
-        if abs(self.latitude_rad) > math.pi / 2.0:
-            raise ValueError(f"latitude_rad is {self.latitude_rad}; expected within [-pi/2, pi/2]")
-        if self.calibrated_airspeed_m_s <= 0.0:
-            raise ValueError(
-                f"calibrated_airspeed_m_s is {self.calibrated_airspeed_m_s}; expected more than 0"
-            )
-
 
 @dataclass(frozen=True, slots=True)
 class OnGround:
     """Place of an aircraft that begins on its wheels, brakes set, engines idling.
 
     It may stand lined up on a runway, or anywhere else.
-
-    Raises
-    ------
-    ValueError
-        A value is not finite, or the latitude is outside [-pi/2, pi/2].
     """
 
     latitude_rad: float
     longitude_rad: float
     heading_rad: float
     lined_up: bool = False
-
-    def __post_init__(self) -> None:
-        for field in fields(self):
-            require_finite(field.name, getattr(self, field.name))
-        if abs(self.latitude_rad) > math.pi / 2.0:
-            raise ValueError(f"latitude_rad is {self.latitude_rad}; expected within [-pi/2, pi/2]")
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,33 +88,9 @@ class Atmosphere:
     The wind components say where the air moves *to*. Turbulence is JSBSim's MIL-F-8785C model:
     the wind at 20 ft sets it near the ground, the severity (0 none, 3 moderate, 7 extreme, its
     probability of exceedance index) above 2,000 ft.
-
-    Raises
-    ------
-    ValueError
-        A value is not finite, or the severity is outside 0..7.
     """
 
     wind_north_m_s: float = 0.0
     wind_east_m_s: float = 0.0
     turbulence_wind_at_20ft_m_s: float = 0.0
     turbulence_severity: int = 0
-
-    def __post_init__(self) -> None:
-        for field in fields(self):
-            require_finite(field.name, getattr(self, field.name))
-        if self.turbulence_severity not in range(8):
-            raise ValueError(f"turbulence_severity is {self.turbulence_severity}; expected 0 to 7")
-
-
-def require_finite(name: str, value: float) -> float:
-    """Return ``value``.
-
-    Raises
-    ------
-    ValueError
-        It is NaN or infinite.
-    """
-    if not math.isfinite(value):
-        raise ValueError(f"{name} is {value}; expected a finite number")
-    return value

@@ -17,7 +17,7 @@ from airhilt.host import library
 from airhilt.imaging.lenses import FieldOfView
 from airhilt.quantities import AltitudeFt, Count, Flag, Number
 from airhilt.scenario import documents
-from airhilt.scenario.problems import no_file_of
+from airhilt.scenario.problems import validated
 from airhilt.units import DEGREE
 
 FARTHEST_M = 100_000.0
@@ -271,10 +271,7 @@ def load_airport(name: str, files: Mapping[str, Any] = MappingProxyType({})) -> 
         what was expected.
     """
     if name in files:
-        try:
-            return Airport.model_validate(files[name])
-        except pydantic.ValidationError as error:
-            raise no_file_of("an airport", name, error) from error
+        return validated(Airport, "an airport", files[name], name)
     return read_airport(library.find("airports", name.lower()))
 
 
@@ -286,10 +283,7 @@ def read_airport(path: Path) -> Airport:
     ScenarioError
         The file is wrong.
     """
-    try:
-        return Airport.model_validate(documents.read(path))
-    except pydantic.ValidationError as error:
-        raise no_file_of("an airport", str(path), error) from error
+    return validated(Airport, "an airport", documents.read(path), str(path))
 
 
 def _refuse_repeated(what: str, names: Iterable[str]) -> None:

@@ -1,20 +1,25 @@
-"""Bodies of animals and flocks: they stand, walk, run, fly, and flee."""
+"""Animals and flocks: their kinds in numbers, and bodies that stand, walk, run, fly and flee."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Literal
+from collections.abc import Callable
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, Field, PositiveFloat, PositiveInt
 
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place
-from airhilt.shapes.sizes import Dimensions
+from airhilt.messages import VisibleClass
+from airhilt.shapes.animals import WING_BEATS
+from airhilt.shapes.appearance import Appearance
+from airhilt.shapes.mesh import Mesh
+from airhilt.shapes.sizes import Dimensions, Size
 from airhilt.sim.streams import stream
 from airhilt.units import wrap_angle
-from airhilt.world.mover import SurfaceState
+from airhilt.world.mover import Creature, SurfaceState
+from airhilt.world.surface.kind import BODY, CreatureKind
 from airhilt.world.surface.reach import within_reach
-
-if TYPE_CHECKING:
-    from airhilt.world.surface.animal_kind import AnimalKind, Flight
 
 ARRIVED_M = 0.3
 """Distance below which an animal on the ground has arrived, in m."""
@@ -51,6 +56,131 @@ AnimalPhase = Literal["standing", "walking", "running", "flying", "fleeing"]
 Gait = Literal["walking", "running", "flying"]
 
 
+class Flight(BaseModel):
+    """Numbers of a bird's flight, and its mesh in the air.
+
+    Attributes
+    ----------
+    dimensions
+        Size in the air.
+    mesh
+        Makes the mesh in the air, in that size, with the wings in one of `WING_BEATS` positions.
+    wing_beats_hz
+        Frequency of its wing beats, in Hz.
+    lateral_m_s2
+        Greatest acceleration across, in a turn.
+    height_m
+        Height at which it flies from one place on the ground to another, or away from danger.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+    dimensions: Dimensions
+    mesh: Callable[[Size, int], Mesh]
+    wing_beats_hz: PositiveFloat
+    speed_m_s: PositiveFloat
+    acceleration_m_s2: PositiveFloat
+    lateral_m_s2: PositiveFloat
+    climb_m_s: PositiveFloat
+    descent_m_s: PositiveFloat
+    height_m: PositiveFloat
+
+
+class AnimalKind(CreatureKind, BaseModel):
+    """A kind of animal, or a flock of birds that moves as one.
+
+    Attributes
+    ----------
+    source
+        Source of the numbers, and which of them are estimates.
+    label
+        Class that it has in pictures.
+    count
+        Number of animals that move as one.
+    dimensions
+        Size on the ground.
+    mesh
+        Makes its mesh on the ground, in that size.
+    acceleration_m_s2
+        Acceleration on the ground, of getting faster and slower.
+    lateral_m_s2
+        Greatest acceleration across on the ground, in a turn.
+    turn_rate_rad_s
+        Greatest rate of turn on the ground.
+    wander_rad
+        Standard deviation of its direction on the way to a place.
+    reaction_s
+        Median time from a fright to the first step.
+    flees_for_m
+        Distance after which a flight from danger ends.
+    flight
+        Its flight; None if it does not fly.
+    radar_cross_section_m2
+        Radar cross section of all that move as one.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+    name: str
+    description: str
+    source: str
+    label: VisibleClass
+    count: PositiveInt = 1
+    dimensions: Dimensions
+    mesh: Callable[[Size], Mesh]
+    walk_m_s: PositiveFloat
+    run_m_s: PositiveFloat
+    acceleration_m_s2: PositiveFloat
+    lateral_m_s2: PositiveFloat
+    turn_rate_rad_s: PositiveFloat = math.pi
+    wander_rad: float = Field(ge=0.0, le=1.0)
+    reaction_s: PositiveFloat
+    flees_for_m: PositiveFloat
+    flight: Flight | None = None
+    radar_cross_section_m2: PositiveFloat
+
+    def appearance(self) -> Appearance:
+        """Return its mesh on the ground, and those of a wing beat if it flies."""
+        meshes = {BODY: self.mesh(self.dimensions)}
+        flight = self.flight
+        if flight is not None:
+            for beat in range(WING_BEATS):
+                meshes[f"flying{beat}"] = flight.mesh(flight.dimensions, beat)
+        return Appearance(meshes)
+
+    def mesh_of(self, body: Creature, t_s: float) -> str:
+        """Return the name of the mesh that an animal shows: on the ground, or in a wing beat."""
+        if self.flight is None or body.on_ground:
+            return BODY
+        return f"flying{math.floor(t_s * self.flight.wing_beats_hz * WING_BEATS) % WING_BEATS}"
+
+    def create(
+        self,
+        place: Place,
+        heading_rad: float,
+        *,
+        ground_m: float,
+        tick_s: float,
+        seed: int = 0,
+        height_m: float = 0.0,
+    ) -> AnimalBody:
+        """Return an animal of this kind; see `airhilt.world.surface.kind.Kind`.
+
+        Raises
+        ------
+        ValueError
+            It was to begin at no place, or in the air and does not fly.
+        """
+        return AnimalBody(
+            self,
+            place,
+            heading_rad,
+            ground_m=ground_m,
+            tick_s=tick_s,
+            seed=seed,
+            height_m=height_m,
+        )
+
+
 class AnimalBody:
     """An animal, or a flock that moves as one.
 
@@ -66,7 +196,7 @@ class AnimalBody:
     ground_m
         Height of the ground above WGS84.
     tick_s
-        Time by which `advance` goes on.
+        Time step of `advance`.
     seed
         Seed of its wandering and its reactions.
     height_m
@@ -77,12 +207,12 @@ class AnimalBody:
     state
         Place and movement now.
     ended
-        Reason for which it moves no more; None while it does.
+        Why it does not move any more; None while it moves.
 
     Raises
     ------
     ValueError
-        The place is none, a number is not finite, or it is to be in the air and does not fly.
+        The place is at a pole, or it is to be in the air and does not fly.
     """
 
     def __init__(
@@ -96,10 +226,6 @@ class AnimalBody:
         seed: int,
         height_m: float = 0.0,
     ) -> None:
-        if not (math.isfinite(heading_rad) and math.isfinite(ground_m)):
-            raise ValueError(f"heading {heading_rad} rad, ground {ground_m} m: not finite")
-        if not 0.0 <= height_m < math.inf:
-            raise ValueError(f"height_m is {height_m}; expected 0 or more")
         self.kind = kind
         self.ended: str | None = None
         self._ground_m = ground_m
@@ -168,7 +294,7 @@ class AnimalBody:
         return self._gait or "walking"
 
     def stand(self) -> None:
-        """Come to a stand; in the air, land ahead and stand there."""
+        """Stop; in the air, land ahead and then stop."""
         self._end_flight()
         if self._height > 0.0:
             self._begin("flying", None, 0.0, lands=True)
@@ -191,10 +317,8 @@ class AnimalBody:
         Raises
         ------
         ValueError
-            It does not fly, the height is negative or no number, or the place is too far away.
+            It does not fly, or the place is too far away.
         """
-        if not 0.0 <= height_m < math.inf:
-            raise ValueError(f"height_m is {height_m}; expected 0 or more")
         usual = self._flight.height_m
         transit = height_m or (self._height if self._height > 0.0 else usual)
         self._move_origin()
@@ -284,7 +408,7 @@ class AnimalBody:
             self._begin("flying", (east, north), height, lands=self._height <= 0.0)
 
     def _move_origin(self) -> None:
-        """Begin a new local frame here, so that it is never far from its origin."""
+        """Move the origin of the local frame to the present place."""
         goal = None if self._goal is None else self._local_frame.to_place(*self._goal)
         self._local_frame = LocalFrame(
             (self.state.latitude_rad, self.state.longitude_rad), self._ground_m
@@ -364,7 +488,7 @@ class AnimalBody:
         self._climb = climb
 
     def _touch_down(self) -> None:
-        """Be on the ground again: walk the rest of the way, or stand if there is none."""
+        """Land: walk the rest of the way, or stand if none is left."""
         self._climb = 0.0
         if self._goal is None or self._fleeing:
             self._gait = None
@@ -372,7 +496,7 @@ class AnimalBody:
             self._begin("walking", self._goal, 0.0, lands=False)
 
     def _to_goal(self) -> tuple[float, float]:
-        """Return how far the goal is, and by how much to turn, wandering, to head for it."""
+        """Return the distance to the goal, and the turn towards it with the wandering added."""
         if self._goal is None:
             return math.inf, 0.0
         east, north = self._goal[0] - self._east, self._goal[1] - self._north

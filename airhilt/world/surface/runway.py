@@ -5,8 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-Place = tuple[float, float]
-"""Geodetic latitude and longitude, WGS84, in radians."""
+from airhilt.geodesy.wgs84 import Place
 
 GLIDE_PATH_RAD = math.radians(3.0)
 """Glide path angle, in rad: 3 degrees (ICAO Annex 14 volume I, 5.3.5.36, and Annex 10 volume I,

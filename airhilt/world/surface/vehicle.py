@@ -1,19 +1,24 @@
-"""Bodies of ground vehicles: they follow paths within the limits of their kind."""
+"""Ground vehicles: their kinds in numbers, and bodies that follow paths within these limits."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from collections.abc import Callable, Sequence
+from typing import Literal, NamedTuple
+
+from pydantic import BaseModel, ConfigDict, PositiveFloat
 
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place
+from airhilt.messages import EmitterCategory, VisibleClass
+from airhilt.shapes.appearance import Appearance
+from airhilt.shapes.mesh import Mesh
+from airhilt.shapes.sizes import Dimensions, Size
+from airhilt.shapes.vehicles import van
 from airhilt.world.mover import SurfaceState
 from airhilt.world.surface.alignment import Element, aligned
+from airhilt.world.surface.kind import DrivenKind, vehicle_appearance
 from airhilt.world.surface.reach import within_reach
-
-if TYPE_CHECKING:
-    from airhilt.world.surface.vehicle_kind import VehicleKind
 
 STANDING_M_S = 1e-6
 """Speed below which a vehicle stands, in m/s."""
@@ -23,6 +28,73 @@ SAME_END_M = 1e-6
 VehiclePhase = Literal["standing", "driving", "stopping"]
 
 
+class VehicleKind(DrivenKind, BaseModel):
+    """A kind of ground vehicle that differs from others in numbers, looks and labels.
+
+    Attributes
+    ----------
+    source
+        Source of the numbers, and which of them are estimates.
+    mesh
+        Makes its mesh, in its size.
+    label
+        Class that it has in pictures.
+    emitter_category
+        Category that its transponder sends: C1 for emergency, C2 for service vehicles.
+    radar_cross_section_m2
+        Radar cross section; the default is that of a pickup truck (M. Skolnik, Introduction to
+        Radar Systems, 3rd edition, table 2.2).
+    cruise_m_s
+        Speed at which it is driven by default.
+    lateral_m_s2
+        Greatest acceleration across, in a corner.
+    turning_radius_m
+        Least radius of the path of its middle.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
+
+    name: str
+    description: str
+    source: str
+    dimensions: Dimensions
+    mesh: Callable[[Size], Mesh] = van
+    label: VisibleClass = "truck"
+    emitter_category: EmitterCategory = "C2"
+    radar_cross_section_m2: PositiveFloat = 200.0
+    cruise_m_s: PositiveFloat
+    maximum_m_s: PositiveFloat
+    acceleration_m_s2: PositiveFloat
+    braking_m_s2: PositiveFloat
+    lateral_m_s2: PositiveFloat
+    turning_radius_m: PositiveFloat
+
+    def appearance(self) -> Appearance:
+        """Return its mesh, with a beacon and headlamps."""
+        return vehicle_appearance(self.mesh(self.dimensions), self.dimensions)
+
+    def create(
+        self,
+        place: Place,
+        heading_rad: float,
+        *,
+        ground_m: float,
+        tick_s: float,
+        seed: int = 0,  # noqa: ARG002
+        height_m: float = 0.0,
+    ) -> Vehicle:
+        """Return a vehicle of this kind; see `airhilt.world.surface.kind.Kind`.
+
+        Raises
+        ------
+        ValueError
+            It was to begin above the ground, or at no place.
+        """
+        if height_m != 0.0:
+            raise ValueError(f"height_m is {height_m}; a {self.name} does not fly")
+        return Vehicle(self, place, heading_rad, ground_m=ground_m, tick_s=tick_s)
+
+
 class _Stage(NamedTuple):
     """An element of the path, with the speeds at which it can be driven."""
 
@@ -30,7 +102,7 @@ class _Stage(NamedTuple):
     limit_m_s: float
     """Greatest speed in it, for the acceleration across."""
     exit_squared: float
-    """Greatest square of the speed at its end from which braking is enough for all that comes."""
+    """Square of the greatest speed at its end from which the vehicle can brake for what follows."""
     beyond_m: float
     """Length of all that comes after it."""
 
@@ -51,7 +123,7 @@ class Vehicle:
     ground_m
         Height of the ground above WGS84.
     tick_s
-        Time by which `advance` goes on.
+        Time step of `advance`.
 
     Attributes
     ----------
@@ -60,12 +132,12 @@ class Vehicle:
     phase
         ``standing``, ``driving`` or ``stopping``: braking because of `stop`.
     ended
-        Reason for which it moves no more; None while it does.
+        Why it does not move any more; None while it moves.
 
     Raises
     ------
     ValueError
-        The place is none, or a number is not finite.
+        The place is at a pole.
     """
 
     on_ground = True
@@ -79,8 +151,6 @@ class Vehicle:
         ground_m: float,
         tick_s: float,
     ) -> None:
-        if not (math.isfinite(heading_rad) and math.isfinite(ground_m)):
-            raise ValueError(f"heading {heading_rad} rad, ground {ground_m} m: not finite")
         self.kind = kind
         self.dimensions = kind.dimensions
         self.ended: str | None = None
@@ -128,7 +198,7 @@ class Vehicle:
         self.phase = "driving" if self._stages else "standing"
 
     def stop(self) -> None:
-        """Brake to a stand on the path; `resume` goes on. Nothing happens to one that stands."""
+        """Brake to a stand on the path until `resume`; no-op for a standing vehicle."""
         if self.phase == "driving":
             self.phase = "stopping"
 
@@ -175,7 +245,7 @@ class Vehicle:
         self.state = self._state(*stage.element.at(self._along))
 
     def _come_to_a_stand(self) -> None:
-        """Cover what is left of the braking distance; at the end of the path, all that is left."""
+        """Stop at the end of the braking distance, or exactly at the end of the path."""
         stage = self._stages[self._index]
         length = stage.element.length_m
         braked = self._along + 0.5 * self._speed * self._speed / self.kind.braking_m_s2

@@ -27,11 +27,9 @@ from airhilt.scenario.models import (
 )
 from airhilt.units import FOOT, KNOT, NAUTICAL_MILE, seconds_to_ns
 from airhilt.world.actors.actor import Actor
+from airhilt.world.actors.triggers import Test
 from airhilt.world.truth.conflicts import ConflictMonitor, Pair
 from airhilt.world.truth.runways import RunwayMonitor
-
-Test = Callable[[int], bool]
-"""Returns whether a condition is true at a time in ns."""
 
 
 class ConditionCompiler:
@@ -155,5 +153,5 @@ class ConditionCompiler:
 
 
 def _each(tests: Sequence[Test], now_ns: int) -> list[bool]:
-    """Return the result of every test, also where one would do: some tests keep time."""
+    """Return the results of all tests: each must run at every tick, since some keep time."""
     return [test(now_ns) for test in tests]

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Literal, NamedTuple
 from airhilt.messages import Arrival, RunwayTruth
 from airhilt.units import FOOT
 from airhilt.world.actors.actor import Actor
-from airhilt.world.truth.crossings import crossings
 from airhilt.world.truth.gaps import Gap, corners, gap, radius_m
 
 if TYPE_CHECKING:
@@ -140,7 +139,11 @@ class RunwayMonitor:
             for end in strip.ends
         }
         """Threshold (east, north), and sine and cosine of the course."""
-        self._crossings = crossings(layout.strips)
+        self._crossings: dict[str, list[tuple[str, tuple[float, float]]]] = {}
+        """Runways that cross each runway, and where the centre lines meet, in local metres."""
+        for first, second, point in layout.intersections:
+            self._crossings.setdefault(first, []).append((second, point))
+            self._crossings.setdefault(second, []).append((first, point))
         self._occupants: dict[str, tuple[str, ...]] = dict.fromkeys(layout.strips, ())
         self._arrivals: dict[str, tuple[Arrival, ...]] = dict.fromkeys(layout.strips, ())
 
@@ -288,7 +291,7 @@ class RunwayMonitor:
         self, now_ns: int, name: str, rolling: User, users: Mapping[str, list[User]]
     ) -> None:
         """Record that an aircraft rolls without a clearance, and who uses a crossing runway."""
-        for crossing, point in self._crossings[name]:
+        for crossing, point in self._crossings.get(name, ()):
             for other in users[crossing]:
                 if other.time_to_threshold_s <= ARRIVAL_WITHIN_S and all(
                     self._is_ahead(user, point) for user in (rolling, other)

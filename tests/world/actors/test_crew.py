@@ -10,7 +10,6 @@ from hypothesis import strategies as st
 
 from airhilt.commands import (
     AltitudeCommand,
-    Command,
     EmergencyDescentCommand,
     GoAroundCommand,
     SpeedCommand,
@@ -18,11 +17,10 @@ from airhilt.commands import (
 )
 from airhilt.geodesy.positions import GeodeticPosition
 from airhilt.messages import Advisory, Climb, Evidence, MaintainLevel, Severity, Turn
-from airhilt.scenario.models import Reactions
+from airhilt.scenario.models import AircraftSpec, Reactions
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
 from airhilt.world.actors.actor import Unable
 from airhilt.world.actors.crew import Crew
-from airhilt.world.actors.reactions import ReactionModel
 from airhilt.world.flight import Aircraft, Atmosphere, InitialCondition, load_aircraft_type
 from airhilt.world.site import ScenarioSite
 from breadth import examples
@@ -62,7 +60,8 @@ def crew_of(
 ) -> Crew:
     reactions = Reactions(reaction_median_s=median_s, reaction_sigma=sigma, compliance=compliance)
     centre = GeodeticPosition(type="geodetic", lat_deg=47.0, lon_deg=8.0)
-    return Crew(ReactionModel("AAL123", reactions, seed), aircraft, ScenarioSite(centre, 0.0))
+    spec = AircraftSpec.model_construct(callsign="AAL123", pilot=reactions)
+    return Crew(spec, aircraft, ScenarioSite(centre, 0.0), seed)
 
 
 def advisory(
@@ -299,9 +298,10 @@ def test_an_end_that_is_told_twice_is_no_harm(aircraft: Aircraft) -> None:
     assert level_ft(aircraft) == pytest.approx(5_000)
 
 
-@pytest.mark.parametrize(
-    ("command", "why"),
-    [
+def test_a_crew_is_unable_to_fly_what_its_aircraft_cannot(
+    subtests: pytest.Subtests, aircraft: Aircraft
+) -> None:
+    for command, why in [
         (SpeedCommand(action="speed", cas_kt=450), "unable 450 kt: a c172p flies 65 to 127 kt"),
         (SpeedCommand(action="speed", cas_kt=30), "unable 30 kt"),
         (AltitudeCommand(action="altitude", altitude_ft=-1_000), "unable -1000 ft: a c172p flies"),
@@ -317,16 +317,13 @@ def test_an_end_that_is_told_twice_is_no_harm(aircraft: Aircraft) -> None:
         ),
         (EmergencyDescentCommand(action="emergency_descent", altitude_ft=0), "unable 0 ft"),
         (GoAroundCommand(action="go_around", climb_to_ft=30_000), "unable 30000 ft"),
-    ],
-)
-def test_a_crew_is_unable_to_fly_what_its_aircraft_cannot(
-    aircraft: Aircraft, command: Command, why: str
-) -> None:
-    speed_m_s = aircraft.target_speed_m_s
-    with pytest.raises(Unable, match=why):
-        crew_of(aircraft).command(command)
-    assert level_ft(aircraft) == pytest.approx(5_000)
-    assert aircraft.target_speed_m_s == speed_m_s
+    ]:
+        with subtests.test(why):
+            speed_m_s = aircraft.target_speed_m_s
+            with pytest.raises(Unable, match=why):
+                crew_of(aircraft).command(command)
+            assert level_ft(aircraft) == pytest.approx(5_000)
+            assert aircraft.target_speed_m_s == speed_m_s
 
 
 def test_a_crew_flies_up_to_the_limits_of_its_aircraft(aircraft: Aircraft) -> None:
@@ -366,7 +363,7 @@ def test_a_crew_climbs_as_high_as_it_can_for_an_advisory(aircraft: Aircraft) -> 
 
 def test_the_ground_below_counts(aircraft: Aircraft) -> None:
     centre = GeodeticPosition(type="geodetic", lat_deg=47.0, lon_deg=8.0)
-    model = ReactionModel("AAL123", Reactions(), 1)
-    crew = Crew(model, aircraft, ScenarioSite(centre, 3_000 * FOOT))
+    spec = AircraftSpec.model_construct(callsign="AAL123", pilot=Reactions())
+    crew = Crew(spec, aircraft, ScenarioSite(centre, 3_000 * FOOT), 1)
     with pytest.raises(Unable, match="3500 to 13000 ft here"):
         crew.command(AltitudeCommand(action="altitude", altitude_ft=3_400))

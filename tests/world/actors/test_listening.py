@@ -9,7 +9,7 @@ import pytest
 
 from airhilt.commands import TrackCommand
 from airhilt.phraseology import TAU_ASR, Action, Instruction, parse_call
-from airhilt.world.actors.listening import Listener, Understanding, commands_of
+from airhilt.world.actors.listening import Listener, Understanding
 
 ON_FREQUENCY = ("AAL123", "DAL456")
 SAID = "American one two three, climb and maintain flight level three three zero."
@@ -159,9 +159,8 @@ def test_a_readback_of_another_clearance_differs() -> None:
     assert LISTENER.differs(read, said)
 
 
-@pytest.mark.parametrize(
-    ("instruction", "command"),
-    [
+def test_an_instruction_makes_a_command(subtests: pytest.Subtests) -> None:
+    for instruction, command in [
         ({"action": "go_around"}, {"action": "go_around", "climb_to_ft": 3000.0}),
         ({"action": "cancel_takeoff"}, {"action": "cancel_takeoff"}),
         ({"action": "hold_position"}, {"action": "hold_position"}),
@@ -179,56 +178,51 @@ def test_a_readback_of_another_clearance_differs() -> None:
         ),
         ({"action": "heading", "heading_deg": 90.0}, {"action": "track", "track_deg": 90.0}),
         ({"action": "speed", "speed_kt": 180.0}, {"action": "speed", "cas_kt": 180.0}),
-    ],
-)
-def test_an_instruction_makes_a_command(
-    instruction: dict[Any, Any], command: dict[Any, Any]
-) -> None:
-    (made,) = commands_of([Instruction(**instruction)], "01")
-    assert made.model_dump(exclude_none=True, exclude={"via", "vacate"}) == command
+    ]:
+        with subtests.test(str((instruction, command))):
+            (made,) = LISTENER.commands_of([Instruction(**instruction)], "01")
+            assert made.model_dump(exclude_none=True, exclude={"via", "vacate"}) == command
 
 
 @pytest.mark.parametrize("action", ["line_up", "cleared_for_takeoff", "cleared_to_land"])
 def test_without_any_runway_there_is_nothing_to_do(action: Action) -> None:
-    assert commands_of([Instruction(action=action)], None) == ()
+    assert LISTENER.commands_of([Instruction(action=action)], None) == ()
 
 
 def test_a_level_with_a_takeoff_is_where_it_climbs_to() -> None:
     said = [Instruction("cleared_for_takeoff", "01"), Instruction("altitude", altitude_ft=6000.0)]
-    (command,) = commands_of(said, None)
+    (command,) = LISTENER.commands_of(said, None)
     assert (command.action, command.climb_to_ft) == ("take_off", 6000.0)
 
 
 def test_what_is_said_twice_is_done_once() -> None:
     said = [Instruction("stop"), Instruction("hold_short", "01")]
-    assert [command.action for command in commands_of(said, None)] == ["hold_position"]
+    assert [command.action for command in LISTENER.commands_of(said, None)] == ["hold_position"]
 
 
 def test_what_holds_on_a_condition_is_not_done_at_once() -> None:
     said = [Instruction("line_up", "01", condition="behind the landing cessna")]
-    assert commands_of(said, None) == ()
+    assert LISTENER.commands_of(said, None) == ()
 
 
 def test_what_holds_until_an_event_is_done_at_once() -> None:
-    (command,) = commands_of(
+    (command,) = LISTENER.commands_of(
         [Instruction("speed", speed_kt=180.0, until="until established")], None
     )
     assert (command.action, command.cas_kt) == ("speed", 180.0)
 
 
-@pytest.mark.parametrize(
-    "said",
-    [
+def test_what_has_no_command_is_not_done_as_another(subtests: pytest.Subtests) -> None:
+    for said in [
         Instruction("cross_fix", position="lander", altitude_ft=5000.0, speed_kt=250.0),
         Instruction("altitude", sense="maintain", altitude_ft=5000.0, bound="or_less"),
         Instruction("hold_at", position="deer park"),
         Instruction("descend_via", position="hasty 2"),
         Instruction("turn_by", turn="left", turn_deg=20.0),
         Instruction("heading", heading_deg=270.0, condition="when airborne"),
-    ],
-)
-def test_what_has_no_command_is_not_done_as_another(said: Instruction) -> None:
-    assert commands_of([said], None) == ()
+    ]:
+        with subtests.test(str(said)):
+            assert LISTENER.commands_of([said], None) == ()
 
 
 def test_headings_that_are_said_are_magnetic() -> None:

@@ -13,11 +13,10 @@ from pydantic import TypeAdapter
 from airhilt.commands import Command
 from airhilt.geodesy.positions import RunwayPosition
 from airhilt.messages import Advisory, CancelTakeoff, Evidence, GoAround, HoldPosition, Severity
-from airhilt.scenario.models import Reactions
+from airhilt.scenario.models import AircraftSpec, Reactions
 from airhilt.units import FOOT, KNOT
 from airhilt.world.actors.actor import Unable
 from airhilt.world.actors.crew import Crew
-from airhilt.world.actors.reactions import ReactionModel
 from airhilt.world.flight import load_aircraft_type
 from airhilt.world.loading import load
 from airhilt.world.site import ScenarioSite
@@ -123,7 +122,8 @@ class Plane:
 
 
 def crew_of(plane: Any) -> Crew:
-    return Crew(ReactionModel("AAL1", Reactions(reaction_sigma=0.0), 1), plane, kdca())
+    reactions = Reactions(reaction_sigma=0.0)
+    return Crew(AircraftSpec.model_construct(callsign="AAL1", pilot=reactions), plane, kdca(), 1)
 
 
 def tell(crew: Crew, action: str, **arguments: Any) -> None:
@@ -350,11 +350,14 @@ def test_a_cancelled_takeoff_is_not_taken_up_by_itself() -> None:
     assert plane.names == ["take_off"]
 
 
-@pytest.mark.parametrize("phase", ["climb_out", "rejected_takeoff", "rotate", "rollout"])
-def test_there_is_nothing_to_cancel_where_there_is_no_takeoff_to_reject(phase: str) -> None:
-    plane = Plane(phase)
-    assert not crew_of(plane).hear(advisory(CancelTakeoff(runway="01"))).act()
-    assert plane.told == []
+def test_there_is_nothing_to_cancel_where_there_is_no_takeoff_to_reject(
+    subtests: pytest.Subtests,
+) -> None:
+    for phase in ["climb_out", "rejected_takeoff", "rotate", "rollout"]:
+        with subtests.test(phase):
+            plane = Plane(phase)
+            assert not crew_of(plane).hear(advisory(CancelTakeoff(runway="01"))).act()
+            assert plane.told == []
 
 
 def test_a_go_around_advised_as_the_wheels_touch_comes_too_late() -> None:
@@ -426,9 +429,8 @@ def test_an_advice_to_hold_position_does_not_make_who_flies_forget_to_land() -> 
     assert plane.names == ["fly_route", "land"]
 
 
-@pytest.mark.parametrize(
-    ("away_m", "right_m", "heading_deg", "lands"),
-    [
+def test_the_final_approach_is_joined_near_it_and_about_along_it(subtests: pytest.Subtests) -> None:
+    for away_m, right_m, heading_deg, lands in [
         (10_000.0, 0.0, 355.5, True),
         (10_000.0, 0.0, 33.0, True),
         (10_000.0, 0.0, 37.0, False),
@@ -436,16 +438,13 @@ def test_an_advice_to_hold_position_does_not_make_who_flies_forget_to_land() -> 
         (10_000.0, 950.0, 340.0, False),
         (10_000.0, 0.0, 175.5, False),
         (-100.0, 0.0, 355.5, False),
-    ],
-)
-def test_the_final_approach_is_joined_near_it_and_about_along_it(
-    away_m: float, right_m: float, heading_deg: float, lands: bool
-) -> None:
-    place = kdca().place(
-        RunwayPosition(type="runway", runway="01", along_m=-away_m, offset_m=right_m)
-    )
-    plane = Plane("en_route", place, 500.0, 150.0, heading_deg)
-    crew = crew_of(plane)
-    tell(crew, "land", runway="01")
-    assert plane.names == (["land"] if lands else [])
-    assert crew.runway_operations.bound_runway == "01"
+    ]:
+        with subtests.test(str((away_m, right_m, heading_deg, lands))):
+            place = kdca().place(
+                RunwayPosition(type="runway", runway="01", along_m=-away_m, offset_m=right_m)
+            )
+            plane = Plane("en_route", place, 500.0, 150.0, heading_deg)
+            crew = crew_of(plane)
+            tell(crew, "land", runway="01")
+            assert plane.names == (["land"] if lands else [])
+            assert crew.runway_operations.bound_runway == "01"

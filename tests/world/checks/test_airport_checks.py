@@ -12,7 +12,6 @@ import pytest
 
 from airhilt import load
 from airhilt.errors import ScenarioError
-from airhilt.host import library
 from airhilt.world.loading import load_text
 
 BASE = load("s01b_nominal").model_dump(mode="json") | {"perturbations": []}
@@ -43,14 +42,8 @@ def put(*path: Any) -> Callable[..., Any]:
     return change
 
 
-@pytest.mark.parametrize("name", library.names("scenarios"))
-def test_every_scenario_that_ships_is_valid(name: str) -> None:
-    load(name)
-
-
-@pytest.mark.parametrize(
-    ("change", "where", "what"),
-    [
+def test_it_is_named_with_its_place_and_with_what_there_is(subtests: pytest.Subtests) -> None:
+    table = [
         (lambda d: taxi(d).update(via=["H"]), "radio/lines/2/commands/0", "no taxi route"),
         (lambda d: taxi(d).update(via=["ZZ"]), "radio/lines/2/commands/0", "no taxiway 'ZZ'"),
         (lambda d: taxi(d)["to"].update(taxiway="Q"), "command/to", "no hold short of runway"),
@@ -79,14 +72,12 @@ def test_every_scenario_that_ships_is_valid(name: str) -> None:
                 [{"actor": "OPS1", "command": {"action": "land", "runway": "01"}}]),
             "command/action", "found 'land', which no vehicle does; expected taxi",
         ),
-    ],
-)  # fmt: skip
-def test_it_is_named_with_its_place_and_with_what_there_is(
-    change: Callable[..., Any], where: str, what: str
-) -> None:
-    message = complaint(change)
-    assert where in message
-    assert what in message
+    ]  # fmt: skip
+    for change, where, what in table:
+        with subtests.test(str((change, where, what))):
+            message = complaint(change)
+            assert where in message
+            assert what in message
 
 
 @pytest.mark.parametrize(("distance_nm", "what"), [(1.5, "nearest taxiway"), (20.0, "37.0 km")])
@@ -117,9 +108,10 @@ CONFUSED = {"type": "callsign_confused", "line": "proceed", "meant": "OPS1", "ta
 AT_ONCE = {"type": "time", "at_s": 5.0}
 
 
-@pytest.mark.parametrize(
-    ("change", "where", "what"),
-    [
+def test_what_would_only_show_in_the_middle_of_a_run_is_named_before(
+    subtests: pytest.Subtests,
+) -> None:
+    table = [
         (put("failures", [WRONG_READBACK]), "failures/0/commands/0/command", "no taxi route"),
         (put("failures", [CONFUSED]), "failures/0/taken_by", "found 'OPS1' twice"),
         (
@@ -146,14 +138,12 @@ AT_ONCE = {"type": "time", "at_s": 5.0}
                                          "before_m": 1500.0}),
             "actors/0/initial", "nearest taxiway",
         ),
-    ],
-)  # fmt: skip
-def test_what_would_only_show_in_the_middle_of_a_run_is_named_before(
-    change: Callable[..., Any], where: str, what: str
-) -> None:
-    message = complaint(change)
-    assert f"{where}: " in message
-    assert what in message
+    ]  # fmt: skip
+    for change, where, what in table:
+        with subtests.test(where):
+            message = complaint(change)
+            assert f"{where}: " in message
+            assert what in message
 
 
 def test_a_storm_is_refused_once_for_all_that_land() -> None:
@@ -165,22 +155,19 @@ def test_a_storm_is_refused_once_for_all_that_land() -> None:
     assert "weather/wind/speed_kt: found 90; expected at most 40" in problem
 
 
-@pytest.mark.parametrize(
-    "command",
-    [
+def test_nobody_is_told_to_use_a_runway_or_taxiway_en_route(subtests: pytest.Subtests) -> None:
+    for command in [
         {"action": "land", "runway": "01"},
         {"action": "line_up", "runway": "01"},
         {"action": "route", "route": [{"type": "runway", "runway": "01", "along_m": 0}]},
         {"action": "taxi", "to": {"type": "node", "node": "gate_b12"}},
-    ],
-    ids=lambda command: command["action"],
-)
-def test_nobody_is_told_to_use_a_runway_or_taxiway_en_route(command: dict[Any, Any]) -> None:
-    document = load("s02a_headon").model_dump(mode="json")
-    document["actors"][0]["commands"] = [command]
-    with pytest.raises(ScenarioError, match="the scene is en route") as caught:
-        load_text(json.dumps(document), "test.json")
-    assert "actors/0/commands/0" in str(caught.value)
+    ]:
+        with subtests.test(str(command)):
+            document = load("s02a_headon").model_dump(mode="json")
+            document["actors"][0]["commands"] = [command]
+            with pytest.raises(ScenarioError, match="the scene is en route") as caught:
+                load_text(json.dumps(document), "test.json")
+            assert "actors/0/commands/0" in str(caught.value)
 
 
 def invalid_file(tmp_path: Path, change: Callable[..., Any]) -> Path:

@@ -27,14 +27,13 @@ def doubts(document: dict[str, Any], line: str, **changes: Any) -> list[str]:
     return [str(doubt) for doubt in doubtful_texts(Scenario.model_validate(changed))]
 
 
-@pytest.mark.parametrize("name", library.names("scenarios"))
-def test_texts_of_shipped_scenarios_say_what_their_commands_do(name: str) -> None:
-    assert list(doubtful_texts(load(name))) == []
+def test_texts_of_shipped_scenarios_say_what_their_commands_do() -> None:
+    doubtful = {name: list(doubtful_texts(load(name))) for name in library.names("scenarios")}
+    assert not any(doubtful.values()), doubtful
 
 
-@pytest.mark.parametrize(
-    ("text", "doubt"),
-    [
+def test_words_that_mean_something_else_are_told(subtests: pytest.Subtests) -> None:
+    for text, doubt in [
         ("American ninety nine, runway zero one, cleared to land.", "names no actor, not AAL123"),
         ("Delta four five six, runway zero one, cleared to land.", "names DAL456, not AAL123"),
         (
@@ -42,11 +41,10 @@ def test_texts_of_shipped_scenarios_say_what_their_commands_do(name: str) -> Non
             "says runway 19, where its command has 01",
         ),
         ("American one two three, good morning.", "does not say to land, as its command does"),
-    ],
-)
-def test_words_that_mean_something_else_are_told(text: str, doubt: str) -> None:
-    (found,) = doubts(TIGHT, TIGHT["radio"]["lines"][0]["id"], text=text)
-    assert found == f"radio/lines/0/text: {doubt}: {text!r}"
+    ]:
+        with subtests.test(text):
+            (found,) = doubts(TIGHT, TIGHT["radio"]["lines"][0]["id"], text=text)
+            assert found == f"radio/lines/0/text: {doubt}: {text!r}"
 
 
 def test_another_order_than_the_command_is_told_both_ways() -> None:
@@ -56,9 +54,8 @@ def test_another_order_than_the_command_is_told_both_ways() -> None:
     assert besides == f"radio/lines/0/text: says go around, which no command does: {text!r}"
 
 
-@pytest.mark.parametrize(
-    ("words", "command", "doubt"),
-    [
+def test_details_of_turns_routes_and_climbs_are_compared(subtests: pytest.Subtests) -> None:
+    for words, command, doubt in [
         ("turn right thirty degrees", {"action": "turn", "degrees": 30.0}, ""),
         ("turn left thirty degrees", {"action": "turn", "degrees": 30.0}, "says turn_deg -30"),
         ("turn left thirty degrees", {"action": "turn", "degrees": -20.0}, "says turn_deg -30"),
@@ -70,25 +67,21 @@ def test_another_order_than_the_command_is_told_both_ways() -> None:
             {"action": "altitude", "altitude_ft": 35_000.0, "vertical_rate_fpm": 1500.0},
             "says rate_fpm 2000, where its command has 1500",
         ),
-    ],
-)
-def test_details_of_turns_routes_and_climbs_are_compared(
-    words: str, command: dict[str, Any], doubt: str
-) -> None:
-    if command["action"] == "taxi":
-        command = command | {"to": {"type": "node", "node": "gate"}}
-    line = VERTICAL["radio"]["lines"][0]
-    commands = [{"actor": "AAL123", "command": command}]
-    found = doubts(
-        VERTICAL, line["id"], text=f"American one two three, {words}.", commands=commands
-    )
-    assert len(found) == bool(doubt)
-    assert all(doubt in each for each in found)
+    ]:
+        with subtests.test(str((words, command, doubt))):
+            if command["action"] == "taxi":
+                command = command | {"to": {"type": "node", "node": "gate"}}
+            line = VERTICAL["radio"]["lines"][0]
+            commands = [{"actor": "AAL123", "command": command}]
+            found = doubts(
+                VERTICAL, line["id"], text=f"American one two three, {words}.", commands=commands
+            )
+            assert len(found) == bool(doubt)
+            assert all(doubt in each for each in found)
 
 
-@pytest.mark.parametrize(
-    ("line", "text", "order"),
-    [
+def test_an_order_that_no_command_carries_out_is_told(subtests: pytest.Subtests) -> None:
+    table = [
         ("roger", "go around, climb and maintain three thousand", "go around"),
         ("roger", "descend and maintain two thousand", "altitude"),
         ("clearance", "cleared to land runway zero one, turn left heading one eight zero",
@@ -97,27 +90,25 @@ def test_details_of_turns_routes_and_climbs_are_compared(
         ("readback", "cleared to land runway zero one, go around", "go around"),
         ("readback", "cleared to land runway zero one, descend and maintain two thousand",
          "altitude"),
-    ],
-)  # fmt: skip
-def test_an_order_that_no_command_carries_out_is_told(line: str, text: str, order: str) -> None:
-    said = f"American one two three, {text}."
-    if line == "readback":
-        said = f"{text.capitalize()}, American one two three."
-    doubted = doubts(BAD_READBACK, line, text=said)
-    assert any(f"says {order}, which no command does: {said!r}" in each for each in doubted)
+    ]  # fmt: skip
+    for line, text, order in table:
+        with subtests.test(str((line, text, order))):
+            said = f"American one two three, {text}."
+            if line == "readback":
+                said = f"{text.capitalize()}, American one two three."
+            doubted = doubts(BAD_READBACK, line, text=said)
+            assert any(f"says {order}, which no command does: {said!r}" in each for each in doubted)
 
 
-@pytest.mark.parametrize(
-    "text",
-    [
+def test_an_order_to_go_on_as_before_needs_no_command(subtests: pytest.Subtests) -> None:
+    for text in [
         "American one two three, continue approach, number two.",
         "American one two three, hold position.",
         "American one two three, maintain three thousand.",
         "American one two three, expect runway one niner.",
-    ],
-)
-def test_an_order_to_go_on_as_before_needs_no_command(text: str) -> None:
-    assert doubts(BAD_READBACK, "roger", text=text) == []
+    ]:
+        with subtests.test(text):
+            assert doubts(BAD_READBACK, "roger", text=text) == []
 
 
 def test_what_an_answer_does_is_not_missing_in_the_call_that_it_answers() -> None:

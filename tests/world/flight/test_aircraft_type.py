@@ -30,14 +30,18 @@ def wrong(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Any]
     return write
 
 
-@pytest.mark.parametrize(
-    ("name", "designator"), [("737", "B737"), ("B747", "B744"), ("c172p", "C172"), ("c310", "C310")]
-)
-def test_every_type_is_there(name: str, designator: str) -> None:
-    kind = load_aircraft_type(name)
-    assert kind.name == name
-    assert kind.icao_designator == designator
-    assert kind.speeds.minimum_clean_kt < kind.speeds.cruise_kt < kind.speeds.maximum_kt
+def test_every_type_is_there(subtests: pytest.Subtests) -> None:
+    for name, designator in [
+        ("737", "B737"),
+        ("B747", "B744"),
+        ("c172p", "C172"),
+        ("c310", "C310"),
+    ]:
+        with subtests.test(name):
+            kind = load_aircraft_type(name)
+            assert kind.name == name
+            assert kind.icao_designator == designator
+            assert kind.speeds.minimum_clean_kt < kind.speeds.cruise_kt < kind.speeds.maximum_kt
 
 
 def test_a_misspelt_name_gets_the_nearest() -> None:
@@ -102,19 +106,20 @@ def numbers(value: Any, *place: str | int) -> Iterator[tuple[str | int, ...]]:
         yield place
 
 
-@pytest.mark.parametrize("given", [True, "190", 1e308, -1e308])
-def test_every_number_is_strict_and_has_bounds(given: Any) -> None:
-    whole = json.loads(library.find("aircraft", "737").read_text())
-    places = list(numbers(whole))
-    assert len(places) > 60
-    for place in places:
-        content = json.loads(json.dumps(whole))
-        inner = content
-        for name in place[:-1]:
-            inner = inner[name]
-        inner[place[-1]] = given
-        with pytest.raises(ScenarioError, match=re.escape(".".join(map(str, place)))):
-            load_aircraft_type("mine.json", {"mine.json": content})
+def test_every_number_is_strict_and_has_bounds(subtests: pytest.Subtests) -> None:
+    for given in [True, "190", 1e308, -1e308]:
+        with subtests.test(str(given)):
+            whole = json.loads(library.find("aircraft", "737").read_text())
+            places = list(numbers(whole))
+            assert len(places) > 60
+            for place in places:
+                content = json.loads(json.dumps(whole))
+                inner = content
+                for name in place[:-1]:
+                    inner = inner[name]
+                inner[place[-1]] = given
+                with pytest.raises(ScenarioError, match=re.escape(".".join(map(str, place)))):
+                    load_aircraft_type("mine.json", {"mine.json": content})
 
 
 LIMITS: tuple[tuple[str, float, float, bool, bool], ...] = (

@@ -14,7 +14,7 @@ from airhilt.units import DEGREE, KNOT
 from airhilt.world.flight import load_aircraft_type, standard_atmosphere
 from airhilt.world.flight.control import FlightControl
 from airhilt.world.flight.en_route_commands import EnRouteCommands
-from airhilt.world.flight.guard import Guard
+from airhilt.world.flight.guard import FlightGuard
 from airhilt.world.flight.phases import AircraftSystems
 from airhilt.world.flight.procedure_commands import ProcedureCommands
 from airhilt.world.flight.procedures.approach import Glide
@@ -83,7 +83,7 @@ def test_it_turns_by_an_angle_from_its_track(turn_deg: float) -> None:
     assert flight.turn_rate() == pytest.approx(gain * turn_deg * DEGREE)
 
 
-@pytest.mark.parametrize("angle_rad", [6.29, -6.29, math.nan, math.inf])
+@pytest.mark.parametrize("angle_rad", [6.29, -6.29])
 def test_a_turn_of_more_than_a_circle_is_refused(angle_rad: float) -> None:
     with pytest.raises(ValueError, match="angle_rad is"):
         Flight().en_route.turn_by(angle_rad)
@@ -93,8 +93,6 @@ def test_a_track_is_turned_to_by_the_shorter_side() -> None:
     flight = Flight()
     flight.en_route.hold_track(1.0 - 170.0 * DEGREE)
     assert flight.turn_rate() == pytest.approx(-0.12 * 170.0 * DEGREE)
-    with pytest.raises(ValueError, match="track_rad is nan"):
-        flight.en_route.hold_track(math.nan)
 
 
 @pytest.mark.parametrize(
@@ -123,14 +121,6 @@ def test_a_rate_is_limited_by_that_of_a_climb_or_of_a_descent(
     object.__setattr__(flight.control.modes, "kind", B737.model_copy(update={"speeds": speeds}))
     accepted = flight.en_route.hold_altitude(altitude_m, 100.0)
     assert accepted.vertical_rate_m_s / FPM == pytest.approx(4_000.0 if is_climb else 3_000.0)
-
-
-@pytest.mark.parametrize("rate_m_s", [0.0, -1.0, math.nan])
-def test_a_rate_that_is_not_positive_is_refused(rate_m_s: float) -> None:
-    with pytest.raises(ValueError, match="vertical_rate_m_s is"):
-        Flight().en_route.hold_altitude(5_000.0, rate_m_s)
-    with pytest.raises(ValueError, match="altitude_m is"):
-        Flight().en_route.hold_altitude(math.inf, 1.0)
 
 
 @pytest.mark.parametrize(("asked_kt", "flown_kt"), [(250.0, 250.0), (100.0, 200.0), (500.0, 340.0)])
@@ -421,9 +411,6 @@ def test_waypoints_nearer_than_50_m_are_one(distance_m: float, count: int) -> No
 def test_a_route_leads_somewhere_on_earth() -> None:
     with pytest.raises(ValueError, match="leads nowhere"):
         legs_through((0.0, 0.0), [away(10.0)])
-    for bad in ((1.6, 0.0), (-1.6, 0.0), (math.nan, 0.0), (0.0, math.inf)):
-        with pytest.raises(ValueError, match="a waypoint's"):
-            legs_through((0.0, 0.0), [bad])
     pole = legs_through(away(0.0), [(math.pi / 2.0, 0.0)])
     assert pole[-1].end == (math.pi / 2.0, 0.0)
 
@@ -470,7 +457,7 @@ def test_who_may_touch_need_not_keep_flying_speed_below_5_m(
     change: dict[str, float], ends: bool
 ) -> None:
     state = state_at(altitude_m=100.0, speed_m_s=130.0)._replace(**change)
-    assert (Guard(B737).check(state, may_touch=True) is not None) is ends
+    assert (FlightGuard(B737).check(state, may_touch=True) is not None) is ends
 
 
 @pytest.mark.parametrize(
@@ -486,7 +473,7 @@ def test_who_may_touch_need_not_keep_flying_speed_below_5_m(
 )
 def test_wheels_touch_softly_and_alone(change: dict[str, float], ends: bool) -> None:
     state = state_at(altitude_m=0.5, speed_m_s=60.0)._replace(**change)
-    guard = Guard(B737)
+    guard = FlightGuard(B737)
     assert (guard.check(state, may_touch=True, on_ground=True) is not None) is ends
     assert guard.check(state, may_touch=True, on_ground=False) is None
 
@@ -512,4 +499,4 @@ def test_wheels_touch_softly_and_alone(change: dict[str, float], ends: bool) -> 
 )
 def test_a_flight_goes_on_within_its_envelope(change: dict[str, float], is_inside: bool) -> None:
     state = state_at(altitude_m=3_000.0, speed_m_s=130.0)._replace(**change)
-    assert (Guard(B737).check(state) is None) is is_inside
+    assert (FlightGuard(B737).check(state) is None) is is_inside

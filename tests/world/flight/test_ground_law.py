@@ -126,19 +126,21 @@ def test_a_second_of_braking_does_not_cost_it_the_power_to_taxi_on() -> None:
     assert taxiing.lever_after(TICK_S, speed_m_s=5.0) > 0.5 * before
 
 
-@pytest.mark.parametrize(("part", "scale"), [(4.0, 0.25), (1.0, 1.0), (0.3, 1 / 0.3), (0.2, 4.0),
-                                             (0.0, 4.0)])  # fmt: skip
 def test_the_nose_is_lowered_by_more_elevator_at_low_pressure_up_to_four_times(
-    part: float, scale: float
+    subtests: pytest.Subtests,
 ) -> None:
     """It is to come down by 2 degrees a second, and stands still."""
-    pitch = B737.gains.pitch
-    airframe = StandIn(dynamic_pressure_pa=part * pitch.reference_pressure_pa)
-    law(airframe).lower_nose()
-    error = -2.0 * DEGREE
-    expected = -scale * (0.5 * pitch.rate_s + pitch.rate_integral * TICK_S) * error
-    assert airframe.got["set_elevator"] == pytest.approx((expected,))
-    assert expected > 0.0  # That pitches down.
+    table = [(4.0, 0.25), (1.0, 1.0), (0.3, 1 / 0.3), (0.2, 4.0),
+                                             (0.0, 4.0)]  # fmt: skip
+    for part, scale in table:
+        with subtests.test(str((part, scale))):
+            pitch = B737.gains.pitch
+            airframe = StandIn(dynamic_pressure_pa=part * pitch.reference_pressure_pa)
+            law(airframe).lower_nose()
+            error = -2.0 * DEGREE
+            expected = -scale * (0.5 * pitch.rate_s + pitch.rate_integral * TICK_S) * error
+            assert airframe.got["set_elevator"] == pytest.approx((expected,))
+            assert expected > 0.0  # That pitches down.
 
 
 @pytest.mark.parametrize(("before", "after"), [(0.5, 0.475), (-0.3, -0.275), (0.11, 0.1)])
@@ -212,16 +214,16 @@ def test_no_turn_is_tighter_than_2_5_m_s2_to_the_side() -> None:
     assert airframe.got["set_rudder"] == pytest.approx((0.0,), abs=1e-9)
 
 
-@pytest.mark.parametrize(("over_m_s", "brakes"), [(0.1, 0.0), (0.2, 0.0), (1.0, 1.2 / 4.5),
-                                                  (5.0, 1.0)])  # fmt: skip
-def test_it_coasts_while_it_is_little_too_fast_and_brakes_then(
-    over_m_s: float, brakes: float
-) -> None:
+def test_it_coasts_while_it_is_little_too_fast_and_brakes_then(subtests: pytest.Subtests) -> None:
     """It is to lose 1.5 m/s each second for each m/s too much; coasting takes 0.3 of that."""
-    airframe = StandIn()
-    law(airframe).hold_speed(state_at(speed_m_s=5.0 + over_m_s), 5.0)
-    assert airframe.got["set_brakes"] == pytest.approx((brakes,))
-    assert airframe.got["set_throttle"] == (0.0,)
+    table = [(0.1, 0.0), (0.2, 0.0), (1.0, 1.2 / 4.5),
+                                                  (5.0, 1.0)]  # fmt: skip
+    for over_m_s, brakes in table:
+        with subtests.test(str((over_m_s, brakes))):
+            airframe = StandIn()
+            law(airframe).hold_speed(state_at(speed_m_s=5.0 + over_m_s), 5.0)
+            assert airframe.got["set_brakes"] == pytest.approx((brakes,))
+            assert airframe.got["set_throttle"] == (0.0,)
 
 
 def test_the_lever_of_one_who_taxies_stays_below_half() -> None:

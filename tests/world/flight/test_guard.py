@@ -17,7 +17,7 @@ from airhilt.world.flight.guard import (
     PITCH_LIMIT,
     SINK_FACTOR,
     STALL_FACTOR,
-    Guard,
+    FlightGuard,
 )
 from stand_ins import state_at
 
@@ -36,9 +36,10 @@ def test_flying_into_the_ground_ends_with_ground_contact(
     assert aircraft.state is last
 
 
-@pytest.mark.parametrize(
-    ("change", "cause"),
-    [
+def test_the_guard_names_the_cause(
+    subtests: pytest.Subtests, in_cruise: Callable[..., Any]
+) -> None:
+    for change, cause in [
         ({"altitude_m": math.nan}, "state_not_finite"),
         ({"ecef_z_m": -math.inf}, "state_not_finite"),
         ({"height_agl_m": -0.1}, "ground_contact"),
@@ -52,39 +53,33 @@ def test_flying_into_the_ground_ends_with_ground_contact(
             "envelope_exceeded: sink rate 15000 fpm",
         ),
         ({"roll_rad": 40 * DEGREE, "altitude_m": 100 * FOOT}, None),
-    ],
-)
-def test_the_guard_names_the_cause(
-    change: dict[str, float], cause: str | None, in_cruise: Callable[..., Any]
+    ]:
+        with subtests.test(str((change, cause))):
+            aircraft = in_cruise("737")
+            assert FlightGuard(aircraft.kind).check(aircraft.state._replace(**change)) == cause
+
+
+def test_only_the_wheels_may_touch_the_ground_and_softly(
+    subtests: pytest.Subtests, on_the_ground: Callable[..., Any]
 ) -> None:
-    aircraft = in_cruise("737")
-    assert Guard(aircraft.kind).check(aircraft.state._replace(**change)) == cause
-
-
-@pytest.mark.parametrize(
-    ("change", "cause"),
-    [
+    for change, cause in [
         ({}, None),
         ({"calibrated_airspeed_m_s": 20 * KNOT, "true_airspeed_m_s": 20 * KNOT}, None),
         ({"velocity_down_m_s": 13 * FOOT}, "ground_contact"),
         ({"pitch_rad": 15 * DEGREE}, "ground_contact"),
         ({"roll_rad": -14 * DEGREE}, "ground_contact"),
         ({"height_agl_m": -1.2}, "ground_contact"),
-    ],
-    ids=["soft", "slow", "hard", "tail", "wing", "gear"],
-)
-def test_only_the_wheels_may_touch_the_ground_and_softly(
-    change: dict[Any, Any], cause: str | None, on_the_ground: Callable[..., Any]
-) -> None:
-    aircraft = on_the_ground("737")
-    state = aircraft.state._replace(**change)
-    assert Guard(aircraft.kind).check(state, may_touch=True, on_ground=True) == cause
+    ]:
+        with subtests.test(str((change, cause))):
+            aircraft = on_the_ground("737")
+            state = aircraft.state._replace(**change)
+            assert FlightGuard(aircraft.kind).check(state, may_touch=True, on_ground=True) == cause
 
 
 def test_a_hop_on_the_takeoff_roll_is_no_stall(on_the_ground: Callable[..., Any]) -> None:
     aircraft = on_the_ground("737")
     hop = aircraft.state._replace(height_agl_m=0.5, calibrated_airspeed_m_s=70 * KNOT)
-    guard = Guard(aircraft.kind)
+    guard = FlightGuard(aircraft.kind)
     assert guard.check(hop, may_touch=True, on_ground=False) is None
     assert guard.check(hop, may_touch=False, on_ground=True) == "ground_contact"
 
@@ -102,20 +97,18 @@ def test_a_state_that_is_not_finite_ends_the_flight(
     assert aircraft.state is good
 
 
-@pytest.mark.parametrize(
-    ("limit", "named"),
-    [
+def test_a_flight_that_has_just_reached_a_limit_ends_with_the_name_of_that_limit(
+    subtests: pytest.Subtests,
+) -> None:
+    for limit, named in [
         ({"roll_rad": BANK_LIMIT}, "bank"),
         ({"pitch_rad": -PITCH_LIMIT}, "pitch"),
         ({"calibrated_airspeed_m_s": STALL_FACTOR * 143 * KNOT}, "stall"),
         ({"calibrated_airspeed_m_s": OVERSPEED_FACTOR * 340 * KNOT}, "airspeed"),
         ({"mach": 0.82 + OVERSPEED_MACH}, "Mach"),
         ({"velocity_down_m_s": SINK_FACTOR * 4_000 * FOOT_PER_MINUTE}, "sink rate"),
-    ],
-)
-def test_a_flight_that_has_just_reached_a_limit_ends_with_the_name_of_that_limit(
-    limit: dict[str, float], named: str
-) -> None:
-    state = state_at(altitude_m=3_000.0, speed_m_s=250 * KNOT)._replace(**limit)
-    cause = Guard(load_aircraft_type("737")).check(state)
-    assert str(cause).startswith(f"envelope_exceeded: {named}")
+    ]:
+        with subtests.test(named):
+            state = state_at(altitude_m=3_000.0, speed_m_s=250 * KNOT)._replace(**limit)
+            cause = FlightGuard(load_aircraft_type("737")).check(state)
+            assert str(cause).startswith(f"envelope_exceeded: {named}")

@@ -63,17 +63,24 @@ def test_a_corner_is_cut_by_the_circle_of_four_fifths_of_the_bank(
     assert (flown.leg is not first) == turns
 
 
-@pytest.mark.parametrize(
-    ("turn_deg", "is_cut"),
-    [(0.9, False), (1.2, True), (149.5, True), (-149.5, True), (150.5, False), (-151.0, False)],
-)
-def test_corners_from_1_to_150_degrees_are_cut(turn_deg: float, is_cut: bool) -> None:
-    flown = route(CORNER, place(CORNER, turn_deg, 30_000.0))
-    first = flown.leg
-    flown.turn_rate(state_at(place(CORNER, 180.0, 1.0), altitude_m=0.0, speed_m_s=SPEED_M_S))
-    assert (flown.leg is not first) == is_cut
-    flown.turn_rate(state_at(place(CORNER, 0.0, 1.0), altitude_m=0.0, speed_m_s=SPEED_M_S))
-    assert flown.leg is not first
+def test_corners_from_1_to_150_degrees_are_cut(subtests: pytest.Subtests) -> None:
+    for turn_deg, is_cut in [
+        (0.9, False),
+        (1.2, True),
+        (149.5, True),
+        (-149.5, True),
+        (150.5, False),
+        (-151.0, False),
+    ]:
+        with subtests.test(str((turn_deg, is_cut))):
+            flown = route(CORNER, place(CORNER, turn_deg, 30_000.0))
+            first = flown.leg
+            flown.turn_rate(
+                state_at(place(CORNER, 180.0, 1.0), altitude_m=0.0, speed_m_s=SPEED_M_S)
+            )
+            assert (flown.leg is not first) == is_cut
+            flown.turn_rate(state_at(place(CORNER, 0.0, 1.0), altitude_m=0.0, speed_m_s=SPEED_M_S))
+            assert flown.leg is not first
 
 
 @pytest.mark.parametrize("turn_deg", [40.0, -90.0, 135.0])
@@ -100,28 +107,26 @@ def test_who_flies_what_is_asked_cuts_the_corner_on_a_circle_and_comes_out_on_th
     assert (abs(turn_deg * DEGREE) - rolls_out) / greatest == pytest.approx(ROLL_LEAD_S, abs=0.5)
 
 
-@pytest.mark.parametrize(
-    ("altitude_m", "rate_m_s", "expected"),
-    [(900.0, 5.0, 5.0), (1100.0, 5.0, -5.0), (990.0, 5.0, 2.0), (1010.0, 5.0, -2.0),
-     (1000.0, 5.0, 0.0), (975.0, 5.0, 5.0)],
-)  # fmt: skip
 def test_the_rate_to_an_altitude_is_a_fifth_of_what_is_left_a_second_and_the_cleared_one_at_most(
-    altitude_m: float, rate_m_s: float, expected: float
+    subtests: pytest.Subtests,
 ) -> None:
-    mode = Altitude(AltitudeClearance(1000.0, rate_m_s), 0.2)
-    assert mode.vertical_rate(state_at(altitude_m=altitude_m)) == pytest.approx(expected)
+    table = [(900.0, 5.0, 5.0), (1100.0, 5.0, -5.0), (990.0, 5.0, 2.0), (1010.0, 5.0, -2.0),
+     (1000.0, 5.0, 0.0), (975.0, 5.0, 5.0)]  # fmt: skip
+    for altitude_m, rate_m_s, expected in table:
+        with subtests.test(str((altitude_m, rate_m_s, expected))):
+            mode = Altitude(AltitudeClearance(1000.0, rate_m_s), 0.2)
+            assert mode.vertical_rate(state_at(altitude_m=altitude_m)) == pytest.approx(expected)
 
 
-@pytest.mark.parametrize(
-    ("altitude_m", "rate_m_s", "captures"),
-    [(990.0, 1.9, False), (990.0, 2.1, True), (1010.0, -1.9, False), (1010.0, -2.1, True),
-     (990.0, -1.0, False), (1010.0, 1.0, False), (1000.0, 0.0, True)],
-)  # fmt: skip
 def test_it_levels_off_once_its_rate_is_more_than_what_is_left_asks_for(
-    altitude_m: float, rate_m_s: float, captures: bool
+    subtests: pytest.Subtests,
 ) -> None:
-    mode = Altitude(AltitudeClearance(1000.0, 5.0), 0.2)
-    assert mode.captures(state_at(altitude_m=altitude_m, rate_m_s=rate_m_s)) is captures
+    table = [(990.0, 1.9, False), (990.0, 2.1, True), (1010.0, -1.9, False), (1010.0, -2.1, True),
+     (990.0, -1.0, False), (1010.0, 1.0, False), (1000.0, 0.0, True)]  # fmt: skip
+    for altitude_m, rate_m_s, captures in table:
+        with subtests.test(str((altitude_m, rate_m_s, captures))):
+            mode = Altitude(AltitudeClearance(1000.0, 5.0), 0.2)
+            assert mode.captures(state_at(altitude_m=altitude_m, rate_m_s=rate_m_s)) is captures
 
 
 @pytest.mark.parametrize(("at_mach", "expected"), [(0.7, 130.0), (0.8, 120.0), (0.9, 106.667)])
@@ -133,18 +138,19 @@ def test_an_airspeed_is_held_up_to_the_greatest_mach_number(
     assert mode.airspeed(state) == pytest.approx(expected, abs=0.001)
 
 
-@pytest.mark.parametrize(
-    ("track_deg", "turn_deg", "sign"),
-    [(90.0, None, 1.0), (-90.0, None, -1.0), (170.0, None, 1.0), (190.0, None, -1.0),
-     (90.0, -270.0, -1.0), (-90.0, 270.0, 1.0), (10.0, 370.0, 1.0)],
-)  # fmt: skip
 def test_a_turn_is_by_the_shorter_side_unless_the_other_one_was_asked_for(
-    track_deg: float, turn_deg: float | None, sign: float
+    subtests: pytest.Subtests,
 ) -> None:
-    mode = Track(track_deg * DEGREE, 0.1, None if turn_deg is None else turn_deg * DEGREE)
-    expected = 0.1 * (math.remainder(track_deg, 360.0) if turn_deg is None else turn_deg) * DEGREE
-    assert mode.turn_rate(state_at(track_rad=0.0)) == pytest.approx(expected, rel=1e-6)
-    assert math.copysign(1.0, expected) == sign
+    table = [(90.0, None, 1.0), (-90.0, None, -1.0), (170.0, None, 1.0), (190.0, None, -1.0),
+     (90.0, -270.0, -1.0), (-90.0, 270.0, 1.0), (10.0, 370.0, 1.0)]  # fmt: skip
+    for track_deg, turn_deg, sign in table:
+        with subtests.test(str((track_deg, turn_deg, sign))):
+            mode = Track(track_deg * DEGREE, 0.1, None if turn_deg is None else turn_deg * DEGREE)
+            expected = (
+                0.1 * (math.remainder(track_deg, 360.0) if turn_deg is None else turn_deg) * DEGREE
+            )
+            assert mode.turn_rate(state_at(track_rad=0.0)) == pytest.approx(expected, rel=1e-6)
+            assert math.copysign(1.0, expected) == sign
 
 
 def test_a_constant_track_is_no_geodesic_away_from_the_equator() -> None:

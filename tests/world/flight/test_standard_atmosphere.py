@@ -19,24 +19,20 @@ from airhilt.world.flight.standard_atmosphere import (
 )
 
 
-@pytest.mark.parametrize(
-    ("height_m", "temperature_k", "pressure_pa", "sound_m_s"),
-    [
+def test_temperature_pressure_and_sound_are_those_of_the_tables(subtests: pytest.Subtests) -> None:
+    """The tables go by geopotential height."""
+    for height_m, temperature_k, pressure_pa, sound_m_s in [
         (0.0, 288.150, 101_325.0, 340.294),
         (5_000.0, 255.650, 54_019.9, 320.529),
         (11_000.0, 216.650, 22_632.1, 295.070),
         (15_000.0, 216.650, 12_044.6, 295.070),
         (20_000.0, 216.650, 5_474.9, 295.070),
-    ],
-)
-def test_temperature_pressure_and_sound_are_those_of_the_tables(
-    height_m: float, temperature_k: float, pressure_pa: float, sound_m_s: float
-) -> None:
-    """The tables go by geopotential height."""
-    altitude_m = NOMINAL_EARTH_RADIUS_M * height_m / (NOMINAL_EARTH_RADIUS_M - height_m)
-    assert temperature(altitude_m) == pytest.approx(temperature_k, abs=1e-3)
-    assert pressure(altitude_m) == pytest.approx(pressure_pa, rel=1e-5)
-    assert speed_of_sound(altitude_m) == pytest.approx(sound_m_s, abs=1e-3)
+    ]:
+        with subtests.test(str((height_m, temperature_k, pressure_pa, sound_m_s))):
+            altitude_m = NOMINAL_EARTH_RADIUS_M * height_m / (NOMINAL_EARTH_RADIUS_M - height_m)
+            assert temperature(altitude_m) == pytest.approx(temperature_k, abs=1e-3)
+            assert pressure(altitude_m) == pytest.approx(pressure_pa, rel=1e-5)
+            assert speed_of_sound(altitude_m) == pytest.approx(sound_m_s, abs=1e-3)
 
 
 @given(st.floats(1.0, 330.0))
@@ -55,14 +51,17 @@ def test_a_mach_number_comes_back_from_its_calibrated_airspeed(
     assert true_airspeed(airspeed_m_s, altitude_m) == pytest.approx(mach_number * sound_m_s)
 
 
-@pytest.mark.parametrize(
-    ("altitude_m", "density_kg_m3"),
-    [(0.0, 1.22500), (5_000.0, 0.736429), (11_000.0, 0.364801), (20_000.0, 0.0889097)],
-)
 def test_slow_flight_is_faster_by_the_root_of_the_density_of_the_tables(
-    altitude_m: float, density_kg_m3: float
+    subtests: pytest.Subtests,
 ) -> None:
     """Air is hardly compressed at 5 m/s. The densities are those of the US Standard Atmosphere
     1976 by geometric altitude."""
-    expected = 5.0 * math.sqrt(1.225 / density_kg_m3)
-    assert true_airspeed(5.0, altitude_m) == pytest.approx(expected, rel=1e-3)
+    for altitude_m, density_kg_m3 in [
+        (0.0, 1.22500),
+        (5_000.0, 0.736429),
+        (11_000.0, 0.364801),
+        (20_000.0, 0.0889097),
+    ]:
+        with subtests.test(str((altitude_m, density_kg_m3))):
+            expected = 5.0 * math.sqrt(1.225 / density_kg_m3)
+            assert true_airspeed(5.0, altitude_m) == pytest.approx(expected, rel=1e-3)

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from typing import Any
 
 import pytest
 
 from airhilt.units import FOOT, KNOT
-from airhilt.world.flight import InitialCondition, load_aircraft_type
+from airhilt.world.flight import load_aircraft_type
 from airhilt.world.flight.airframe import Airframe
 from airhilt.world.flight.modes import GuidanceModes
-from airhilt.world.flight.state import OnGround
 
 
 def limits_kt(name: str, altitude_ft: float) -> tuple[float, ...]:
@@ -34,21 +32,6 @@ def test_it_may_not_begin_slower_or_faster(in_cruise: Callable[..., Any]) -> Non
     for airspeed_kt in (slowest_kt - 0.5, fastest_kt + 0.5):
         with pytest.raises(ValueError, match="calibrated_airspeed_m_s"):
             in_cruise("737", altitude_ft=20_000, airspeed_kt=airspeed_kt)
-
-
-@pytest.mark.parametrize("degrees", [90.1, -90.1, 135.0, 180.0, 270.0])
-def test_beyond_the_poles_there_is_no_place_to_begin(degrees: float) -> None:
-    latitude = math.radians(degrees)
-    with pytest.raises(ValueError, match=r"latitude_rad is .*; expected within"):
-        InitialCondition(latitude, 0.0, 3_000.0, 0.0, 100.0)
-    with pytest.raises(ValueError, match=r"latitude_rad is .*; expected within"):
-        OnGround(latitude, 0.0, 0.0)
-
-
-@pytest.mark.parametrize("pole", [math.pi / 2.0, -math.pi / 2.0])
-def test_a_pole_is_a_place(pole: float) -> None:
-    assert InitialCondition(pole, 0.0, 3_000.0, 0.0, 100.0).latitude_rad == pole
-    assert OnGround(pole, 0.0, 0.0).latitude_rad == pole
 
 
 @pytest.mark.parametrize("rate_m_s", [2.0, -2.0])

@@ -37,18 +37,18 @@ def at(point: Point, heading_deg: float = 0.0, speed_m_s: float = 5.0) -> Aircra
 # --- where it is ----------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("point", "along_m"),
-    [
+def test_it_is_as_far_along_as_the_nearest_point_of_the_path(subtests: pytest.Subtests) -> None:
+    for point, along_m in [
         ((0.0, 0.0), 0.0),
         ((0.0, -3.0), -3.0),  # Before its beginning.
         ((0.0, 4.0), 4.0),
         ((2.0, 7.0), 7.0),
         ((-2.0, 12.5), 12.5),
-    ],
-)
-def test_it_is_as_far_along_as_the_nearest_point_of_the_path(point: Point, along_m: float) -> None:
-    assert path((0.0, 0.0), (0.0, 100.0)).along_m(at(point)) == pytest.approx(along_m, abs=1e-3)
+    ]:
+        with subtests.test(str((point, along_m))):
+            assert path((0.0, 0.0), (0.0, 100.0)).along_m(at(point)) == pytest.approx(
+                along_m, abs=1e-3
+            )
 
 
 def test_it_goes_along_every_leg_and_beyond_the_end() -> None:
@@ -108,11 +108,12 @@ def test_on_the_path_it_does_not_yaw_and_away_from_it_not_by_more_than_a_quarter
 # --- how fast -------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("to_go_m", [0.5, 4.0, 7.3, 20.0, 62.0, 63.0, 80.0])
-def test_towards_the_end_it_slows_down_evenly_by_0_8_m_s2(to_go_m: float) -> None:
-    straight = path((0.0, 0.0), (0.0, 100.0))
-    expected = min(math.sqrt(2.0 * 0.8 * to_go_m), 10.0)
-    assert straight.speed_m_s(100.0 - to_go_m) == pytest.approx(expected, rel=1e-3)
+def test_towards_the_end_it_slows_down_evenly_by_0_8_m_s2(subtests: pytest.Subtests) -> None:
+    for to_go_m in [0.5, 4.0, 7.3, 20.0, 62.0, 63.0, 80.0]:
+        with subtests.test(str(to_go_m)):
+            straight = path((0.0, 0.0), (0.0, 100.0))
+            expected = min(math.sqrt(2.0 * 0.8 * to_go_m), 10.0)
+            assert straight.speed_m_s(100.0 - to_go_m) == pytest.approx(expected, rel=1e-3)
 
 
 @pytest.mark.parametrize("along_m", [100.001, 101.0, 500.0])

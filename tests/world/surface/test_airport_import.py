@@ -63,16 +63,19 @@ def test_every_airport_becomes_one_on_which_aircraft_can_taxi(ident: str, tmp_pa
             assert layout.exits(end.ident), end.ident
 
 
-@pytest.mark.parametrize("ident", IDENTS)
-def test_taxiways_enter_protected_areas_only_past_a_hold(ident: str) -> None:
-    airport = imported(ident)
-    layout = Layout(airport)
-    kinds = {node.name: node.kind for node in airport.taxiways.nodes}
-    protected = shapely.union_all([strip.protected_area for strip in layout.strips.values()])
-    for edge in airport.taxiways.edges:
-        line = shapely.LineString([layout.taxiways.nodes[node] for node in edge.nodes])
-        enters = line.intersection(protected).length > TOUCHES_M
-        assert enters == (sorted(kinds[node] for node in edge.nodes) == ["hold", "runway"])
+def test_taxiways_enter_protected_areas_only_past_a_hold(subtests: pytest.Subtests) -> None:
+    for ident in IDENTS:
+        with subtests.test(ident):
+            airport = imported(ident)
+            layout = Layout(airport)
+            kinds = {node.name: node.kind for node in airport.taxiways.nodes}
+            protected = shapely.union_all(
+                [strip.protected_area for strip in layout.strips.values()]
+            )
+            for edge in airport.taxiways.edges:
+                line = shapely.LineString([layout.taxiways.nodes[node] for node in edge.nodes])
+                enters = line.intersection(protected).length > TOUCHES_M
+                assert enters == (sorted(kinds[node] for node in edge.nodes) == ["hold", "runway"])
 
 
 def test_importing_twice_gives_the_same_airport() -> None:

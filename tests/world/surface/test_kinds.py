@@ -65,18 +65,20 @@ def test_all_kinds_have_a_file_and_say_where_their_numbers_come_from() -> None:
         assert "estimate" in cast(Any, kind).source
 
 
-@pytest.mark.parametrize("name", ["follow_me", "fire_truck", "tug_with_aircraft", "snow_plough"])
-def test_vehicles_can_be_driven(name: str) -> None:
-    body = load_kind(name, "vehicle").create(HERE, 0.0, ground_m=0.0, tick_s=0.05)
-    assert isinstance(body, Driven)
-    with pytest.raises(ValueError, match="does not fly"):
-        load_kind(name).create(HERE, 0.0, ground_m=0.0, tick_s=0.05, height_m=10.0)
+def test_vehicles_can_be_driven(subtests: pytest.Subtests) -> None:
+    for name in ["follow_me", "fire_truck", "tug_with_aircraft", "snow_plough"]:
+        with subtests.test(name):
+            body = load_kind(name, "vehicle").create(HERE, 0.0, ground_m=0.0, tick_s=0.05)
+            assert isinstance(body, Driven)
+            with pytest.raises(ValueError, match="does not fly"):
+                load_kind(name).create(HERE, 0.0, ground_m=0.0, tick_s=0.05, height_m=10.0)
 
 
-@pytest.mark.parametrize("name", ["deer", "coyote", "goose", "flock"])
-def test_wildlife_has_a_will_of_its_own(name: str) -> None:
-    body = load_kind(name, "wildlife").create(HERE, 0.0, ground_m=0.0, tick_s=0.05, seed=1)
-    assert isinstance(body, Creature)
+def test_wildlife_has_a_will_of_its_own(subtests: pytest.Subtests) -> None:
+    for name in ["deer", "coyote", "goose", "flock"]:
+        with subtests.test(name):
+            body = load_kind(name, "wildlife").create(HERE, 0.0, ground_m=0.0, tick_s=0.05, seed=1)
+            assert isinstance(body, Creature)
 
 
 def test_an_unknown_kind_is_told_with_the_nearest_that_there_is() -> None:

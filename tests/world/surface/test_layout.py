@@ -75,9 +75,10 @@ def test_the_three_runways_of_washington_cross_each_other(washington: Layout) ->
     assert math.dist(threshold, crossings["01/19", "15/33"]) == pytest.approx(1504.5, abs=2.0)
 
 
-@pytest.mark.parametrize(("icao", "count"), [("KSFO", 4), ("EHAM", 1), ("LSZH", 1), ("RJTT", 1)])
-def test_intersections_come_out_of_the_coordinates(icao: str, count: int) -> None:
-    assert len(Layout(load_airport(icao)).intersections) == count
+def test_intersections_come_out_of_the_coordinates(subtests: pytest.Subtests) -> None:
+    for icao, count in [("KSFO", 4), ("EHAM", 1), ("LSZH", 1), ("RJTT", 1)]:
+        with subtests.test(icao):
+            assert len(Layout(load_airport(icao)).intersections) == count
 
 
 def test_a_displaced_threshold_lies_beyond_the_start() -> None:

@@ -15,8 +15,7 @@ from airhilt.units import wrap_angle
 from airhilt.world.mover import SurfaceState
 from airhilt.world.surface.alignment import CORNER_CUT_M
 from airhilt.world.surface.kinds import load_kind
-from airhilt.world.surface.vehicle import Vehicle
-from airhilt.world.surface.vehicle_kind import VehicleKind
+from airhilt.world.surface.vehicle import Vehicle, VehicleKind
 from breadth import examples
 
 HERE: Place = (math.radians(38.8521), math.radians(-77.0377))
@@ -284,23 +283,19 @@ def test_a_path_to_where_it_stands_leaves_it_there() -> None:
     assert body.phase == "standing"
 
 
-@pytest.mark.parametrize(
-    ("places", "speed", "says"),
-    [
+def test_paths_that_cannot_be_driven_are_refused(subtests: pytest.Subtests) -> None:
+    for places, speed, says in [
         ([], None, "at least its end"),
         ([HERE], 0.0, "more than 0"),
         ([HERE], math.nan, "more than 0"),
         ([(math.nan, 0.0)], None, "not within"),
         ([(0.0, 0.0)], None, "not within 50 km"),
-    ],
-)
-def test_paths_that_cannot_be_driven_are_refused(
-    places: list[Place], speed: float | None, says: str
-) -> None:
-    body = vehicle()
-    with pytest.raises(ValueError, match=says):
-        body.drive(places, speed)
-    assert body.phase == "standing"
+    ]:
+        with subtests.test(str((places, speed, says))):
+            body = vehicle()
+            with pytest.raises(ValueError, match=says):
+                body.drive(places, speed)
+            assert body.phase == "standing"
 
 
 def test_nothing_is_left_to_go_on_with_at_the_end() -> None:

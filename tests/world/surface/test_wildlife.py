@@ -270,14 +270,6 @@ def test_only_what_has_wings_flies() -> None:
         animal("coyote", height_m=10.0)
 
 
-@pytest.mark.parametrize("height_m", [-1.0, math.nan, math.inf])
-def test_heights_that_are_none_are_refused(height_m: float) -> None:
-    with pytest.raises(ValueError, match="expected 0 or more"):
-        animal("goose").fly_to(HERE, height_m)
-    with pytest.raises(ValueError, match="expected 0 or more"):
-        animal("goose", height_m=height_m)
-
-
 def test_a_flock_grows_with_its_birds() -> None:
     bird = animal("goose").kind.dimensions
     one, few, many = (flock_aloft(bird, count, spacing_m=2.0) for count in (1, 50, 5000))

@@ -140,17 +140,16 @@ def test_drawing_apart_must_not_be_broken_off() -> None:
     assert not case.after(10.0)
 
 
-@pytest.mark.parametrize(
-    ("altitude_ft", "target_ft", "true"),
-    [(31_000, 35_000, True), (31_000, 35_040, True), (31_000, 35_060, False),
-     (35_000, 31_000, False), (35_000, None, True)],
-)  # fmt: skip
 def test_bound_for_an_altitude_is_where_an_aircraft_flies_to_and_not_where_it_is(
-    altitude_ft: int, target_ft: int | None, true: bool
+    subtests: pytest.Subtests,
 ) -> None:
-    condition = {"type": "bound_for_altitude", "actor": "AA", "altitude_ft": 35_000}
-    first = Straight(altitude_ft=altitude_ft, target_ft=target_ft)
-    assert Case(condition, first, Straight())() == true
+    table = [(31_000, 35_000, True), (31_000, 35_040, True), (31_000, 35_060, False),
+     (35_000, 31_000, False), (35_000, None, True)]  # fmt: skip
+    for altitude_ft, target_ft, true in table:
+        with subtests.test(str((altitude_ft, target_ft, true))):
+            condition = {"type": "bound_for_altitude", "actor": "AA", "altitude_ft": 35_000}
+            first = Straight(altitude_ft=altitude_ft, target_ft=target_ft)
+            assert Case(condition, first, Straight())() == true
 
 
 @pytest.mark.parametrize(
@@ -268,16 +267,22 @@ def test_an_actor_is_on_a_runway_in_both_directions_and_only_on_the_ground() -> 
     assert on("AA", "01", along_m=500.0, on_ground=True, altitude_ft=0.0)
 
 
-@pytest.mark.parametrize(
-    ("runway", "within_s", "true"),
-    [("01", 41.0, False), ("01", 42.0, True), ("1", 42.0, True), ("19", 1200.0, False)],
-)
-def test_the_threshold_is_within_a_time_of_an_arrival(
-    runway: str, within_s: float, true: bool
-) -> None:
+def test_the_threshold_is_within_a_time_of_an_arrival(subtests: pytest.Subtests) -> None:
     """3000 m away at 72 m/s."""
-    condition = {"type": "threshold_within", "actor": "AA", "runway": runway, "within_s": within_s}
-    assert Airport(condition)() == true
+    for runway, within_s, true in [
+        ("01", 41.0, False),
+        ("01", 42.0, True),
+        ("1", 42.0, True),
+        ("19", 1200.0, False),
+    ]:
+        with subtests.test(str((runway, within_s, true))):
+            condition = {
+                "type": "threshold_within",
+                "actor": "AA",
+                "runway": runway,
+                "within_s": within_s,
+            }
+            assert Airport(condition)() == true
 
 
 def test_the_threshold_is_no_matter_of_who_has_passed_it_or_stands_or_has_landed() -> None:
@@ -328,9 +333,10 @@ def test_two_have_collided_once_they_have_touched_and_ever_after() -> None:
         assert case()
 
 
-@pytest.mark.parametrize(
-    "condition",
-    [
+def test_of_an_actor_at_an_airport_that_has_ended_nothing_is_true(
+    subtests: pytest.Subtests,
+) -> None:
+    for condition in [
         {"type": "in_phase", "actor": "AA", "phases": ["glide"]},
         {"type": "bound_for_runway", "actor": "AA", "runway": "01"},
         {"type": "on_runway", "actor": "BB", "runway": "01"},
@@ -338,13 +344,9 @@ def test_two_have_collided_once_they_have_touched_and_ever_after() -> None:
         {"type": "speed_above", "actor": "AA", "speed_kt": 100.0},
         {"type": "height_below", "actor": "AA", "height_ft": 600.0},
         {"type": "distance_below", "actors": PAIR, "distance_m": 5_000.0},
-    ],
-    ids=lambda condition: condition["type"],
-)
-def test_of_an_actor_at_an_airport_that_has_ended_nothing_is_true(
-    condition: dict[Any, Any],
-) -> None:
-    case = Airport(condition)
-    assert case()
-    case.end(condition.get("actor", "AA"))
-    assert not case()
+    ]:
+        with subtests.test(str(condition)):
+            case = Airport(condition)
+            assert case()
+            case.end(condition.get("actor", "AA"))
+            assert not case()

@@ -130,9 +130,8 @@ def test_a_steep_crossing_between_two_ticks_is_seen_at_the_height_of_the_passage
     assert "collision" in watch.told
 
 
-@pytest.mark.parametrize(
-    ("aside_m", "above_ft", "told"),
-    [
+def test_how_near_is_what(subtests: pytest.Subtests) -> None:
+    for aside_m, above_ft, told in [
         (0.0, 0.0, {"loss_of_separation", "nmac", "collision"}),
         (100.0, 0.0, {"loss_of_separation", "nmac"}),
         (0.0, 60.0, {"loss_of_separation", "nmac"}),
@@ -144,12 +143,11 @@ def test_a_steep_crossing_between_two_ticks_is_seen_at_the_height_of_the_passage
         (9_250.0, 999.0, {"loss_of_separation"}),
         (9_270.0, 0.0, set()),
         (0.0, 1_001.0, set()),
-    ],
-)
-def test_how_near_is_what(aside_m: float, above_ft: float, told: set[Any]) -> None:
-    other = {"north_m": aside_m, "altitude_ft": 35_000 + above_ft}
-    watch = Watch(*head_on(20.0, **other)).fly(40.0)
-    assert {phase for phase in watch.told if not phase.startswith("tcas")} == told
+    ]:
+        with subtests.test(str((aside_m, above_ft, told))):
+            other = {"north_m": aside_m, "altitude_ft": 35_000 + above_ft}
+            watch = Watch(*head_on(20.0, **other)).fly(40.0)
+            assert {phase for phase in watch.told if not phase.startswith("tcas")} == told
 
 
 def test_two_of_another_pair_are_watched_too() -> None:
@@ -246,25 +244,25 @@ def test_a_pair_that_is_always_followed_has_a_closest_approach_however_far() -> 
 # --- where an aircraft is really going ------------------------------------------------------
 
 
-@pytest.mark.parametrize(
-    ("aircraft", "expected"),
-    [
+def test_the_vertical_profile_leads_to_the_level_that_is_flown_to(
+    subtests: pytest.Subtests,
+) -> None:
+    for aircraft, expected in [
         (Straight(), (35_000, 0, None)),
         (Straight(rate_fpm=300, target_ft=35_050), (35_000, 0, None)),
         (Straight(rate_fpm=1_500, target_ft=37_000), (35_000, 1_500, 37_000)),
         (Straight(rate_fpm=-1_500, target_ft=31_000), (35_000, -1_500, 31_000)),
         (Straight(altitude_ft=0, target_ft=5_000, on_ground=True), (0, 0, None)),
-    ],
-)
-def test_the_vertical_profile_leads_to_the_level_that_is_flown_to(
-    aircraft: Any, expected: tuple[Any, ...]
-) -> None:
-    altitude, rate, target = expected
-    assert profile_of(aircraft) == pytest.approx(
-        VerticalProfile(
-            altitude * FOOT, rate * FOOT_PER_MINUTE, None if target is None else target * FOOT
-        )
-    )
+    ]:
+        with subtests.test(str((aircraft, expected))):
+            altitude, rate, target = expected
+            assert profile_of(aircraft) == pytest.approx(
+                VerticalProfile(
+                    altitude * FOOT,
+                    rate * FOOT_PER_MINUTE,
+                    None if target is None else target * FOOT,
+                )
+            )
 
 
 def test_the_time_to_loss_knows_where_a_climb_ends() -> None:
@@ -371,12 +369,14 @@ def test_tcas_speaks_of_one_that_climbs_to_the_own_level_and_not_of_one_that_cli
         assert spoken_s == pytest.approx(told_s, abs=1.5)
 
 
-@pytest.mark.parametrize(("above_ft", "is_nmac"), [(99.5, True), (100.5, False), (-99.5, True),
-                                                   (-100.5, False)])  # fmt: skip
-def test_a_near_mid_air_collision_is_within_100_ft(above_ft: float, is_nmac: bool) -> None:
+def test_a_near_mid_air_collision_is_within_100_ft(subtests: pytest.Subtests) -> None:
     """RTCA DO-365: 500 ft horizontally, and 100 ft vertically."""
-    told = Watch(*head_on(10.0, altitude_ft=35_000.0 + above_ft)).fly(20.0).told
-    assert ("nmac" in told) is is_nmac
+    table = [(99.5, True), (100.5, False), (-99.5, True),
+                                                   (-100.5, False)]  # fmt: skip
+    for above_ft, is_nmac in table:
+        with subtests.test(str((above_ft, is_nmac))):
+            told = Watch(*head_on(10.0, altitude_ft=35_000.0 + above_ft)).fly(20.0).told
+            assert ("nmac" in told) is is_nmac
 
 
 @pytest.mark.parametrize(("aside_ft", "is_nmac"), [(499.0, True), (501.0, False)])
@@ -385,9 +385,10 @@ def test_a_near_mid_air_collision_is_within_500_ft(aside_ft: float, is_nmac: boo
     assert ("nmac" in told) is is_nmac
 
 
-@pytest.mark.parametrize(
-    ("target_ft", "rate_fpm", "expected_fpm", "has_target"),
-    [
+def test_an_aircraft_flies_to_its_target_at_its_rate_once_that_leads_there(
+    subtests: pytest.Subtests,
+) -> None:
+    for target_ft, rate_fpm, expected_fpm, has_target in [
         (36_000.0, 500.0, 500.0, True),
         (34_000.0, -500.0, -500.0, True),
         (36_000.0, -500.0, 1_500.0, True),  # It still descends, and is to climb.
@@ -395,19 +396,16 @@ def test_a_near_mid_air_collision_is_within_500_ft(aside_ft: float, is_nmac: boo
         (34_000.0, 0.0, 1_500.0, True),
         (35_090.0, 500.0, 0.0, False),  # As good as there.
         (35_110.0, 500.0, 500.0, True),
-    ],
-)
-def test_an_aircraft_flies_to_its_target_at_its_rate_once_that_leads_there(
-    target_ft: float, rate_fpm: float, expected_fpm: float, has_target: bool
-) -> None:
-    state = Straight(rate_fpm=rate_fpm).state
-    aircraft = SimpleNamespace(
-        state=state, target_altitude_m=target_ft * FOOT, on_ground=False,
-        target_vertical_rate_m_s=1_500.0 * FOOT_PER_MINUTE,
-    )  # fmt: skip
-    profile = profile_of(cast(Any, aircraft))
-    assert profile.altitude_m == state.altitude_m
-    assert profile.rate_m_s == pytest.approx(expected_fpm * FOOT_PER_MINUTE)
-    assert profile.target_m == (pytest.approx(target_ft * FOOT) if has_target else None)
-    aircraft.on_ground = True
-    assert profile_of(cast(Any, aircraft)) == VerticalProfile(state.altitude_m, 0.0)
+    ]:
+        with subtests.test(str((target_ft, rate_fpm, expected_fpm, has_target))):
+            state = Straight(rate_fpm=rate_fpm).state
+            aircraft = SimpleNamespace(
+                state=state, target_altitude_m=target_ft * FOOT, on_ground=False,
+                target_vertical_rate_m_s=1_500.0 * FOOT_PER_MINUTE,
+            )  # fmt: skip
+            profile = profile_of(cast(Any, aircraft))
+            assert profile.altitude_m == state.altitude_m
+            assert profile.rate_m_s == pytest.approx(expected_fpm * FOOT_PER_MINUTE)
+            assert profile.target_m == (pytest.approx(target_ft * FOOT) if has_target else None)
+            aircraft.on_ground = True
+            assert profile_of(cast(Any, aircraft)) == VerticalProfile(state.altitude_m, 0.0)

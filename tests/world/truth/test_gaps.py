@@ -124,18 +124,19 @@ def test_the_circles_around_them_bound_the_distance(second: tuple[float, float, 
 TYPES = [load_aircraft_type(name) for name in ("737", "B747", "c172p", "c310")]
 
 
-@pytest.mark.parametrize("kind", TYPES, ids=lambda kind: kind.name)
-def test_an_outline_is_as_long_and_as_wide_as_the_aircraft(kind: AircraftType) -> None:
-    size = kind.dimensions
-    middle: Any = Straight(altitude_ft=0.0, north_m_s=1.0, kind=kind)
-    for east, north, short in ((0.0, 200.0, size.length_m), (200.0, 0.0, size.span_m)):
-        post: Any = Rolling(east, north, north_m_s=1.0)
-        half = post.dimensions.length_m / 2.0 if north else post.dimensions.span_m / 2.0
-        expected = 200.0 - short / 2.0 - half
-        found = gap(middle, post).horizontal_m
-        # A wing tip that is swept back lies aside of the middle: at a slant, it is farther.
-        assert found == pytest.approx(expected, rel=0.01)
-        assert found >= expected - 0.1
+def test_an_outline_is_as_long_and_as_wide_as_the_aircraft(subtests: pytest.Subtests) -> None:
+    for kind in TYPES:
+        with subtests.test(str(kind)):
+            size = kind.dimensions
+            middle: Any = Straight(altitude_ft=0.0, north_m_s=1.0, kind=kind)
+            for east, north, short in ((0.0, 200.0, size.length_m), (200.0, 0.0, size.span_m)):
+                post: Any = Rolling(east, north, north_m_s=1.0)
+                half = post.dimensions.length_m / 2.0 if north else post.dimensions.span_m / 2.0
+                expected = 200.0 - short / 2.0 - half
+                found = gap(middle, post).horizontal_m
+                # A wing tip that is swept back lies aside of the middle: at a slant, it is farther.
+                assert found == pytest.approx(expected, rel=0.01)
+                assert found >= expected - 0.1
 
 
 @examples(60)

@@ -301,9 +301,9 @@ def test_who_is_bound_for_a_runway_uses_it_only_to_take_off_or_to_land(phase: st
     assert Watch({"A": moving, "OPS": vehicle(800.0)}).look().incurred == []
 
 
-@pytest.mark.parametrize(
-    ("above_ft", "category"),
-    [
+def test_the_closest_distance_makes_the_category(subtests: pytest.Subtests) -> None:
+    """A go-around over a vehicle: it comes from afar, passes above, and is gone."""
+    for above_ft, category in [
         (60.0, "A"),
         (99.5, "A"),
         (100.5, "B"),
@@ -311,18 +311,16 @@ def test_who_is_bound_for_a_runway_uses_it_only_to_take_off_or_to_land(phase: st
         (499.5, "B"),
         (500.5, "C"),
         (700.0, "C"),
-    ],
-)
-def test_the_closest_distance_makes_the_category(above_ft: float, category: str) -> None:
-    """A go-around over a vehicle: it comes from afar, passes above, and is gone."""
-    plane, car = arrival(25.0), vehicle(800.0)
-    watch = Watch({"A": plane, "OPS": car}).look()
-    plane.body.phase = "go_around"
-    for along_m in (0.0, 800.0, 2_000.0):
-        plane.body.along_m = along_m
-        plane.body.height_m = above_ft * FOOT + CAR.height_m
-        watch.look()
-    assert watch.categories == [category]
+    ]:
+        with subtests.test(str((above_ft, category))):
+            plane, car = arrival(25.0), vehicle(800.0)
+            watch = Watch({"A": plane, "OPS": car}).look()
+            plane.body.phase = "go_around"
+            for along_m in (0.0, 800.0, 2_000.0):
+                plane.body.along_m = along_m
+                plane.body.height_m = above_ft * FOOT + CAR.height_m
+                watch.look()
+            assert watch.categories == [category]
 
 
 @pytest.mark.parametrize("first", ["alone", "over"])

@@ -1,4 +1,4 @@
-"""En route: what was commanded for track, altitude and airspeed, held by the autopilot."""
+"""En route: the autopilot holds the commanded track, altitude and airspeed."""
 
 from __future__ import annotations
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from airhilt.units import FOOT_PER_MINUTE, KNOT
+from airhilt.units import FOOT, FOOT_PER_MINUTE, KNOT
 from airhilt.world.flight.phases import AircraftSystems, FlightPhase
-from airhilt.world.flight.procedures.climb import CLEAN_UP_HEIGHT_M, LEVER_PER_OVERSPEED_S_M
 from airhilt.world.flight.procedures.en_route import EnRoute
 from airhilt.world.flight.state import AircraftState
 
+CLEAN_UP_HEIGHT_M = 400.0 * FOOT
+"""Least height of turns, acceleration and flap retraction, in m (14 CFR 25.111(c)(4))."""
+LEVER_PER_OVERSPEED_S_M = 0.05
+"""Reduction of the lever per excess of airspeed, in s/m, where the steepest climb leaves thrust."""
 STOPPED_M_S = 300.0 * FOOT_PER_MINUTE
 """Climb rate from which the descent counts as stopped, in m/s."""
 STOP_M_S2 = 1.5

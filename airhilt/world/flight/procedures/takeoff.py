@@ -6,9 +6,9 @@ import math
 
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
 from airhilt.world.flight.phases import AircraftSystems, FlightPhase
-from airhilt.world.flight.procedures.climb import CLEAN_UP_HEIGHT_M, LEVER_PER_OVERSPEED_S_M
 from airhilt.world.flight.procedures.en_route import EnRoute
 from airhilt.world.flight.procedures.final import Final
+from airhilt.world.flight.procedures.go_around import CLEAN_UP_HEIGHT_M, LEVER_PER_OVERSPEED_S_M
 from airhilt.world.flight.procedures.taxi import AT_REST_M_S, Standing
 from airhilt.world.flight.state import AircraftState
 

@@ -2,7 +2,7 @@
 
 A file in this package needs no registration. A kind outside of it is found by an entry point of
 the group ``airhilt.kinds`` that names the object, such as ``drone = "my_package.drone:KIND"``.
-Nothing is ever loaded because a scenario file says where it lies.
+A scenario file cannot make AIRHILT load code from a path.
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from airhilt.shapes import animals
 from airhilt.shapes.sizes import Dimensions
-from airhilt.world.surface.animal_kind import AnimalKind
+from airhilt.world.surface.animal import AnimalKind
 
 KIND = AnimalKind(
     name="coyote",

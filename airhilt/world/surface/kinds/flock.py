@@ -6,7 +6,7 @@ from functools import partial
 
 from airhilt.shapes import animals
 from airhilt.shapes.sizes import Dimensions
-from airhilt.world.surface.animal_kind import AnimalKind, Flight
+from airhilt.world.surface.animal import AnimalKind, Flight
 from airhilt.world.surface.flocks import flock_aloft, flock_on_the_ground
 
 COUNT = 300

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from airhilt.shapes import vehicles
 from airhilt.shapes.sizes import Dimensions
-from airhilt.world.surface.vehicle_kind import VehicleKind
+from airhilt.world.surface.vehicle import VehicleKind
 
 KIND = VehicleKind(
     name="snow_plough",

@@ -6,7 +6,7 @@ from airhilt.shapes import vehicles
 from airhilt.shapes.mesh import Mesh
 from airhilt.shapes.sizes import Dimensions, Size
 from airhilt.world.flight.aircraft_type import load_aircraft_type
-from airhilt.world.surface.vehicle_kind import VehicleKind
+from airhilt.world.surface.vehicle import VehicleKind
 
 
 def _mesh(size: Size) -> Mesh:
