@@ -73,7 +73,8 @@ function instruction(action, drives = false) {
     case "continue": return "continue";
     case "move": return `${action.gait} to ${place(action.to)}${action.gait === "fly" ? given(action.height_ft, (height) => `, ${feet(height)} above the ground`) : ""}`;
     case "stand": return "stand still";
-    default: return action ? JSON.stringify(action) : "";
+    case "confirm": return `confirm the ${words(action.slot)} of ${action.callsign}`;
+    default: return action ? words(action.action) : "";
   }
 }
 

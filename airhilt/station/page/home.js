@@ -8,7 +8,7 @@ import { whole } from "./words.js";
 
 const PERIOD_MS = 1000;
 const NOTHING_STARTED =
-  "Nothing was started yet. A run that is started on the left takes some seconds to get ready; then a link to its page is here.";
+  "Nothing was started yet. A run takes some seconds to get ready; then a link to its page is here.";
 const STATES = { starting: "is being started", running: "goes on", ended: "has ended" };
 
 let scenarios = [],
@@ -221,7 +221,7 @@ function showRecorded() {
             { colspan: 7, class: "dim" },
             recorded.length
               ? "No run has this in its name."
-              : "There is no run here yet. Start one on the left; it is listed here from its beginning on.",
+              : "There is no run here yet. A run is listed here from its beginning on.",
           ),
         ),
       ];

@@ -4,7 +4,11 @@
 export const level = (feet) => String(Math.max(Math.round(feet / 100), 0)).padStart(3, "0");
 
 /** True if two boxes, each left, top, right and bottom, cover each other. */
-export const overlap = (a, b) => a[0] < b[2] && a[2] > b[0] && a[1] < b[3] && a[3] > b[1];
+const overlap = (a, b) => a[0] < b[2] && a[2] > b[0] && a[1] < b[3] && a[3] > b[1];
+
+/** Returns the first of some boxes that covers none of those that are taken. */
+export const firstFree = (boxes, taken) =>
+  boxes.find((box) => !taken.some((other) => overlap(box, other)));
 
 /**
  * Returns a box for a text near a place, where it covers none of those that are taken, if there is
@@ -31,5 +35,5 @@ export function freeBox({ width, height }, [x, y], [wide, high], taken) {
   const inside = boxes.filter(
     ([left, top, right, bottom]) => left > 2 && top > 2 && right < width - 2 && bottom < height - 2,
   );
-  return inside.find((box) => !taken.some((other) => overlap(box, other))) ?? inside[0] ?? boxes[0];
+  return firstFree(inside, taken) ?? inside[0] ?? boxes[0];
 }

@@ -37,6 +37,6 @@ const ANIMAL = [
 
 /** Returns the outline of a category of actors, and its least half length in pixels. */
 export function symbolOf(category) {
-  const shape = { vehicle: VEHICLE, wildlife: ANIMAL }[category] ?? AIRCRAFT;
-  return { shape, least: shape === AIRCRAFT ? 10 : 6 };
+  const outline = { vehicle: VEHICLE, wildlife: ANIMAL }[category] ?? AIRCRAFT;
+  return { outline, least: outline === AIRCRAFT ? 10 : 6 };
 }
