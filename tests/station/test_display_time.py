@@ -37,6 +37,19 @@ TRACK = """import(new URL('page/model.js', location)).then(({ LiveTrack }) => {
     return [0.75, 1, 1.5, 60].map((t) => track.state(t, 1).east);
 })"""
 
+RATES = """import(new URL('page/model.js', location)).then(({ LiveTrack }) => {
+    const fly = (reported) => {
+        const track = new LiveTrack('AAL123', 'aircraft', '', 0), rates = [];
+        for (let t = 0; t <= 120; t += 1) {
+            const altitude = Math.round((3000 - (700 / 60) * t) / 25) * 25;
+            track.add([t, 70 * t, 0, altitude, [70, 0, ...reported], 90, false, '']);
+            rates.push(track.state(t + 0.5, 1).rate);
+        }
+        return rates.slice(10);
+    };
+    return { reported: fly([-704]), mean: fly([]) };
+})"""
+
 TICKS = """import(new URL('page/profile.js', location)).then(({ timeTicks }) =>
     [0, 0.7, 2, 3, 3000].map((end) => timeTicks(end, 5).map(({ label }) => label)))"""
 
@@ -111,6 +124,13 @@ def test_an_actor_goes_on_for_one_and_a_half_intervals_after_its_last_report(
     station: Page,
 ) -> None:
     assert station.evaluate(TRACK) == [75, 100, 150, 100 + 0.75 * 100]
+
+
+def test_the_vertical_rate_of_a_steady_approach_is_steady(station: Page) -> None:
+    """Altitudes come in steps of 25 ft."""
+    rates = station.evaluate(RATES)
+    assert set(rates["reported"]) == {-704}
+    assert max(abs(rate + 700) for rate in rates["mean"]) <= 150
 
 
 def test_what_is_kept_of_a_long_run_has_a_bound(station: Page) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -177,6 +178,61 @@ def test_the_list_of_keys_has_those_that_act_at_the_seat(page: Page) -> None:
         page.wait_for("document.getElementById('talk').hidden")
         page.press("?", 191)
         assert "sound off or on" in page.evaluate(KEYS)
+
+
+FOCUS = "document.activeElement.id"
+
+
+def test_the_field_for_a_call_and_the_microphone_are_reached_at_once(page: Page) -> None:
+    with seated(page, "TOWER") as run:
+        fly(run)
+        advise(run, "ATC", "Both lose separation.")
+        page.wait_for("!document.getElementById('own-advisories').hidden")
+        page.press("c", ord("C"))
+        assert page.evaluate(FOCUS) == "words"
+        page.evaluate("document.activeElement.blur()")
+        page.evaluate("document.getElementById('theme').focus()")
+        reached = []
+        for _ in range(8):
+            page.press("Tab", 9)
+            reached.append(page.evaluate(FOCUS))
+        assert {"words", "talk-button"} <= set(reached)
+
+
+COLOURS = """['#traffic tbody th', '#advisories .badge'].map((found) =>
+    [...document.querySelectorAll(found)].map((one) => getComputedStyle(one).color))"""
+
+
+@pytest.mark.parametrize("severity", ["ADVISORY", "CAUTION", "WARNING"])
+def test_a_callsign_has_the_colour_of_the_severity(page: Page, severity: str) -> None:
+    with seat_page(has_seats=False) as (run, url):
+        page.open(url)
+        fly(run)
+        advise(run, "ATC", "Bird strike risk.", severity=severity, traffic=["AAL123"])
+        page.wait_for(f"document.querySelector('#traffic .{severity}')")
+        (concerned, other), (badge,) = page.evaluate(COLOURS)
+        assert concerned == badge
+        assert other != badge
+        page.open("about:blank")
+
+
+LISTED_AT_ONCE = """Promise.all(['advisories', 'model', 'clock'].map((name) =>
+    import(new URL(`page/${name}.js`, location)))).then(([{ Advisories }, { Run }, { Clock }]) => {
+    const none = { tracks: [], calls: [], events: [], advisories: [], spoken: [] },
+        run = new Run({ ...none, scenario: { name: '' } }),
+        advisories = new Advisories(run, new Clock(0, true), {});
+    run.apply([['advisory', %s]]);
+    advisories.draw();
+    return document.getElementById('advisories').innerText;
+})"""
+
+
+def test_an_advisory_is_listed_when_the_plan_shows_it(page: Page) -> None:
+    with seat_page(has_seats=False) as (_, url):
+        page.open(url)
+        page.wait_for("document.body.dataset.ready")
+        assert "Both lose separation." in page.evaluate(LISTED_AT_ONCE % json.dumps(ADVISORY))
+        page.open("about:blank")
 
 
 def test_enter_ticks_a_box_where_the_space_bar_is_to_talk(page: Page) -> None:

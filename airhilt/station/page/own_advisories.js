@@ -50,7 +50,8 @@ export class OwnAdvisories {
     if (!row.active) return;
     const { recipient } = texts.at(-1);
     requestAnimationFrame(() => setTimeout(() => this.#report(row, recipient, "seen", 0)));
-    if (row.equipment || !this.#isSpoken(row)) this.#alert(row, recipient);
+    const isSounded = this.#sounded.has(soundOf(row, recipient));
+    if ((row.equipment || !this.#isSpoken(row)) && !isSounded) this.#sound(row, recipient, null);
   }
 
   /** Takes in that the assistant speaks an advisory to somebody. */
@@ -77,11 +78,6 @@ export class OwnAdvisories {
     if (this.#spokenFrom === undefined) return true;
     const from = SEVERITIES.indexOf(this.#spokenFrom);
     return from >= 0 && SEVERITIES.indexOf(severity) >= from;
-  }
-
-  /** Sounds what nobody speaks, unless it was audible before. */
-  #alert(row, recipient) {
-    if (!this.#sounded.has(soundOf(row, recipient))) this.#sound(row, recipient, null);
   }
 
   /** Sounds an advisory, with its voice if there is one, and reports when that was heard. */

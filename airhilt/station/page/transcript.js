@@ -24,7 +24,8 @@ export class Transcript {
     this.#clock = clock;
     // An advisory or a question above the list takes room from it.
     new ResizeObserver(() => this.#keepInView()).observe(this.#list);
-    for (const type of ["wheel", "pointerdown", "keydown"]) // Somebody reads what was said before.
+    for (const type of ["wheel", "pointerdown", "keydown"])
+      // Somebody reads what was said before.
       this.#list.addEventListener(type, () => (this.#shown = null), { passive: true });
     this.redraw();
   }

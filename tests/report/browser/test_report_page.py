@@ -268,6 +268,10 @@ def test_every_command_is_put_in_words(page: Page, incursion: Path) -> None:
         ({"action": "go_around", "runway": "01"}, "go around from runway 01"),
         ({"action": "cancel_takeoff", "runway": "01"}, "cancel the takeoff on runway 01"),
         ({"action": "hold_position", "runway": "01"}, "hold position short of runway 01"),
+        (
+            {"action": "confirm", "callsign": "AAL123", "slot": "runway"},
+            "confirm the runway of AAL123",
+        ),
     ):
         assert page.evaluate(f"instruction({json.dumps(action)})") == said
     rows = page.evaluate("document.getElementById('timeline').textContent")
