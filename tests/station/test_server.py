@@ -58,7 +58,9 @@ def test_a_large_body_is_refused_before_it_is_read() -> None:
     with serving(app) as url:
         port = httpx.URL(url).port
         with socket.create_connection(("127.0.0.1", port), PATIENCE_S) as connection:
-            head = f"POST /wish HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nContent-Length: 30000000\r\n\r\n"
+            head = (
+                f"POST /wish HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nContent-Length: 30000000\r\n\r\n"
+            )
             connection.sendall(head.encode())
             assert connection.recv(100).startswith(b"HTTP/1.1 413 ")
         with httpx.Client(base_url=url, trust_env=False, timeout=PATIENCE_S) as client:
