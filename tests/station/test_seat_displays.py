@@ -196,6 +196,26 @@ def test_a_callsign_has_the_colour_of_the_severity(page: Page, severity: str) ->
         page.open("about:blank")
 
 
+ASK = """(() => {
+    const question = document.createElement('dialog'), boxes = [];
+    question.textContent = 'May your voice be used? '.repeat(40);
+    document.getElementById('questions').append(question);
+    question.show();
+    for (const id of ['questions', 'plan']) {
+        const { top, bottom } = document.getElementById(id).getBoundingClientRect();
+        boxes.push([top, bottom]);
+    }
+    return [...boxes, [0, innerHeight]];
+})()"""
+
+
+def test_a_question_has_room_of_its_own_below_the_plan(page: Page) -> None:
+    with seated(page, "TOWER"):
+        question, plan, window = page.evaluate(ASK)
+        assert plan[1] <= question[0] < question[1] < window[1]
+        assert plan[1] - plan[0] > 200
+
+
 def test_enter_ticks_a_box_where_the_space_bar_is_to_talk(page: Page) -> None:
     ticked = "document.getElementById('plan-rings').checked"
     with seated(page, "TOWER"):

@@ -27,6 +27,12 @@ export const badge = (severity) =>
     severity,
   );
 
+/** What an advisory rests on, with the share of each source. */
+export const basisOf = ({ sources, shares }) =>
+  sources
+    .map((name) => (known(shares[name]) ? `${words(name)} ${percent(shares[name])}` : words(name)))
+    .join(", ");
+
 export class Advisories {
   #list = byId("advisories");
   #rows = new Rows(this.#list);
@@ -154,14 +160,9 @@ export class Advisories {
   }
 
   #evidence(evidence) {
-    const shares = evidence.sources.map((name) =>
-      known(evidence.shares[name])
-        ? `${words(name)} ${percent(evidence.shares[name])}`
-        : words(name),
-    );
     const link = (text, show) => button(text, () => show(text), { class: "time" });
     const facts = [
-      ["rests on", shares.join(", ")],
+      ["rests on", basisOf(evidence)],
       ["rules", evidence.rules.map(words).join(", ")],
       ["note", evidence.note],
       ["runway", evidence.runway],

@@ -10,6 +10,14 @@ const overlap = (a, b) => a[0] < b[2] && a[2] > b[0] && a[1] < b[3] && a[3] > b[
 export const firstFree = (boxes, taken) =>
   boxes.find((box) => !taken.some((other) => overlap(box, other)));
 
+/** Returns boxes off the end of a runway, at some distances from it, each of half a width and height. */
+export const boxesOff = ([x, y], to, length, distances, [wide, high]) =>
+  distances.map((far) => {
+    const cx = x - ((to[0] - x) / length) * far,
+      cy = y - ((to[1] - y) / length) * far;
+    return [cx - wide, cy - high, cx + wide, cy + high];
+  });
+
 /**
  * Returns a box for a text near a place, where it covers none of those that are taken, if there is
  * one.

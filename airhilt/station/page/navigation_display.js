@@ -2,10 +2,9 @@
 // own track up.
 
 import { byId, html } from "./dom.js";
-import { firstFree } from "./labels.js";
+import { boxesOff, firstFree } from "./labels.js";
 import { METRE_PER_NM, SEVERITIES } from "./model.js";
 import { box, circle, label, line, onSize, shape } from "./pen.js";
-import { boxesOff } from "./plan_map.js";
 import { INK } from "./primary_flight_display.js";
 import { whole } from "./words.js";
 

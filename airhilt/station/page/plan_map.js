@@ -1,7 +1,7 @@
 // The airport on the plan: water, runways, taxiways, buildings, and their names.
 
 import { colour } from "./dom.js";
-import { firstFree } from "./labels.js";
+import { boxesOff, firstFree } from "./labels.js";
 import { BOLD, FONT_SMALL, line, shape, write } from "./pen.js";
 
 const NAMES_OFF_PX = [14, 30, 46]; // from the end of a runway, where its number is tried
@@ -64,11 +64,3 @@ function nameRunways(view, airport) {
     });
   return names;
 }
-
-/** Returns boxes off the end of a runway, at some distances from it, each of half a width and height. */
-export const boxesOff = ([x, y], to, length, distances, [wide, high]) =>
-  distances.map((far) => {
-    const cx = x - ((to[0] - x) / length) * far,
-      cy = y - ((to[1] - y) / length) * far;
-    return [cx - wide, cy - high, cx + wide, cy + high];
-  });
