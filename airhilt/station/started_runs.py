@@ -173,10 +173,8 @@ class StartedRuns:
 
     def url(self, run: StartedRun) -> str:
         """Return the address of a run's page, empty if it has none yet."""
-        for line in self._lines(run):
-            if is_address(line):
-                return line.split()[0]
-        return ""
+        addresses = (line.split()[0] for line in self._lines(run) if is_address(line))
+        return next(addresses, "")
 
     def rows(self) -> list[dict[str, Any]]:
         """Return what a page shows of the runs that go on, and of the last ones that have ended."""

@@ -20,7 +20,7 @@ from airhilt.record.frequency import read_frequency
 from airhilt.record.pictures import PictureName
 from airhilt.station.app import debrief_app
 from airhilt.station.debrief import Debrief
-from airhilt.station.kept_pictures import KeptPictures
+from airhilt.station.kept_pictures import kept_pictures
 from camera_run import camera_run
 from stations import asked
 
@@ -163,11 +163,9 @@ def test_what_is_no_picture_is_told_and_not_used(
     folder = Path(shutil.copytree(filmed.document["folder"], tmp_path / "run"))
     path, kept = first_detection(folder)
     path.write_bytes(content)
-    pictures = KeptPictures(without_manifest(folder))
-    assert pictures.notes == [
-        f"Damaged: pictures/{path.name}: cannot be read as a picture. It is not used."
-    ]
-    assert not pictures.has(kept.camera, kept.seq)
+    pictures, notes = kept_pictures(without_manifest(folder))
+    assert notes == [f"Damaged: pictures/{path.name}: cannot be read as a picture. It is not used."]
+    assert (kept.camera, kept.seq) not in pictures
 
 
 @pytest.mark.slow
