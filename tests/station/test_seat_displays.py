@@ -183,16 +183,18 @@ COLOURS = """['#traffic tbody th', '#advisories .badge'].map((found) =>
     [...document.querySelectorAll(found)].map((one) => getComputedStyle(one).color))"""
 
 
-@pytest.mark.parametrize("severity", ["ADVISORY", "CAUTION", "WARNING"])
-def test_a_callsign_has_the_colour_of_the_severity(page: Page, severity: str) -> None:
+def test_a_callsign_has_the_colour_of_the_severity(page: Page) -> None:
     with seat_page(has_seats=False) as (run, url):
         page.open(url)
         fly(run)
-        advise(run, "ATC", "Bird strike risk.", severity=severity, traffic=["AAL123"])
-        page.wait_for(f"document.querySelector('#traffic .{severity}')")
-        (concerned, other), (badge,) = page.evaluate(COLOURS)
-        assert concerned == badge
-        assert other != badge
+        for severity, callsign in (("ADVISORY", "AAL123"), ("WARNING", "DAL456")):
+            advise(
+                run, "ATC", "Bird strike risk.", id=severity, severity=severity, traffic=[callsign]
+            )
+            page.wait_for(f"document.querySelector('#traffic .{severity}')")
+        callsigns, badges = page.evaluate(COLOURS)
+        assert callsigns == badges
+        assert len(set(badges)) == 2
         page.open("about:blank")
 
 
@@ -483,21 +485,18 @@ def test_a_command_that_was_lost_with_the_connection_is_not_told_to_be_set_nor_g
         assert commands(run, page) == ["go_around"]
 
 
-@pytest.mark.parametrize(
-    ("wish", "where", "said"),
-    [
-        ("panel-go-around", "panel-state", "Not set: the connection is lost."),
-        ("pace-pause", "seat-state", "Not set: the connection is lost."),
-        ("seat-take", "seat-state", "Not done: the connection is lost."),
-    ],
-)
 def test_what_is_wished_without_a_connection_is_told_not_to_be_done_and_not_done_later(
-    page: Page, wish: str, where: str, said: str
+    page: Page,
 ) -> None:
     with seated(page, "AAL123") as run:
         page.evaluate(f"{NO_CONNECTION}; null")
-        page.evaluate(f"document.getElementById('{wish}').click()")
-        assert page.evaluate(f"document.getElementById('{where}').textContent") == said
+        for wish, where, said in (
+            ("panel-go-around", "panel-state", "Not set: the connection is lost."),
+            ("pace-pause", "seat-state", "Not set: the connection is lost."),
+            ("seat-take", "seat-state", "Not done: the connection is lost."),
+        ):
+            page.evaluate(f"document.getElementById('{wish}').click()")
+            assert page.evaluate(f"document.getElementById('{where}').textContent") == said
         page.evaluate("connect()")
         assert commands(run, page) == []
         assert page.evaluate("document.body.dataset.seat") == "pilot"
