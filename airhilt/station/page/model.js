@@ -85,11 +85,11 @@ export class Track {
   }
 
   /**
-   * Vertical rate in ft/min: the mean of the last seconds, as altitudes come in steps of 25 ft or
-   * 100 ft (RTCA DO-260B, ICAO Annex 10).
+   * Vertical rate in ft/min: a mean, as altitudes come in steps of 25 ft or 100 ft (RTCA DO-260B,
+   * ICAO Annex 10).
    */
   verticalRate(t) {
-    const to = Math.min(Math.max(t, this.first + RATE_SPAN_S), this.last),
+    const to = Math.min(t + RATE_SPAN_S / 2, this.last),
       from = Math.max(to - RATE_SPAN_S, this.first),
       climbed = at(this.t, this.altitude_ft, to) - at(this.t, this.altitude_ft, from);
     return to > from ? (climbed / (to - from)) * 60 : 0;
