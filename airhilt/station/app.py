@@ -80,19 +80,15 @@ def live_app(subscription: Subscription, browsers: Browsers) -> FastAPI:
     @app.get("/api/cameras/{name}/{seq}.jpg")
     async def picture(name: str, seq: int, browser: Identity = "") -> Response:
         found = subscription.picture(name, seq)
-        if found is None:  # It has gone already; nobody made a mistake.
-            return Response(status_code=204)
-        if not browsers.admits(browser, found.audience):
-            return Response(NOT_FOR_YOU, status_code=403, media_type="text/plain")
+        if found is None or not browsers.admits(browser, found.audience):
+            return _nothing(found)
         return Response(await asyncio.to_thread(jpeg, found), media_type="image/jpeg")
 
     @app.get("/api/calls/{name}.wav")
     async def sound(name: str, browser: Identity = "") -> Response:
         found = subscription.sound(name)
-        if found is None:
-            return Response(status_code=204)
-        if not browsers.admits(browser, found.audience):
-            return Response(NOT_FOR_YOU, status_code=403, media_type="text/plain")
+        if found is None or not browsers.admits(browser, found.audience):
+            return _nothing(found)
         return Response(encode_wav(from_pcm(found.pcm)), media_type="audio/wav")
 
     @app.websocket("/api/live")
@@ -156,7 +152,7 @@ def page_app(first: str = "index.html") -> FastAPI:
     return app
 
 
-LIVE = {
+LIVE: dict[str, Any] = {
     "live": True,
     "scenario": {"name": "", "title": "", "description": ""},
     "phase": "waiting",
@@ -165,20 +161,21 @@ LIVE = {
     "pair": None,
     "airport": None,
     "summary": None,
-    "tracks": [],
-    "events": [],
-    "calls": [],
-    "spoken": [],
-    "advisories": [],
-    "cameras": [],
-    "latencies": [],
-    "sounds": [],
-}
+} | dict.fromkeys(
+    ("tracks", "events", "calls", "spoken", "advisories", "cameras", "latencies", "sounds"), ()
+)
 """Document with which the page of a run that goes on begins."""
 
 
 def _json(document: Any) -> bytes:
     return json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
+
+
+def _nothing(found: object | None) -> Response:
+    """Return the answer where a picture or a sound has gone already, or is for somebody else."""
+    if found is None:
+        return Response(status_code=204)
+    return Response(NOT_FOR_YOU, status_code=403, media_type="text/plain")
 
 
 def _refusal(text: str) -> JSONResponse:

@@ -9,7 +9,7 @@ from airhilt.record import Run
 from airhilt.report.data import read_run
 from airhilt.report.sections import Content, GuardedContent, Section
 from airhilt.station import advisories, calls, cameras, latencies, redrawing, seat_sounds
-from airhilt.station.kept_pictures import KeptPictures
+from airhilt.station.kept_pictures import kept_pictures
 from airhilt.station.sounds import Sounds
 from airhilt.text import readable
 
@@ -55,12 +55,12 @@ class Debrief:
         parts = {content.section.name: content.as_json(data) for content in contents}
         notes = [readable(note) for content in contents for note in content.notes]
         self.sounds = Sounds(run, said.frequencies_khz, said.spoken, at_seats.heard)
-        self._kept = KeptPictures(run)
+        self._kept, damaged = kept_pictures(run)
         self._redrawn = redrawing.RedrawnPictures(run.info, states.by_actor())
         shared = data.as_json()
         self.document: Json = {
             **{name: shared[name] for name in SHARED},
-            "notes": [*shared["notes"], *notes, *self._kept.notes],
+            "notes": [*shared["notes"], *notes, *damaged],
             "folder": str(folder.path),
             "calls": (parts["calls"] or {}).get("calls", []),
             "spoken": (parts["calls"] or {}).get("spoken", []),
@@ -79,7 +79,7 @@ class Debrief:
             There is no such camera.
         """
         record = self._camera(name)
-        kept = [seq for seq in sorted(record.exposures) if self._kept.has(name, seq)]
+        kept = [seq for seq in sorted(record.exposures) if (name, seq) in self._kept]
         return {**record.as_json(self._locate), "kept": kept}
 
     def picture(self, name: str, seq: int) -> bytes:
@@ -93,7 +93,7 @@ class Debrief:
         t_ns = self._camera(name).exposures.get(seq)
         if t_ns is None:
             raise StationError(f"camera {name!r}: no picture {seq} in this run")
-        return self._kept.jpeg(name, seq) or self._redrawn.jpeg(name, t_ns)
+        return self._kept.get((name, seq)) or self._redrawn.jpeg(name, t_ns)
 
     def _camera(self, name: str) -> cameras.CameraRecord:
         record = self._cameras.records.get(name)

@@ -7,11 +7,14 @@ import sys
 import threading
 from collections import OrderedDict
 from collections.abc import Callable, Sequence
+from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from typing import IO, Any
 
 from airhilt.errors import RunFolderError, StationError
 from airhilt.record import RunFolder
+from airhilt.station.file_cache import FileCache
 from airhilt.station.started_runs import PAGE_OF_THIS_MACHINE, State, is_address
 from airhilt.text import LONGEST_LINE, readable
 
@@ -42,37 +45,20 @@ class Debriefs:
         self._page = page
         self._state = state
         self._open: OrderedDict[tuple[str, ...], tuple[subprocess.Popen[str], str]] = OrderedDict()
-        self._read: dict[tuple[Path, int], dict[str, Any]] = {}
+        self._rows = FileCache[dict[str, Any]]()
         self._lock = threading.Lock()
 
     def rows(self) -> list[dict[str, Any]]:
         """Return what a page shows of the runs, the newest first."""
         found = []
         for path in self._folder.glob("*/run.json"):
-            try:
+            with suppress(OSError):  # One that is being replaced.
                 found.append((path.stat().st_mtime_ns, path))
-            except OSError:
-                continue
-        newest = sorted(found, reverse=True)[:MOST_RUNS]
-        return [row for changed_ns, path in newest if (row := self._row(path, changed_ns))]
-
-    def _row(self, path: Path, changed_ns: int) -> dict[str, Any] | None:
-        key = path, changed_ns
-        if key not in self._read:
-            try:
-                info = RunFolder.open(path.parent).info()
-            except RunFolderError:
-                return None
-            self._read[key] = {
-                "name": path.parent.name,
-                "scenario": readable(str(info.scenario.get("name", ""))),
-                "seed": info.options.seed,
-                "assistant": readable(info.assistant),
-                "phase": info.phase,
-                "started_at": readable(info.started_at),
-                "seats": [readable(seat) for seat in info.options.seat],
-            }
-        return self._read[key]
+        rows = []
+        for _, path in sorted(found, reverse=True)[:MOST_RUNS]:
+            with suppress(RunFolderError):
+                rows.append(self._rows.get(partial(_row, path.parent), path))
+        return rows
 
     def open(self, names: tuple[str, ...]) -> str:
         """Return the address of the debrief of one run, or of two side by side.
@@ -133,6 +119,19 @@ class Debriefs:
             for process, _ in self._open.values():
                 _end(process)
             self._open.clear()
+
+
+def _row(folder: Path) -> dict[str, Any]:
+    info = RunFolder.open(folder).info()
+    return {
+        "name": folder.name,
+        "scenario": readable(str(info.scenario.get("name", ""))),
+        "seed": info.options.seed,
+        "assistant": readable(info.assistant),
+        "phase": info.phase,
+        "started_at": readable(info.started_at),
+        "seats": [readable(seat) for seat in info.options.seat],
+    }
 
 
 def _drain(printed: IO[str]) -> None:

@@ -21,43 +21,35 @@ MOST_BYTES = 50_000_000
 NO_PICTURE = "cannot be read as a picture"
 
 
-class KeptPictures:
-    """The key pictures of a run that have their full size, each as JPEG.
+Pictures = dict[tuple[str, int], bytes]
+"""Pictures as JPEG, by the name of the camera and the number of the picture."""
 
-    Parameters
-    ----------
-    run
-        The run; its folder is read at once.
 
-    Attributes
-    ----------
+def kept_pictures(run: Run) -> tuple[Pictures, list[str]]:
+    """Return the key pictures of a run that have their full size.
+
+    Returns
+    -------
+    pictures
+        The pictures.
     notes
         A line for each picture that is damaged, or not one that the run wrote.
     """
-
-    def __init__(self, run: Run) -> None:
-        self.notes: list[str] = []
-        self._jpegs: dict[tuple[str, int], bytes] = {}
-        for path, name in _named(run)[:MOST]:
-            problem = result_problem(run.folder, run.info, path)
-            if not problem:
-                try:
-                    content = read_inside(run.folder.path, path, MOST_BYTES)
-                    self._jpegs[name.camera, name.seq] = _as_jpeg(content)
-                except OSError as error:
-                    problem = f"pictures/{path.name}: {error.strerror or NO_PICTURE}"
-                except Exception:  # Pillow ends a damaged file with any exception.
-                    problem = f"pictures/{path.name}: {NO_PICTURE}"
-            if problem:
-                self.notes.append(f"Damaged: {readable(problem)}. It is not used.")
-
-    def has(self, camera: str, seq: int) -> bool:
-        """Return true if a picture was kept."""
-        return (camera, seq) in self._jpegs
-
-    def jpeg(self, camera: str, seq: int) -> bytes | None:
-        """Return a picture, None if it was not kept."""
-        return self._jpegs.get((camera, seq))
+    found: Pictures = {}
+    notes = []
+    for path, name in _named(run)[:MOST]:
+        problem = result_problem(run.folder, run.info, path)
+        if not problem:
+            try:
+                content = read_inside(run.folder.path, path, MOST_BYTES)
+                found[name.camera, name.seq] = _as_jpeg(content)
+            except OSError as error:
+                problem = f"pictures/{path.name}: {error.strerror or NO_PICTURE}"
+            except Exception:  # Pillow ends a damaged file with any exception.
+                problem = f"pictures/{path.name}: {NO_PICTURE}"
+        if problem:
+            notes.append(f"Damaged: {readable(problem)}. It is not used.")
+    return found, notes
 
 
 def _named(run: Run) -> list[tuple[Path, PictureName]]:

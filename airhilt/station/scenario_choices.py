@@ -10,6 +10,7 @@ from airhilt.errors import ScenarioError, StationError
 from airhilt.host import library
 from airhilt.scenario import Scenario, loading
 from airhilt.scenario.seats import possible_seats
+from airhilt.station.file_cache import FileCache
 from airhilt.text import readable
 
 Json = dict[str, Any]
@@ -36,7 +37,7 @@ class ScenarioChoices:
             if not folder.is_dir():
                 raise StationError(f"--scenarios {folder}: no such folder")
         self._folders = [folder.resolve() for folder in folders]
-        self._read: dict[tuple[Path, int], Json] = {}
+        self._rows = FileCache[Json]()
 
     def path(self, name: str) -> Path:
         """Return the file of a scenario that is offered.
@@ -70,10 +71,7 @@ class ScenarioChoices:
 
     def _row(self, path: Path) -> Json:
         try:
-            key = path, path.stat().st_mtime_ns
-            if key not in self._read:
-                self._read[key] = _row_of(loading.read(path))
-            return self._read[key]
+            return self._rows.get(lambda: _row_of(loading.read(path)), path.resolve())
         except (OSError, ScenarioError) as error:
             return {"title": path.stem, "problem": readable(str(error))}
 

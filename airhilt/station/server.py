@@ -11,6 +11,8 @@ from collections.abc import Callable
 from contextlib import suppress
 
 import uvicorn
+from starlette.datastructures import Headers
+from starlette.exceptions import HTTPException
 from starlette.responses import PlainTextResponse
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
@@ -18,7 +20,7 @@ from airhilt.station.address import Address
 from airhilt.station.guard import Guard
 
 LARGEST_MESSAGE_BYTES = 1 << 20
-"""Greatest size of a message from a browser, in bytes."""
+"""Greatest size of a message from a browser, and of the body of a request, in bytes."""
 MOST_CONNECTIONS = 200
 """Largest number of connections at a time."""
 PING_S, PATIENCE_S = 2.0, 5.0
@@ -27,6 +29,7 @@ GRACE_S = 2
 """Time that open connections have to end with the server, in s."""
 CHECK_PERIOD_S = 0.1
 """Time between two questions if nobody needs the server any more, in s."""
+TOO_LARGE = f"the body of the request has more than {LARGEST_MESSAGE_BYTES:,} bytes"
 
 
 class _Interruptible:
@@ -49,6 +52,35 @@ class _Interruptible:
             # Nobody waits for this task but uvicorn, which would print a traceback.
             if scope["type"] == "http" and not has_begun:
                 await PlainTextResponse("the station has ended", 503)(scope, receive, send)
+
+
+class _Bounded:
+    """Application that answers 413 to a request whose body is too large, and does not read it."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self._app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] != "http":
+            await self._app(scope, receive, send)
+            return
+        told = Headers(scope=scope).get("content-length", "")
+        if told.isdecimal() and int(told) > LARGEST_MESSAGE_BYTES:
+            closing = {"Connection": "close"}
+            await PlainTextResponse(TOO_LARGE, 413, closing)(scope, receive, send)
+            return
+        received_bytes = 0
+
+        async def receive_bounded() -> Message:
+            """Receive a piece of a body that may not tell its size."""
+            nonlocal received_bytes
+            message = await receive()
+            received_bytes += len(message.get("body", b""))
+            if received_bytes > LARGEST_MESSAGE_BYTES:
+                raise HTTPException(413, TOO_LARGE, {"Connection": "close"})
+            return message
+
+        await self._app(scope, receive_bounded, send)
 
 
 class _Server(uvicorn.Server):
@@ -93,7 +125,7 @@ def serve(
     listening = address.bound()
     url = address.url(listening.getsockname()[1])
     config = uvicorn.Config(
-        Guard(_Interruptible(app), address, notice),
+        Guard(_Bounded(_Interruptible(app)), address, notice),
         log_level="warning",
         access_log=False,
         lifespan="off",

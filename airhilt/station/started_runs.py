@@ -170,10 +170,8 @@ class StartedRuns:
 
     def url(self, run: StartedRun) -> str:
         """Return the address of a run's page, empty if it has none yet."""
-        for line in self._lines(run):
-            if is_address(line):
-                return line.split()[0]
-        return ""
+        addresses = (line.split()[0] for line in self._lines(run) if is_address(line))
+        return next(addresses, "")
 
     def rows(self) -> list[dict[str, Any]]:
         """Return what a page shows of the runs that go on, and of the last ones that have ended."""
@@ -182,7 +180,7 @@ class StartedRuns:
             state = self.state(run)
             ended += state == "ended"
             if state != "ended" or ended <= MOST_ENDED:
-                lines = [line for line in self._lines(run) if not is_address(line)]
+                lines = [line for line in self._lines(run) if _is_for_page(line)]
                 rows.append(
                     {
                         "name": readable(run.name),
@@ -215,6 +213,11 @@ class StartedRuns:
 def is_address(line: str) -> bool:
     """Return true if a command says in a line where its page is."""
     return line.startswith(("http://", "https://"))
+
+
+def _is_for_page(line: str) -> bool:
+    """Return true if a line of a command is of use at a page, where nobody has a terminal."""
+    return not is_address(line) and "Ctrl+C" not in line
 
 
 def _new_name(folder: Path, scenario: str, seed: int) -> str:

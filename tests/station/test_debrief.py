@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import json
 import shutil
 import struct
 import zlib
@@ -21,8 +20,7 @@ from airhilt.record.frequency import read_frequency
 from airhilt.record.pictures import PictureName
 from airhilt.station.app import debrief_app
 from airhilt.station.debrief import Debrief
-from airhilt.station.kept_pictures import KeptPictures
-from airhilt.station.pictures import encoded
+from airhilt.station.kept_pictures import kept_pictures
 from camera_run import camera_run
 from stations import asked
 
@@ -154,14 +152,10 @@ PIXELS = (b"IDAT", zlib.compress(bytes(8 * 25)))
     "content",
     [
         b"",
-        encoded(Image.new("RGB", (8, 8))),
-        png(HEADER, (b"IDAT", b"no pixels")),
         png(HEADER, (b"pHYs", b"1"), PIXELS),
-        png((b"IHDR", struct.pack(">IIBBBBB", 8, 8, 8, 3, 0, 0, 0)), (b"tRNS", b"\xff\0"), PIXELS),
         png((b"IHDR", struct.pack(">IIBBBBB", 2**20, 2**20, 8, 2, 0, 0, 0)), PIXELS),
-        png(HEADER, (b"zTXt", b"text\0\0" + zlib.compress(bytes(2**22))), PIXELS),
     ],
-    ids=["nothing", "a JPEG", "damaged", "short chunk", "no palette", "huge", "huge text"],
+    ids=["nothing", "short chunk", "huge"],
 )
 def test_what_is_no_picture_is_told_and_not_used(
     tmp_path: Path, filmed: Debrief, content: bytes
@@ -169,11 +163,9 @@ def test_what_is_no_picture_is_told_and_not_used(
     folder = Path(shutil.copytree(filmed.document["folder"], tmp_path / "run"))
     path, kept = first_detection(folder)
     path.write_bytes(content)
-    pictures = KeptPictures(without_manifest(folder))
-    assert pictures.notes == [
-        f"Damaged: pictures/{path.name}: cannot be read as a picture. It is not used."
-    ]
-    assert not pictures.has(kept.camera, kept.seq)
+    pictures, notes = kept_pictures(without_manifest(folder))
+    assert notes == [f"Damaged: pictures/{path.name}: cannot be read as a picture. It is not used."]
+    assert (kept.camera, kept.seq) not in pictures
 
 
 @pytest.mark.slow
@@ -205,10 +197,6 @@ def test_the_server_answers_a_mistake_in_words(debrief: Debrief) -> None:
 def test_no_file_outside_of_the_page_is_served(debrief: Debrief) -> None:
     for name in ("..%2Fapp.py", "%2Fetc%2Fpasswd", "app.py"):
         assert asked(debrief_app(debrief), f"/page/{name}").status_code == 404
-
-
-def test_what_the_page_is_told_is_json(debrief: Debrief) -> None:
-    json.dumps(debrief.document, allow_nan=False)
 
 
 def test_what_a_seat_heard_by_its_own_receiver_is_a_sound_of_its_own(noisy_seat: Path) -> None:

@@ -12,7 +12,7 @@ from airhilt.errors import StationError
 from airhilt.station.debriefs import Debriefs
 
 
-@pytest.mark.parametrize("content", [b"[" * 100_000, b"\xff", b"[]", b"{}", b""])
+@pytest.mark.parametrize("content", [b"[" * 100_000, b"{}"])
 def test_a_run_whose_record_cannot_be_read_is_left_out(
     recorded_run: Path, tmp_path: Path, content: bytes
 ) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -10,8 +9,6 @@ from typing import Any
 import pytest
 
 from airhilt.errors import RendererError
-from airhilt.messages import Severity
-from airhilt.metrics.summary import IsaRating, PersonReaction, PersonSummary, WorkloadSummary
 from airhilt.record import open_run
 from airhilt.station import redrawing
 from airhilt.station.app import debrief_app
@@ -132,11 +129,8 @@ def test_where_nothing_can_be_drawn_the_pictures_that_were_kept_are_shown(
     page.complaints.clear()  # Of pictures that cannot be drawn.
 
 
-@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
-def test_it_opens_at_the_beginning_with_all_traffic(
-    page: Page, spoken_url: str, dark: bool
-) -> None:
-    opened(page, spoken_url, width=1280, height=720, dark=dark)
+def test_it_opens_at_the_beginning_with_all_traffic(page: Page, spoken_url: str) -> None:
+    opened(page, spoken_url, width=1280, height=720)
     label = page.evaluate("document.getElementById('plan').getAttribute('aria-label')")
     assert "AAL123" in label
     assert "DAL456" in label
@@ -256,70 +250,6 @@ def test_contrast_of_all_text_is_enough(page: Page, spoken_url: str) -> None:
         opened(page, spoken_url, dark=dark)
         page.evaluate("document.querySelector('#advisories button').click()")
         assert page.evaluate(LOW_CONTRAST) == []
-
-
-def test_an_actor_that_truth_and_surveillance_both_tell_of_is_one(
-    page: Page, spoken_url: str
-) -> None:
-    state = '["state", "{}", "aircraft", "", {}, 0, 0, 35000, [0, 200], 0, false, ""]'
-    told = [state.format("a1b2c3", 1), state.format("AAL123", 2), '["name", "a1b2c3", "AAL123"]']
-    opened(page, spoken_url)
-    names = page.evaluate(
-        "import(new URL('page/model.js', location)).then(({ Run }) => {"
-        "const run = new Run({ tracks: [], calls: [], spoken: [], events: [], advisories: [],"
-        "scenario: { name: '' } });"
-        f"run.apply([{', '.join(told)}]);"
-        "return run.tracks.map((track) => track.callsign).join(); })"
-    )
-    assert names == "AAL123"
-
-
-def test_what_people_perceived_did_and_answered_are_moments_of_the_debrief(
-    page: Page, spoken_url: str
-) -> None:
-    reaction = PersonReaction(
-        advisory="a-1", revision=1, severity=Severity.WARNING, advised="go_around",
-        t_advisory_s=10.0, t_seen_s=10.1, t_heard_s=10.5, voice_to_loudspeaker_s=0.1,
-        first_action="go_around", reaction_time_s=1.5, followed=True,
-    )  # fmt: skip
-    shared = {"t_seen_s": None, "t_heard_s": 14.0, "reaction_time_s": None, "is_shared": True}
-    person = PersonSummary(
-        seat="AAL123", spoken_calls=0, typed_calls=0, commands=1, asked_to_say_again=0,
-        press_to_transmit_s=None, reaction_time_s=1.5,
-        reactions=[reaction, reaction.model_copy(update=shared)],
-        workload=WorkloadSummary(
-            isa_mean=4.0,
-            isa=[
-                IsaRating(t_s=20.0, rating=4, answered_after_s=2.0),
-                IsaRating(t_s=40.0, rating=None, answered_after_s=None),
-            ],
-            nasa_tlx=None,
-            raw_tlx=None,
-        ),
-    )  # fmt: skip
-    given = {
-        "tracks": [], "calls": [], "spoken": [], "advisories": [], "scenario": {"name": ""},
-        "events": [
-            {"t": 1.0, "kind": "seat", "who": "AAL123", "text": "a person has it"},
-            {"t": 2.0, "kind": "pace", "who": "run", "text": "paused"},
-        ],
-        "summary": {"people": [person.model_dump(mode="json")]},
-    }  # fmt: skip
-    opened(page, spoken_url)
-    moments = page.evaluate(
-        "import(new URL('page/model.js', location)).then(({ Run }) =>"
-        f"new Run({json.dumps(given)}).moments.map(({{ t, text }}) => [t, text]))"
-    )
-    assert moments == [
-        [1.0, "seat, AAL123, a person has it"],
-        [2.0, "pace, run, paused"],
-        [10.1, "AAL123 sees WARNING, go around"],
-        [10.5, "AAL123 hears WARNING, go around"],
-        [12.0, "AAL123 reacts to WARNING, go around: go around"],
-        [14.0, "AAL123 hears WARNING, go around"],
-        [22.0, "AAL123 answers: workload 4"],
-        [40.0, "AAL123 does not answer for the workload"],
-    ]
 
 
 def test_two_runs_follow_one_clock(page: Page, spoken_run: Path, airport_run: Path) -> None:

@@ -30,7 +30,7 @@ from airhilt.station.pictures import Picture
 from devtools import Page
 from loudspeaker import COUNT_PIECES, PIECES, piece
 from microphone import NO_CONNECTION, SAY
-from stations import PATIENCE_S, SITS, TOWER, PretendedClient, PretendedRun, seat_page
+from stations import ADVISORY, PATIENCE_S, SITS, TOWER, PretendedClient, PretendedRun, seat_page
 
 pytestmark = pytest.mark.browser
 CATEGORIES = {"AAL123": "aircraft", "DAL456": "aircraft", "OPS1": "vehicle"}
@@ -45,16 +45,6 @@ INSTRUMENTS = {
     "ground_speed_kt": 480.0, "pitch_deg": 2.0, "roll_deg": 0.0, "gear": 0.0, "flaps": 0.0,
     "on_ground": False, "mode": "en_route", "radio_height_ft": None,
     "selected_altitude_ft": 35000, "selected_airspeed_kt": 265,
-}  # fmt: skip
-ADVISORY = {
-    "t": 0.5, "equipment": "", "id": "a-1", "revision": 1, "severity": "WARNING", "active": True,
-    "kind": "loss_of_separation", "traffic": ["AAL123", "DAL456"],
-    "texts": [{"recipient": "ATC", "message": "Both lose separation.", "recommendation": None}],
-    "evidence": {
-        "sources": ["adsb"], "shares": {}, "note": "", "rules": [], "runway": None,
-        "time_to_go_s": None, "time_to_loss_s": None, "radio_ids": [], "camera_ids": [],
-        "tracks": [], "inconsistencies": [],
-    },
 }  # fmt: skip
 COMMAND: TypeAdapter[Command] = TypeAdapter(Command)
 BANDS = """(() => {
@@ -147,7 +137,7 @@ def commands(run: PretendedRun, page: Page) -> list[str]:
 
 @pytest.mark.parametrize(
     ("seat", "actions"),
-    [("TOWER", []), ("OPS1", ["hold_position"]), ("AAL123", ["go_around", "hold_position"])],
+    [("TOWER", []), ("OPS1", ["hold_position"])],
 )
 def test_a_key_of_the_cockpit_does_nothing_at_another_seat(
     page: Page, seat: str, actions: list[str]
@@ -159,17 +149,17 @@ def test_a_key_of_the_cockpit_does_nothing_at_another_seat(
         assert commands(run, page) == actions
 
 
-@pytest.mark.parametrize(("altitude_ft", "is_offered"), [(2_000, True), (35_000, False)])
-def test_a_crew_is_offered_to_go_around_near_the_airport_alone(
-    page: Page, altitude_ft: int, is_offered: bool
-) -> None:
+def test_a_crew_is_offered_to_go_around_near_the_airport_alone(page: Page) -> None:
     phrases = "document.getElementById('phrase-list').innerText"
     with seated(page, "AAL123") as run:
         run.changes.add("briefing", "TOWER", ReportAirport("kdca").as_json(), CATEGORIES)
-        place = (1.0, 9_000.0, 0.0, altitude_ft, [0.0, 80.0], 10.0, False, "")
-        run.changes.add("state", "AAL123", "aircraft", "B738", *place)
-        page.wait_for(f"{phrases}.includes('Report level')")
-        assert page.evaluate(f"{phrases}.includes('Going around')") == is_offered
+        for t_s, altitude_ft in ((1.0, 35_000), (2.0, 2_000)):
+            place = (t_s, 9_000.0, 0.0, altitude_ft, [0.0, 80.0], 10.0, False, "")
+            run.changes.add("state", "AAL123", "aircraft", "B738", *place)
+            if altitude_ft == 35_000:
+                page.wait_for(f"{phrases}.includes('Report level')")
+                assert "Going around" not in page.evaluate(phrases)
+        page.wait_for(f"{phrases}.includes('Going around')")
 
 
 def test_a_seat_has_the_displays_of_its_category_whoever_is_in_the_roster(page: Page) -> None:
@@ -178,17 +168,8 @@ def test_a_seat_has_the_displays_of_its_category_whoever_is_in_the_roster(page: 
         fly(run)
         page.wait_for(f"{INSTRUMENT}.startsWith('Primary flight display')")
         page.wait_for(f"{phrases}.includes('Report level')")
-        page.press("g", 71)
-        assert commands(run, page) == ["go_around"]
-
-
-def test_a_key_that_is_held_gives_its_command_once(page: Page) -> None:
-    with seated(page, "AAL123") as run:
-        for _ in range(3):
-            page.call(
-                "Input.dispatchKeyEvent",
-                type="keyDown", key="g", windowsVirtualKeyCode=71, autoRepeat=_ > 0,
-            )  # fmt: skip
+        for repeats in (False, True, True):  # A key that is held gives its command once.
+            page.key("keyDown", "g", 71, repeats=repeats)
         assert commands(run, page) == ["go_around"]
 
 
@@ -208,6 +189,64 @@ def test_the_list_of_keys_has_those_that_act_at_the_seat(page: Page) -> None:
         page.wait_for("document.getElementById('talk').hidden")
         page.press("?", 191)
         assert "sound off or on" in page.evaluate(KEYS)
+
+
+FOCUS = "document.activeElement.id"
+
+
+def test_the_field_for_a_call_and_the_microphone_are_reached_at_once(page: Page) -> None:
+    with seated(page, "TOWER") as run:
+        fly(run)
+        advise(run, "ATC", "Both lose separation.")
+        page.wait_for("!document.getElementById('own-advisories').hidden")
+        page.press("c", ord("C"))
+        assert page.evaluate(FOCUS) == "words"
+        page.evaluate("document.activeElement.blur()")
+        page.evaluate("document.getElementById('theme').focus()")
+        reached = []
+        for _ in range(8):
+            page.press("Tab", 9)
+            reached.append(page.evaluate(FOCUS))
+        assert {"words", "talk-button"} <= set(reached)
+
+
+COLOURS = """['#traffic tbody th', '#advisories .badge'].map((found) =>
+    [...document.querySelectorAll(found)].map((one) => getComputedStyle(one).color))"""
+
+
+def test_a_callsign_has_the_colour_of_the_severity(page: Page) -> None:
+    with seat_page(has_seats=False) as (run, url):
+        page.open(url)
+        fly(run)
+        for severity, callsign in (("ADVISORY", "AAL123"), ("WARNING", "DAL456")):
+            advise(
+                run, "ATC", "Bird strike risk.", id=severity, severity=severity, traffic=[callsign]
+            )
+            page.wait_for(f"document.querySelector('#traffic .{severity}')")
+        callsigns, badges = page.evaluate(COLOURS)
+        assert callsigns == badges
+        assert len(set(badges)) == 2
+        page.open("about:blank")
+
+
+ASK = """(() => {
+    const question = document.createElement('dialog'), boxes = [];
+    question.textContent = 'May your voice be used? '.repeat(40);
+    document.getElementById('questions').append(question);
+    question.show();
+    for (const id of ['questions', 'plan']) {
+        const { top, bottom } = document.getElementById(id).getBoundingClientRect();
+        boxes.push([top, bottom]);
+    }
+    return [...boxes, [0, innerHeight]];
+})()"""
+
+
+def test_a_question_has_room_of_its_own_below_the_plan(page: Page) -> None:
+    with seated(page, "TOWER"):
+        question, plan, window = page.evaluate(ASK)
+        assert plan[1] <= question[0] < question[1] < window[1]
+        assert plan[1] - plan[0] > 200
 
 
 def test_enter_ticks_a_box_where_the_space_bar_is_to_talk(page: Page) -> None:
@@ -265,23 +304,18 @@ def tcas(
     run.changes.add("advisory", ADVISORY | row)
 
 
-@pytest.mark.parametrize(
-    ("mode", "button", "actions"),
-    [
-        ("takeoff_roll", "Reject take-off", ["cancel_takeoff"]),
-        ("glide", "Go around", ["hold_position", "go_around"]),
-    ],
-)
-def test_a_pilot_may_reject_a_take_off_on_the_roll_and_go_around_elsewhere(
-    page: Page, mode: str, button: str, actions: list[str]
-) -> None:
+def test_a_pilot_may_reject_a_take_off_on_the_roll_and_go_around_elsewhere(page: Page) -> None:
     offered = "[...document.querySelectorAll('#panel-actions button:not([hidden])')][0]"
     with seated(page, "AAL123") as run:
-        cockpit(run, INSTRUMENTS | {"mode": mode, "on_ground": mode != "glide"})
-        page.wait_for(f"{offered}.textContent === '{button}'")
-        page.press("b", 66)
-        page.press("g", 71)
-        assert commands(run, page) == actions
+        for mode, button, actions in (
+            ("takeoff_roll", "Reject take-off", ["cancel_takeoff"]),
+            ("glide", "Go around", ["hold_position", "go_around"]),
+        ):
+            cockpit(run, INSTRUMENTS | {"mode": mode, "on_ground": mode != "glide"})
+            page.wait_for(f"{offered}.textContent === '{button}'")
+            page.press("b", 66)
+            page.press("g", 71)
+            assert commands(run, page) == actions
 
 
 TAXI = {
@@ -295,18 +329,19 @@ def offer(run: PretendedRun, command: dict[str, Any]) -> None:
     run.seats.offer(own_seat(run), "a call", COMMAND.validate_python(command))
 
 
-@pytest.mark.parametrize(("seat", "verb"), [("OPS1", "Drive"), ("AAL123", "Taxi")])
-def test_what_a_call_has_for_the_seat_is_a_button_that_does_it(
-    page: Page, seat: str, verb: str
-) -> None:
-    with seated(page, seat) as run:
+def test_what_a_call_has_for_the_seat_is_a_button_that_does_it(page: Page) -> None:
+    with seated(page, "OPS1") as run:
         offer(run, TAXI)
-        page.wait_for(f"{OFFERED}[0] === '{verb} to the hold short of runway 01 on D via K, D'")
+        page.wait_for(f"{OFFERED}[0] === 'Drive to the hold short of runway 01 on D via K, D'")
         assert not commands(run, page)
         page.evaluate("document.querySelector('#offers button').click()")
         assert next_command(run).model_dump(mode="json") == TAXI
         page.wait_for("document.getElementById('panel-state').textContent.startsWith('Set: ')")
-        run.seats.end_offer(seat, COMMAND.validate_python(TAXI))
+        run.seats.end_offer("OPS1", COMMAND.validate_python(TAXI))
+        page.wait_for(f"{OFFERED}.length === 0")
+        offer(run, TAXI)
+        page.wait_for(f"{OFFERED}.length === 1")
+        page.click("seat-take")  # Who leaves the seat is shown nothing of it.
         page.wait_for(f"{OFFERED}.length === 0")
 
 
@@ -317,14 +352,6 @@ def test_a_track_that_a_call_has_is_magnetic_as_on_the_instruments(page: Page) -
         page.wait_for(f"{OFFERED}[0] === 'Turn to track 270\u00b0'")
         page.evaluate("document.querySelector('#offers button').click()")
         assert next_command(run).track_deg == 259.3
-
-
-def test_who_leaves_the_seat_is_shown_nothing_that_calls_had_for_it(page: Page) -> None:
-    with seated(page, "OPS1") as run:
-        offer(run, TAXI)
-        page.wait_for(f"{OFFERED}.length === 1")
-        page.click("seat-take")
-        page.wait_for(f"{OFFERED}.length === 0")
 
 
 CALL = {
@@ -397,11 +424,10 @@ def test_a_pace_that_nobody_can_choose_is_shown_and_goes_on_in_real_time(page: P
         page.wait_for(f"{chosen} === 'half as fast'")
 
 
-@pytest.mark.parametrize("may_pause", [True, False])
-def test_a_pause_is_offered_where_the_run_has_one(page: Page, may_pause: bool) -> None:
-    with seated(page, "TOWER", may_pause=may_pause):
+def test_no_pause_is_offered_where_the_run_has_none(page: Page) -> None:
+    with seated(page, "TOWER", may_pause=False):
         page.wait_for("document.getElementById('frequencies').textContent.includes('119.1')")
-        assert page.evaluate("document.getElementById('pace').hidden") is not may_pause
+        assert page.evaluate("document.getElementById('pace').hidden")
 
 
 def test_words_that_could_not_be_said_stay_in_the_field(page: Page) -> None:
@@ -475,21 +501,18 @@ def test_a_command_that_was_lost_with_the_connection_is_not_told_to_be_set_nor_g
         assert commands(run, page) == ["go_around"]
 
 
-@pytest.mark.parametrize(
-    ("wish", "where", "said"),
-    [
-        ("panel-go-around", "panel-state", "Not set: the connection is lost."),
-        ("pace-pause", "seat-state", "Not set: the connection is lost."),
-        ("seat-take", "seat-state", "Not done: the connection is lost."),
-    ],
-)
 def test_what_is_wished_without_a_connection_is_told_not_to_be_done_and_not_done_later(
-    page: Page, wish: str, where: str, said: str
+    page: Page,
 ) -> None:
     with seated(page, "AAL123") as run:
         page.evaluate(f"{NO_CONNECTION}; null")
-        page.evaluate(f"document.getElementById('{wish}').click()")
-        assert page.evaluate(f"document.getElementById('{where}').textContent") == said
+        for wish, where, said in (
+            ("panel-go-around", "panel-state", "Not set: the connection is lost."),
+            ("pace-pause", "seat-state", "Not set: the connection is lost."),
+            ("seat-take", "seat-state", "Not done: the connection is lost."),
+        ):
+            page.evaluate(f"document.getElementById('{wish}').click()")
+            assert page.evaluate(f"document.getElementById('{where}').textContent") == said
         page.evaluate("connect()")
         assert commands(run, page) == []
         assert page.evaluate("document.body.dataset.seat") == "pilot"
@@ -566,15 +589,27 @@ def test_a_screen_reader_is_told_of_an_advisory_to_others_while_nobody_has_a_sea
         page.open("about:blank")
 
 
-def test_a_range_ring_has_its_name_where_it_is_seen(page: Page) -> None:
-    written = """(() => {
-        const texts = window.texts = [], write = CanvasRenderingContext2D.prototype.fillText;
-        CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
-            if (this.canvas.id === 'plan' && text.endsWith(' NM') && y < this.canvas.height - 20)
-                texts.push([x, y, this.canvas.width, this.canvas.height]);
-            write.call(this, text, x, y);
-        };
-    })()"""
+NOTE_RINGS = """(() => {
+    const pen = CanvasRenderingContext2D.prototype, { fillText, arc, stroke } = pen;
+    const texts = window.texts = [], rings = window.rings = [];
+    pen.fillText = function (text, x, y) {
+        if (this.canvas.id === 'plan' && text.endsWith(' NM') && y < this.canvas.height - 20)
+            texts.push([x, y, this.canvas.width, this.canvas.height]);
+        fillText.call(this, text, x, y);
+    };
+    pen.arc = function (x, y, radius, ...more) {
+        this.isRing = this.canvas.id === 'plan' && radius > 60;
+        arc.call(this, x, y, radius, ...more);
+    };
+    pen.stroke = function () {
+        if (this.isRing) rings.push(`${this.strokeStyle} ${this.lineWidth}`);
+        this.isRing = false;
+        stroke.call(this);
+    };
+})()"""
+
+
+def test_range_rings_are_drawn_alike_and_have_their_names_where_they_are_seen(page: Page) -> None:
     with seat_page(has_seats=False) as (run, url):
         page.open(url, width=1280, height=720)
         fly(run)
@@ -582,32 +617,10 @@ def test_a_range_ring_has_its_name_where_it_is_seen(page: Page) -> None:
         page.evaluate("document.getElementById('plan').focus()")
         for _ in range(4):
             page.press("ArrowDown", 40)  # The middle of the rings leaves the plan at its top.
-        page.evaluate(written)
+        page.evaluate(NOTE_RINGS)
         page.press("ArrowDown", 40)
-        page.wait_for("window.texts.length")
+        page.wait_for("window.texts.length && window.rings.length > 2")
         assert all(0 < x < wide and 0 < y < high for x, y, wide, high in page.evaluate("texts"))
-        page.open("about:blank")
-
-
-def test_all_range_rings_are_drawn_alike_with_names_and_without(page: Page) -> None:
-    drawn = """(() => {
-        const rings = window.rings = [], draw = CanvasRenderingContext2D.prototype.arc;
-        const stroke = CanvasRenderingContext2D.prototype.stroke;
-        CanvasRenderingContext2D.prototype.arc = function (x, y, radius, ...more) {
-            this.isRing = this.canvas.id === 'plan' && radius > 60;
-            draw.call(this, x, y, radius, ...more);
-        };
-        CanvasRenderingContext2D.prototype.stroke = function () {
-            if (this.isRing) rings.push(`${this.strokeStyle} ${this.lineWidth}`);
-            this.isRing = false;
-            stroke.call(this);
-        };
-    })()"""
-    with seat_page(has_seats=False) as (run, url):
-        page.open(url, width=1280, height=720)
-        page.evaluate(drawn)
-        fly(run)
-        page.wait_for("window.rings.length > 2")
         assert page.evaluate("new Set(window.rings).size") == 1
         page.open("about:blank")
 
@@ -852,6 +865,14 @@ def test_headings_are_offered_as_the_compass_of_the_crew_shows_them(page: Page) 
         page.wait_for(f"{report}.some((text) => text.includes('heading two eight zero'))")
 
 
+SET = """(() => {{
+    const field = document.getElementById('panel-{}');
+    field.value = '{}';
+    field.form.requestSubmit();
+}})()"""
+"""Sets a value at the mode panel."""
+
+
 @pytest.mark.parametrize(
     ("has_airport", "unit", "track_deg"), [(True, "mag", 269.3), (False, "true", 280.0)]
 )
@@ -862,33 +883,19 @@ def test_the_mode_panel_takes_tracks_as_the_instruments_show_them(
         airport = ReportAirport("kdca").as_json() if has_airport else None
         run.changes.add("briefing", "TOWER", airport, CATEGORIES)
         told = "document.getElementById('panel-state').textContent"
+        cockpit(run, INSTRUMENTS)
+        page.wait_for("document.getElementById('instruments').textContent.includes('35,000')")
+        page.evaluate(SET.format("rate", 1_500))
+        assert page.evaluate(told) == "Vertical speed: set another altitude first."
         cockpit(run, INSTRUMENTS | {"selected_altitude_ft": 9_000})
         page.wait_for(f"document.getElementById('panel-track-unit').textContent.includes('{unit}')")
         page.wait_for("document.getElementById('instruments').textContent.includes('9,000')")
-        for field, value in (("track", 280), ("rate", 2_500)):
-            page.evaluate(f"""(() => {{
-                const field = document.getElementById('panel-{field}');
-                field.value = '{value}';
-                field.form.requestSubmit();
-            }})()""")
+        page.evaluate(SET.format("track", 280))
+        page.evaluate(SET.format("rate", 2_500))
         track, climb = next_command(run), next_command(run)
         assert track.track_deg == pytest.approx(track_deg)
         assert (climb.altitude_ft, climb.vertical_rate_fpm) == (9_000, 2_500)
         page.wait_for(f"{told}.includes('vertical speed 2500 ft/min, down to 9,000')")
-
-
-def test_a_vertical_speed_wants_another_altitude_to_fly_to(page: Page) -> None:
-    told = "document.getElementById('panel-state').textContent"
-    with seated(page, "AAL123") as run:
-        cockpit(run, INSTRUMENTS)
-        page.wait_for(f"{INSTRUMENT}.startsWith('Primary flight display')")
-        page.evaluate("""(() => {
-            const field = document.getElementById('panel-rate');
-            field.value = '1500';
-            field.form.requestSubmit();
-        })()""")
-        page.wait_for(f"{told}.includes('set another altitude first')")
-        assert commands(run, page) == []
 
 
 def test_a_controller_sees_what_a_radar_alone_has_found_on_the_plan(page: Page) -> None:
@@ -907,26 +914,6 @@ def test_a_controller_sees_what_a_radar_alone_has_found_on_the_plan(page: Page) 
         page.wait_for(f"{told}.includes('AAL123') && !{told}.includes('radar')")
 
 
-PLOTS = """import(new URL('page/model.js', location)).then(({ Run }) => {
-    const none = { tracks: [], calls: [], events: [], advisories: [], spoken: [], cameras: [] },
-        plot = (t, east) => ['plot', { t, kind: 'secondary', east, north: 0, turn_s: 4 }],
-        state = (name, t, east) =>
-            ['state', name, 'aircraft', '', t, east, 0, 1000, [0, 0], 90, false, ''],
-        alone = (run, t) => run.plots.at(t).map(({ isAlone }) => isAlone);
-    return [null, 'TOWER'].map((own) => {
-        const run = new Run({ ...none, scenario: { name: '' } });
-        run.own = own;
-        run.apply([state('AAL123', 1, 0), plot(1, 100), plot(1, 9000)]);
-        const settled = alone(run, 2);
-        run.apply([state('DAL456', 3, 9100)]);
-        const explained = alone(run, 3);
-        run.apply([['clock', 100, 'running', 'realtime'], plot(100, 20000)]);
-        return { settled, explained, older: alone(run, 10), newest: alone(run, 100) };
-    });
-})"""
-"""Plots that are alone at some times, on a page without a seat, and at one."""
-
-
 def test_who_has_no_seat_is_not_told_that_nobody_has_said_anything(page: Page) -> None:
     calls = "document.getElementById('calls').textContent"
     with seat_page() as (_, url):
@@ -936,37 +923,3 @@ def test_who_has_no_seat_is_not_told_that_nobody_has_said_anything(page: Page) -
         page.evaluate(SITS)
         page.wait_for(f"{calls} === 'Nobody has said anything so far.'")
         page.open("about:blank")
-
-
-LATE_PLOT = """import(new URL('page/radar_plots.js', location)).then(({ RadarPlots }) => {
-    const plots = new RadarPlots();
-    for (const t of [100, 20]) plots.add({ t, east: 0, north: 0, turn_s: 5 }, []);
-    const before = plots.at(101).map(({ plot, isAlone }) => [plot.t, isAlone]);
-    plots.explain({ last: 100, place: () => [0, 0] });
-    return [before, plots.at(101).map(({ plot, isAlone }) => [plot.t, isAlone])];
-})"""
-"""The plots that are shown after an old one has come late, and once their actor is found."""
-
-
-def test_an_old_plot_that_comes_late_hides_no_other(page: Page) -> None:
-    with seat_page() as (_, url):
-        page.open(url)
-        page.wait_for("document.body.dataset.ready")
-        assert page.evaluate(LATE_PLOT) == [[[100, True]], [[100, False]]]
-        page.open("about:blank")
-
-
-def test_a_plot_is_alone_until_another_sensor_finds_its_actor_and_past_ones_go_at_a_seat(
-    page: Page,
-) -> None:
-    with seat_page() as (_, url):
-        page.open(url)
-        page.wait_for("document.body.dataset.ready")
-        free, seat = page.evaluate(PLOTS)
-        page.open("about:blank")
-    for shown in (free, seat):
-        assert shown["settled"] == [False, True]
-        assert shown["explained"] == [False, False]
-        assert shown["newest"] == [True]
-    assert free["older"] == [False, False]
-    assert seat["older"] == []

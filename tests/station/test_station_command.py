@@ -16,6 +16,7 @@ import pytest
 from airhilt.record import open_run
 from airhilt.scenario import Scenario
 from airhilt.station.home import options_of_page
+from airhilt.station.started_runs import StartedRuns
 from devtools import Page
 from microphone import page_with_microphone
 from stations import TOKEN, reachable, stationed
@@ -29,17 +30,14 @@ CHOOSE = """
     for (const box of ['#seats [value=AAL123]', '#voice-recording', '#equipment [value=tcas]'])
         document.querySelector(box).click();
 """
-ASKED_FOR = """
-    new Promise((asked) => {
-        const fetched = window.fetch;
-        window.fetch = (path, how) => {
-            if (how?.method !== 'POST') return fetched(path, how);
-            asked(JSON.parse(how.body));
-            return new Promise(() => {});
-        };
-        document.getElementById('new').requestSubmit();
-    })
-"""
+NOTE_WISH = """(() => {
+    const fetched = window.fetch;
+    window.fetch = (path, how) => {
+        if (how?.method !== 'POST') return fetched(path, how);
+        window.asked = JSON.parse(how.body);
+        return new Promise(() => {});
+    };
+})()"""
 Cli = Callable[..., subprocess.CompletedProcess[str]]
 
 
@@ -215,6 +213,16 @@ def test_other_machines_reach_no_page_without_tls_and_a_token(
     assert "--host 0.0.0.0: other machines can reach it; expected 127.0.0.1, or TLS" in done.stderr
 
 
+def test_a_page_is_told_nothing_of_the_terminal_of_a_run(tmp_path: Path) -> None:
+    kept = tmp_path / ".station"
+    kept.mkdir()
+    run = {"name": "one", "scenario": "s", "seats": [], "process": 2**22, "created_s": 0.0}
+    (kept / "one.json").write_text(json.dumps(run))
+    (kept / "one.txt").write_text("60 s simulated\nthe page stays until ... or Ctrl+C\n")
+    (row,) = StartedRuns(tmp_path).rows()
+    assert (row["state"], row["said"]) == ("ended", "60 s simulated")
+
+
 @pytest.mark.browser
 def test_a_person_chooses_radar_equipment_and_that_voices_are_not_kept(
     page: Page, encounter: Scenario, tmp_path: Path
@@ -225,11 +233,14 @@ def test_a_person_chooses_radar_equipment_and_that_voices_are_not_kept(
     equipped = encounter.model_copy(update={"equipment": ("conflict_alert",)})
     (folder / "mine.json").write_text(equipped.model_dump_json())
     with stationed(tmp_path / "runs", "--scenarios", str(folder)) as (_, client):
-        page.open(str(client.base_url), width=1280, height=720)
+        page.open(str(client.base_url), width=820, height=1180)
         page.wait_for("document.body.dataset.ready")
         page.evaluate(CHOOSE)
         assert page.evaluate("document.querySelector('#equipment [value=conflict_alert]').checked")
-        asked = page.evaluate(ASKED_FOR)
+        page.evaluate(NOTE_WISH)
+        page.click("start")
+        page.wait_for("window.asked")
+        asked = page.evaluate("window.asked")
         page.open("about:blank")
     options = options_of_page(asked["options"])
     assert options.seat == ("AAL123",)

@@ -71,6 +71,18 @@ SITS = """(() => {
 })()"""
 """Script that takes the seat that is chosen, and lets voice and words be used."""
 
+ADVISORY: dict[str, Any] = {
+    "t": 0.5, "equipment": "", "id": "a-1", "revision": 1, "severity": "WARNING", "active": True,
+    "kind": "loss_of_separation", "traffic": ["AAL123", "DAL456"],
+    "texts": [{"recipient": "ATC", "message": "Both lose separation.", "recommendation": None}],
+    "evidence": {
+        "sources": ["adsb"], "shares": {}, "note": "", "rules": [], "runway": None,
+        "time_to_go_s": None, "time_to_loss_s": None, "radio_ids": [], "camera_ids": [],
+        "tracks": [], "inconsistencies": [],
+    },
+}  # fmt: skip
+"""An advisory as the page is told it."""
+
 
 def reachable(folder: Path) -> list[str]:
     """Return options by which other machines reach a page, with new files in a folder."""

@@ -1,6 +1,6 @@
 // The advisories of the assistant, each with what it rests on.
 
-import { byId, html, svg, timeButton } from "./dom.js";
+import { button, byId, html, svg, timeButton } from "./dom.js";
 import { Rows, keepInView } from "./rows.js";
 import { capital, instruction, known, percent, seconds, words } from "./words.js";
 
@@ -27,6 +27,12 @@ export const badge = (severity) =>
     severity,
   );
 
+/** What an advisory rests on, with the share of each source. */
+export const basisOf = ({ sources, shares }) =>
+  sources
+    .map((name) => (known(shares[name]) ? `${words(name)} ${percent(shares[name])}` : words(name)))
+    .join(", ");
+
 export class Advisories {
   #list = byId("advisories");
   #rows = new Rows(this.#list);
@@ -35,6 +41,7 @@ export class Advisories {
   #links;
   #items = [];
   #current = "";
+  #listed = null; // which advisories were listed last
   #last = 0;
   #names = null; // of the advisories that were listed last
 
@@ -62,6 +69,7 @@ export class Advisories {
     this.#items = rows.map((row, i) => ({ row, item: items[i] }));
     this.#announceNew(rows, name);
     this.#current = null;
+    this.#listed = this.#run.advised;
     this.draw();
   }
 
@@ -72,6 +80,10 @@ export class Advisories {
   }
 
   draw() {
+    if (this.#listed !== this.#run.advised) {
+      this.redraw();
+      return;
+    }
     const { t } = this.#clock,
       active = new Set(this.#run.activeAdvisories(t)),
       now = this.#items.filter(({ row }) => active.has(row));
@@ -148,25 +160,16 @@ export class Advisories {
   }
 
   #evidence(evidence) {
-    const shares = evidence.sources.map((name) =>
-      known(evidence.shares[name])
-        ? `${words(name)} ${percent(evidence.shares[name])}`
-        : words(name),
-    );
-    const button = (text, act) => {
-      const node = html("button", { type: "button", class: "time" }, text);
-      node.addEventListener("click", act);
-      return node;
-    };
+    const link = (text, show) => button(text, () => show(text), { class: "time" });
     const facts = [
-      ["rests on", shares.join(", ")],
+      ["rests on", basisOf(evidence)],
       ["rules", evidence.rules.map(words).join(", ")],
       ["note", evidence.note],
       ["runway", evidence.runway],
       ["time to go", known(evidence.time_to_go_s) ? seconds(evidence.time_to_go_s) : null],
       ["time to loss", known(evidence.time_to_loss_s) ? seconds(evidence.time_to_loss_s) : null],
-      ["calls", evidence.radio_ids.map((id) => button(id, () => this.#links.call(id)))],
-      ["cameras", evidence.camera_ids.map((name) => button(name, () => this.#links.camera(name)))],
+      ["calls", evidence.radio_ids.map((id) => link(id, this.#links.call))],
+      ["cameras", evidence.camera_ids.map((name) => link(name, this.#links.camera))],
       ["tracks", evidence.tracks.join(", ")],
       ["faults", evidence.inconsistencies.join(", ")],
     ].filter(([, value]) => known(value) && value !== "" && value.length);

@@ -62,12 +62,8 @@ export class Cameras {
 
   #close() {
     this.#choice.value = "";
-    this.#shown = "";
-    this.#image.hidden = true;
     this.#image.removeAttribute("src");
-    this.#image.alt = "";
-    this.#boxes.replaceChildren();
-    byId("camera-caption").textContent = "";
+    this.#hide("");
     this.#plan.setCamera(null);
   }
 
@@ -79,10 +75,10 @@ export class Cameras {
 
   /** Lists the cameras, and opens the first one if none is open. */
   renew() {
-    const chosen = this.#choice.value;
-    const offered = this.#offered;
+    const chosen = this.#choice.value,
+      offered = this.#offered;
     this.#choice.replaceChildren(
-      ...offered.map((camera) => html("option", { value: camera.name }, camera.name)),
+      ...offered.map(({ name }) => html("option", { value: name }, name)),
     );
     this.#choice.hidden = !offered.length;
     document.body.dataset.camera = offered.length ? "some" : "none";
@@ -184,26 +180,23 @@ export class Cameras {
         byId("camera-none").textContent = "";
         this.#shown = wanted;
         this.#missing = "";
-        this.#drawBoxes(record, i);
+        this.#drawBoxes();
       }
       this.draw();
     };
     arrived.onerror = async () => {
       // Of a live run it is an old one, which is not kept.
-      const why = this.#clock.live ? "" : await reason(arrived.src);
+      const why = this.#clock.live ? "" : ((await answered(arrived.src)).error ?? "");
       this.#isLoading = false;
       if (this.#clock.live) return;
-      if (this.#camera?.name === name) this.#miss(record, i, why);
+      if (this.#camera?.name === name) {
+        this.#missing = wanted;
+        if (!isKept(record, i)) this.#failure = why; // Without a reason, others may come.
+        this.#hide(why || "The picture did not come. Go to another one and back.");
+      }
       this.draw();
     };
     arrived.src = `api/cameras/${encodeURIComponent(name)}/${record.seq[i]}.jpg?browser=${identity()}`;
-  }
-
-  /** Tells why a picture did not come; without a reason, others may come. */
-  #miss(record, i, why) {
-    this.#missing = `${this.#camera.name}/${record.seq[i]}`;
-    if (!isKept(record, i)) this.#failure = why;
-    this.#hide(why || "The picture did not come. Go to another one and back.");
   }
 
   /** Shows a text in the place of a picture. */
@@ -216,12 +209,11 @@ export class Cameras {
     byId("camera-none").textContent = text;
   }
 
-  #drawBoxes(
-    record = this.#records.get(this.#camera?.name),
-    i = record ? record.seq.indexOf(Number(this.#shown.split("/")[1])) : -1,
-  ) {
+  #drawBoxes() {
+    const record = this.#records.get(this.#camera?.name),
+      i = record?.seq.indexOf(Number(this.#shown.split("/")[1])) ?? -1;
     this.#boxes.replaceChildren();
-    if (!record || i < 0) return;
+    if (i < 0) return;
     const found = record.found[i],
       there = record.there[i],
       wide = this.#camera.width_px / 640;
@@ -238,28 +230,19 @@ export class Cameras {
       `Picture ${record.seq[i]} at ${seconds(record.t[i], 2)}, ${this.#clock.live ? "" : `${origin}; `}${seen}`;
   }
 
-  #box([left, top, right, bottom], ink, text, dashed, wide) {
-    this.#boxes.append(
-      svg("rect", {
-        x: left - 3,
-        y: top - 3,
-        width: right - left + 6,
-        height: bottom - top + 6,
-        stroke: ink,
-        "stroke-width": 2,
-        "stroke-dasharray": dashed ? "5 4" : null,
-      }),
-      svg(
-        "text",
-        {
-          x: left - 3,
-          y: top > 24 * wide ? top - 8 * wide : bottom + 20 * wide,
-          fill: ink,
-          "font-size": 14 * wide,
-        },
-        text,
-      ),
-    );
+  #box([left, top, right, bottom], ink, text, isDashed, wide) {
+    const frame = {
+      x: left - 3,
+      y: top - 3,
+      width: right - left + 6,
+      height: bottom - top + 6,
+      stroke: ink,
+      "stroke-width": 2,
+      "stroke-dasharray": isDashed ? "5 4" : null,
+    };
+    const y = top > 24 * wide ? top - 8 * wide : bottom + 20 * wide,
+      words = { x: left - 3, y, fill: ink, "font-size": 14 * wide };
+    this.#boxes.append(svg("rect", frame), svg("text", words, text));
   }
 }
 
@@ -273,10 +256,5 @@ async function answered(place) {
   }
 }
 
-/** Returns why the server has no picture, empty if it tells no reason. */
-const reason = async (place) => (await answered(place)).error ?? "";
-
 /** Returns true if a run has kept a picture: it need not be drawn again. */
-function isKept(record, i) {
-  return record.kept?.includes(record.seq[i]) ?? false;
-}
+const isKept = (record, i) => record.kept?.includes(record.seq[i]) ?? false;

@@ -192,6 +192,8 @@ export class FollowingClock extends Clock {
   constructor(end, leader) {
     super(end);
     this.#leader = leader;
+    for (const name of ["set", "toggle", "setRate", "stepRate", "mark", "toggleLoop"])
+      this[name] = (given) => leader[name](given);
     leader.listen(() => this.#follow());
   }
 
@@ -200,29 +202,5 @@ export class FollowingClock extends Clock {
     this.playing = this.#leader.playing && this.#leader.t < this.end;
     this.rate = this.#leader.rate;
     this.tell();
-  }
-
-  set(t) {
-    this.#leader.set(t);
-  }
-
-  toggle() {
-    this.#leader.toggle();
-  }
-
-  setRate(rate) {
-    this.#leader.setRate(rate);
-  }
-
-  stepRate(step) {
-    this.#leader.stepRate(step);
-  }
-
-  mark(side) {
-    this.#leader.mark(side);
-  }
-
-  toggleLoop() {
-    this.#leader.toggleLoop();
   }
 }

@@ -36,31 +36,22 @@ export class Displays {
   get keys() {
     const panel = this.#panel,
       nd = this.#nd;
-    const at =
-      (...seats) =>
-      () =>
-        seats.includes(document.body.dataset.seat);
-    const inCockpit = [
-      { names: ["s"], shown: ["S"], text: "cockpit: speed", act: () => panel.focus("speed") },
-      { names: ["h"], shown: ["H"], text: "cockpit: track", act: () => panel.focus("track") },
-      { names: ["a"], shown: ["A"], text: "cockpit: altitude", act: () => panel.focus("altitude") },
-      {
-        names: ["v"],
-        shown: ["V"],
-        text: "cockpit: vertical speed",
-        act: () => panel.focus("rate"),
-      },
-      { names: ["g"], shown: ["G"], text: "cockpit: go around", act: () => panel.goAround() },
-      { names: ["r"], shown: ["R"], text: "cockpit: longer range", act: () => nd.step(1) },
-      { names: ["e"], shown: ["E"], text: "cockpit: shorter range", act: () => nd.step(-1) },
-    ].map((key) => ({ ...key, isUsed: at("pilot") }));
-    const brake = {
-      names: ["b"],
-      shown: ["B"],
-      text: "brake, hold position, reject take-off",
-      act: () => panel.brake(),
-    };
-    return [...inCockpit, { ...brake, isUsed: at("pilot", "driver") }];
+    return [
+      ["s", "cockpit: speed", () => panel.focus("speed")],
+      ["h", "cockpit: track", () => panel.focus("track")],
+      ["a", "cockpit: altitude", () => panel.focus("altitude")],
+      ["v", "cockpit: vertical speed", () => panel.focus("rate")],
+      ["g", "cockpit: go around", () => panel.goAround()],
+      ["r", "cockpit: longer range", () => nd.step(1)],
+      ["e", "cockpit: shorter range", () => nd.step(-1)],
+      ["b", "brake, hold position, reject take-off", () => panel.brake(), ["pilot", "driver"]],
+    ].map(([name, text, act, seats = ["pilot"]]) => ({
+      names: [name],
+      shown: [name.toUpperCase()],
+      text,
+      act,
+      isUsed: () => seats.includes(document.body.dataset.seat),
+    }));
   }
 
   /** Takes in which seat the person has, null for none. */

@@ -21,16 +21,16 @@ export const html = (tag, attributes = {}, ...children) =>
 export const svg = (tag, attributes = {}, ...children) =>
   filled(document.createElementNS(SVG, tag), attributes, children);
 
-/** Returns a button that sets the clock to a time. */
-export function timeButton(clock, t, text) {
-  const button = html(
-    "button",
-    { type: "button", class: "time", "aria-label": `Go to ${text}` },
-    text,
-  );
-  button.addEventListener("click", () => clock.set(t));
-  return button;
+/** Returns a button that does something when it is pressed. */
+export function button(text, act, attributes = {}) {
+  const made = html("button", { type: "button", ...attributes }, text);
+  made.addEventListener("click", act);
+  return made;
 }
+
+/** Returns a button that sets the clock to a time. */
+export const timeButton = (clock, t, text) =>
+  button(text, () => clock.set(t), { class: "time", "aria-label": `Go to ${text}` });
 
 const known = new Map();
 const probe = document.createElement("span");
@@ -48,35 +48,3 @@ export function colour(name) {
 
 /** Lets `colour` look again, because the page has other colours now. */
 export const forgetColours = () => known.clear();
-
-/**
- * Calls a function with the drawing context, width and height of a canvas whenever its size
- * changes.
- */
-export function onSize(canvas, call) {
-  const resized = () => {
-    const factor = devicePixelRatio || 1,
-      { width, height } = canvas.getBoundingClientRect();
-    if (!width || !height) return;
-    canvas.width = Math.round(width * factor);
-    canvas.height = Math.round(height * factor);
-    const pen = canvas.getContext("2d");
-    pen.setTransform(factor, 0, 0, factor, 0, 0);
-    call(pen, width, height);
-  };
-  new ResizeObserver(resized).observe(canvas);
-}
-
-export const FONT = '12px system-ui, -apple-system, "Segoe UI", Roboto, "DejaVu Sans", sans-serif';
-export const BOLD = `600 ${FONT}`;
-export const FONT_SMALL = FONT.replace("12px", "11px");
-
-/** Writes a text with an edge in the colour of what is behind it. */
-export function write(pen, text, x, y, ink, behind) {
-  pen.lineJoin = "round";
-  pen.lineWidth = 3;
-  pen.strokeStyle = behind;
-  pen.strokeText(text, x, y);
-  pen.fillStyle = ink;
-  pen.fillText(text, x, y);
-}

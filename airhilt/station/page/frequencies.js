@@ -63,19 +63,9 @@ export class Frequencies {
     speak.addEventListener("change", () => {
       if (!listen.checked) listen.click();
     }); // as on a radio: who speaks there listens there
-    return {
-      listen,
-      speak,
-      lamp,
-      item: html(
-        "li",
-        {},
-        html("strong", {}, megahertz(khz)),
-        lamp,
-        html("label", {}, listen, "Listen"),
-        html("label", {}, speak, "Transmit"),
-      ),
-    };
+    const labels = [html("label", {}, listen, "Listen"), html("label", {}, speak, "Transmit")];
+    const item = html("li", {}, html("strong", {}, megahertz(khz)), lamp, labels);
+    return { listen, speak, lamp, item };
   }
 
   #draw() {

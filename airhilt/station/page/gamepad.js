@@ -29,25 +29,21 @@ export class GamepadButton {
 
   #begin() {
     this.#draw();
-    if (!this.#isPolling) {
-      this.#isPolling = true;
-      this.#poll();
-    }
+    if (!this.#isPolling) this.#poll();
   }
 
   /** Looks at the buttons with each picture, as browsers give no events of them. */
   #poll() {
     const pads = this.#pads;
-    if (!pads.length) {
-      this.#isPolling = false;
+    this.#isPolling = pads.length > 0;
+    if (!this.#isPolling) {
       this.#set(false, performance.now());
       return;
     }
     if (this.#isChoosing) {
-      const pressed = pads
-        .map((pad) => pad.buttons.findIndex((button) => button.pressed))
-        .find((i) => i >= 0);
-      if (pressed !== undefined) {
+      const down = (pad) => pad.buttons.findIndex((button) => button.pressed),
+        pressed = Math.max(...pads.map(down));
+      if (pressed >= 0) {
         this.#button = pressed;
         localStorage.setItem(NAME, pressed);
         this.#isChoosing = false;

@@ -1,6 +1,6 @@
 // The first page: choose a scenario, its seats and conditions, start the run, open what is there.
 
-import { byId, html } from "./dom.js";
+import { button, byId, html } from "./dom.js";
 import { onThisHost } from "./neighbours.js";
 import { Rows } from "./rows.js";
 import { connectTheme } from "./theme.js";
@@ -8,7 +8,10 @@ import { whole } from "./words.js";
 
 const PERIOD_MS = 1000;
 const NOTHING_STARTED =
-  "Nothing was started yet. A run that is started on the left takes some seconds to get ready; then a link to its page is here.";
+  "Nothing was started yet. A run takes some seconds to get ready; then a link to its page is here.";
+const NOTHING_RECORDED = "There is no run here yet. A run is listed here from its beginning on.";
+const WHEN = { dateStyle: "short", timeStyle: "short" };
+const SEATS_HINT = "Tick a seat to speak and act there yourself. Without one you watch the run.";
 const STATES = { starting: "is being started", running: "goes on", ended: "has ended" };
 
 let scenarios = [],
@@ -19,15 +22,9 @@ const chosen = new Set(),
 
 /** Asks the server, and throws what it refuses in its words. */
 async function ask(path, wish) {
-  const how =
-    wish === undefined
-      ? {}
-      : {
-          method: "POST",
-          headers: { "Content-Type": "application/json" },
-          body: JSON.stringify(wish),
-        };
-  const answer = await fetch(path, how),
+  const headers = { "Content-Type": "application/json" },
+    how = wish && { method: "POST", headers, body: JSON.stringify(wish) },
+    answer = await fetch(path, how),
     content = await answer.json();
   if (!answer.ok) throw new Error(content.error ?? `the server answers ${answer.status}`);
   return content;
@@ -51,19 +48,10 @@ function showScenario() {
       seat === scenario.controller ? `${seat} (controller)` : seat,
     ),
   );
-  byId("seats").replaceChildren(
-    html("legend", {}, "Seats for people"),
-    ...(seats.length
-      ? [
-          ...seats,
-          html(
-            "p",
-            { class: "hint" },
-            "Tick a seat to speak and act there yourself. Without one you watch the run.",
-          ),
-        ]
-      : [html("span", { class: "dim" }, "This scenario has no radio: it can be watched.")]),
-  );
+  const hint = seats.length
+    ? html("p", { class: "hint" }, SEATS_HINT)
+    : html("span", { class: "dim" }, "This scenario has no radio: it can be watched.");
+  byId("seats").replaceChildren(html("legend", {}, "Seats for people"), ...seats, hint);
   byId("cameras").disabled = !scenario.has_cameras;
   byId("snr").placeholder =
     scenario.snr_db === null ? "no noise" : `${scenario.snr_db}, as in the scenario`;
@@ -83,28 +71,32 @@ function showCameras() {
   byId("visibility").disabled = byId("cameras").disabled || !byId("cameras").checked;
 }
 
-/** Values that are ticked in a group; those of the scenario itself cannot be. */
-const ticked = (group) =>
-  [...byId(group).querySelectorAll("input:checked:enabled")].map((one) => one.value);
-
-function optionsChosen() {
-  const options = { seed: Number(byId("seed").value), assistant: byId("assistant").value };
-  const seats = ticked("seats"),
-    equipment = ticked("equipment");
-  if (seats.length) options.seat = seats;
-  if (seats.length && byId("isa-minutes").value !== "")
-    options.isa_minutes = Number(byId("isa-minutes").value);
-  if (seats.length && byId("nasa-tlx").checked) options.nasa_tlx = true;
-  if (seats.length && !byId("voice-recording").checked) options.voice_recording = false;
-  if (byId("radar").value !== "") options.radar = byId("radar").value;
-  if (equipment.length) options.equipment = equipment;
-  if (byId("snr").value !== "") options.snr_db = Number(byId("snr").value);
-  if (byId("visibility").value !== "" && !byId("visibility").disabled)
-    options.visibility_m = Number(byId("visibility").value);
-  if (!byId("cameras").checked) options.cameras = false;
-  if (!byId("speech").checked) options.speech = false;
-  return options;
+/** Values that are ticked in a group, undefined for none; those of the scenario itself cannot be. */
+function ticked(group) {
+  const boxes = [...byId(group).querySelectorAll("input:checked:enabled")];
+  return boxes.length ? boxes.map((one) => one.value) : undefined;
 }
+
+/** What is given in a field, undefined if it is empty or cannot be filled in. */
+const given = (id) => (byId(id).matches(":enabled") && byId(id).value) || undefined;
+const number = (id) => given(id) && Number(given(id));
+/** False if a box was cleared, else undefined: the options of a run have what the boxes begin with. */
+const unlessCleared = (id) => (byId(id).matches(":enabled:not(:checked)") ? false : undefined);
+
+const optionsChosen = () => ({
+  seed: number("seed"),
+  assistant: given("assistant"),
+  seat: ticked("seats"),
+  isa_minutes: number("isa-minutes"),
+  nasa_tlx: byId("nasa-tlx").matches(":enabled:checked") || undefined,
+  voice_recording: unlessCleared("voice-recording"),
+  radar: given("radar"),
+  equipment: ticked("equipment"),
+  snr_db: number("snr"),
+  visibility_m: number("visibility"),
+  cameras: unlessCleared("cameras"),
+  speech: unlessCleared("speech"),
+});
 
 async function start() {
   byId("start").disabled = true;
@@ -128,26 +120,11 @@ async function start() {
 // --- what is there -------------------------------------------------------------------------------
 
 function startedRow(run) {
-  const parts = [html("span", { class: "who" }, run.name), html("span", {}, STATES[run.state])];
-  if (run.url)
-    parts.push(
-      html(
-        "a",
-        { class: "open", href: onThisHost(run.url) },
-        run.seats.length ? "Open and take a seat" : "Watch",
-      ),
-    );
-  if (run.state !== "ended") {
-    const stop = html("button", { type: "button", "aria-label": `Stop ${run.name}` }, "Stop");
-    stop.addEventListener("click", async () => {
-      try {
-        await ask(`api/runs/${encodeURIComponent(run.name)}/stop`, {});
-      } catch (error) {
-        note(error.message);
-      }
-    });
-    parts.push(stop);
-  }
+  const parts = [html("span", { class: "who" }, run.name), html("span", {}, STATES[run.state])],
+    link = { class: "open", href: run.url && onThisHost(run.url) };
+  if (run.url) parts.push(html("a", link, run.seats.length ? "Open and take a seat" : "Watch"));
+  if (run.state !== "ended")
+    parts.push(button("Stop", () => stop(run.name), { "aria-label": `Stop ${run.name}` }));
   const said =
     run.state === "running" ? run.seats.map((seat) => `seat ${seat}`).join(", ") : run.said;
   return html(
@@ -158,15 +135,18 @@ function startedRow(run) {
   );
 }
 
-async function open(button, runs) {
-  button.disabled = true;
+const stop = (name) =>
+  ask(`api/runs/${encodeURIComponent(name)}/stop`, {}).catch((error) => note(error.message));
+
+async function open(pressed, runs) {
+  pressed.disabled = true;
   byId("compare-state").textContent = "Reading ...";
   try {
     location.href = onThisHost((await ask("api/debriefs", { runs })).url);
   } catch (error) {
     note(`The debrief was not opened: ${error.message}`);
   } finally {
-    button.disabled = false;
+    pressed.disabled = false;
     byId("compare-state").textContent = "";
   }
 }
@@ -182,49 +162,27 @@ function recordedRow(run) {
     else chosen.delete(run.name);
     showChosen();
   });
-  const button = html(
-    "button",
-    { type: "button", "aria-label": `Debrief of ${run.name}` },
-    "Debrief",
-  );
-  button.addEventListener("click", () => open(button, [run.name]));
+  const name = html("th", { scope: "row" }, run.name),
+    cell = (content, attributes = {}) => html("td", attributes, content),
+    begun = run.started_at && new Date(run.started_at).toLocaleString([], WHEN),
+    act = ({ target }) => open(target, [run.name]);
   return html(
     "tr",
     {},
-    html("td", {}, box),
-    html("th", { scope: "row" }, run.name),
-    html(
-      "td",
-      { class: "when" },
-      run.started_at
-        ? new Date(run.started_at).toLocaleString([], { dateStyle: "short", timeStyle: "short" })
-        : "",
-    ),
-    html("td", {}, run.assistant),
-    html("td", {}, run.seats.join(", ")),
-    html("td", {}, run.phase),
-    html("td", {}, button),
+    cell(box),
+    name,
+    cell(begun, { class: "when" }),
+    [run.assistant, run.seats.join(", "), run.phase].map((text) => cell(text)),
+    cell(button("Debrief", act, { "aria-label": `Debrief of ${run.name}` })),
   );
 }
 
 function showRecorded() {
   const wanted = byId("find").value.trim().toLowerCase(),
-    found = recorded.filter((run) => run.name.toLowerCase().includes(wanted));
-  const rows = found.length
-    ? found.map(recordedRow)
-    : [
-        html(
-          "tr",
-          {},
-          html(
-            "td",
-            { colspan: 7, class: "dim" },
-            recorded.length
-              ? "No run has this in its name."
-              : "There is no run here yet. Start one on the left; it is listed here from its beginning on.",
-          ),
-        ),
-      ];
+    found = recorded.filter((run) => run.name.toLowerCase().includes(wanted)),
+    empty = recorded.length ? "No run has this in its name." : NOTHING_RECORDED,
+    nothing = html("tr", {}, html("td", { colspan: 7, class: "dim" }, empty));
+  const rows = found.length ? found.map(recordedRow) : [nothing];
   byId("recorded").tBodies[0].replaceChildren(...rows);
 }
 

@@ -8,51 +8,32 @@ const isWatching = () => !document.body.dataset.seat;
 /** Returns the keys of the time. */
 export const timeKeys = (clock, transport) =>
   [
-    { names: [" ", "k"], shown: ["Space", "K"], text: "play or pause", act: () => clock.toggle() },
-    {
-      names: ["ArrowLeft"],
-      shown: ["Left"],
-      text: "1 s back",
-      repeats: true,
-      act: () => clock.set(clock.t - 1),
-    },
-    {
-      names: ["ArrowRight"],
-      shown: ["Right"],
-      text: "1 s on",
-      repeats: true,
-      act: () => clock.set(clock.t + 1),
-    },
-    {
-      names: ["j"],
-      shown: ["J"],
-      text: "10 s back",
-      repeats: true,
-      act: () => clock.set(clock.t - 10),
-    },
-    {
-      names: ["l"],
-      shown: ["L"],
-      text: "10 s on",
-      repeats: true,
-      act: () => clock.set(clock.t + 10),
-    },
-    {
-      names: [","],
-      shown: [","],
-      text: "previous event",
-      repeats: true,
-      act: () => transport.step(-1),
-    },
-    { names: ["."], shown: ["."], text: "next event", repeats: true, act: () => transport.step(1) },
-    { names: ["Home"], shown: ["Home"], text: "beginning of the run", act: () => clock.set(0) },
-    { names: ["End"], shown: ["End"], text: "end of the run", act: () => clock.set(clock.end) },
-    { names: ["<"], shown: ["<"], text: "slower", act: () => clock.stepRate(-1) },
-    { names: [">"], shown: [">"], text: "faster", act: () => clock.stepRate(1) },
-    { names: ["["], shown: ["["], text: "loop from here", act: () => clock.mark("from") },
-    { names: ["]"], shown: ["]"], text: "loop to here", act: () => clock.mark("to") },
-    { names: ["o"], shown: ["O"], text: "loop on or off", act: () => clock.toggleLoop() },
-  ].map((key) => ({ ...key, isUsed: isWatching }));
+    [[" ", "k"], ["Space", "K"], "play or pause", () => clock.toggle()],
+    [["ArrowLeft"], ["Left"], "1 s back", () => clock.set(clock.t - 1), true],
+    [["ArrowRight"], ["Right"], "1 s on", () => clock.set(clock.t + 1), true],
+    [["j"], ["J"], "10 s back", () => clock.set(clock.t - 10), true],
+    [["l"], ["L"], "10 s on", () => clock.set(clock.t + 10), true],
+    [[","], [","], "previous event", () => transport.step(-1), true],
+    [["."], ["."], "next event", () => transport.step(1), true],
+    [["Home"], ["Home"], "beginning of the run", () => clock.set(0)],
+    [["End"], ["End"], "end of the run", () => clock.set(clock.end)],
+    [["<"], ["<"], "slower", () => clock.stepRate(-1)],
+    [[">"], [">"], "faster", () => clock.stepRate(1)],
+    [["["], ["["], "loop from here", () => clock.mark("from")],
+    [["]"], ["]"], "loop to here", () => clock.mark("to")],
+    [["o"], ["O"], "loop on or off", () => clock.toggleLoop()],
+  ].map(([names, shown, text, act, repeats]) => {
+    return { names, shown, text, act, repeats, isUsed: isWatching };
+  });
+
+/** The field of the words for the radio, wherever one is on the page. */
+const callField = {
+  names: ["c"],
+  shown: ["C"],
+  text: "to the field for a call",
+  isUsed: () => byId("words")?.checkVisibility(),
+  act: () => byId("words").focus(),
+};
 
 /**
  * Connects keys. Each has its names, how it is shown, what it does in words, and a function `act`.
@@ -60,7 +41,7 @@ export const timeKeys = (clock, transport) =>
  */
 export function connectKeys(keys) {
   const help = { names: ["?"], shown: ["?"], text: "this list", act: () => showHelp() },
-    all = [...keys, help];
+    all = [...keys, callField, help];
   const used = () => all.filter(({ isUsed }) => !isUsed || isUsed());
   const showHelp = () => {
     byId("help-keys").replaceChildren(...used().map(inWords));

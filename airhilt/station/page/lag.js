@@ -28,9 +28,7 @@ export class Lag {
   draw(isHeard, heardMs) {
     const behind = isHeard ? this.#behindAt(heardMs) : 0,
       isBehind = behind > LEAST_S,
-      text = isBehind
-        ? `${seconds(behind, 0)} behind the clock: the machine does not keep up`
-        : "";
+      text = isBehind ? `${seconds(behind, 0)} behind the clock: the machine does not keep up` : "";
     if (byId("behind").textContent !== text) byId("behind").textContent = text;
     if (isBehind === this.#isBehind) return;
     this.#isBehind = isBehind;

@@ -161,9 +161,7 @@ export class Loudspeaker {
 
   async #fetched(url) {
     const answer = await fetch(url);
-    return answer.status === 200
-      ? this.#context.decodeAudioData(await answer.arrayBuffer())
-      : null;
+    return answer.status === 200 ? this.#context.decodeAudioData(await answer.arrayBuffer()) : null;
   }
 
   #close(id) {

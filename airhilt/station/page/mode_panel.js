@@ -1,56 +1,37 @@
 // The mode panel: what autopilot and guidance are to do. A field sets its value with Enter.
 
-import { byId, html } from "./dom.js";
+import { button, byId, html } from "./dom.js";
 import { Offers } from "./offers.js";
 import { feet, known } from "./words.js";
 
 const LEAST_CHANGE_FT = 100; // of altitude, for which a vertical speed can be set
-const FIELDS = [
-  {
-    id: "speed",
-    name: "Speed",
-    unit: "kt",
-    least: 1,
-    most: 1000,
-    command: (value) => ({ action: "speed", cas_kt: value }),
-  },
-  {
-    id: "track",
-    name: "Track",
-    unit: "\u00b0 true",
-    least: 0,
-    most: 360,
-    command: (value, { variation }) => ({
+// What a field sets: its name, its unit, the least and the greatest value, and its command.
+const FIELDS = {
+  speed: ["Speed", "kt", 1, 1000, (value) => ({ action: "speed", cas_kt: value })],
+  track: [
+    "Track",
+    "\u00b0 true",
+    0,
+    360,
+    (value, { variation }) => ({
       action: "track",
       track_deg: (value + (variation ?? 0) + 360) % 360,
     }),
-  },
-  {
-    id: "altitude",
-    name: "Altitude",
-    unit: "ft",
-    least: 0,
-    most: 60_000,
-    command: (value) => ({ action: "altitude", altitude_ft: value }),
-  },
-  {
-    id: "rate",
-    name: "Vertical speed",
-    short: "V/S",
-    unit: "ft/min",
-    least: 100,
-    most: 20_000,
-    command: (value, { selected }) => ({
+  ],
+  altitude: ["Altitude", "ft", 0, 60_000, (value) => ({ action: "altitude", altitude_ft: value })],
+  rate: [
+    "Vertical speed",
+    "ft/min",
+    100,
+    20_000,
+    (value, { selected }) => ({
       action: "altitude",
       altitude_ft: selected,
       vertical_rate_fpm: value,
     }),
-    isPossible: ({ altitude, selected }) =>
-      selected !== null && Math.abs(selected - altitude) >= LEAST_CHANGE_FT,
-    target: ({ altitude, selected }) =>
-      `, ${selected > altitude ? "up" : "down"} to ${feet(selected)}`,
-  },
-];
+  ],
+};
+const SHORT = { rate: "V/S" };
 const OF_RUNWAYS = [
   ["Line up", "line_up"],
   ["Take off", "take_off"],
@@ -84,11 +65,11 @@ export class ModePanel {
   constructor(send, tell) {
     this.#send = send;
     this.#tell = tell;
-    byId("panel-values").replaceChildren(...FIELDS.map((field) => this.#field(field)));
+    byId("panel-values").replaceChildren(...Object.keys(FIELDS).map((id) => this.#field(id)));
     const runway = html("select", { id: "panel-runway", "aria-label": "Runway" });
     byId("panel-runways").replaceChildren(
       runway,
-      ...OF_RUNWAYS.map(([name, action]) => this.#button(name, () => this.#atRunway(name, action))),
+      ...OF_RUNWAYS.map(([name, action]) => button(name, () => this.#atRunway(name, action))),
     );
     const actions = [...URGENT, ...AT_ONCE].map(([name, action]) => this.#atOnce(name, action));
     byId("panel-actions").replaceChildren(...actions);
@@ -150,7 +131,7 @@ export class ModePanel {
   /** Forgets what was shown and typed. */
   clear() {
     Object.assign(this.#shown, { altitude: null, selected: null });
-    for (const { id } of FIELDS) byId(`panel-${id}`).value = "";
+    for (const id of Object.keys(FIELDS)) byId(`panel-${id}`).value = "";
     this.#offers.clear();
     this.#drawOffers();
   }
@@ -189,16 +170,10 @@ export class ModePanel {
     });
   }
 
-  #button(name, act) {
-    const button = html("button", { type: "button" }, name);
-    button.addEventListener("click", act);
-    return button;
-  }
-
   #atOnce(name, action) {
-    const button = this.#button(name, () => this.#give(button.textContent, { action }));
-    button.id = `panel-${action.replaceAll("_", "-")}`;
-    return button;
+    const made = button(name, () => this.#give(made.textContent, { action }));
+    made.id = `panel-${action.replaceAll("_", "-")}`;
+    return made;
   }
 
   #atRunway(name, action) {
@@ -206,7 +181,8 @@ export class ModePanel {
     this.#give(`${name}, runway ${runway}`, { action, runway });
   }
 
-  #field({ id, name, short, unit, least, most, command, isPossible, target }) {
+  #field(id) {
+    const [name, unit] = FIELDS[id];
     const input = html("input", {
       type: "text",
       inputmode: "decimal",
@@ -221,31 +197,39 @@ export class ModePanel {
       html(
         "span",
         { class: "dial-name" },
-        `${short ?? name} `,
+        `${SHORT[id] ?? name} `,
         html("span", { class: "dim", id: `panel-${id}-unit` }, unit),
       ),
       html("span", { class: "dial" }, input),
       html("button", { "aria-label": `Set ${name.toLowerCase()}` }, "Set"),
     );
-    const unitShown = () => byId(`panel-${id}-unit`).textContent;
     form.addEventListener("submit", (event) => {
       event.preventDefault();
-      const value = Number(input.value);
-      if (input.value.trim() === "" || !(value >= least && value <= most)) {
-        this.#tell(`${name}: expected ${least} to ${most} ${unitShown()}.`);
-        return;
-      }
-      if (isPossible && !isPossible(this.#shown)) {
+      this.#set(id, input);
+    });
+    return form;
+  }
+
+  /** Gives the command of a field, or says why it cannot be given. */
+  #set(id, input) {
+    const [name, , least, most, command] = FIELDS[id],
+      unit = byId(`panel-${id}-unit`).textContent,
+      value = Number(input.value),
+      { altitude, selected } = this.#shown;
+    if (input.value.trim() === "" || !(value >= least && value <= most)) {
+      this.#tell(`${name}: expected ${least} to ${most} ${unit}.`);
+      return;
+    }
+    let target = "";
+    if (id === "rate") {
+      if (selected === null || Math.abs(selected - altitude) < LEAST_CHANGE_FT) {
         this.#tell(`${name}: set another altitude first.`);
         return;
       }
-      this.#give(
-        `${name.toLowerCase()} ${value} ${unitShown()}${target?.(this.#shown) ?? ""}`,
-        command(value, this.#shown),
-      );
-      input.value = "";
-      input.blur();
-    });
-    return form;
+      target = `, ${selected > altitude ? "up" : "down"} to ${feet(selected)}`;
+    }
+    this.#give(`${name.toLowerCase()} ${value} ${unit}${target}`, command(value, this.#shown));
+    input.value = "";
+    input.blur();
   }
 }

@@ -13,6 +13,7 @@ const MOST_LATENCIES = 4000; // bars of a live run that are kept: some ten minut
 const LONGEST_INTERVAL_S = 12; // between two reports of an actor: a turn of a surveillance radar
 // Intervals between reports for which an actor is shown further on after the last one.
 const AHEAD = 1.5;
+const RATE_SPAN_S = 10; // over which a vertical rate that no sensor reports is a mean
 const FULL_S = 300,
   OLD_STEP_S = 2; // of a live run, what is older than that is kept in steps of this at least
 // Of an actor of a live run that are kept: its old ones in longer steps the longer it is there.
@@ -70,8 +71,7 @@ export class Track {
       course,
       heading: this.heading_deg ? this.#heading(now) : course,
       altitude: at(this.t, this.altitude_ft, now),
-      rate:
-        ((at(this.t, this.altitude_ft, to) - at(this.t, this.altitude_ft, from)) / seconds) * 60,
+      rate: this.verticalRate(now),
       onGround: this.on_ground.some(([down, up]) => down <= now && now <= up),
       phase: words(this.phases.findLast((phase) => phase.from <= now)?.what ?? ""),
       isThere: t >= this.first - 1,
@@ -84,6 +84,17 @@ export class Track {
     return null;
   }
 
+  /**
+   * Vertical rate in ft/min: a mean, as altitudes come in steps of 25 ft or 100 ft (RTCA DO-260B,
+   * ICAO Annex 10).
+   */
+  verticalRate(t) {
+    const to = Math.min(t + RATE_SPAN_S / 2, this.last),
+      from = Math.max(to - RATE_SPAN_S, this.first),
+      climbed = at(this.t, this.altitude_ft, to) - at(this.t, this.altitude_ft, from);
+    return to > from ? (climbed / (to - from)) * 60 : 0;
+  }
+
   #heading(t) {
     const i = before(this.t, t),
       next = Math.min(i + 1, this.t.length - 1),
@@ -94,30 +105,27 @@ export class Track {
   }
 }
 
+const ROWS_OF_TRACK = [
+  "t",
+  "east_nm",
+  "north_nm",
+  "altitude_ft",
+  "heading_deg",
+  "on_ground",
+  "phases",
+];
+
 /** The track of an actor of a live run, to which states are added. */
 export class LiveTrack extends Track {
   patience = 15;
-  #velocities = [];
+  #velocities = []; // m/s eastward and northward, and ft/min upward where a sensor reports that
   #interval = 0; // s between two reports, rather too long than too short
   #thinAt = MOST_STATES;
   #oldStep = OLD_STEP_S;
 
   constructor(callsign, category, type, index) {
-    super(
-      {
-        callsign,
-        category,
-        type,
-        t: [],
-        east_nm: [],
-        north_nm: [],
-        altitude_ft: [],
-        heading_deg: [],
-        on_ground: [],
-        phases: [],
-      },
-      index,
-    );
+    const rows = Object.fromEntries(ROWS_OF_TRACK.map((name) => [name, []]));
+    super({ callsign, category, type, ...rows }, index);
   }
 
   add([t, east, north, altitude, velocity, heading, onGround, phase]) {
@@ -181,11 +189,16 @@ export class LiveTrack extends Track {
     const [east, north] = this.#velocities[before(this.t, t)];
     return { speed: Math.hypot(east, north), course: Math.atan2(east, north) };
   }
+
+  /** Vertical rate in ft/min as it was reported last, or a mean. */
+  verticalRate(t) {
+    return this.#velocities[before(this.t, t)][2] ?? super.verticalRate(t);
+  }
 }
 
-/** Puts a row into a list in the place of the one with the same identity, or at its end. */
-function put(rows, row, same) {
-  const i = rows.findLastIndex((one) => same(one, row));
+/** Puts a row into a list in the place of the one that is the same, or at its end. */
+function put(rows, row, isSame) {
+  const i = rows.findLastIndex(isSame);
   if (i < 0) rows.push(row);
   else rows[i] = row;
 }
@@ -197,6 +210,7 @@ const nowhere = () => ({ east: [Infinity, -Infinity], north: [Infinity, -Infinit
 export class Run {
   #callsigns = new Map(); // by the addresses under which actors were known first
   #active = { t: null, rows: [] };
+  #advised = 0; // changes so far of the advisories that are seen
   #moments = null; // until somebody asks for them
   ownCategory = null; // of the seat: "unit", "aircraft" or "vehicle"; null until it is known
   #own = null; // the seat of the person at this page
@@ -232,7 +246,7 @@ export class Run {
     this.plots = new RadarPlots();
     this.bounds = nowhere();
     this.#callsigns.clear();
-    this.#active = { t: null, rows: [] };
+    this.#advised += 1;
     this.#moments = null;
     this.#actors = 0;
   }
@@ -252,51 +266,7 @@ export class Run {
     const changed = new Set();
     for (const [kind, ...rest] of changes) {
       changed.add(kind);
-      switch (kind) {
-        case "clock":
-          this.now = Math.max(rest[0] ?? 0, this.now ?? 0);
-          [, this.phase, this.pace, this.behind = 0] = rest;
-          break;
-        case "briefing":
-          [this.controller, this.airport, this.categories] = rest;
-          this.span = this.airport ? 1 : 4;
-          break;
-        case "state":
-          if (this.#addState(rest)) changed.add("track");
-          break;
-        case "plot":
-          this.plots.add(rest[0], this.tracks);
-          this.#widen(rest[0].east, rest[0].north);
-          break;
-        case "name":
-          this.#rename(...rest);
-          changed.add("track");
-          break;
-        case "call":
-          put(this.calls, rest[0], (a, b) => a.id === b.id);
-          break;
-        case "spoken":
-          this.spoken.push(rest[0]);
-          break;
-        case "advisory":
-          put(
-            this.advisories,
-            rest[0],
-            (a, b) => a.id === b.id && a.revision === b.revision && a.equipment === b.equipment,
-          );
-          break;
-        case "event":
-          this.events.push(rest[0]);
-          break;
-        case "camera":
-          if (this.cameras.length < MOST_CAMERAS) this.cameras.push(rest[0]);
-          break;
-        case "latency":
-          this.latencies.push(rest[0]);
-          break;
-        default:
-          break;
-      }
+      if (this.#takers[kind]?.(...rest)) changed.add("track");
     }
     if (this.latencies.length > 2 * MOST_LATENCIES)
       this.latencies.splice(0, this.latencies.length - MOST_LATENCIES);
@@ -306,31 +276,61 @@ export class Run {
     for (const [name, most] of Object.entries(MOST_ROWS))
       if (this[name].length > 1.2 * most) this[name].splice(0, this[name].length - most);
     if (changed.has("call") || changed.has("event")) this.#moments = null;
+    if (["advisory", "name", "briefing"].some((kind) => changed.has(kind))) this.#advised += 1;
     return changed;
   }
 
-  /** Takes in the callsign of an actor that was known by its address until now.
-   *  Where the truth has told of the callsign meanwhile, the address is the same actor once more.
+  /** What takes in each kind of change; true if the actors are others than before. */
+  #takers = {
+    clock: (t, phase, pace, behind = 0) => {
+      Object.assign(this, { now: Math.max(t ?? 0, this.now ?? 0), phase, pace, behind });
+    },
+    briefing: (controller, airport, categories) => {
+      Object.assign(this, { controller, airport, categories, span: airport ? 1 : 4 });
+    },
+    state: (...state) => this.#addState(state),
+    plot: (plot) => {
+      this.plots.add(plot, this.tracks);
+      this.#widen(plot.east, plot.north);
+    },
+    name: (address, callsign) => this.#rename(address, callsign),
+    call: (call) => put(this.calls, call, (one) => one.id === call.id),
+    advisory: (row) =>
+      put(this.advisories, row, (one) =>
+        ["id", "revision", "equipment"].every((part) => one[part] === row[part]),
+      ),
+    spoken: (row) => void this.spoken.push(row),
+    event: (row) => void this.events.push(row),
+    latency: (bar) => void this.latencies.push(bar),
+    camera: (camera) => {
+      if (this.cameras.length < MOST_CAMERAS) this.cameras.push(camera);
+    },
+  };
+
+  /**
+   * Takes in the callsign of an actor that was known by its address until now. Where the truth has
+   * told of the callsign meanwhile, the address is the same actor once more.
    */
   #rename(address, callsign) {
     this.#callsigns.set(address, callsign);
     keepNewest(this.#callsigns, MOST_ADDRESSES);
     const track = this.track(address);
-    if (!track) return;
+    if (!track) return true;
     if (this.track(callsign)) this.tracks.splice(this.tracks.indexOf(track), 1);
     else track.callsign = callsign;
+    return true;
   }
 
-  /** Adds a state, and returns true if it is the first one of an actor. */
+  /** Adds a state, and returns true if the actor or its type is new. */
   #addState([name, category, type, ...state]) {
-    let track = this.track(name);
-    const isNew = !track || track.type !== type;
-    const isFirst = !track;
-    if (!track) this.#addTrack((track = new LiveTrack(name, category, type, this.#actors++)));
+    const known = this.track(name),
+      track = known ?? new LiveTrack(name, category, type, this.#actors++),
+      isNew = !known || track.type !== type;
+    if (!known) this.#addTrack(track);
     track.type = type;
     track.category = this.categories?.[name] ?? category;
     track.add(state);
-    if (isFirst) this.plots.explain(track);
+    if (!known) this.plots.explain(track);
     this.now = Math.max(this.now ?? 0, state[0]);
     this.#widen(state[1], state[2]);
     return isNew;
@@ -366,7 +366,7 @@ export class Run {
   set own(seat) {
     if (seat !== this.#own) this.ownCategory = null;
     this.#own = seat;
-    this.#active = { t: null, rows: [] };
+    this.#advised += 1;
   }
 
   /** Texts of an advisory that are seen here. */
@@ -402,20 +402,18 @@ export class Run {
    * found once for each time.
    */
   activeAdvisories(t) {
-    const { advisories } = this,
-      known = this.#active;
-    if (known.t === t && known.of === advisories.at(-1) && known.count === advisories.length)
-      return known.rows;
+    if (this.#active.t === t && this.#active.advised === this.#advised) return this.#active.rows;
     const newest = new Map();
-    for (const row of advisories)
+    for (const row of this.advisories)
       if (row.t <= t && this.textsOf(row).length) newest.set(`${row.equipment}/${row.id}`, row);
-    this.#active = {
-      t,
-      of: advisories.at(-1),
-      count: advisories.length,
-      rows: [...newest.values()].filter((row) => row.active),
-    };
-    return this.#active.rows;
+    const rows = [...newest.values()].filter((row) => row.active);
+    this.#active = { t, advised: this.#advised, rows };
+    return rows;
+  }
+
+  /** A number that changes with the advisories that are seen. */
+  get advised() {
+    return this.#advised;
   }
 
   /** Horizontal and vertical distance of the pair at a time, null without a pair. */
@@ -491,13 +489,8 @@ function textOf(event) {
       return event.active ? `${event.severity}: ${event.text}` : `over: ${event.text}`;
     case "conflict":
       return `${PHASES[event.phase] ?? words(event.phase)}, ${event.who}`;
-    case "command": {
-      try {
-        return `${event.who}: ${instruction(JSON.parse(event.text))}`;
-      } catch {
-        return `${event.who}: ${event.text}`;
-      }
-    }
+    case "command":
+      return `${event.who}: ${commandOf(event.text)}`;
     case "status":
       return `${words(event.who)} ${event.state}${event.text ? `: ${event.text}` : ""}`;
     case "finished":
@@ -507,5 +500,14 @@ function textOf(event) {
       return [words(event.kind), event.who, event.text]
         .filter((part) => known(part) && part !== "")
         .join(", ");
+  }
+}
+
+/** Returns a command in words, or its text if that is none. */
+function commandOf(text) {
+  try {
+    return instruction(JSON.parse(text));
+  } catch {
+    return text;
   }
 }

@@ -1,17 +1,19 @@
 // The navigation display: compass, range rings, runways, and traffic with the symbols of TCAS II,
 // own track up.
 
-import { byId, onSize } from "./dom.js";
-import { overlap } from "./labels.js";
+import { byId, html } from "./dom.js";
+import { boxesOff, firstFree } from "./labels.js";
 import { METRE_PER_NM, SEVERITIES } from "./model.js";
+import { box, circle, label, line, onSize, shape } from "./pen.js";
 import { INK } from "./primary_flight_display.js";
 import { whole } from "./words.js";
 
-const FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
 const RANGES_NM = [1, 2.5, 5, 10, 20, 40, 80];
 const NEAR_NM = 6,
   NEAR_FT = 1200; // proximate traffic (RTCA DO-185B, 2.2.6.1)
 const VEHICLES_NM = 2.5; // greatest range with which vehicles are shown
+const OWN = { fill: INK.black, edge: INK.text, width: 2 };
+const IDENTS_OFF_PX = [12, 26, 40]; // from the end of a runway, where its number is tried
 const CLIMBS_FPM = 500; // from which an arrow tells that traffic climbs or descends
 
 export class NavigationDisplay {
@@ -24,14 +26,8 @@ export class NavigationDisplay {
   constructor(run, clock) {
     this.#run = run;
     this.#clock = clock;
-    this.#range.replaceChildren(
-      ...RANGES_NM.map((nm) => {
-        const option = document.createElement("option");
-        option.value = nm;
-        option.textContent = `${nm} NM`;
-        return option;
-      }),
-    );
+    const options = RANGES_NM.map((nm) => html("option", { value: nm }, `${nm} NM`));
+    this.#range.replaceChildren(...options);
     onSize(this.#canvas, (pen, width, height) => {
       this.#size = { pen, width, height };
     });
@@ -56,11 +52,10 @@ export class NavigationDisplay {
     if (!this.#size) return;
     const { pen, width, height } = this.#size,
       track = this.#run.track(callsign);
-    pen.fillStyle = INK.black;
-    pen.fillRect(0, 0, width, height);
+    box(pen, INK.black, 0, 0, width, height);
     if (!shown || !track) {
       this.#text("NO POSITION", width / 2, height / 2, INK.caution, 16, "center");
-      this.#canvas.setAttribute("aria-label", "Navigation display, no position");
+      this.#canvas.ariaLabel = "Navigation display, no position";
       return;
     }
     const t = this.#clock.t,
@@ -85,15 +80,12 @@ export class NavigationDisplay {
           one.track !== track && one.state.isThere && !one.state.ended && this.#isShown(one.track),
       );
     const seen = others.map((one) => this.#traffic(view, one, shown, t)).filter((text) => text);
-    this.#ownship(x, y);
+    shape(pen, OWN, [x, y - 11], [x + 8, y + 9], [x - 8, y + 9]);
     this.#text(`GS ${whole(shown.ground_speed_kt)}`, 8, 14, INK.text);
     this.#text(`ALT ${whole(shown.altitude_ft)}`, 8, 32, INK.text);
     if (tcas?.severity === "CAUTION") this.#text("TRAFFIC", 8, 52, INK.caution, 15);
     if (tcas?.severity === "WARNING") this.#text("RESOLUTION ADVISORY", 8, 52, INK.warning, 13);
-    this.#canvas.setAttribute(
-      "aria-label",
-      `Navigation display, traffic: ${seen.join(", ") || "none within range"}`,
-    );
+    this.#canvas.ariaLabel = `Navigation display, traffic: ${seen.join(", ") || "none within range"}`;
   }
 
   #isShown({ category }) {
@@ -103,18 +95,8 @@ export class NavigationDisplay {
     );
   }
 
-  #text(text, x, y, ink, size = 13, align = "left") {
-    const { pen } = this.#size;
-    pen.font = `600 ${size}px ${FONT}`;
-    pen.textAlign = align;
-    pen.textBaseline = "middle";
-    pen.lineJoin = "round";
-    pen.lineWidth = 3;
-    pen.strokeStyle = INK.black;
-    pen.strokeText(text, x, y);
-    pen.fillStyle = ink;
-    pen.fillText(text, x, y);
-    pen.textBaseline = "alphabetic";
+  #text(text, x, y, ink, size, align) {
+    label(this.#size.pen, text, x, y, ink, size, align, INK.black);
   }
 
   /** The pixel of a place in metres, own track up. */
@@ -126,122 +108,50 @@ export class NavigationDisplay {
     return [x + e * cos - n * sin, y - e * sin - n * cos];
   }
 
+  /** Draws the runways, and their numbers off their ends: farther off where others are. */
   #runways(view) {
-    const { pen } = this.#size,
-      taken = [];
-    for (const runway of this.#run.airport?.runways ?? []) {
-      pen.beginPath();
-      runway.pavement.forEach(([east, north], i) => {
-        const [px, py] = this.#pixel(view, east, north);
-        if (i) pen.lineTo(px, py);
-        else pen.moveTo(px, py);
+    const taken = [];
+    for (const { pavement, ends } of this.#run.airport?.runways ?? []) {
+      const corners = pavement.map(([east, north]) => this.#pixel(view, east, north));
+      line(this.#size.pen, INK.text, 2, ...corners, corners[0]);
+      ends.forEach(({ ident, start }, i) => {
+        const from = this.#pixel(view, ...start),
+          to = this.#pixel(view, ...ends[1 - i].start),
+          length = Math.hypot(to[0] - from[0], to[1] - from[1]),
+          found = firstFree(boxesOff(from, to, length, IDENTS_OFF_PX, [10, 7]), taken);
+        if (length <= 30 || !found) return;
+        taken.push(found);
+        const [left, top, right, bottom] = found;
+        this.#text(ident, (left + right) / 2, (top + bottom) / 2, INK.dim, 11, "center");
       });
-      pen.closePath();
-      pen.strokeStyle = INK.text;
-      pen.lineWidth = 2;
-      pen.stroke();
-      for (const end of runway.ends) {
-        const [px, py] = this.#pixel(view, ...end.start),
-          [ox, oy] = this.#pixel(view, ...runway.ends.find((one) => one !== end).start),
-          long = Math.hypot(px - ox, py - oy);
-        if (long > 30)
-          this.#ident(end.ident, px, py, (px - ox) / long, (py - oy) / long, taken);
-      }
     }
-  }
-
-  /**
-   * Writes the number of a runway off its end, which is at a pixel, in a direction: farther off
-   * where those of others are.
-   */
-  #ident(ident, x, y, dx, dy, taken) {
-    const boxes = [12, 26, 40].map((far) => [
-      x + dx * far - 10,
-      y + dy * far - 7,
-      x + dx * far + 10,
-      y + dy * far + 7,
-    ]);
-    const box = boxes.find((one) => !taken.some((other) => overlap(one, other)));
-    if (!box) return;
-    taken.push(box);
-    this.#text(ident, (box[0] + box[2]) / 2, (box[1] + box[3]) / 2, INK.dim, 11, "center");
   }
 
   #compass({ x, y, reach }, shown) {
     const { pen, width } = this.#size,
-      up = shown.ground_speed_kt > 6 ? shown.track_deg : shown.heading_deg;
-    pen.strokeStyle = INK.dim;
-    pen.lineWidth = 1.5;
-    pen.beginPath();
-    pen.arc(x, y, reach, 0, 2 * Math.PI);
-    pen.stroke();
+      up = shown.ground_speed_kt > 6 ? shown.track_deg : shown.heading_deg,
+      range = Number(this.#range.value);
+    circle(pen, INK.dim, 1.5, [x, y], reach);
     pen.setLineDash([3, 6]);
-    pen.beginPath();
-    pen.arc(x, y, reach / 2, 0, 2 * Math.PI);
-    pen.stroke();
+    circle(pen, INK.dim, 1.5, [x, y], reach / 2);
     pen.setLineDash([]);
     for (let mark = 0; mark < 360; mark += 5) {
       const angle = ((mark - up) * Math.PI) / 180,
-        long = mark % 10 === 0 ? 9 : 5,
-        sin = Math.sin(angle),
-        cos = Math.cos(angle);
-      if (cos < 0.1) continue;
-      pen.strokeStyle = INK.dim;
-      pen.lineWidth = 1.5;
-      pen.beginPath();
-      pen.moveTo(x + reach * sin, y - reach * cos);
-      pen.lineTo(x + (reach - long) * sin, y - (reach - long) * cos);
-      pen.stroke();
+        at = (r) => [x + r * Math.sin(angle), y - r * Math.cos(angle)];
+      if (Math.cos(angle) < 0.1) continue;
+      line(pen, INK.dim, 1.5, at(reach), at(reach - (mark % 10 === 0 ? 9 : 5)));
       const off = Math.abs(((mark - shown.heading_deg + 540) % 360) - 180);
       if (mark % 30 === 0 && off > 8)
-        this.#text(
-          String(mark / 10),
-          x + (reach + 12) * sin,
-          y - (reach + 12) * cos,
-          INK.text,
-          12,
-          "center",
-        );
+        this.#text(String(mark / 10), ...at(reach + 12), INK.text, 12, "center");
     }
-    pen.strokeStyle = INK.dim;
-    pen.beginPath();
-    pen.moveTo(x, y - reach);
-    pen.lineTo(x, y - 14);
-    pen.stroke();
-    const drift = ((shown.heading_deg - up) * Math.PI) / 180;
-    pen.beginPath();
-    for (const [dx, dy] of [
-      [0, 0],
-      [-7, -11],
-      [7, -11],
-    ])
-      pen.lineTo(x + reach * Math.sin(drift) + dx, y - reach * Math.cos(drift) + dy);
-    pen.closePath();
-    pen.strokeStyle = INK.text;
-    pen.stroke();
-    this.#text(
-      `TRK ${String(Math.round(up) % 360).padStart(3, "0")} ${shown.north === "magnetic" ? "MAG" : "TRUE"}`,
-      width / 2,
-      14,
-      INK.mode,
-      14,
-      "center",
-    );
-    this.#text(`${Number(this.#range.value) / 2}`, x - reach / 2 - 4, y - 8, INK.dim, 11, "right");
-  }
-
-  #ownship(x, y) {
-    const { pen } = this.#size;
-    pen.beginPath();
-    pen.moveTo(x, y - 11);
-    pen.lineTo(x + 8, y + 9);
-    pen.lineTo(x - 8, y + 9);
-    pen.closePath();
-    pen.strokeStyle = INK.text;
-    pen.lineWidth = 2;
-    pen.fillStyle = INK.black;
-    pen.fill();
-    pen.stroke();
+    line(pen, INK.dim, 1.5, [x, y - reach], [x, y - 14]);
+    const drift = ((shown.heading_deg - up) * Math.PI) / 180,
+      [hx, hy] = [x + reach * Math.sin(drift), y - reach * Math.cos(drift)];
+    line(pen, INK.text, 1.5, [hx, hy], [hx - 7, hy - 11], [hx + 7, hy - 11], [hx, hy]);
+    const track = String(Math.round(up) % 360).padStart(3, "0"),
+      north = shown.north === "magnetic" ? "MAG" : "TRUE";
+    this.#text(`TRK ${track} ${north}`, width / 2, 14, INK.mode, 14, "center");
+    this.#text(`${range / 2}`, x - reach / 2 - 4, y - 8, INK.dim, 11, "right");
   }
 
   /** Draws one aircraft or vehicle, and returns it in words; nothing if it is out of range. */
@@ -276,24 +186,16 @@ export class NavigationDisplay {
   }
 
   #symbol(x, y, severity, isNear, ink, category) {
-    const { pen } = this.#size;
-    pen.beginPath();
-    if (severity === 3) pen.rect(x - 7, y - 7, 14, 14);
-    else if (severity === 2) pen.arc(x, y, 7.5, 0, 2 * Math.PI);
-    else if (category === "vehicle") pen.rect(x - 4, y - 4, 8, 8);
-    else
-      for (const [dx, dy] of [
-        [0, -8],
-        [6, 0],
-        [0, 8],
-        [-6, 0],
-        [0, -8],
-      ])
-        pen.lineTo(x + dx, y + dy);
-    pen.strokeStyle = ink;
-    pen.fillStyle = severity >= 2 || isNear ? ink : INK.black;
-    pen.lineWidth = 1.8;
-    pen.fill();
-    pen.stroke();
+    const { pen } = this.#size,
+      fill = severity >= 2 || isNear ? ink : INK.black,
+      look = { fill, edge: ink, width: 1.8 };
+    const square = (half) => {
+      const [left, top, right, bottom] = [x - half, y - half, x + half, y + half];
+      shape(pen, look, [left, top], [right, top], [right, bottom], [left, bottom]);
+    };
+    if (severity === 3) square(7);
+    else if (severity === 2) circle(pen, ink, 1.8, [x, y], 7.5, fill);
+    else if (category === "vehicle") square(4);
+    else shape(pen, look, [x, y - 8], [x + 6, y], [x, y + 8], [x - 6, y]);
   }
 }

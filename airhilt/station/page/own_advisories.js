@@ -1,13 +1,13 @@
 // The advisories to the person at a seat: shown large, sounded, spoken; tells the run when that
 // was.
 
-import { badge } from "./advisories.js";
+import { badge, basisOf } from "./advisories.js";
 import { keepNewest } from "./bounds.js";
 import { byId, html } from "./dom.js";
 import { identity } from "./identity.js";
 import { SEVERITIES } from "./model.js";
 import { Rows } from "./rows.js";
-import { capital, instruction, known, percent, seconds, words } from "./words.js";
+import { capital, instruction, known, seconds } from "./words.js";
 
 const MOST_SHOWN = 10; // at a time, those that began last
 const MOST_TOLD = 1000; // reports that are not made again, and alerts that do not sound again
@@ -50,7 +50,8 @@ export class OwnAdvisories {
     if (!row.active) return;
     const { recipient } = texts.at(-1);
     requestAnimationFrame(() => setTimeout(() => this.#report(row, recipient, "seen", 0)));
-    if (row.equipment || !this.#isSpoken(row)) this.#alert(row, recipient);
+    const isSounded = this.#sounded.has(soundOf(row, recipient));
+    if ((row.equipment || !this.#isSpoken(row)) && !isSounded) this.#sound(row, recipient, null);
   }
 
   /** Takes in that the assistant speaks an advisory to somebody. */
@@ -77,11 +78,6 @@ export class OwnAdvisories {
     if (this.#spokenFrom === undefined) return true;
     const from = SEVERITIES.indexOf(this.#spokenFrom);
     return from >= 0 && SEVERITIES.indexOf(severity) >= from;
-  }
-
-  /** Sounds what nobody speaks, unless it was audible before. */
-  #alert(row, recipient) {
-    if (!this.#sounded.has(soundOf(row, recipient))) this.#sound(row, recipient, null);
   }
 
   /** Sounds an advisory, with its voice if there is one, and reports when that was heard. */
@@ -131,10 +127,9 @@ const inWords = ({ row, text }) =>
     html("div", { class: "dim" }, restsOn(row.evidence, text.message)),
   );
 
-function restsOn({ sources, shares, time_to_go_s: toGo, note }, said) {
-  const basis = sources
-    .map((name) => (known(shares[name]) ? `${words(name)} ${percent(shares[name])}` : words(name)))
-    .join(", ");
+function restsOn(evidence, said) {
+  const basis = basisOf(evidence),
+    { time_to_go_s: toGo, note } = evidence;
   return [
     note === said ? "" : note,
     basis ? `rests on ${basis}` : "",

@@ -1,6 +1,6 @@
 // Phrases for the situation, that can be chosen instead of typed.
 
-import { byId, html } from "./dom.js";
+import { button, byId, html } from "./dom.js";
 import { METRE_PER_NM } from "./model.js";
 
 const METRE_PER_FOOT = 0.3048;
@@ -15,8 +15,8 @@ export class Phrases {
 
   constructor(run) {
     this.#run = run;
-    byId("phrase-to").addEventListener("change", () => this.#renew());
-    byId("phrase-runway").addEventListener("change", () => this.#renew());
+    for (const id of ["phrase-to", "phrase-runway"])
+      byId(id).addEventListener("change", () => this.#renew());
     setInterval(() => this.#renew(), PERIOD_MS);
   }
 
@@ -106,8 +106,7 @@ export class Phrases {
     this.#offer("phrase-to", spoken);
     this.#offer("phrase-runway", idents);
     byId("phrase-to-label").hidden = !this.#isUnit;
-    byId("phrase-runway-label").hidden =
-      !idents.length || this.#run.ownCategory === "aircraft";
+    byId("phrase-runway-label").hidden = !idents.length || this.#run.ownCategory === "aircraft";
     const situation = JSON.stringify(this.#situation());
     if (situation === this.#told) return;
     this.#told = situation;
@@ -130,24 +129,21 @@ export class Phrases {
     const fresh = phrases.map(
       ({ label, text }) =>
         old.find((node) => node.title === text && node.textContent === label) ??
-        this.#button(label, text),
+        button(label, () => choose(text), { title: text }),
     );
     if (fresh.length !== old.length || fresh.some((node, i) => node !== old[i]))
       list.replaceChildren(...fresh);
   }
+}
 
-  #button(label, text) {
-    const button = html("button", { type: "button", title: text }, label);
-    button.addEventListener("click", () => {
-      byId("words").value = text;
-      byId("say-button").focus();
-    });
-    return button;
-  }
+/** Puts a phrase into the field for a call. */
+function choose(text) {
+  byId("words").value = text;
+  byId("say-button").focus();
 }
 
 /** Returns the magnetic heading of a true one in radians, in steps of 10 degrees. */
 function magnetic(true_rad, variation) {
   const heading = (true_rad * 180) / Math.PI - variation;
-  return ((Math.round(heading / 10) % 36) + 36) % 36 * 10;
+  return (((Math.round(heading / 10) % 36) + 36) % 36) * 10;
 }

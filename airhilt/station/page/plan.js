@@ -1,6 +1,7 @@
 // The plan: what is drawn on it, in which order, and how one moves on it.
 
-import { byId, colour, html, onSize } from "./dom.js";
+import { byId, colour, html } from "./dom.js";
+import { box, copyOf, onSize } from "./pen.js";
 import { drawCamera } from "./plan_camera.js";
 import { drawAirport } from "./plan_map.js";
 import { drawPlots, inWords } from "./plan_radar.js";
@@ -14,6 +15,12 @@ const MOST_NAMED = 30; // actors in words
 const RENEWED_MS = 1000; // after which tracks that grow are drawn again
 // Of the width, by which more is shown than is needed, so that the view changes seldom.
 const SPARE = 0.08;
+const STEPS_PX = {
+  ArrowLeft: [60, 0],
+  ArrowRight: [-60, 0],
+  ArrowUp: [0, 60],
+  ArrowDown: [0, -60],
+};
 
 export class Plan {
   #canvas = byId("plan");
@@ -120,16 +127,9 @@ export class Plan {
       this.#dragged = [event.clientX, event.clientY];
     });
     for (const end of ["pointerup", "pointercancel"])
-      canvas.addEventListener(end, () => {
-        this.#dragged = null;
-      });
+      canvas.addEventListener(end, () => (this.#dragged = null));
     canvas.addEventListener("keydown", (event) => {
-      const steps = {
-        ArrowLeft: [60, 0],
-        ArrowRight: [-60, 0],
-        ArrowUp: [0, 60],
-        ArrowDown: [0, -60],
-      }[event.key];
+      const steps = STEPS_PX[event.key];
       if (!steps) return;
       event.preventDefault();
       event.stopPropagation();
@@ -238,17 +238,12 @@ export class Plan {
   /** Draws the airport, the rings about it, and the tracks, and keeps the picture of them. */
   #renewStill(now) {
     const { pen, width, height } = this.#view,
-      { airport, tracks } = this.#run,
-      copy = document.createElement("canvas");
-    pen.fillStyle = colour("--map");
-    pen.fillRect(0, 0, width, height);
+      { airport, tracks } = this.#run;
+    box(pen, colour("--map"), 0, 0, width, height);
     this.#names = airport ? drawAirport(this.#view, airport) : [];
     if (airport) this.#drawRings();
     if (byId("plan-tracks").checked) drawTracks(this.#view, tracks);
-    copy.width = this.#canvas.width;
-    copy.height = this.#canvas.height;
-    copy.getContext("2d").drawImage(this.#canvas, 0, 0);
-    this.#still = copy;
+    this.#still = copyOf(this.#canvas);
     this.#stillSince = now;
   }
 
@@ -267,11 +262,9 @@ export class Plan {
       ({ track, state }) =>
         `${track.callsign} ${state.ended ? "ended" : state.onGround ? state.phase || "on the ground" : `${whole(state.altitude)} feet`}`,
     );
-    const parts = [...actors, ...inWords(plots)];
-    const more = parts.length > MOST_NAMED ? [`and ${parts.length - MOST_NAMED} more`] : [];
-    this.#canvas.setAttribute(
-      "aria-label",
-      `Plan view: ${[...parts.slice(0, MOST_NAMED), ...more].join(", ") || "no traffic"}`,
-    );
+    const parts = [...actors, ...inWords(plots)],
+      rest = parts.length - MOST_NAMED;
+    if (rest > 0) parts.splice(MOST_NAMED, rest, `and ${rest} more`);
+    this.#canvas.ariaLabel = `Plan view: ${parts.join(", ") || "no traffic"}`;
   }
 }

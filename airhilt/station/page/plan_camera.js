@@ -1,13 +1,13 @@
 // The field of view of a camera on the plan.
 
 import { colour } from "./dom.js";
+import { line } from "./pen.js";
 
 /** Draws the field of view of a camera, and the bearings of what it has detected. */
-export function drawCamera(view, camera) {
+export function drawCamera(view, { place, heading, fov, bearings }) {
   const { pen } = view,
-    { place, heading, fov, bearings } = camera,
-    [x, y] = view.pixel(place);
-  const reach = Math.max(3000 * view.scale, 40),
+    [x, y] = view.pixel(place),
+    reach = Math.max(3000 * view.scale, 40),
     from = heading - fov / 2 - Math.PI / 2;
   pen.beginPath();
   pen.moveTo(x, y);
@@ -18,11 +18,8 @@ export function drawCamera(view, camera) {
   pen.lineWidth = 1.2;
   pen.stroke();
   pen.setLineDash([]);
-  pen.strokeStyle = colour("--warn");
   for (const bearing of bearings) {
-    pen.beginPath();
-    pen.moveTo(x, y);
-    pen.lineTo(x + 1.5 * reach * Math.sin(bearing), y - 1.5 * reach * Math.cos(bearing));
-    pen.stroke();
+    const end = [x + 1.5 * reach * Math.sin(bearing), y - 1.5 * reach * Math.cos(bearing)];
+    line(pen, colour("--warn"), 1.2, [x, y], end);
   }
 }

@@ -1,52 +1,31 @@
 // The airport on the plan: water, runways, taxiways, buildings, and their names.
 
-import { BOLD, FONT_SMALL, colour, write } from "./dom.js";
-import { overlap } from "./labels.js";
+import { colour } from "./dom.js";
+import { boxesOff, firstFree } from "./labels.js";
+import { BOLD, FONT_SMALL, line, shape, write } from "./pen.js";
+
+const NAMES_OFF_PX = [14, 30, 46]; // from the end of a runway, where its number is tried
 
 /** Draws an airport, and returns the boxes of the names of its runways. */
 export function drawAirport(view, airport) {
-  const { pen } = view,
-    shape = (points, fill) => {
-      view.path(points, true);
-      pen.fillStyle = colour(fill);
-      pen.fill();
-    };
-  airport.water.forEach((water) => shape(water.outline, "--water"));
+  const { pen, scale } = view,
+    fill = (outline, ink) => shape(pen, { fill: colour(ink) }, ...view.pixels(outline)),
+    leg = ([e1, n1, e2, n2], ink, width) =>
+      line(pen, colour(ink), width, view.pixel([e1, n1]), view.pixel([e2, n2]));
+  airport.water.forEach(({ outline }) => fill(outline, "--water"));
   pen.lineCap = "round";
-  pen.strokeStyle = colour("--taxiway");
-  for (const taxiway of airport.taxiways) {
-    pen.lineWidth = Math.max(taxiway.width_m * view.scale, 1);
-    for (const [e1, n1, e2, n2] of taxiway.legs) {
-      view.path([
-        [e1, n1],
-        [e2, n2],
-      ]);
-      pen.stroke();
-    }
-  }
+  for (const { legs, width_m } of airport.taxiways)
+    for (const one of legs) leg(one, "--taxiway", Math.max(width_m * scale, 1));
   pen.lineCap = "butt";
-  airport.runways.forEach((runway) => shape(runway.protected, "--protected"));
-  for (const runway of airport.runways) {
-    shape(runway.pavement, "--runway");
-    if (runway.width_m * view.scale < 2) {
-      pen.strokeStyle = colour("--runway");
-      pen.lineWidth = 2;
-      pen.stroke();
-    }
+  airport.runways.forEach((runway) => fill(runway.protected, "--protected"));
+  for (const { pavement, width_m } of airport.runways) {
+    fill(pavement, "--runway");
+    if (width_m * scale < 2)
+      line(pen, colour("--runway"), 2, ...view.pixels([...pavement, pavement[0]]));
   }
-  airport.buildings.forEach((building) => shape(building.outline, "--building"));
-  if (view.scale > 0.1) {
-    pen.strokeStyle = colour("--warn");
-    pen.lineWidth = 2;
-    for (const {
-      line: [e1, n1, e2, n2],
-    } of airport.holds) {
-      view.path([
-        [e1, n1],
-        [e2, n2],
-      ]);
-      pen.stroke();
-    }
+  airport.buildings.forEach(({ outline }) => fill(outline, "--building"));
+  if (scale > 0.1) {
+    for (const hold of airport.holds) leg(hold.line, "--warn", 2);
     nameTaxiways(view, airport);
   }
   return nameRunways(view, airport);
@@ -54,16 +33,16 @@ export function drawAirport(view, airport) {
 
 function nameTaxiways(view, airport) {
   const { pen } = view,
-    taken = [];
+    taken = [],
+    long = ([e1, n1, e2, n2]) => Math.hypot(e2 - e1, n2 - n1);
   pen.font = FONT_SMALL;
   pen.textAlign = "center";
-  for (const taxiway of airport.taxiways.filter((one) => one.name !== "ramp")) {
-    const long = ([e1, n1, e2, n2]) => Math.hypot(e2 - e1, n2 - n1),
-      leg = [...taxiway.legs].sort((a, b) => long(b) - long(a))[0];
-    const [x, y] = view.pixel([(leg[0] + leg[2]) / 2, (leg[1] + leg[3]) / 2]);
+  for (const { name, legs } of airport.taxiways.filter((one) => one.name !== "ramp")) {
+    const [e1, n1, e2, n2] = legs.reduce((a, b) => (long(b) > long(a) ? b : a)),
+      [x, y] = view.pixel([(e1 + e2) / 2, (n1 + n2) / 2]);
     if (taken.some((other) => Math.hypot(other[0] - x, other[1] - y) < 22)) continue;
     taken.push([x, y]);
-    write(pen, taxiway.name.replaceAll("_", " "), x, y + 4, colour("--dim"), colour("--map"));
+    write(pen, name.replaceAll("_", " "), x, y + 4, colour("--dim"), colour("--map"));
   }
 }
 
@@ -72,21 +51,16 @@ function nameRunways(view, airport) {
     names = [];
   pen.font = BOLD;
   pen.textAlign = "center";
-  for (const runway of airport.runways) {
-    const [a, b] = runway.ends.map((end) => view.pixel(end.start)),
-      length = Math.hypot(b[0] - a[0], b[1] - a[1]);
-    if (length < 40) continue;
-    runway.ends.forEach((end, i) => {
-      const [from, to] = i ? [b, a] : [a, b];
-      const boxes = [14, 30, 46].map((far) => {
-        const x = from[0] - ((to[0] - from[0]) / length) * far,
-          y = from[1] - ((to[1] - from[1]) / length) * far;
-        return [x - 11, y - 8, x + 11, y + 8];
-      });
-      const box = boxes.find((one) => !names.some((other) => overlap(one, other))) ?? boxes[0];
+  for (const { ends } of airport.runways)
+    ends.forEach(({ ident, start }, i) => {
+      const from = view.pixel(start),
+        to = view.pixel(ends[1 - i].start),
+        length = Math.hypot(to[0] - from[0], to[1] - from[1]);
+      if (length < 40) return;
+      const boxes = boxesOff(from, to, length, NAMES_OFF_PX, [11, 8]),
+        box = firstFree(boxes, names) ?? boxes[0];
       names.push(box);
-      write(pen, end.ident, box[0] + 11, box[1] + 12, colour("--ink"), colour("--map"));
+      write(pen, ident, box[0] + 11, box[1] + 12, colour("--ink"), colour("--map"));
     });
-  }
   return names;
 }

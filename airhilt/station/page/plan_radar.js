@@ -1,7 +1,8 @@
 // The plots of surveillance radars on the plan: what the last turns of the antennas have found.
 
-import { FONT, colour, write } from "./dom.js";
+import { colour } from "./dom.js";
 import { level } from "./labels.js";
+import { FONT, circle, line, write } from "./pen.js";
 import { TURNS } from "./radar_plots.js";
 import { known, whole } from "./words.js";
 
@@ -12,47 +13,33 @@ const HALF = 4; // half the width of a plot, in pixels
  * reply that is alone has its code and its level beside it.
  */
 export function drawPlots(view, plots) {
-  const { pen } = view;
-  pen.strokeStyle = colour("--ink");
-  pen.lineWidth = 1.2;
+  const { pen } = view,
+    ink = colour("--ink");
   for (const { plot, age, isAlone } of plots) {
     const [x, y] = view.pixel([plot.east, plot.north]);
     pen.globalAlpha = 1 - age / TURNS;
-    pen.beginPath();
     if (plot.kind !== "secondary") {
-      pen.moveTo(x - HALF, y);
-      pen.lineTo(x + HALF, y);
-      pen.moveTo(x, y - HALF);
-      pen.lineTo(x, y + HALF);
+      line(pen, ink, 1.2, [x - HALF, y], [x + HALF, y]);
+      line(pen, ink, 1.2, [x, y - HALF], [x, y + HALF]);
     }
-    if (plot.kind !== "primary") {
-      pen.moveTo(x + HALF, y);
-      pen.arc(x, y, HALF, 0, 2 * Math.PI);
-    }
-    pen.stroke();
+    if (plot.kind !== "primary") circle(pen, ink, 1.2, [x, y], HALF);
     if (isAlone && plot.kind !== "primary") {
       pen.font = FONT;
       pen.textAlign = "left";
-      write(pen, blockOf(plot), x + 8, y - 6, colour("--ink"), colour("--map"));
+      write(pen, joined(plot.code, plot.altitude_ft, level), x + 8, y - 6, ink, colour("--map"));
     }
   }
   pen.globalAlpha = 1;
 }
 
-const blockOf = ({ code, altitude_ft: altitude }) =>
-  [code, known(altitude) ? level(altitude) : null].filter((part) => part).join(" ");
+/** Returns a code and an altitude, as far as they are known. */
+const joined = (code, altitude, inUnit) =>
+  [code, known(altitude) ? inUnit(altitude) : null].filter((part) => part).join(" ");
 
 /** Returns what the last turn has found besides the actors, in words. */
-export function inWords(plots) {
-  return plots
+export const inWords = (plots) =>
+  plots
     .filter(({ isAlone }) => isAlone)
-    .map(({ plot }) =>
-      [
-        plot.kind === "primary" ? "radar echo" : "radar reply",
-        plot.code,
-        known(plot.altitude_ft) ? `${whole(plot.altitude_ft)} feet` : null,
-      ]
-        .filter((part) => part)
-        .join(" "),
+    .map(({ plot: { kind, code, altitude_ft } }) =>
+      `radar ${kind === "primary" ? "echo" : "reply"} ${joined(code, altitude_ft, (feet) => `${whole(feet)} feet`)}`.trim(),
     );
-}

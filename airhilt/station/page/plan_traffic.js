@@ -1,27 +1,31 @@
 // The traffic on the plan: tracks, and each actor with history, velocity leader and data block.
 
-import { BOLD, FONT, colour, write } from "./dom.js";
+import { colour } from "./dom.js";
 import { freeBox, level } from "./labels.js";
 import { METRE_PER_NM } from "./model.js";
+import { BOLD, FONT, line, path, severityInk, shape, write } from "./pen.js";
 import { symbolOf } from "./symbols.js";
 import { whole } from "./words.js";
 
 const HISTORY_DOTS = 8;
 const MOST_POINTS = 1500; // of a track that are drawn
+// From which an arrow shows that an actor climbs or descends: three steps of the rate that ADS-B
+// reports (64 ft/min, RTCA DO-260B, 2.2.3.2.6.1).
+const CLIMBS_FPM = 200;
+// Corners of the shape about an actor, its turn, and its half width in pixels, by severity.
+const AROUND = { WARNING: [4, Math.PI / 4, 20], CAUTION: [3, -Math.PI / 2, 25] };
+const CIRCLE = [40, 0, 20];
 
 /** Draws the track of each actor, as far as it is known. */
 export function drawTracks(view, tracks) {
   const { pen } = view;
-  pen.lineWidth = 1;
   pen.setLineDash([2, 3]);
   for (const track of tracks) {
     const step = Math.ceil(track.t.length / MOST_POINTS) || 1,
       points = [];
     for (let i = track.t.length - 1; i >= 0; i -= step)
-      points.push([track.east[i], track.north[i]]);
-    view.path(points);
-    pen.strokeStyle = colour(track.colour);
-    pen.stroke();
+      points.push(view.pixel([track.east[i], track.north[i]]));
+    line(pen, colour(track.colour), 1, ...points);
   }
   pen.setLineDash([]);
 }
@@ -32,54 +36,36 @@ export function drawActor(view, run, { track, state }, t, leaderS) {
     [x, y] = view.pixel([state.east, state.north]),
     ink = colour(track.colour);
   if (state.ended) {
-    drawEnd(pen, x, y, ink);
+    for (const side of [-1, 1]) line(pen, ink, 2.2, [x - 5, y - 5 * side], [x + 5, y + 5 * side]);
     return;
   }
-  drawHistory(view, run, track, state, t);
-  drawLeader(view, state, leaderS, ink);
+  drawHistory(view, run, track, [x, y], t);
+  const ahead = leaderS * state.speed * view.scale,
+    [sin, cos] = [Math.sin(state.course), Math.cos(state.course)];
+  if (ahead >= 6) line(pen, ink, 1.4, [x, y], [x + ahead * sin, y - ahead * cos]);
   const severity = run.severityOf(track.callsign, t);
   if (severity) drawSeverity(pen, x, y, severity);
-  const { shape, least } = symbolOf(track.category);
-  const size = Math.max(((track.length_m ?? 0) * view.scale) / 2, least),
-    sin = Math.sin(state.heading),
-    cos = Math.cos(state.heading);
-  pen.beginPath();
-  shape.forEach(([right, back], i) => {
-    const px = x + size * (right * cos - back * sin),
-      py = y + size * (right * sin + back * cos);
-    if (i) pen.lineTo(px, py);
-    else pen.moveTo(px, py);
-  });
-  pen.closePath();
-  pen.fillStyle = ink;
-  pen.strokeStyle = colour("--map");
-  pen.lineWidth = 1;
-  pen.fill();
-  pen.stroke();
+  drawSymbol(view, track, state.heading, [x, y]);
 }
 
-/** Draws a cross where an actor has ended. */
-function drawEnd(pen, x, y, ink) {
-  pen.strokeStyle = ink;
-  pen.lineWidth = 2.2;
-  pen.beginPath();
-  for (const side of [-1, 1]) {
-    pen.moveTo(x - 5, y - 5 * side);
-    pen.lineTo(x + 5, y + 5 * side);
-  }
-  pen.stroke();
+function drawSymbol(view, track, heading, [x, y]) {
+  const { outline, least } = symbolOf(track.category),
+    size = Math.max(((track.length_m ?? 0) * view.scale) / 2, least),
+    [sin, cos] = [size * Math.sin(heading), size * Math.cos(heading)];
+  const points = outline.map(([right, back]) => [
+    x + right * cos - back * sin,
+    y + right * sin + back * cos,
+  ]);
+  shape(view.pen, { fill: colour(track.colour), edge: colour("--map") }, ...points);
 }
 
 /** Draws dots behind an actor, where it was some seconds ago. */
-function drawHistory(view, run, track, state, t) {
+function drawHistory(view, run, track, [x, y], t) {
   const { pen } = view,
-    every = run.airport ? 3 : 5,
-    [x, y] = view.pixel([state.east, state.north]);
+    every = run.airport ? 3 : 5;
   pen.fillStyle = colour(track.colour);
-  for (let i = 1; i <= HISTORY_DOTS; i += 1) {
-    const then = t - i * every;
-    if (then < track.first) break;
-    const [px, py] = view.pixel(track.place(then));
+  for (let i = 1; i <= HISTORY_DOTS && t - i * every >= track.first; i += 1) {
+    const [px, py] = view.pixel(track.place(t - i * every));
     if (Math.hypot(px - x, py - y) < 3) continue;
     pen.beginPath();
     pen.arc(px, py, 2.2 - i * 0.12, 0, 2 * Math.PI);
@@ -87,38 +73,15 @@ function drawHistory(view, run, track, state, t) {
   }
 }
 
-/** Draws the velocity leader before an actor, if it is long enough to be seen. */
-function drawLeader(view, state, leaderS, ink) {
-  const { pen } = view,
-    ahead = leaderS * state.speed;
-  if (ahead * view.scale < 6) return;
-  pen.beginPath();
-  pen.moveTo(...view.pixel([state.east, state.north]));
-  pen.lineTo(
-    ...view.pixel([
-      state.east + ahead * Math.sin(state.course),
-      state.north + ahead * Math.cos(state.course),
-    ]),
-  );
-  pen.strokeStyle = ink;
-  pen.lineWidth = 1.4;
-  pen.stroke();
-}
-
 /** Draws the shape around an actor that an advisory is about. */
 function drawSeverity(pen, x, y, severity) {
-  const sides = { WARNING: 4, CAUTION: 3 }[severity] ?? 40,
-    turn = severity === "WARNING" ? Math.PI / 4 : -Math.PI / 2;
-  pen.beginPath();
-  for (let i = 0; i <= sides; i += 1) {
-    const angle = turn + (i / sides) * 2 * Math.PI,
-      reach = sides === 3 ? 25 : 20;
-    if (i) pen.lineTo(x + reach * Math.cos(angle), y + reach * Math.sin(angle));
-    else pen.moveTo(x + reach * Math.cos(angle), y + reach * Math.sin(angle));
-  }
-  pen.strokeStyle = colour(
-    { WARNING: "--bad", CAUTION: "--warn", ADVISORY: "--accent" }[severity] ?? "--dim",
-  );
+  const [corners, turn, reach] = AROUND[severity] ?? CIRCLE;
+  const points = Array.from({ length: corners }, (_, i) => {
+    const angle = turn + (i / corners) * 2 * Math.PI;
+    return [x + reach * Math.cos(angle), y + reach * Math.sin(angle)];
+  });
+  path(pen, points, true);
+  pen.strokeStyle = severityInk(severity);
   pen.lineWidth = 2;
   pen.stroke();
 }
@@ -126,71 +89,56 @@ function drawSeverity(pen, x, y, severity) {
 /** Draws data blocks, each where it covers no other, no symbol, and none of the boxes of names. */
 export function drawBlocks(view, run, states, t, names) {
   const { pen, width, height } = view;
-  const taken = states.map(({ state }) => {
-    const [x, y] = view.pixel([state.east, state.north]);
-    return [x - 9, y - 9, x + 9, y + 9];
-  });
-  taken.push(...names);
+  const placed = states.map(({ track, state }) => ({
+    track,
+    state,
+    at: view.pixel([state.east, state.north]),
+  }));
+  const taken = [...placed.map(({ at: [x, y] }) => [x - 9, y - 9, x + 9, y + 9]), ...names];
   pen.textAlign = "left";
-  for (const { track, state } of states) {
-    const [x, y] = view.pixel([state.east, state.north]);
+  for (const { track, state, at } of placed) {
+    const [x, y] = at;
     if (x < -20 || y < -20 || x > width + 20 || y > height + 20) continue;
     const severity = state.ended ? null : run.severityOf(track.callsign, t),
       lines = linesOf(track, state, severity);
-    const wide =
-        Math.max(
-          ...lines.map((line, i) => {
-            pen.font = i ? FONT : BOLD;
-            return pen.measureText(line).width;
-          }),
-        ) + 14,
-      high = lines.length * 14 + 2;
-    const box = freeBox(view, [x, y], [wide, high], taken);
-    taken.push(box);
-    pen.strokeStyle = colour("--dim");
-    pen.lineWidth = 1;
-    pen.beginPath();
-    pen.moveTo(x, y);
-    pen.lineTo(Math.min(Math.max(x, box[0]), box[2]), Math.min(Math.max(y, box[1]), box[3]));
-    pen.stroke();
-    lines.forEach((line, i) => {
-      pen.font = i ? FONT : BOLD;
-      const ink =
-        severity && i === lines.length - 1
-          ? colour(
-              severity === "WARNING" ? "--bad" : severity === "CAUTION" ? "--warn" : "--accent",
-            )
-          : colour(i ? "--ink" : track.colour);
-      write(pen, line, box[0] + 2, box[1] + 12 + i * 14, ink, colour("--map"));
+    const wides = lines.map(({ text, font }) => {
+      pen.font = font;
+      return pen.measureText(text).width;
     });
-    if (!state.ended && !state.onGround && Math.abs(state.rate) > 150)
-      drawArrow(
-        pen,
-        box[0] + 2 + pen.measureText(level(state.altitude)).width + 6,
-        box[1] + 22,
-        state.rate > 0,
-      );
+    const size = [Math.max(...wides) + 14, lines.length * 14 + 2],
+      [left, top, right, bottom] = freeBox(view, at, size, taken),
+      nearest = [Math.min(Math.max(x, left), right), Math.min(Math.max(y, top), bottom)];
+    taken.push([left, top, right, bottom]);
+    line(pen, colour("--dim"), 1, at, nearest);
+    lines.forEach(({ text, font, ink }, i) => {
+      pen.font = font;
+      write(pen, text, left + 2, top + 12 + i * 14, ink, colour("--map"));
+    });
+    if (!state.ended && !state.onGround && Math.abs(state.rate) >= CLIMBS_FPM)
+      drawArrow(pen, left + 8 + pen.measureText(level(state.altitude)).width, top + 22, state.rate);
   }
 }
 
 /** Returns the lines of a data block. */
 function linesOf(track, state, severity) {
-  if (state.ended) return [track.callsign, "ended"];
-  const knots = whole((state.speed * 3600) / METRE_PER_NM);
-  const second = state.onGround
-    ? `${state.phase || "ground"} ${knots} kt`
-    : `${level(state.altitude)}     ${knots} kt`;
-  return severity ? [track.callsign, second, severity] : [track.callsign, second];
+  const knots = whole((state.speed * 3600) / METRE_PER_NM),
+    ink = colour("--ink");
+  const second = state.ended
+    ? "ended"
+    : state.onGround
+      ? `${state.phase || "ground"} ${knots} kt`
+      : `${level(state.altitude)}     ${knots} kt`;
+  const lines = [
+    { text: track.callsign, font: BOLD, ink: colour(track.colour) },
+    { text: second, font: FONT, ink },
+  ];
+  if (severity) lines.push({ text: severity, font: FONT, ink: severityInk(severity) });
+  return lines;
 }
 
 /** Draws an arrow, up or down, in a data block. */
-function drawArrow(pen, x, y, up) {
-  const side = up ? 1 : -1;
-  pen.beginPath();
-  pen.moveTo(x, y - 5 * side);
-  pen.lineTo(x + 4, y + 4 * side);
-  pen.lineTo(x - 4, y + 4 * side);
-  pen.closePath();
-  pen.fillStyle = colour("--ink");
-  pen.fill();
+function drawArrow(pen, x, y, rate) {
+  const side = Math.sign(rate),
+    foot = y + 4 * side;
+  shape(pen, { fill: colour("--ink") }, [x, y - 5 * side], [x + 4, foot], [x - 4, foot]);
 }

@@ -24,16 +24,9 @@ export class PlanView {
     ];
   }
 
-  /** Begins a path through some places. */
-  path(points, close = false) {
-    const { pen } = this;
-    pen.beginPath();
-    points.forEach((point, i) => {
-      const [x, y] = this.pixel(point);
-      if (i) pen.lineTo(x, y);
-      else pen.moveTo(x, y);
-    });
-    if (close) pen.closePath();
+  /** Returns where some places are on the canvas. */
+  pixels(places) {
+    return places.map((place) => this.pixel(place));
   }
 
   /** Moves what is shown by some pixels. */

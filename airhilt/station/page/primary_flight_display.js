@@ -1,10 +1,10 @@
 // The primary flight display: attitude, speed and altitude tapes, vertical speed, heading, and what
 // is selected.
 
-import { byId, onSize } from "./dom.js";
+import { byId } from "./dom.js";
+import { BOLD, box, label, line, onSize, shape, within } from "./pen.js";
 import { bearing, whole } from "./words.js";
 
-const FONT = "system-ui, -apple-system, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
 // Colours of the instrument, the same in a light and in a dark page (FAA AC 25-11B, 31.c).
 export const INK = {
   sky: "#1d6fb8",
@@ -31,6 +31,21 @@ const KNOTS_A_TAPE = 80,
   DEGREES_A_HEIGHT = 44,
   DEGREES_A_WIDTH = 60;
 
+// The outline of a selected value on a tape: places inward of its edge, and below.
+const BUG = [
+  [0, 0],
+  [7, -6],
+  [7, -11],
+  [0, -11],
+  [0, 11],
+  [7, 11],
+  [7, 6],
+  [0, 0],
+];
+const GEAR = { 0: ["GEAR UP", INK.text], 1: ["GEAR DOWN", INK.mode] };
+const RADIAN = Math.PI / 180;
+const BANKS = [-60, -45, -30, -20, -10, 0, 10, 20, 30, 45, 60]; // marks of the bank scale, degrees
+
 /** A place on the vertical speed scale from -1 to 1: 1000 ft/min are half of it, 4000 all. */
 const climbScale = (fpm) =>
   Math.sign(fpm) *
@@ -39,13 +54,12 @@ const climbScale = (fpm) =>
     : 0.5 + Math.min(Math.abs(fpm) - 1000, 3000) / 6000);
 
 export class PrimaryFlightDisplay {
-  #canvas = byId("pfd");
   #size = null;
   #shown = null;
   #tcas = null;
 
   constructor() {
-    onSize(this.#canvas, (pen, width, height) => {
+    onSize(byId("pfd"), (pen, width, height) => {
       this.#size = { pen, width, height };
       this.draw(this.#shown, this.#tcas);
     });
@@ -59,102 +73,74 @@ export class PrimaryFlightDisplay {
     this.#tcas = tcas;
     if (!this.#size) return;
     const { pen, width, height } = this.#size;
-    pen.fillStyle = INK.black;
-    pen.fillRect(0, 0, width, height);
+    box(pen, INK.black, 0, 0, width, height);
     if (!shown) {
-      this.#text("NO DATA", width / 2, height / 2, INK.warning, 18, "center");
+      this.#text("NO DATA", width / 2, height / 2, INK.warning, 18);
       return;
     }
-    const box = { left: SPEED, right: width - ALTITUDE - CLIMB, top: HEAD, bottom: height - FOOT };
-    this.#attitude(shown, box);
-    this.#speed(shown, box);
-    this.#altitude(shown, box);
-    this.#climb(shown, box);
-    this.#heading(shown, box);
+    const [left, top, right, bottom] = [SPEED, HEAD, width - ALTITUDE - CLIMB, height - FOOT];
+    this.#attitude(shown, [left, top, right, bottom]);
+    this.#speed(shown, top, bottom);
+    this.#altitude(shown, right, top, bottom);
+    this.#climb(shown, right + ALTITUDE + 3, top, bottom);
+    this.#heading(shown, left, right, bottom + 4);
     this.#mode(shown);
-    if (tcas) this.#advisory(tcas, box);
+    if (tcas) this.#advisory(tcas, (left + right) / 2, top + (bottom - top) * 0.72);
   }
 
-  /** The words of TCAS, below the horizon. */
-  #advisory({ words, severity }, { left, right, top, bottom }) {
-    const { pen } = this.#size,
-      x = (left + right) / 2,
-      y = top + (bottom - top) * 0.72,
-      ink = { WARNING: INK.warning, CAUTION: INK.caution }[severity] ?? INK.mode;
-    pen.font = `600 17px ${FONT}`;
-    const wide = pen.measureText(words).width + 20;
-    pen.fillStyle = INK.black;
-    pen.strokeStyle = ink;
-    pen.lineWidth = 2;
-    pen.fillRect(x - wide / 2, y - 15, wide, 30);
-    pen.strokeRect(x - wide / 2, y - 15, wide, 30);
-    this.#text(words, x, y + 1, ink, 17, "center");
-  }
-
-  #text(text, x, y, ink, size = 13, align = "left") {
-    const { pen } = this.#size;
-    pen.font = `600 ${size}px ${FONT}`;
-    pen.textAlign = align;
-    pen.textBaseline = "middle";
-    pen.fillStyle = ink;
-    pen.fillText(text, x, y);
-    pen.textBaseline = "alphabetic";
+  #text(text, x, y, ink, size = 13, align = "center") {
+    label(this.#size.pen, text, x, y, ink, size, align);
   }
 
   #line(ink, width, ...points) {
+    line(this.#size.pen, ink, width, ...points);
+  }
+
+  /** Writes a text in the middle of a black box with an edge. */
+  #readout(text, x, y, width, size, ink = INK.text, edge = 1.5) {
     const { pen } = this.#size;
+    box(pen, INK.black, x - width / 2, y - 15, width, 30);
     pen.strokeStyle = ink;
-    pen.lineWidth = width;
-    pen.beginPath();
-    points.forEach(([x, y], i) => {
-      if (i) pen.lineTo(x, y);
-      else pen.moveTo(x, y);
-    });
-    pen.stroke();
+    pen.lineWidth = edge;
+    pen.strokeRect(x - width / 2, y - 15, width, 30);
+    this.#text(text, x, y + 1, ink, size);
   }
 
-  #within({ left, right, top, bottom }, draw) {
-    const { pen } = this.#size;
-    pen.save();
-    pen.beginPath();
-    pen.rect(left, top, right - left, bottom - top);
-    pen.clip();
-    draw();
-    pen.restore();
-  }
-
-  #attitude(shown, box) {
+  /** The words of TCAS, below the horizon. */
+  #advisory({ words, severity }, x, y) {
     const { pen } = this.#size,
-      x = (box.left + box.right) / 2,
-      y = (box.top + box.bottom) / 2,
-      degree = (box.bottom - box.top) / DEGREES_A_HEIGHT,
+      ink = { WARNING: INK.warning, CAUTION: INK.caution }[severity] ?? INK.mode;
+    pen.font = BOLD.replace("12px", "17px");
+    this.#readout(words, x, y, pen.measureText(words).width + 20, 17, ink, 2);
+  }
+
+  #attitude({ roll_deg: roll, pitch_deg: pitch, radio_height_ft: height }, area) {
+    const { pen } = this.#size,
+      [left, top, right, bottom] = area,
+      [x, y, half] = [(left + right) / 2, (top + bottom) / 2, (bottom - top) / 2],
+      degree = (2 * half) / DEGREES_A_HEIGHT,
+      horizon = pitch * degree,
       far = 2000;
-    this.#within(box, () => {
+    within(pen, area, () => {
       pen.translate(x, y);
-      pen.rotate((-shown.roll_deg * Math.PI) / 180);
-      const horizon = shown.pitch_deg * degree;
-      pen.fillStyle = INK.sky;
-      pen.fillRect(-far, horizon - far, 2 * far, far);
-      pen.fillStyle = INK.ground;
-      pen.fillRect(-far, horizon, 2 * far, far);
+      pen.rotate(-roll * RADIAN);
+      box(pen, INK.sky, -far, horizon - far, 2 * far, far);
+      box(pen, INK.ground, -far, horizon, 2 * far, far);
       this.#line(INK.text, 2, [-far, horizon], [far, horizon]);
-      for (
-        let pitch = Math.max(-80, Math.round(shown.pitch_deg / 5) * 5 - 15);
-        pitch <= shown.pitch_deg + 15;
-        pitch += 2.5
-      ) {
-        const at = horizon - pitch * degree,
-          half = pitch % 10 === 0 ? 38 : pitch % 5 === 0 ? 22 : 9;
-        if (pitch === 0 || Math.abs(at) > (box.bottom - box.top) / 2 - 34) continue;
-        this.#line(INK.text, 1.5, [-half, at], [half, at]);
-        if (pitch % 10 === 0)
+      const lowest = Math.max(-80, Math.round(pitch / 5) * 5 - 15);
+      for (let mark = lowest; mark <= pitch + 15; mark += 2.5) {
+        const at = horizon - mark * degree,
+          wide = mark % 10 === 0 ? 38 : mark % 5 === 0 ? 22 : 9;
+        if (mark === 0 || Math.abs(at) > half - 34) continue;
+        this.#line(INK.text, 1.5, [-wide, at], [wide, at]);
+        if (mark % 10 === 0)
           for (const side of [-1, 1])
-            this.#text(String(Math.abs(pitch)), side * (half + 12), at, INK.text, 11, "center");
+            this.#text(String(Math.abs(mark)), side * (wide + 12), at, INK.text, 11);
       }
-      pen.rotate((shown.roll_deg * Math.PI) / 180);
-      this.#bank(shown, (box.bottom - box.top) / 2 - 6);
+      pen.rotate(roll * RADIAN);
+      this.#bank(roll, half - 6);
     });
-    const wing = Math.min(56, (box.right - box.left) / 4);
+    const wing = Math.min(56, (right - left) / 4);
     for (const [ink, wide] of [
       [INK.black, 7],
       [INK.own, 3.5],
@@ -163,263 +149,149 @@ export class PrimaryFlightDisplay {
         this.#line(ink, wide, [x + side * wing, y], [x + side * 22, y], [x + side * 22, y + 9]);
       this.#line(ink, wide, [x - 2.5, y], [x + 2.5, y]);
     }
-    if (typeof shown.radio_height_ft === "number") {
-      pen.fillStyle = INK.black;
-      pen.fillRect(x - 34, box.bottom - 27, 68, 22);
-      this.#text(
-        `${whole(shown.radio_height_ft)} RA`,
-        x,
-        box.bottom - 16,
-        shown.radio_height_ft < 500 ? INK.caution : INK.mode,
-        14,
-        "center",
-      );
-    }
+    if (typeof height !== "number") return;
+    box(pen, INK.black, x - 34, bottom - 27, 68, 22);
+    this.#text(`${whole(height)} RA`, x, bottom - 16, height < 500 ? INK.caution : INK.mode, 14);
   }
 
-  #bank(shown, reach) {
+  #bank(roll, reach) {
     const { pen } = this.#size,
-      at = (degrees, r) => [
-        r * Math.sin((degrees * Math.PI) / 180),
-        -r * Math.cos((degrees * Math.PI) / 180),
-      ];
-    for (const degrees of [-60, -45, -30, -20, -10, 0, 10, 20, 30, 45, 60])
-      this.#line(
-        INK.text,
-        1.5,
-        at(degrees, reach),
-        at(degrees, reach - (degrees % 30 === 0 ? 11 : 7)),
-      );
+      at = (degrees, r) => [r * Math.sin(degrees * RADIAN), -r * Math.cos(degrees * RADIAN)];
+    for (const degrees of BANKS) {
+      const inner = reach - (degrees % 30 === 0 ? 11 : 7);
+      this.#line(INK.text, 1.5, at(degrees, reach), at(degrees, inner));
+    }
     pen.save();
-    pen.rotate((-shown.roll_deg * Math.PI) / 180);
-    pen.beginPath();
-    pen.moveTo(0, 12 - reach);
-    pen.lineTo(7, 24 - reach);
-    pen.lineTo(-7, 24 - reach);
-    pen.closePath();
-    pen.fillStyle = INK.own;
-    pen.fill();
+    pen.rotate(-roll * RADIAN);
+    shape(pen, { fill: INK.own }, [0, 12 - reach], [7, 24 - reach], [-7, 24 - reach]);
     pen.restore();
   }
 
-  /** A tape: marks and numbers that move past the value, and the selected value as a bug. */
-  #tape(box, value, span, step, every, isRight) {
+  /**
+   * A tape: marks and numbers that move past the value, and the selected value as a bug. The marks
+   * are at an edge of the tape and reach inward, to the right (1) or the left (-1).
+   */
+  #tape([left, top, right, bottom], inward, value, selected, span, step, every) {
     const { pen } = this.#size,
-      y = (box.top + box.bottom) / 2,
-      unit = (box.bottom - box.top) / span;
-    pen.fillStyle = INK.tape;
-    pen.fillRect(box.left, box.top, box.right - box.left, box.bottom - box.top);
-    const edge = isRight ? box.left : box.right,
-      inward = isRight ? 1 : -1;
-    for (
-      let mark = Math.ceil((value - span / 2) / step) * step;
-      mark <= value + span / 2;
-      mark += step
-    ) {
-      if (mark < 0) continue;
-      const at = y - (mark - value) * unit;
-      this.#line(INK.dim, 1.5, [edge, at], [edge + inward * (mark % every === 0 ? 10 : 6), at]);
-      if (mark % every === 0)
-        this.#text(String(mark), edge + inward * 14, at, INK.text, 13, isRight ? "left" : "right");
-    }
-  }
-
-  #bug(box, value, selected, span, isRight) {
-    const y = (box.top + box.bottom) / 2,
-      unit = (box.bottom - box.top) / span,
-      at = Math.min(Math.max(y - (selected - value) * unit, box.top), box.bottom);
-    const edge = isRight ? box.left : box.right,
-      inward = isRight ? 1 : -1;
-    this.#line(
-      INK.selected,
-      3,
-      [edge, at],
-      [edge + inward * 7, at - 6],
-      [edge + inward * 7, at - 11],
-      [edge, at - 11],
-      [edge, at + 11],
-      [edge + inward * 7, at + 11],
-      [edge + inward * 7, at + 6],
-      [edge, at],
-    );
-  }
-
-  #readout(left, width, y, text, size = 17) {
-    const { pen } = this.#size;
-    pen.fillStyle = INK.black;
-    pen.strokeStyle = INK.text;
-    pen.lineWidth = 1.5;
-    pen.fillRect(left, y - 15, width, 30);
-    pen.strokeRect(left, y - 15, width, 30);
-    this.#text(text, left + width / 2, y + 1, INK.text, size, "center");
-  }
-
-  #speed(shown, { top, bottom }) {
-    const box = { left: 0, right: SPEED, top: top + 22, bottom: bottom - 22 },
-      middle = (box.top + box.bottom) / 2;
-    this.#within(box, () => {
-      this.#tape(box, shown.airspeed_kt, KNOTS_A_TAPE, 10, 20, false);
-      this.#bug(box, shown.airspeed_kt, shown.selected_airspeed_kt, KNOTS_A_TAPE, false);
+      edge = inward > 0 ? left : right,
+      unit = (bottom - top) / span,
+      place = (other) => (top + bottom) / 2 - (other - value) * unit,
+      lowest = Math.ceil((value - span / 2) / step) * step;
+    within(pen, [left, top, right, bottom], () => {
+      box(pen, INK.tape, left, top, right - left, bottom - top);
+      for (let mark = Math.max(lowest, 0); mark <= value + span / 2; mark += step) {
+        const at = place(mark),
+          isNamed = mark % every === 0;
+        this.#line(INK.dim, 1.5, [edge, at], [edge + inward * (isNamed ? 10 : 6), at]);
+        if (isNamed)
+          this.#text(
+            String(mark),
+            edge + inward * 14,
+            at,
+            INK.text,
+            13,
+            inward > 0 ? "left" : "right",
+          );
+      }
+      const at = Math.min(Math.max(place(selected), top), bottom);
+      this.#line(INK.selected, 3, ...BUG.map(([dx, dy]) => [edge + inward * dx, at + dy]));
     });
-    this.#readout(2, SPEED - 14, middle, whole(shown.airspeed_kt));
-    this.#text(
-      String(Math.round(shown.selected_airspeed_kt)),
-      SPEED / 2,
-      top + 11,
-      INK.selected,
-      15,
-      "center",
-    );
-    this.#text(
-      shown.mach >= 0.4
-        ? `M ${shown.mach.toFixed(2).slice(1)}`
-        : `GS ${whole(shown.ground_speed_kt)}`,
-      SPEED / 2,
-      bottom - 10,
-      INK.text,
-      13,
-      "center",
-    );
   }
 
-  #altitude(shown, { right, top, bottom }) {
-    const box = { left: right, right: right + ALTITUDE, top: top + 22, bottom: bottom - 22 },
-      middle = (box.top + box.bottom) / 2;
-    this.#within(box, () => {
-      this.#tape(box, shown.altitude_ft, FEET_A_TAPE, 100, 200, true);
-      this.#bug(box, shown.altitude_ft, shown.selected_altitude_ft, FEET_A_TAPE, true);
-    });
-    this.#readout(
-      right + 10,
-      ALTITUDE - 12,
-      middle,
-      String(Math.round(shown.altitude_ft / 10) * 10),
-      16,
-    );
-    this.#text(
-      String(shown.selected_altitude_ft),
-      right + ALTITUDE / 2,
-      top + 11,
-      INK.selected,
-      15,
-      "center",
-    );
-    this.#text("1013", right + ALTITUDE / 2, bottom - 10, INK.mode, 13, "center");
+  #speed(shown, top, bottom) {
+    const { airspeed_kt: value, selected_airspeed_kt: selected, mach } = shown,
+      x = SPEED / 2;
+    this.#tape([0, top + 22, SPEED, bottom - 22], -1, value, selected, KNOTS_A_TAPE, 10, 20);
+    this.#readout(whole(value), 2 + (SPEED - 14) / 2, (top + bottom) / 2, SPEED - 14, 17);
+    this.#text(String(Math.round(selected)), x, top + 11, INK.selected, 15);
+    const other =
+      mach >= 0.4 ? `M ${mach.toFixed(2).slice(1)}` : `GS ${whole(shown.ground_speed_kt)}`;
+    this.#text(other, x, bottom - 10, INK.text);
   }
 
-  #climb(shown, { right, top, bottom }) {
-    const left = right + ALTITUDE + 3,
+  #altitude(shown, left, top, bottom) {
+    const { altitude_ft: value, selected_altitude_ft: selected } = shown,
+      area = [left, top + 22, left + ALTITUDE, bottom - 22],
+      tens = String(Math.round(value / 10) * 10);
+    this.#tape(area, 1, value, selected, FEET_A_TAPE, 100, 200);
+    this.#readout(tens, left + 4 + ALTITUDE / 2, (top + bottom) / 2, ALTITUDE - 12, 16);
+    this.#text(String(selected), left + ALTITUDE / 2, top + 11, INK.selected, 15);
+    this.#text("1013", left + ALTITUDE / 2, bottom - 10, INK.mode);
+  }
+
+  #climb({ vertical_speed_fpm: rate }, left, top, bottom) {
+    const { pen } = this.#size,
       middle = (top + bottom) / 2,
       half = (bottom - top) / 2 - 40,
-      { pen } = this.#size;
-    pen.fillStyle = INK.tape;
-    pen.fillRect(left, middle - half - 14, CLIMB - 6, 2 * half + 28);
+      place = (fpm) => middle - climbScale(fpm) * half;
+    box(pen, INK.tape, left, middle - half - 14, CLIMB - 6, 2 * half + 28);
     for (const [band, ink] of [
       [this.#tcas?.red, INK.avoid],
       [this.#tcas?.green, INK.fly],
     ]) {
-      if (!band) continue;
-      const [low, high] = band.map((fpm) => middle - climbScale(fpm) * half);
-      pen.fillStyle = ink;
-      pen.fillRect(left, high, 7, low - high);
+      const [low, high] = (band ?? [0, 0]).map(place);
+      box(pen, ink, left, high, 7, low - high);
     }
-    for (const fpm of [500, 1000, 2000, 4000]) {
-      for (const side of [-1, 1]) {
-        const y = middle - side * climbScale(fpm) * half;
+    for (const fpm of [500, 1000, 2000, 4000])
+      for (const y of [place(fpm), place(-fpm)]) {
         this.#line(INK.dim, 1.5, [left, y], [left + 6, y]);
         if (fpm > 500 && (fpm !== 2000 || half > 90))
-          this.#text(String(fpm / 1000), left + 10, y, INK.text, 11);
+          this.#text(String(fpm / 1000), left + 10, y, INK.text, 11, "left");
       }
-    }
     this.#line(INK.dim, 1.5, [left, middle], [left + 10, middle]);
-    this.#line(
-      INK.own,
-      3,
-      [left + CLIMB - 6, middle],
-      [left + 4, middle - climbScale(shown.vertical_speed_fpm) * half],
-    );
-    const fpm = Math.round(shown.vertical_speed_fpm / 50) * 50;
+    this.#line(INK.own, 3, [left + CLIMB - 6, middle], [left + 4, place(rate)]);
+    const fpm = Math.round(rate / 50) * 50,
+      y = middle - Math.sign(fpm) * (half + 24);
     if (Math.abs(fpm) >= 200)
-      this.#text(
-        String(Math.abs(fpm)),
-        left + (CLIMB - 6) / 2,
-        fpm > 0 ? middle - half - 24 : middle + half + 24,
-        INK.text,
-        12,
-        "center",
-      );
+      this.#text(String(Math.abs(fpm)), left + (CLIMB - 6) / 2, y, INK.text, 12);
   }
 
-  #heading(shown, { left, right, bottom }) {
-    const { height } = this.#size,
-      box = { left, right, top: bottom + 4, bottom: height },
+  #heading(shown, left, right, top) {
+    const { pen, height } = this.#size,
+      { heading_deg: heading } = shown,
       x = (left + right) / 2,
       unit = (right - left) / DEGREES_A_WIDTH;
-    this.#within(box, () => {
-      const { pen } = this.#size;
-      pen.fillStyle = INK.tape;
-      pen.fillRect(left, box.top, right - left, box.bottom - box.top);
-      for (
-        let mark = Math.ceil((shown.heading_deg - 32) / 5) * 5;
-        mark <= shown.heading_deg + 32;
-        mark += 5
-      ) {
-        const at = x + (mark - shown.heading_deg) * unit,
-          number = (mark + 360) % 360;
-        this.#line(INK.dim, 1.5, [at, box.top], [at, box.top + (mark % 10 === 0 ? 8 : 5)]);
-        if (mark % 10 === 0 && Math.abs(at - x) > 38)
+    within(pen, [left, top, right, height], () => {
+      box(pen, INK.tape, left, top, right - left, height - top);
+      for (let mark = Math.ceil((heading - 32) / 5) * 5; mark <= heading + 32; mark += 5) {
+        const at = x + (mark - heading) * unit,
+          isNamed = mark % 10 === 0;
+        this.#line(INK.dim, 1.5, [at, top], [at, top + (isNamed ? 8 : 5)]);
+        if (isNamed && Math.abs(at - x) > 38)
           this.#text(
-            String(number / 10).padStart(2, "0"),
+            String(((mark + 360) % 360) / 10).padStart(2, "0"),
             at,
-            box.top + 18,
+            top + 18,
             INK.text,
             12,
-            "center",
           );
       }
-      const drift = ((shown.track_deg - shown.heading_deg + 540) % 360) - 180,
-        at = x + drift * unit;
+      const drift = ((shown.track_deg - heading + 540) % 360) - 180,
+        at = x + drift * unit,
+        [middle, low] = [top + 7, top + 14];
       if (shown.ground_speed_kt > 10)
         this.#line(
           INK.mode,
           2,
-          [at, box.top],
-          [at - 5, box.top + 7],
-          [at, box.top + 14],
-          [at + 5, box.top + 7],
-          [at, box.top],
+          [at, top],
+          [at - 5, middle],
+          [at, low],
+          [at + 5, middle],
+          [at, top],
         );
     });
-    this.#readout(
-      x - 24,
-      48,
-      box.top + 20,
-      bearing((Math.round(shown.heading_deg) + 360) % 360).replace("°", ""),
-      16,
-    );
-    this.#text(
-      shown.north === "magnetic" ? "MAG" : "TRUE",
-      left - 8,
-      box.top + 20,
-      INK.mode,
-      12,
-      "right",
-    );
+    const digits = bearing((Math.round(heading) + 360) % 360).replace("°", "");
+    this.#readout(digits, x, top + 20, 48, 16);
+    const north = shown.north === "magnetic" ? "MAG" : "TRUE";
+    this.#text(north, left - 8, top + 20, INK.mode, 12, "right");
   }
 
-  #mode(shown) {
+  #mode({ mode, gear, flaps }) {
     const { width } = this.#size,
-      flaps = Math.round(shown.flaps * 100);
-    const gear = shown.gear === 1 ? "GEAR DOWN" : shown.gear === 0 ? "GEAR UP" : "GEAR IN TRANSIT";
-    this.#text(shown.mode.replaceAll("_", " ").toUpperCase(), 8, 13, INK.mode, 13);
-    this.#text(
-      gear,
-      width / 2 + 20,
-      13,
-      shown.gear === 1 ? INK.mode : shown.gear === 0 ? INK.text : INK.caution,
-      12,
-      "center",
-    );
-    this.#text(flaps ? `FLAPS ${flaps} %` : "FLAPS UP", width - 8, 13, INK.text, 12, "right");
+      percent = Math.round(flaps * 100),
+      [text, ink] = GEAR[gear] ?? ["GEAR IN TRANSIT", INK.caution];
+    this.#text(mode.replaceAll("_", " ").toUpperCase(), 8, 13, INK.mode, 13, "left");
+    this.#text(text, width / 2 + 20, 13, ink, 12);
+    this.#text(percent ? `FLAPS ${percent} %` : "FLAPS UP", width - 8, 13, INK.text, 12, "right");
   }
 }

@@ -1,6 +1,7 @@
 // Altitude over time, with the time shown; a click sets it.
 
-import { FONT, byId, colour, onSize, write } from "./dom.js";
+import { byId, colour } from "./dom.js";
+import { FONT_SMALL, box, copyOf, line, onSize, write } from "./pen.js";
 import { seconds, whole } from "./words.js";
 
 /** Returns a round step that gives at most `most` ticks. */
@@ -71,92 +72,65 @@ export class Profile {
 
   /** Draws everything again, because the size, the colours or the run have changed. */
   redraw() {
-    if (!this.#size) return;
     this.#picture = null;
     this.draw();
   }
 
   draw() {
     if (!this.#size) return;
-    const { pen, width, height } = this.#size;
+    const { pen, width, height } = this.#size,
+      { top, bottom, right } = this.#area,
+      x = Math.min(this.#x(this.#clock.t), right); // the lines are a little older than the time
     if (!this.#picture) {
       this.#drawLines();
-      const copy = document.createElement("canvas");
-      copy.width = this.#canvas.width;
-      copy.height = this.#canvas.height;
-      copy.getContext("2d").drawImage(this.#canvas, 0, 0);
-      this.#picture = copy;
+      this.#picture = copyOf(this.#canvas);
     }
     pen.drawImage(this.#picture, 0, 0, width, height);
-    const { top, bottom, right } = this.#area,
-      x = Math.min(this.#x(this.#clock.t), right); // the lines are a little older than the time
-    pen.strokeStyle = colour("--ink");
-    pen.lineWidth = 1.4;
-    pen.beginPath();
-    pen.moveTo(x, top);
-    pen.lineTo(x, bottom);
-    pen.stroke();
+    line(pen, colour("--ink"), 1.4, [x, top], [x, bottom]);
   }
 
   #drawLines() {
     const { pen, width, height } = this.#size,
       { left, right, top, bottom } = this.#area,
-      tracks = this.#run.tracks;
-    pen.fillStyle = colour("--panel");
-    pen.fillRect(0, 0, width, height);
-    const values = tracks.flatMap((track) => thinned(track).map((i) => track.altitude_ft[i])),
-      first = values[0];
-    const low = values.reduce((a, b) => Math.min(a, b), first ?? 0),
-      high = values.reduce((a, b) => Math.max(a, b), first ?? 1000),
-      pad = Math.max((high - low) * 0.08, 50);
-    const y = (feet) => bottom - ((feet - low + pad) / (high - low + 2 * pad)) * (bottom - top);
-    pen.font = FONT.replace("12px", "11px");
-    pen.lineWidth = 1;
-    pen.strokeStyle = colour("--grid");
+      lines = this.#run.tracks.map((track) => ({ track, indices: thinned(track) })),
+      values = lines.flatMap(({ track, indices }) => indices.map((i) => track.altitude_ft[i]));
+    const low = values.reduce((a, b) => Math.min(a, b), values[0] ?? 0),
+      high = values.reduce((a, b) => Math.max(a, b), values[0] ?? 1000),
+      pad = Math.max((high - low) * 0.08, 50),
+      step = niceStep(high - low + 2 * pad, Math.max(Math.floor((bottom - top) / 22), 3)),
+      y = (feet) => bottom - ((feet - low + pad) / (high - low + 2 * pad)) * (bottom - top);
+    box(pen, colour("--panel"), 0, 0, width, height);
+    pen.font = FONT_SMALL;
     pen.fillStyle = colour("--dim");
-    const step = niceStep(high - low + 2 * pad, Math.max(Math.floor((bottom - top) / 22), 3));
     pen.textAlign = "right";
     for (let feet = Math.ceil((low - pad) / step) * step; feet <= high + pad; feet += step) {
-      pen.beginPath();
-      pen.moveTo(left, y(feet));
-      pen.lineTo(right, y(feet));
-      pen.stroke();
+      line(pen, colour("--grid"), 1, [left, y(feet)], [right, y(feet)]);
       pen.fillText(`${whole(feet)}${feet + step > high + pad ? " ft" : ""}`, left - 5, y(feet) + 4);
     }
     pen.textAlign = "center";
     const mostTicks = Math.max(Math.floor((right - left) / 80), 2);
     for (const { t, label } of timeTicks(this.#clock.end, mostTicks)) {
-      pen.beginPath();
-      pen.moveTo(this.#x(t), top);
-      pen.lineTo(this.#x(t), bottom);
-      pen.stroke();
+      line(pen, colour("--grid"), 1, [this.#x(t), top], [this.#x(t), bottom]);
       pen.fillText(label, Math.min(this.#x(t), width - 20), height - 6);
     }
-    const named = [];
-    for (const track of tracks) {
-      pen.strokeStyle = colour(track.colour);
-      pen.lineWidth = 2;
-      pen.beginPath();
-      thinned(track).forEach((i) => {
-        if (i) pen.lineTo(this.#x(track.t[i]), y(track.altitude_ft[i]));
-        else pen.moveTo(this.#x(track.t[i]), y(track.altitude_ft[i]));
-      });
-      pen.stroke();
+    for (const { track, indices } of lines) {
+      const points = indices.map((i) => [this.#x(track.t[i]), y(track.altitude_ft[i])]);
+      line(pen, colour(track.colour), 2, ...points);
     }
+    this.#drawNames(y);
+  }
+
+  /** Writes the callsigns at the beginnings of the lines, none over another. */
+  #drawNames(y) {
+    const { pen } = this.#size,
+      taken = [];
     pen.textAlign = "left";
-    for (const track of tracks) {
-      let ty = y(track.altitude_ft[0]) - 5;
-      while (named.some((other) => Math.abs(other - ty) < 12)) ty -= 12;
-      if (ty < 10) continue;
-      named.push(ty);
-      write(
-        pen,
-        track.callsign,
-        this.#x(track.first) + 4,
-        ty,
-        colour(track.colour),
-        colour("--panel"),
-      );
+    for (const { callsign, colour: ink, first, altitude_ft } of this.#run.tracks) {
+      let bottom = y(altitude_ft[0]) - 5;
+      while (taken.some((other) => Math.abs(other - bottom) < 12)) bottom -= 12;
+      if (bottom < 10) continue;
+      taken.push(bottom);
+      write(pen, callsign, this.#x(first) + 4, bottom, colour(ink), colour("--panel"));
     }
   }
 }

@@ -11,7 +11,9 @@ const AT = "@"; // between the frequency and the seat whose receiver gave out a 
 function labelOf(name) {
   if (name === "assistant") return "Assistant";
   const [khz, seat] = name.split(AT);
-  return seat ? `${megahertz(Number(khz))} at ${seat.replaceAll("_", " ")}` : megahertz(Number(khz));
+  return seat
+    ? `${megahertz(Number(khz))} at ${seat.replaceAll("_", " ")}`
+    : megahertz(Number(khz));
 }
 
 export class Sounds {

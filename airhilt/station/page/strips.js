@@ -1,7 +1,7 @@
 // Flight progress strips: one an aircraft or vehicle that the controller expects, in the order that
 // the controller gives them.
 
-import { byId, html } from "./dom.js";
+import { button, byId, html } from "./dom.js";
 import { level } from "./labels.js";
 import { METRE_PER_NM } from "./model.js";
 import { whole, words } from "./words.js";
@@ -54,31 +54,23 @@ export class Strips {
       "aria-label": `Note on ${callsign}`,
       placeholder: "note",
     });
-    const parts = {
-      type: html("span", { class: "strip-type" }),
-      where: html("span", { class: "strip-where" }),
-      said: html("span", { class: "strip-said" }),
-    };
-    const cock = html(
-      "button",
-      {
-        type: "button",
-        "aria-pressed": false,
-        "aria-label": `Cock the strip of ${callsign}`,
-        title: "Cock the strip: something is left to do (X)",
-      },
-      "\u25b6",
+    const [type, where, said] = ["type", "where", "said"].map((name) =>
+      html("span", { class: `strip-${name}` }),
     );
-    cock.addEventListener("click", () => this.#cock(item));
+    const cock = button("\u25b6", () => this.#cock(item), {
+      "aria-pressed": "false",
+      "aria-label": `Cock the strip of ${callsign}`,
+      title: "Cock the strip: something is left to do (X)",
+    });
     const item = html(
       "li",
       { class: "flight-strip", tabindex: 0, "data-callsign": callsign },
-      html("span", { class: "strip-name" }, html("span", { class: "who" }, callsign), parts.type),
-      html("span", { class: "strip-middle" }, parts.where, parts.said),
+      html("span", { class: "strip-name" }, html("span", { class: "who" }, callsign), type),
+      html("span", { class: "strip-middle" }, where, said),
       note,
       cock,
     );
-    this.#strips.set(callsign, { item, parts, cock });
+    this.#strips.set(callsign, { item, type, where, said, cock });
     this.#list.append(item);
   }
 
@@ -93,26 +85,22 @@ export class Strips {
     this.#strips.delete(callsign);
   }
 
-  #fill(callsign, { item, parts }) {
+  #fill(callsign, { item, type, where, said }) {
     const track = this.#run.track(callsign),
       state = track?.state(this.#clock.t, this.#run.span),
-      isThere = state && !state.ended && state.isThere;
-    item.dataset.kind = this.#run.categories?.[callsign] ?? track?.category ?? "";
-    const alert = this.#run.severityOf(callsign, this.#clock.t) ?? "";
-    item.dataset.severity = alert;
-    parts.type.textContent = [words(track?.type || item.dataset.kind), alert]
-      .filter((text) => text)
-      .join(" ");
-    const knots = isThere ? whole((state.speed * 3600) / METRE_PER_NM) : "";
-    parts.where.textContent = !isThere
+      isThere = state && !state.ended && state.isThere,
+      kind = this.#run.categories?.[callsign] ?? track?.category ?? "",
+      severity = this.#run.severityOf(callsign, this.#clock.t) ?? "",
+      knots = isThere ? whole((state.speed * 3600) / METRE_PER_NM) : "",
+      call = this.#lastCall(callsign);
+    Object.assign(item.dataset, { kind, severity });
+    type.textContent = [words(track?.type || kind), severity].filter((text) => text).join(" ");
+    where.textContent = !isThere
       ? "not seen"
       : state.onGround
         ? `ground ${knots} kt`
         : `${level(state.altitude)}  ${knots} kt`;
-    const call = this.#lastCall(callsign),
-      said = call?.transcripts.at(-1)?.text ?? call?.said ?? "";
-    parts.said.textContent = said;
-    parts.said.title = said;
+    said.title = said.textContent = call?.transcripts.at(-1)?.text ?? call?.said ?? "";
   }
 
   /** The last call of this callsign that the recogniser has understood. */

@@ -1,6 +1,9 @@
 // The outlines of actors on the plan, nose up: places right and back of the middle, in half lengths.
 
-const AIRCRAFT = [
+/** Returns an outline of which the right half is given, from the front to the back. */
+const mirrored = (half) => [...half, ...half.toReversed().map(([right, back]) => [-right, back])];
+
+const AIRCRAFT = mirrored([
   [0, -1],
   [0.12, -0.7],
   [0.12, -0.25],
@@ -11,32 +14,20 @@ const AIRCRAFT = [
   [0.4, 0.86],
   [0.4, 1],
   [0, 0.9],
-  [-0.4, 1],
-  [-0.4, 0.86],
-  [-0.08, 0.66],
-  [-0.12, 0.14],
-  [-1, 0.36],
-  [-1, 0.2],
-  [-0.12, -0.25],
-  [-0.12, -0.7],
-];
-const VEHICLE = [
-  [-0.6, 1],
-  [-0.6, -0.5],
-  [-0.3, -1],
+]);
+const VEHICLE = mirrored([
   [0.3, -1],
   [0.6, -0.5],
   [0.6, 1],
-];
-const ANIMAL = [
+]);
+const ANIMAL = mirrored([
   [0, -0.9],
   [0.9, 0],
   [0, 0.9],
-  [-0.9, 0],
-];
+]);
 
 /** Returns the outline of a category of actors, and its least half length in pixels. */
 export function symbolOf(category) {
-  const shape = { vehicle: VEHICLE, wildlife: ANIMAL }[category] ?? AIRCRAFT;
-  return { shape, least: shape === AIRCRAFT ? 10 : 6 };
+  const outline = { vehicle: VEHICLE, wildlife: ANIMAL }[category] ?? AIRCRAFT;
+  return { outline, least: outline === AIRCRAFT ? 10 : 6 };
 }

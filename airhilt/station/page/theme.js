@@ -8,8 +8,7 @@ const NAME = "airhilt-theme";
 export function connectTheme(changed) {
   const choice = byId("theme");
   const apply = () => {
-    if (choice.value) document.documentElement.dataset.theme = choice.value;
-    else delete document.documentElement.dataset.theme;
+    document.documentElement.dataset.theme = choice.value;
     forgetColours();
     changed();
   };

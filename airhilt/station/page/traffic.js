@@ -26,11 +26,8 @@ export class Traffic {
         { class: "swatch", viewBox: "0 0 10 10", "aria-hidden": "true" },
         svg("rect", { width: 10, height: 10, fill: `var(${track.colour})` }),
       );
-      return {
-        track,
-        cells,
-        row: html("tr", {}, html("th", { scope: "row" }, swatch, track.callsign), ...cells),
-      };
+      const head = html("th", { scope: "row" }, swatch, track.callsign);
+      return { track, cells, head, row: html("tr", {}, head, ...cells) };
     });
     this.#body.replaceChildren(...this.#rows.map(({ row }) => row));
     this.#told = -1;
@@ -38,31 +35,25 @@ export class Traffic {
   }
 
   draw() {
-    const now = performance.now();
-    if (this.#clock.playing && now - this.#told < 200) return;
+    const now = performance.now(),
+      { t, playing } = this.#clock;
+    if (playing && now - this.#told < 200) return;
     this.#told = now;
-    for (const { track, cells, row } of this.#rows) {
-      const state = track.state(this.#clock.t, this.#run.span),
-        gone = state.ended || !state.isThere;
-      row.className = gone
-        ? "gone"
-        : this.#run.severityOf(track.callsign, this.#clock.t)
-          ? "alert"
-          : "";
-      const what = gone ? (state.ended ? "ended" : "not there yet") : state.phase;
-      const texts = [
-        [words(track.type), what].filter((text) => text).join(", "),
-        ...(gone
-          ? ["", "", ""]
-          : [
-              state.onGround ? "ground" : feet(state.altitude),
-              `${whole((state.speed * 3600) / METRE_PER_NM)} kt`,
-              bearing(((state.heading * 180) / Math.PI + 360) % 360),
-            ]),
-      ];
-      cells.forEach((cell, i) => {
-        cell.textContent = texts[i];
-      });
+    for (const { track, cells, head, row } of this.#rows) {
+      const state = track.state(t, this.#run.span),
+        gone = state.ended ? "ended" : state.isThere ? "" : "not there yet",
+        numbers = gone ? ["", "", ""] : numbersOf(state);
+      row.className = gone ? "gone" : "";
+      head.className = (!gone && this.#run.severityOf(track.callsign, t)) || "";
+      const what = [words(track.type), gone || state.phase].filter((text) => text).join(", ");
+      [what, ...numbers].forEach((text, i) => (cells[i].textContent = text));
     }
   }
 }
+
+/** Returns altitude, speed and heading. */
+const numbersOf = ({ onGround, altitude, speed, heading }) => [
+  onGround ? "ground" : feet(altitude),
+  `${whole((speed * 3600) / METRE_PER_NM)} kt`,
+  bearing(((heading * 180) / Math.PI + 360) % 360),
+];

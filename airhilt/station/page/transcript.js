@@ -24,7 +24,8 @@ export class Transcript {
     this.#clock = clock;
     // An advisory or a question above the list takes room from it.
     new ResizeObserver(() => this.#keepInView()).observe(this.#list);
-    for (const type of ["wheel", "pointerdown", "keydown"]) // Somebody reads what was said before.
+    for (const type of ["wheel", "pointerdown", "keydown"])
+      // Somebody reads what was said before.
       this.#list.addEventListener(type, () => (this.#shown = null), { passive: true });
     this.redraw();
   }
@@ -90,6 +91,9 @@ export class Transcript {
       known(call.snr_db) ? decibels(call.snr_db) : null,
       call.blocked_by.length ? "blocked" : null,
     ].filter((fact) => fact);
+    const hearings = call.hearings.map(({ who: hearer, outcome }) =>
+      html("span", { class: `badge ${outcome}` }, `${hearer}: ${words(outcome)}`),
+    );
     return html(
       "li",
       {},
@@ -103,36 +107,20 @@ export class Transcript {
       ),
       known(call.said) ? html("div", {}, call.said || "(carrier without words)") : null,
       call.transcripts.map((one) => this.#heard(one)),
-      call.hearings.length
-        ? html(
-            "div",
-            { class: "row-head" },
-            call.hearings.map((one) =>
-              html("span", { class: `badge ${one.outcome}` }, `${one.who}: ${words(one.outcome)}`),
-            ),
-          )
-        : null,
+      hearings.length ? html("div", { class: "row-head" }, hearings) : null,
     );
   }
 
   #heard(one) {
-    const marked = one.words.length
-      ? one.words.flatMap((word, i) => [
-          i ? " " : "",
-          word.confidence < SURE
-            ? html(
-                "span",
-                { class: "low", title: `confidence ${fixed(word.confidence, 2)}` },
-                word.text,
-              )
-            : word.text,
-        ])
-      : [one.text || "(nothing)"];
+    const marked = one.words.flatMap(({ text, confidence }, i) => {
+      const title = `confidence ${fixed(confidence, 2)}`;
+      return [i ? " " : "", confidence < SURE ? html("span", { class: "low", title }, text) : text];
+    });
     return html(
       "div",
       { class: "heard" },
       `${capital(one.engine || "recognised")}, ${percent(one.confidence)}: `,
-      marked,
+      marked.length ? marked : one.text || "(nothing)",
     );
   }
 }

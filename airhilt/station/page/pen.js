@@ -1,0 +1,112 @@
+// Lines, shapes and texts on a canvas. Points and boxes are in pixels.
+
+import { colour } from "./dom.js";
+
+export const FONT = '12px system-ui, -apple-system, "Segoe UI", Roboto, "DejaVu Sans", sans-serif';
+export const BOLD = `600 ${FONT}`;
+export const FONT_SMALL = FONT.replace("12px", "11px");
+const SEVERITY_INKS = { WARNING: "--bad", CAUTION: "--warn", ADVISORY: "--accent" };
+
+/** Returns the colour of a severity on the page. */
+export const severityInk = (severity) => colour(SEVERITY_INKS[severity] ?? "--dim");
+
+/**
+ * Calls a function with the drawing context, width and height of a canvas whenever its size
+ * changes.
+ */
+export function onSize(canvas, call) {
+  const resized = () => {
+    const factor = devicePixelRatio || 1,
+      { width, height } = canvas.getBoundingClientRect();
+    if (!width || !height) return;
+    canvas.width = Math.round(width * factor);
+    canvas.height = Math.round(height * factor);
+    const pen = canvas.getContext("2d");
+    pen.setTransform(factor, 0, 0, factor, 0, 0);
+    call(pen, width, height);
+  };
+  new ResizeObserver(resized).observe(canvas);
+}
+
+/** Returns a copy of what a canvas shows. */
+export function copyOf(canvas) {
+  const copy = document.createElement("canvas");
+  copy.width = canvas.width;
+  copy.height = canvas.height;
+  copy.getContext("2d").drawImage(canvas, 0, 0);
+  return copy;
+}
+
+/** Begins a path through points. */
+export function path(pen, points, isClosed = false) {
+  pen.beginPath();
+  for (const [x, y] of points) pen.lineTo(x, y);
+  if (isClosed) pen.closePath();
+}
+
+/** Draws a line through points. */
+export function line(pen, ink, width, ...points) {
+  path(pen, points);
+  pen.strokeStyle = ink;
+  pen.lineWidth = width;
+  pen.stroke();
+}
+
+/** Draws a circle, and fills it if that has a colour. */
+export function circle(pen, ink, width, [x, y], radius, fill = null) {
+  pen.beginPath();
+  pen.arc(x, y, radius, 0, 2 * Math.PI);
+  if (fill) {
+    pen.fillStyle = fill;
+    pen.fill();
+  }
+  pen.strokeStyle = ink;
+  pen.lineWidth = width;
+  pen.stroke();
+}
+
+/** Draws the shape between points; without an edge where that has no ink. */
+export function shape(pen, { fill, edge = null, width = 1 }, ...points) {
+  path(pen, points, true);
+  pen.fillStyle = fill;
+  pen.fill();
+  if (!edge) return;
+  pen.strokeStyle = edge;
+  pen.lineWidth = width;
+  pen.stroke();
+}
+
+/** Fills a box, given by its left and top edges, its width and its height. */
+export function box(pen, fill, ...edges) {
+  pen.fillStyle = fill;
+  pen.fillRect(...edges);
+}
+
+/** Draws within a box alone, given by its left, top, right and bottom edges. */
+export function within(pen, [left, top, right, bottom], draw) {
+  pen.save();
+  pen.beginPath();
+  pen.rect(left, top, right - left, bottom - top);
+  pen.clip();
+  draw();
+  pen.restore();
+}
+
+/** Writes a text with an edge in the colour of what is behind it. */
+export function write(pen, text, x, y, ink, behind) {
+  pen.lineJoin = "round";
+  pen.lineWidth = 3;
+  pen.strokeStyle = behind;
+  pen.strokeText(text, x, y);
+  pen.fillStyle = ink;
+  pen.fillText(text, x, y);
+}
+
+/** Writes a text of an instrument, whose middle is at a height. */
+export function label(pen, text, x, y, ink, size = 13, align = "left", behind = "transparent") {
+  pen.font = BOLD.replace("12px", `${size}px`);
+  pen.textAlign = align;
+  pen.textBaseline = "middle";
+  write(pen, text, x, y, ink, behind);
+  pen.textBaseline = "alphabetic";
+}
