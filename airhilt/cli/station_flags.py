@@ -6,7 +6,6 @@ import ssl
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, fields, replace
 from functools import wraps
-from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
@@ -22,8 +21,6 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", bound=Callable[..., Any])
 FILE = click.Path(path_type=Path, dir_okay=False)
-NEEDED = ("fastapi", "uvicorn", "websockets")
-"""Packages of the extra ``station``."""
 USES: tuple[Use, ...] = ("voice", "words")
 """Uses to which a person at a seat may agree."""
 Agreed = tuple[str, "Use"]
@@ -47,14 +44,8 @@ class PageOptions:
         Raises
         ------
         StationError
-            The extra is not installed, a file cannot be read, or the address is not safe.
+            A file cannot be read, or the address is not safe.
         """
-        missing = [name for name in NEEDED if find_spec(name) is None]
-        if missing:
-            raise StationError(
-                f"the page needs {', '.join(missing)}, not installed: pip install "
-                "'airhilt[station]'"
-            )
         for path in (self.certificate, self.key):
             if path is not None and not path.is_file():
                 raise StationError(f"{path}: no such file; expected a PEM file")
