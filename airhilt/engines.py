@@ -229,8 +229,7 @@ class EngineFamily(Family, Generic[T]):
             No engine is meant, or more than one.
         """
         name = text.partition(":")[0]
-        is_own = any(point.name == name for point in self.own())
-        if text not in also and not is_own and name not in self.names():
+        if text not in also and not self.brings(name) and name not in self.names():
             self.choose(text, also)
 
     def configuration_model(self, name: str) -> type[BaseModel]:

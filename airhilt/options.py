@@ -170,15 +170,16 @@ class Options(BaseModel):
         ),
     ] = None
     latency: Annotated[
-        str,
+        str | None,
         Flag(
             "--latency",
             "measured, fixed, fixed:SECONDS, lognormal, lognormal:MEDIAN, since_start:MEAN, "
             "on_output:SECONDS, paper or replay:RUN; after it other ones for single stages: "
             "fixed,asr=lognormal:5.9,tts=fixed:0.9.",
             "SOURCE",
+            default="fixed; measured for workers and engines that you bring",
         ),
-    ] = "measured"
+    ] = None
     endpoint: Annotated[
         str | None,
         Flag(

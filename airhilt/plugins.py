@@ -81,9 +81,13 @@ class Family:
         own = [point for point in self.own() if point.name == name]
         return (Members(self, tuple(own)) if own else self.scan()).load(name)
 
+    def brings(self, name: str) -> bool:
+        """Return whether AIRHILT itself brings a member."""
+        return any(point.name == name for point in self.own())
+
     def origin(self, name: str) -> str:
         """Return name and version of the other package that has a member; empty for AIRHILT's."""
-        if any(point.name == name for point in self.own()):
+        if self.brings(name):
             return ""
         found = [point.dist for point in declared(self.group).select(name=name) if point.dist]
         return f"{found[0].name} {found[0].version}" if found else ""

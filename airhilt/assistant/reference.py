@@ -6,7 +6,7 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from airhilt.assistant.language_model import LanguageModelSettings, UsesLanguageModel
-from airhilt.engines import ASR, ASSISTANT, DETECTOR, ENHANCER, TTS, WORDING, EngineFamily
+from airhilt.engines import ASR, ASSISTANT, DETECTOR, ENHANCER, TTS, WORDING, Engine, EngineFamily
 from airhilt.errors import LanguageModelError, WorkerError
 from airhilt.messages import SPEAK_MIN_LEVEL, Modality, Severity, WorkerDescription
 from airhilt.phraseology.numbers import Style
@@ -250,6 +250,24 @@ def is_remote(modality: Modality, assistant: str, engines: Engines) -> bool:
     AirhiltError
         There is no engine of such a name here.
     """
+    return any(engine.is_remote for _, engine in _engines_of(modality, assistant, engines))
+
+
+def is_of_user(modality: Modality, assistant: str, engines: Engines) -> bool:
+    """Return whether the reference worker of a modality has an engine that AIRHILT does not bring.
+
+    That is one of another package, or a program elsewhere; the errors are those of `is_remote`.
+    """
+    return any(
+        engine.is_remote or not family.brings(engine.name)
+        for family, engine in _engines_of(modality, assistant, engines)
+    )
+
+
+def _engines_of(
+    modality: Modality, assistant: str, engines: Engines
+) -> Iterator[tuple[EngineFamily[Any], Engine[Any]]]:
+    """Yield the engines of the reference worker of a modality, each with its family."""
     asr, tts, detector, wording, *_ = engines
     names = {
         "airhilt.enhancers": ("enhancement", engines.enhancer),
@@ -261,9 +279,8 @@ def is_remote(modality: Modality, assistant: str, engines: Engines) -> bool:
     }
     for family in families():
         does, name = names[family.group]
-        if does == modality and name is not None and family.choose(name)[0].is_remote:
-            return True
-    return False
+        if does == modality and name is not None:
+            yield family, family.choose(name)[0]
 
 
 def families() -> tuple[EngineFamily[Any], ...]:

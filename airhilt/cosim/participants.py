@@ -11,6 +11,7 @@ from airhilt.assistant.reference import (
     NO_DETECTOR,
     NO_ENHANCER,
     Engines,
+    is_of_user,
     is_remote,
     reference_workers,
     speak_min_level,
@@ -99,10 +100,10 @@ def connect(
         one would ask a service in a replay.
     """
     workers = list(recorded.workers)
-    workers += [_participant(worker, "caller") for worker in given]
+    workers += [_participant(worker, "caller", is_of_user=True) for worker in given]
     attached = attach(bus, options.attach, options.attach_timeout_s, options.step_timeout_s, notice)
     workers += [
-        Participant(description, worker, "attached")
+        Participant(description, worker, "attached", is_of_user=True)
         for worker, description in attached
         if description is not None
     ]
@@ -122,7 +123,12 @@ def connect(
     reference = reference_workers(
         assistant, scenario.radio, taken, engines, people_speak=bool(options.seat)
     )
-    made = [_participant(worker, "in process") for worker in reference]
+    made = [
+        _participant(
+            worker, "in process", is_of_user(worker.description.modality, assistant, engines)
+        )
+        for worker in reference
+    ]
     if recorded.is_replay:
         _require_no_service(made, assistant, engines)
     else:
@@ -200,10 +206,10 @@ def _require_no_programs(options: Options, programs: Sequence[str]) -> None:
         )
 
 
-def _participant(worker: Worker, where: Where) -> Participant:
+def _participant(worker: Worker, where: Where, is_of_user: bool) -> Participant:
     """Return a worker of this process as one of the run; see `LocalWorker` for its errors."""
     local = LocalWorker(worker)
-    return Participant(local.description, local, where)
+    return Participant(local.description, local, where, is_of_user)
 
 
 def _require_different_names(workers: Sequence[Participant], programs: Sequence[str]) -> None:

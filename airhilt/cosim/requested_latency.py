@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from airhilt.assistant.reference import NO_DETECTOR, Engines, is_of_user
 from airhilt.cosim.differences import first_difference
 from airhilt.cosim.latency_presets import PRESETS
 from airhilt.errors import AirhiltError
@@ -18,8 +19,10 @@ STAGES = ("adsb", "enhancement", "asr", "vision", "decision", "tts", EQUIPMENT)
 """Stages that may have a latency of their own: ADS-B receivers, and modalities of workers."""
 
 
-def requested_latency(text: str, scenario: Scenario, seed: int) -> LatencySpec:
+def requested_latency(text: str | None, scenario: Scenario, seed: int) -> LatencySpec:
     """Return the latency source of a text such as ``fixed,asr=lognormal:5.9`` or ``replay:RUN``.
+
+    None stands for the default.
 
     Raises
     ------
@@ -54,3 +57,15 @@ def requested_latency(text: str, scenario: Scenario, seed: int) -> LatencySpec:
         )
     recorded = earlier.latencies()
     return LatencySpec("replay", replay_of=spec.replay_of, recorded=recorded.latencies_ns)
+
+
+def is_vision_measured(latency: LatencySpec, detector: str) -> bool:
+    """Return whether the times of a detector, as the command line names it, are measured.
+
+    Raises
+    ------
+    AirhiltError
+        There is no such detector here.
+    """
+    is_own = detector == NO_DETECTOR or not is_of_user("vision", "", Engines(detector=detector))
+    return latency.of("vision", is_of_user=not is_own).kind == "measured"

@@ -56,6 +56,7 @@ from airhilt.record.audio import AudioRecorder
 from airhilt.report import write_report
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import WildlifeSpec
+from airhilt.sensors.adsb import STAGE as ADSB
 from airhilt.sensors.base import Sensor, SensorContext
 from airhilt.sensors.radio.advisory_calls import AdvisoryChannel
 from airhilt.sensors.radio.hearing import key_chunk
@@ -517,6 +518,8 @@ class Simulation:
         with _kept(failures):
             summary = self._summary(_cause(failures), wall_s, used_s)
             folder.write_summary(summary)
+            for sentence in summary.too_slow:
+                self._observer.notice(sentence)
         with _kept(failures):
             folder.write_info(self._final_info(info, _cause(failures)))
         if failures:
@@ -579,6 +582,11 @@ class Simulation:
                 "seed": self._setup.options.seed,
                 "assistant": self._participants.assistant,
                 "outcome": f"stopped: {cause}" if cause else "finished",
+                "latency_sources": {
+                    ADSB: self._setup.latency.of(ADSB).own_text,
+                    **self._pool.latency_sources(),
+                },
+                "too_slow": self._pool.too_slow(),
                 "inputs_dropped": self._pool.inputs_dropped(),
                 "messages_dropped": self._programs.dropped(),
                 "real_time_factor": now_ns / SECOND_NS / max(wall_s, 1e-9),
