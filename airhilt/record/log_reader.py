@@ -163,9 +163,8 @@ class LogReader:
                 break
             yield from self._of_chunk(chunk)
         self._close_gap(index, broken_at)
-        if self._last == 0 and not self.gaps and not self.is_closed:
-            reason = "it ends before its first message" if is_mcap else "it has not the magic bytes"
-            raise RunFolderError(f"{self.path}: not an MCAP log: {reason}")
+        if self._last == 0 and not self.gaps and not self.is_closed and not is_mcap:
+            raise RunFolderError(f"{self.path}: not an MCAP log: it has not the magic bytes")
 
     def _of_chunk(self, chunk: bytes) -> Iterator[Logged]:
         """Yield the messages of a chunk.
