@@ -15,7 +15,6 @@ from typing import Annotated, Any, Literal
 from pydantic import (
     AfterValidator,
     BaseModel,
-    BeforeValidator,
     ConfigDict,
     Field,
     StringConstraints,
@@ -25,7 +24,6 @@ from pydantic import (
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError
 
-from airhilt.configuration import read_configuration
 from airhilt.engines import ASR, DETECTOR, ENHANCER, RENDERER_HELP, TTS, WORDING
 from airhilt.errors import AirhiltError, first_problem, shown
 from airhilt.host.library import nearest
@@ -102,11 +100,6 @@ def _in_order(text: str) -> str:
     return "+".join(each for each in MODALITIES if each in given)
 
 
-def _contents(given: Any) -> Any:
-    """Return what a file holds, if it is the path of one."""
-    return read_configuration(Path(given)) if isinstance(given, str | Path) else given
-
-
 Seconds = Annotated[float, Field(gt=0.0, le=LONGEST_S, allow_inf_nan=False)]
 
 
@@ -138,7 +131,6 @@ class Options(BaseModel):
     ] = None
     assistant_config: Annotated[
         dict[str, Any] | None,
-        BeforeValidator(_contents),
         Flag(
             "--assistant-config",
             "Rules and thresholds of the assistant, a JSON file; `airhilt schema --assistant NAME` "
