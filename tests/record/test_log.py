@@ -12,8 +12,9 @@ from airhilt.record import LogWriter, read_log
 
 def test_the_log_of_a_run_that_was_killed_at_once_is_empty(tmp_path: Path) -> None:
     path = tmp_path / "log.mcap"
-    _writer = LogWriter(path)
+    writer = LogWriter(path)
     assert list(read_log(path)) == []
+    writer.close()
 
 
 def test_a_file_of_another_kind_is_no_log(tmp_path: Path) -> None:
