@@ -39,6 +39,7 @@ from airhilt.cosim.workload_questions import WorkloadQuestions
 from airhilt.cosim.world_loop import WorldLoop
 from airhilt.errors import AirhiltError
 from airhilt.host.child_process import cpu_s
+from airhilt.host.memory import give_memory_back
 from airhilt.messages import (
     Clock,
     Phase,
@@ -114,6 +115,7 @@ def run(
     finally:
         if scenario.cameras and options.cameras:
             gc.collect()  # Callbacks of a run and the run refer to each other; they hold pictures.
+        give_memory_back()
 
 
 def _run(
