@@ -187,12 +187,15 @@ def run(
         An argument has another type, or there is no option of that name; the message gives the
         nearest.
     """
+    from airhilt.configuration import read_configuration
     from airhilt.cosim.simulation import run as run_scenario
     from airhilt.options import options_of
 
     _require_types(scenario, observer, workers)
     if isinstance(scenario, str | Path):
         scenario = load(scenario)
+    if isinstance(options.get("assistant_config"), str | Path):
+        options["assistant_config"] = read_configuration(Path(options["assistant_config"]))
     given = options_of({"out": out, **options})
     return run_scenario(scenario, given, observer, workers=workers)
 

@@ -15,7 +15,6 @@ from typing import Annotated, Any, Literal
 from pydantic import (
     AfterValidator,
     BaseModel,
-    BeforeValidator,
     ConfigDict,
     Field,
     StringConstraints,
@@ -24,7 +23,6 @@ from pydantic import (
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError
 
-from airhilt.configuration import read_configuration
 from airhilt.engine_families import (
     ASSISTANTS,
     DETECTORS,
@@ -109,11 +107,6 @@ def _in_order(text: str) -> str:
     return "+".join(each for each in MODALITIES if each in given)
 
 
-def _contents(given: Any) -> Any:
-    """Return what a file holds, if it is the path of one."""
-    return read_configuration(Path(given)) if isinstance(given, str | Path) else given
-
-
 Seconds = Annotated[float, Field(gt=0.0, le=LONGEST_S, allow_inf_nan=False)]
 
 
@@ -142,7 +135,6 @@ class Options(BaseModel):
     ] = None
     assistant_config: Annotated[
         dict[str, Any] | None,
-        BeforeValidator(_contents),
         Flag(
             "--assistant-config",
             "Rules and thresholds of the assistant, a JSON file; `airhilt schema --assistant NAME` "
@@ -174,15 +166,16 @@ class Options(BaseModel):
         ),
     ] = None
     latency: Annotated[
-        str,
+        str | None,
         Flag(
             "--latency",
             "measured, fixed, fixed:SECONDS, lognormal, lognormal:MEDIAN, since_start:MEAN, "
             "on_output:SECONDS, paper or replay:RUN; after it other ones for single stages: "
             "fixed,asr=lognormal:5.9,tts=fixed:0.9.",
             "SOURCE",
+            default="fixed; measured for workers and engines that you bring",
         ),
-    ] = "measured"
+    ] = None
     endpoint: Annotated[
         str | None,
         Flag(

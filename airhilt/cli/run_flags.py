@@ -13,6 +13,7 @@ from click.core import ParameterSource
 from pydantic import ValidationError
 from pydantic.fields import FieldInfo
 
+from airhilt.configuration import read_configuration
 from airhilt.options import Flag, Options, flag_of
 
 
@@ -41,6 +42,8 @@ def options_given(context: click.Context) -> Options:
     ------
     click.BadParameter
         A value is not what the option takes.
+    AirhiltError
+        A file of the assistant's configuration cannot be read.
     """
     given = {
         name: value
@@ -48,6 +51,8 @@ def options_given(context: click.Context) -> Options:
         if name in Options.model_fields
         and context.get_parameter_source(name) is ParameterSource.COMMANDLINE
     }
+    if "assistant_config" in given:
+        given["assistant_config"] = read_configuration(Path(given["assistant_config"]))
     try:
         return Options(**given)
     except ValidationError as error:

@@ -6,7 +6,6 @@ import ssl
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import wraps
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, TypeVar, cast
 
@@ -18,8 +17,6 @@ from airhilt.station.address import DEFAULT_HOST, DEFAULT_PORT, Address
 
 F = TypeVar("F", bound=Callable[..., Any])
 FILE = click.Path(path_type=Path, exists=True, dir_okay=False)
-NEEDED = ("fastapi", "uvicorn", "websockets")
-"""Packages of the extra ``station``."""
 
 
 @dataclass(frozen=True)
@@ -39,14 +36,8 @@ class PageOptions:
         Raises
         ------
         StationError
-            The extra is not installed, a file cannot be read, or the address is not safe.
+            A file cannot be read, or the address is not safe.
         """
-        missing = [name for name in NEEDED if find_spec(name) is None]
-        if missing:
-            raise StationError(
-                f"the page needs {', '.join(missing)}, not installed: pip install "
-                "'airhilt[station]'"
-            )
         _check_certificate(self.certificate, self.key)
         try:
             token = "" if self.token_file is None else self.token_file.read_text("utf-8").strip()

@@ -72,6 +72,8 @@ def specification_given(
     document, origin = ({}, "sweep") if file is None else (read_configuration(file), str(file))
     drawn = _object(document, "sample", origin)
     parts = {name: _object(document, name, origin) for name in ("options", "axes")}
+    if file is not None:
+        _read_configurations(parts, file.parent)
     parts["intervals"] = _object(drawn, "intervals", origin)
     for path, (place, value) in _given(context, set_).items():
         for part in parts.values():
@@ -102,6 +104,19 @@ def specification_given(
     if "scenarios" not in document:
         raise click.UsageError("Missing option '--scenario'.")
     return specification_of(document, origin)
+
+
+def _read_configurations(parts: dict[str, Json], folder: Path) -> None:
+    """Replace the paths of configurations in a sweep file, which are relative to its folder."""
+
+    def content(given: Any) -> Any:
+        return read_configuration(folder / given) if isinstance(given, str) else given
+
+    options, axes = parts["options"], parts["axes"]
+    if CONFIGURATION in options:
+        options[CONFIGURATION] = content(options[CONFIGURATION])
+    if isinstance(axes.get(CONFIGURATION), list):
+        axes[CONFIGURATION] = [content(each) for each in axes[CONFIGURATION]]
 
 
 def _object(document: Json, name: str, origin: str) -> Json:

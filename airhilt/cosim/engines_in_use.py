@@ -67,6 +67,17 @@ def is_remote(options: Options, modality: Modality) -> bool:
     return any(each.engine.is_remote for each in engines_of(options, (modality,)))
 
 
+def is_of_user(options: Options, modality: Modality) -> bool:
+    """Return whether the reference worker of a modality has an engine that AIRHILT does not bring.
+
+    That is one of another package, or a program elsewhere.
+    """
+    return any(
+        each.engine.is_remote or not each.family.is_own(each.engine.name)
+        for each in engines_of(options, (modality,))
+    )
+
+
 def is_own_engine(name: str) -> bool:
     """Return whether a decision engine of that name comes with AIRHILT; empty names none.
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from airhilt.bus.attach import RESERVED, attach
 from airhilt.bus.session import Bus
-from airhilt.cosim.engines_in_use import engines_in_use, is_remote, other_machines
+from airhilt.cosim.engines_in_use import engines_in_use, is_of_user, is_remote, other_machines
 from airhilt.cosim.equipment import equipment_of, require_no_equipment
 from airhilt.cosim.given_modalities import limited
 from airhilt.cosim.recorded import Recorded
@@ -90,10 +90,10 @@ def connect(
         one would ask a service in a replay.
     """
     workers = list(recorded.workers)
-    workers += [_participant(worker, "caller") for worker in given]
+    workers += [_participant(worker, "caller", is_of_user=True) for worker in given]
     attached = attach(bus, options.attach, options.attach_timeout_s, options.step_timeout_s, notice)
     workers += [
-        Participant(description, worker, "attached")
+        Participant(description, worker, "attached", is_of_user=True)
         for worker, description in attached
         if description is not None
     ]
@@ -110,8 +110,10 @@ def connect(
         assistant = options.assistant or (EXTERNAL if may_decide else ASSISTANTS.default)
     _require_used(options, assistant)
     options = options.model_copy(update={"assistant": assistant})
-    reference = reference_workers(options, scenario, taken)
-    made = [_participant(worker, "in process") for worker in reference]
+    made = [
+        _participant(worker, "in process", is_of_user(options, worker.description.modality))
+        for worker in reference_workers(options, scenario, taken)
+    ]
     if recorded.is_replay:
         _require_no_service(made, options)
     else:
@@ -189,10 +191,10 @@ def _require_no_programs(options: Options, programs: Sequence[str]) -> None:
         )
 
 
-def _participant(worker: Worker, where: Where) -> Participant:
+def _participant(worker: Worker, where: Where, is_of_user: bool) -> Participant:
     """Return a worker of this process as one of the run; see `LocalWorker` for its errors."""
     local = LocalWorker(worker)
-    return Participant(local.description, local, where)
+    return Participant(local.description, local, where, is_of_user)
 
 
 def _require_different_names(workers: Sequence[Participant], programs: Sequence[str]) -> None:

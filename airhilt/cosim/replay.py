@@ -28,7 +28,7 @@ from airhilt.units import SECOND_NS
 AS_RECORDED = {
     "overwrite": False,
     "pace": None,
-    "latency": "measured",
+    "latency": None,
     "endpoint": None,
     "tls": None,
     "insecure": False,

@@ -5,9 +5,11 @@ from __future__ import annotations
 from dataclasses import replace
 
 from airhilt.cosim.differences import first_difference
+from airhilt.cosim.engines_in_use import is_of_user
 from airhilt.cosim.latency_presets import PRESETS
 from airhilt.errors import AirhiltError
 from airhilt.host.library import nearest
+from airhilt.options import Options
 from airhilt.record import open_run
 from airhilt.record.damage import untold
 from airhilt.scenario import Scenario
@@ -18,8 +20,10 @@ STAGES = ("adsb", "enhancement", "asr", "vision", "decision", "tts", EQUIPMENT)
 """Stages that may have a latency of their own: ADS-B receivers, and modalities of workers."""
 
 
-def requested_latency(text: str, scenario: Scenario, seed: int) -> LatencySpec:
+def requested_latency(text: str | None, scenario: Scenario, seed: int) -> LatencySpec:
     """Return the latency source of a text such as ``fixed,asr=lognormal:5.9`` or ``replay:RUN``.
+
+    None stands for the default.
 
     Raises
     ------
@@ -54,3 +58,9 @@ def requested_latency(text: str, scenario: Scenario, seed: int) -> LatencySpec:
         )
     recorded = earlier.latencies()
     return LatencySpec("replay", replay_of=spec.replay_of, recorded=recorded.latencies_ns)
+
+
+def is_vision_measured(latency: LatencySpec, detector: str) -> bool:
+    """Return whether the times of a detector, as the command line names it, are measured."""
+    of_user = is_of_user(Options(detector=detector), "vision")
+    return latency.of("vision", is_of_user=of_user).kind == "measured"

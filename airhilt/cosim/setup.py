@@ -14,7 +14,7 @@ from airhilt.cosim.option_checks import check_options
 from airhilt.cosim.participants import Participants
 from airhilt.cosim.provenance import model_files, other_packages
 from airhilt.cosim.recorded import Recorded
-from airhilt.cosim.requested_latency import requested_latency
+from airhilt.cosim.requested_latency import is_vision_measured, requested_latency
 from airhilt.cosim.requested_radio import with_requested_radio
 from airhilt.cosim.requested_sensors import with_requested_sensors
 from airhilt.errors import AirhiltError
@@ -197,10 +197,10 @@ def _require_something_to_film(options: Options, scenario: Scenario) -> None:
 
 
 def _require_not_measured(options: Options, latency: LatencySpec) -> None:
-    if options.share_pictures and latency.of("vision").kind == "measured":
+    if options.share_pictures and is_vision_measured(latency, options.detector):
         raise AirhiltError(
-            f"--share-pictures: with --latency {options.latency} a detection would be as late as a "
-            "cache is fast; expected a latency of vision that is not measured, such as fixed"
+            "--share-pictures: the latency of vision is measured, so a detection would be as late "
+            "as a cache is fast; expected another one, such as --latency fixed"
         )
 
 

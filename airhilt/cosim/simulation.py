@@ -39,6 +39,7 @@ from airhilt.cosim.workload_questions import WorkloadQuestions
 from airhilt.cosim.world_loop import WorldLoop
 from airhilt.errors import AirhiltError
 from airhilt.host.child_process import cpu_s
+from airhilt.host.memory import give_memory_back
 from airhilt.messages import (
     Clock,
     Phase,
@@ -54,6 +55,7 @@ from airhilt.report import write_report
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import WildlifeSpec
 from airhilt.seats import Seats
+from airhilt.sensors.adsb import STAGE as ADSB
 from airhilt.sensors.base import Sensor, SensorContext
 from airhilt.sensors.radio.advisory_calls import AdvisoryChannel
 from airhilt.sensors.radio.stations import Stations
@@ -111,6 +113,7 @@ def run(
     finally:
         if scenario.cameras and options.cameras:
             gc.collect()  # Callbacks of a run and the run refer to each other; they hold pictures.
+        give_memory_back()
 
 
 def _run(
@@ -463,6 +466,8 @@ class Simulation:
         with _kept(failures):
             summary = self._summary(_cause(failures), wall_s, used_s)
             folder.write_summary(summary)
+            for sentence in summary.too_slow:
+                self._observer.notice(sentence)
         with _kept(failures):
             folder.write_info(self._final_info(info, _cause(failures)))
         if failures:
@@ -525,6 +530,11 @@ class Simulation:
                 "seed": self._setup.options.seed,
                 "assistant": self._participants.assistant,
                 "outcome": f"stopped: {cause}" if cause else "finished",
+                "latency_sources": {
+                    ADSB: self._setup.latency.of(ADSB).own_text,
+                    **self._pool.latency_sources(),
+                },
+                "too_slow": self._pool.too_slow(),
                 "inputs_dropped": self._pool.inputs_dropped(),
                 "messages_dropped": self._programs.dropped(),
                 "real_time_factor": now_ns / SECOND_NS / max(wall_s, 1e-9),

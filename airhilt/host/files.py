@@ -9,6 +9,7 @@ from __future__ import annotations
 import errno
 import hashlib
 import os
+import secrets
 import stat
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -55,9 +56,9 @@ def replacing(path: Path) -> Iterator[BufferedWriter]:
 @contextmanager
 def _partial(path: Path) -> Iterator[Path]:
     """Give the path of a file that takes the place of another once it is written."""
-    partial = path.with_name(path.name + PARTIAL)
+    # The name is unique: several threads and processes may write the same file.
+    partial = path.with_name(f"{path.name}.{secrets.token_hex(4)}{PARTIAL}")
     try:
-        partial.unlink(missing_ok=True)
         yield partial
         partial.replace(path)
     except BaseException:

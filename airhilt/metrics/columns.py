@@ -28,7 +28,9 @@ Kind = Literal["string", "bool", "int64", "float64"]
 """Type of a column, by the name that Apache Arrow has for it."""
 Value = str | bool | int | float | None
 
-NOT_METRICS = frozenset({"scenario", "seed", "assistant", "real_time_factor", "cpu_s"})
+NOT_METRICS = frozenset(
+    {"scenario", "seed", "assistant", "latency_sources", "too_slow", "real_time_factor", "cpu_s"}
+)
 """Fields of the summary that are no result: what the run was, and what depends on the machine."""
 NOT_OF_A_PERSON = frozenset({"seat", "workload"})
 """Fields of a person that have no column: the name of the seat, and answers, which tables have of

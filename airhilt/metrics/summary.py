@@ -514,6 +514,16 @@ class Summary(BaseModel):
         default=None, description="null: none was asked"
     )
     latencies: dict[Stage, LatencyStatistics] = Field(description="latency by stage")
+    latency_sources: dict[Stage, str] = Field(
+        default_factory=dict,
+        description="what the latencies of each stage in the run came from, such as fixed",
+    )
+    too_slow: list[str] = Field(
+        default=[],
+        description="a sentence for each measured worker that the machine was too slow for: it "
+        "dropped over 10 % of its inputs as out of date, and its median step took over three "
+        "times as long as it declares",
+    )
     inputs_dropped: dict[str, int]
     messages_dropped: dict[str, int] = Field(
         default_factory=dict,

@@ -161,10 +161,9 @@ class LogReader:
             self.gaps.append(Gap(self.end_ns, None, None))
         elif total > self._last:
             self.gaps.append(Gap(self.end_ns, None, total - self._last))
-        if self._last == 0 and not self.gaps and not self.is_closed:
-            is_mcap = _read(stream, 0, len(MAGIC)) == MAGIC
-            reason = "it ends before its first message" if is_mcap else "it has not the magic bytes"
-            raise RunFolderError(f"{self.path}: not an MCAP log: {reason}")
+        is_empty = self._last == 0 and not self.gaps and not self.is_closed
+        if is_empty and _read(stream, 0, len(MAGIC)) != MAGIC:
+            raise RunFolderError(f"{self.path}: not an MCAP log: it has not the magic bytes")
 
     def _of_chunk(self, records: ReadDataStream, size: int) -> Iterator[Logged]:
         """Yield the messages among the records of a chunk.

@@ -281,11 +281,13 @@ def _summary(folder: RunFolder, notes: list[str]) -> Summary | None:
         )
         return None
     try:
-        return Summary.model_validate(loaded)
+        summary = Summary.model_validate(loaded)
     except ValidationError as error:
         field = "/".join(str(part) for part in error.errors()[0]["loc"])
         notes.append(f"summary.json is not as this version writes it ({field}), and left out.")
         return None
+    notes.extend(map(readable, summary.too_slow))
+    return summary
 
 
 def _note_how_it_ended(info: RunInfo, log: _Log, notes: list[str]) -> None:

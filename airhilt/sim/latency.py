@@ -186,6 +186,8 @@ class LatencySpec:
         what a worker declares.
     stages
         Sources of single stages, by name; the others have this one.
+    of_users
+        Source of what the user brings, such as a worker in another process; None: this one.
     """
 
     kind: Kind
@@ -194,18 +196,32 @@ class LatencySpec:
     recorded: Mapping[str, Mapping[int, int]] | None = None
     breaks_off: bool = False
     stages: Mapping[str, LatencySpec] = field(default_factory=dict)
+    of_users: LatencySpec | None = None
 
     @property
     def text(self) -> str:
         """Spelling on the command line."""
         if self.kind == "replay":
             return f"replay:{self.replay_of}"
-        own = self.kind if self.given_s is None else f"{self.kind}:{self.given_s:g}"
-        return ",".join([own, *(f"{stage}={each.text}" for stage, each in self.stages.items())])
+        return ",".join(
+            [self.own_text, *(f"{stage}={each.text}" for stage, each in self.stages.items())]
+        )
 
-    def of(self, stage: str) -> LatencySpec:
-        """Return the latency source of a stage, such as ``asr``."""
-        return self.stages.get(stage, self)
+    @property
+    def own_text(self) -> str:
+        """Kind, with its time if one was given, without the sources of single stages."""
+        return self.kind if self.given_s is None else f"{self.kind}:{self.given_s:g}"
+
+    def of(self, stage: str, is_of_user: bool = False) -> LatencySpec:
+        """Return the latency source of a stage, such as ``asr``.
+
+        Parameters
+        ----------
+        is_of_user
+            True if the user brings the worker, or the engine that it is made of.
+        """
+        others = self.of_users if is_of_user and self.of_users else self
+        return self.stages.get(stage, others)
 
     def source(self, worker: str, seed: int, median_s: float, sigma: float) -> LatencySource:
         """Return the source for a worker that declares ``median_s`` and ``sigma``."""
@@ -226,11 +242,19 @@ class LatencySpec:
                 return Replay(worker, recorded, self.breaks_off)
 
 
-def parse_latency(text: str, presets: Mapping[str, str] | None = None) -> LatencySpec:
+DEFAULT = LatencySpec("fixed", of_users=LatencySpec("measured"))
+"""Latency source unless one is given.
+
+What AIRHILT brings has the same times on every machine, and what a user brings is timed.
+"""
+
+
+def parse_latency(text: str | None, presets: Mapping[str, str] | None = None) -> LatencySpec:
     """Return the latency source that a text such as ``fixed,asr=lognormal:5.9`` says.
 
-    One source is for the stages that are not named; without it that is ``measured``. The recorded
-    latencies of ``replay:RUN`` are for the caller to fill in.
+    One source is for the stages that are not named; without it they have `DEFAULT`, and so have all
+    stages if the text is None. The recorded latencies of ``replay:RUN`` are for the caller to fill
+    in.
 
     Parameters
     ----------
@@ -242,6 +266,8 @@ def parse_latency(text: str, presets: Mapping[str, str] | None = None) -> Latenc
     AirhiltError
         It is none of the sources, or a stage is named twice.
     """
+    if text is None:
+        return DEFAULT
     kind, _, argument = text.partition(":")
     if kind == "replay" and argument:
         return LatencySpec("replay", replay_of=argument)
@@ -261,7 +287,7 @@ def parse_latency(text: str, presets: Mapping[str, str] | None = None) -> Latenc
             stages[stage] = spec
     if len(rest) > 1:
         raise _refused(text)
-    others = rest[0] if rest else LatencySpec("measured")
+    others = rest[0] if rest else DEFAULT
     return replace(others, stages={**others.stages, **stages})
 
 

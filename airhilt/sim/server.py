@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from array import array
 from collections import Counter, deque
 from collections.abc import Callable
 from typing import NamedTuple
@@ -61,6 +62,8 @@ class Server:
     ) -> None:
         self.name = name
         self.dropped: Counter[str] = Counter()
+        self.offered: Counter[str] = Counter()
+        self.latencies_ns = array("q")
         self.is_lost = False
         self._director = director
         self._endpoint = endpoint
@@ -78,6 +81,7 @@ class Server:
         """Queue an input that has reached the worker now."""
         if self.is_lost:
             return
+        self.offered[item.key] += bool(item.size)
         if policy != "latest" or not self._replace_older(item):
             self._waiting.append((policy, item))
         if not self._busy:
@@ -177,6 +181,7 @@ class Server:
             wake_ns=reply.wake_ns,
             finished=True,
         )
+        self.latencies_ns.append(done.latency_ns)
         self._done(done)
         self._in_hand = None
         for output in reply.outputs:

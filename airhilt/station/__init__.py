@@ -1,5 +1,5 @@
 """The station: runs in a browser. A server reads a run from outside, and a page shows it.
 
 `airhilt.station.server.serve` opens a page at an address; `airhilt.station.debrief.Debrief` is the
-content of the page for a run folder. The extra ``station`` installs what a server needs.
+content of the page for a run folder.
 """

@@ -1,7 +1,4 @@
-"""The application of a station: what each address of the server answers.
-
-Importing this module brings in FastAPI, which the extra ``station`` installs.
-"""
+"""The application of a station: what each address of the server answers."""
 
 from __future__ import annotations
 

@@ -16,7 +16,8 @@ from typing import Any
 from pydantic import JsonValue, ValidationError
 
 from airhilt.cosim.latency_presets import PRESETS
-from airhilt.engine_families import ASSISTANTS
+from airhilt.cosim.requested_latency import is_vision_measured
+from airhilt.engine_families import ASSISTANTS, DETECTORS
 from airhilt.errors import AirhiltError, ScenarioError, shown
 from airhilt.host import library
 from airhilt.options import Options
@@ -85,8 +86,9 @@ class Case:
     @property
     def may_share_pictures(self) -> bool:
         """True if the run is the same whoever draws its pictures and looks at them."""
-        latency = self.options.get("latency", Options.model_fields["latency"].default)
-        return self.has_cameras and parse_latency(latency, PRESETS).of("vision").kind != "measured"
+        latency = parse_latency(self.options.get("latency"), PRESETS)
+        detector = self.options.get("detector", DETECTORS.default)
+        return self.has_cameras and not is_vision_measured(latency, detector)
 
     def key(self, environment: Environment) -> str:
         """Return the SHA-256 of all that decides the result of this run, in hexadecimal."""

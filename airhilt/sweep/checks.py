@@ -42,7 +42,8 @@ class RunChecks:
         return problems
 
     def _require_latency(self, options: Options, scenario: Scenario) -> None:
-        seeds = self._seeds if options.latency.startswith(REPLAY) else self._seeds[:1]
+        is_replay = options.latency is not None and options.latency.startswith(REPLAY)
+        seeds = self._seeds if is_replay else self._seeds[:1]
         for seed in seeds:
             requested_latency(options.latency, scenario, seed)
 

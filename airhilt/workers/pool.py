@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import re
+import statistics
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
@@ -39,6 +40,10 @@ NAMED = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 """First chunk of a key that stands for itself only; a wildcard there would take in truth."""
 
 
+DROPPED_SHARE = 0.1
+"""Share of dropped inputs above which measured times are doubted. An assumption."""
+TIMES_DECLARED = 3.0
+"""Ratio of the measured median to the declared one above which they are doubted. An assumption."""
 EQUIPMENT = "equipment"
 """Modality of the workers that are equipment of the world."""
 Where = Literal["in process", "attached", "caller"]
@@ -52,6 +57,8 @@ class Participant:
     description: WorkerDescription
     endpoint: Endpoint
     where: Where
+    is_of_user: bool = False
+    """The user brings the worker, or the engine that it is made of."""
 
 
 class Publish(Protocol):
@@ -100,6 +107,9 @@ class WorkerPool:
         self._equipment = {
             each.description.name for each in participants if each.description.modality == EQUIPMENT
         }
+        self._sources: dict[str, set[str]] = {}
+        self._declared_s: dict[str, float] = {}
+        """Median that each measured worker declares, in s."""
         self._recognisers = {
             each.description.name for each in participants if each.description.modality == "asr"
         }
@@ -110,7 +120,7 @@ class WorkerPool:
                 description.name,
                 director,
                 participant.endpoint,
-                latency.of(description.modality).source(
+                latency.of(description.modality, participant.is_of_user).source(
                     description.name, seed, description.latency.median_s, description.latency.sigma
                 ),
                 deliver=partial(self._deliver, description.name),
@@ -122,6 +132,10 @@ class WorkerPool:
                 require_open_key(description.name, wanted.key)
                 policies[wanted.key] = wanted.policy
             self.servers[description.name] = server
+            source = latency.of(description.modality, participant.is_of_user)
+            self._sources.setdefault(description.modality, set()).add(source.own_text)
+            if source.kind == "measured":
+                self._declared_s[description.name] = description.latency.median_s
             self._inputs.append((server, policies))
 
     def offer(self, key: str, message: Message, data: Payload) -> None:
@@ -152,6 +166,34 @@ class WorkerPool:
             for name, server in self.servers.items()
             for key, count in sorted(server.dropped.items())
         }
+
+    def latency_sources(self) -> dict[str, str]:
+        """Return the latency sources of the workers, by modality."""
+        return {stage: " and ".join(sorted(texts)) for stage, texts in self._sources.items()}
+
+    def too_slow(self) -> list[str]:
+        """Return a sentence for each measured worker whose times tell of a busy machine.
+
+        It dropped more than `DROPPED_SHARE` of the inputs of a key as out of date, and the median
+        of its steps is more than `TIMES_DECLARED` times the one that it declares.
+        """
+        found = []
+        for name, declared_s in self._declared_s.items():
+            server = self.servers[name]
+            dropped, offered = (
+                server.dropped.total(),
+                sum(server.offered[key] for key in server.dropped),
+            )
+            if dropped <= DROPPED_SHARE * offered:
+                continue
+            median_s = statistics.median(server.latencies_ns or [0]) / SECOND_NS
+            if median_s > TIMES_DECLARED * declared_s:
+                found.append(
+                    f"The machine was too slow for the times of {name!r}: it dropped {dropped} of "
+                    f"{offered} inputs, and its median step took {median_s:.2g} s, where it "
+                    f"declares {declared_s:.2g} s."
+                )
+        return found
 
     def unfinished(self) -> list[StepRecord]:
         """Return the steps in hand."""

@@ -161,7 +161,7 @@ def headers(out: Path) -> list[bytes]:
 
 
 def test_measured_latencies_of_vision_cannot_be_shared(tmp_path: Path) -> None:
-    with pytest.raises(AirhiltError, match=r"--share-pictures: with --latency measured .*fixed"):
+    with pytest.raises(AirhiltError, match=r"--share-pictures: the latency of vision .*fixed"):
         log_of(tmp_path / "run", share_pictures=True, latency="measured")
 
 

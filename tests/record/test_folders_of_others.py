@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import shutil
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
@@ -278,3 +280,13 @@ def test_a_run_without_its_numbers_says_so(run_copy: Path) -> None:
     kill(run_copy)
     with pytest.raises(RunFolderError, match=r"summary\.json: missing; expected the numbers"):
         open_run(run_copy, untold).summary()
+
+
+def test_threads_and_processes_that_write_one_file_leave_it_whole(tmp_path: Path) -> None:
+    path = tmp_path / "page.html"
+    contents = [bytes([65 + number]) * 10_000 for number in range(8)]
+    for pool in (ThreadPoolExecutor(8), ProcessPoolExecutor(2, mp_context=get_context("spawn"))):
+        with pool:
+            list(pool.map(replace_file, [path] * 80, contents * 10))
+    assert path.read_bytes() in contents
+    assert list(tmp_path.iterdir()) == [path]

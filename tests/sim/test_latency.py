@@ -66,7 +66,19 @@ def test_a_stage_has_its_own_source_and_the_others_have_that_of_the_run() -> Non
         spec.of(stage).source("a", 1, 0.4, 0.2).known_ns(0) for stage in ("asr", "vision", "tts")
     ]
     assert known == [5_900_000_000, 100_000_000, None]
-    assert parse_latency("asr=fixed:5.9").of("vision").kind == "measured"
+    assert parse_latency("asr=fixed:5.9").of("vision", is_of_user=True).kind == "measured"
+
+
+@pytest.mark.parametrize("text", [None, "asr=fixed:5.9"])
+def test_without_a_source_only_what_the_user_brings_is_measured(text: str | None) -> None:
+    spec = parse_latency(text)
+    assert (spec.of("vision").kind, spec.of("vision", is_of_user=True).kind) == (
+        "fixed", "measured",
+    )  # fmt: skip
+
+
+def test_a_source_that_is_given_is_for_what_the_user_brings_too() -> None:
+    assert parse_latency("lognormal").of("vision", is_of_user=True).kind == "lognormal"
 
 
 def test_a_lognormal_latency_has_the_median_that_is_given() -> None:

@@ -22,7 +22,7 @@ function drawHeader() {
   document.title = `${scenario.name || run.run}, seed ${options.seed}: AIRHILT`;
   byId("title").textContent = title;
   byId("description").textContent = scenario.description;
-  const facts = [["Scenario", scenario.name], ["Family", scenario.family], ...(airport ? [["Airport", airport.icao]] : []), ["Seed", options.seed], ["Assistant", options.assistant], ["Latency", options.latency], ["Simulated", seconds(run.end_s)]];
+  const facts = [["Scenario", scenario.name], ["Family", scenario.family], ...(airport ? [["Airport", airport.icao]] : []), ["Seed", options.seed], ["Assistant", options.assistant], ["Latency", latencySource()], ["Simulated", seconds(run.end_s)]];
   byId("facts").append(...facts.map(([name, value]) => html("li", {}, `${name} `, html("b", {}, String(value)))));
   fill(byId("outcome"), { class: `outcome ${result.tone}` }, [html("b", {}, result.word), html("span", {}, result.text)]);
   byId("notes").append(
@@ -33,15 +33,23 @@ function drawHeader() {
   for (const [name, value] of about()) byId("about").append(html("dt", {}, name), html("dd", {}, value));
 }
 
+/** The latency source that was asked for; without one, that of each stage. */
+function latencySource() {
+  if (run.options.latency) return run.options.latency;
+  const sources = Object.entries(summary?.latency_sources || {});
+  const different = new Set(sources.map(([, source]) => source));
+  return different.size === 1 ? sources[0][1] : sources.map(([stage, source]) => `${stage} ${source}`).join(", ") || "default";
+}
+
 /** What it takes to run it again, as names and values. */
 function about() {
-  const { options } = run, measured = options.latency === "measured";
+  const { options } = run, measured = latencySource().includes("measured");
   let reproducible = "yes: scenario, seed and latency source give the same bytes again";
   if (run.unregistered) reproducible = "by `airhilt replay` only: a program took part that takes no time grants";
   else if (measured) reproducible = "by `airhilt replay` only: latencies were measured on this machine";
   const workers = data.workers.map((worker) => `${worker.name} (${worker.modality}, ${worker.where})`).join("; ");
   return [
-    ["run", run.run], ["phase", run.cause ? `${run.phase}: ${run.cause}` : run.phase], ["latency source", options.latency],
+    ["run", run.run], ["phase", run.cause ? `${run.phase}: ${run.cause}` : run.phase], ["latency source", latencySource()],
     ["reproducible", reproducible], ["pace", options.pace], ["workers", workers || "none"],
     ...(summary ? [["real-time factor", `${fixed(summary.real_time_factor, 1)}, ${seconds(summary.cpu_s, 2)} of CPU`]] : []), ...data.about,
   ];
