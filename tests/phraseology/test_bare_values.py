@@ -127,7 +127,7 @@ def test_values_follow_one_another_and_all_must_be_read() -> None:
 
 def test_a_setting_stands_behind_a_level_or_shows_by_its_digits(subtests: pytest.Subtests) -> None:
     """No code has an 8 or a 9, and no heading 995."""
-    for text, last, hpa in [
+    rows: list[Any] = [
         ("2992", None, 1013.2),
         ("flight level 100 1013", None, 1013.0),
         ("flight level 100 995", None, 995.0),
@@ -136,7 +136,8 @@ def test_a_setting_stands_behind_a_level_or_shows_by_its_digits(subtests: pytest
         ("3012", None, None),
         ("flight level 100 3012", None, 1020.0),
         ("995 flight level 100", None, None),
-    ]:
+    ]
+    for text, last, hpa in rows:
         with subtests.test(str((text, last, hpa))):
             found = bare_values(text.split(), set(), last).pressure_hpa
             assert found == (None if hpa is None else pytest.approx(hpa, abs=0.05))

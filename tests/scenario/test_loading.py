@@ -75,7 +75,8 @@ def test_what_is_wrong_with_a_field_is_told_with_its_path(subtests: pytest.Subte
 def test_a_document_that_is_no_object_is_refused_with_the_fields_of_a_scenario(
     subtests: pytest.Subtests,
 ) -> None:
-    for document in [[], 3, "x", None]:
+    documents: list[Any] = [[], 3, "x", None]
+    for document in documents:
         with subtests.test(str(document)):
             assert complaint(document) == (
                 f"test.json: (top): found {json.dumps(document)}, expected a JSON object with "

@@ -108,7 +108,7 @@ def test_radars_see_as_far_as_their_sources_say(subtests: pytest.Subtests) -> No
     """The FAA gives 60 NM for the primary radar of the ASR-11; 120 and 250 NM are typical, and so
     are the least ranges of 0.5 and 5 NM. What
     stands in the air so near is taken for the ground by the primary radar."""
-    for kind, range_nm, height_ft, has_echo, has_reply in [
+    rows: list[Any] = [
         ("terminal", 0.45, 500, False, False),
         ("terminal", 0.55, 500, False, True),
         ("en_route", 4.9, 3_000, False, False),
@@ -119,7 +119,8 @@ def test_radars_see_as_far_as_their_sources_say(subtests: pytest.Subtests) -> No
         ("terminal", 120.3, 30_000, False, False),
         ("en_route", 249.7, 60_000, True, True),
         ("en_route", 250.3, 60_000, False, False),
-    ]:
+    ]
+    for kind, range_nm, height_ft, has_echo, has_reply in rows:
         with subtests.test(str((kind, range_nm, height_ft, has_echo, has_reply))):
             field = Field(kind)
             plots = field.seen(radar.SENSOR, field.at_range(range_nm, height_ft * FOOT), 240.0)

@@ -139,13 +139,14 @@ def test_one_false_alarm_comes_in_a_million_cells() -> None:
 
 def test_aircraft_echo_as_in_the_table_of_skolnik(subtests: pytest.Subtests) -> None:
     """A small single-engine aircraft, a four-passenger jet, an airliner, and a jumbo jet."""
-    for category, square_metres in [
+    rows: list[Any] = [
         ("A0", 2.0),
         ("A1", 1.0),
         ("A2", 2.0),
         ("A3", 20.0),
         ("A5", 100.0),
-    ]:
+    ]
+    for category, square_metres in rows:
         with subtests.test(str((category, square_metres))):
             assert AIRCRAFT_CROSS_SECTION_M2[category] == square_metres
 

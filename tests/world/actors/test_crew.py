@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import statistics
+from typing import Any, cast
 
 import pytest
 from hypothesis import given
@@ -60,7 +61,7 @@ def crew_of(
 ) -> Crew:
     reactions = Reactions(reaction_median_s=median_s, reaction_sigma=sigma, compliance=compliance)
     centre = GeodeticPosition(type="geodetic", lat_deg=47.0, lon_deg=8.0)
-    spec = AircraftSpec.model_construct(callsign="AAL123", pilot=reactions)
+    spec = cast(Any, AircraftSpec).model_construct(callsign="AAL123", pilot=reactions)
     return Crew(spec, aircraft, ScenarioSite(centre, 0.0), seed)
 
 
@@ -301,7 +302,7 @@ def test_an_end_that_is_told_twice_is_no_harm(aircraft: Aircraft) -> None:
 def test_a_crew_is_unable_to_fly_what_its_aircraft_cannot(
     subtests: pytest.Subtests, aircraft: Aircraft
 ) -> None:
-    for command, why in [
+    rows: list[Any] = [
         (SpeedCommand(action="speed", cas_kt=450), "unable 450 kt: a c172p flies 65 to 127 kt"),
         (SpeedCommand(action="speed", cas_kt=30), "unable 30 kt"),
         (AltitudeCommand(action="altitude", altitude_ft=-1_000), "unable -1000 ft: a c172p flies"),
@@ -317,7 +318,8 @@ def test_a_crew_is_unable_to_fly_what_its_aircraft_cannot(
         ),
         (EmergencyDescentCommand(action="emergency_descent", altitude_ft=0), "unable 0 ft"),
         (GoAroundCommand(action="go_around", climb_to_ft=30_000), "unable 30000 ft"),
-    ]:
+    ]
+    for command, why in rows:
         with subtests.test(why):
             speed_m_s = aircraft.target_speed_m_s
             with pytest.raises(Unable, match=why):
@@ -363,7 +365,7 @@ def test_a_crew_climbs_as_high_as_it_can_for_an_advisory(aircraft: Aircraft) -> 
 
 def test_the_ground_below_counts(aircraft: Aircraft) -> None:
     centre = GeodeticPosition(type="geodetic", lat_deg=47.0, lon_deg=8.0)
-    spec = AircraftSpec.model_construct(callsign="AAL123", pilot=Reactions())
+    spec = cast(Any, AircraftSpec).model_construct(callsign="AAL123", pilot=Reactions())
     crew = Crew(spec, aircraft, ScenarioSite(centre, 3_000 * FOOT), 1)
     with pytest.raises(Unable, match="3500 to 13000 ft here"):
         crew.command(AltitudeCommand(action="altitude", altitude_ft=3_400))

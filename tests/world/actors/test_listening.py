@@ -160,7 +160,7 @@ def test_a_readback_of_another_clearance_differs() -> None:
 
 
 def test_an_instruction_makes_a_command(subtests: pytest.Subtests) -> None:
-    for instruction, command in [
+    rows: list[Any] = [
         ({"action": "go_around"}, {"action": "go_around", "climb_to_ft": 3000.0}),
         ({"action": "cancel_takeoff"}, {"action": "cancel_takeoff"}),
         ({"action": "hold_position"}, {"action": "hold_position"}),
@@ -178,7 +178,8 @@ def test_an_instruction_makes_a_command(subtests: pytest.Subtests) -> None:
         ),
         ({"action": "heading", "heading_deg": 90.0}, {"action": "track", "track_deg": 90.0}),
         ({"action": "speed", "speed_kt": 180.0}, {"action": "speed", "cas_kt": 180.0}),
-    ]:
+    ]
+    for instruction, command in rows:
         with subtests.test(str((instruction, command))):
             (made,) = LISTENER.commands_of([Instruction(**instruction)], "01")
             assert made.model_dump(exclude_none=True, exclude={"via", "vacate"}) == command

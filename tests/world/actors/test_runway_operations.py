@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, field
 from functools import cache
-from typing import Any
+from typing import Any, cast
 
 import pytest
 from pydantic import TypeAdapter
@@ -123,7 +123,9 @@ class Plane:
 
 def crew_of(plane: Any) -> Crew:
     reactions = Reactions(reaction_sigma=0.0)
-    return Crew(AircraftSpec.model_construct(callsign="AAL1", pilot=reactions), plane, kdca(), 1)
+    return Crew(
+        cast(Any, AircraftSpec).model_construct(callsign="AAL1", pilot=reactions), plane, kdca(), 1
+    )
 
 
 def tell(crew: Crew, action: str, **arguments: Any) -> None:

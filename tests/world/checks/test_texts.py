@@ -55,7 +55,7 @@ def test_another_order_than_the_command_is_told_both_ways() -> None:
 
 
 def test_details_of_turns_routes_and_climbs_are_compared(subtests: pytest.Subtests) -> None:
-    for words, command, doubt in [
+    rows: list[Any] = [
         ("turn right thirty degrees", {"action": "turn", "degrees": 30.0}, ""),
         ("turn left thirty degrees", {"action": "turn", "degrees": 30.0}, "says turn_deg -30"),
         ("turn left thirty degrees", {"action": "turn", "degrees": -20.0}, "says turn_deg -30"),
@@ -67,7 +67,8 @@ def test_details_of_turns_routes_and_climbs_are_compared(subtests: pytest.Subtes
             {"action": "altitude", "altitude_ft": 35_000.0, "vertical_rate_fpm": 1500.0},
             "says rate_fpm 2000, where its command has 1500",
         ),
-    ]:
+    ]
+    for words, command, doubt in rows:
         with subtests.test(str((words, command, doubt))):
             if command["action"] == "taxi":
                 command = command | {"to": {"type": "node", "node": "gate"}}

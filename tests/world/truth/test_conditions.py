@@ -336,7 +336,7 @@ def test_two_have_collided_once_they_have_touched_and_ever_after() -> None:
 def test_of_an_actor_at_an_airport_that_has_ended_nothing_is_true(
     subtests: pytest.Subtests,
 ) -> None:
-    for condition in [
+    rows: list[Any] = [
         {"type": "in_phase", "actor": "AA", "phases": ["glide"]},
         {"type": "bound_for_runway", "actor": "AA", "runway": "01"},
         {"type": "on_runway", "actor": "BB", "runway": "01"},
@@ -344,7 +344,8 @@ def test_of_an_actor_at_an_airport_that_has_ended_nothing_is_true(
         {"type": "speed_above", "actor": "AA", "speed_kt": 100.0},
         {"type": "height_below", "actor": "AA", "height_ft": 600.0},
         {"type": "distance_below", "actors": PAIR, "distance_m": 5_000.0},
-    ]:
+    ]
+    for condition in rows:
         with subtests.test(str(condition)):
             case = Airport(condition)
             assert case()

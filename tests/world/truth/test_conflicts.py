@@ -247,13 +247,14 @@ def test_a_pair_that_is_always_followed_has_a_closest_approach_however_far() -> 
 def test_the_vertical_profile_leads_to_the_level_that_is_flown_to(
     subtests: pytest.Subtests,
 ) -> None:
-    for aircraft, expected in [
+    rows: list[Any] = [
         (Straight(), (35_000, 0, None)),
         (Straight(rate_fpm=300, target_ft=35_050), (35_000, 0, None)),
         (Straight(rate_fpm=1_500, target_ft=37_000), (35_000, 1_500, 37_000)),
         (Straight(rate_fpm=-1_500, target_ft=31_000), (35_000, -1_500, 31_000)),
         (Straight(altitude_ft=0, target_ft=5_000, on_ground=True), (0, 0, None)),
-    ]:
+    ]
+    for aircraft, expected in rows:
         with subtests.test(str((aircraft, expected))):
             altitude, rate, target = expected
             assert profile_of(aircraft) == pytest.approx(
