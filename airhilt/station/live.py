@@ -52,7 +52,7 @@ from airhilt.station.latencies import LatencyBars
 from airhilt.station.subscription import sound_name
 from airhilt.surveillance.radar import plot_place
 from airhilt.text import readable
-from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE, SECOND_NS
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE, SECOND_NS
 
 Json = dict[str, Any]
 
@@ -212,7 +212,11 @@ class LiveRun:
                 truth.category,
                 truth.t_ns,
                 (truth.latitude_deg, truth.longitude_deg, truth.altitude_m),
-                (truth.velocity_east_m_s, truth.velocity_north_m_s),
+                (
+                    truth.velocity_east_m_s,
+                    truth.velocity_north_m_s,
+                    -truth.velocity_down_m_s / FOOT_PER_MINUTE,
+                ),
                 truth.heading_deg,
                 truth.on_ground,
                 truth.phase,
@@ -288,6 +292,12 @@ class LiveRun:
             return
         track_rad = (seen.track_deg or 0.0) * DEGREE
         speed_m_s = seen.ground_speed_kt * KNOT
+        velocity: tuple[float, ...] = (
+            speed_m_s * math.sin(track_rad),
+            speed_m_s * math.cos(track_rad),
+        )
+        if isinstance(seen, AdsbReport):
+            velocity = (*velocity, seen.vertical_rate_fpm)
         self._changes.add(
             "state",
             *self._state(
@@ -295,7 +305,7 @@ class LiveRun:
                 category,
                 t_ns,
                 (seen.latitude_deg, seen.longitude_deg, (seen.altitude_ft or 0.0) * FOOT),
-                (speed_m_s * math.sin(track_rad), speed_m_s * math.cos(track_rad)),
+                velocity,
                 seen.track_deg or 0.0,
                 on_ground,
                 "",
@@ -309,11 +319,18 @@ class LiveRun:
         category: str,
         t_ns: int,
         place: tuple[float, float, float],
-        velocity_m_s: tuple[float, float],
+        velocity: tuple[float, ...],
         heading_deg: float,
         on_ground: bool,
         phase: str,
     ) -> tuple[Any, ...]:
+        """Return a state as the page has it.
+
+        Parameters
+        ----------
+        velocity
+            East and north in m/s, and the vertical rate in ft/min if it is reported.
+        """
         east_m, north_m = self._on_plan((place[0] * DEGREE, place[1] * DEGREE), place[2])
         return (
             readable(name),
@@ -323,7 +340,7 @@ class LiveRun:
             east_m,
             north_m,
             round(place[2] / FOOT),
-            [round(part, 1) for part in velocity_m_s],
+            [round(part, 1) for part in velocity],
             round(heading_deg, 1),
             on_ground,
             readable(phase),

@@ -96,7 +96,7 @@ def test_without_the_truth_the_traffic_is_that_of_adsb() -> None:
     followed.hear("adsb/a1b2c3", REPORT)
     name, category, kind, t, *_, altitude_ft, velocity, _, _, _ = followed.changes("state")[0]
     assert (name, category, kind, t, altitude_ft) == ("AAL123", "aircraft", "B737", 1.0, 2_000)
-    assert velocity == [72.0, 0.0]
+    assert velocity == [72.0, 0.0, 0.0]
 
 
 def test_an_actor_gets_its_callsign_once_adsb_tells_it() -> None:
