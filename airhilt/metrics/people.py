@@ -12,6 +12,7 @@ from typing import Literal, NamedTuple
 from airhilt.commands import Command
 from airhilt.messages import (
     AFTER_STALL_S,
+    SPEAK_MIN_LEVEL,
     STALLED,
     ActorTruth,
     Advisory,
@@ -48,6 +49,8 @@ Advised = tuple[str, int, str]
 """Id, revision and recipient of an advisory."""
 
 
+SPOKEN_CALL = "spoken call"
+"""Name of the action of pressing the button."""
 REAL_TIME = "realtime"
 """Name of the pace in which the time of the run passes as on the clock."""
 AFTER_STALL_NS = seconds_to_ns(AFTER_STALL_S)
@@ -103,6 +106,10 @@ class _Person:
     def perceived_names(self) -> set[Advised]:
         """Advisories that the person saw or heard."""
         return {*self.seen_ns, *self.heard_ns}
+
+    def perceived_ns(self, name: Advised) -> int:
+        """Return when an advisory that the person saw or heard was first seen or heard."""
+        return min(times[name] for times in (self.seen_ns, self.heard_ns) if name in times)
 
     def perceived(self, name: Advised) -> _Perceived:
         """Return from when on the reaction to an advisory counts.
@@ -260,7 +267,7 @@ class PeopleRecords:
             case PressToTalk(delay_s=delay_s):
                 pressed_ns = t_ns - round(delay_s * SECOND_NS)
                 seat.calls.press(pressed_ns, t_ns)
-                person.actions.append(_Action(pressed_ns, "spoken call"))
+                person.actions.append(_Action(pressed_ns, SPOKEN_CALL))
                 person.delays_s.append(delay_s)
             case PerceiveAdvisory(id=identity, revision=revision, recipient=recipient):
                 times = person.heard_ns if act.way == "heard" else person.seen_ns
@@ -273,7 +280,7 @@ class PeopleRecords:
 
     def _summary(self, name: str, seat: _Seat, now_ns: int) -> PersonSummary:
         done = [one.what for person in seat.people for one in person.actions]
-        spoken, typed = done.count("spoken call"), done.count("typed call")
+        spoken, typed = done.count(SPOKEN_CALL), done.count("typed call")
         delays_s = [delay_s for person in seat.people for delay_s in person.delays_s]
         reactions = [one for person in seat.people for one in self._reactions(person)]
         times_s = [one.reaction_time_s for one in reactions if one.reaction_time_s is not None]
@@ -296,6 +303,7 @@ class PeopleRecords:
             press_to_transmit_s=median(delays_s) if delays_s else None,
             press_to_loudspeaker_s=median(heard_s) if heard_s else None,
             reaction_time_s=median(times_s) if times_s else None,
+            warning_to_press_s=self._warning_to_press_s(seat.people),
             unperceived=sum(len(person.told - person.perceived_names) for person in seat.people),
             calls=calls,
             reactions=reactions,
@@ -327,6 +335,23 @@ class PeopleRecords:
         if seat is None or found.speaker == said.speaker or not seat.calls.made(found.id):
             return None
         return found
+
+    def _warning_to_press_s(self, people: list[_Person]) -> float | None:
+        """Return how long after the first warning perceived the person pressed the button."""
+        warnings = [
+            (person.perceived_ns(name), person)
+            for person in people
+            for name in person.perceived_names & self._advisories.keys()
+            if self._advisories[name].severity.rank >= SPEAK_MIN_LEVEL.rank
+        ]
+        if not warnings:
+            return None
+        warned_ns, person = min(warnings, key=lambda one: one[0])
+        pressed = (one.t_ns for one in person.actions if one.what == SPOKEN_CALL)
+        pressed_ns = min((t_ns for t_ns in pressed if t_ns >= warned_ns), default=None)
+        if pressed_ns is None or not self._is_real_time(warned_ns, pressed_ns):
+            return None
+        return (pressed_ns - warned_ns) / SECOND_NS
 
     def _reactions(self, person: _Person) -> list[PersonReaction]:
         names = person.perceived_names & self._advisories.keys()

@@ -223,9 +223,8 @@ class PersonSummary(BaseModel):
     )
     consent: Literal["voice", "words", "none"] | None = Field(
         default=None,
-        description="use to which the last person at the seat who has answered, or had agreed "
-        "before, agreed at last: of voice and typed words, or of typed words alone; null: nobody "
-        "has answered",
+        description="use to which the last person at the seat who has answered agreed at last: of "
+        "voice and typed words, or of typed words alone; null: nobody has answered",
     )
     spoken_calls: int = Field(description="calls that the person spoke into the microphone")
     typed_calls: int = Field(description="calls that the person typed")
@@ -247,6 +246,12 @@ class PersonSummary(BaseModel):
         description="median time from pressing the button until another person could hear it",
     )
     reaction_time_s: float | None = Field(description="median over the advisories")
+    warning_to_press_s: float | None = Field(
+        default=None,
+        description="from the first caution or warning that the person saw or heard until the "
+        "button was pressed next; null: there was none of them, or time did not pass as on the "
+        "clock",
+    )
     unperceived: int = Field(
         default=0,
         description="revisions of advisories to the person that no page has drawn or sounded",

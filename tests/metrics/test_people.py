@@ -130,6 +130,35 @@ def test_what_is_not_heard_is_reacted_to_from_its_display(is_voiced: bool) -> No
     assert (found.first_action, found.followed) == ("spoken call", None)
 
 
+@pytest.mark.parametrize("severity", [Severity.CAUTION, Severity.WARNING])
+def test_the_first_warning_is_answered_by_the_next_press_of_the_button(severity: Severity) -> None:
+    found = person(
+        (5.0, "seat/AAL1/do", pressed()),
+        (10.0, "advisory/AAL1", advisory().model_copy(update={"severity": severity})),
+        (10.5, "seat/AAL1/do", perceived("seen")),
+        (11.0, "seat/AAL1/do", perceived("heard")),
+        (11.5, "seat/AAL1/do", typed("say again")),
+        (12.6, "seat/AAL1/do", pressed(0.1)),
+        (20.0, "seat/AAL1/do", pressed()),
+    )
+    assert found.warning_to_press_s == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize(
+    ("severity", "pace"), [(Severity.ADVISORY, "realtime"), (Severity.WARNING, "virtual")]
+)
+def test_no_press_is_timed_without_a_warning_or_on_another_clock(
+    severity: Severity, pace: str
+) -> None:
+    found = person(
+        (10.0, "advisory/AAL1", advisory().model_copy(update={"severity": severity})),
+        (10.5, "seat/AAL1/do", perceived("seen")),
+        (12.6, "seat/AAL1/do", pressed()),
+        pace=pace,
+    )
+    assert found.warning_to_press_s is None
+
+
 def test_who_acts_on_what_is_drawn_before_it_is_audible_has_reacted_to_that() -> None:
     found = reaction(
         (10.0, "advisory/AAL1", advisory(GoAround(runway="01"))),

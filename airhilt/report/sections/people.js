@@ -1,4 +1,4 @@
-const SEATS = [["Seat"], ["Calls spoken", "number"], ["Calls typed", "number"], ["Commands", "number"], ["Asked to say again", "number"], ["Readback errors", "number"], ["Readback errors heard", "number"], ["Button to air", "number"], ["Button to another loudspeaker", "number"], ["Reaction time (median)", "number"], ["Advisories not perceived", "number"]];
+const SEATS = [["Seat"], ["Calls spoken", "number"], ["Calls typed", "number"], ["Commands", "number"], ["Asked to say again", "number"], ["Readback errors", "number"], ["Readback errors heard", "number"], ["Button to air", "number"], ["Button to another loudspeaker", "number"], ["Reaction time (median)", "number"], ["First warning to button", "number"], ["Advisories not perceived", "number"]];
 const REACTIONS = [["Time (s)"], ["Seat"], ["Severity"], ["Advised", "text"], ["Seen", "number"], ["Heard", "number"], ["First action", "text"], ["Reaction time, from", "number"], ["Followed"]];
 const CALLS = [["Time (s)"], ["Seat"], ["Call"], ["Frequency", "number"], ["Said", "text"], ["Recognised", "text"], ["Confidence", "number"], ["To the air", "number"], ["To another loudspeaker", "number"], ["Heard at seats", "number"], ["Length", "number"], ["Blocked"], ["Answered after", "number"]];
 const WORKLOAD = [["Seat"], ["ISA (mean of 1 to 5)", "number"], ["ISA", "text"], ["Raw TLX (0 to 100)", "number"], ["NASA-TLX", "text"]];
@@ -16,7 +16,7 @@ function drawPeople() {
   byId("people").hidden = !data.length;
   fill("people-table", SEATS, data.map((one) => ({ cells: [
     one.seat, one.spoken_calls, one.typed_calls, one.commands, one.asked_to_say_again, one.readback_errors, one.readback_errors_heard,
-    known(one.press_to_transmit_s) ? seconds(one.press_to_transmit_s, 3) : "", known(one.press_to_loudspeaker_s) ? seconds(one.press_to_loudspeaker_s, 2) : "", known(one.reaction_time_s) ? seconds(one.reaction_time_s, 2) : "", one.unperceived ?? 0,
+    known(one.press_to_transmit_s) ? seconds(one.press_to_transmit_s, 3) : "", known(one.press_to_loudspeaker_s) ? seconds(one.press_to_loudspeaker_s, 2) : "", known(one.reaction_time_s) ? seconds(one.reaction_time_s, 2) : "", known(one.warning_to_press_s) ? seconds(one.warning_to_press_s, 2) : "", one.unperceived ?? 0,
   ] })));
   const rows = data.flatMap((one) => one.reactions.map((row) => ({ seat: one.seat, ...row }))).sort((a, b) => a.t_advisory_s - b.t_advisory_s);
   fill("reactions-table", REACTIONS, rows.map((row) => ({ t: row.t_advisory_s, cells: [
