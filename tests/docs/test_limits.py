@@ -1,4 +1,4 @@
-"""The limits in docs/workers.md are those of the messages."""
+"""The limits in docs/bus-keys.md are those of the messages."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from paths import DOCS
 
 def test_the_page_has_the_limit_of_each_key() -> None:
     rows = re.findall(
-        r"^\| `([^`]+)` \| ([\d,]+) \| (\d+) \|$", (DOCS / "workers.md").read_text(), re.MULTILINE
+        r"^\| `([^`]+)` \| ([\d,]+) \| (\d+) \|$", (DOCS / "bus-keys.md").read_text(), re.MULTILINE
     )
     told = {
         re.sub("<[^>]+>", "*", key): (int(size.replace(",", "")), int(rate))

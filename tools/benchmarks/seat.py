@@ -22,7 +22,7 @@ from benchmarks.soak import soak_scenario
 sys.path.append(str(Path(__file__).parents[2] / "tests" / "support"))
 
 from devtools import BROWSERS, Page, browser_page
-from microphone import BUTTON, FAKE, TALK_STATE, open_microphone
+from microphone import BUTTON, FAKE, TALK_STATE, open_microphone, sit_down
 from stations import running
 
 AIRCRAFT = 20
@@ -69,9 +69,7 @@ def looks(minutes: float, *, has_sound: bool, has_camera: bool) -> Iterator[Look
         ):
             process, url = run
             browser.call("Page.addScriptToEvaluateOnNewDocument", source=COUNTED)
-            browser.open(url, width=1280, height=720)
-            browser.wait_for("document.getElementById('state').textContent.startsWith('running')")
-            browser.click("seat-take")
+            sit_down(browser, url)
             browser.wait_for("document.body.dataset.seat === 'controller'")
             browser.wait_for(f"document.querySelectorAll('.flight-strip').length >= {AIRCRAFT}")
             if has_sound:

@@ -326,8 +326,8 @@ export class Live {
   #takeTalk(message) {
     const { talk, transcript } = this.#panes;
     talk.take(message);
-    const hasInfo = message.own?.some(([kind]) => kind === "info");
-    if (hasInfo) transcript.redraw(); // The frequencies of the seat are known from now on.
+    const hasState = message.own?.some(([kind]) => kind === "seat");
+    if (hasState) transcript.redraw(); // The frequencies of the seat are known from now on.
   }
 
   #takeSeats(seats) {
