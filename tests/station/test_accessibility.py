@@ -16,7 +16,7 @@ import pytest
 
 from airhilt import load
 from devtools import Page
-from stations import SITS, experimenting, running, seat_page, stationed, viewed
+from stations import experimenting, running, seat_page, stationed, take_seat, viewed
 
 AXE = Path(os.environ.get("AXE_CORE", "node_modules/axe-core/axe.min.js"))
 pytestmark = [
@@ -124,5 +124,5 @@ def test_an_experiment(page: Page, recorded_run: Path, tmp_path: Path, done: int
 def seated(page: Page, url: str) -> None:
     page.open(url, width=1280, height=720)
     page.wait_for("document.getElementById('state').textContent.startsWith('running')")
-    page.evaluate(SITS)
+    take_seat(page)
     page.wait_for("document.body.dataset.seat")

@@ -20,7 +20,7 @@ from microphone import (
     playing,
     sit_down,
 )
-from stations import PATIENCE_S, SITS, PretendedRun, seat_page
+from stations import PATIENCE_S, PretendedRun, seat_page, take_seat
 
 pytestmark = pytest.mark.browser
 WARNING = (
@@ -157,7 +157,7 @@ def test_a_page_whose_scripts_are_busy_for_longer_than_the_patience_keeps_its_se
     with seat_page() as (run, url):
         page.open(url)
         page.wait_for("document.getElementById('state').textContent.startsWith('running')")
-        page.evaluate(SITS)
+        take_seat(page)
         assert run.presence.get(timeout=PATIENCE_S) == ("TOWER", True)
         page.evaluate(busy)
         run.changes.add("clock", 2.0, "running", "4x")

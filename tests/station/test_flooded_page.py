@@ -14,7 +14,7 @@ from airhilt.station.live import LiveRun
 from breadth import mostly_slow
 from devtools import Page
 from microphone import SAY
-from stations import PATIENCE_S, SITS, PretendedRun, seat_page
+from stations import PATIENCE_S, PretendedRun, seat_page, take_seat
 
 pytestmark = pytest.mark.browser
 CALLS = 200
@@ -61,7 +61,7 @@ def test_a_flooded_page_shows_the_newest_of_all_and_can_be_used(page: Page, mess
         run.changes.add("briefing", "TOWER", None, {})
         page.open(url, width=1280, height=720)
         page.wait_for("document.getElementById('state').textContent.startsWith('running')")
-        page.evaluate(SITS)
+        take_seat(page)
         page.wait_for("document.body.dataset.seat === 'controller'")
         flood(run, messages)
         run.changes.add("clock", 2.0, "paused", "paused")

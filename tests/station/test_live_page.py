@@ -17,7 +17,7 @@ from airhilt.cosim.replay import replay
 from airhilt.record import open_run
 from devtools import Page
 from microphone import SAY
-from stations import SITS, answer, do, opened, running, wish
+from stations import answer, do, opened, running, take_seat, wish
 
 PATIENCE_S = 90.0
 
@@ -218,7 +218,7 @@ def test_a_person_takes_a_seat_and_says_what_the_script_has(
     with running(encounter_file, tmp_path / "run", "--seat", "AAL123") as (_, url):
         page.open(url, width=1280, height=720)
         page.wait_for("document.getElementById('state').textContent.startsWith('running')")
-        page.evaluate(SITS)
+        take_seat(page)
         page.wait_for("document.querySelector('#tasks button')")
         page.wait_for("document.getElementById('instruments').textContent.includes('gear up')")
         assert page.evaluate(
@@ -239,7 +239,7 @@ def seated(page: Page, url: str, seat: str) -> None:
     """Open the page of a run and take its only seat."""
     page.open(url, width=1280, height=720)
     page.wait_for("document.getElementById('state').textContent.startsWith('running')")
-    page.evaluate(SITS)
+    take_seat(page)
     page.wait_for(f"document.body.dataset.seat === '{seat}'")
 
 

@@ -30,7 +30,15 @@ from airhilt.station.pictures import Picture
 from devtools import Page
 from loudspeaker import COUNT_PIECES, PIECES, piece
 from microphone import NO_CONNECTION, SAY
-from stations import ADVISORY, PATIENCE_S, SITS, TOWER, PretendedClient, PretendedRun, seat_page
+from stations import (
+    ADVISORY,
+    PATIENCE_S,
+    TOWER,
+    PretendedClient,
+    PretendedRun,
+    seat_page,
+    take_seat,
+)
 
 pytestmark = pytest.mark.browser
 CATEGORIES = {"AAL123": "aircraft", "DAL456": "aircraft", "OPS1": "vehicle"}
@@ -115,7 +123,7 @@ def seated(
         run.changes.add("clock", 1.0, "running", pace)
         page.open(url, width=1280, height=720)
         page.wait_for("document.getElementById('state').textContent.startsWith('running')")
-        page.evaluate(SITS)
+        take_seat(page)
         page.wait_for(f"document.body.dataset.seat === '{KIND[seat]}'")
         page.wait_for("!document.getElementById('talk').hidden")
         page.wait_for("!document.getElementById('words').disabled")
@@ -229,22 +237,17 @@ def test_a_callsign_has_the_colour_of_the_severity(page: Page) -> None:
         page.open("about:blank")
 
 
-ASK = """(() => {
-    const question = document.createElement('dialog'), boxes = [];
-    question.textContent = 'May your voice be used? '.repeat(40);
-    document.getElementById('questions').append(question);
-    question.show();
-    for (const id of ['questions', 'plan']) {
-        const { top, bottom } = document.getElementById(id).getBoundingClientRect();
-        boxes.push([top, bottom]);
-    }
-    return [...boxes, [0, innerHeight]];
-})()"""
+BOXES = """['isa', 'plan'].map((id) => {
+    const { top, bottom } = document.getElementById(id).getBoundingClientRect();
+    return [top, bottom];
+}).concat([[0, innerHeight]])"""
 
 
 def test_a_question_has_room_of_its_own_below_the_plan(page: Page) -> None:
-    with seated(page, "TOWER"):
-        question, plan, window = page.evaluate(ASK)
+    with seated(page, "TOWER") as run:
+        run.seats.ask("TOWER", WorkloadQuestion(number=1, scale="isa", asked_ns=0))
+        page.wait_for("!document.getElementById('isa').hidden")
+        question, plan, window = page.evaluate(BOXES)
         assert plan[1] <= question[0] < question[1] < window[1]
         assert plan[1] - plan[0] > 200
 
@@ -522,9 +525,12 @@ def test_words_that_were_lost_come_before_those_that_are_typed_meanwhile(
     page: Page, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     words = "document.getElementById('words').value"
-    with seated(page, "TOWER") as run:
+    with seated(page, "AAL123") as run:
         page.evaluate(f"{words} = 'Delta 45.'; {SAY}")
+        page.press("g", 71)  # It is answered after them.
+        page.wait_for("document.getElementById('panel-state').textContent === 'Set: Go around.'")
         assert run.next() == SayText(text="Delta 45.")
+        assert next_command(run).action == "go_around"
         with lost_at("text", monkeypatch):
             page.evaluate(f"{words} = 'American 123, hold.'; {SAY}; {words} = 'Delta 45'")
             page.wait_for(f"{words} !== 'Delta 45'")
@@ -694,7 +700,7 @@ def test_a_page_shows_once_what_its_seat_sees_and_nothing_of_a_former_seat(page:
         of_driver = '[[],["Operations 1"],[]]'
         for seat, listed in (("TOWER", of_tower), ("TOWER", of_tower), ("OPS1", of_driver)):
             page.evaluate(f"document.getElementById('seat-name').value = '{seat}'")
-            page.evaluate(SITS)
+            take_seat(page)
             page.wait_for(f"document.body.dataset.seat === '{KIND[seat]}'")
             page.wait_for(f"{LISTED} === '{listed}'")
             page.evaluate("document.getElementById('seat-take').click()")
@@ -763,7 +769,7 @@ def test_an_advisory_in_force_is_told_as_seen_for_each_person_who_takes_the_seat
         # Lists come and go meanwhile, and move the button.
         page.evaluate("document.getElementById('seat-take').click()")
         page.wait_for("document.getElementById('talk').hidden")
-        page.evaluate(SITS)
+        take_seat(page)
         assert run.next().model_copy(update={"after_s": 0.0}) == seen
 
 
@@ -920,6 +926,6 @@ def test_who_has_no_seat_is_not_told_that_nobody_has_said_anything(page: Page) -
         page.open(url)
         page.wait_for("document.body.dataset.ready")
         assert page.evaluate(calls) == "Take a seat to see what is said there."
-        page.evaluate(SITS)
+        take_seat(page)
         page.wait_for(f"{calls} === 'Nobody has said anything so far.'")
         page.open("about:blank")

@@ -94,8 +94,8 @@ def test_a_person_hears_only_the_frequencies_of_the_seat_that_are_listened_to(
         ]
         assert do(socket, "tune", frequencies_khz=[]) == ""
         run.stream("opened", id="not heard", frequency_khz=119_100)
+        time.sleep(0.2)  # What is said is passed on by then.
         assert do(socket, "tune", frequencies_khz=[119_100]) == ""
-        time.sleep(0.2)
         run.stream("opened", id="heard", frequency_khz=119_100)
         assert next_of(socket, "sounds")[-1][1] == {"id": "heard", "frequency_khz": 119_100}
 

@@ -57,6 +57,7 @@ from airhilt.station.live import seat_as_json
 from airhilt.station.pictures import Picture
 from airhilt.station.server import serve
 from airhilt.station.subscription import Sound
+from devtools import Page
 from seats import state_of
 
 PATIENCE_S = 60.0
@@ -64,13 +65,6 @@ FREED_WITHIN_S = 10.0
 """Time in which a seat is free whose page is closed, in s; it is not after a test that failed."""
 TOKEN = "0123456789abcdef0123456789abcdef"
 TOWER = state_of("TOWER", recipients=("TOWER", "ATC"), spoken_from=Severity.CAUTION)
-SITS = """(() => {
-    document.getElementById('seat-uses').value = document.getElementById('seat-uses').value ||
-        'voice';
-    document.getElementById('seat-take').click();
-})()"""
-"""Script that takes the seat that is chosen, and lets voice and words be used."""
-
 ADVISORY: dict[str, Any] = {
     "t": 0.5, "equipment": "", "id": "a-1", "revision": 1, "severity": "WARNING", "active": True,
     "kind": "loss_of_separation", "traffic": ["AAL123", "DAL456"],
@@ -421,3 +415,9 @@ def serving(app: FastAPI) -> Iterator[str]:
     finally:
         is_over.set()
         thread.join()
+
+
+def take_seat(page: Page) -> None:
+    """Take the seat that is chosen, and let voice and words be used."""
+    page.evaluate("document.getElementById('seat-uses').value ||= 'voice'")
+    page.click("seat-take")

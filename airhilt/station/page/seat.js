@@ -59,9 +59,9 @@ export class Seat {
     );
     byId("seat-form").addEventListener("submit", (event) => {
       event.preventDefault();
-      if (this.#own) live.leave();
-      else if (live.isThere) live.sit(byId("seat-name").value, USES[byId("seat-uses").value]);
-      else this.refuse("Not done: the connection is lost.");
+      if (!live.isThere) this.refuse("Not done: the connection is lost.");
+      else if (this.#own) live.leave();
+      else live.sit(byId("seat-name").value, USES[byId("seat-uses").value]);
     });
     byId("seat-uses").addEventListener("change", (event) => {
       if (this.#own) live.agree(USES[event.target.value]);
