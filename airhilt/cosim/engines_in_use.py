@@ -68,10 +68,7 @@ def is_remote(options: Options, modality: Modality) -> bool:
 
 
 def is_of_user(options: Options, modality: Modality) -> bool:
-    """Return whether the reference worker of a modality has an engine that AIRHILT does not bring.
-
-    That is one of another package, or a program elsewhere.
-    """
+    """Return whether a modality has an engine of another package, or asks a program elsewhere."""
     return any(
         each.engine.is_remote or not each.family.is_own(each.engine.name)
         for each in engines_of(options, (modality,))

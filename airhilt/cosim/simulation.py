@@ -146,6 +146,7 @@ def _run(
         info = setup.info(participants, pace, bus.endpoint, vision.renderer)
         setup.folder.write_info(info)
         log = stack.enter_context(closing(LogWriter(setup.folder.log_path)))
+        log.flush()  # A run that is killed at once leaves a log that can be read.
         latency_log = stack.enter_context(closing(LatencyLog(setup.folder.latency_path)))
         simulation = Simulation(
             setup, participants, pace, vision, bus, observer, log=log, latency_log=latency_log

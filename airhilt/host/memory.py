@@ -8,7 +8,7 @@ import ctypes
 def give_memory_back() -> None:
     """Return freed memory to the operating system, where the C library is that of Linux (glibc).
 
-    That library keeps much of what a run has freed.
+    The C library keeps much of what a run has freed.
     """
     trim = getattr(ctypes.CDLL(None), "malloc_trim", None)
     if trim is not None:

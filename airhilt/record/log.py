@@ -32,7 +32,6 @@ class LogWriter:
             enable_data_crcs=True,
         )
         self._writer.start(profile="airhilt", library="airhilt")
-        self.flush()  # A run that is killed at once leaves a log that can be read.
         self._schemas: dict[type[BaseModel], int] = {}
         self._channels: dict[tuple[str, str, type[BaseModel]], int] = {}
         self._sequence = 0

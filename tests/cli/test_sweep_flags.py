@@ -55,7 +55,7 @@ def test_every_flag_of_a_run_that_changes_it_is_one_of_sweeps() -> None:
     assert {"--attach", "--endpoint", "--pace", "--seat", "--video"} <= of_one_run
     missing = flags(COSIM) - flags(COMMAND)
     of_page = {f"--{one.name.replace('_', '-')}" for one in dataclasses.fields(PageOptions)}
-    of_page |= {"--view", "--agreed"}
+    of_page |= {"--view"}
     assert missing == (of_one_run | of_page | {"--seed"}) - flags(COMMAND)
 
 

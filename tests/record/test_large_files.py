@@ -130,8 +130,7 @@ def test_the_end_of_a_log_takes_no_more_memory_than_a_log_needs(tmp_path: Path) 
         log.write(RECORD_HEAD.pack(Opcode.FOOTER, 20) + struct.pack("<QQI", len(MAGIC), 0, 0))
         log.write(MAGIC)
     tracemalloc.start()
-    with pytest.raises(RunFolderError, match="it ends before its first message"):
-        list(LogReader(path).messages())
+    assert list(LogReader(path).messages()) == []
     _, peak_bytes = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert peak_bytes < 10_000_000

@@ -205,6 +205,7 @@ def test_who_lets_only_words_be_used_has_no_microphone_until_the_voice_may_be_us
         assert page.evaluate("document.getElementById('talk-button').disabled")
         assert "that your voice may be used" in page.evaluate(TALK_STATE)
         page.evaluate(CHOOSE % "voice")
+        page.wait_for("!document.getElementById('talk-button').disabled")
         open_microphone(page)
         page.evaluate(CHOOSE % "none")
         page.wait_for("document.getElementById('words').disabled")

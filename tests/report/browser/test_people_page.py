@@ -20,7 +20,7 @@ from airhilt.metrics.summary import (
 from airhilt.record import RunFolder
 from airhilt.report import write_report
 from devtools import Page
-from seats import logged, message, said, tower
+from seats import act, logged, said, tower
 
 pytestmark = pytest.mark.browser
 ROW = "document.querySelector('#people-calls-table tbody tr:first-child')"
@@ -112,7 +112,8 @@ def test_a_call_tells_at_how_many_seats_it_was_heard_where_that_is_known(
 def test_each_call_of_a_person_is_in_the_report(page: Page, tmp_path: Path) -> None:
     words = "American one two three, runway zero one, cleared to land"
     given = [
-        message("seat/Washington_Tower", 1.0, is_taken=True),
+        act("Washington_Tower", 1.0, "take"),
+        act("Washington_Tower", 1.1, "agree", uses=["words"]),
         said("Washington_Tower", 5.0, words),
     ]
     logged(tower(20.0), tmp_path / "run", ["tower"], given)
