@@ -30,6 +30,11 @@ settings.register_profile("repeatable", derandomize=True, deadline=None)
 settings.load_profile("repeatable")
 WHOLE_RUNS = ("bus", "cli", "cosim", "docs", "sweep")
 """Folders of tests that take long each."""
+CORE = (
+    "audio", "bus", "cosim", "geodesy", "host", "metrics", "phraseology", "record", "scenario",
+    "seats", "shapes", "sim", "surveillance", "workers", "world",
+)  # fmt: skip
+"""Folders of tests of a run and of what it is made of: no models, pictures, sweeps and pages."""
 Cli = Callable[..., subprocess.CompletedProcess[str]]
 
 
@@ -122,6 +127,11 @@ def pytest_collection() -> Generator[None, object, object]:
         gc.freeze()
 
 
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Begin with whole runs, so that no process is left alone with them at the end."""
+    """Mark the core, and begin with whole runs: no process is left alone with them at the end."""
+    for item in items:
+        folder = item.path.relative_to(item.config.rootpath / "tests").parts[0]
+        if folder in CORE and not {"slow", "browser"} & {mark.name for mark in item.iter_markers()}:
+            item.add_marker("core")
     items.sort(key=lambda item: item.path.parent.name not in WHOLE_RUNS)

@@ -248,6 +248,7 @@ def test_the_row_of_a_trial_has_the_totals_of_its_person(
         "press_to_transmit_s": 0.01,
         "press_to_loudspeaker_s": 0.8,
         "reaction_time_s": 1.5,
+        "warning_to_press_s": None,
         "unperceived": 0,
         "isa_mean": 4.0,
         "reaction_times": 1,
