@@ -139,6 +139,11 @@ class Intake:
             self._waiting -= 1
             self._waiting_bytes -= size
 
+    def close(self) -> None:
+        """Tell nobody of drops any more."""
+        with self._lock:
+            self._dropping = lambda _keys, _cause: None
+
     def _cause(self, keys: str, size: int) -> DropCause | None:
         """Return why a message is not taken, None if it is."""
         if size > self._limits[keys].size_bytes:

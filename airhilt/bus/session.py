@@ -383,6 +383,7 @@ class Bus:
             subscriber.undeclare()
             thread.join()
         self._hearing.clear()
+        self._refused = self._refusals.put
         self._publishers.clear()
         self._kept.clear()
         session = self.session

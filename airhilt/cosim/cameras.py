@@ -11,6 +11,7 @@ from airhilt.cosim.participants import Participants
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import Setup
+from airhilt.cosim.world_loop import WorldLoop
 from airhilt.engine_families import NONE
 from airhilt.errors import RendererError, RunStopped
 from airhilt.messages import ModalityState
@@ -77,19 +78,16 @@ class Vision:
         self,
         director: Director,
         router: MessageRouter,
+        world: WorldLoop,
         *,
-        state_at_ns: Callable[[], int],
-        closest_ns: Callable[[], int | None],
         lost: Callable[[str, bool], None],
     ) -> None:
         """Add the cameras to a run, and let recorders take what is published.
 
         Parameters
         ----------
-        state_at_ns
-            Returns the time that the states of the actors are of.
-        closest_ns
-            Returns when the pair of the conflict was nearest up to now; None if there is no pair.
+        world
+            The actors that the cameras show.
         lost
             Called when there will be no more pictures, with the cause, and true if that is of the
             machine.
@@ -104,7 +102,9 @@ class Vision:
         setup = self._setup
         actors = pair_of(setup.scenario) or tuple(setup.actors)
         pictures_path, video_path = setup.folder.pictures_path, setup.folder.video_path
-        self._recorders = [KeyPictures(pictures_path, actors=actors, closest_ns=closest_ns)]
+        self._recorders = [
+            KeyPictures(pictures_path, actors=actors, closest_ns=world.closest_approach_ns)
+        ]
         if setup.options.video:
             self._recorders.append(VideoRecorder(video_path, notice=self._notice))
         for recorder in self._recorders:
@@ -120,7 +120,7 @@ class Vision:
             setup.site,
             setup.actors,
             is_adaptive=setup.options.camera_rate == "adaptive",
-            state_at_ns=state_at_ns,
+            state_at_ns=world.state_at_ns,
             publish=router.publish,
             lost=lost,
             loss=setup.recorded.cameras_lost,

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Literal
 
 from airhilt.world.truth.conflicts import ConflictMonitor, Pair
 
-Told = Callable[[Literal["begun", "opened", "closed"], Pair], None]
+Step = Literal["begun", "opened", "closed"]
 Test = Callable[[int], bool]
 """Returns whether a condition is true at a time in ns."""
 
@@ -21,38 +21,33 @@ class ConflictWindow:
         The actors of the conflict.
     begins, opens
         Tests of the event that begins the conflict, and of the condition that opens its window.
-    told
-        Called with ``begun``, ``opened`` or ``closed`` and the pair.
     """
 
-    def __init__(
-        self, pair: Pair, begins: Test, opens: Test, monitor: ConflictMonitor, told: Told
-    ) -> None:
+    def __init__(self, pair: Pair, begins: Test, opens: Test, monitor: ConflictMonitor) -> None:
         self._pair = pair
         self._begins = begins
         self._opens = opens
         self._monitor = monitor
-        self._told = told
         self._has_begun = False
         self._phase: Literal["before", "open", "after"] = "before"
 
-    def begin_if_due(self, now_ns: int) -> None:
-        """Begin the conflict if its event has happened."""
+    def begin_if_due(self, now_ns: int) -> Iterator[Step]:
+        """Begin the conflict if its event has happened, and yield that."""
         if not self._has_begun and self._begins(now_ns):
             self._has_begun = True
-            self._told("begun", self._pair)
+            yield "begun"
 
-    def look(self, now_ns: int) -> None:
-        """Begin the conflict, open the window or close it, if it is time to."""
-        self.begin_if_due(now_ns)
+    def look(self, now_ns: int) -> Iterator[Step]:
+        """Begin the conflict, open the window or close it, if it is time to; yield each step."""
+        yield from self.begin_if_due(now_ns)
         if self._phase == "before" and self._opens(now_ns):
             self._phase = "open"
             self._monitor.open_window(self._pair, now_ns)
-            self._told("opened", self._pair)
+            yield "opened"
         elif self._phase == "open" and self._has_passed():
             self._phase = "after"
             self._monitor.close_window(self._pair)
-            self._told("closed", self._pair)
+            yield "closed"
 
     def _has_passed(self) -> bool:
         """Return whether the pair moves apart and will not lose separation, or one has ended."""

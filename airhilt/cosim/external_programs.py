@@ -303,6 +303,7 @@ class ExternalPrograms:
                 t_ns=self._director.now_ns, keys=keys, cause=cause, messages=number
             )
             self._router.publish("truth/dropped", message)
+        self._intake.close()
 
     def dropped(self) -> dict[str, int]:
         """Return how many messages were dropped, by kind of key and cause; see `finish`."""

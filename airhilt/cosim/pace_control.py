@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
+from airhilt.bus.session import Bus
 from airhilt.cosim.events import EventPublisher
 from airhilt.cosim.radio import RunRadio
 from airhilt.messages import (
     AFTER_STALL_S,
     STALLED,
+    Clock,
     LeaveSeat,
     Message,
+    Phase,
     SeatAction,
     SetPace,
     TakeSeat,
 )
 from airhilt.seats import Seats
-from airhilt.sim import Director, Paused, RealTime, Virtual
+from airhilt.sim import Director, Pace, Paused, RealTime, Virtual
 from airhilt.sim.payload import Payload
 from airhilt.units import SECOND_NS, seconds_to_ns
 
@@ -35,10 +36,7 @@ class PaceControl:
 
     A run in virtual time, such as a replay, logs the change and goes on as fast as before.
 
-    Parameters
-    ----------
-    changed
-        Called when the pace is another one.
+    It publishes the clock of the run, of which the pace is a part.
     """
 
     def __init__(
@@ -47,14 +45,13 @@ class PaceControl:
         event: EventPublisher,
         seats: Seats,
         radio: RunRadio,
-        *,
-        changed: Callable[[], None],
+        bus: Bus,
     ) -> None:
         self._director = director
         self._event = event
         self._seats = seats
         self._radio = radio
-        self._changed = changed
+        self._bus = bus
         self._factor = 1.0
         self._is_awaiting = False
         """True while the run waits for its seats: it has not begun."""
@@ -64,8 +61,12 @@ class PaceControl:
         self._lost_ns = 0
         self._lost_until_ns = 0
 
+    def publish_clock(self, phase: Phase = "running") -> None:
+        """Publish the time of the run."""
+        tell_clock(self._bus, self._director.now_ns, phase, self._director.pace, self._behind_ns)
+
     @property
-    def behind_ns(self) -> int:
+    def _behind_ns(self) -> int:
         """Simulation time by which the run is late, or was in a stall a moment ago."""
         lost_ns = self._lost_ns if self._director.now_ns < self._lost_until_ns else 0
         return self._director.behind_ns + lost_ns
@@ -80,7 +81,7 @@ class PaceControl:
         self._lost_ns = lost_ns + (self._lost_ns if now_ns < self._lost_until_ns else 0)
         self._lost_until_ns = now_ns + seconds_to_ns(AFTER_STALL_S)
         self._event("pace", "run", STALLED)
-        self._changed()
+        self.publish_clock()
 
     def wait_for_seats(self) -> None:
         """Let the time stand still until all seats are taken, or a person lets it pass."""
@@ -103,7 +104,7 @@ class PaceControl:
         self._seats.change_all(pace=pace.name)
         if not isinstance(self._director.pace, Virtual):
             self._director.change_pace(pace)
-        self._changed()
+        self.publish_clock()
 
     def take(self, key: str, message: Message, data: Payload) -> None:  # noqa: ARG002
         """Take in what a person does at a seat."""
@@ -118,3 +119,10 @@ class PaceControl:
             case LeaveSeat() if not self._is_awaiting and self._factor != 1.0:
                 if all(state.phase != "taken" for state in self._seats):
                     self.set(1.0)
+
+
+def tell_clock(bus: Bus, t_ns: int, phase: Phase, pace: Pace, behind_ns: int = 0) -> None:
+    """Publish the time of a run."""
+    behind_s = round(behind_ns / SECOND_NS, 1)
+    clock = Clock(t_ns=t_ns, run=bus.run, phase=phase, pace=pace.name, behind_s=behind_s)
+    bus.keep("clock", clock.model_dump_json().encode())

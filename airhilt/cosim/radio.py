@@ -38,11 +38,6 @@ class RunRadio:
         seats: Seats,
     ) -> None:
         radio = setup.scenario.radio
-        self._director = director
-        self._world = world
-        self._event = event
-        self._modalities = modalities
-        self._observer = observer
         self._backend = FallbackRadio(
             setup.sound,
             radio.words_per_minute,
@@ -55,16 +50,11 @@ class RunRadio:
             stations,
             self._backend,
             setup.options.seed,
-            world.ended_lines,
-            line_begun=world.line_begun,
-            once=world.once,
-            publish=router.publish,
-            do=world.do,
-            failed=self._line_failed,
-            microphone_stuck=self._microphone_stuck,
-            microphones_free=self._microphones_free,
-            advisory_channel=advisory_channel,
-            seats=seats,
+            world,
+            FailureNotices(director, world, event, modalities, observer, self._backend),
+            router.publish,
+            seats,
+            advisory_channel,
         )
         router.listen(self._conversation.take)
 
@@ -89,18 +79,41 @@ class RunRadio:
         """End the transmissions that are on the air; the run ends."""
         self._conversation.close()
 
-    def _line_failed(self, line: EffectiveLine) -> None:
+
+class FailureNotices:
+    """Logs what the failures of a scenario do to the radio, and tells the user."""
+
+    def __init__(
+        self,
+        director: Director,
+        world: WorldLoop,
+        event: EventPublisher,
+        modalities: Modalities,
+        observer: Observer,
+        backend: FallbackRadio,
+    ) -> None:
+        self._director = director
+        self._world = world
+        self._event = event
+        self._modalities = modalities
+        self._observer = observer
+        self._backend = backend
+
+    def line_failed(self, line: EffectiveLine) -> None:
+        """Log that a line is due which a failure changes."""
         self._world.affected |= line.affected
         self._world.uncleared |= line.uncleared
         for text in line.failures:
             self._event("failure", line.declared.id, text)
 
-    def _microphone_stuck(self, callsign: str, text: str) -> None:
+    def microphone_stuck(self, callsign: str, text: str) -> None:
+        """Log that the microphone of an actor is stuck."""
         self._event("failure", callsign, text)
         self._modalities.set("radio", "lost", f"{callsign}: {text}")
         self._observer.notice(f"radio blocked at {self._now_s:.1f} s by {callsign}: {text}")
 
-    def _microphones_free(self) -> None:
+    def microphones_free(self) -> None:
+        """Log that no microphone is stuck any more."""
         if not self._backend.is_lost:
             self._modalities.set("radio", "on")
         self._observer.notice(f"radio free again at {self._now_s:.1f} s")

@@ -39,6 +39,12 @@ class MessageRouter:
         """Call ``listener`` with every message that is not truth, and the name of its publisher."""
         self._attributed.append(listener)
 
+    def clear(self) -> None:
+        """Forget all listeners: the run is over."""
+        self._listeners.clear()
+        self._observers.clear()
+        self._attributed.clear()
+
     def publish(
         self, key: str, message: Message, publisher: str = RUN, raw: Payload | None = None
     ) -> None:

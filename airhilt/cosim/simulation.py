@@ -7,13 +7,12 @@ Data flows one way: actors, sensors, workers, advisories, crews.
 
 from __future__ import annotations
 
-import gc
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, closing, contextmanager, suppress
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 from airhilt.bus.access import ROLES, WITHOUT_KEYS
 from airhilt.bus.endpoints import what_is_open
@@ -27,7 +26,7 @@ from airhilt.cosim.external_programs import ExternalPrograms
 from airhilt.cosim.language_model_notices import LanguageModelNotices
 from airhilt.cosim.modalities import Modalities
 from airhilt.cosim.observer import Observer, Result, Snapshot
-from airhilt.cosim.pace_control import PaceControl
+from airhilt.cosim.pace_control import PaceControl, tell_clock
 from airhilt.cosim.participants import Participants, connect
 from airhilt.cosim.radio import RunRadio
 from airhilt.cosim.recorded import Recorded
@@ -40,11 +39,7 @@ from airhilt.cosim.world_loop import WorldLoop
 from airhilt.errors import AirhiltError
 from airhilt.host.child_process import cpu_s
 from airhilt.host.memory import give_memory_back
-from airhilt.messages import (
-    Clock,
-    Phase,
-    WorkerDescription,
-)
+from airhilt.messages import WorkerDescription
 from airhilt.metrics.collector import Collector
 from airhilt.metrics.plans import Plans
 from airhilt.metrics.summary import Summary
@@ -111,8 +106,6 @@ def run(
             scenario, options, observer or Observer(), recorded or Recorded(), workers, keeper
         )
     finally:
-        if scenario.cameras and options.cameras:
-            gc.collect()  # Callbacks of a run and the run refer to each other; they hold pictures.
         give_memory_back()
 
 
@@ -133,7 +126,7 @@ def _run(
             observer.notice(text)
         options, pace = setup.options, setup.pace
         bus = stack.enter_context(closing(_open_bus(setup.name, options, observer)))
-        _tell_clock(bus, 0, "waiting", pace)
+        tell_clock(bus, 0, "waiting", pace)
         participants = connect(
             options, setup.scenario, setup.recorded, bus, observer.notice, workers
         )
@@ -181,12 +174,6 @@ def _run_and_report(simulation: Simulation, info: RunInfo, folder: Path) -> Resu
         return result
 
 
-def _tell_clock(bus: Bus, t_ns: int, phase: Phase, pace: Pace, behind_ns: int = 0) -> None:
-    behind_s = round(behind_ns / SECOND_NS, 1)
-    clock = Clock(t_ns=t_ns, run=bus.run, phase=phase, pace=pace.name, behind_s=behind_s)
-    bus.keep("clock", clock.model_dump_json().encode())
-
-
 class Simulation:
     """The parts of one run, connected with its Director."""
 
@@ -207,7 +194,6 @@ class Simulation:
         self._bus = bus
         self._observer = observer
         self._vision = vision
-        self._phase: Phase = "running"
         self._director = Director(pace)
         self._log = log
         self._latency_log = latency_log
@@ -222,18 +208,14 @@ class Simulation:
         )
         self._world = WorldLoop(self._director, setup, self._router, self._event, self._seats)
         self._collector = self._make_collector()
+        self._advisories = self._make_advisory_delivery()
         self._pool = self._connect_workers()
         self._programs = self._connect_programs()
-        self._advisories = self._make_advisory_delivery()
-        self._router.listen(self._seats.take)
-        self._router.listen(self._make_audio_recorder().take)
-        self._router.observe(self._collector.take)
+        self._connect_seats_and_records()
         self._router.listen(self._pool.offer)
         self._router.listen(self._world.take)
         self._radio = self._connect_radio()
-        self._pace_control = PaceControl(
-            self._director, self._event, self._seats, self._radio, changed=self._publish_clock
-        )
+        self._pace_control = PaceControl(self._director, self._event, self._seats, self._radio, bus)
         if setup.seats:
             self._pace_control.keep_time()
         self._questions = self._make_questions()
@@ -246,9 +228,12 @@ class Simulation:
         self._schedule()
         self._serve_bus()
 
-    def _make_audio_recorder(self) -> AudioRecorder:
-        options = self._setup.options
-        return AudioRecorder(self._setup.folder.audio_path, keeps_voices=options.voice_recording)
+    def _connect_seats_and_records(self) -> None:
+        keeps_voices = self._setup.options.voice_recording
+        recorder = AudioRecorder(self._setup.folder.audio_path, keeps_voices=keeps_voices)
+        self._router.listen(self._seats.take)
+        self._router.listen(recorder.take)
+        self._router.observe(self._collector.take)
 
     def _make_advisory_delivery(self) -> AdvisoryDelivery:
         return AdvisoryDelivery(
@@ -258,7 +243,7 @@ class Simulation:
             is_voiced=self._participants.does("tts"),
             speak_min_level=self._participants.speak_min_level,
             is_on_frequency=self._setup.options.advisory_channel == "frequency",
-            is_automaton=lambda name: not self._seats.has_person(name),
+            seats=self._seats,
         )
 
     def _make_collector(self) -> Collector:
@@ -286,14 +271,22 @@ class Simulation:
         )
 
     def _connect_workers(self) -> WorkerPool:
+        watch = _WorkerWatch(
+            self._director,
+            self._latency_log,
+            self._collector,
+            self._advisories,
+            self._seats,
+            self._modalities,
+        )
         return WorkerPool(
             self._director,
             self._participants.workers,
             self._setup.latency,
             self._setup.options.seed,
             publish=self._router.publish,
-            done=self._worker_done,
-            lost=self._worker_lost,
+            done=watch.done,
+            lost=watch.lost,
         )
 
     def _connect_programs(self) -> ExternalPrograms:
@@ -375,15 +368,14 @@ class Simulation:
         return AdvisoryChannel(
             participants.does("tts"),
             participants.speak_min_level,
-            lambda spoken: self._advisories.heard(*spoken),
+            self._advisories,
         )
 
     def _mount_cameras(self) -> None:
         self._vision.mount(
             self._director,
             self._router,
-            state_at_ns=lambda: self._world.ticked_ns,
-            closest_ns=self._world.closest_approach_ns,
+            self._world,
             lost=partial(self._modalities.lose, "vision", "cameras_lost", "cameras"),
         )
 
@@ -396,7 +388,7 @@ class Simulation:
             actors=setup.actors,
             latency=setup.latency,
             seed=setup.options.seed,
-            state_at_ns=lambda: self._world.ticked_ns,
+            state_at_ns=self._world.state_at_ns,
             publish=self._router.publish,
             step_done=self._latency_log.step,
             subscribed=self._participants.subscribed,
@@ -407,7 +399,7 @@ class Simulation:
         director, every = self._director, self._director.every
         self._world.schedule()
         every(END_PERIOD_NS, self._end_if_due, Priority.OBSERVE)
-        every(SECOND_NS, self._publish_clock, Priority.OBSERVE)
+        every(SECOND_NS, self._pace_control.publish_clock, Priority.OBSERVE)
         every(SECOND_NS, self._flush_logs, Priority.OBSERVE, first_ns=SECOND_NS)
         every(SNAPSHOT_PERIOD_NS, self._tell_observer, Priority.OBSERVE)
         duration_ns = seconds_to_ns(self._setup.scenario.duration_s)
@@ -471,6 +463,7 @@ class Simulation:
                 self._observer.notice(sentence)
         with _kept(failures):
             folder.write_info(self._final_info(info, _cause(failures)))
+        self._clear()
         if failures:
             raise self._first(failures)
         return Result(summary, folder.path)
@@ -478,6 +471,13 @@ class Simulation:
     def interrupt(self) -> None:
         """Stop after the event in hand."""
         self._director.interrupt()
+
+    def _clear(self) -> None:
+        """Let go of what refers back to its owner, so that the run leaves nothing in memory."""
+        self._questions.close()
+        self._director.clear()
+        self._router.clear()
+        self._world.clear()
 
     def _measurements_in_hand(self, failures: list[BaseException]) -> list[StepRecord]:
         """Return what sensors have measured and not published; keep the failures of those asked."""
@@ -494,12 +494,12 @@ class Simulation:
 
     def _close_logs(self, cause: str, sensed: Sequence[StepRecord]) -> None:
         """Write the last lines of the logs and close them."""
-        self._phase = "stopped" if cause else "finished"
+        phase: Literal["stopped", "finished"] = "stopped" if cause else "finished"
         with closing(self._latency_log), closing(self._log), ExitStack() as stack:
             stack.callback(self._vision.finish)
-            self._event(self._phase, "run", cause or "came to its end")
+            self._event(phase, "run", cause or "came to its end")
             self._programs.finish()
-            self._publish_clock()
+            self._pace_control.publish_clock(phase)
             self._radio.close()
             for step in (*self._pool.unfinished(), *sensed):
                 self._latency_log.step(step)
@@ -550,18 +550,6 @@ class Simulation:
 
     # --- workers ----------------------------------------------------------------------------
 
-    def _worker_done(self, record: StepRecord) -> None:
-        self._latency_log.step(record)
-        self._collector.step(record)
-
-    def _worker_lost(self, worker: WorkerDescription, cause: str, is_of_machine: bool) -> None:
-        if worker.modality == "tts":
-            self._advisories.voice_lost()
-            self._seats.change_all(spoken_from=None)
-        cause = readable(cause)
-        self._latency_log.lost(worker.name, self._director.now_ns, cause)
-        self._modalities.lose(worker.modality, "worker_lost", worker.name, cause, is_of_machine)
-
     def _gone(self, name: str) -> None:
         """Give up a worker or a program of another process that has ended."""
         cause = f"worker {name!r} is gone: its process ended"
@@ -599,11 +587,6 @@ class Simulation:
         if does("equipment"):
             self._modalities.set("equipment", "on")
 
-    def _publish_clock(self) -> None:
-        director = self._director
-        behind_ns = self._pace_control.behind_ns
-        _tell_clock(self._bus, director.now_ns, self._phase, director.pace, behind_ns)
-
     def _tell_observer(self) -> None:
         horizontal_m, vertical_m = self._world.distances_m() or (None, None)
         self._observer.snapshot(
@@ -615,6 +598,40 @@ class Simulation:
                 self._collector.last_advisory,
             )
         )
+
+
+class _WorkerWatch:
+    """Takes in what workers have done, and the loss of one."""
+
+    def __init__(
+        self,
+        director: Director,
+        log: LatencyLog,
+        collector: Collector,
+        advisories: AdvisoryDelivery,
+        seats: Seats,
+        modalities: Modalities,
+    ) -> None:
+        self._director = director
+        self._log = log
+        self._collector = collector
+        self._advisories = advisories
+        self._seats = seats
+        self._modalities = modalities
+
+    def done(self, record: StepRecord) -> None:
+        """Log and count a finished step."""
+        self._log.step(record)
+        self._collector.step(record)
+
+    def lost(self, worker: WorkerDescription, cause: str, is_of_machine: bool) -> None:
+        """Go on without a worker."""
+        if worker.modality == "tts":
+            self._advisories.voice_lost()
+            self._seats.change_all(spoken_from=None)
+        cause = readable(cause)
+        self._log.lost(worker.name, self._director.now_ns, cause)
+        self._modalities.lose(worker.modality, "worker_lost", worker.name, cause, is_of_machine)
 
 
 @contextmanager

@@ -61,6 +61,7 @@ class WorkloadQuestions:
         self._is_replay = is_replay
         self._is_closing = False
         self._asked: Counter[str] = Counter()
+        self._patience: threading.Timer | None = None
         if isa_minutes is not None:
             period_ns = seconds_to_ns(60.0 * isa_minutes)
             director.every(period_ns, self._ask_isa, Priority.OBSERVE, first_ns=period_ns)
@@ -82,9 +83,15 @@ class WorkloadQuestions:
         self._ask_all("nasa_tlx")
         self._pace.stand_still()
         if not self._is_replay:
-            waiting = threading.Timer(PATIENCE_S, self._director.post, [self._give_up])
-            waiting.daemon = True
-            waiting.start()
+            self._patience = threading.Timer(PATIENCE_S, self._director.post, [self._give_up])
+            self._patience.daemon = True
+            self._patience.start()
+
+    def close(self) -> None:
+        """Wait for nobody any more: the run is over."""
+        if self._patience is not None:
+            self._patience.cancel()
+            self._patience = None
 
     def _ask_isa(self) -> None:
         self._ask_all("isa")

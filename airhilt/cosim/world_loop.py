@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from functools import partial
 
 from airhilt.commands import Command
-from airhilt.cosim.conflict_window import ConflictWindow
+from airhilt.cosim.conflict_publisher import ConflictPublisher, publish_incursion, tell_end
+from airhilt.cosim.conflict_window import ConflictWindow, Step
 from airhilt.cosim.events import EventPublisher
 from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import TICK_S, Setup
 from airhilt.errors import AirhiltError, failure_in
 from airhilt.messages import (
     ActorCommand,
-    ConflictPhase,
     ConflictTruth,
     FlyCommand,
     Message,
@@ -29,8 +29,8 @@ from airhilt.world.actors import Actor, Unable
 from airhilt.world.actors.triggers import Triggers
 from airhilt.world.flight import Aircraft
 from airhilt.world.truth.conditions import ConditionCompiler
-from airhilt.world.truth.conflicts import ConflictMonitor, Pair
-from airhilt.world.truth.runways import Incursion, RunwayMonitor
+from airhilt.world.truth.conflicts import ConflictMonitor
+from airhilt.world.truth.runways import RunwayMonitor
 from airhilt.world.truth.states import minima_of, truth_of, zone_of
 
 TRUTH_PERIOD_NS = SECOND_NS // 5
@@ -84,9 +84,30 @@ class WorldLoop:
         self.ended_lines: set[str] = set()
         self.ticked_ns = 0
         self.pair = pair_of(scenario)
-        self.monitor = ConflictMonitor(
-            {c: a.body for c, a in actors.items() if isinstance(a.body, Aircraft)},
-            {c: a.body for c, a in actors.items() if not isinstance(a.body, Aircraft)},
+        self.runways: RunwayMonitor | None = None
+        if site.layout is not None:
+            self.runways = RunwayMonitor(
+                site.layout,
+                actors,
+                self.affected,
+                self.uncleared,
+                self._publish,
+                partial(publish_incursion, director, router),
+            )
+        conflicts = ConflictPublisher(director, actors, router, event, self.runways)
+        self.monitor = self._conflict_monitor(setup, conflicts)
+        self._compile = ConditionCompiler(
+            actors, self.monitor, self.runways, self.begun_lines, self.ended_lines
+        ).compile
+        self._window = self._conflict_window()
+        self._ends = [self._compile(condition) for condition in scenario.end_when]
+
+    def _conflict_monitor(self, setup: Setup, conflicts: ConflictPublisher) -> ConflictMonitor:
+        scenario, site = setup.scenario, setup.site
+        bodies = {callsign: actor.body for callsign, actor in setup.actors.items()}
+        return ConflictMonitor(
+            {c: body for c, body in bodies.items() if isinstance(body, Aircraft)},
+            {c: body for c, body in bodies.items() if not isinstance(body, Aircraft)},
             minima_of(scenario.separation),
             site.ground_m,
             zone_of(site),
@@ -97,23 +118,8 @@ class WorldLoop:
                 if isinstance(spec, AircraftSpec) and spec.transponder.equipped
             ),
             frozenset() if self.pair is None else frozenset({self.pair}),
-            self._became_true,
+            conflicts.became_true,
         )
-        self.runways: RunwayMonitor | None = None
-        if site.layout is not None:
-            self.runways = RunwayMonitor(
-                site.layout,
-                actors,
-                self.affected,
-                self.uncleared,
-                self._publish,
-                self._incurred,
-            )
-        self._compile = ConditionCompiler(
-            actors, self.monitor, self.runways, self.begun_lines, self.ended_lines
-        ).compile
-        self._window = self._conflict_window()
-        self._ends = [self._compile(condition) for condition in scenario.end_when]
 
     def _conflict_window(self) -> ConflictWindow | None:
         conflict = self._scenario.conflict
@@ -121,7 +127,7 @@ class WorldLoop:
             return None
         opens = self._compile(conflict.opens_when)
         begins = opens if conflict.begins is None else self._compile(conflict.begins)
-        return ConflictWindow(self.pair, begins, opens, self.monitor, self._publish_conflict)
+        return ConflictWindow(self.pair, begins, opens, self.monitor)
 
     def schedule(self) -> None:
         """Schedule physics, truth and the evaluation of conditions."""
@@ -181,7 +187,11 @@ class WorldLoop:
         """Take in that a radio line begins now: it may be what begins the conflict."""
         self.begun_lines.add(line)
         if self._window is not None:
-            self._window.begin_if_due(self._director.now_ns)
+            self._publish_steps(self._window.begin_if_due(self._director.now_ns))
+
+    def state_at_ns(self) -> int:
+        """Return the time of the states of the actors."""
+        return self.ticked_ns
 
     def has_ended(self) -> bool:
         """Return whether all actors have ended, or a condition that ends the run is true."""
@@ -200,13 +210,17 @@ class WorldLoop:
             return None
         return self.monitor.motion(self.pair).distance_m, self.monitor.vertical_m(self.pair)
 
+    def clear(self) -> None:
+        """Forget what waits for a condition: the run is over."""
+        self._triggers.clear()
+
     def _tick(self) -> None:
         now_ns = self._director.now_ns
         for actor in self._actors.values():
             if actor.body.ended is None:
                 self._advance(actor)
                 if actor.body.ended is not None:
-                    self._tell_end(actor)
+                    tell_end(self._event, actor)
         self.ticked_ns = now_ns
         self.monitor.tick(now_ns)
 
@@ -222,9 +236,6 @@ class WorldLoop:
                 f"{self._director.now_ns / SECOND_NS:.2f} s: {failure_in(error)}"
             ) from error
 
-    def _tell_end(self, actor: Actor) -> None:
-        self._event("actor_ended", actor.spec.callsign, actor.body.ended or "")
-
     def _evaluate(self) -> None:
         """Let actors go on with what they began, and evaluate triggers and conflict window."""
         now_ns = self._director.now_ns
@@ -236,7 +247,7 @@ class WorldLoop:
                     self._event("unable", actor.spec.callsign, str(unable))
         self._triggers.evaluate(now_ns)
         if self._window is not None:
-            self._window.look(now_ns)
+            self._publish_steps(self._window.look(now_ns))
 
     def _fail_engine(self, failure: EngineFailure) -> None:
         body = self._actors[failure.actor].body
@@ -250,49 +261,8 @@ class WorldLoop:
             if actor.body.ended is None:
                 self._publish(f"truth/state/{callsign}", truth_of(actor, now_ns))
 
-    def _publish_conflict(self, phase: ConflictPhase, pair: Pair) -> None:
-        conflict = ConflictTruth(t_ns=self._director.now_ns, phase=phase, actors=pair)
-        self._publish("truth/conflict", conflict)
-
-    def _became_true(
-        self, phase: ConflictPhase, pair: Pair, horizontal_m: float, vertical_m: float
-    ) -> None:
-        """Publish what became true of a pair; whatever collides, ends."""
-        if all(self._actors[callsign].category == "wildlife" for callsign in pair):
-            return  # A herd.
-        self._publish(
-            "truth/conflict",
-            ConflictTruth(
-                t_ns=self._director.now_ns,
-                phase=phase,
-                actors=pair,
-                horizontal_m=horizontal_m,
-                vertical_m=vertical_m,
-            ),
-        )
-        if phase != "collision":
-            return
-        if self.runways is not None:
-            self.runways.collided(*pair)
-        for callsign, other in (pair, pair[::-1]):
-            actor, struck = self._actors[callsign], self._actors[other]
-            if struck.category == "wildlife" and not struck.body.on_ground:
-                continue  # An aircraft flies on after a bird strike.
-            actor.body.ended = f"collision with {other}"
-            self._tell_end(actor)
-
-    def _incurred(self, incursion: Incursion) -> None:
-        """Publish an incursion of a runway."""
-        actors = (incursion.user, incursion.intruder)
-        closest = incursion.closest
-        self._publish(
-            "truth/conflict",
-            ConflictTruth(
-                t_ns=self._director.now_ns,
-                phase="runway_incursion",
-                actors=tuple(actor for actor in actors if actor is not None),
-                horizontal_m=closest.horizontal_m if closest else None,
-                vertical_m=closest.vertical_m if closest else None,
-                runway=incursion.runway.replace("/", "-"),
-            ),
-        )
+    def _publish_steps(self, steps: Iterable[Step]) -> None:
+        assert self.pair is not None
+        for step in steps:
+            conflict = ConflictTruth(t_ns=self._director.now_ns, phase=step, actors=self.pair)
+            self._publish("truth/conflict", conflict)

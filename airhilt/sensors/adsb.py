@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Mapping
+from functools import partial
 
 from airhilt.geodesy.positions import RelativePosition
 from airhilt.messages import AdsbReport, DeclaredLatency, Message
@@ -113,20 +114,17 @@ class AdsbSensor:
 
     def _repeat(self, source: _Source, squitter: _Squitterer, first_ns: int) -> None:
         """Call ``squitter`` at a time, then each time after the wait it returns, until the end."""
-        body = source.actor.body
-
-        def send(message: Squitter, state: Motion) -> None:
-            self._receive(source.transponder, message, state)
-
-        def call() -> None:
-            if body.ended is not None:
-                return
-            now_ns = self._director.now_ns
-            state = carried_on(body.state, (now_ns - self._state_at_ns()) / SECOND_NS)
-            wait_ns = squitter(state, now_ns, send)
-            self._director.at(now_ns + wait_ns, call, Priority.SENSOR)
-
+        call = partial(self._squit, source, squitter)
         self._director.at(first_ns, call, Priority.SENSOR)
+
+    def _squit(self, source: _Source, squitter: _Squitterer) -> None:
+        body = source.actor.body
+        if body.ended is not None:
+            return
+        now_ns = self._director.now_ns
+        state = carried_on(body.state, (now_ns - self._state_at_ns()) / SECOND_NS)
+        wait_ns = squitter(state, now_ns, partial(self._receive, source.transponder))
+        self._repeat(source, squitter, now_ns + wait_ns)
 
     def _receive(self, sender: Transponder, squitter: Squitter, state: Motion) -> None:
         now_ns, begun = self._director.now_ns, time.perf_counter()

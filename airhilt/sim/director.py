@@ -101,12 +101,12 @@ class Director:
         if period_ns <= 0:
             raise ValueError(f"period of {period_ns} ns; it must be positive")
 
-        def tick() -> None:
-            action()
-            heapq.heappush(self._heap, (self.now_ns + period_ns, priority, self._sequence, tick))
-            self._sequence += 1
+        self.at(first_ns, partial(self._tick, period_ns, action, priority), priority)
 
-        self.at(first_ns, tick, priority)
+    def _tick(self, period_ns: int, action: Action, priority: Priority) -> None:
+        """Do an action, and schedule it again after its period."""
+        action()
+        self.at(self.now_ns + period_ns, partial(self._tick, period_ns, action, priority), priority)
 
     def post(self, action: Action) -> None:
         """Run ``action`` as soon as possible, at whatever time it then is (any thread)."""
@@ -120,6 +120,12 @@ class Director:
     def stop(self) -> None:
         """End `run` after the event in hand."""
         self._stopped = True
+
+    def clear(self) -> None:
+        """Forget all that is scheduled: the run is over."""
+        self._heap.clear()
+        self._posted.clear()
+        self._most_behind_ns, self._stalled = None, lambda _: None
 
     def lose_time(self, most_behind_ns: int, stalled: Callable[[int], None]) -> None:
         """Lose the time by which events are late, rather than make up for it faster.

@@ -99,14 +99,9 @@ class WorkerPool:
         done: Callable[[StepRecord], None],
         lost: Callable[[WorkerDescription, str, bool], None],
     ) -> None:
-        self._director = director
-        self._publish = publish
         self._inputs: list[tuple[Server, dict[str, Policy]]] = []
         self._routes: dict[str, list[tuple[Server, Policy]]] = {}
         self.servers: dict[str, Server] = {}
-        self._equipment = {
-            each.description.name for each in participants if each.description.modality == EQUIPMENT
-        }
         self._sources: dict[str, set[str]] = {}
         self._declared_s: dict[str, float] = {}
         """Median that each measured worker declares, in s."""
@@ -123,7 +118,7 @@ class WorkerPool:
                 latency.of(description.modality, participant.is_of_user).source(
                     description.name, seed, description.latency.median_s, description.latency.sigma
                 ),
-                deliver=partial(self._deliver, description.name),
+                deliver=partial(_deliver, director, publish, description),
                 done=done,
                 lost=partial(lost, description),
             )
@@ -200,18 +195,28 @@ class WorkerPool:
         steps = [server.unfinished() for server in self.servers.values()]
         return [step for step in steps if step is not None]
 
-    def _deliver(self, worker: str, output: Output) -> None:
-        message = parse_output(
-            worker, output.key, output.payload, self._director.now_ns, output.attachment
+
+def _deliver(
+    director: Director, publish: Publish, worker: WorkerDescription, output: Output
+) -> None:
+    """Publish an output that leaves a worker, after a check.
+
+    Raises
+    ------
+    WorkerError
+        The worker may not publish there, or it is not what belongs there.
+    """
+    message = parse_output(
+        worker.name, output.key, output.payload, director.now_ns, output.attachment
+    )
+    if isinstance(message, EquipmentAlert) and worker.modality != EQUIPMENT:
+        raise WorkerError(
+            f"worker {worker.name!r} published on {output.key!r}; expected a key under advisory: "
+            "only equipment of the world publishes there"
         )
-        if isinstance(message, EquipmentAlert) and worker not in self._equipment:
-            raise WorkerError(
-                f"worker {worker!r} published on {output.key!r}; expected a key under advisory: "
-                "only equipment of the world publishes there"
-            )
-        stamped = message.model_copy(update={"t_ns": self._director.now_ns})
-        raw = output.payload if isinstance(message, Header) else None
-        self._publish(output.key, stamped, worker, raw)
+    stamped = message.model_copy(update={"t_ns": director.now_ns})
+    raw = output.payload if isinstance(message, Header) else None
+    publish(output.key, stamped, worker.name, raw)
 
 
 def _begun_ns(message: Message) -> int | None:

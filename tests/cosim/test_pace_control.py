@@ -16,6 +16,7 @@ from airhilt.sim import Director, Priority, RealTime
 from seats import state_of
 
 if TYPE_CHECKING:
+    from airhilt.bus.session import Bus
     from airhilt.cosim.radio import RunRadio
 
 LATER_NS = 3_600_000_000_000
@@ -36,7 +37,7 @@ class Waiting:
             lambda kind, subject, text: self.paces.append(text),  # type: ignore[arg-type]
             self.seats,
             cast("RunRadio", SimpleNamespace(pause=lambda: None)),
-            changed=lambda: None,
+            cast("Bus", SimpleNamespace(run="run", keep=lambda _key, _data: None)),
         )
         self.control.wait_for_seats()
         self.director.at(LATER_NS, lambda: None, Priority.PHYSICS)

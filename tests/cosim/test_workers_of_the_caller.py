@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import gc
+import weakref
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -10,6 +12,7 @@ import pytest
 
 import airhilt
 from airhilt import Input, Output, Scenario, Step
+from airhilt.cosim.observer import Observer
 from airhilt.cosim.replay import replay
 from airhilt.errors import WorkerError
 from airhilt.messages import Advisory, Evidence, InputSpec, Severity, WorkerDescription
@@ -54,6 +57,25 @@ def test_a_worker_of_the_caller_takes_the_place_of_the_reference_worker(
     assert result.summary.assistant == "external"
     assert [one.id for one in result.summary.advisories] == ["warner-1"]
     assert [one.where for one in RunFolder(result.folder).info().workers] == ["caller"]
+
+
+@pytest.mark.parametrize("options", [{}, {"speech": True}, {"seat": ("AAL123",)}])
+def test_a_run_keeps_nobody_when_it_has_ended(
+    options: dict[str, Any], encounter: Scenario, tmp_path: Path
+) -> None:
+    """Its parts do not refer to each other in circles, so nothing waits for the collector."""
+    worker, observer = WarnsOnce(), Observer()
+    kept = [weakref.ref(worker), weakref.ref(observer)]
+    gc.disable()
+    try:
+        airhilt.run(
+            encounter, out=tmp_path / "run", workers=[worker], observer=observer, cameras=False,
+            **{"latency": "fixed", "speech": False, "pace": "virtual", **options},
+        )  # fmt: skip
+        del worker, observer
+        assert [reference() for reference in kept] == [None, None]
+    finally:
+        gc.enable()
 
 
 def test_its_run_replays_from_the_record_without_it(encounter: Scenario, tmp_path: Path) -> None:

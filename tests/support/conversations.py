@@ -7,7 +7,7 @@ from types import SimpleNamespace
 from typing import Any, TypeVar
 
 from airhilt.messages import HearingTruth, Message, SpokenTruth, Transcript
-from airhilt.scenario.failures import apply_failures
+from airhilt.scenario.failures import EffectiveLine, apply_failures
 from airhilt.scenario.models import Scenario
 from airhilt.seats import Seats
 from airhilt.sensors.radio.backends import RadioBackend, TextRadio
@@ -67,6 +67,7 @@ class World:
         self.done: list[Any] = []
         self.microphones: list[tuple[float, str | None]] = []
         self.begun: list[tuple[float, str]] = []
+        self.ended_lines: set[str] = set()
         high = FixedSite(0.68, -1.34, altitude_m=33_000 * FOOT)
         self.actors = {
             actor.callsign: SimpleNamespace(
@@ -95,16 +96,11 @@ class World:
             stations,
             backend or TextRadio(self.scenario.radio.words_per_minute),
             7,
-            set(),
-            line_begun=lambda line: self.begun.append((self.now_s, line)),
-            once=self.once,
-            publish=self.publish,
-            do=self.do,
-            failed=lambda happening: None,
-            microphone_stuck=lambda actor, text: self.microphones.append((self.now_s, actor)),
-            microphones_free=lambda: self.microphones.append((self.now_s, None)),
+            self,
+            self,
+            self.publish,
+            self.seats,
             hearing=hearing if heard is None else Scripted(heard),
-            seats=self.seats,
         )
         self.conversation.start()
 
@@ -127,6 +123,19 @@ class World:
 
     def do(self, callsign: str, command: Any) -> None:
         self.done.append((callsign, command, self.now_s))
+
+    def line_begun(self, line: str) -> None:
+        self.begun.append((self.now_s, line))
+
+    def line_failed(self, line: EffectiveLine) -> None:
+        pass
+
+    def microphone_stuck(self, callsign: str, text: str) -> None:
+        del text
+        self.microphones.append((self.now_s, callsign))
+
+    def microphones_free(self) -> None:
+        self.microphones.append((self.now_s, None))
 
     @property
     def now_s(self) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 from typing import NamedTuple
@@ -21,9 +21,11 @@ from airhilt.sensors.base import Publish
 from airhilt.sensors.radio.hearing import hearing_key
 from airhilt.sensors.radio.on_air import OnAir, Utterance
 from airhilt.sensors.radio.stations import Stations
+from airhilt.sensors.radio.transmissions import Transmissions
 from airhilt.sim import Director, Priority
 from airhilt.sim.payload import Payload
 from airhilt.units import seconds_to_ns
+from airhilt.world.actors.advisory_delivery import AdvisoryDelivery
 
 PAUSE_S = 2.0
 """Pause in s after an advisory, in which others may speak: an assumption."""
@@ -46,13 +48,13 @@ class AdvisoryChannel(NamedTuple):
         True if a worker speaks advisories; otherwise their words are transmitted as text.
     speak_min_level
         Least severity that is said.
-    heard
-        Called with an advisory that its recipient has heard to the end.
+    delivery
+        Gets each advisory that its recipient has heard to the end.
     """
 
     is_voiced: bool
     speak_min_level: Severity
-    heard: Callable[[Spoken], None]
+    delivery: AdvisoryDelivery
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,8 +80,6 @@ class AdvisoryCalls:
     ----------
     callsigns
         Callsign of each actor by its callsign and by its 24-bit address.
-    reaches
-        Returns whether a transmission reaches a listener.
     """
 
     def __init__(
@@ -88,9 +88,7 @@ class AdvisoryCalls:
         stations: Stations,
         callsigns: Mapping[str, str],
         channel: AdvisoryChannel,
-        *,
-        say: Callable[[Utterance], None],
-        reaches: Callable[[OnAir, str], bool],
+        transmissions: Transmissions,
         publish: Publish,
     ) -> None:
         self._director = director
@@ -98,9 +96,8 @@ class AdvisoryCalls:
         self._callsigns = callsigns
         self._is_voiced = channel.is_voiced
         self._speak_min_level = channel.speak_min_level
-        self._heard = channel.heard
-        self._say = say
-        self._reaches = reaches
+        self._delivery = channel.delivery
+        self._transmissions = transmissions
         self._publish = publish
         self._latest: dict[tuple[str, str], Advisory] = {}
         """The last revision of each advisory, by id and recipient."""
@@ -131,7 +128,7 @@ class AdvisoryCalls:
         after_ns = self._director.now_ns + seconds_to_ns(PAUSE_S)
         self._director.at(after_ns, partial(self._next, said.frequency_khz), Priority.SCRIPT)
         actor = self._callsigns[said.spoken.recipient]
-        is_heard = self._reaches(on_air, actor)
+        is_heard = self._transmissions.reaches(on_air, actor)
         truth = HearingTruth(
             t_ns=self._director.now_ns,
             id=on_air.utterance.id,
@@ -142,7 +139,7 @@ class AdvisoryCalls:
         )
         self._publish(hearing_key(actor), truth)
         if is_heard:
-            self._heard(said.spoken)
+            self._delivery.heard(*said.spoken)
 
     def _is_said(self, advisory: Advisory) -> bool:
         """Return whether an advisory is urgent enough to be said."""
@@ -171,4 +168,6 @@ class AdvisoryCalls:
         self._said[name] = first
         callsign = self._callsigns[spoken.recipient]
         speech = from_pcm(first.pcm) if first.pcm else None
-        self._say(Utterance(name, frequency_khz, ASSISTANT, callsign, first.text, speech=speech))
+        self._transmissions.say(
+            Utterance(name, frequency_khz, ASSISTANT, callsign, first.text, speech=speech)
+        )

@@ -113,13 +113,7 @@ class AudioStreams:
 
     def _audio_of(self, on_air: OnAir) -> ReceivedAudio:
         background = self._stations.background_of(on_air.utterance.speaker)
-
-        def receive(mixed_with: tuple[OnAir, ...], begin: int, now_ns: int) -> bytes:
-            return self._backend.receive(
-                on_air, mixed_with, background, begin, now_ns, self._listener
-            )
-
-        return ReceivedAudio(on_air, receive)
+        return ReceivedAudio(on_air, self._backend, background, self._listener)
 
     def _stream_later(self, on_air: OnAir) -> None:
         due_ns = self._director.now_ns + CHUNK_NS

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from functools import partial
 
 from airhilt.commands import Command
-from airhilt.scenario.models import Condition, ScriptedCommand
+from airhilt.scenario.models import ScriptedCommand
+from airhilt.seats import Seats
 from airhilt.sensors.radio.radio_call import RadioCall
+from airhilt.sensors.radio.surroundings import RadioWorld
 from airhilt.sim import Director, Priority
 from airhilt.units import seconds_to_ns
 
@@ -17,30 +19,12 @@ same as the default of scripted commands."""
 
 
 class Compliance:
-    """Lets actors do what calls make them do.
+    """Lets actors do what calls make them do."""
 
-    Parameters
-    ----------
-    once
-        Calls its second argument as soon as its first, a condition, is true.
-    do
-        Lets an actor carry out a command.
-    offer
-        Offers the person who acts for an actor a command of a call, by its id; returns False if
-        there is no person, so that the actor does it by itself.
-    """
-
-    def __init__(
-        self,
-        director: Director,
-        once: Callable[[Condition, Callable[[], None]], None],
-        do: Callable[[str, Command], None],
-        offer: Callable[[str, str, Command], bool],
-    ) -> None:
+    def __init__(self, director: Director, world: RadioWorld, seats: Seats) -> None:
         self._director = director
-        self._once = once
-        self._do = do
-        self._offer = offer
+        self._world = world
+        self._seats = seats
 
     def carry_out(self, call: RadioCall, actor: str) -> None:
         """Let an actor do what the script has for it in a call."""
@@ -54,6 +38,13 @@ class Compliance:
             scripted = ScriptedCommand(actor=actor, command=command, delay_s=COMPLY_AFTER_S)
             self._do_later(call, scripted)
 
+    def _offer(self, actor: str, call: str, command: Command) -> bool:
+        """Offer the person who acts for an actor a command; return False if there is none."""
+        if not self._seats.has_person(actor):
+            return False
+        self._seats.offer(actor, call, command)
+        return True
+
     def _do_later(self, call: RadioCall, scripted: ScriptedCommand) -> None:
         """Let an actor carry out a command in time; a person is offered it at once instead."""
         if self._offer(scripted.actor, call.id, scripted.command):
@@ -65,9 +56,9 @@ class Compliance:
         def act() -> None:
             actor, command = scripted.actor, scripted.command
             if actor not in call.withdrawn_for and not self._offer(actor, call.id, command):
-                self._do(actor, command)
+                self._world.do(actor, command)
 
         if scripted.when is None:
             act()
         else:
-            self._once(scripted.when, act)
+            self._world.once(scripted.when, act)

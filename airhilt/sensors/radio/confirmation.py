@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
 from functools import partial
 
 from airhilt.messages import Advisory, Confirm
 from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.radio_call import RadioCall
+from airhilt.sensors.radio.readback_policy import ReadbackPolicy
+from airhilt.sensors.radio.speakers import Speakers
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director, Priority
 from airhilt.units import seconds_to_ns
@@ -25,14 +26,8 @@ class Confirmations:
 
     Parameters
     ----------
-    said
-        Calls by the ids of their transmissions, in the order in which they were made.
-    readback_of
-        Returns the readback in the script of a call by somebody, None if there is none.
-    call_again
-        Makes a call that was not taken once more.
-    say
-        Makes a call.
+    policy
+        Knows the readbacks in the script, and makes a call that was not taken once more.
     """
 
     def __init__(
@@ -40,19 +35,14 @@ class Confirmations:
         director: Director,
         stations: Stations,
         answers: Answers,
-        said: Mapping[str, RadioCall],
-        *,
-        readback_of: Callable[[RadioCall, str], RadioCall | None],
-        call_again: Callable[[RadioCall], None],
-        say: Callable[[RadioCall], None],
+        speakers: Speakers,
+        policy: ReadbackPolicy,
     ) -> None:
         self._director = director
         self._stations = stations
         self._answers = answers
-        self._said = said
-        self._readback_of = readback_of
-        self._call_again = call_again
-        self._say = say
+        self._speakers = speakers
+        self._policy = policy
         self._asked: set[tuple[str, str]] = set()
         """Advisories that were answered, by id and recipient."""
         self._originals: dict[str, RadioCall] = {}
@@ -78,20 +68,17 @@ class Confirmations:
             return
         has_taken = call.addressed is None or call.addressed in call.taken_by
         if asked != call.speaker:
-            self._say(self._question(call, asked, self._again(call)))
+            self._speakers.say(self._question(call, asked, self._again(call)))
         elif has_taken:
-            self._say(self._again(call))
+            self._speakers.say(self._again(call))
         else:
-            self._call_again(call)
+            self._policy.call_again(call)
 
     def _call(self, advisory: Advisory, callsign: str) -> RadioCall | None:
         """Return the call in doubt: that of the evidence, or else the last of the callsign."""
-        of_evidence = [
-            self._said[name] for name in advisory.evidence.radio_ids if name in self._said
-        ]
-        of_callsign = [
-            each for each in self._said.values() if callsign in (each.speaker, each.addressed)
-        ]
+        said = self._speakers.said
+        of_evidence = [said[name] for name in advisory.evidence.radio_ids if name in said]
+        of_callsign = [each for each in said.values() if callsign in (each.speaker, each.addressed)]
         calls = of_evidence or of_callsign
         return self._originals.get(calls[-1].id, calls[-1]) if calls else None
 
@@ -121,7 +108,7 @@ class Confirmations:
 
     def _readback(self, call: RadioCall, again: RadioCall, listener: str) -> RadioCall:
         """Return the readback of a call that is said again: as before, if it was read back."""
-        before = self._readback_of(call, listener)
+        before = self._policy.readback_in_script(call, listener)
         if before is not None and before.times_said:
             text = before.said
         else:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 from airhilt.scenario.models import RadioLine, ScriptedCommand
 from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.compliance import COMPLY_AFTER_S
@@ -14,31 +12,17 @@ from airhilt.world.actors.listening import Listener
 
 
 class ControllerCheck:
-    """Lets controllers compare readbacks with what they have said.
+    """Lets controllers compare readbacks with what they have said."""
 
-    Parameters
-    ----------
-    call_again
-        Makes a call once more, as if its addressee had asked for it.
-    say
-        Makes a call as an answer.
-    """
-
-    def __init__(
-        self,
-        stations: Stations,
-        answers: Answers,
-        *,
-        call_again: Callable[[RadioCall], None],
-        say: Callable[[RadioCall], None],
-    ) -> None:
+    def __init__(self, stations: Stations, answers: Answers) -> None:
         self._stations = stations
         self._answers = answers
-        self._call_again = call_again
-        self._say = say
 
-    def check(self, readback: RadioCall, said: Utterance, unit: str) -> None:
-        """Let a controller correct a readback that is wrong or comes from the wrong crew."""
+    def correction(self, readback: RadioCall, said: Utterance, unit: str) -> RadioCall | None:
+        """Return the call by which a controller corrects a readback; None if it is right.
+
+        It is the instruction itself, once more, if another crew has read it back.
+        """
         instruction, crew = readback.in_reply_to, readback.speaker
         if (
             instruction is None
@@ -47,15 +31,16 @@ class ControllerCheck:
             or readback.asks_for is not None
             or not self._stations.is_actor(crew)
         ):
-            return
+            return None
         right = instruction.scripted.declared
         if crew != instruction.addressed:
             instruction.withdrawn_for.add(crew)
-            self._call_again(instruction)
-        elif self._listener(readback).differs(said.text, right.text):
-            self._correct(readback, instruction, right)
+            return instruction
+        if self._listener(readback).differs(said.text, right.text):
+            return self._correct(readback, instruction, right)
+        return None
 
-    def _correct(self, readback: RadioCall, instruction: RadioCall, right: RadioLine) -> None:
+    def _correct(self, readback: RadioCall, instruction: RadioCall, right: RadioLine) -> RadioCall:
         """Let a controller repeat what was read back wrongly, and the crew do that instead."""
         crew, unit = readback.speaker, instruction.speaker
         readback.withdrawn_for.add(crew)
@@ -78,7 +63,7 @@ class ControllerCheck:
             in_reply_to=correction,
             is_repeated=False,
         )
-        self._say(correction)
+        return correction
 
     def _commands_of_correction(
         self, readback: RadioCall, right: RadioLine

@@ -82,7 +82,7 @@ class FrequencyArbiter:
         return OpenMicrophone(self._director, on_air, partial(self._end, on_air))
 
     def close(self) -> list[OnAir]:
-        """Cut off what is on the air, and return it."""
+        """Cut off what is on the air, and return it; nothing is told of from now on."""
         now_ns = self._director.now_ns
         cut = [
             on_air
@@ -93,6 +93,7 @@ class FrequencyArbiter:
         for on_air in cut:
             on_air.end_ns = now_ns
         self._on_air.clear()
+        self._began = self._ended = lambda _on_air: None
         return cut
 
     def _try_to_speak(self, utterance: Utterance, *, has_waited: bool) -> None:

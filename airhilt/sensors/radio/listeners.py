@@ -10,11 +10,14 @@ from airhilt.messages import HearingTruth, Message, Transcript
 from airhilt.scenario.models import Radio
 from airhilt.seats import Seats
 from airhilt.sensors.base import Publish
+from airhilt.sensors.radio.compliance import Compliance
 from airhilt.sensors.radio.hearing import HearingModel, Outcome, hearing_key
 from airhilt.sensors.radio.on_air import OnAir, Utterance
 from airhilt.sensors.radio.radio_call import RadioCall
+from airhilt.sensors.radio.readback_policy import ReadbackPolicy
 from airhilt.sensors.radio.reception import Receptions
 from airhilt.sensors.radio.stations import Stations
+from airhilt.sensors.radio.transmissions import Transmissions
 from airhilt.sim import Director, Priority
 from airhilt.units import seconds_to_ns
 from airhilt.world.actors.listening import Listener, Understanding
@@ -34,24 +37,16 @@ _OUTCOMES: dict[str, Outcome] = {
 
 Read = Callable[[str, tuple[float, ...] | None], None]
 """Called with the words of a transcript, none if there is no transcript, and their confidences."""
-Understood = Callable[[RadioCall, Utterance, str, Understanding], None]
-"""Called with a call, its words on the air, a listener, and what that listener understands."""
 
 
 class Listeners:
-    """The people on the frequencies, who hear calls or read their transcripts.
+    """The people on the frequencies, who hear calls or read their transcripts, and act on them.
 
     Parameters
     ----------
-    reaches
-        Returns whether a transmission reaches a listener, and no other with it.
     seats
         Seats of people. No mistake is drawn for people: a call that reaches them counts as heard,
         and they switch their receivers off.
-    understood
-        Called when a recipient of a call has heard or read it, or has failed to.
-    overheard
-        Called when a crew takes a call for its own that is for somebody else.
     """
 
     def __init__(
@@ -60,23 +55,22 @@ class Listeners:
         radio: Radio,
         stations: Stations,
         hearing: HearingModel,
-        *,
-        reaches: Callable[[OnAir, str], bool],
+        transmissions: Transmissions,
         seats: Seats,
         publish: Publish,
-        understood: Understood,
-        overheard: Understood,
+        compliance: Compliance,
+        policy: ReadbackPolicy,
     ) -> None:
         self._director = director
         self._radio = radio
         self._receptions = Receptions(radio)
         self._stations = stations
         self._hearing = hearing
-        self._reaches = reaches
+        self._transmissions = transmissions
         self._seats = seats
         self._publish = publish
-        self._understood = understood
-        self._overheard = overheard
+        self._compliance = compliance
+        self._policy = policy
         self._waiting: dict[str, list[Read]] = {}
         """Listeners that wait for the transcript of a transmission, by its id."""
 
@@ -113,7 +107,7 @@ class Listeners:
         """Return whether a call comes to a recipient, who then may hear it well or not."""
         return (
             listener not in call.deaf
-            and self._reaches(on_air, listener)
+            and self._transmissions.reaches(on_air, listener)
             and self._seats.listens(listener, on_air.utterance.frequency_khz)
         )
 
@@ -189,7 +183,7 @@ class Listeners:
         )
         if understanding.kind == "otherwise":
             self._publish_truth(said, listener, understanding, text, source="transcript")
-            self._overheard(call, said, listener, understanding)
+            self._compliance.comply(call, listener, understanding.commands)
 
     # --- spoken by a person -----------------------------------------------------------------
 
@@ -240,7 +234,11 @@ class Listeners:
         source: Literal["ear", "transcript"] = "ear",
     ) -> None:
         self._publish_truth(said, listener, understanding, text, source)
-        self._understood(call, said, listener, understanding)
+        if understanding.kind == "as_said":
+            self._compliance.carry_out(call, listener)
+        elif understanding.kind == "otherwise" and self._stations.is_actor(listener):
+            self._compliance.comply(call, listener, understanding.commands)
+        self._policy.follow_up(call, said, listener, understanding)
 
     def _publish_truth(
         self,

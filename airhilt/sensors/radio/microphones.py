@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 
 from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ, from_pcm
+from airhilt.messages import FROM_MICROPHONE, key_chunk
 from airhilt.seats import Seats
+from airhilt.sensors.radio.on_air import Utterance
 from airhilt.sensors.radio.open_microphone import OpenMicrophone
+from airhilt.sensors.radio.transmissions import Transmissions
 from airhilt.sim import Director, Priority
 from airhilt.units import SECOND_NS, seconds_to_ns
 
@@ -32,20 +34,13 @@ class _Held:
 
 
 class Microphones:
-    """Lets people speak.
+    """Lets people speak."""
 
-    Parameters
-    ----------
-    press
-        Opens the microphone of a speaker on a frequency.
-    """
-
-    def __init__(
-        self, director: Director, press: Callable[[str, int], OpenMicrophone], seats: Seats
-    ) -> None:
+    def __init__(self, director: Director, transmissions: Transmissions, seats: Seats) -> None:
         self._director = director
-        self._press = press
+        self._transmissions = transmissions
         self._seats = seats
+        self._times_pressed = 0
         self._held: dict[str, _Held] = {}
         """Microphones whose buttons are held, by speaker."""
 
@@ -53,7 +48,10 @@ class Microphones:
         """Press the button of a speaker; a call that is on the air ends."""
         self.release(speaker)
         now_ns = self._director.now_ns
-        held = _Held(self._press(speaker, frequency_khz), now_ns, now_ns)
+        self._times_pressed += 1
+        name = f"{FROM_MICROPHONE}{key_chunk(speaker)}.{self._times_pressed}"
+        utterance = Utterance(name, frequency_khz, speaker, None, "", is_from_microphone=True)
+        held = _Held(self._transmissions.press(utterance), now_ns, now_ns)
         self._held[speaker] = held
         self._watch(speaker, held)
 

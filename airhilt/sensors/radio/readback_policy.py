@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import partial
 
 from airhilt.scenario.models import Radio
@@ -10,6 +10,7 @@ from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.controller_check import ControllerCheck
 from airhilt.sensors.radio.on_air import Utterance
 from airhilt.sensors.radio.radio_call import RadioCall
+from airhilt.sensors.radio.speakers import Speakers
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director, Priority
 from airhilt.sim.streams import stream
@@ -34,8 +35,6 @@ class ReadbackPolicy:
     ----------
     calls
         Calls of the script, by id.
-    say
-        Makes a call.
     """
 
     def __init__(
@@ -45,20 +44,18 @@ class ReadbackPolicy:
         stations: Stations,
         seed: int,
         calls: Mapping[str, RadioCall],
-        say: Callable[[RadioCall], None],
+        speakers: Speakers,
     ) -> None:
         self._director = director
         self._radio = radio
         self._stations = stations
         self._seed = seed
         self._calls = calls
-        self._say = say
+        self._speakers = speakers
         self._answers = Answers(radio.phraseology)
         self._check: ControllerCheck | None = None
         if radio.controller_checks_readbacks:
-            self._check = ControllerCheck(
-                stations, self._answers, call_again=self.call_again, say=self._answer
-            )
+            self._check = ControllerCheck(stations, self._answers)
 
     def follow_up(
         self, call: RadioCall, said: Utterance, listener: str, understanding: Understanding
@@ -84,7 +81,7 @@ class ReadbackPolicy:
 
     def _say_later(self, call: RadioCall, delay_s: float) -> None:
         due_ns = self._director.now_ns + seconds_to_ns(delay_s)
-        self._director.at(due_ns, partial(self._say, call), Priority.SCRIPT)
+        self._director.at(due_ns, partial(self._speakers.say, call), Priority.SCRIPT)
 
     # --- reading back -----------------------------------------------------------------------
 
@@ -102,7 +99,16 @@ class ReadbackPolicy:
         if call.answer is not None:
             self._answer(call.answer)
         if self._check is not None:
-            self._check.check(call, said, listener)
+            self._correct(self._check.correction(call, said, listener), call)
+
+    def _correct(self, correction: RadioCall | None, readback: RadioCall) -> None:
+        """Let a controller correct a readback, if it is wrong."""
+        if correction is None:
+            return
+        if correction is readback.in_reply_to:
+            self.call_again(correction)
+        else:
+            self._answer(correction)
 
     def _read_back(
         self, call: RadioCall, said: Utterance, listener: str, understanding: Understanding

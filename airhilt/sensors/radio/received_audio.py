@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ
+from airhilt.sensors.radio.backends import RadioBackend
 from airhilt.sensors.radio.on_air import OnAir
 from airhilt.units import SECOND_NS
 
+if TYPE_CHECKING:
+    from airhilt.sensors.radio.channel import BackgroundNoise
+
 CHUNK_SAMPLES = SAMPLE_RATE_HZ // 2
 """Most samples in a chunk: 0.5 s."""
-
-Receive = Callable[[tuple[OnAir, ...], int, int], bytes]
-"""Returns what is received together with others from a sample on, at a time; see `RadioBackend`."""
 
 
 class Chunk(NamedTuple):
@@ -31,9 +31,17 @@ class ReceivedAudio:
     whenever more becomes known: another transmission begins, or a person goes on speaking.
     """
 
-    def __init__(self, on_air: OnAir, receive: Receive) -> None:
+    def __init__(
+        self,
+        on_air: OnAir,
+        backend: RadioBackend,
+        background: BackgroundNoise,
+        listener: str | None,
+    ) -> None:
         self._on_air = on_air
-        self._receive = receive
+        self._backend = backend
+        self._background = background
+        self._listener = listener
         self._given = bytearray()
         self._chunks = 0
         self._ahead = b""
@@ -69,7 +77,9 @@ class ReceivedAudio:
         others = [(other, other.end_ns or other.known_until_ns(now_ns)) for other in mixed_with]
         known = (is_over, on_air.known_until_ns(now_ns), others)
         if known != self._ahead_of:
-            self._ahead = self._receive(mixed_with, self.samples, now_ns)
+            self._ahead = self._backend.receive(
+                on_air, mixed_with, self._background, self.samples, now_ns, self._listener
+            )
             self._ahead_of = known
 
     def _give(self, size: int) -> list[Chunk]:

@@ -43,9 +43,11 @@ class RadioReceiver:
         self._receptions = receptions
         self._stations = stations
         self._publish = publish
-        self._streams = AudioStreams(
-            None, director, receptions, stations, backend, self._publish_audio
-        )
+
+        def publish_audio(header: AudioHeader, pcm: bytes) -> None:
+            publish(f"radio/{header.frequency_khz}/audio", header, raw=pcm)
+
+        self._streams = AudioStreams(None, director, receptions, stations, backend, publish_audio)
 
     def mixed_with(self, on_air: OnAir) -> tuple[OnAir, ...]:
         """Return the other transmissions that are received at the same time as one."""
@@ -65,9 +67,6 @@ class RadioReceiver:
         if pcm is not None:
             self._publish_whole(on_air, pcm)
         return pcm is not None
-
-    def _publish_audio(self, header: AudioHeader, pcm: bytes) -> None:
-        self._publish(f"radio/{header.frequency_khz}/audio", header, raw=pcm)
 
     def _publish_whole(self, on_air: OnAir, pcm: bytes) -> None:
         transmission = Transmission(
@@ -96,12 +95,13 @@ class SeatReceiver:
         backend: RadioBackend,
         publish: Publish,
     ) -> None:
-        self._seat = seat
         self._frequencies_khz = frozenset(stations.selectable(seat))
-        self._publish = publish
-        self._streams = AudioStreams(
-            seat, director, receptions, stations, backend, self._publish_audio
-        )
+
+        def publish_audio(header: AudioHeader, pcm: bytes) -> None:
+            message = AT_SEAT[type(header)](seat=seat, **dict(header))
+            publish(f"seat/{key_chunk(seat)}/audio", message, raw=pcm)
+
+        self._streams = AudioStreams(seat, director, receptions, stations, backend, publish_audio)
 
     def open(self, on_air: OnAir) -> None:
         """Begin to stream a transmission, if it is received."""
@@ -112,7 +112,3 @@ class SeatReceiver:
         """Publish the end of a transmission that was streamed."""
         if self._streams.has_open(on_air):
             self._streams.close(on_air)
-
-    def _publish_audio(self, header: AudioHeader, pcm: bytes) -> None:
-        message = AT_SEAT[type(header)](seat=self._seat, **dict(header))
-        self._publish(f"seat/{key_chunk(self._seat)}/audio", message, raw=pcm)

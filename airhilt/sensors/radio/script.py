@@ -6,8 +6,9 @@ from collections.abc import Callable, Sequence
 from functools import partial
 
 from airhilt.scenario.failures import EffectiveLine
-from airhilt.scenario.models import Condition, RadioLine
+from airhilt.scenario.models import RadioLine
 from airhilt.sensors.radio.backends import RadioBackend
+from airhilt.sensors.radio.surroundings import RadioFailures, RadioWorld
 from airhilt.sim import Director, Priority
 from airhilt.units import seconds_to_ns
 
@@ -17,10 +18,6 @@ class RadioScript:
 
     Parameters
     ----------
-    once
-        Calls its second argument as soon as its first, a condition, is true.
-    failed
-        Called with each line that a failure changes, when the line would have been said.
     due
         Called with each line when it is to be said, with the words that failures give it.
     """
@@ -29,14 +26,14 @@ class RadioScript:
         self,
         director: Director,
         lines: Sequence[EffectiveLine],
-        once: Callable[[Condition, Callable[[], None]], None],
-        failed: Callable[[EffectiveLine], None],
+        world: RadioWorld,
+        failures: RadioFailures,
         due: Callable[[RadioLine], None],
     ) -> None:
         self._director = director
         self._lines = lines
-        self._once = once
-        self._failed = failed
+        self._world = world
+        self._failures = failures
         self._say = due
 
     def start(self) -> None:
@@ -49,11 +46,11 @@ class RadioScript:
         if line.declared.when is None:
             self._due(line)
         else:
-            self._once(line.declared.when, partial(self._due, line))
+            self._world.once(line.declared.when, partial(self._due, line))
 
     def _due(self, line: EffectiveLine) -> None:
         if line.failures:
-            self._failed(line)
+            self._failures.line_failed(line)
         if line.line is None:
             return
         say = partial(self._say, line.line)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
+from typing import NamedTuple
 
 from airhilt.messages import Transcript
 from airhilt.phraseology import TAU_ASR
@@ -12,8 +12,15 @@ from airhilt.sensors.radio.person_calls import PersonCalls
 from airhilt.sensors.radio.radio_call import RadioCall
 from airhilt.sensors.radio.transmissions import EndedTransmission
 
-Recognised = Callable[[RadioCall, Utterance, OnAir, bool], None]
-"""Called with a call, its words, its transmission, and true if its words are certain."""
+
+class RecognisedCall(NamedTuple):
+    """A call that a person spoke, as it was recognised."""
+
+    call: RadioCall
+    said: Utterance
+    on_air: OnAir
+    is_clear: bool
+    """True if its words are certain."""
 
 
 class SpokenCalls:
@@ -21,16 +28,10 @@ class SpokenCalls:
 
     Automata know of such a call what the recogniser under test gives. Below `TAU_ASR`, without
     words, or without a callsign in the call of a unit, they are not sure of it.
-
-    Parameters
-    ----------
-    recognised
-        Called once the words of a call are known.
     """
 
-    def __init__(self, calls: PersonCalls, recognised: Recognised) -> None:
+    def __init__(self, calls: PersonCalls) -> None:
         self._calls = calls
-        self._recognised = recognised
         self._waiting: dict[str, OnAir] = {}
         """Transmissions whose words are not known yet, by id."""
 
@@ -39,11 +40,11 @@ class SpokenCalls:
         if not ended.is_blocked:
             self._waiting[ended.on_air.utterance.id] = ended.on_air
 
-    def take(self, transcript: Transcript) -> None:
-        """Receive the words of a transmission, the first time that they come."""
+    def recognised(self, transcript: Transcript) -> RecognisedCall | None:
+        """Return the call of a transcript, the first time that its words come."""
         on_air = self._waiting.pop(transcript.id, None)
         if on_air is None:
-            return
+            return None
         said = on_air.utterance
         speaker, frequency_khz = said.speaker, said.frequency_khz
         confidences = tuple(word.confidence for word in transcript.words) or None
@@ -54,4 +55,4 @@ class SpokenCalls:
         else:
             call = self._calls.unclear(speaker, frequency_khz, transcript.text)
         words = replace(said, text=transcript.text, addressed=call.addressed)
-        self._recognised(call, words, on_air, is_clear)
+        return RecognisedCall(call, words, on_air, is_clear)

@@ -2,43 +2,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from functools import partial
 
 from airhilt.scenario.models import Failure, StuckMicrophone
 from airhilt.sensors.radio.on_air import Utterance
 from airhilt.sensors.radio.stations import Stations
+from airhilt.sensors.radio.surroundings import RadioFailures
+from airhilt.sensors.radio.transmissions import Transmissions
 from airhilt.sim import Director, Priority
 from airhilt.units import seconds_to_ns
 
 
 class StuckMicrophones:
-    """Lets the microphones of a scenario get stuck, and come free again.
-
-    Parameters
-    ----------
-    transmit_carrier
-        Transmits a carrier for a time in s.
-    stuck
-        Called with an actor's callsign and a description of what happens.
-    all_free
-        Called when no microphone is stuck any more.
-    """
+    """Lets the microphones of a scenario get stuck, and come free again."""
 
     def __init__(
         self,
         director: Director,
         stations: Stations,
-        *,
-        transmit_carrier: Callable[[Utterance, float], None],
-        stuck: Callable[[str, str], None],
-        all_free: Callable[[], None],
+        transmissions: Transmissions,
+        failures: RadioFailures,
     ) -> None:
         self._director = director
         self._stations = stations
-        self._transmit_carrier = transmit_carrier
-        self._stuck = stuck
-        self._all_free = all_free
+        self._transmissions = transmissions
+        self._failures = failures
         self._count = 0
         """Number of microphones that are stuck."""
 
@@ -52,15 +41,15 @@ class StuckMicrophones:
     def _begin(self, failure: StuckMicrophone) -> None:
         actor = failure.actor
         self._count += 1
-        self._stuck(actor, f"its microphone is stuck for {failure.for_s:g} s")
+        self._failures.microphone_stuck(actor, f"its microphone is stuck for {failure.for_s:g} s")
         free_ns = self._director.now_ns + seconds_to_ns(failure.for_s)
         self._director.at(free_ns, self._end, Priority.SCRIPT)
         for frequency_khz in self._stations.frequencies_of(actor):
             name = f"stuck-microphone.{actor}.{failure.at_s:g}.{frequency_khz}"
             carrier = Utterance(name, frequency_khz, actor, None, "")
-            self._transmit_carrier(carrier, failure.for_s)
+            self._transmissions.transmit_carrier(carrier, failure.for_s)
 
     def _end(self) -> None:
         self._count -= 1
         if not self._count:
-            self._all_free()
+            self._failures.microphones_free()

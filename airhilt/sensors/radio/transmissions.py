@@ -71,12 +71,16 @@ class Transmissions:
             for seat in sorted(seats)
             if seat in radio.receivers
         ]
-        self._began = began
+
+        def open_receivers(on_air: OnAir) -> None:
+            self._open(on_air)
+            began(on_air.utterance)
+
         self._arbiter = FrequencyArbiter(
             director,
             backend.speak,
             stations.audible,
-            began=self._open,
+            began=open_receivers,
             ended=lambda on_air: ended(self._finish(on_air)),
         )
 
@@ -110,7 +114,6 @@ class Transmissions:
         self._receiver.open(on_air)
         for receiver in self._at_seats:
             receiver.open(on_air)
-        self._began(on_air.utterance)
 
     def _finish(self, on_air: OnAir) -> EndedTransmission:
         mixed_with = self._receiver.mixed_with(on_air)

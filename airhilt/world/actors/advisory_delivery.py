@@ -18,6 +18,7 @@ from airhilt.messages import (
     key_chunk,
 )
 from airhilt.scenario.models import WildlifeSpec
+from airhilt.seats import Seats
 from airhilt.sim import Director, Priority
 from airhilt.sim.payload import Payload
 from airhilt.units import seconds_to_ns
@@ -56,8 +57,8 @@ class AdvisoryDelivery:
     is_on_frequency
         True if advisories are spoken on the recipients' frequencies: they get them when they have
         heard them to the end there.
-    is_automaton
-        Returns whether no person acts for a callsign.
+    seats
+        Seats of people, who act as they like.
     event
         Called with the kind, the subject and the text of a reaction.
     """
@@ -71,14 +72,14 @@ class AdvisoryDelivery:
         is_voiced: bool,
         speak_min_level: Severity = SPEAK_MIN_LEVEL,
         is_on_frequency: bool = False,
-        is_automaton: Callable[[str], bool] = lambda _: True,
+        seats: Seats,
     ) -> None:
         self._director = director
         self._event = event
         self._is_voiced = is_voiced or is_on_frequency
         self._speak_min_level = speak_min_level
         self._is_on_frequency = is_on_frequency
-        self._is_automaton = is_automaton
+        self._seats = seats
         self._by_address = by_address(actors)
         self._unspoken: dict[tuple[str, str], Advisory] = {}
         """Latest revision of each advisory that waits for its voice, by id and recipient."""
@@ -142,7 +143,7 @@ class AdvisoryDelivery:
 
     def _deliver(self, advisory: Advisory, *, is_equipment: bool = False) -> None:
         actor = self._by_address[advisory.recipient]
-        if not self._is_automaton(actor.spec.callsign):
+        if self._seats.has_person(actor.spec.callsign):
             name = (advisory.id, advisory.recipient)
             self._told_people.pop(name, None)
             if advisory.active:
@@ -157,7 +158,7 @@ class AdvisoryDelivery:
     def _react(
         self, actor: Actor, advisory: Advisory, reaction: Reaction, is_equipment: bool
     ) -> None:
-        if actor.body.ended is not None or not self._is_automaton(actor.spec.callsign):
+        if actor.body.ended is not None or self._seats.has_person(actor.spec.callsign):
             return
         if advisory.active and not is_equipment and self._in_force.get(advisory.recipient):
             return

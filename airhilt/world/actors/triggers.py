@@ -18,6 +18,10 @@ class Triggers:
         """Run an action as soon as a test is true."""
         self._waiting.append((test, action))
 
+    def clear(self) -> None:
+        """Forget the actions that are left."""
+        self._waiting.clear()
+
     def evaluate(self, now_ns: int) -> None:
         """Evaluate the pending triggers; run the due actions in the order of their registration."""
         waiting, self._waiting = self._waiting, []

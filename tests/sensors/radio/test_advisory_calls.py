@@ -9,8 +9,10 @@ from airhilt.messages import Advisory, AdvisoryAudio, Evidence, HearingTruth, Se
 from airhilt.sensors.radio.advisory_calls import AdvisoryCalls, AdvisoryChannel, Spoken
 from airhilt.sensors.radio.on_air import OnAir, Utterance
 from airhilt.sensors.radio.stations import Stations
+from airhilt.sensors.radio.transmissions import Transmissions
 from airhilt.sim import Director, Virtual
 from airhilt.units import SECOND_NS
+from airhilt.world.actors.advisory_delivery import AdvisoryDelivery
 
 
 def advisory(
@@ -40,13 +42,16 @@ class Frequency:
         self.heard: list[Spoken] = []
         self.hearings: list[Any] = []
         self.in_reach = True
+        delivery = SimpleNamespace(heard=lambda *spoken: self.heard.append(Spoken(*spoken)))
+        transmissions = SimpleNamespace(
+            say=self.said.append, reaches=lambda on_air, listener: self.in_reach
+        )
         self.calls = AdvisoryCalls(
             self.director,
             cast(Stations, SimpleNamespace(frequency_of=lambda name: 119_100)),
             {"AAL123": "AAL123", "a1b2c3": "AAL123", "DAL456": "DAL456"},
-            AdvisoryChannel(is_voiced, Severity.CAUTION, self.heard.append),
-            say=self.said.append,
-            reaches=lambda on_air, listener: self.in_reach,
+            AdvisoryChannel(is_voiced, Severity.CAUTION, cast(AdvisoryDelivery, delivery)),
+            cast(Transmissions, transmissions),
             publish=lambda key, message, **_: self.hearings.append(message),
         )
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import pytest
 
@@ -11,6 +12,7 @@ from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import RadioLine, TimeReached
 from airhilt.sensors.radio.backends import TextRadio
 from airhilt.sensors.radio.script import RadioScript, planned_ends_ns
+from airhilt.sensors.radio.surroundings import RadioFailures, RadioWorld
 from airhilt.sim import Director, Priority, Virtual
 from airhilt.units import SECOND_NS, seconds_to_ns
 
@@ -51,7 +53,9 @@ def played(*lines: EffectiveLine, failed: list[Any] | None = None) -> list[tuple
     def say(said: RadioLine) -> None:
         due.append((said.id, director.now_ns / SECOND_NS))
 
-    RadioScript(director, lines, once, fail, say).start()
+    world = cast(RadioWorld, SimpleNamespace(once=once))
+    failures = cast(RadioFailures, SimpleNamespace(line_failed=fail))
+    RadioScript(director, lines, world, failures, say).start()
     director.run()
     return due
 

@@ -18,6 +18,7 @@ from airhilt.messages import (
     SeatAction,
     Severity,
 )
+from airhilt.seats import Seats
 from airhilt.sim import Director, Priority, Virtual
 from airhilt.units import SECOND_NS, seconds_to_ns
 from airhilt.world.actors.actor import Reaction, Unable
@@ -79,7 +80,11 @@ class Told:
             self.events.append((kind, subject, text, director.now_ns / SECOND_NS))
 
         delivery = AdvisoryDelivery(
-            director, {"AAL123": cast(Any, self.crew)}, event, is_voiced=voiced
+            director,
+            {"AAL123": cast(Any, self.crew)},
+            event,
+            is_voiced=voiced,
+            seats=Seats((), lambda _key, _state: None, director),
         )
         for at_s, message in messages:
             director.at(
@@ -180,12 +185,16 @@ def told_with_person(*, taken_s: float, left_s: float, until_s: float | None = N
     A person has its seat between two times.
     """
     director, crew, reacted_s = Director(Virtual()), Crew(), list[float]()
+
+    def has_person(_name: str) -> bool:
+        return taken_s <= director.now_ns / SECOND_NS < left_s
+
     delivery = AdvisoryDelivery(
         director,
         {"AAL123": cast(Any, crew)},
         lambda *_: reacted_s.append(director.now_ns / SECOND_NS),
         is_voiced=False,
-        is_automaton=lambda _: not taken_s <= director.now_ns / SECOND_NS < left_s,
+        seats=cast(Seats, SimpleNamespace(has_person=has_person)),
     )
     messages = [(1.0, advisory())]
     messages += [] if until_s is None else [(until_s, advisory(revision=1, active=False))]

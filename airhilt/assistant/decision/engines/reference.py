@@ -84,13 +84,13 @@ class ReferenceEngine:
         self.visual_tracks = VisualTracks(config.sight)
         self._observed_ns = 0
         guard = ConfidenceGuard(config.tau_asr)
-        self.separation = SeparationWatch(config.separation, guard)
+        self.separation = separation = SeparationWatch(config.separation, guard)
         self.runways = RunwayWatch(config.runways, self.visual_tracks, guard)
         self.intruders = IntruderWatch(
             config.intruders,
             self.visual_tracks,
             self.runways.runway_of_arrival,
-            lambda: self.separation.config.standard,
+            lambda: separation.config.standard,
         )
 
     def receive(self, received: ReceivedMessage) -> None:
