@@ -2,7 +2,7 @@
 # docker run --rm --user "$(id -u):$(id -g)" -v "$PWD/runs:/data/runs" \
 #     airhilt cosim --scenario s02a_headon
 
-FROM python:3.11-slim AS build
+FROM python:3.11.14-slim@sha256:c8271b1f627d0068857dce5b53e14a9558603b527e46f1f901722f935b786a39 AS build
 WORKDIR /source
 COPY pyproject.toml README.md LICENSE ./
 COPY airhilt airhilt
@@ -12,7 +12,7 @@ COPY scenarios scenarios
 COPY bridges bridges
 RUN pip wheel --no-cache-dir --no-deps --wheel-dir /wheels .
 
-FROM python:3.11-slim
+FROM python:3.11.14-slim@sha256:c8271b1f627d0068857dce5b53e14a9558603b527e46f1f901722f935b786a39
 RUN --mount=type=bind,from=build,source=/wheels,target=/wheels \
     --mount=type=bind,source=constraints.txt,target=/constraints.txt \
     pip install --no-cache-dir --no-compile -c /constraints.txt /wheels/*.whl
