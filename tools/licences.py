@@ -134,9 +134,9 @@ def licence(package: Distribution) -> str:
     fields = package.metadata
     if corrected := CORRECTED.get(canonicalize_name(fields["Name"])):
         return corrected
-    if expression := fields.get("License-Expression"):
+    if expression := _field(package, "License-Expression"):
         return expression
-    text = (fields.get("License") or "").strip()
+    text = _field(package, "License").strip()
     if text and "\n" not in text and len(text) <= LONGEST_LICENCE and "opyright" not in text:
         return SPDX.get(text, text)
     classifiers = [
@@ -147,6 +147,10 @@ def licence(package: Distribution) -> str:
     return " AND ".join(SPDX.get(each, each) for each in classifiers) or "unknown"
 
 
+def _field(package: Distribution, name: str) -> str:
+    return next(iter(package.metadata.get_all(name) or []), "")
+
+
 def home(package: Distribution) -> str:
     """Return the address of a package's home, or of its source; empty if neither is named."""
     fields = package.metadata
@@ -155,7 +159,7 @@ def home(package: Distribution) -> str:
     words = ("homepage", "home", "source", "source code", "repository", "github")
     found = [places[word] for word in words if word in places]
     known = HOMES.get(canonicalize_name(fields["Name"]), "")
-    return next(iter([*found, *filter(None, [fields.get("Home-page")])]), known)
+    return next(iter([*found, *filter(None, [_field(package, "Home-page")])]), known)
 
 
 def page() -> str:

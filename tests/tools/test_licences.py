@@ -26,7 +26,7 @@ def test_a_missing_and_a_surplus_dependency_are_named() -> None:
 
 def test_the_bill_of_materials_has_the_packages_and_what_they_bundle(tmp_path: Path) -> None:
     file = tmp_path / "sbom.json"
-    command = [sys.executable, ROOT / "tools" / "licences.py", "--sbom", file]
+    command = [sys.executable, str(ROOT / "tools" / "licences.py"), "--sbom", str(file)]
     subprocess.run(command, check=True)
     bill = json.loads(file.read_text())
     assert (bill["bomFormat"], bill["specVersion"]) == ("CycloneDX", "1.6")
