@@ -12,6 +12,14 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from pydantic import ValidationError
 
+OUT_OF_MEMORY = (
+    "can't start new thread",
+    "Cannot allocate memory",
+    "bad_alloc",
+    "failed to map segment",
+)
+"""Parts of what Python, the system, C++ and the loader of libraries say if they get no memory."""
+
 
 class AirhiltError(Exception):
     """A mistake in what AIRHILT was given; the command line prints it and exits with 2.
@@ -115,7 +123,13 @@ def is_of_machine(error: BaseException) -> bool:
     """Return whether the cause of an error lies in the machine, not in the input."""
     if isinstance(error, AirhiltError):
         return error.is_of_machine
-    return isinstance(error, OSError | MemoryError)
+    return isinstance(error, OSError) or is_out_of_memory(error)
+
+
+def is_out_of_memory(error: BaseException) -> bool:
+    """Return whether memory ran out; Python and native libraries say so in different ways."""
+    said = str(error)
+    return isinstance(error, MemoryError) or any(symptom in said for symptom in OUT_OF_MEMORY)
 
 
 def first_problem(error: ValidationError) -> str:

@@ -129,7 +129,7 @@ class Options(BaseModel):
         str | None,
         replace(
             _engine_flag(ASSISTANTS, "NAME"),
-            default=f"{ASSISTANTS.default}, external if a worker or program of yours may decide",
+            default=f"{ASSISTANTS.default}, external if you attach your own decision program",
             help_of_one_run="Or external: a worker or program of yours.",
         ),
     ] = None
@@ -161,7 +161,7 @@ class Options(BaseModel):
             "--pace",
             "virtual (as fast as it goes), realtime, or a factor such as 4x.",
             "PACE",
-            default="virtual, realtime if an attached program takes no grants",
+            default="virtual, realtime if an attached program does not keep simulation time",
             in_sweeps=False,
         ),
     ] = None

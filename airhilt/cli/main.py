@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import sys
 from typing import NoReturn
@@ -10,12 +11,13 @@ import click
 
 from airhilt._version import __version__
 from airhilt.cli.output import tell
-from airhilt.errors import AirhiltError
+from airhilt.errors import AirhiltError, is_out_of_memory
 from airhilt.plugins import Family
 
 COMMANDS = Family("command", "airhilt.commands", "airhilt.cli.commands", "COMMAND", click.Command)
 CONTEXT = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
 INTERRUPTED = 130
+OUT_OF_MEMORY = 2
 
 
 class Commands(click.Group):
@@ -92,7 +94,18 @@ def main() -> NoReturn:
     except (KeyboardInterrupt, click.exceptions.Abort):
         click.echo("airhilt: interrupted", err=True)
         sys.exit(INTERRUPTED)
+    except Exception as error:
+        if not is_out_of_memory(error):
+            raise
+        _end_without_memory(error)
     sys.exit(code if isinstance(code, int) else 0)
+
+
+def _end_without_memory(error: Exception) -> NoReturn:
+    """End at once: a thread that waits for one that was never started would wait for ever."""
+    tell(f"memory ran out ({str(error) or 'MemoryError'}); expected more memory for this process")
+    sys.stdout.flush()
+    os._exit(OUT_OF_MEMORY)
 
 
 def _interrupt(*_: object) -> None:

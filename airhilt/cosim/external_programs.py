@@ -283,7 +283,7 @@ class ExternalPrograms:
             )
 
     def take_refused(self, key: str, cause: str) -> None:
-        """Refuse what only a cause is known of, such as what an earlier run refused."""
+        """Record a refusal whose message is unavailable, such as that of an earlier run."""
         if key == PAGE or is_match(key, ACTS):
             self._event("refused", readable(key), readable(cause))
             return

@@ -59,7 +59,7 @@ def _taken(arrivals: Arrivals, t_start_ns: int) -> Iterator[int]:
 
 
 class _Stream:
-    """What comes all the time: a decision rests on the newest observation.
+    """Continuous input: a decision rests on the newest observation.
 
     Before the first decision that has one, the age counts from the first observation.
     """

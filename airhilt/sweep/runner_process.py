@@ -73,7 +73,7 @@ class RunnerProcess:
         self._start()
 
     def run(self, request: Request) -> Outcome:
-        """Return what becomes of a run, whatever it does.
+        """Run one case and return its outcome, even after a crash.
 
         Raises
         ------

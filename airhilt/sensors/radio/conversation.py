@@ -103,19 +103,10 @@ class RadioConversation:
         self._microphones = Microphones(director, self._transmissions, seats)
         self._compliance = Compliance(director, world, seats)
         policy = ReadbackPolicy(director, radio, stations, seed, self._calls, self._speakers)
-        self._listeners = Listeners(
-            director,
-            radio,
-            stations,
-            hearing or HearingModel(seed),
-            self._transmissions,
-            seats,
-            publish,
-            self._compliance,
-            policy,
+        self._listeners = self._make_listeners(hearing or HearingModel(seed), policy)
+        self._confirmations = Confirmations(
+            director, stations, Answers(radio.phraseology), self._speakers, policy
         )
-        answers = Answers(radio.phraseology)
-        self._confirmations = Confirmations(director, stations, answers, self._speakers, policy)
         self._advisories: AdvisoryCalls | None = None
         if advisory_channel is not None:
             callsigns = callsigns_of(scenario)
@@ -134,6 +125,19 @@ class RadioConversation:
             ended=self._ended,
             roster=roster_of(self._scenario),
             seats=[state.seat for state in self._seats],
+        )
+
+    def _make_listeners(self, hearing: HearingModel, policy: ReadbackPolicy) -> Listeners:
+        return Listeners(
+            self._director,
+            self._scenario.radio,
+            self._stations,
+            hearing,
+            self._transmissions,
+            self._seats,
+            self._publish,
+            self._compliance,
+            policy,
         )
 
     def start(self) -> None:

@@ -161,7 +161,7 @@ class Background:
         self._points = np.zeros_like(self._places)
 
     def _watch(self, view: View, first: int, end: int, distance_m: Floats) -> None:
-        """Remember the nearest point of each square, as if it were in the middle."""
+        """Store each square's nearest depth, at the middle of the square."""
         nearest = _nearest(distance_m, (end - first) * BAND_ROWS // PROBE_PX)
         inside = self._towards[:, first:end] * nearest.reshape(end - first, -1)
         points = (view.axes @ inside.reshape(3, -1)).reshape(inside.shape)
