@@ -15,7 +15,7 @@ from airhilt.phraseology.aircraft_names import MAKERS
 from airhilt.phraseology.alphabet import LETTER_OF
 from airhilt.phraseology.hits import SPOKEN_OF, STATIONS, WAKE, Hit, is_spoken_of
 from airhilt.phraseology.numbers import SOUNDS
-from airhilt.phraseology.sounds import alike, sign_of, sounds_of
+from airhilt.phraseology.sounds import alike, edit_likeness, sign_of, sounds_of
 from airhilt.phraseology.spoken_forms import ABBREVIATED, joined
 from airhilt.phraseology.telephony import AIRLINES, names
 
@@ -309,15 +309,4 @@ def _edits(first: str, second: str) -> int:
 @lru_cache(maxsize=4096)
 def similarity(first: str, second: str) -> float:
     """Return the similarity of two texts by their edit distance, from 0 to 1 (equal)."""
-    if first == second:
-        return 1.0
-    longest = max(len(first), len(second))
-    row = list(range(len(second) + 1))
-    for i, sign in enumerate(first, start=1):
-        diagonal, row[0] = row[0], i
-        for j, other in enumerate(second, start=1):
-            diagonal, row[j] = (
-                row[j],
-                min(row[j] + 1, row[j - 1] + 1, diagonal + (sign != other)),
-            )
-    return 1.0 - row[-1] / longest
+    return edit_likeness(first, second)

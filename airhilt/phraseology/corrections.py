@@ -83,14 +83,12 @@ def without_slips(words: Words) -> Words:
         text = " ".join(words.texts)
         runway = _RUNWAY_SLIP.search(text) or _TURN_SLIP.search(text)
         if runway:
-            first, last = (len(text[: runway.start()].split()), len(text[: runway.end()].split()))
-            mended = Words(words.texts[:first], words.confidences[:first])
-            mended.take(words, last, len(words.texts))
-            words = mended
+            words = _without(words, text, *runway.span())
             continue
         route = _ROUTE_SLIP.search(text)
         if route and route["said"].split()[0] == route["meant"].split()[0]:
-            words = _with_route(words, text, route)
+            size = len(route["meant"].split())
+            words = _without(words, text, route.start(), route.start("meant"), size)
             continue
         found = _SLIP.search(text)
         if found is None:
@@ -103,21 +101,13 @@ def without_slips(words: Words) -> Words:
             start += level.index("level") + len("level ")
         elif bool(level) != bool(to_level):
             return words
-        text = found.string
-        first, last = len(text[:start].split()), len(text[:end].split())
-        size = len((to_level or to_number).split())
-        mended = Words(words.texts[:first], words.confidences[:first])
-        for index in range(last, len(words.texts)):
-            sure = MENDED if index < last + size else 1.0
-            mended.add(words.texts[index], words.confidences[index] * sure)
-        words = mended
+        words = _without(words, text, start, end, len((to_level or to_number).split()))
     return words
 
 
-def _with_route(words: Words, text: str, route: re.Match[str]) -> Words:
-    """Return words with the route that corrects another, which begins with the same taxiway."""
-    first, last = len(text[: route.start()].split()), len(text[: route.start("meant")].split())
-    size = len(route["meant"].split())
+def _without(words: Words, text: str, start: int, end: int, size: int = 0) -> Words:
+    """Return words without a part of their text; of the next ``size`` words nobody is as sure."""
+    first, last = len(text[:start].split()), len(text[:end].split())
     mended = Words(words.texts[:first], words.confidences[:first])
     for index in range(last, len(words.texts)):
         sure = MENDED if index < last + size else 1.0
