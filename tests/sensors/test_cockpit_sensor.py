@@ -154,13 +154,6 @@ def test_a_radio_altimeter_shows_heights_up_to_2500_ft(subtests: pytest.Subtests
             assert shown_at(height_agl_m=height_ft * 762.0 / 2500.0).radio_height_ft == shown_ft
 
 
-def test_an_attitude_is_shown_in_degrees(subtests: pytest.Subtests) -> None:
-    for degrees in [-12.5, 0.0, 3.0, 7.1]:
-        with subtests.test(str(degrees)):
-            shown = shown_at(pitch_rad=math.radians(degrees), roll_rad=math.radians(2.0 * degrees))
-            assert (shown.pitch_deg, shown.roll_deg) == (degrees, 2.0 * degrees)
-
-
 def test_an_attitude_is_shown_to_a_tenth_of_a_degree() -> None:
     shown = shown_at(pitch_rad=math.radians(1.26), roll_rad=math.radians(-3.14))
     assert (shown.pitch_deg, shown.roll_deg) == (1.3, -3.1)

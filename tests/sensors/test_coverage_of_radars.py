@@ -128,17 +128,6 @@ def test_radars_see_as_far_as_their_sources_say(subtests: pytest.Subtests) -> No
             assert any(plot.kind != "primary" for plot in plots) == has_reply
 
 
-def test_of_a_hundred_replies_two_have_no_valid_code_and_four_no_valid_altitude() -> None:
-    """EUROCONTROL's standard asks for 98 % and 96 %."""
-    field = Field()
-    plots = field.seen(radar.SENSOR, field.at_range(80.0, 9_000.0), 4.8 * 1_000)
-    codes, altitudes = (
-        sum(getattr(plot, name) is None for plot in plots) for name in ("mode_a", "mode_c_ft")
-    )
-    assert codes / len(plots) == pytest.approx(0.02, abs=0.01)
-    assert altitudes / len(plots) == pytest.approx(0.04, abs=0.015)
-
-
 def test_over_an_airport_radar_sees_up_to_200_ft_and_transponders_are_located_in_class_d(
     subtests: pytest.Subtests,
 ) -> None:
@@ -178,9 +167,3 @@ def test_a_target_on_an_airport_is_shown_with_its_name_its_speed_and_its_way(
     assert statistics.mean(off_deg) == pytest.approx(0.0, abs=4.0)
     altitude_ft = state.altitude_m / FOOT
     assert all(abs((track.altitude_ft or 0.0) - altitude_ft) <= 12.5 for track in tracks)
-
-
-def test_who_stands_on_an_airport_has_no_way() -> None:
-    field = Field()
-    tracks = field.seen(surface.SENSOR, field.state(1_000.0, 50.0), 20.0)
-    assert {(track.ground_speed_kt, track.track_deg) for track in tracks} == {(0.0, None)}

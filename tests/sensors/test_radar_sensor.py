@@ -297,19 +297,6 @@ def test_an_aircraft_with_a_transponder_is_known_by_its_code_and_level() -> None
     assert "combined" in {plot.kind for plot in plots}
 
 
-def test_what_the_radar_cannot_see_is_not_plotted(subtests: pytest.Subtests) -> None:
-    for where, why in [
-        ((90.0, 50.0, 500.0), "below the horizon"),
-        ((90.0, 2.0, 20_000.0), "in the cone of silence"),
-        ((90.0, 0.3, 200.0), "nearer than the least range"),
-        ((90.0, 130.0, 40_000.0), "beyond the range"),
-    ]:
-        with subtests.test(why):
-            watch = Watch()
-            watch.add(*where, speed_m_s=12.0)
-            assert watch.go(30.0).plots == [], why
-
-
 def test_what_stands_on_the_ground_is_taken_for_ground() -> None:
     still, moving = Watch(), Watch()
     still.add(0.0, 1.5, 0.0, speed_m_s=0.0, on_ground=True)
