@@ -79,7 +79,6 @@ class RendererServer:
             self._opening = opening
             self._opened = {
                 "renderer": scene.renderer,
-                "actors": scene.actors,
                 "identity": scene.identity,
                 "own_aircraft": {name: runs_of(scene.own_aircraft(name)) for name in names},
             }
