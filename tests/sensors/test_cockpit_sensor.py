@@ -40,10 +40,7 @@ def asking(scenario: Scenario, *callsigns: str, seconds: float = 10.0) -> Scenar
 
 def go(scenario: Scenario, folder: Path) -> list[CockpitInstruments]:
     run(scenario, Options(out=folder, latency="fixed", speech=False, cameras=False))
-    log = read_log(folder / "log.mcap")
-    return [
-        CockpitInstruments.model_validate_json(m.data) for m in log if m.key == "cockpit/AAL123"
-    ]
+    return read(folder)
 
 
 @pytest.fixture(scope="module")

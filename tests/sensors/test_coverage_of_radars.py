@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import statistics
-from dataclasses import dataclass
 from typing import Any
 
 import pytest
@@ -14,36 +13,14 @@ from airhilt import load
 from airhilt.messages import RadarKind, RadarPlot, SurfaceTrack
 from airhilt.scenario.models import AircraftSpec, Radar, SurfaceSurveillance
 from airhilt.sensors import radar, surface
-from airhilt.sensors.base import SensorContext, SensorType
-from airhilt.shapes.sizes import Dimensions
-from airhilt.sim import Director, Priority, Virtual, parse_latency
+from airhilt.sensors.base import SensorType
 from airhilt.surveillance.radar import Antenna
-from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, SECOND_NS
+from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE
 from airhilt.world.mover import SurfaceState
 from airhilt.world.site import ScenarioSite
+from sensed import Acting, Body, sense
 
 CENTRE = {"type": "from_centre", "bearing_deg": 0.0, "distance_nm": 0.0}
-AIRLINER = Dimensions(length_m=39.5, span_m=34.0, height_m=12.5)
-
-
-@dataclass
-class Body:
-    """All that the sensors read of what moves: an airliner that stands still in the air."""
-
-    state: SurfaceState
-    ended: str | None = None
-    on_ground: bool = False
-    dimensions: Dimensions = AIRLINER
-
-
-@dataclass
-class Acting:
-    """All that the sensors read of an actor."""
-
-    spec: Any
-    body: Body
-    category: str = "aircraft"
-    emitter_category: str = "A3"
 
 
 class Field:
@@ -82,25 +59,13 @@ class Field:
     def seen(self, sensor_type: SensorType, state: SurfaceState, seconds: float) -> list[Any]:
         """Return the plots or tracks of an airliner in a state."""
         published: list[Any] = []
-        director = Director(Virtual())
         aircraft = self.scenario.actors[0]
-        acting: Any = Acting(aircraft, Body(state))
-        context = SensorContext(
-            director=director,
-            scenario=self.scenario,
-            site=self.site,
-            actors={aircraft.callsign: acting},
-            latency=parse_latency("fixed"),
-            seed=1,
-            state_at_ns=lambda: director.now_ns,
-            publish=lambda _, message, *, raw=None: published.append(message),
-            step_done=lambda _: None,
-        )
-        sensor = sensor_type.create(context)
-        assert sensor is not None
-        sensor.start()
-        director.at(round(seconds * SECOND_NS), director.stop, Priority.OBSERVE)
-        director.run()
+        actors = {aircraft.callsign: Acting(aircraft, Body(state))}
+
+        def publish(_: str, message: Any, *, raw: bytes | None = None) -> None:
+            published.append(message)
+
+        sense(sensor_type, self.scenario, self.site, actors, publish, seconds)
         return [each for each in published if isinstance(each, RadarPlot | SurfaceTrack)]
 
 
