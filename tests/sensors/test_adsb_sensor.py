@@ -5,14 +5,13 @@ from __future__ import annotations
 import itertools
 import math
 import statistics
-from dataclasses import dataclass, field
-from typing import Any, cast
+from typing import Any
 
 import pytest
 
 from airhilt import load
 from airhilt.messages import AdsbReport
-from airhilt.scenario.models import AircraftSpec, Scenario
+from airhilt.scenario.models import Scenario
 from airhilt.sensors.adsb import AdsbSensor
 from airhilt.sensors.base import SensorContext
 from airhilt.sim import Director, Priority, Virtual, parse_latency
@@ -22,6 +21,7 @@ from airhilt.units import DEGREE, SECOND_NS
 from airhilt.world.flight import AircraftState
 from airhilt.world.mover import carried_on
 from airhilt.world.site import ScenarioSite
+from sensed import Acting, Body
 
 STATE = AircraftState(
     latitude_rad=38.9 * DEGREE, longitude_rad=-77.0 * DEGREE, altitude_m=10_668.0,
@@ -30,24 +30,6 @@ STATE = AircraftState(
     true_airspeed_m_s=230.0, calibrated_airspeed_m_s=140.0, mach=0.78,
     ecef_x_m=0.0, ecef_y_m=0.0, ecef_z_m=0.0,
 )  # fmt: skip
-
-
-@dataclass
-class Gliding:
-    """All that the sensor reads of an aircraft."""
-
-    state: AircraftState = STATE
-    ended: str | None = None
-    on_ground: bool = False
-
-
-@dataclass
-class Acting:
-    """All that the sensor reads of an actor."""
-
-    spec: AircraftSpec
-    body: Gliding = field(default_factory=Gliding)
-    emitter_category: str = "A3"
 
 
 def context(
@@ -92,7 +74,7 @@ class Run:
         self.director = Director(Virtual())
         self.reports: list[Any] = []
         self.steps: list[Any] = []
-        actors: dict[str, Any] = {one.callsign: Acting(cast(Any, one)) for one in scenario.actors}
+        actors: dict[str, Any] = {one.callsign: Acting(one, Body(STATE)) for one in scenario.actors}
         self.aircraft = {callsign: acting.body for callsign, acting in actors.items()}
         self.sensor = AdsbSensor(
             context(
@@ -213,7 +195,7 @@ def test_one_aircraft_more_does_not_change_what_the_others_squitter() -> None:
         part = replace_actors(document, keep)
         director = Director(Virtual())
         reports: list[Any] = []
-        actors: dict[str, Any] = {one.callsign: Acting(cast(Any, one)) for one in part.actors}
+        actors: dict[str, Any] = {one.callsign: Acting(one, Body(STATE)) for one in part.actors}
         AdsbSensor(context(part, director, actors, reports, [])).start()
         director.at(20 * SECOND_NS, director.stop, Priority.OBSERVE)
         director.run()

@@ -11,7 +11,6 @@ from airhilt.sensors.base import Publish, Sensor, SensorContext, SensorType
 from airhilt.shapes.sizes import Dimensions
 from airhilt.sim import Director, Priority, Virtual, parse_latency
 from airhilt.units import SECOND_NS
-from airhilt.world.mover import SurfaceState
 from airhilt.world.site import ScenarioSite
 
 AIRLINER = Dimensions(length_m=39.5, span_m=34.0, height_m=12.5)
@@ -21,7 +20,7 @@ AIRLINER = Dimensions(length_m=39.5, span_m=34.0, height_m=12.5)
 class Body:
     """All that sensors read of what moves."""
 
-    state: SurfaceState
+    state: Any
     ended: str | None = None
     on_ground: bool = False
     dimensions: Dimensions = AIRLINER
