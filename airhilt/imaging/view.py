@@ -182,12 +182,16 @@ class View:
         centre = (lens.width_px / 2.0, lens.height_px / 2.0)
         return np.asarray(in_camera[..., :2] * scale + centre)
 
-    def directions(self, columns: Floats, rows: Floats) -> Floats:
-        """Return unit vectors of the world towards places in the picture, shape (3, ...)."""
+    def on_focal_plane(self, columns: Floats, rows: Floats) -> tuple[Floats, Floats]:
+        """Return places in the picture as they are at a depth of 1, right of the axis and below."""
         lens = self.intrinsics
         focal = np.float32(lens.focal_px)
         x = (columns - np.float32(lens.width_px / 2.0)) / focal
-        y = (rows - np.float32(lens.height_px / 2.0)) / focal
+        return x, (rows - np.float32(lens.height_px / 2.0)) / focal
+
+    def directions(self, columns: Floats, rows: Floats) -> Floats:
+        """Return unit vectors of the world towards places in the picture, shape (3, ...)."""
+        x, y = self.on_focal_plane(columns, rows)
         scale = np.float32(1.0) / np.sqrt(x * x + y * y + np.float32(1.0))
         axes = self.axes.astype(np.float32)
         towards = np.empty((3, *scale.shape), dtype=np.float32)

@@ -40,7 +40,7 @@ from airhilt.metrics.compliance import complies
 from airhilt.metrics.person_calls import PersonCalls
 from airhilt.metrics.readbacks import ANSWERED_WITHIN_NS, Readbacks
 from airhilt.metrics.summary import IsaRating, PersonReaction, PersonSummary, WorkloadSummary
-from airhilt.units import SECOND_NS, seconds_to_ns
+from airhilt.units import SECOND_NS, ns_to_seconds, seconds_to_ns
 
 FOLLOWED_WITHIN_S = 30.0
 """Time from perceiving an advisory in which the advised action counts as following it, in s: an
@@ -374,8 +374,8 @@ class PeopleRecords:
             severity=advisory.severity,
             advised=None if advisory.recommendation is None else advisory.recommendation.action,
             t_advisory_s=advisory.t_ns / SECOND_NS,
-            t_seen_s=_seconds(person.seen_ns.get(name)),
-            t_heard_s=_seconds(heard_ns),
+            t_seen_s=ns_to_seconds(person.seen_ns.get(name)),
+            t_heard_s=ns_to_seconds(heard_ns),
             voice_to_loudspeaker_s=(
                 None if heard_ns is None or voice_ns is None else (heard_ns - voice_ns) / SECOND_NS
             ),
@@ -453,7 +453,3 @@ def _is_followed(advisory: Advisory, since_ns: int, actions: list[_Action]) -> b
 def _complies(action: _Action, advisory: Advisory) -> bool:
     advised = advisory.recommendation
     return advised is not None and complies(advised, action.command, action.track_deg)
-
-
-def _seconds(t_ns: int | None) -> float | None:
-    return None if t_ns is None else t_ns / SECOND_NS

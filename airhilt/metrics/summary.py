@@ -14,10 +14,13 @@ from airhilt.world.truth.runways import IncursionCategory
 Stage = str
 
 
-class LatencyStatistics(BaseModel):
+class _Part(BaseModel):
+    model_config = ConfigDict(frozen=True)
+
+
+class LatencyStatistics(_Part):
     """Latencies of one stage, in s of simulation time."""
 
-    model_config = ConfigDict(frozen=True)
     n: int = Field(description="number of samples")
     min_s: float | None = Field(default=None, description="shortest")
     p50_s: float | None = Field(description="median")
@@ -39,19 +42,17 @@ class LatencyStatistics(BaseModel):
         )
 
 
-class ClosestApproach(BaseModel):
+class ClosestApproach(_Part):
     """The closest approach of the pair of the conflict, in three dimensions."""
 
-    model_config = ConfigDict(frozen=True)
     t_s: float = Field(description="time of the closest approach")
     horizontal_m: float = Field(description="horizontal distance")
     vertical_m: float = Field(description="vertical distance")
 
 
-class RunwayIncursion(BaseModel):
+class RunwayIncursion(_Part):
     """One actor in the way of a runway's user, or on the runway without permission."""
 
-    model_config = ConfigDict(frozen=True)
     t_s: float
     runway: str
     user: str | None = Field(description="actor that took off or landed; null: nobody did")
@@ -62,10 +63,9 @@ class RunwayIncursion(BaseModel):
     )
 
 
-class WarningParts(BaseModel):
+class WarningParts(_Part):
     """The parts of the time to first warning, in s; their sum is that time."""
 
-    model_config = ConfigDict(frozen=True)
     speech_s: float = Field(description="the call that the warning rests on was still being said")
     recognition_s: float = Field(description="from the end of that call to its transcript")
     evidence_s: float = Field(
@@ -77,10 +77,9 @@ class WarningParts(BaseModel):
     voice_s: float = Field(description="from t_dec to t_tts; 0 if no voice speaks")
 
 
-class AdvisorySummary(BaseModel):
+class AdvisorySummary(_Part):
     """One advisory over all its revisions."""
 
-    model_config = ConfigDict(frozen=True)
     id: str
     kind: str
     traffic: tuple[str, ...]
@@ -91,10 +90,9 @@ class AdvisorySummary(BaseModel):
     nuisance: bool
 
 
-class EquipmentSummary(BaseModel):
+class EquipmentSummary(_Part):
     """Alerts of one piece of equipment of the world; null where there was none."""
 
-    model_config = ConfigDict(frozen=True)
     equipment: str
     t_first_warning_s: float | None = Field(
         description="first alert of CAUTION or above about the annotated conflict"
@@ -109,10 +107,9 @@ class EquipmentSummary(BaseModel):
     alerts: list[AdvisorySummary]
 
 
-class PersonReaction(BaseModel):
+class PersonReaction(_Part):
     """Reaction of a person to one revision of an advisory; null where it does not apply."""
 
-    model_config = ConfigDict(frozen=True)
     advisory: str = Field(description="id of the advisory")
     revision: int = Field(description="revision of the advisory that reached the person")
     kind: str | None = Field(default=None, description="kind of the advisory")
@@ -145,10 +142,9 @@ class PersonReaction(BaseModel):
     followed: bool | None = Field(description="true: the person did what it recommends within 30 s")
 
 
-class PersonCall(BaseModel):
+class PersonCall(_Part):
     """A call of a person; null where it does not apply, or is not known."""
 
-    model_config = ConfigDict(frozen=True)
     call: str | None = Field(
         default=None, description="id of its transmission; null: it never came on the air"
     )
@@ -194,29 +190,26 @@ class PersonCall(BaseModel):
     )
 
 
-class IsaRating(BaseModel):
+class IsaRating(_Part):
     """An ISA question at a seat, and what was answered; null: nothing was."""
 
-    model_config = ConfigDict(frozen=True)
     t_s: float = Field(description="it was asked")
     rating: int | None = Field(description="1 under-utilised to 5 excessive")
     answered_after_s: float | None
 
 
-class WorkloadSummary(BaseModel):
+class WorkloadSummary(_Part):
     """The workload of the person at one seat, as the person says; null: not asked or answered."""
 
-    model_config = ConfigDict(frozen=True)
     isa_mean: float | None = Field(description="over the questions that were answered")
     isa: list[IsaRating]
     nasa_tlx: NasaTlx | None = Field(description="0 to 100; performance: 100 is failure")
     raw_tlx: float | None = Field(description="mean of the six ratings")
 
 
-class PersonSummary(BaseModel):
+class PersonSummary(_Part):
     """Words and actions of the person at one seat, or of those who had it one after another."""
 
-    model_config = ConfigDict(frozen=True)
     seat: str
     seat_time_s: float | None = Field(
         default=None, description="time of the run for which somebody had the seat"
@@ -261,10 +254,9 @@ class PersonSummary(BaseModel):
     workload: WorkloadSummary | None = Field(default=None, description="null: nothing was asked")
 
 
-class RecognitionStatistics(BaseModel):
+class RecognitionStatistics(_Part):
     """Recognition of the calls that had words and were not blocked."""
 
-    model_config = ConfigDict(frozen=True)
     snr_db: float | None = Field(
         description="signal-to-noise ratio; null: without noise, or not the same for all calls"
     )
@@ -305,20 +297,18 @@ class RadioStatistics(RecognitionStatistics):
     )
 
 
-class SizeRecall(BaseModel):
+class SizeRecall(_Part):
     """Recall of the sightings of one size, by the longest side of the true box."""
 
-    model_config = ConfigDict(frozen=True)
     from_px: float
     to_px: float | None = Field(description="null: no upper limit")
     sightings: int
     recall: float | None
 
 
-class DetectionStatistics(BaseModel):
+class DetectionStatistics(_Part):
     """Detections against the truth; null: not measured."""
 
-    model_config = ConfigDict(frozen=True)
     taken: int | None = Field(default=None, description="pictures taken")
     exposures_left_out: int | None = Field(
         default=None,
@@ -370,10 +360,9 @@ class CameraStatistics(DetectionStatistics):
     camera: str
 
 
-class FirstDetection(BaseModel):
+class FirstDetection(_Part):
     """The first detection of an actor by any camera."""
 
-    model_config = ConfigDict(frozen=True)
     actor: str
     t_s: float = Field(description="t_vision")
     t_frame_s: float
@@ -394,10 +383,9 @@ class VisionStatistics(DetectionStatistics):
     first_detections: list[FirstDetection]
 
 
-class LanguageModelStatistics(BaseModel):
+class LanguageModelStatistics(_Part):
     """The language model that an engine or a wording has asked."""
 
-    model_config = ConfigDict(frozen=True)
     model: str = Field(description="name of the model")
     questions: int = Field(description="questions that it was asked")
     failures: int = Field(
@@ -414,19 +402,17 @@ STALE_S = 5.0
 flies 350 m in it. An assumption."""
 
 
-class EvidenceAge(BaseModel):
+class EvidenceAge(_Part):
     """Age of the newest evidence of a modality that decisions rested on; of calls, their delay."""
 
-    model_config = ConfigDict(frozen=True)
     mean_s: float = Field(description="mean")
     max_s: float = Field(description="greatest")
     stale_share: float = Field(description="share of the time in which it was above 5 s")
 
 
-class Summary(BaseModel):
+class Summary(_Part):
     """``summary.json``; null where a number does not apply."""
 
-    model_config = ConfigDict(frozen=True)
     scenario: str
     seed: int
     assistant: str

@@ -17,6 +17,7 @@ from typing import Literal
 
 from airhilt.metrics.summary import RecognitionStatistics
 from airhilt.phraseology import DIGITS, LETTERS, Call, parse_call
+from airhilt.phraseology.canonical import DIGITS as PLAIN_DIGITS
 from airhilt.phraseology.canonical import canonical
 from airhilt.phraseology.numbers import TEENS, TENS
 from airhilt.phraseology.words import PAIRS, SPELLINGS
@@ -33,7 +34,6 @@ SLOTS = (
 """Fields of `Instruction` that are compared: those that are read back (ICAO Doc 4444, 4.5.7.5.1;
 FAA AIM 4-4-7 b)."""
 LETTER_WORDS = {word[0]: word for word in LETTERS}
-PLAIN_DIGITS = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
 ROUND_NUMBER = re.compile(r"([1-9][0-9]?)([0-9])00")
 """An altitude such as 5000 or 11500; other numbers are spoken digit by digit."""
 

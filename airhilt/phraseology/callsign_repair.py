@@ -15,7 +15,7 @@ from airhilt.phraseology.aircraft_names import MAKERS
 from airhilt.phraseology.alphabet import LETTER_OF
 from airhilt.phraseology.hits import SPOKEN_OF, STATIONS, WAKE, Hit, is_spoken_of
 from airhilt.phraseology.numbers import SOUNDS
-from airhilt.phraseology.sounds import alike, sign_of, sounds_of
+from airhilt.phraseology.sounds import edit_likeness, likeness, sign_of
 from airhilt.phraseology.spoken_forms import ABBREVIATED, joined
 from airhilt.phraseology.telephony import AIRLINES, names
 
@@ -239,7 +239,7 @@ def _name(words: list[str], first: int, run: Run, known: Known) -> tuple[int, _N
             name = _Name(float(text in MAKERS), 0.0, text in OF_AIRLINES and text not in MAKERS)
         else:
             spelled = max((similarity(text, each) for each in known.names), default=0.0)
-            by_sound = max((_sounds_like(text, each) for each in known.names), default=0.0)
+            by_sound = max((likeness(text, each) for each in known.names), default=0.0)
             is_others = (text in OF_AIRLINES or text in MAKERS) and text not in known.names
             name = _Name(spelled, by_sound, is_others)
         if best is None or name.likeness + name.by_sound >= best[1].likeness + best[1].by_sound:
@@ -292,11 +292,6 @@ def _score_registration(signs: str, full: str, is_named: bool, is_whole: bool) -
     return 0.0
 
 
-@lru_cache(maxsize=4096)
-def _sounds_like(first: str, second: str) -> float:
-    return alike(sounds_of(first), sounds_of(second))
-
-
 OF_AIRLINES = frozenset(joined(name) for designator in AIRLINES for name in names(designator))
 """Names of airlines, joined."""
 
@@ -309,15 +304,4 @@ def _edits(first: str, second: str) -> int:
 @lru_cache(maxsize=4096)
 def similarity(first: str, second: str) -> float:
     """Return the similarity of two texts by their edit distance, from 0 to 1 (equal)."""
-    if first == second:
-        return 1.0
-    longest = max(len(first), len(second))
-    row = list(range(len(second) + 1))
-    for i, sign in enumerate(first, start=1):
-        diagonal, row[0] = row[0], i
-        for j, other in enumerate(second, start=1):
-            diagonal, row[j] = (
-                row[j],
-                min(row[j] + 1, row[j - 1] + 1, diagonal + (sign != other)),
-            )
-    return 1.0 - row[-1] / longest
+    return edit_likeness(first, second)

@@ -10,14 +10,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator
 
+from airhilt.phraseology.numbers import TEENS
+
 WordConfidence = tuple[str, float]
 
 DIGITS = ("zero", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine")
-TEENS = {
-    "ten": "one zero", "eleven": "one one", "twelve": "one two", "thirteen": "one three",
-    "fourteen": "one four", "fifteen": "one five", "sixteen": "one six", "seventeen": "one seven",
-    "eighteen": "one eight", "nineteen": "one nine",
-}  # fmt: skip
 TENS = {"twenty": "two", "thirty": "three"}
 """No runway has a number above 36."""
 SPOKEN_DIGITS = {"oh": "zero", "o": "zero", **{word: word for word in DIGITS}} | {
@@ -111,7 +108,7 @@ def _spelled(text: str, digits: int) -> list[str]:
     if text in SPOKEN_DIGITS:
         return [SPOKEN_DIGITS[text]]
     if digits == 0 and text in TEENS:
-        return TEENS[text].split()
+        return [DIGITS[int(digit)] for digit in TEENS[text]]
     if digits == 0 and text in TENS:
         return [TENS[text]]
     match = _DESIGNATOR.fullmatch(text)

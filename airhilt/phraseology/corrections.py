@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from dataclasses import replace
 
 from airhilt.phraseology.call import CLEARANCES, Instruction
-from airhilt.phraseology.content import Content
+from airhilt.phraseology.content import Content, content_of
 from airhilt.phraseology.ground import route_of
 from airhilt.phraseology.slots import (
     FREQUENCY,
@@ -83,14 +82,12 @@ def without_slips(words: Words) -> Words:
         text = " ".join(words.texts)
         runway = _RUNWAY_SLIP.search(text) or _TURN_SLIP.search(text)
         if runway:
-            first, last = (len(text[: runway.start()].split()), len(text[: runway.end()].split()))
-            mended = Words(words.texts[:first], words.confidences[:first])
-            mended.take(words, last, len(words.texts))
-            words = mended
+            words = _without(words, text, *runway.span())
             continue
         route = _ROUTE_SLIP.search(text)
         if route and route["said"].split()[0] == route["meant"].split()[0]:
-            words = _with_route(words, text, route)
+            size = len(route["meant"].split())
+            words = _without(words, text, route.start(), route.start("meant"), size)
             continue
         found = _SLIP.search(text)
         if found is None:
@@ -103,21 +100,13 @@ def without_slips(words: Words) -> Words:
             start += level.index("level") + len("level ")
         elif bool(level) != bool(to_level):
             return words
-        text = found.string
-        first, last = len(text[:start].split()), len(text[:end].split())
-        size = len((to_level or to_number).split())
-        mended = Words(words.texts[:first], words.confidences[:first])
-        for index in range(last, len(words.texts)):
-            sure = MENDED if index < last + size else 1.0
-            mended.add(words.texts[index], words.confidences[index] * sure)
-        words = mended
+        words = _without(words, text, start, end, len((to_level or to_number).split()))
     return words
 
 
-def _with_route(words: Words, text: str, route: re.Match[str]) -> Words:
-    """Return words with the route that corrects another, which begins with the same taxiway."""
-    first, last = len(text[: route.start()].split()), len(text[: route.start("meant")].split())
-    size = len(route["meant"].split())
+def _without(words: Words, text: str, start: int, end: int, size: int = 0) -> Words:
+    """Return words without a part of their text; of the next ``size`` words nobody is as sure."""
+    first, last = len(text[:start].split()), len(text[:end].split())
     mended = Words(words.texts[:first], words.confidences[:first])
     for index in range(last, len(words.texts)):
         sure = MENDED if index < last + size else 1.0
@@ -145,67 +134,56 @@ def _with_correction(words: Words) -> Words:
     return mended
 
 
-Read = Callable[[Words], Content]
+def content_with_corrections(words: Words) -> Content:
+    """Return the meaning of words, including those that correct or withdraw others."""
+    texts = words.texts
+    if "correction" not in texts and "disregard" not in texts:
+        return content_of(words)
+    content = Content()
+    begin, marker = 0, ""
+    for at, word in [*enumerate(texts), (len(texts), "")]:
+        if at < len(texts) and word not in ("correction", "disregard"):
+            continue
+        part = Words(texts[begin:at], words.confidences[begin:at])
+        _take(content, part, marker)
+        begin, marker = at, word
+    return content
 
 
-class Corrections:
-    """Finds the meaning of words, including those that correct or withdraw others."""
-
-    def __init__(self, words: Words, read: Read) -> None:
-        self._words = words
-        self._read = read
-
-    def read(self) -> Content:
-        """Return the meaning after all corrections."""
-        texts = self._words.texts
-        if "correction" not in texts and "disregard" not in texts:
-            return self._read(self._words)
-        content = Content()
-        begin, marker = 0, ""
-        for at, word in [*enumerate(texts), (len(texts), "")]:
-            if at < len(texts) and word not in ("correction", "disregard"):
-                continue
-            self._take(content, begin, at, marker)
-            begin, marker = at, word
-        return content
-
-    def _take(self, content: Content, begin: int, end: int, marker: str) -> None:
-        """Add the meaning of the words from a marker on."""
-        part = Words(self._words.texts[begin:end], self._words.confidences[begin:end])
-        withdrawn, is_anew = list(content.instructions), False
-        if marker == "disregard":
-            content.instructions.clear()
-            content.doing.clear()
-            content.traffic.clear()
-            size = len(_DISREGARDED.match(" ".join(part.texts))[0].split())  # type: ignore[index]
-            is_anew = size == 1 and bool(withdrawn)
-            part = (
-                Words(part.texts[size:], part.confidences[size:]) if size > 1 or is_anew else part
-            )
-        elif marker == "correction":
-            part = Words(part.texts[1:], part.confidences[1:])
-        new = self._read(part)
-        if is_anew:
-            kept = [i for i, each in enumerate(new.instructions) if each not in withdrawn]
-            new.doing = [new.doing[i] for i in kept]
-            new.instructions = [_given_anew(new.instructions[i], withdrawn) for i in kept]
-        content.traffic += new.traffic
-        content.pressure_hpa = new.pressure_hpa or content.pressure_hpa
-        if marker == "correction" and content.instructions:
-            if _corrects_itself(content.instructions[-1], new):
-                _replace(content, new)
-                return
-            corrected = _corrected(content.instructions[-1], " ".join(part.texts))
-            if corrected is not None:
-                content.instructions[-1] = corrected
-            elif new.instructions:
-                _replace(content, new)
-                return
-            else:
-                content.instructions.pop()
-                content.doing.pop()
-        content.instructions += new.instructions
-        content.doing += new.doing
+def _take(content: Content, part: Words, marker: str) -> None:
+    """Add the meaning of the words from a marker on."""
+    withdrawn, is_anew = list(content.instructions), False
+    if marker == "disregard":
+        content.instructions.clear()
+        content.doing.clear()
+        content.traffic.clear()
+        size = len(_DISREGARDED.match(" ".join(part.texts))[0].split())  # type: ignore[index]
+        is_anew = size == 1 and bool(withdrawn)
+        part = Words(part.texts[size:], part.confidences[size:]) if size > 1 or is_anew else part
+    elif marker == "correction":
+        part = Words(part.texts[1:], part.confidences[1:])
+    new = content_of(part)
+    if is_anew:
+        kept = [i for i, each in enumerate(new.instructions) if each not in withdrawn]
+        new.doing = [new.doing[i] for i in kept]
+        new.instructions = [_given_anew(new.instructions[i], withdrawn) for i in kept]
+    content.traffic += new.traffic
+    content.pressure_hpa = new.pressure_hpa or content.pressure_hpa
+    if marker == "correction" and content.instructions:
+        if _corrects_itself(content.instructions[-1], new):
+            _replace(content, new)
+            return
+        corrected = _corrected(content.instructions[-1], " ".join(part.texts))
+        if corrected is not None:
+            content.instructions[-1] = corrected
+        elif new.instructions:
+            _replace(content, new)
+            return
+        else:
+            content.instructions.pop()
+            content.doing.pop()
+    content.instructions += new.instructions
+    content.doing += new.doing
 
 
 def _given_anew(told: Instruction, withdrawn: list[Instruction]) -> Instruction:

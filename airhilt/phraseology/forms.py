@@ -11,6 +11,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from airhilt.phraseology.call import Action, Instruction
+from airhilt.phraseology.hits import STATIONS
 from airhilt.phraseology.slots import (
     FIX_ENDS,
     NAMED_RUNWAY,
@@ -34,10 +35,7 @@ LONG_NAME = 0.75
 
 DEPARTED = "after departure"
 """Condition of what a clearance before departure says."""
-UNITS = (
-    "tower", "ground", "approach", "departure", "arrival", "centre", "control", "radar",
-    "director", "delivery", "apron", "ramp", "information", "radio",
-)  # fmt: skip
+UNITS = tuple(sorted(STATIONS - {"clearance", "final"}))
 """Last words of callsigns of stations (ICAO Annex 10 volume II, 5.2.1.7.1.2)."""
 UNIT = "|".join(UNITS)
 

@@ -15,8 +15,8 @@ from airhilt.phraseology.alphabet import LETTER_OF
 from airhilt.phraseology.call import REPORTS, Call, Instruction, Kind
 from airhilt.phraseology.callsigns import Naming, roster_of
 from airhilt.phraseology.conditions import doubtful
-from airhilt.phraseology.content import Content, content_of
-from airhilt.phraseology.corrections import Corrections, without_slips
+from airhilt.phraseology.content import Content
+from airhilt.phraseology.corrections import content_with_corrections, without_slips
 from airhilt.phraseology.hits import NAME, Hit
 from airhilt.phraseology.run_together import split_numbers
 from airhilt.phraseology.scan import CONDITIONS
@@ -104,7 +104,7 @@ def parse_call(
     named = _confidence_of_name(words, naming)
     rest = _without_name(words, naming)
     said = split_numbers(without_slips(rest))
-    content = Corrections(said, content_of).read()
+    content = content_with_corrections(said)
     ceiling_ft = (ceilings_ft or {}).get(naming.match.callsign or "")
     content.instructions = _with_sense(doubtful(content.instructions), ceiling_ft)
     if content.instructions and _asks_back(said.texts):

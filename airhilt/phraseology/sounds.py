@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import csv
 import re
+from collections.abc import Callable
 from functools import lru_cache
 from importlib.resources import files
 
@@ -97,24 +98,41 @@ def likeness(first: str, second: str) -> float:
 
 def alike(first: str, second: str) -> float:
     """Return how alike two rows of sounds are, from 0 to 1 (equal)."""
+    return edit_likeness(first, second, _lost, _distance)
+
+
+def edit_likeness(
+    first: str,
+    second: str,
+    lost: Callable[[str], float] = lambda _: 1.0,
+    distance: Callable[[str, str], float] = lambda sign, other: float(sign != other),
+) -> float:
+    """Return the likeness of two texts by their edit distance, from 0 to 1 (equal).
+
+    Parameters
+    ----------
+    lost
+        Distance of a sign from nothing.
+    distance
+        Distance of two signs.
+    """
     if first == second:
         return 1.0
-    longest = max(len(first), len(second))
     row = [0.0]
     for sign in second:
-        row.append(row[-1] + _lost(sign))
+        row.append(row[-1] + lost(sign))
     for sign in first:
-        diagonal, row[0] = row[0], row[0] + _lost(sign)
+        diagonal, row[0] = row[0], row[0] + lost(sign)
         for j, other in enumerate(second, start=1):
             diagonal, row[j] = (
                 row[j],
                 min(
-                    row[j] + _lost(sign),
-                    row[j - 1] + _lost(other),
-                    diagonal + _distance(sign, other),
+                    row[j] + lost(sign),
+                    row[j - 1] + lost(other),
+                    diagonal + distance(sign, other),
                 ),
             )
-    return max(0.0, 1.0 - row[-1] / longest)
+    return max(0.0, 1.0 - row[-1] / max(len(first), len(second)))
 
 
 def _lost(sign: str) -> float:

@@ -5,7 +5,7 @@ FAA: Order JO 7110.65, 2-4-17. ICAO: Annex 10 volume II, 5.2.1.
 
 from __future__ import annotations
 
-from airhilt.phraseology.alphabet import LETTERS
+from airhilt.phraseology import alphabet
 from airhilt.phraseology.call import Wind
 from airhilt.phraseology.numbers import Style, speak_digits, speak_thousands
 from airhilt.phraseology.slots import HPA_PER_INHG, TRANSITION_FT
@@ -90,12 +90,9 @@ def speak_mach(mach: float, style: Style) -> str:
 
 def spell(signs: str, style: Style) -> str:
     """Return signs in the spelling alphabet."""
-    words = [
-        LETTERS[ord(sign) - ord("A")] if sign.isalpha() else speak_digits(sign, style)
-        for sign in signs.upper()
-        if sign.isalnum()
-    ]
-    return " ".join(words)
+    return " ".join(
+        speak_digits(each, style) if each.isdigit() else each for each in alphabet.spell(signs)
+    )
 
 
 def join(*parts: str) -> str:

@@ -23,8 +23,14 @@ from airhilt.surveillance.horizon import radio_horizon_m
 from airhilt.surveillance.radar import (
     AIRCRAFT_CROSS_SECTION_M2,
     AZIMUTH_STEP_DEG,
+    MAXIMUM_ELEVATION_RAD,
+    MODE_A_PROBABILITY,
+    MODE_C_PROBABILITY,
+    PRIMARY_ACCURACY,
     RADARS,
     RANGE_STEP_M,
+    SECONDARY_ACCURACY,
+    SECONDARY_PROBABILITY,
     Antenna,
     LineOfSight,
     discrete_code,
@@ -168,11 +174,11 @@ class TurningRadar(UntimedSensor):
             target.squawk is not None
             and not target.actor.body.on_ground
             and line.range_m <= model.secondary_range_m
-            and reply < model.secondary_probability
+            and reply < SECONDARY_PROBABILITY
         )
         if not (has_echo or has_reply):
             return None
-        accuracy = model.secondary_accuracy if has_reply else model.primary_accuracy
+        accuracy = SECONDARY_ACCURACY if has_reply else PRIMARY_ACCURACY
         return RadarPlot(
             t_ns=self._director.now_ns,
             site=self._site,
@@ -183,10 +189,10 @@ class TurningRadar(UntimedSensor):
                 line.azimuth_rad / DEGREE + accuracy.azimuth_deg * azimuth_error, AZIMUTH_STEP_DEG
             )
             % 360.0,
-            mode_a=target.squawk if has_reply and mode_a_valid < model.mode_a_probability else None,
+            mode_a=target.squawk if has_reply and mode_a_valid < MODE_A_PROBABILITY else None,
             mode_c_ft=(
                 mode_c_ft(state.altitude_m)
-                if has_reply and mode_c_valid < model.mode_c_probability
+                if has_reply and mode_c_valid < MODE_C_PROBABILITY
                 else None
             ),
         )
@@ -202,7 +208,7 @@ class TurningRadar(UntimedSensor):
         )
         return (
             line.range_m >= model.minimum_range_m
-            and line.elevation_rad <= model.maximum_elevation_rad
+            and line.elevation_rad <= MAXIMUM_ELEVATION_RAD
             and line.horizontal_m <= radio_horizon_m(self._antenna_height_m, height_m)
         )
 

@@ -93,6 +93,14 @@ PRIMARY_ACCURACY = Accuracy(120.0, 0.15)
 """Random errors of a primary radar (STANDARD, 6.4.3.1)."""
 SECONDARY_ACCURACY = Accuracy(70.0, 0.08)
 """Random errors of a monopulse secondary radar (STANDARD, 6.3)."""
+REFERENCE_PROBABILITY = 0.90
+"""Probability that a primary radar detects its reference target in one turn (STANDARD, 6.4.2.1)."""
+SECONDARY_PROBABILITY = 0.97
+"""Probability of detecting a transponder in one turn (STANDARD, 6.3.2.1)."""
+MODE_A_PROBABILITY = 0.98
+"""Probability that a detected transponder's Mode A code is valid (STANDARD, 6.3)."""
+MODE_C_PROBABILITY = 0.96
+"""Probability that a detected transponder's Mode C altitude is valid (STANDARD, 6.3)."""
 MAXIMUM_ELEVATION_RAD = 30.0 * DEGREE
 """Elevation above which a radar sees nothing, its cone of silence, in rad (STUDY)."""
 
@@ -107,11 +115,9 @@ class RadarModel:
         Time of one turn of the antenna.
     minimum_range_m, primary_range_m, secondary_range_m
         Slant ranges between which there are plots.
-    maximum_elevation_rad
-        Elevation above which there are none: the cone of silence.
-    reference_cross_section_m2, reference_range_m, reference_probability
-        Design point of the primary radar: probability of detection in one turn of such a target at
-        such a range.
+    reference_cross_section_m2, reference_range_m
+        Design point of the primary radar: the target, and the range at which it is detected in one
+        turn with `REFERENCE_PROBABILITY`.
     clutter_speed_m_s
         Radial speed below which the primary radar takes a target for the ground, where it sees the
         ground: one Doppler filter of eight, wavelength times pulse rate over 16.
@@ -121,20 +127,9 @@ class RadarModel:
     minimum_range_m: float
     primary_range_m: float
     secondary_range_m: float
-    maximum_elevation_rad: float = MAXIMUM_ELEVATION_RAD
     reference_cross_section_m2: float
     reference_range_m: float
-    reference_probability: float = 0.90
-    """STANDARD, 6.4.2.1."""
     clutter_speed_m_s: float
-    primary_accuracy: Accuracy = PRIMARY_ACCURACY
-    secondary_accuracy: Accuracy = SECONDARY_ACCURACY
-    secondary_probability: float = 0.97
-    """Probability of detecting a transponder in one turn (STANDARD, 6.3.2.1)."""
-    mode_a_probability: float = 0.98
-    """Probability that a detected transponder's Mode A code is valid (STANDARD, 6.3)."""
-    mode_c_probability: float = 0.96
-    """Probability that a detected transponder's Mode C altitude is valid (STANDARD, 6.3)."""
 
     def detection_probability(self, cross_section_m2: float, range_m: float) -> float:
         """Return the probability that the primary radar detects a target in one turn.
@@ -144,7 +139,7 @@ class RadarModel:
         the probability is that of a false alarm to the power of 1 / (1 + ratio).
         """
         false_alarm = math.log(FALSE_ALARM_PROBABILITY)
-        reference = false_alarm / math.log(self.reference_probability) - 1.0
+        reference = false_alarm / math.log(REFERENCE_PROBABILITY) - 1.0
         size = cross_section_m2 / self.reference_cross_section_m2
         ratio = reference * size * (self.reference_range_m / range_m) ** 4
         return math.exp(false_alarm / (1.0 + ratio))

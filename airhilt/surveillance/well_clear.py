@@ -27,21 +27,17 @@ class Volume(NamedTuple):
 
 
 class AlertLevel(NamedTuple):
-    """One level of alerts: a volume, and how long before its violation there is an alert.
-
-    Between ``alert_s`` and ``earliest_s`` an alert is allowed and not required; none is given here.
-    """
+    """One level of alerts: a volume, and how long before its violation there is an alert."""
 
     name: AlertName
     volume: Volume
     alert_s: float
-    earliest_s: float
 
 
 _TAU_S, _DMOD_M = 35.0, 0.66 * NAUTICAL_MILE
-PREVENTIVE = AlertLevel("preventive", Volume(_TAU_S, _DMOD_M, 700 * FOOT), 55.0, 75.0)
-CORRECTIVE = AlertLevel("corrective", Volume(_TAU_S, _DMOD_M, 450 * FOOT), 55.0, 75.0)
-WARNING = AlertLevel("warning", Volume(_TAU_S, _DMOD_M, 450 * FOOT), 25.0, 55.0)
+PREVENTIVE = AlertLevel("preventive", Volume(_TAU_S, _DMOD_M, 700 * FOOT), 55.0)
+CORRECTIVE = AlertLevel("corrective", Volume(_TAU_S, _DMOD_M, 450 * FOOT), 55.0)
+WARNING = AlertLevel("warning", Volume(_TAU_S, _DMOD_M, 450 * FOOT), 25.0)
 LEVELS = (WARNING, CORRECTIVE, PREVENTIVE)
 """The levels, the most urgent first."""
 LOOK_AHEAD_S = 180.0

@@ -61,14 +61,6 @@ def test_a_step_has_what_arrived_before_it_began_and_not_what_arrived_meanwhile(
     assert ages.statistics(seconds_to_ns(12))["adsb"].max_s == pytest.approx(11.0)
 
 
-def test_an_outage_makes_evidence_stale() -> None:
-    ages = EvidenceAges(["decision"])
-    ages.take(report(0.0, 0.0))
-    for second in range(20):
-        ages.step(step(second, 0.0))
-    assert ages.statistics(seconds_to_ns(20))["adsb"].stale_share == pytest.approx(0.75)
-
-
 def test_a_quiet_frequency_is_not_stale_and_a_call_that_waits_is() -> None:
     ages = EvidenceAges(["decision"])
     ages.take(call(10.0, 10.0))
@@ -100,13 +92,6 @@ def test_where_nobody_decides_there_is_nothing_to_tell() -> None:
     ages = EvidenceAges([])
     ages.take(report(0.0, 0.0))
     assert ages.statistics(seconds_to_ns(20)) == {}
-
-
-def test_ages_count_from_the_first_observation_and_not_from_its_arrival() -> None:
-    ages = EvidenceAges(["decision"])
-    ages.take(report(1.0, 3.0))
-    ages.step(step(3.0, 1.0))
-    assert ages.statistics(seconds_to_ns(4))["adsb"].mean_s == pytest.approx(1.5)
 
 
 def test_no_time_counts_twice_where_a_quick_worker_overtakes_a_slow_one() -> None:

@@ -183,11 +183,6 @@ def test_who_ends_a_call_is_its_speaker_whoever_else_is_named() -> None:
     assert (call.callsign, call.addressed_first) == ("DAL456", False)
 
 
-def test_the_digits_of_the_callsign_are_not_those_of_the_level() -> None:
-    call = parse_call("Descend flight level two niner zero American one two three", KNOWN)
-    assert (call.callsign, call.altitude_ft) == ("AAL123", 29_000)
-
-
 @pytest.mark.parametrize(
     "text",
     [

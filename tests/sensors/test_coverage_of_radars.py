@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import statistics
-from dataclasses import dataclass
 from typing import Any
 
 import pytest
@@ -14,36 +13,14 @@ from airhilt import load
 from airhilt.messages import RadarKind, RadarPlot, SurfaceTrack
 from airhilt.scenario.models import AircraftSpec, Radar, SurfaceSurveillance
 from airhilt.sensors import radar, surface
-from airhilt.sensors.base import SensorContext, SensorType
-from airhilt.shapes.sizes import Dimensions
-from airhilt.sim import Director, Priority, Virtual, parse_latency
+from airhilt.sensors.base import SensorType
 from airhilt.surveillance.radar import Antenna
-from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, SECOND_NS
+from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE
 from airhilt.world.mover import SurfaceState
 from airhilt.world.site import ScenarioSite
+from sensed import Acting, Body, sense
 
 CENTRE = {"type": "from_centre", "bearing_deg": 0.0, "distance_nm": 0.0}
-AIRLINER = Dimensions(length_m=39.5, span_m=34.0, height_m=12.5)
-
-
-@dataclass
-class Body:
-    """All that the sensors read of what moves: an airliner that stands still in the air."""
-
-    state: SurfaceState
-    ended: str | None = None
-    on_ground: bool = False
-    dimensions: Dimensions = AIRLINER
-
-
-@dataclass
-class Acting:
-    """All that the sensors read of an actor."""
-
-    spec: Any
-    body: Body
-    category: str = "aircraft"
-    emitter_category: str = "A3"
 
 
 class Field:
@@ -82,25 +59,13 @@ class Field:
     def seen(self, sensor_type: SensorType, state: SurfaceState, seconds: float) -> list[Any]:
         """Return the plots or tracks of an airliner in a state."""
         published: list[Any] = []
-        director = Director(Virtual())
         aircraft = self.scenario.actors[0]
-        acting: Any = Acting(aircraft, Body(state))
-        context = SensorContext(
-            director=director,
-            scenario=self.scenario,
-            site=self.site,
-            actors={aircraft.callsign: acting},
-            latency=parse_latency("fixed"),
-            seed=1,
-            state_at_ns=lambda: director.now_ns,
-            publish=lambda _, message, *, raw=None: published.append(message),
-            step_done=lambda _: None,
-        )
-        sensor = sensor_type.create(context)
-        assert sensor is not None
-        sensor.start()
-        director.at(round(seconds * SECOND_NS), director.stop, Priority.OBSERVE)
-        director.run()
+        actors = {aircraft.callsign: Acting(aircraft, Body(state))}
+
+        def publish(_: str, message: Any, *, raw: bytes | None = None) -> None:
+            published.append(message)
+
+        sense(sensor_type, self.scenario, self.site, actors, publish, seconds)
         return [each for each in published if isinstance(each, RadarPlot | SurfaceTrack)]
 
 
@@ -126,17 +91,6 @@ def test_radars_see_as_far_as_their_sources_say(subtests: pytest.Subtests) -> No
             plots = field.seen(radar.SENSOR, field.at_range(range_nm, height_ft * FOOT), 240.0)
             assert any(plot.kind != "secondary" for plot in plots) == has_echo
             assert any(plot.kind != "primary" for plot in plots) == has_reply
-
-
-def test_of_a_hundred_replies_two_have_no_valid_code_and_four_no_valid_altitude() -> None:
-    """EUROCONTROL's standard asks for 98 % and 96 %."""
-    field = Field()
-    plots = field.seen(radar.SENSOR, field.at_range(80.0, 9_000.0), 4.8 * 1_000)
-    codes, altitudes = (
-        sum(getattr(plot, name) is None for plot in plots) for name in ("mode_a", "mode_c_ft")
-    )
-    assert codes / len(plots) == pytest.approx(0.02, abs=0.01)
-    assert altitudes / len(plots) == pytest.approx(0.04, abs=0.015)
 
 
 def test_over_an_airport_radar_sees_up_to_200_ft_and_transponders_are_located_in_class_d(
@@ -178,9 +132,3 @@ def test_a_target_on_an_airport_is_shown_with_its_name_its_speed_and_its_way(
     assert statistics.mean(off_deg) == pytest.approx(0.0, abs=4.0)
     altitude_ft = state.altitude_m / FOOT
     assert all(abs((track.altitude_ft or 0.0) - altitude_ft) <= 12.5 for track in tracks)
-
-
-def test_who_stands_on_an_airport_has_no_way() -> None:
-    field = Field()
-    tracks = field.seen(surface.SENSOR, field.state(1_000.0, 50.0), 20.0)
-    assert {(track.ground_speed_kt, track.track_deg) for track in tracks} == {(0.0, None)}

@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import json
 import math
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -22,39 +21,19 @@ from airhilt.messages import RadarInfo, RadarPlot
 from airhilt.options import Options
 from airhilt.record import read_log
 from airhilt.scenario import Scenario
-from airhilt.sensors.base import SensorContext
 from airhilt.sensors.radar import SENSOR
-from airhilt.shapes.sizes import Dimensions
-from airhilt.sim import Director, Priority, Virtual, parse_latency
+from airhilt.sim import Director, Priority, Virtual
 from airhilt.surveillance.radar import RADARS, Antenna
 from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, SECOND_NS
 from airhilt.world.loading import load_text
 from airhilt.world.mover import SurfaceState, carried_on
 from airhilt.world.site import ScenarioSite
+from sensed import Acting, Body, sense
 from shortened import shortened
 
 CENTRE = {"type": "from_centre", "bearing_deg": 0.0, "distance_nm": 0.0}
 TURN_S = {"terminal": 4.8, "en_route": 12.0}
 TICK_NS = SECOND_NS // 20
-
-
-@dataclass
-class Body:
-    """All that a radar reads of what moves."""
-
-    state: SurfaceState
-    ended: str | None = None
-    on_ground: bool = False
-    dimensions: Dimensions = field(default=Dimensions(length_m=39.5, span_m=34.0, height_m=12.5))
-
-
-@dataclass
-class Acting:
-    """All that a radar reads of an actor."""
-
-    spec: Any
-    body: Body
-    emitter_category: str = "A3"
 
 
 def state(
@@ -112,23 +91,11 @@ class Watch:
         (self.info if isinstance(message, RadarInfo) else self.plots).append(message)
 
     def go(self, seconds: float) -> Watch:
-        context = SensorContext(
-            director=self.director,
-            scenario=self.scenario,
-            site=self.site,
-            actors=self.actors,  # type: ignore[arg-type]
-            latency=parse_latency("fixed"),
-            seed=self.seed,
-            state_at_ns=lambda: self.ticked_ns,
-            publish=self.publish,
-            step_done=lambda _: None,
-        )
-        sensor = SENSOR.create(context)
-        assert sensor is not None
-        sensor.start()
         self.director.every(TICK_NS, self.tick, Priority.PHYSICS, first_ns=TICK_NS)
-        self.director.at(round(seconds * SECOND_NS), self.director.stop, Priority.OBSERVE)
-        self.director.run()
+        sense(
+            SENSOR, self.scenario, self.site, self.actors, self.publish, seconds,
+            seed=self.seed, director=self.director, state_at_ns=lambda: self.ticked_ns,
+        )  # fmt: skip
         return self
 
     def tick(self) -> None:
@@ -295,19 +262,6 @@ def test_an_aircraft_with_a_transponder_is_known_by_its_code_and_level() -> None
     assert {plot.mode_c_ft for plot in plots} <= {None, 10_000}
     assert len({plot.mode_a for plot in plots} - {None}) == 1
     assert "combined" in {plot.kind for plot in plots}
-
-
-def test_what_the_radar_cannot_see_is_not_plotted(subtests: pytest.Subtests) -> None:
-    for where, why in [
-        ((90.0, 50.0, 500.0), "below the horizon"),
-        ((90.0, 2.0, 20_000.0), "in the cone of silence"),
-        ((90.0, 0.3, 200.0), "nearer than the least range"),
-        ((90.0, 130.0, 40_000.0), "beyond the range"),
-    ]:
-        with subtests.test(why):
-            watch = Watch()
-            watch.add(*where, speed_m_s=12.0)
-            assert watch.go(30.0).plots == [], why
 
 
 def test_what_stands_on_the_ground_is_taken_for_ground() -> None:

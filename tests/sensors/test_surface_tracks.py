@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,33 +14,14 @@ from airhilt import load
 from airhilt.geodesy.wgs84 import Place, distance_m, offset_m, onward
 from airhilt.messages import SurfaceTrack
 from airhilt.scenario.models import Scenario, SurfaceSurveillance
-from airhilt.sensors.base import SensorContext
 from airhilt.sensors.surface import SENSOR
-from airhilt.sim import Director, Priority, Virtual, parse_latency
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE, SECOND_NS
 from airhilt.world.loading import load_text
 from airhilt.world.mover import SurfaceState
 from airhilt.world.site import ScenarioSite
+from sensed import Acting, Body, sense
 
 AIRCRAFT, TRUCK, ANIMAL = "AAL123", "OPS1", "ANIMAL1"
-
-
-@dataclass
-class Body:
-    """All that the sensor reads of what moves."""
-
-    state: SurfaceState
-    on_ground: bool = True
-    ended: str | None = None
-
-
-@dataclass
-class Acting:
-    """All that the sensor reads of an actor."""
-
-    spec: Any
-    body: Body
-    emitter_category: str = "A3"
 
 
 def airport(kind: str = "deer", **changes: Any) -> Scenario:
@@ -88,24 +68,14 @@ class Watch:
         self.actors[callsign] = Acting(spec, body)
         return body
 
+    def publish(self, _: str, track: Any, *, raw: bytes | None = None) -> None:
+        assert raw is None
+        self.tracks.append(track)
+
     def go(self, seconds: float = 20.0) -> list[SurfaceTrack]:
-        director = Director(Virtual())
-        context = SensorContext(
-            director=director,
-            scenario=self.scenario,
-            site=self.site,
-            actors=self.actors,  # type: ignore[arg-type]
-            latency=parse_latency("fixed"),
-            seed=1,
-            state_at_ns=lambda: director.now_ns - self.age_ns,
-            publish=lambda _, track, raw=None: self.tracks.append(track),
-            step_done=lambda _: None,
+        sense(
+            SENSOR, self.scenario, self.site, self.actors, self.publish, seconds, age_ns=self.age_ns
         )
-        sensor = SENSOR.create(context)
-        assert sensor is not None
-        sensor.start()
-        director.at(round(seconds * SECOND_NS), director.stop, Priority.OBSERVE)
-        director.run()
         return self.tracks
 
     def of(self, callsign: str | None) -> list[SurfaceTrack]:
@@ -301,19 +271,8 @@ def test_the_radar_looks_from_both_ends_of_each_runway() -> None:
 
 
 def created(scenario: Scenario, *subscribed: str) -> bool:
-    context = SensorContext(
-        director=Director(Virtual()),
-        scenario=scenario,
-        site=ScenarioSite.of(scenario),
-        actors={},
-        latency=parse_latency("fixed"),
-        seed=1,
-        state_at_ns=lambda: 0,
-        publish=lambda *_, **__: None,
-        step_done=lambda _: None,
-        subscribed=frozenset(subscribed),
-    )
-    return SENSOR.create(context) is not None
+    site, asked = ScenarioSite.of(scenario), frozenset(subscribed)
+    return sense(SENSOR, scenario, site, {}, print, 0.0, subscribed=asked) is not None
 
 
 def test_it_is_there_if_the_scenario_or_a_worker_asks_and_there_is_an_airport() -> None:

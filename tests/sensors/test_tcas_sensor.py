@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import json
 import math
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -15,35 +14,16 @@ from airhilt import load
 from airhilt.errors import ScenarioError
 from airhilt.messages import TcasReply
 from airhilt.scenario.models import Transponder
-from airhilt.sensors.base import SensorContext
 from airhilt.sensors.tcas import SENSOR, must_carry
-from airhilt.sim import Director, Priority, Virtual, parse_latency
 from airhilt.surveillance.radar import Antenna
 from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, SECOND_NS
 from airhilt.world.loading import load_text
 from airhilt.world.mover import SurfaceState
 from airhilt.world.site import ScenarioSite
+from sensed import Acting, Body, sense
 
 EARTH_RADIUS_M = 6_371_000.0
 OWN, OTHER = "AAL123", "DAL456"
-
-
-@dataclass
-class Body:
-    """All that an interrogator reads of what moves."""
-
-    state: SurfaceState
-    ended: str | None = None
-    on_ground: bool = False
-
-
-@dataclass
-class Acting:
-    """All that an interrogator reads of an actor."""
-
-    spec: Any
-    body: Body
-    emitter_category: str = "A3"
 
 
 class Sky:
@@ -78,24 +58,11 @@ class Sky:
         self.replies.append(message)
 
     def go(self, seconds: float = 200.0, seed: int = 1) -> list[TcasReply]:
-        director = Director(Virtual())
-        context = SensorContext(
-            director=director,
-            scenario=self.scenario,
-            site=self.site,
-            actors={OWN: self.own, OTHER: self.other},  # type: ignore[dict-item]
-            latency=parse_latency("fixed"),
-            seed=seed,
-            state_at_ns=lambda: director.now_ns - self.age_ns,
-            publish=self.publish,
-            step_done=lambda _: None,
-            subscribed=self.subscribed,
-        )
-        sensor = SENSOR.create(context)
-        if sensor is not None:
-            sensor.start()
-        director.at(round(seconds * SECOND_NS), director.stop, Priority.OBSERVE)
-        director.run()
+        actors = {OWN: self.own, OTHER: self.other}
+        sense(
+            SENSOR, self.scenario, self.site, actors, self.publish, seconds,
+            seed=seed, age_ns=self.age_ns, subscribed=self.subscribed,
+        )  # fmt: skip
         return self.replies
 
 

@@ -12,12 +12,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from airhilt.geodesy.wgs84 import distance_m
-from airhilt.messages import RadarInfo, RadarKind, RadarPlot
+from airhilt.messages import RadarInfo, RadarPlot
 from airhilt.surveillance.radar import (
-    AIRCRAFT_CROSS_SECTION_M2,
-    AZIMUTH_STEP_DEG,
     RADARS,
-    RANGE_STEP_M,
     Antenna,
     discrete_code,
     mode_c_ft,
@@ -107,54 +104,9 @@ def test_a_radar_sees_what_moves_by_more_than_a_doppler_filter_of_eight(
     assert radar.rotation_s == pytest.approx(60.0 / turns_per_min)
 
 
-@pytest.mark.parametrize("kind", ["terminal", "en_route"])
-def test_a_radar_is_as_exact_and_as_sure_as_the_standard_of_eurocontrol_asks(
-    kind: RadarKind,
-) -> None:
-    """SUR.ET1.ST01.1000-STD-01-01: 6.3 of secondary radar, 6.4 of primary radar."""
-    radar = RADARS[kind]
-    assert radar.primary_accuracy == (120.0, 0.15)
-    assert radar.secondary_accuracy == (70.0, 0.08)
-    assert radar.reference_probability == 0.90
-    assert radar.secondary_probability == 0.97
-    assert (radar.mode_a_probability, radar.mode_c_probability) == (0.98, 0.96)
-
-
-@pytest.mark.parametrize(
-    ("kind", "ranges_nm"), [("terminal", (0.5, 60.0, 120.0)), ("en_route", (5.0, 250.0, 250.0))]
-)
-def test_a_radar_reaches_as_far_as_its_sources_say_and_up_to_30_degrees(
-    kind: RadarKind, ranges_nm: tuple[float, float, float]
-) -> None:
-    radar = RADARS[kind]
-    ranges_m = radar.minimum_range_m, radar.primary_range_m, radar.secondary_range_m
-    assert [each / 1852.0 for each in ranges_m] == pytest.approx(ranges_nm)
-    assert math.degrees(radar.maximum_elevation_rad) == pytest.approx(30.0)
-
-
 def test_one_false_alarm_comes_in_a_million_cells() -> None:
     """Without an echo, what is detected is a false alarm."""
     assert RADARS["terminal"].detection_probability(0.0, 1_000.0) == pytest.approx(1e-6)
-
-
-def test_aircraft_echo_as_in_the_table_of_skolnik(subtests: pytest.Subtests) -> None:
-    """A small single-engine aircraft, a four-passenger jet, an airliner, and a jumbo jet."""
-    rows: list[Any] = [
-        ("A0", 2.0),
-        ("A1", 1.0),
-        ("A2", 2.0),
-        ("A3", 20.0),
-        ("A5", 100.0),
-    ]
-    for category, square_metres in rows:
-        with subtests.test(str((category, square_metres))):
-            assert AIRCRAFT_CROSS_SECTION_M2[category] == square_metres
-
-
-def test_the_steps_of_a_plot_are_those_of_asterix() -> None:
-    """Category 048, item I048/040: 1/256 NM, and the circle in 16 bits."""
-    assert 256 * RANGE_STEP_M == 1852.0
-    assert 65_536 * AZIMUTH_STEP_DEG == 360.0
 
 
 # --- the place of a plot --------------------------------------------------------------------

@@ -11,12 +11,9 @@ from hypothesis import strategies as st
 from airhilt.geodesy.relative_motion import Relative
 from airhilt.surveillance.well_clear import (
     CORRECTIVE,
-    HYSTERESIS_S,
     LEVELS,
-    LOOK_AHEAD_S,
     PREVENTIVE,
     WARNING,
-    AlertLevel,
     AlertName,
     Gap,
     Volume,
@@ -83,18 +80,6 @@ def test_just_the_least_vertical_distance_is_not_well_clear(volume: Volume) -> N
         assert time_to_violation_s(motion, farther, volume) is None
 
 
-def test_no_alert_comes_before_the_earliest_time() -> None:
-    for level in LEVELS:
-        assert level.alert_s <= level.earliest_s
-    for in_s in range(200, 0, -1):
-        motion = meets(float(in_s), 500.0)
-        told = level_of(motion, LEVEL)
-        if told is not None:
-            violation_s = time_to_violation_s(motion, LEVEL, told.volume)
-            assert violation_s is not None
-            assert violation_s <= told.earliest_s
-
-
 def test_two_that_are_too_close_already_have_violated_it() -> None:
     near = meets(1.0, 900.0)
     assert time_to_violation_s(near, LEVEL, WARNING.volume) == 0.0
@@ -108,15 +93,6 @@ def test_two_that_are_too_close_already_have_violated_it() -> None:
 def test_the_miss_distance_that_counts_is_0_66_nm(miss_nm: float, is_lost: bool) -> None:
     violation_s = time_to_violation_s(meets(60.0, 500.0, miss_nm), LEVEL, WARNING.volume)
     assert (violation_s is not None) == is_lost
-
-
-@pytest.mark.parametrize(
-    ("level", "earliest_s"), [(PREVENTIVE, 75), (CORRECTIVE, 75), (WARNING, 55)]
-)
-def test_the_times_of_the_levels_are_those_of_do_365b(level: AlertLevel, earliest_s: int) -> None:
-    assert level.earliest_s == earliest_s
-    assert level.alert_s == (25.0 if level is WARNING else 55.0)
-    assert level.volume.zthr_m == (700 if level is PREVENTIVE else 450) * FOOT
 
 
 def turned(motion: Relative, angle_rad: float) -> Relative:
@@ -144,8 +120,3 @@ def test_it_does_not_matter_where_the_other_comes_from(
     assert (found is None) == (expected is None)
     if found is not None and expected is not None:
         assert found == pytest.approx(expected, abs=0.01)
-
-
-def test_a_manoeuvre_looks_3_min_ahead_and_an_alert_ends_after_5_s() -> None:
-    """The lookahead and hysteresis times of DAIDALUS's configuration for DO-365B."""
-    assert (LOOK_AHEAD_S, HYSTERESIS_S) == (180.0, 5.0)

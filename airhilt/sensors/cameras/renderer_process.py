@@ -46,8 +46,6 @@ class RendererProcess:
     ----------
     renderer
         Name of the renderer that draws.
-    actors
-        Actors of the numbers in ``Frame.instance``, from 1.
     own_aircraft
         Pixels that the aircraft which carries the camera may cover, by camera; shape (rows,
         columns).
@@ -108,7 +106,6 @@ class RendererProcess:
             raise
         self.renderer = opened["renderer"]
         self.identity: str = opened["identity"]
-        self.actors: tuple[str, ...] = tuple(opened["actors"])
         self.own_aircraft: Mapping[str, Mask] = {
             name: _mask(runs, self._cameras[name]) for name, runs in opened["own_aircraft"].items()
         }

@@ -18,7 +18,6 @@ from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import UNSEEN_FIELDS
 from airhilt.sensors.cameras.camera_state import CameraState
 from airhilt.sensors.cameras.frame import Frame
-from airhilt.sensors.cameras.mounts import Camera, cameras_named
 from airhilt.sensors.cameras.renderer_link import planes_of
 from airhilt.sensors.cameras.renderers import require_renderer
 from airhilt.sensors.cameras.scene.bodies import BodyState
@@ -40,7 +39,6 @@ class RendererServer:
         self._shared = shared
         self._opening: dict[str, Any] = {}
         self._scene: SceneRenderer | None = None
-        self._cameras: Mapping[str, Camera] = {}
         self._opened: dict[str, Any] = {}
 
     def answer(self, question: dict[str, Any]) -> str:
@@ -66,7 +64,6 @@ class RendererServer:
             if self._scene is not None:
                 self._scene.close()
             self._scene = None  # Nothing is open if this one cannot be opened.
-            self._cameras = cameras_named(scenario, names)
             self._scene = scene = open_scene_renderer(
                 scenario,
                 ScenarioSite.of(scenario),
@@ -79,13 +76,12 @@ class RendererServer:
             self._opening = opening
             self._opened = {
                 "renderer": scene.renderer,
-                "actors": scene.actors,
                 "identity": scene.identity,
                 "own_aircraft": {name: runs_of(scene.own_aircraft(name)) for name in names},
             }
         for name in names:
             self._scene.resume(name, CameraState())
-        lenses = {name: camera.intrinsics for name, camera in self._cameras.items()}
+        lenses = {name: self._scene.cameras[name].intrinsics for name in names}
         self._planes = planes_of(self._shared, lenses)
         return self._opened
 
@@ -101,8 +97,7 @@ class RendererServer:
         assert scene is not None, "the first question opens a scene"
         for name, given in zip(names, question.get("states", ()), strict=False):
             if scene.state(name).to_json() != given:
-                lens = self._cameras[name].intrinsics
-                scene.resume(name, CameraState.of_json(given, lens))
+                scene.resume(name, CameraState.of_json(given, scene.cameras[name].intrinsics))
         bodies = [BodyState(*body) for body in question["bodies"]]
         told: dict[str, Any] = {}
         if question["draw"]:

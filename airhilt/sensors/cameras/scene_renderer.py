@@ -95,6 +95,8 @@ class SceneRenderer:
 
     Attributes
     ----------
+    cameras
+        The cameras, by name.
     renderer
         Name of the renderer that draws.
     identity
@@ -124,8 +126,8 @@ class SceneRenderer:
         self._light = light
         self._models = dict(models)
         self._numbers = numbered(self._models)
-        self._cameras = {camera.name: camera for camera in cameras}
-        for camera in self._cameras.values():
+        self.cameras = {camera.name: camera for camera in cameras}
+        for camera in self.cameras.values():
             if isinstance(camera.at, Pose):
                 landscape.require_free(camera.name, camera.at.position_m)
         self._bodies = VisibleBodies(self._models, light, supersampling)
@@ -141,15 +143,15 @@ class SceneRenderer:
             camera.name: Streaks(
                 (camera.intrinsics.width_px, camera.intrinsics.height_px), rain_mm_h, camera.name
             )
-            for camera in self._cameras.values()
+            for camera in self.cameras.values()
             if rain_mm_h > 0.0
         }
-        self._taken = dict.fromkeys(self._cameras, 0)
+        self._taken = dict.fromkeys(self.cameras, 0)
         labels = {actor: model.label for actor, model in self._models.items()}
         self._sightings = Sightings(labels, light.extinction_per_m)
         self.identity = (
             scene_identity(self.renderer, landscape, light, rain_mm_h, self._models,
-                           self._cameras.values(), supersampling)
+                           self.cameras.values(), supersampling)
             if shares_pictures
             else ""
         )  # fmt: skip
@@ -174,7 +176,7 @@ class SceneRenderer:
         there = {body.actor: body for body in bodies}
         poses = {actor: body.pose for actor, body in there.items()}
         lights = self._bodies.lights(there, t_ns)
-        return [self._picture(self._cameras[name], there, poses, lights, t_ns) for name in names]
+        return [self._picture(self.cameras[name], there, poses, lights, t_ns) for name in names]
 
     def has_body(
         self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
@@ -194,7 +196,7 @@ class SceneRenderer:
         lights = self._bodies.lights(there, t_ns)
         found = {}
         for name in names:
-            camera = self._cameras[name]
+            camera = self.cameras[name]
             view = camera.view(there)
             others = [body for actor, body in there.items() if actor != camera.carrier]
             found[name] = bool(self._bodies.spots(view, lights, poses, camera.carrier)) or any(
@@ -207,7 +209,7 @@ class SceneRenderer:
     def state(self, name: str) -> CameraState:
         """Return the state of a camera, from which its next picture is drawn."""
         own = self._own.get(name)
-        moves = not self._cameras[name].is_fixed
+        moves = not self.cameras[name].is_fixed
         return CameraState(
             self._backgrounds[name].drawings if moves else (),
             None if own is None else own.body,
@@ -216,7 +218,7 @@ class SceneRenderer:
 
     def resume(self, name: str, state: CameraState) -> None:
         """Continue from a state of a camera, as if the pictures that led to it had been drawn."""
-        camera = self._cameras[name]
+        camera = self.cameras[name]
         self._plain.pop(name, None)
         self._own.pop(name, None)
         self._taken[name] = state.taken
@@ -237,7 +239,7 @@ class SceneRenderer:
         CameraError
             There is no such camera.
         """
-        camera = find_camera(self._cameras, name)
+        camera = find_camera(self.cameras, name)
         lens = camera.intrinsics
         covered = np.zeros((lens.height_px, lens.width_px), dtype=bool)
         if isinstance(camera.at, Pose) or not camera.at.sees_own_aircraft:
@@ -299,12 +301,15 @@ class SceneRenderer:
         own = None
         if mount is not None and mount.sees_own_aircraft:
             own = self._own_layer(camera.name, bodies[mount.actor], poses[mount.actor], view)
+        spots = self._bodies.spots(view, lights, poses, camera.carrier)
+        if not camera.is_fixed and self._light.needs_lights:
+            spots.extend(self._fixed_lights.seen(view, self._light))
         return _Content(
             drawn=[one for one in seen if one.leaves_a_trace],
             faint=[one for one in seen if not one.leaves_a_trace],
             shadows=shadows,
             own=own,
-            spots=self._spots(camera, view, lights, poses, camera.carrier),
+            spots=spots,
         )
 
     def _draw(
@@ -337,7 +342,7 @@ class SceneRenderer:
 
     def _open_backgrounds(self, kept: Landscape | None) -> dict[str, Background]:
         """Return the background of each camera; those of fixed cameras may be kept."""
-        cameras, cache = self._cameras.values(), None
+        cameras, cache = self.cameras.values(), None
         if kept is not None and any(camera.is_fixed for camera in cameras):
             cache = BackgroundCache.of(self.renderer, kept, self._light)
         samples = max(STILL_SAMPLES, self._supersampling)
@@ -372,18 +377,3 @@ class SceneRenderer:
             layer.range_m = 0.0
             kept = self._own[name] = _OwnAircraft(key, layer, body)
         return kept.layer
-
-    # --- lights and truth -----------------------------------------------------------------
-
-    def _spots(
-        self,
-        camera: Camera,
-        view: View,
-        lights: Mapping[str, Sequence[Light]],
-        poses: Mapping[str, Pose],
-        carrier: str | None,
-    ) -> list[Spot]:
-        found = self._bodies.spots(view, lights, poses, carrier)
-        if not camera.is_fixed and self._light.needs_lights:
-            found.extend(self._fixed_lights.seen(view, self._light))
-        return found

@@ -26,7 +26,7 @@ CORNERS = ((-900.0, -900.0, 0.0), (900.0, -900.0, 0.0), (900.0, 900.0, 0.0), (-9
 GROUND = Mesh.of(CORNERS, (0, 1, 2, 0, 2, 3), (0.2, 0.5, 0.3))
 DIM = Mesh.of(CORNERS, (0, 1, 2, 0, 2, 3), (0.1, 0.2, 0.1))
 LAMP = Light((0.0, 200.0, 2.0), (1.0, 1.0, 1.0), 5_000.0)
-FIELD = Landscape(GROUND, (LAMP,), (), 0.0)
+FIELD = Landscape(GROUND, (LAMP,), ())
 NIGHT = Illumination(np.array((0.0, 0.8, -0.6)), visibility_m=9_000.0, overcast=0.0)
 EYE = Pose.of((3.0, -50.0, 12.0), 0.1, -0.1)
 
@@ -103,7 +103,7 @@ def test_other_code_and_another_processor_have_it_drawn(
     monkeypatch.setattr("airhilt.host.processor.PROCESSOR", tmp_path / "cpuinfo")
     backgrounds().get(View(LENS, EYE), 3, drawn)
     monkeypatch.setattr(
-        "airhilt.sensors.cameras.scene.background_cache.packages_sha256", lambda *_: "other code"
+        "airhilt.sensors.cameras.drawing_keys.packages_sha256", lambda *_: "other code"
     )
     backgrounds().get(View(LENS, EYE), 3, drawn)
     assert drawn.times == 3

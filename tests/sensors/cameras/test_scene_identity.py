@@ -24,7 +24,7 @@ GROUND = Mesh.of(np.eye(3), np.array([[0, 1, 2]]), np.array([[0.5, 0.5, 0.5]]))
 BLACK = replace(GROUND, colours=np.zeros((1, 3), dtype=np.float32))
 SCENE: dict[str, Any] = {
     "renderer": "embree",
-    "landscape": Landscape(GROUND, (), (), 10.0),
+    "landscape": Landscape(GROUND, (), ()),
     "light": Illumination(np.array((0.0, 0.6, 0.8)), visibility_m=9_000.0, overcast=0.2),
     "rain_mm_h": 0.0,
     "models": {"OPS1": kind_model("follow_me")},
@@ -45,7 +45,7 @@ def test_the_same_scene_has_the_same_identity() -> None:
 @pytest.mark.parametrize(
     "changes",
     [
-        {"landscape": Landscape(BLACK, (), (), 10.0)},
+        {"landscape": Landscape(BLACK, (), ())},
         {"light": replace(SCENE["light"], visibility_m=800.0)},
         {"light": replace(SCENE["light"], sun=np.array((0.6, 0.0, 0.8)))},
         {"rain_mm_h": 2.0},

@@ -115,7 +115,7 @@ class RayRenderer:
 
     def landscape(self, view: View, window: Window, samples: int = 1) -> Samples:
         """Return the landscape behind all bodies, with the sky and the air."""
-        x, y = _on_focal_plane(view, *view.sample_places(window, samples))
+        x, y = view.on_focal_plane(*view.sample_places(window, samples))
         if samples == 1 and self._shared_rays is not None:
             pieces = self._shared_rays.get(view, window, lambda: self._adaptively(view, x, y))
         elif samples == 1:
@@ -304,14 +304,6 @@ def _raised(landscape: Mesh) -> tuple[Doubles, Doubles, Doubles]:
     high = np.maximum.reduceat(standing.max(axis=1)[order], first)
     half = (high - low) / 2.0
     return low + half, np.hypot(*half.T), np.maximum.reduceat(tops[order], first)
-
-
-def _on_focal_plane(view: View, columns: Floats, rows: Floats) -> tuple[Floats, Floats]:
-    """Return places in the picture as they are at a depth of 1, right of the axis and below it."""
-    lens = view.intrinsics
-    focal = np.float32(lens.focal_px)
-    x = (columns - np.float32(lens.width_px / 2.0)) / focal
-    return x, (rows - np.float32(lens.height_px / 2.0)) / focal
 
 
 def _towards(view: View, x: Floats, y: Floats) -> Floats:

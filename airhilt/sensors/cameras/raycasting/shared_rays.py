@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 import zlib
 from collections.abc import Callable
@@ -11,12 +10,9 @@ from dataclasses import astuple
 import numpy as np
 import numpy.typing as npt
 
-import airhilt.imaging
-import airhilt.sensors.cameras
 from airhilt.host.caches import CacheFolder
-from airhilt.host.files import packages_sha256
-from airhilt.host.processor import processor_sha256
 from airhilt.imaging.view import View, Window
+from airhilt.sensors.cameras.drawing_keys import arrays_sha256, drawn_by, view_key
 from airhilt.shapes.mesh import Floats
 
 Pieces = npt.NDArray[np.intp]
@@ -40,22 +36,12 @@ class SharedRays:
 
     def __init__(self, library: str, corners: Floats, piece_of: Pieces) -> None:
         self._folder = CacheFolder("rays")
-        digest = hashlib.sha256(np.ascontiguousarray(corners).data)
-        digest.update(np.ascontiguousarray(piece_of).data)
-        self._scene = [
-            packages_sha256(airhilt.imaging, airhilt.sensors.cameras),
-            library,
-            np.__version__,
-            processor_sha256(),
-            digest.hexdigest(),
-        ]
+        self._scene = [*drawn_by(library), arrays_sha256((corners, piece_of))]
         self._type = np.min_scalar_type(int(piece_of.max(initial=0)))
 
     def get(self, view: View, window: Window, cast: Callable[[], Pieces]) -> Pieces:
         """Return the piece that each pixel of a window shows, found by rays if nobody has yet."""
-        lens, pose = view.intrinsics, view.pose
-        camera = [*astuple(lens), *pose.position_m, *pose.rotation.ravel().tolist()]
-        key = json.dumps([*self._scene, camera, astuple(window)])
+        key = json.dumps([*self._scene, view_key(view), astuple(window)])
         packed = self._folder.get(key, lambda: self._packed(cast()))
         pieces = np.frombuffer(zlib.decompress(packed), self._type)
         return pieces.reshape(window.height, window.width).astype(np.intp)

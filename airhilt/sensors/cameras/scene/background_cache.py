@@ -6,20 +6,15 @@ A fixed camera's picture of the landscape is drawn with many samples a pixel, wh
 
 from __future__ import annotations
 
-import hashlib
 import json
 import zlib
 from collections.abc import Callable
-from dataclasses import astuple
 
 import numpy as np
 
-import airhilt.imaging
-import airhilt.sensors.cameras
 from airhilt.host.caches import CacheFolder
-from airhilt.host.files import packages_sha256
-from airhilt.host.processor import processor_sha256
 from airhilt.imaging.view import View
+from airhilt.sensors.cameras.drawing_keys import arrays_sha256, drawn_by, view_key
 from airhilt.sensors.cameras.renderers import Samples, library_of
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.landscape import Landscape
@@ -44,9 +39,8 @@ class BackgroundCache:
     ) -> None:
         self._folder = CacheFolder("backgrounds")
         self._scene = [
-            packages_sha256(airhilt.imaging, airhilt.sensors.cameras),
-            renderer, library, np.__version__, processor_sha256(), _content(landscape),
-            light.sun.tolist(), light.visibility_m, light.overcast, light.background,
+            *drawn_by(library), renderer, arrays_sha256(landscape.mesh.arrays),
+            repr(landscape.lights), light.key,
         ]  # fmt: skip
 
     @classmethod
@@ -63,18 +57,10 @@ class BackgroundCache:
         samples
             Number of samples along each side of a pixel.
         """
-        lens, pose = view.intrinsics, view.pose
-        camera = [*astuple(lens), *pose.position_m, *pose.rotation.ravel().tolist(), samples]
-        packed = self._folder.get(json.dumps([*self._scene, camera]), lambda: _packed(draw()))
+        key = json.dumps([*self._scene, view_key(view), samples])
+        lens = view.intrinsics
+        packed = self._folder.get(key, lambda: _packed(draw()))
         return _unpacked(packed, lens.height_px, lens.width_px)
-
-
-def _content(landscape: Landscape) -> str:
-    """Return the SHA-256 of all that stands still and can be seen."""
-    mesh, digest = landscape.mesh, hashlib.sha256(repr(landscape.lights).encode())
-    for array in mesh.arrays:
-        digest.update(np.ascontiguousarray(array).data)
-    return digest.hexdigest()
 
 
 def _packed(drawn: Samples) -> bytes:

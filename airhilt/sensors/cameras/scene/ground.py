@@ -11,7 +11,6 @@ import shapely
 from shapely import MultiPoint, Point, Polygon
 from shapely.geometry.base import BaseGeometry
 
-from airhilt.errors import RendererError
 from airhilt.geodesy.wgs84 import MEAN_RADIUS_M
 from airhilt.shapes.mesh import Colour, Floats, Mesh, join
 from airhilt.sim.streams import stream
@@ -142,18 +141,3 @@ def cells(
     points = MultiPoint(np.column_stack((radii * np.cos(angles), radii * np.sin(angles))))
     around = ring(0.0, outer_m)
     return tuple(shapely.get_parts(shapely.voronoi_polygons(points, extend_to=around)))
-
-
-def require_triangulation() -> None:
-    """Complain where Shapely's GEOS cannot triangulate polygons with holes.
-
-    Raises
-    ------
-    RendererError
-        It is too old.
-    """
-    if not hasattr(shapely, "constrained_delaunay_triangles"):
-        raise RendererError(
-            f"cameras need shapely 2.1 or newer, here is {shapely.__version__}: "
-            "pip install 'shapely>=2.1'"
-        )

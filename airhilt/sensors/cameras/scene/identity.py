@@ -4,26 +4,17 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable, Mapping
-from dataclasses import astuple
 
-import numpy as np
-
-import airhilt.imaging
-import airhilt.sensors.cameras
 import airhilt.shapes
 import airhilt.world.surface.kinds
-from airhilt.host.files import packages_sha256
-from airhilt.host.processor import processor_sha256
+from airhilt.imaging.view import View
+from airhilt.sensors.cameras.drawing_keys import arrays_sha256, drawn_by, view_key
 from airhilt.sensors.cameras.mounts import Camera, Mount
 from airhilt.sensors.cameras.renderers import library_of
 from airhilt.sensors.cameras.scene.bodies import Model
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.landscape import Landscape
-from airhilt.shapes.mesh import Mesh
 from airhilt.world.surface.kinds import FAMILY
-
-CODE = airhilt.imaging, airhilt.sensors.cameras, airhilt.shapes, airhilt.world.surface.kinds
-"""Packages that draw, and that say what bodies look like."""
 
 
 def scene_identity(
@@ -44,29 +35,17 @@ def scene_identity(
     own = {point.name for point in FAMILY.own()}
     if not library or any(not each.aircraft and each.kind not in own for each in models.values()):
         return ""
-    digest = hashlib.sha256()
-    for part in (
-        packages_sha256(*CODE), renderer, library, np.__version__,
-        processor_sha256(), light.sun.tolist(), light.visibility_m, light.overcast,
-        light.background, rain_mm_h, landscape.lights, supersampling,
-    ):  # fmt: skip
-        digest.update(f"{part!r}\n".encode())
-    _add(digest, landscape.mesh)
+    parts: list[object] = [
+        *drawn_by(library, airhilt.shapes, airhilt.world.surface.kinds), renderer, light.key,
+        rain_mm_h, landscape.lights, supersampling, arrays_sha256(landscape.mesh.arrays),
+    ]  # fmt: skip
     for callsign, model in models.items():
-        digest.update(f"{callsign} {model.label} {model.kind} {model.aircraft!r}\n".encode())
+        parts.append((callsign, model.label, model.kind, model.aircraft))
         for shapes in (model.shapes, model.far):
-            for name, mesh in shapes.items():
-                digest.update(f"{name}\n".encode())
-                _add(digest, mesh)
+            parts += ((name, arrays_sha256(mesh.arrays)) for name, mesh in shapes.items())
     for camera in cameras:
         mount = camera.at if isinstance(camera.at, Mount) else None
         pose = camera.at.pose if isinstance(camera.at, Mount) else camera.at
         carried = None if mount is None else (mount.actor, mount.sees_own_aircraft)
-        place = *pose.position_m, *pose.rotation.ravel().tolist()
-        digest.update(f"{camera.name} {astuple(camera.intrinsics)} {carried} {place}\n".encode())
-    return digest.hexdigest()
-
-
-def _add(digest: hashlib._Hash, mesh: Mesh) -> None:
-    for array in mesh.arrays:
-        digest.update(np.ascontiguousarray(array).data)
+        parts.append((camera.name, carried, view_key(View(camera.intrinsics, pose))))
+    return hashlib.sha256(repr(parts).encode()).hexdigest()

@@ -69,6 +69,11 @@ class Illumination:
     background: float = 1.0
 
     @property
+    def key(self) -> list[float]:
+        """Numbers that determine everything else."""
+        return [*self.sun.tolist(), self.visibility_m, self.overcast, self.background]
+
+    @property
     def sun_elevation_rad(self) -> float:
         """Elevation of the sun above the horizon."""
         return math.asin(min(max(float(self.sun[2]), -1.0), 1.0))

@@ -16,7 +16,7 @@ from shapely.ops import unary_union
 
 from airhilt.errors import CameraError
 from airhilt.sensors.cameras.scene import markings, scenery
-from airhilt.sensors.cameras.scene.ground import Layer, cells, require_triangulation, ring, sheet
+from airhilt.sensors.cameras.scene.ground import Layer, cells, ring, sheet
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.lights import airport_lights
 from airhilt.shapes.lights import Light
@@ -73,14 +73,11 @@ class Landscape:
         Points of light that are on at dusk and at night.
     blocks
         Solids that cameras must not stand in.
-    tallest_m
-        Height that nothing exceeds.
     """
 
     mesh: Mesh
     lights: tuple[Light, ...]
     blocks: tuple[Block, ...]
-    tallest_m: float
 
     def require_free(self, name: str, position_m: tuple[float, float, float]) -> None:
         """Complain about a camera that could see nothing.
@@ -106,13 +103,11 @@ class Landscape:
 
 def airport_landscape(layout: Layout, light: Illumination) -> Landscape:
     """Return an airport."""
-    require_triangulation()
     return _Airport(layout, light).landscape()
 
 
 def open_country(light: Illumination, name: str, cloud_tops_m: float | None) -> Landscape:
     """Return land without an airport, with a layer of clouds below some height."""
-    require_triangulation()
     seed = _seed(name)
     layers = [
         _land(0.0, 9_000.0, 480, FIELDS, seed, "fields"),
@@ -123,12 +118,10 @@ def open_country(light: Illumination, name: str, cloud_tops_m: float | None) -> 
     woods = scenery.trees(scenery.scattered(300.0, 9000.0, 500, Polygon(), seed, "woods"), seed)
     if woods is not None:
         parts.append(woods)
-    tallest = 60.0
     if cloud_tops_m is not None and light.overcast < 0.7:
         base = max(0.55 * cloud_tops_m, cloud_tops_m - DEEPEST_CLOUDS_M)
         parts.append(scenery.clouds(base, cloud_tops_m, 30_000.0, 60, seed))
-        tallest = cloud_tops_m
-    return Landscape(join(parts), (), (), tallest)
+    return Landscape(join(parts), (), ())
 
 
 class _Airport:
@@ -177,8 +170,7 @@ class _Airport:
         for found in (scenery.trees(woods, self._seed), scenery.houses(town, self._seed)):
             if found is not None:
                 parts.append(found)
-        tallest = max([60.0, *(block.height_m for block in self._blocks)])
-        return Landscape(join(parts), airport_lights(self._layout), self._blocks, tallest)
+        return Landscape(join(parts), airport_lights(self._layout), self._blocks)
 
     # --- ground -------------------------------------------------------------------------------
 

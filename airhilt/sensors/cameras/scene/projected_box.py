@@ -9,6 +9,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from airhilt.imaging import boxes
 from airhilt.imaging.view import NEAR_M, Pose, View, Window
 from airhilt.shapes.mesh import Mesh
 
@@ -27,18 +28,12 @@ class Box(NamedTuple):
     @property
     def area(self) -> float:
         """Area in square pixels; 0 where it is empty."""
-        return max(self.right - self.left, 0.0) * max(self.bottom - self.top, 0.0)
+        return boxes.area(self)
 
     def within(self, view: View) -> Box:
         """Return what of it is in the picture."""
         lens = view.intrinsics
-        width, height = float(lens.width_px), float(lens.height_px)
-        return Box(
-            min(max(self.left, 0.0), width),
-            min(max(self.top, 0.0), height),
-            min(max(self.right, 0.0), width),
-            min(max(self.bottom, 0.0), height),
-        )
+        return Box(*boxes.within(self, float(lens.width_px), float(lens.height_px)))
 
     def window(self, view: View, margin_px: int = 1) -> Window:
         """Return the whole pixels of the picture that it touches, and some more."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -13,7 +13,7 @@ from shapely import Polygon
 from shapely.geometry.base import BaseGeometry
 
 from airhilt.sensors.cameras.scene.ground import drop_m
-from airhilt.shapes.mesh import Colour, Mesh, box, join, loft, srgb, tube
+from airhilt.shapes.mesh import Colour, Mesh, box, join, loft, srgb
 from airhilt.sim.streams import stream
 
 CONCRETE = srgb(196, 192, 184)
@@ -194,12 +194,6 @@ def sign(east: float, north: float, heading_rad: float, colour: Colour) -> Mesh:
     sin, cos = math.sin(heading_rad), math.cos(heading_rad)
     turned = board.turned(((cos, sin, 0), (-sin, cos, 0), (0, 0, 1)))
     return turned.moved(east, north)
-
-
-def mast(east: float, north: float, height_m: float) -> Iterator[Mesh]:
-    """Yield a floodlight mast."""
-    yield tube((east, north, 0.0), (east, north, height_m), (0.3, 0.15), ROOF, 6)
-    yield box(ROOF, 3.0, 1.0, 1.0).moved(east, north, height_m)
 
 
 def _walls(outline: Polygon, low_m: float, high_m: float, colour: Colour) -> Mesh:
