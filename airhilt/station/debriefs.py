@@ -8,13 +8,12 @@ import threading
 from collections import OrderedDict
 from collections.abc import Callable, Sequence
 from contextlib import suppress
-from functools import partial
+from functools import lru_cache
 from pathlib import Path
 from typing import IO, Any
 
 from airhilt.errors import RunFolderError, StationError
 from airhilt.record import RunFolder
-from airhilt.station.file_cache import FileCache
 from airhilt.station.started_runs import PAGE_OF_THIS_MACHINE, State, is_address
 from airhilt.text import LONGEST_LINE, readable
 
@@ -45,7 +44,6 @@ class Debriefs:
         self._page = page
         self._state = state
         self._open: OrderedDict[tuple[str, ...], tuple[subprocess.Popen[str], str]] = OrderedDict()
-        self._rows = FileCache[dict[str, Any]]()
         self._lock = threading.Lock()
 
     def rows(self) -> list[dict[str, Any]]:
@@ -55,9 +53,9 @@ class Debriefs:
             with suppress(OSError):  # One that is being replaced.
                 found.append((path.stat().st_mtime_ns, path))
         rows = []
-        for _, path in sorted(found, reverse=True)[:MOST_RUNS]:
+        for written_ns, path in sorted(found, reverse=True)[:MOST_RUNS]:
             with suppress(RunFolderError):
-                rows.append(self._rows.get(partial(_row, path.parent), path))
+                rows.append(_row(path.parent, written_ns))
         return rows
 
     def open(self, names: tuple[str, ...]) -> str:
@@ -121,7 +119,9 @@ class Debriefs:
             self._open.clear()
 
 
-def _row(folder: Path) -> dict[str, Any]:
+@lru_cache(maxsize=2 * MOST_RUNS)
+def _row(folder: Path, _written_ns: int) -> dict[str, Any]:
+    """Return what a page shows of a run, read again once its record was written again."""
     info = RunFolder.open(folder).info()
     return {
         "name": folder.name,
