@@ -12,13 +12,10 @@ from airhilt.errors import StationError
 from airhilt.station.debriefs import Debriefs
 
 
-@pytest.mark.parametrize("content", [b"[" * 100_000, b"{}"])
-def test_a_run_whose_record_cannot_be_read_is_left_out(
-    recorded_run: Path, tmp_path: Path, content: bytes
-) -> None:
+def test_a_run_whose_record_cannot_be_read_is_left_out(recorded_run: Path, tmp_path: Path) -> None:
     shutil.copytree(recorded_run, tmp_path / "good")
     shutil.copytree(recorded_run, tmp_path / "bad")
-    (tmp_path / "bad" / "run.json").write_bytes(content)
+    (tmp_path / "bad" / "run.json").write_bytes(b"[" * 100_000)
     (row,) = Debriefs(tmp_path).rows()
     assert row["name"] == "good"
     assert row["scenario"] == "encounter"
