@@ -6,7 +6,6 @@ import subprocess
 import sys
 import threading
 from collections import OrderedDict
-from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
@@ -14,7 +13,7 @@ from typing import IO, Any
 
 from airhilt.errors import RunFolderError, StationError
 from airhilt.record import RunFolder
-from airhilt.station.started_runs import PAGE_OF_THIS_MACHINE, State, is_address
+from airhilt.station.started_runs import StartedRuns, is_address
 from airhilt.text import LONGEST_LINE, readable
 
 MOST_OPEN = 4
@@ -28,21 +27,13 @@ class Debriefs:
 
     Parameters
     ----------
-    state
-        Returns the state of the process of a run by its name, None if it is not known.
-    page
-        Arguments that say where the page of a debrief is, and who may open it.
+    started
+        Runs that were started in the folder; debriefs have pages as these have.
     """
 
-    def __init__(
-        self,
-        folder: Path,
-        state: Callable[[str], State | None] = lambda _: None,
-        page: Sequence[str] = PAGE_OF_THIS_MACHINE,
-    ) -> None:
-        self._folder = folder
-        self._page = page
-        self._state = state
+    def __init__(self, started: StartedRuns) -> None:
+        self._folder = started.folder
+        self._runs = started
         self._open: OrderedDict[tuple[str, ...], tuple[subprocess.Popen[str], str]] = OrderedDict()
         self._lock = threading.Lock()
 
@@ -88,13 +79,13 @@ class Debriefs:
 
     def _goes_on(self, row: dict[str, Any]) -> bool:
         """Return true if a run has not ended; its folder tells where its process is not known."""
-        state = self._state(row["name"])
+        state = self._runs.state_of(row["name"])
         return row["phase"] == "running" if state is None else state != "ended"
 
     def _started(self, names: tuple[str, ...]) -> tuple[subprocess.Popen[str], str]:
         folders = [str(self._folder / name) for name in names]
         process = subprocess.Popen(  # noqa: S603 - our own command
-            [sys.executable, "-m", "airhilt", "view", *self._page, "--", *folders],
+            [sys.executable, "-m", "airhilt", "view", *self._runs.page, "--", *folders],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,

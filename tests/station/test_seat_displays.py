@@ -85,12 +85,12 @@ def fly(run: PretendedRun, t_s: float = 1.0) -> None:
 
 def cockpit(run: PretendedRun, shown: dict[str, Any]) -> None:
     """Let the instruments of the seat show something."""
-    (own,) = run.of_seats.values()
+    (own,) = run.views.own.values()
     own.put("cockpit", shown)
 
 
 def own_seat(run: PretendedRun) -> str:
-    (seat,) = run.of_seats
+    (seat,) = run.views.own
     return seat
 
 

@@ -329,7 +329,7 @@ def warn(
         id=name, revision=0, recipient="ATC", text="stop", t_dec_ns=0, engine="", samples=samples,
         sha256="", t_ns=1,
     )  # fmt: skip
-    live = LiveRun(run.changes, run.of_seats, views=run.views)
+    live = LiveRun(run.changes, run.views, print)
     told = (("advisory/ATC", advised), (f"tts/{name}", audio))
     for key, message in told if has_voice else told[:1]:
         live.take(Logged(key, "", 1, message.model_dump_json().encode()))

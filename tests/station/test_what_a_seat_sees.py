@@ -138,7 +138,7 @@ FILES = {
 @pytest.fixture
 def seats() -> Iterator[tuple[PretendedRun, str]]:
     run = PretendedRun(SEATS)
-    live = LiveRun(run.changes, run.of_seats, print, run.views)
+    live = LiveRun(run.changes, run.views, print)
     for key, message in PUBLISHED:
         live.take(Logged(key, "", message.t_ns, message.model_dump_json().encode()))
     pixels = bytes(64 * 48 * 3)
@@ -209,7 +209,7 @@ def test_no_seat_sees_the_truth() -> None:
         longitude_deg=-77.04, altitude_m=600.0, height_agl_m=590.0, velocity_east_m_s=0.0,
         velocity_north_m_s=70.0, velocity_down_m_s=0.0, heading_deg=0.0, t_ns=SECOND,
     )  # fmt: skip
-    LiveRun(run.changes, run.of_seats, print, run.views).take(
+    LiveRun(run.changes, run.views, print).take(
         Logged("truth/state/AAL123", "", SECOND, truth.model_dump_json().encode())
     )
     for seat in (None, *SEEN):
