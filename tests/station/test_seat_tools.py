@@ -49,7 +49,6 @@ from stations import (
     do,
     opened,
     seat_page,
-    seats_given_back_at_once,
     sit,
 )
 
@@ -62,15 +61,9 @@ GAMEPAD = """
 """
 
 
-@pytest.fixture(scope="module")
-def served() -> Iterator[tuple[PretendedRun, str]]:
-    with seat_page() as served:
-        yield served
-
-
 @pytest.fixture
-def seat(served: tuple[PretendedRun, str]) -> Iterator[tuple[PretendedRun, str]]:
-    with seats_given_back_at_once(served[0]):
+def seat() -> Iterator[tuple[PretendedRun, str]]:
+    with seat_page() as served:
         yield served
 
 

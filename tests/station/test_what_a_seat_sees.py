@@ -202,6 +202,11 @@ def test_who_has_no_seat_is_shown_the_clock_alone(seats: tuple[PretendedRun, str
         assert set(shown) <= {"clock"}
 
 
+def seen_at(run: PretendedRun, seat: str | None) -> str:
+    """Return all changes that are seen at a seat; None: without one."""
+    return str(run.changes.since(0, admits=lambda audience: run.views.sees(seat, audience)))
+
+
 def test_no_seat_sees_the_truth() -> None:
     run = PretendedRun(SEATS)
     truth = ActorTruth(
@@ -213,7 +218,7 @@ def test_no_seat_sees_the_truth() -> None:
         Logged("truth/state/AAL123", "", SECOND, truth.model_dump_json().encode())
     )
     for seat in (None, *SEEN):
-        seen = str(run.changes.since(0, admits=lambda one, at=seat: run.views.sees(at, one)))
+        seen = seen_at(run, seat)
         assert "clock" in seen
         assert "AAL123" not in seen
 
@@ -223,7 +228,7 @@ def test_no_seat_is_told_latencies_or_the_engine_that_has_recognised_a_call(
 ) -> None:
     run, _ = seats
     for seat in SEEN:
-        seen = str(run.changes.since(0, admits=lambda one, at=seat: run.views.sees(at, one)))
+        seen = seen_at(run, seat)
         assert "latency" not in seen
         assert "ctc" not in seen
         assert ('"text":"hello"' in seen.replace(": ", ":")) is (seat == "DAL456")
