@@ -7,9 +7,8 @@ import json
 import time
 from base64 import b64encode
 from collections import deque
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable
 from contextlib import suppress
-from types import MappingProxyType
 from typing import Any, Protocol
 
 from fastapi import WebSocket, WebSocketDisconnect
@@ -18,11 +17,12 @@ from pydantic import ValidationError
 from airhilt.bus.seat_client import SeatClient
 from airhilt.errors import first_problem
 from airhilt.messages import LeaveSeat, PressToTalk, ReleaseToTalk, SayVoice, SeatAct, TakeSeat
-from airhilt.station.audiences import Audience, SeatViews
-from airhilt.station.changes import MOST_AT_ONCE, Changes, Newest
+from airhilt.station.audiences import Audience
+from airhilt.station.changes import MOST_AT_ONCE, Changes
 from airhilt.station.page_files import page_version
 from airhilt.station.page_messages import PageMessage
 from airhilt.station.refusals import Refusals
+from airhilt.station.seat_views import SeatViews
 from airhilt.text import readable
 
 PERIOD_S = 0.05
@@ -98,30 +98,27 @@ class Browsers:
         Changes of the run.
     run
         Gets what browsers do.
-    seats
-        Seats that browsers may take, each with what only the person there sees.
+    views
+        Seats that browsers may take, and what may be seen at each; a browser without one sees only
+        what everybody may.
     sounds
-        What is heard on the frequencies, piece by piece; None: nothing is heard.
+        What is heard on the frequencies, piece by piece.
     notice
         Is told of what is refused.
-    views
-        What may be seen at each seat; a browser without one sees only what everybody may.
     """
 
     def __init__(
         self,
         changes: Changes,
         run: RunLink,
-        seats: Mapping[str, Newest] = MappingProxyType({}),
-        sounds: Changes | None = None,
-        notice: Callable[[str], None] = lambda _: None,
-        views: SeatViews | None = None,
+        views: SeatViews,
+        sounds: Changes,
+        notice: Callable[[str], None],
     ) -> None:
-        self._views = views or SeatViews(seats)
+        self._views = views
         self._refusals = Refusals(notice)
         self._changes = changes
-        self._of_seats = seats
-        self._sounds = sounds or Changes()
+        self._sounds = sounds
         self._run = run
         self._clients: dict[str, SeatClient] = {}
         """Clients of the seats that browsers have, by identity."""
@@ -139,7 +136,7 @@ class Browsers:
     @property
     def seats(self) -> tuple[str, ...]:
         """Names of the seats."""
-        return tuple(self._of_seats)
+        return tuple(self._views.own)
 
     def has_been_empty(self, seconds: float) -> bool:
         """Return true if there has been no browser for some time."""
@@ -282,7 +279,7 @@ class Browsers:
 
     async def _take(self, identity: str, seat: str) -> str:
         """Take a seat, and leave the other one that the browser has; return why it cannot."""
-        if seat not in self._of_seats:
+        if seat not in self._views.own:
             return f"{readable(seat)} is no seat of this page"
         client = await asyncio.to_thread(self._run.seat_client, seat, identity)
         if why := await asyncio.to_thread(client.take):
@@ -327,7 +324,7 @@ class Browsers:
                 "is": "yours" if seat == own else "taken" if self._views.holder(seat) else "free",
                 "recorded": self._views.records_voices(seat),
             }
-            for seat in self._of_seats
+            for seat in self._views.own
         }
 
     # --- what browsers are sent -------------------------------------------------------------
@@ -391,7 +388,7 @@ class Browsers:
     def _own(self, browser: _Browser) -> str | None:
         """Return what a browser has yet to get of its seat alone, as JSON, None if nothing."""
         seat = self._seat_of(browser.identity)
-        batch = None if seat is None else self._of_seats[seat].since(browser.seen_of_seat)
+        batch = None if seat is None else self._views.own[seat].since(browser.seen_of_seat)
         if batch is None:
             return None
         browser.seen_of_seat = batch.next_number
@@ -399,22 +396,17 @@ class Browsers:
 
     def _heard_at(self, browser: _Browser) -> list[Any]:
         """Return the pieces of sound, as JSON, that a browser has yet to get."""
-        view = self._views.of(self._seat_of(browser.identity))
-
-        def is_heard(audience: Audience) -> bool:
-            return view is not None and view.hears(audience)
-
-        batch = self._sounds.since(browser.heard, admits=is_heard)
+        seat = self._seat_of(browser.identity)
+        batch = self._sounds.since(
+            browser.heard, admits=lambda audience: self._views.hears(seat, audience)
+        )
         if batch is None:
             return []
         browser.heard = batch.next_number
-        return [] if view is None else _on(view.tuned_khz, batch.changes)
+        tuned_khz = self._views.tuned_khz(seat)
+        heard = json.loads(batch.changes)
+        return [piece for piece in heard if piece[1]["frequency_khz"] in tuned_khz]
 
     def _has_other_view(self, browser: _Browser) -> bool:
         """Return true if the page of a browser shows the view of another seat than it has now."""
         return browser.shown_seat != self._seat_of(browser.identity)
-
-
-def _on(tuned_khz: Collection[int], changes: str) -> list[Any]:
-    """Return the pieces of sound, as JSON, that are on the frequencies that are tuned to."""
-    return [piece for piece in json.loads(changes) if piece[1]["frequency_khz"] in tuned_khz]

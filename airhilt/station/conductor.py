@@ -13,7 +13,7 @@ from airhilt.options import options_of
 from airhilt.scenario import loading
 from airhilt.station.participant_progress import Progress
 from airhilt.station.questionnaires import Answers
-from airhilt.station.started_runs import PAGE_OF_THIS_MACHINE, StartedRun, StartedRuns
+from airhilt.station.started_runs import PAGE_OF_THIS_MACHINE, StartedRuns
 from airhilt.text import readable
 
 
@@ -141,18 +141,14 @@ class Conductor:
             return shown | {"step": "done"}
         if any(other.asked() is not None for other in self._team.values()):
             return shown | {"step": "waiting"}
-        run = self._last_run()
+        run = next(iter(self._started.runs()), None)
         if run is not None and run.name in progress.runs.attempts(trials[done]):
             if (doing := self._started.state(run)) != "ended":
-                progress.runs.require_same_seats(trials[done], run.name, run.seats)
                 own = readable(progress.seat(trials[done]))
                 url = self._started.url(run) if doing == "running" else ""
                 return shown | {"step": doing, "url": url, "seat": own}
             shown["said"] = "The last run of this trial did not finish."
         return shown | {"step": "ready", "rest_s": self._rest_s(done)}
-
-    def _last_run(self) -> StartedRun | None:
-        return next(iter(self._started.runs()), None)
 
     def _rest_s(self, position: int) -> float:
         """Return how much of a break is left before a trial, in s."""

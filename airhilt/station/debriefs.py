@@ -6,16 +6,14 @@ import subprocess
 import sys
 import threading
 from collections import OrderedDict
-from collections.abc import Callable, Sequence
 from contextlib import suppress
-from functools import partial
+from functools import lru_cache
 from pathlib import Path
 from typing import IO, Any
 
 from airhilt.errors import RunFolderError, StationError
 from airhilt.record import RunFolder
-from airhilt.station.file_cache import FileCache
-from airhilt.station.started_runs import PAGE_OF_THIS_MACHINE, State, is_address
+from airhilt.station.started_runs import StartedRuns, is_address
 from airhilt.text import LONGEST_LINE, readable
 
 MOST_OPEN = 4
@@ -29,23 +27,14 @@ class Debriefs:
 
     Parameters
     ----------
-    state
-        Returns the state of the process of a run by its name, None if it is not known.
-    page
-        Arguments that say where the page of a debrief is, and who may open it.
+    started
+        Runs that were started in the folder; debriefs have pages as these have.
     """
 
-    def __init__(
-        self,
-        folder: Path,
-        state: Callable[[str], State | None] = lambda _: None,
-        page: Sequence[str] = PAGE_OF_THIS_MACHINE,
-    ) -> None:
-        self._folder = folder
-        self._page = page
-        self._state = state
+    def __init__(self, started: StartedRuns) -> None:
+        self._folder = started.folder
+        self._runs = started
         self._open: OrderedDict[tuple[str, ...], tuple[subprocess.Popen[str], str]] = OrderedDict()
-        self._rows = FileCache[dict[str, Any]]()
         self._lock = threading.Lock()
 
     def rows(self) -> list[dict[str, Any]]:
@@ -55,9 +44,9 @@ class Debriefs:
             with suppress(OSError):  # One that is being replaced.
                 found.append((path.stat().st_mtime_ns, path))
         rows = []
-        for _, path in sorted(found, reverse=True)[:MOST_RUNS]:
+        for written_ns, path in sorted(found, reverse=True)[:MOST_RUNS]:
             with suppress(RunFolderError):
-                rows.append(self._rows.get(partial(_row, path.parent), path))
+                rows.append(_row(path.parent, written_ns))
         return rows
 
     def open(self, names: tuple[str, ...]) -> str:
@@ -90,13 +79,13 @@ class Debriefs:
 
     def _goes_on(self, row: dict[str, Any]) -> bool:
         """Return true if a run has not ended; its folder tells where its process is not known."""
-        state = self._state(row["name"])
+        state = self._runs.state_of(row["name"])
         return row["phase"] == "running" if state is None else state != "ended"
 
     def _started(self, names: tuple[str, ...]) -> tuple[subprocess.Popen[str], str]:
         folders = [str(self._folder / name) for name in names]
         process = subprocess.Popen(  # noqa: S603 - our own command
-            [sys.executable, "-m", "airhilt", "view", *self._page, "--", *folders],
+            [sys.executable, "-m", "airhilt", "view", *self._runs.page, "--", *folders],
             stdin=subprocess.DEVNULL,
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
@@ -121,7 +110,9 @@ class Debriefs:
             self._open.clear()
 
 
-def _row(folder: Path) -> dict[str, Any]:
+@lru_cache(maxsize=2 * MOST_RUNS)
+def _row(folder: Path, _written_ns: int) -> dict[str, Any]:
+    """Return what a page shows of a run, read again once its record was written again."""
     info = RunFolder.open(folder).info()
     return {
         "name": folder.name,

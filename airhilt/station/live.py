@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from types import MappingProxyType
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from pydantic import ValidationError
@@ -44,11 +43,12 @@ from airhilt.report.airport import ReportAirport
 from airhilt.report.events import event_row
 from airhilt.report.tracks import Locate, Projection
 from airhilt.station.advisories import AdvisoryRows
-from airhilt.station.audiences import NOBODY, Audience, SeatViews, audience_of
+from airhilt.station.audiences import NOBODY, Audience, audience_of
 from airhilt.station.calls import call_as_json, spoken_as_json
 from airhilt.station.cameras import found_as_json, view_as_json
-from airhilt.station.changes import Changes, Newest
+from airhilt.station.changes import Changes
 from airhilt.station.latencies import LatencyBars
+from airhilt.station.seat_views import SeatViews
 from airhilt.station.subscription import sound_name
 from airhilt.surveillance.radar import plot_place
 from airhilt.text import readable
@@ -80,13 +80,11 @@ class LiveRun:
     ----------
     changes
         Gets the changes.
-    seats
-        Gets the changes that only the person at a seat sees: ``seat`` (its state), ``cockpit``, and
-        ``state`` of the own vehicle.
+    views
+        Gets to know what each seat may see, and the changes that only the person there sees:
+        ``seat`` (its state), ``cockpit``, and ``state`` of the own vehicle.
     notice
         Is told of the first message of a kind that cannot be read.
-    views
-        Gets to know what each seat may see.
 
     Attributes
     ----------
@@ -94,19 +92,13 @@ class LiveRun:
         True once the run has ended.
     """
 
-    def __init__(
-        self,
-        changes: Changes,
-        seats: Mapping[str, Newest] = MappingProxyType({}),
-        notice: Callable[[str], None] = lambda _: None,
-        views: SeatViews | None = None,
-    ) -> None:
+    def __init__(self, changes: Changes, views: SeatViews, notice: Callable[[str], None]) -> None:
         self.is_over = False
-        self._views = views or SeatViews(seats)
+        self._views = views
+        self._has_seats = bool(views.own)
         self._notice = notice
         self._unread: set[str] = set()
         """Kinds of messages of which some could not be read."""
-        self._seats = seats
         self._changes = changes
         self._calls = CallRecords()
         self._bars = LatencyBars()
@@ -190,7 +182,6 @@ class LiveRun:
         airport = None
         if briefing.airport is not None:
             self._ground_m = briefing.airport.elevation_ft * FOOT
-        if briefing.airport is not None:
             try:
                 found = ReportAirport(briefing.airport.icao.lower())
             except AirhiltError:
@@ -352,10 +343,10 @@ class LiveRun:
         message = received.message
         self._calls.take(message)
         record = self._calls.get(message.id)
-        row = None if record is None else call_as_json(record, names_engines=not self._seats)
+        row = None if record is None else call_as_json(record, names_engines=not self._has_seats)
         if record is not None and row is not None:
             # At a seat a call is heard while it lasts, and nobody else hears it.
-            has_sound = bool(record.received and record.received.samples) and not self._seats
+            has_sound = bool(record.received and record.received.samples) and not self._has_seats
             self._changes.add("call", row | {"has_sound": has_sound}, audience=received.audience)
 
     def _spoken(self, received: Received) -> None:
@@ -366,7 +357,7 @@ class LiveRun:
 
     def _advisory(self, received: Received) -> None:
         row = self._advisories.add(received.message)
-        if self._seats:  # What others are told is not for who has a seat.
+        if self._has_seats:  # What others are told is not for who has a seat.
             row = row | {"texts": row["texts"][-1:]}
         self._changes.add("advisory", row, audience=received.audience)
 
@@ -374,7 +365,9 @@ class LiveRun:
         row = event_row(received.logged, received.message.model_dump(mode="json"))
         if row is None:
             return
-        if self._seats and "engine" in row:  # It would tell participants which condition they have.
+        if (
+            self._has_seats and "engine" in row
+        ):  # It would tell participants which condition they have.
             row = row | {"engine": None}
         self._changes.add("event", row, audience=received.audience)
 
@@ -386,13 +379,12 @@ class LiveRun:
     def _seat(self, received: Received) -> None:
         state: SeatState = received.message
         self._views.learn(state)
-        self._seats[state.seat].put("seat", seat_as_json(state))
 
     def _own_position(self, received: Received) -> None:
         """Tell a driver where the own vehicle is; nobody else learns it from this."""
         shown: VehiclePosition = received.message
         heading_rad, speed_m_s = shown.heading_deg * DEGREE, shown.ground_speed_kt * KNOT
-        self._seats[shown.callsign].put(
+        self._views.own[shown.callsign].put(
             "state",
             *self._state(
                 shown.callsign,
@@ -408,7 +400,7 @@ class LiveRun:
 
     def _cockpit(self, received: Received) -> None:
         shown: CockpitInstruments = received.message
-        self._seats[shown.callsign].put(
+        self._views.own[shown.callsign].put(
             "cockpit", shown.model_dump(mode="json") | {"mode": readable(shown.mode)}
         )
 
@@ -443,21 +435,6 @@ class LiveRun:
                 },
                 audience=audience,
             )
-
-
-def seat_as_json(state: SeatState) -> Json:
-    """Return the state of a seat as its own page shows it."""
-    shown = state.model_dump(mode="json", exclude={"t_ns", "holder"})
-    shown["tasks"] = [
-        {"line": readable(card.line), "t": _seconds(card.due_ns), "text": readable(card.text)}
-        | {"addressed": None if card.addressed is None else readable(card.addressed)}
-        for card in state.tasks
-    ]
-    if (asked := state.question) is not None:
-        shown["question"] |= {"t": _seconds(asked.asked_ns)}
-    if (told := state.notice) is not None:
-        shown["notice"] = {"t": _seconds(told.told_ns), "text": readable(told.text)}
-    return shown
 
 
 def _seconds(t_ns: int) -> float:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
 from airhilt.errors import ScenarioError, StationError
 from airhilt.host import library
-from airhilt.scenario import Scenario, loading
+from airhilt.scenario import loading
 from airhilt.scenario.seats import possible_seats
-from airhilt.station.file_cache import FileCache
 from airhilt.text import readable
 
 Json = dict[str, Any]
@@ -37,7 +37,6 @@ class ScenarioChoices:
             if not folder.is_dir():
                 raise StationError(f"--scenarios {folder}: no such folder")
         self._folders = [folder.resolve() for folder in folders]
-        self._rows = FileCache[Json]()
 
     def path(self, name: str) -> Path:
         """Return the file of a scenario that is offered.
@@ -57,7 +56,7 @@ class ScenarioChoices:
 
     def rows(self) -> list[Json]:
         """Return name, title and seats of each scenario; of one that is wrong, why."""
-        return [{"id": name, **self._row(path)} for name, path in self._paths().items()]
+        return [{"id": name, **_row(path)} for name, path in self._paths().items()]
 
     def _paths(self) -> dict[str, Path]:
         shipped = {name: library.find("scenarios", name) for name in library.names("scenarios")}
@@ -69,14 +68,18 @@ class ScenarioChoices:
                     own[f"{folder.name}/{path.relative_to(folder).as_posix()}"] = path
         return shipped | own
 
-    def _row(self, path: Path) -> Json:
-        try:
-            return self._rows.get(lambda: _row_of(loading.read(path)), path.resolve())
-        except (OSError, ScenarioError) as error:
-            return {"title": path.stem, "problem": readable(str(error))}
+
+def _row(path: Path) -> Json:
+    try:
+        return _row_of(path, path.stat().st_mtime_ns)
+    except (OSError, ScenarioError) as error:
+        return {"title": path.stem, "problem": readable(str(error))}
 
 
-def _row_of(scenario: Scenario) -> Json:
+@lru_cache(maxsize=2 * MOST_FILES)
+def _row_of(path: Path, _written_ns: int) -> Json:
+    """Return what a page shows of a scenario, read again once its file was written again."""
+    scenario = loading.read(path)
     return {
         "title": readable(scenario.title or scenario.name),
         "description": readable(scenario.description),

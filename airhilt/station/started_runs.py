@@ -13,7 +13,6 @@ import sys
 from collections.abc import Sequence
 from contextlib import suppress
 from datetime import UTC, datetime
-from functools import partial
 from pathlib import Path
 from typing import Any, Literal
 
@@ -24,7 +23,6 @@ from airhilt.errors import StationError
 from airhilt.host.files import make_folder, open_inside, read_inside, replace_file
 from airhilt.options import Options, arguments_of
 from airhilt.scenario.seats import seats_of
-from airhilt.station.file_cache import FileCache
 from airhilt.text import LONGEST_LINE, readable
 from airhilt.world.loading import load
 
@@ -68,9 +66,8 @@ class StartedRuns:
 
     def __init__(self, folder: Path, page: Sequence[str] = PAGE_OF_THIS_MACHINE) -> None:
         self.folder = folder
-        self._page = page
+        self.page = page
         self._children: list[subprocess.Popen[bytes]] = []
-        self._records = FileCache[StartedRun]()
 
     def start(self, scenario: Path, options: Options, name: str | None = None) -> str:
         """Start a run in real time, and return its name, which is that of its folder.
@@ -101,7 +98,7 @@ class StartedRuns:
             }
         )
         command = [sys.executable, "-m", "airhilt", "cosim", f"--scenario={scenario}"]
-        command += ["--view", *self._page, *arguments_of(given)]
+        command += ["--view", *self.page, *arguments_of(given)]
         try:
             make_folder(self.folder / KEPT)
             replace_file(self._output(name), b"")
@@ -146,12 +143,9 @@ class StartedRuns:
         found = []
         for path in (self.folder / KEPT).glob("*.json"):
             with suppress(OSError, ValidationError):  # One that is being written, or is foreign.
-                found.append(self._records.get(partial(self._read, path), path))
+                data = read_inside(self.folder, path, LARGEST_RECORD_BYTES)
+                found.append(StartedRun.model_validate_json(data))
         return sorted(found, key=lambda run: run.created_s, reverse=True)
-
-    def _read(self, path: Path) -> StartedRun:
-        data = read_inside(self.folder, path, LARGEST_RECORD_BYTES)
-        return StartedRun.model_validate_json(data)
 
     def state(self, run: StartedRun) -> State:
         """Return how a run is doing."""

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import errno
 import itertools
 import json
 import os
@@ -19,8 +18,6 @@ import pyarrow.parquet as pq
 import pytest
 
 from airhilt.errors import AirhiltError, RunFolderError, StationError
-from airhilt.host import files
-from airhilt.host.files import open_inside
 from airhilt.host.library import find
 from airhilt.messages import NasaTlx, Severity
 from airhilt.metrics.summary import (
@@ -32,7 +29,6 @@ from airhilt.metrics.summary import (
 )
 from airhilt.options import Options
 from airhilt.record import RunFolder
-from airhilt.station.answer_files import AnswerFiles
 from airhilt.station.conductor import Conductor
 from airhilt.station.experiment_tables import write_tables
 from airhilt.station.participant_progress import Asked, Progress
@@ -132,7 +128,7 @@ def asking(*items: dict[str, Any]) -> dict[str, Any]:
     return {"questions": {"end": items}}
 
 
-@pytest.mark.parametrize("size", range(1, 9))
+@pytest.mark.parametrize("size", [4, 5])
 def test_each_trial_is_equally_often_at_each_place_and_after_each_other(size: int) -> None:
     rows = balanced_latin_square(size)
     for place in range(size):
@@ -149,7 +145,6 @@ def test_each_trial_is_equally_often_at_each_place_and_after_each_other(size: in
         ({"participants": ["P01", "P01"]}, "twice"),
         ({"conditions": {"seat": ["tower"]}}, "the experiment gives it"),
         ({"options": {"wait_for_seats": False}}, "the experiment gives it"),
-        ({"options": {"pause": True}}, "the experiment gives it"),
         ({"conditions": {"snr_db": [900]}}, "snr_db"),
         (
             {"conditions": {"snr_db": [*range(40)], "seed": [*range(26)]}},
@@ -174,15 +169,8 @@ def test_each_trial_is_equally_often_at_each_place_and_after_each_other(size: in
             "participants: one is there tw",
         ),
         (TEAMS | {"seats": ["tower", "tower"]}, "seats: one is there twice"),
-        (TEAMS | {"seats": ["tower"]}, "plan.json: seats: .* at least 2 items"),
         (TEAMS | {"seats": ["tower", "Washington Tower"]}, "are the same seat in s01b_nominal"),
-        ({"questions": {"after": []}}, "plan.json: questions/after"),
-        (asking(TRUST | {"type": "slider"}), "questions/end/0: .*'scale', 'choice'"),
-        (asking(TRUST | {"steps": 1}), "questions/end/0/scale/steps: .*greater than or equal to 2"),
-        (asking({"type": "scale", "name": "trust"}), "questions/end/0/scale/question: Field req"),
-        (asking(TRUST | {"name": "Trust in it"}), "questions/end/0/scale/name"),
         (asking(TRUST, TRUST), "two items are called trust; expected another name"),
-        (asking(LICENCE | {"choices": ["one"]}), "questions/end/0/choice/choices"),
         (asking(LICENCE | {"choices": ["one", "one"]}), "one choice is there twice"),
     ],
 )
@@ -278,25 +266,6 @@ def test_a_reaction_and_a_call_have_a_row_with_their_trial(
         assert {name: row[name] for name in type(told).model_fields} == told.model_dump()
 
 
-@pytest.mark.parametrize(("seat_time_s", "is_done"), [(0.0, False), (0.5, True), (None, True)])
-def test_a_run_whose_seat_was_never_taken_is_no_finished_trial(
-    recorded_run: Path, tmp_path: Path, seat_time_s: float | None, is_done: bool
-) -> None:
-    """A run of an earlier version does not tell."""
-    progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
-    name = f"01-{progress.trials[0].name}"
-    person = PERSON.model_copy(update={"seat_time_s": seat_time_s})
-    finished(recorded_run, progress.runs.folder / name, [person.model_dump(mode="json")])
-    assert progress.runs.finished_run(progress.trials[0]) == (name if is_done else None)
-    assert Conductor([progress]).state()["step"] == ("questions" if is_done else "ready")
-
-
-def test_a_trial_waits_for_its_participant(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    started: list[Options] = []
-    monkeypatch.setattr(StartedRuns, "start", lambda _, __, options, *___: started.append(options))
-    Conductor([Progress(plan(participants=["P01"]), tmp_path, "P01")]).begin()
-
-
 @pytest.mark.parametrize(("given", "may_pause"), [({}, False), ({"pause": True}, True)])
 def test_a_trial_is_paused_only_where_the_plan_lets_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, given: dict[str, bool], may_pause: bool
@@ -306,39 +275,6 @@ def test_a_trial_is_paused_only_where_the_plan_lets_it(
     conductor = Conductor([Progress(plan(participants=["P01"], **given), tmp_path, "P01")])
     conductor.begin()
     assert (started[0].pause, conductor.state()["may_pause"]) == (may_pause, may_pause)
-
-
-def test_an_earlier_version_that_wrote_less_of_a_person_leaves_gaps(
-    recorded_run: Path, tmp_path: Path
-) -> None:
-    experiment = plan(participants=["P01"])
-    progress = Progress(experiment, tmp_path, "P01")
-    person = PERSON.model_dump(mode="json")
-    del (
-        person["seat_time_s"],
-        person["unperceived"],
-        person["reactions"][0]["kind"],
-        person["workload"],
-        person["calls"],
-    )
-    finished(recorded_run, progress.runs.folder / f"01-{progress.trials[0].name}", [person])
-    write_tables(experiment, tmp_path)
-    row = table(tmp_path / "experiment.parquet")[0]
-    names = ("seat_time_s", "unperceived", "isa_mean", "commands")
-    assert [row[f"person.{name}"] for name in names] == [None, None, None, 2]
-    assert table(tmp_path / "reactions.parquet")[0]["kind"] is None
-    assert table(tmp_path / "calls.parquet") == []
-
-
-@pytest.mark.parametrize("people", [5, [1], [{}], [{"seat": "AAL123", "reactions": [0]}]])
-def test_people_that_no_run_writes_are_refused_in_words(
-    recorded_run: Path, tmp_path: Path, people: Any
-) -> None:
-    experiment = plan(participants=["P01"])
-    progress = Progress(experiment, tmp_path, "P01")
-    finished(recorded_run, progress.runs.folder / f"01-{progress.trials[0].name}", people)
-    with pytest.raises(RunFolderError, match=r"its (people|numbers) cannot be read"):
-        write_tables(experiment, tmp_path)
 
 
 def test_the_page_of_a_trial_that_is_over_is_not_that_of_the_next_one(
@@ -403,20 +339,17 @@ def test_numbers_that_a_run_did_not_write_do_not_enter_the_table(
         write_tables(experiment, tmp_path)
 
 
-@pytest.mark.parametrize("content", [b"[" * 100_000, b"\xff", b"[]", b"{}"])
 def test_a_trial_whose_record_cannot_be_read_is_begun_again(
-    recorded_run: Path, tmp_path: Path, content: bytes
+    recorded_run: Path, tmp_path: Path
 ) -> None:
     progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
     first = progress.trials[0]
     folder = shutil.copytree(recorded_run, progress.runs.folder / f"01-{first.name}")
-    (folder / "run.json").write_bytes(content)
+    (folder / "run.json").write_bytes(b"[" * 100_000)
     assert progress.runs.finished_run(first) is None
 
 
-@pytest.mark.parametrize(
-    "content", [None, b"{", b"[]", b'{"people": 5}', b'{"people": null}', b'{"people": [{}]}']
-)
+@pytest.mark.parametrize("content", [None, b"{", b'{"people": [{}]}'])
 def test_a_finished_trial_whose_seats_cannot_be_read_is_neither_done_nor_begun_again(
     recorded_run: Path, tmp_path: Path, content: bytes | None
 ) -> None:
@@ -427,84 +360,34 @@ def test_a_finished_trial_whose_seats_cannot_be_read_is_neither_done_nor_begun_a
         RunFolder(folder).summary_path.unlink()
     else:
         RunFolder(folder).summary_path.write_bytes(content)
-    told = "missing" if content is None else ".*expected.*"
-    with pytest.raises(
-        RunFolderError, match=rf"summary\.json: {told}; move the folder away to run"
-    ):
+    with pytest.raises(RunFolderError, match=r"summary\.json: .*move the folder away to run"):
         Conductor([progress])
-
-
-@pytest.mark.parametrize("name", ["run.json", "summary.json"])
-def test_a_finished_trial_is_found_once_its_files_can_be_read_again(
-    recorded_run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
-) -> None:
-    """As when too many files were open for a moment."""
-    progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
-    trial = progress.trials[0]
-    finished(recorded_run, progress.runs.folder / f"01-{trial.name}", [PERSON.model_dump()])
-    whole = RunFolder.read
-
-    def read(self: RunFolder, path: Path, *given: Any) -> bytes:
-        if path.name == name:
-            raise OSError(errno.EMFILE, "too many open files")
-        return whole(self, path, *given)
-
-    with monkeypatch.context() as patch:
-        patch.setattr(RunFolder, "read", read)
-        with pytest.raises(RunFolderError, match=f"{name}: cannot be read"):
-            progress.runs.finished_run(trial)
-    assert progress.runs.finished_run(trial) == f"01-{trial.name}"
-    assert Conductor([progress]).state()["step"] == "questions"
-
-
-def test_ratings_at_the_seat_are_found_once_they_can_be_read_again(
-    recorded_run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    person = PERSON.model_dump()
-    person["workload"]["nasa_tlx"] = ANSWERS
-    finished(recorded_run, tmp_path / "run", [person])
-    answers = AnswerFiles(tmp_path, tmp_path, 0)
-
-    def fail(*_: Any) -> bytes:
-        raise OSError(errno.EMFILE, "too many open files")
-
-    with monkeypatch.context() as patch:
-        patch.setattr(RunFolder, "read", fail)
-        with pytest.raises(RunFolderError, match="too many open files"):
-            answers.read(NASA_TLX, "run")
-    assert answers.read(NASA_TLX, "run") == ANSWERS
 
 
 def test_a_break_has_to_be_taken(recorded_run: Path, tmp_path: Path) -> None:
     progress = Progress(plan(break_after=1), tmp_path, "P01")
     shutil.copytree(recorded_run, progress.runs.folder / f"01-{progress.trials[0].name}")
+    assert Conductor([progress]).state()["rest_s"] == 0.0
     conductor = Conductor([progress])
     conductor.answer("nasa_tlx", ANSWERS)
-    assert conductor.state()["rest_s"] > 100.0
-    with pytest.raises(StationError, match="not time"):
-        conductor.begin()
+    for leader in (conductor, Conductor([progress])):  # The page may have been started again.
+        assert leader.state()["rest_s"] > 100.0
+        with pytest.raises(StationError, match="not time"):
+            leader.begin()
 
 
-def test_who_starts_the_page_again_does_not_leave_the_break_out(
-    recorded_run: Path, tmp_path: Path
-) -> None:
-    progress = Progress(plan(break_after=1), tmp_path, "P01")
-    assert Conductor([progress]).state()["rest_s"] == 0.0
-    name = f"01-{progress.trials[0].name}"
-    shutil.copytree(recorded_run, progress.runs.folder / name)
-    progress.answer(Asked(NASA_TLX, name), ANSWERS)
-    assert Conductor([progress]).state()["rest_s"] > 100.0
-
-
-@pytest.mark.parametrize(("participants", "is_told"), [(2, False), (3, True), (4, False)])
 def test_a_number_of_participants_that_makes_no_balanced_order_is_told(
-    airhilt_command: Cli, tmp_path: Path, participants: int, is_told: bool
+    airhilt_command: Cli, tmp_path: Path
 ) -> None:
-    names = [f"P{number}" for number in range(participants)]
     path = tmp_path / "plan.json"
-    path.write_text(plan(participants=names).model_dump_json())
+    path.write_text(plan(participants=["P01", "P02", "P03"]).model_dump_json())
     done = airhilt_command("experiment", path)
-    assert ("not balanced with 3 participants; expected 2," in done.stderr) is is_told
+    assert "not balanced with 3 participants; expected 2," in done.stderr
+    path.write_text(team_plan(participants=TEAMS["participants"][:1]).model_dump_json())
+    done = airhilt_command("experiment", path)
+    assert done.returncode == 0
+    assert "P02: s01b_nominal-1, s01b_nominal-2" in done.stdout
+    assert "not balanced with 1 teams; expected 2, or a multiple" in done.stderr
 
 
 def test_the_command_tells_the_order_of_each_participant(
@@ -514,6 +397,7 @@ def test_the_command_tells_the_order_of_each_participant(
     path.write_text(plan().model_dump_json())
     done = airhilt_command("experiment", path)
     assert done.returncode == 0
+    assert "balanced" not in done.stderr
     assert "P01: s02a_headon-1, s02a_headon-2" in done.stdout
     assert "P02: s02a_headon-2, s02a_headon-1" in done.stdout
     for name in ("experiment", "reactions"):
@@ -559,16 +443,6 @@ def test_own_questions_are_asked_before_after_each_trial_and_at_the_end(
     assert kept == {"licence": "private"}
 
 
-def test_what_is_not_answered_yet_is_empty_in_the_table(recorded_run: Path, tmp_path: Path) -> None:
-    experiment = plan(participants=["P01"], questions=QUESTIONS)
-    progress = Progress(experiment, tmp_path, "P01")
-    finished(recorded_run, progress.runs.folder / f"01-{progress.trials[0].name}", [])
-    write_tables(experiment, tmp_path)
-    row = table(tmp_path / "experiment.parquet")[0]
-    asked = ("before.licence", "after_trial.trust", "end.preferred", "nasa_tlx.effort")
-    assert [row[name] for name in asked] == [None] * 4
-
-
 def test_ratings_that_were_given_at_the_seat_are_not_asked_again(
     recorded_run: Path, tmp_path: Path
 ) -> None:
@@ -587,7 +461,6 @@ def test_ratings_that_were_given_at_the_seat_are_not_asked_again(
     [
         ({}, "trust: not answered"),
         ({"trust": 8}, "trust: found 8; expected 1 to 7"),
-        ({"trust": "much"}, "trust: found 'much'; expected 1 to 7"),
         ({"trust": 4, "more": 1}, "'more': not asked"),
     ],
 )
@@ -603,7 +476,7 @@ def test_answers_that_the_items_do_not_take_are_refused_in_words(
     assert names_asked(conductor) == ["trust"]
 
 
-@pytest.mark.parametrize("content", ['{"trust": 8}', '{"trust": [1]}', "[", '{"trust": true}'])
+@pytest.mark.parametrize("content", ['{"trust": 8}', "["])
 def test_answers_that_no_page_wrote_are_refused_in_words(tmp_path: Path, content: str) -> None:
     """They are not asked again by themselves: the answers of a person would be lost."""
     progress = Progress(plan(participants=["P01"], questions={"before": [TRUST]}), tmp_path, "P01")
@@ -613,7 +486,7 @@ def test_answers_that_no_page_wrote_are_refused_in_words(tmp_path: Path, content
         Conductor([progress]).state()
 
 
-def test_an_item_that_came_into_the_plan_later_leaves_a_gap(
+def test_an_item_that_came_into_the_plan_later_or_is_not_answered_yet_leaves_a_gap(
     recorded_run: Path, tmp_path: Path
 ) -> None:
     progress = Progress(plan(participants=["P01"], questions={"before": [TRUST]}), tmp_path, "P01")
@@ -622,7 +495,8 @@ def test_an_item_that_came_into_the_plan_later_leaves_a_gap(
     finished(recorded_run, progress.runs.folder / f"01-{progress.trials[0].name}", [])
     write_tables(later, tmp_path)
     row = table(tmp_path / "experiment.parquet")[0]
-    assert (row["before.trust"], row["before.licence"]) == (3.0, None)
+    names = ("before.trust", "before.licence", "nasa_tlx.effort")
+    assert [row[name] for name in names] == [3.0, None, None]
 
 
 def test_the_scales_of_nasa_tlx_are_those_that_the_run_takes() -> None:
@@ -643,18 +517,6 @@ def test_a_team_has_one_order_of_trials_and_the_next_team_another() -> None:
              ("P01", "P02", "P03", "P04")}  # fmt: skip
     assert order["P01"] == order["P02"] == ["s01b_nominal-1", "s01b_nominal-2"]
     assert order["P03"] == order["P04"] == ["s01b_nominal-2", "s01b_nominal-1"]
-
-
-@pytest.mark.parametrize(("teams", "is_told"), [(1, True), (2, False)])
-def test_a_number_of_teams_that_makes_no_balanced_order_is_told(
-    airhilt_command: Cli, tmp_path: Path, teams: int, is_told: bool
-) -> None:
-    path = tmp_path / "plan.json"
-    path.write_text(team_plan(participants=TEAMS["participants"][:teams]).model_dump_json())
-    done = airhilt_command("experiment", path)
-    assert done.returncode == 0
-    assert "P02: s01b_nominal-1, s01b_nominal-2" in done.stdout
-    assert ("not balanced with 1 teams; expected 2, or a multiple" in done.stderr) is is_told
 
 
 def test_a_trial_of_a_team_has_all_its_seats_and_begins_when_each_is_ready(
@@ -721,10 +583,15 @@ def goes_on(progress: Progress) -> None:
     (kept / f"{name}.txt").write_text("http://127.0.0.1:9\n")
 
 
-def test_each_of_a_team_is_led_to_the_own_seat(tmp_path: Path) -> None:
+def test_each_of_a_team_is_led_to_the_own_seat(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Both press the button: the slower one does not know yet that the trial has begun."""
     team = led(team_plan(), tmp_path, "P01")
-    goes_on(team[0])
+    monkeypatch.setattr(StartedRuns, "start", lambda *_: goes_on(team[0]))
     conductor = Conductor(team)
+    for name in ("P01", "P02"):
+        conductor.begin(name)  # The folder of a second run would be there already.
     shown = [conductor.state(name) for name in ("P01", "P02")]
     assert [one["seat"] for one in shown] == ["Washington Tower", "AAL123"]
     assert {(one["step"], one["url"]) for one in shown} == {("running", "http://127.0.0.1:9")}
@@ -780,24 +647,13 @@ def test_a_trial_of_a_team_of_which_one_never_sat_is_not_finished(
     assert [one.runs.finished_run(trial) for one in team] == [f"01-{trial.name}-2"] * 2
 
 
-@pytest.mark.parametrize(
-    ("given", "said"),
-    [
-        (
-            TEAMS | {"seats": ["AAL123", "tower"]},
-            "its seats were Washington Tower, AAL123; expected AAL123, Washington Tower, as the",
-        ),
-        (TEAMS | {"seats": ["tower", "OPS1"]}, "expected Washington Tower, OPS1, as the plan"),
-    ],
-)
-def test_a_trial_that_had_other_seats_is_refused(
-    recorded_run: Path, tmp_path: Path, given: dict[str, Any], said: str
-) -> None:
+def test_a_trial_that_had_other_seats_is_refused(recorded_run: Path, tmp_path: Path) -> None:
     """The plan was changed: who is a pilot in it now had the seat of the controller then."""
     team = led(team_plan(), tmp_path, "P01")
     name = f"01-{team[0].trials[0].name}"
     finished(recorded_run, team[0].runs.folder / name, two_people())
-    changed = plan(**given)
+    changed = team_plan(seats=["AAL123", "tower"])
+    said = "its seats were Washington Tower, AAL123; expected AAL123, Washington Tower, as the plan"
     with pytest.raises(RunFolderError, match=rf"P01\+P02/{name}: .*{said}"):
         Conductor(led(changed, tmp_path, "P01"))
     with pytest.raises(RunFolderError, match=said):
@@ -813,71 +669,3 @@ def test_a_trial_of_a_participant_who_had_another_seat_is_refused(
     changed = plan(participants=["P01"], scenarios=["s01b_nominal"], seat="tower")
     with pytest.raises(RunFolderError, match="its seat was AAL123; expected Washington Tower"):
         write_tables(changed, tmp_path)
-
-
-def test_a_trial_that_goes_on_with_other_seats_is_refused(tmp_path: Path) -> None:
-    goes_on(led(team_plan(), tmp_path, "P01")[0])
-    changed = team_plan(seats=["AAL123", "tower"])
-    with pytest.raises(RunFolderError, match=r"its seats were .* put them back"):
-        Conductor(led(changed, tmp_path, "P01")).state("P01")
-
-
-def test_a_team_in_another_order_than_its_folder_is_refused(
-    airhilt_command: Cli, tmp_path: Path
-) -> None:
-    (tmp_path / "out" / "P01+P02").mkdir(parents=True)
-    (tmp_path / "out" / "P03").mkdir()
-    changed = team_plan(participants=[["P02", "P01"], ["P03", "P04"]])
-    said = r"P01\+P02: of P02, P01 in another order; expected the order of the folder in the plan"
-    for participant in ("P01", "P02"):
-        with pytest.raises(RunFolderError, match=said):
-            Progress(changed, tmp_path / "out", participant)
-    assert Progress(changed, tmp_path / "out", "P03").runs.folder.name == "P03+P04"
-    (tmp_path / "plan.json").write_text(changed.model_dump_json())
-    done = airhilt_command("experiment", tmp_path / "plan.json", "--out", tmp_path / "out")
-    assert done.returncode == 2
-    assert "another order" in done.stderr
-
-
-def test_a_page_that_looks_again_reads_only_what_has_changed(
-    recorded_run: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    read: list[str] = []
-
-    def noted(folder: Path, path: Path) -> Any:
-        read.append(path.name)
-        return open_inside(folder, path)
-
-    monkeypatch.setattr(files, "open_inside", noted)
-    progress = Progress(plan(participants=["P01"], questions=QUESTIONS), tmp_path, "P01")
-    conductor = Conductor([progress])
-    first, second = (f"{at:02d}-{one.name}" for at, one in enumerate(progress.trials, 1))
-    conductor.answer("before", {"licence": "none"})
-    finished(recorded_run, progress.runs.folder / first, [PERSON.model_dump(mode="json")])
-    conductor.answer("nasa_tlx", ANSWERS)
-    conductor.answer("after_trial", {"trust": 5})
-    running = shutil.copytree(recorded_run, progress.runs.folder / second) / "run.json"
-    running.write_text(json.dumps(json.loads(running.read_text()) | {"phase": "running"}))
-    assert conductor.state()["step"] == "ready"
-    read.clear()
-    for _ in range(3):
-        assert conductor.state()["step"] == "ready"
-    assert read == []
-    running.write_text(json.dumps(json.loads(running.read_text()) | {"phase": "finished"}))
-    assert conductor.state()["step"] == "questions"
-    assert set(read) <= {"run.json", "summary.json", f"{second}.nasa_tlx.json"}
-    assert read.count("run.json") == 1
-    (progress.runs.folder / "before.json").unlink()
-    assert conductor.state()["questions"]["name"] == "before"
-
-
-def test_who_begins_a_trial_that_has_begun_is_led_to_it(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Both of a team press the button: the slower one does not know yet that it has begun."""
-    team = led(team_plan(), tmp_path, "P01")
-    monkeypatch.setattr(StartedRuns, "start", lambda *_: goes_on(team[0]))
-    conductor = Conductor(team)
-    for name in ("P01", "P02"):
-        conductor.begin(name)  # The folder of a second run would be there already.
-    assert [conductor.state(name)["step"] for name in ("P01", "P02")] == ["running"] * 2

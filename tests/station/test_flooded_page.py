@@ -11,6 +11,7 @@ from airhilt.messages import SayText, Transcript, Transmission, Word
 from airhilt.record import Logged
 from airhilt.station.calls import MOST_LETTERS, MOST_TRANSCRIPTS
 from airhilt.station.live import LiveRun
+from airhilt.station.seat_views import SeatViews
 from breadth import mostly_slow
 from devtools import Page
 from microphone import SAY
@@ -92,7 +93,7 @@ def test_the_words_that_are_listed_of_calls_have_a_bound(page: Page) -> None:
     with seat_page(has_seats=False) as (run, url):
         page.open(url)
         page.wait_for("document.getElementById('state').textContent.startsWith('running')")
-        live = LiveRun(run.changes)
+        live = LiveRun(run.changes, SeatViews(), print)
         words = tuple(Word(text="word", confidence=1.0) for _ in range(400))
         for i in range(CALLS + 20):
             call = {"id": f"{i}", "frequency_khz": 119_100, "t_tx_ns": i, "t_end_ns": i + 1}

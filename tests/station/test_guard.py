@@ -43,9 +43,6 @@ def test_a_page_of_another_site_is_refused(origin: str) -> None:
     answer = asked(guarded(Address()), origin=origin)
     assert answer.status_code == 403
     assert "another site" in answer.text
-
-
-def test_the_own_page_may_ask() -> None:
     assert asked(guarded(Address()), origin="http://127.0.0.1:8420").status_code == 200
 
 

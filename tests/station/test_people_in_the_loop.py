@@ -19,7 +19,6 @@ from typing import Any
 import numpy as np
 import psutil
 import pytest
-from websockets.sync.client import connect
 
 from airhilt.assistant.asr.engines import asr_engine
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
@@ -42,7 +41,7 @@ from microphone import (
     sit_down,
     talk,
 )
-from stations import url_of
+from stations import do, opened, sit, url_of
 
 pytestmark = [pytest.mark.slow, pytest.mark.browser]
 PATIENCE_S = 300.0
@@ -215,12 +214,10 @@ def test_who_has_a_bad_receiver_hears_at_the_page_what_the_run_records_of_it(
     pieces: list[tuple[str, dict[str, Any]]] = []
     with (
         running(out, "s02a_headon", 25.0, *options, **radio) as url,
-        connect(f"{url.replace('http', 'ws')}api/live", proxy=None) as socket,
+        opened(url) as socket,
     ):
-        socket.send(json.dumps({"take": seat}))
-        while "own" not in json.loads(socket.recv(timeout=PATIENCE_S)):
-            pass
-        socket.send(json.dumps({"tune": [133_475, 134_325]}))
+        sit(socket, seat)
+        assert do(socket, "tune", frequencies_khz=[133_475, 134_325]) == ""
         while ("closed", call) not in [(phase, piece["id"]) for phase, piece in pieces]:
             pieces += json.loads(socket.recv(timeout=PATIENCE_S)).get("sounds", ())
     heard = [piece["pcm"] for _, piece in pieces if piece["id"] == call and "pcm" in piece]

@@ -85,12 +85,12 @@ def fly(run: PretendedRun, t_s: float = 1.0) -> None:
 
 def cockpit(run: PretendedRun, shown: dict[str, Any]) -> None:
     """Let the instruments of the seat show something."""
-    (own,) = run.of_seats.values()
+    (own,) = run.views.own.values()
     own.put("cockpit", shown)
 
 
 def own_seat(run: PretendedRun) -> str:
-    (seat,) = run.of_seats
+    (seat,) = run.views.own
     return seat
 
 
@@ -431,20 +431,6 @@ def test_no_pause_is_offered_where_the_run_has_none(page: Page) -> None:
     with seated(page, "TOWER", may_pause=False):
         page.wait_for("document.getElementById('frequencies').textContent.includes('119.1')")
         assert page.evaluate("document.getElementById('pace').hidden")
-
-
-def test_words_that_could_not_be_said_stay_in_the_field(page: Page) -> None:
-    closed = "Object.defineProperty(WebSocket.prototype, 'readyState', { get: () => 3 })"
-    words = "document.getElementById('words').value"
-    with seated(page, "TOWER") as run:
-        page.evaluate(f"{words} = 'American 123, hold.'")
-        page.evaluate(f"{closed}; null")
-        page.evaluate(SAY)
-        page.wait_for(
-            "document.getElementById('seat-state').textContent.includes('Nothing was said')"
-        )
-        assert page.evaluate(words) == "American 123, hold."
-        assert run.done.empty()
 
 
 def test_words_that_were_lost_with_the_connection_are_given_back_and_those_heard_are_not(
@@ -822,21 +808,6 @@ def test_contrast_of_all_text_at_a_seat_is_enough(page: Page, seat: str) -> None
             features = [{"name": "prefers-color-scheme", "value": scheme}]
             page.call("Emulation.setEmulatedMedia", features=features)
             assert page.evaluate(LOW_CONTRAST) == [], scheme
-
-
-def test_a_page_that_was_loaded_again_says_that_it_has_no_sound_until_somebody_acts(
-    page: Page,
-) -> None:
-    told = "document.getElementById('hearing').innerText"
-    with seated(page, "TOWER"):
-        page.evaluate("new Promise((done) => setTimeout(done, 1000))")
-        page.wait_for(f"!{told}.includes('No sound')")
-        page.call("Page.reload")
-        page.wait_for("document.body?.dataset.seat === 'controller'")
-        page.wait_for(f"{told}.includes('No sound: click or press a key.')")
-        page.press("x", ord("X"))
-        page.wait_for(f"!{told}.includes('No sound')")
-    page.complaints.clear()
 
 
 def test_a_call_that_came_while_the_page_had_no_sound_is_not_played_later(

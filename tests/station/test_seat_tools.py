@@ -49,7 +49,6 @@ from stations import (
     do,
     opened,
     seat_page,
-    seats_given_back_at_once,
     sit,
 )
 
@@ -62,15 +61,9 @@ GAMEPAD = """
 """
 
 
-@pytest.fixture(scope="module")
-def served() -> Iterator[tuple[PretendedRun, str]]:
-    with seat_page() as served:
-        yield served
-
-
 @pytest.fixture
-def seat(served: tuple[PretendedRun, str]) -> Iterator[tuple[PretendedRun, str]]:
-    with seats_given_back_at_once(served[0]):
+def seat() -> Iterator[tuple[PretendedRun, str]]:
+    with seat_page() as served:
         yield served
 
 
@@ -329,7 +322,7 @@ def warn(
         id=name, revision=0, recipient="ATC", text="stop", t_dec_ns=0, engine="", samples=samples,
         sha256="", t_ns=1,
     )  # fmt: skip
-    live = LiveRun(run.changes, run.of_seats, views=run.views)
+    live = LiveRun(run.changes, run.views, print)
     told = (("advisory/ATC", advised), (f"tts/{name}", audio))
     for key, message in told if has_voice else told[:1]:
         live.take(Logged(key, "", 1, message.model_dump_json().encode()))

@@ -198,6 +198,7 @@ def test_pages_are_linked_by_the_name_under_which_the_station_was_opened(
     "command",
     [
         ["station"],
+        ["view", "a_run"],
         ["experiment", "plan.json", "--participant", "P01"],
         ["cosim", "--scenario", "s02a_headon", "--seat", "tower"],
     ],

@@ -50,11 +50,11 @@ from airhilt.sim import Director, Virtual
 from airhilt.station import browsers as station_browsers
 from airhilt.station.address import Address
 from airhilt.station.app import live_app
-from airhilt.station.audiences import SeatViews, heard_by
+from airhilt.station.audiences import heard_by
 from airhilt.station.browsers import Browsers
-from airhilt.station.changes import Changes, Newest
-from airhilt.station.live import seat_as_json
+from airhilt.station.changes import Changes
 from airhilt.station.pictures import Picture
+from airhilt.station.seat_views import SeatViews
 from airhilt.station.server import serve
 from airhilt.station.subscription import Sound
 from devtools import Page
@@ -261,8 +261,7 @@ class PretendedRun:
         self.settings: queue.Queue[TuneFrequencies | AgreeToUses] = queue.Queue()
         self.presence: queue.Queue[tuple[str, bool]] = queue.Queue()
         self.changes, self.sounds = Changes(), Changes()
-        self.of_seats = {state.seat: Newest() for state in seats}
-        self.views = SeatViews(self.of_seats)
+        self.views = SeatViews(state.seat for state in seats)
         self.watched: queue.Queue[set[str]] = queue.Queue()
         """Cameras whose pictures were asked for, whenever there were any."""
         self.pictures: dict[tuple[str, int], Picture] = {}
@@ -276,7 +275,6 @@ class PretendedRun:
 
     def _published(self, _key: str, state: SeatState) -> None:
         self.views.learn(state)
-        self.of_seats[state.seat].put("seat", seat_as_json(state))
 
     def watch(self, cameras: set[str]) -> None:
         """Note cameras whose pictures are to come."""
@@ -383,7 +381,7 @@ def seats_given_back_at_once(run: PretendedRun) -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(station_browsers, "HOLD_S", 0.0)
         yield
-        is_taken = dict.fromkeys(run.of_seats, False)
+        is_taken = dict.fromkeys(run.views.own, False)
         while any(is_taken.values()) or not run.presence.empty():
             is_taken |= [run.presence.get(timeout=FREED_WITHIN_S)]
 
@@ -394,8 +392,8 @@ def seat_page(
 ) -> Iterator[tuple[PretendedRun, str]]:
     """Serve the page of a pretended run in this process; yield the run and the URL."""
     run = run or PretendedRun()
-    seats, views = (run.of_seats, run.views) if has_seats else ({}, SeatViews())
-    browsers = Browsers(run.changes, run, seats, run.sounds, run.told.append, views)
+    views = run.views if has_seats else SeatViews()
+    browsers = Browsers(run.changes, run, views, run.sounds, run.told.append)
     with serving(live_app(run, browsers)) as url:  # type: ignore[arg-type]
         yield run, url
 

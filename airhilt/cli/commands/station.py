@@ -52,7 +52,7 @@ def station(page: PageOptions, runs: Path, scenarios: tuple[Path, ...]) -> None:
     from airhilt.station.started_runs import StartedRuns
 
     started = StartedRuns(runs.resolve(), page.of_another_page())
-    debriefs = Debriefs(runs.resolve(), started.state_of, page.of_another_page())
+    debriefs = Debriefs(started)
     app = home_app(ScenarioChoices(scenarios), started, debriefs, [*ASSISTANTS.names(), "none"])
     try:
         serve(app, address, opened=tell_page, notice=tell, browser=not page.no_browser)

@@ -102,11 +102,11 @@ def _show_live(
     browser: bool,
 ) -> None:
     from airhilt.station.app import live_app
-    from airhilt.station.audiences import SeatViews
     from airhilt.station.browsers import Browsers
-    from airhilt.station.changes import Changes, Newest
+    from airhilt.station.changes import Changes
     from airhilt.station.connection import RunConnection
     from airhilt.station.live import LiveRun
+    from airhilt.station.seat_views import SeatViews
     from airhilt.station.server import serve
     from airhilt.station.subscription import Subscription
 
@@ -116,9 +116,8 @@ def _show_live(
         stack.callback(connection.close)
         seats = connection.seats(asked, tell)
         changes, sounds = Changes(), Changes(MOST_SOUNDS)
-        of_seats = {seat: Newest() for seat in seats}
         views = SeatViews(seats)
-        run = LiveRun(changes, of_seats, tell, views)
+        run = LiveRun(changes, views, tell)
         subscription = Subscription(
             connection, run.take, run.lost, seats=seats, sounds=sounds if seats else None
         )
@@ -128,7 +127,7 @@ def _show_live(
             tell(text)
             subscription.log_refusal(text)
 
-        browsers = Browsers(changes, subscription, of_seats, sounds, refused, views)
+        browsers = Browsers(changes, subscription, views, sounds, refused)
         serve(
             live_app(subscription, browsers),
             address,
