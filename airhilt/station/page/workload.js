@@ -1,6 +1,6 @@
 // Questions about workload: ISA while the run goes on, NASA-TLX at its end.
 
-import { byId, html } from "./dom.js";
+import { button, byId } from "./dom.js";
 import { Questionnaire } from "./questionnaire.js";
 
 /** Ratings of the Instantaneous Self-Assessment (Tattersall & Foord 1996). */
@@ -12,22 +12,16 @@ export class Workload {
   #question = null;
   #timer = null;
   #nasaTlx;
-  #tlx = new Questionnaire(byId("tlx-items"));
+  #tlx = null; // what is asked, or was asked last
 
   /** `nasaTlx` is its questionnaire; `answer(answer)` gives an answer to the run. */
   constructor(nasaTlx, answer) {
     this.#nasaTlx = nasaTlx;
     this.#answer = answer;
     byId("isa-ratings").replaceChildren(
-      ...RATINGS.map((name, i) => {
-        const button = html(
-          "button",
-          { type: "button", title: `${name}: key ${i + 1}` },
-          `${i + 1} ${name}`,
-        );
-        button.addEventListener("click", () => this.rate(i + 1));
-        return button;
-      }),
+      ...RATINGS.map((name, i) =>
+        button(`${i + 1} ${name}`, () => this.rate(i + 1), { title: `${name}: key ${i + 1}` }),
+      ),
     );
     byId("tlx").addEventListener("submit", (event) => {
       event.preventDefault();
@@ -53,7 +47,7 @@ export class Workload {
       this.#timer = setTimeout(() => this.#hideIsa(), PATIENCE_MS);
     } else {
       this.#hideIsa();
-      this.#tlx.begin(this.#nasaTlx);
+      this.#tlx = new Questionnaire(byId("tlx-items"), this.#nasaTlx);
       byId("tlx-state").textContent = "";
       if (!byId("tlx-dialog").open) byId("tlx-dialog").showModal();
     }
