@@ -79,7 +79,7 @@ export class Displays {
       ["h", "cockpit: track", () => panel.focus("track")],
       ["a", "cockpit: altitude", () => panel.focus("altitude")],
       ["v", "cockpit: vertical speed", () => panel.focus("rate")],
-      ["g", "cockpit: go around", () => panel.goAround()],
+      ["g", "cockpit: go around", () => panel.press("go_around")],
       ["r", "cockpit: longer range", () => nd.step(1)],
       ["e", "cockpit: shorter range", () => nd.step(-1)],
       ["b", "brake, hold position, reject take-off", () => panel.brake(), ["pilot", "driver"]],

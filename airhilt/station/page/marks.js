@@ -2,10 +2,9 @@
 // the loop.
 
 import { byId, colour } from "./dom.js";
-import { box, onSize, severityInk, shape } from "./pen.js";
+import { FILLED, box, onSize, severityInk, shape } from "./pen.js";
 
 const THUMB_PX = 8; // half the width of the slider's thumb, by which its ends are inside the strip
-const FILLED = ["WARNING", "CAUTION"];
 
 export class Marks {
   #run;

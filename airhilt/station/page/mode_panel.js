@@ -164,11 +164,7 @@ export class ModePanel {
 
   /** Rejects a take-off, or stops elsewhere on the ground. */
   brake() {
-    this.#press(this.#action("cancel_takeoff").hidden ? "hold_position" : "cancel_takeoff");
-  }
-
-  goAround() {
-    this.#press("go_around");
+    this.press(this.#action("cancel_takeoff").hidden ? "hold_position" : "cancel_takeoff");
   }
 
   #action(name) {
@@ -176,7 +172,7 @@ export class ModePanel {
   }
 
   /** Presses a button, if it is shown. */
-  #press(name) {
+  press(name) {
     if (!this.#action(name).hidden) this.#action(name).click();
   }
 

@@ -5,6 +5,8 @@ import { colour } from "./dom.js";
 export const FONT = '12px system-ui, -apple-system, "Segoe UI", Roboto, "DejaVu Sans", sans-serif';
 export const BOLD = `600 ${FONT}`;
 export const FONT_SMALL = FONT.replace("12px", "11px");
+/** Severities whose symbols are filled. */
+export const FILLED = ["CAUTION", "WARNING"];
 const SEVERITY_INKS = { WARNING: "--bad", CAUTION: "--warn", ADVISORY: "--accent" };
 
 /** Returns the colour of a severity on the page. */

@@ -32,13 +32,16 @@ export class Workload {
   }
 
   /**
-   * Takes in the question that is open at the own seat, null for none; whoever has just taken the
-   * seat is not asked what is long ago.
+   * Takes in the question that is open at the own seat, null for none, as where the seat is another
+   * person's or the run is over; whoever has just taken the seat is not asked what is long ago.
    */
   take(question, now) {
     const before = this.#question;
     this.#question = question?.number ?? null;
-    if (!question) this.clear();
+    if (!question) {
+      this.#hideIsa();
+      byId("tlx-dialog").close();
+    }
     if (!question || question.number === before) return;
     if (question.scale === "isa" && (now - question.t) * 1000 > PATIENCE_MS) return;
     if (question.scale === "isa") {
@@ -58,12 +61,6 @@ export class Workload {
     if (byId("isa").hidden) return;
     this.#answer({ question: this.#question, isa: rating });
     this.#hideIsa();
-  }
-
-  /** Takes the questions away: the seat is another person's, or the run is over. */
-  clear() {
-    this.#hideIsa();
-    byId("tlx-dialog").close();
   }
 
   #hideIsa() {
