@@ -14,13 +14,14 @@ MEDIA_TYPES = {
 }
 """Media type of the files, by the end of their names."""
 SHARED = {
-    "series": ("at", "before"),
+    "series": ("at", "before", "headingAt", "niceStep"),
     "words": (
+        "METRE_PER_FT", "METRE_PER_NM", "SEVERITIES",
         "bearing", "capital", "counted", "decibels", "feet", "fixed", "instruction", "known",
         "megahertz", "metres", "miles", "minus", "percent", "seconds", "whole", "words",
     ),
 }  # fmt: skip
-"""Functions that the page takes from scripts of a report, by the names of the scripts."""
+"""What the page takes from scripts of a report, by the names of the scripts."""
 
 
 def media_type(name: str) -> str:

@@ -35,7 +35,7 @@ FOUND = """
 SHOW_TLX = """
     Promise.all([fetch('api/run'), import(new URL('page/questionnaire.js', location))])
     .then(async ([answer, { Questionnaire }]) => new Questionnaire(
-        document.getElementById('tlx-items')).begin((await answer.json()).nasa_tlx))
+        document.getElementById('tlx-items'), (await answer.json()).nasa_tlx))
 """
 
 

@@ -173,15 +173,14 @@ function drawDetections() {
       ...camera.false.map((interval) => bar("false", interval, y + 5, 5)),
       ...pictures.filter((picture) => picture.camera === camera.camera && picture.occasion !== "start").map((picture) => pictureSymbol(x(picture.t), y - 9)));
   });
-  const line = cursor(root, area), has = (intervals, t) => intervals.some(([from, to]) => from - 0.05 <= t && t <= to + 0.05);
-  followPointer(frame.chart, area, x, (t) => [
+  const has = (intervals, t) => intervals.some(([from, to]) => from - 0.05 <= t && t <= to + 0.05);
+  const followLine = followPointer(frame.chart, area, x, (t) => [
     ...all.map((camera) => `${camera.camera}: ${[["in_view", "in view"], ["found", "found"], ["confirmed", "confirmed"], ["false", "false"]].filter(([name]) => has(camera[name], t)).map(([, name]) => name).join(", ") || "nobody in view"}`),
     ...pictures.filter((picture) => picture.occasion !== "start" && Math.abs(picture.t - t) < 4 * endS / (area.right - area.left)).map((picture) => `${OCCASIONS[picture.occasion]()}, ${seconds(picture.t)}`),
   ]);
   const example = (style, y, height) => svg("rect", { class: style, x: 0, y, width: 20, height });
   byId("detections-key").replaceChildren(keyItem(example("in-view", 0, 14), "in view, large and clear enough to count"), keyItem(example("found", 2, 10), "found"), keyItem(example("confirmed", 2, 10), "confirmed"),
     ...(all.some((camera) => camera.false.length) ? [keyItem(example("false", 5, 5), "confirmed, about nothing")] : []), ...(pictures.some((picture) => picture.occasion !== "start") ? [keyItem(pictureSymbol(10, 10), "picture above")] : []));
-  const followLine = follow(line, x);
   return (t) => { followLine(t); followVideos(t); };
 }
 const pictureSymbol = (x, y) => svg("path", { class: "taken", d: `M${x - 5} ${y - 5}H${x + 5}L${x} ${y + 3}Z`, fill: "var(--ink)", stroke: "var(--panel)" });

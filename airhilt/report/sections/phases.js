@@ -18,14 +18,13 @@ function drawPhases() {
     }
     for (const event of ownEvents.filter((candidate) => candidate.who === track.callsign)) root.append(eventSymbol(x(event.t), middles[i] - 9, event.kind));
   });
-  const line = cursor(root, area);
-  followPointer(frame.chart, area, x, (t) => [
+  const follow = followPointer(frame.chart, area, x, (t) => [
     ...shown.map((track) => [track.callsign, track.phases.findLast((phase) => phase.from <= t && t <= phase.to)]).filter(([, phase]) => phase).map(([callsign, phase]) => `${callsign} ${words(phase.what)}`),
     ...ownEvents.filter((event) => Math.abs(event.t - t) < 4 * endS / (area.right - area.left)).slice(0, 4).map((event) => `${event.who}: ${textOf(event)}`),
   ]);
   byId("phases-key").replaceChildren(...EVENTS.filter(([kind]) => ownEvents.some((event) => event.kind === kind)).map(([kind, , name]) => keyItem(eventSymbol(10, 7, kind), name)),
     ...(tracks.length > shown.length ? [html("li", { class: "dim" }, `and ${tracks.length - shown.length} more actors`)] : []));
-  return follow(line, x);
+  return follow;
 }
 
 /** Kinds of events that are marked on an actor's row: colour and meaning. */

@@ -29,13 +29,12 @@ function drawProfile() {
   }
   byId("profile-outside").textContent = outside.length ? `Outside the altitudes drawn: ${outside.map((track) => track.callsign).join(", ")}` : "";
   labelEnds(root, labelled, y, area);
-  const line = cursor(root, area);
-  drawProfileMarks(root, x, y, area);
-  followPointer(chart, area, x, (t) => [
+  const follow = followPointer(chart, area, x, (t) => [
     ...labelled.map((track) => `${track.callsign} ${feet(stateAt(track, t).altitude)}`),
     ...eventsNear([...advisories, ...reactions], t, 4 * endS / (area.right - area.left)),
   ]);
-  return follow(line, x);
+  drawProfileMarks(root, x, y, area);
+  return follow;
 }
 
 function drawGround(root, area, y) {

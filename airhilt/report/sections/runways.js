@@ -20,13 +20,11 @@ function drawRunways() {
     if (k >= 0) root.append(svg("line", { x1: cx, x2: cx, y1: middles[i], y2: middles[k], stroke: colour, "stroke-width": 1.6 }));
     root.append(incursionSymbol(cx, middles[i], incursion.category, colour));
   }
-  const line = cursor(root, area);
-  followPointer(frame.chart, area, x, (t) => [
+  return followPointer(frame.chart, area, x, (t) => [
     ...used.flatMap((runway) => { const there = goingOn(runway.occupants, t); return there.length ? [`${runway.runway}: ${list(there.map((stay) => stay.what))} in the protected area`] : []; }),
     ...used.flatMap((runway) => goingOn(runway.approaches, t).map((approach) => `${approach.what} to land on ${approach.runway}${known(approach.threshold) ? (t < approach.threshold ? `, ${seconds(approach.threshold - t, 0)} from the threshold` : ", past the threshold") : ""}`)),
     ...incursions.filter((incursion) => Math.abs(incursion.t_s - t) < 4 * endS / (area.right - area.left)).map((incursion) => `runway incursion${incursion.category ? `, ${CATEGORIES[incursion.category][0]}` : ""}: ${incursion.intruder}`),
   ]);
-  return follow(line, x);
 }
 
 /** An approach as a line until it is down or has gone around; ticks count down to its threshold. */

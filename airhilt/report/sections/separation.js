@@ -41,12 +41,10 @@ function drawSeparation() {
   for (const mark of found) {
     root.append(svg("text", { class: "halo", x: mark.labelX, y: mark.row * 16 + 14, "text-anchor": mark.flip ? "end" : "start", style: `fill: ${mark.colour}` }, mark.label));
   }
-  const line = cursor(root, both);
-  followPointer(chart, both, x, (t) => {
+  return followPointer(chart, both, x, (t) => {
     const apart = apartAt(t), near = found.filter((mark) => Math.abs(mark.t - t) < 4 * endS / (area.right - area.left));
     return [...(apart ? apartText(apart).map((text, i) => `${text} ${["horizontally", "vertically"][i]}`) : []), ...near.map((mark) => `${mark.label}, ${seconds(mark.t)}`)];
   });
-  return follow(line, x);
 }
 
 /** A logarithmic scale over whole decades. */

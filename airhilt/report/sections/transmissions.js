@@ -17,8 +17,8 @@ function drawTransmissions() {
       root.append(svg("rect", { class: `transmission${blocked ? " blocked" : ""}`, x: x(one.from), y: middles[i] - 7, width: Math.max(x(one.to) - x(one.from), 2), height: 14, rx: 2, fill: colour, ...(blocked || !one.said ? { stroke: "var(--bad)", "stroke-width": 2 } : {}) }));
     }
   });
-  const line = cursor(root, area), on = (all, t) => all.filter((one) => one.from <= t && t < one.to);
-  followPointer(frame.chart, area, x, (t) => [
+  const on = (all, t) => all.filter((one) => one.from <= t && t < one.to);
+  const follow = followPointer(frame.chart, area, x, (t) => [
     ...on(said, t).map((call) => `${call.who}${call.addressed ? ` to ${call.addressed}` : ""}: ${call.said || "only a carrier"}${call.blocked_by.length ? " (blocked)" : ""}`),
     ...on(spoken, t).map((one) => `assistant to ${one.recipient}: ${one.said}`),
   ]);
@@ -26,7 +26,7 @@ function drawTransmissions() {
   byId("transmissions-key").replaceChildren(...(said.some((call) => call.said && call.blocked_by.length) ? [keyItem(example({ fill: "var(--dim)" }), "blocked by another")] : []),
     ...(said.some((call) => !call.said) ? [keyItem(example({}), "a carrier without words")] : []),
     ...(wanted.length > shown.length ? [html("li", { class: "dim" }, `and ${wanted.length - shown.length} more`)] : []));
-  return follow(line, x);
+  return follow;
 }
 
 return { fit: drawTransmissions };

@@ -1,11 +1,6 @@
 "use strict";
 // Scales, axes and labels of charts.
 
-/** Step of 1, 2 or 5 times a power of ten that divides a span into so many parts at most. */
-function niceStep(span, most, steps = [1, 2, 5, 10]) {
-  const rough = span / Math.max(most, 1), power = 10 ** Math.floor(Math.log10(rough));
-  return power * steps.find((step) => step * power >= rough * 0.999);
-}
 function niceTimeStep(span, most) {
   const steps = [1, 2, 5, 10, 15, 20, 30, 60, 120, 300, 600, 1200, 1800, 3600];
   return steps.find((step) => step >= span / most) || niceStep(span, most);
@@ -132,6 +127,3 @@ function drawWindow(root, x, area) {
 }
 
 const upFrom0 = (values, area) => valueScale(0, Math.max(...values, 1) * 1.12, area.bottom, area.top, 5);
-
-/** Returns a function that moves a line to the time shown. */
-const follow = (line, x) => (t) => fill(line, { x1: x(t), x2: x(t) }, []);

@@ -17,12 +17,16 @@ function pointer(root, width, event) {
   return { x: (event.clientX - box.left) * factor, y: (event.clientY - box.top) * factor };
 }
 
-/** Makes a chart over time show values under the pointer, and a click set the time. */
+/**
+ * Makes a chart over time show values under the pointer, and a click set the time. Returns a
+ * function that moves a line to the time shown.
+ */
 function followPointer(chart, area, x, read) {
   const { root, width } = chart;
   root.classList.add("timed");
   const line = svg("line", { class: "hover", y1: area.top, y2: area.bottom, visibility: "hidden" });
-  root.append(line);
+  const cursor = svg("line", { class: "cursor", y1: area.top, y2: area.bottom });
+  root.append(cursor, line);
   const timeAt = (event) => Math.min(Math.max(x.invert(pointer(root, width, event).x), 0), endS);
   root.addEventListener("pointermove", (event) => {
     const t = timeAt(event);
@@ -32,19 +36,13 @@ function followPointer(chart, area, x, read) {
   });
   root.addEventListener("pointerdown", (event) => clock.set(timeAt(event)));
   root.addEventListener("pointerleave", () => { line.setAttribute("visibility", "hidden"); hideTip(); });
+  return (t) => fill(cursor, { x1: x(t), x2: x(t) }, []);
 }
 
 /** Returns events near a time in words. */
 function eventsNear(events, t, within) {
   return events.filter((event) => Math.abs(event.t - t) <= within).slice(0, 4)
     .map((event) => event.kind === "advisory" ? `${event.severity} to ${event.who}: ${event.text}` : `${event.who} ${event.text}`);
-}
-
-/** Draws the line of the time shown. */
-function cursor(root, area) {
-  const line = svg("line", { class: "cursor", y1: area.top, y2: area.bottom });
-  root.append(line);
-  return line;
 }
 
 /** The time shown; `playing` and `rate` say how it passes. */

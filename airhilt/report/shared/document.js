@@ -3,7 +3,6 @@
 // The data of the page, and its elements. Text is only ever set as text.
 
 const given = JSON.parse(document.querySelector('script[type="application/json"]').textContent);
-const METRE_PER_NM = 1852, METRE_PER_FT = 0.3048;
 
 const byId = (id) => document.getElementById(id);
 const SVG = byId("namespace").namespaceURI;

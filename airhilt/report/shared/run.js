@@ -18,7 +18,6 @@ const CATEGORIES = {
   D: ["category D", "incorrect presence on a runway, with no immediate consequence"],
 };
 const SEVERE = ["accident", "A", "B"];
-const SEVERITIES = ["INFO", "ADVISORY", "CAUTION", "WARNING"];
 /** Rank of CAUTION, from which on an advisory is spoken. */
 const SPOKEN = 2;
 /** Largest number of actors that each have a colour of their own. */

@@ -19,13 +19,6 @@ function stateAt(track, t) {
   };
 }
 
-/** Heading in radians; between two states it turns the shorter way. */
-function headingAt(track, t) {
-  const i = before(track.t, t), next = Math.min(i + 1, track.t.length - 1), from = track.heading_deg[i];
-  const turn = (track.heading_deg[next] - from + 540) % 360 - 180, span = track.t[next] - track.t[i];
-  return (from + (span > 0 ? turn * (t - track.t[i]) / span : 0)) * Math.PI / 180;
-}
-
 function phaseAt(track, t) {
   const phase = track.phases.findLast((candidate) => candidate.from <= t);
   return phase ? words(phase.what) : "";

@@ -2,6 +2,9 @@
 
 // Numbers, places and commands in words.
 
+const METRE_PER_NM = 1852, METRE_PER_FT = 0.3048;
+const SEVERITIES = ["INFO", "ADVISORY", "CAUTION", "WARNING"];
+
 const known = (value) => value !== null && value !== undefined;
 const minus = (text) => text.replace("-", "−");
 function fixed(value, digits) {

@@ -1,6 +1,7 @@
 // The advisories of the assistant, each with what it rests on.
 
 import { button, byId, html, svg, timeButton } from "./dom.js";
+import { FILLED } from "./pen.js";
 import { Rows, keepInView } from "./rows.js";
 import { capital, instruction, known, percent, seconds, words } from "./words.js";
 
@@ -12,7 +13,6 @@ const SHAPES = {
 };
 const MOST_LIVE = 200; // of a live run that are listed, the newest
 const MOST_ANNOUNCED = 3; // at once, the newest
-const FILLED = ["CAUTION", "WARNING"];
 
 /** The severity of an advisory, by shape, text and colour. */
 export const badge = (severity) =>

@@ -2,12 +2,51 @@
 // controller.
 
 import { byId } from "./dom.js";
-import { Instruments } from "./instruments.js";
 import { ModePanel } from "./mode_panel.js";
 import { NavigationDisplay } from "./navigation_display.js";
 import { PrimaryFlightDisplay } from "./primary_flight_display.js";
 import { Strips } from "./strips.js";
 import { spoken, tcasOf } from "./tcas.js";
+
+const PERIOD_MS = 200; // of the messages: five a second
+const TURNING = ["heading_deg", "track_deg"];
+
+/** The instruments of the own aircraft between two messages: what is drawn moves evenly. */
+class Instruments {
+  #before = null;
+  #newest = null;
+  #arrived = 0;
+
+  /** Forgets the aircraft of another seat. */
+  clear() {
+    this.#before = this.#newest = null;
+  }
+
+  /** Takes in a message. */
+  take(shown) {
+    this.#before = this.now() ?? shown;
+    this.#newest = shown;
+    this.#arrived = performance.now();
+  }
+
+  /** What the instruments show at this moment, null before the first message. */
+  now() {
+    if (!this.#newest) return null;
+    const part = Math.min((performance.now() - this.#arrived) / PERIOD_MS, 1),
+      shown = { ...this.#newest };
+    for (const [name, to] of Object.entries(this.#newest)) {
+      const from = this.#before[name];
+      if (typeof to !== "number" || typeof from !== "number") continue;
+      const change = TURNING.includes(name) ? ((to - from + 540) % 360) - 180 : to - from;
+      shown[name] = from + change * part;
+    }
+    for (const name of TURNING) shown[name] = (shown[name] + 360) % 360;
+    return shown;
+  }
+}
+
+/** Kinds of seats, by the categories of those who are at them. */
+const KINDS = { aircraft: "pilot", vehicle: "driver", unit: "controller" };
 
 export class Displays {
   #run;
@@ -21,14 +60,13 @@ export class Displays {
   #panel;
   #cameras;
 
-  /** `send(command, answers)` and `tell(text)` are those of the mode panel. */
-  constructor(run, clock, cameras, send, tell) {
+  constructor(run, clock, cameras, live) {
     this.#run = run;
     this.#clock = clock;
     this.#cameras = cameras;
     this.#nd = new NavigationDisplay(run, clock);
     this.#strips = new Strips(run, clock);
-    this.#panel = new ModePanel(send, tell);
+    this.#panel = new ModePanel(live);
     requestAnimationFrame(() => this.#draw());
   }
 
@@ -41,7 +79,7 @@ export class Displays {
       ["h", "cockpit: track", () => panel.focus("track")],
       ["a", "cockpit: altitude", () => panel.focus("altitude")],
       ["v", "cockpit: vertical speed", () => panel.focus("rate")],
-      ["g", "cockpit: go around", () => panel.goAround()],
+      ["g", "cockpit: go around", () => panel.press("go_around")],
       ["r", "cockpit: longer range", () => nd.step(1)],
       ["e", "cockpit: shorter range", () => nd.step(-1)],
       ["b", "brake, hold position, reject take-off", () => panel.brake(), ["pilot", "driver"]],
@@ -66,17 +104,12 @@ export class Displays {
 
   /** Shows the displays of a seat of its category, once that is known. */
   arrange() {
-    const category = this.#run.ownCategory ?? "";
+    const category = this.#run.ownCategory;
     this.#arranged = this.#run.airport;
-    document.body.dataset.seat =
-      { aircraft: "pilot", vehicle: "driver", unit: "controller" }[category] ?? "";
+    if (category) document.body.dataset.seat = KINDS[category];
+    else delete document.body.dataset.seat;
     this.#cameras.offer(!category ? undefined : category === "unit" ? null : this.#seat);
     this.#panel.offer(category, this.#run.airport);
-  }
-
-  /** Shows on the strips only calls on the frequencies that a function returns. */
-  hearOnly(heard) {
-    this.#strips.hearOnly(heard);
   }
 
   /** Forgets the former seat: strips with their notes, instruments, and what was not set yet. */

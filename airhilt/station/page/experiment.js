@@ -4,6 +4,7 @@
 import { byId, html } from "./dom.js";
 import { addressee, onThisHost } from "./neighbours.js";
 import { Questionnaire } from "./questionnaire.js";
+import { ask, found, lost, note } from "./server.js";
 import { connectTheme } from "./theme.js";
 
 const PERIOD_MS = 1000;
@@ -28,32 +29,14 @@ function turn() {
   };
 }
 
-async function ask(path, wish) {
-  const how =
-    wish === undefined
-      ? {}
-      : {
-          method: "POST",
-          headers: { "Content-Type": "application/json" },
-          body: JSON.stringify(wish),
-        };
-  const of = `${path}?participant=${encodeURIComponent(addressee())}`;
-  const answer = await fetch(of, how).catch(() => {
-    throw new Error("The experiment does not answer.");
+const askFor = (path, wish) =>
+  ask(`${path}?participant=${encodeURIComponent(addressee())}`, wish).catch((error) => {
+    throw error instanceof TypeError ? new Error("The experiment does not answer.") : error;
   });
-  const content = await answer.json();
-  if (!answer.ok) throw new Error(content.error ?? `the server answers ${answer.status}`);
-  return content;
-}
 
 // What is written is read aloud, so that only what has changed is written.
 function write(id, text) {
   if (byId(id).textContent !== text) byId(id).textContent = text;
-}
-
-function note(text) {
-  if (byId("notes").textContent !== text)
-    byId("notes").replaceChildren(...(text ? [html("p", {}, text)] : []));
 }
 
 const afterTrial = ({ trial, trials }) => `Questions after trial ${trial} of ${trials}`;
@@ -130,8 +113,7 @@ function showQuestions(key, questions) {
   draft = drafts.get(key);
   if (!draft) {
     const place = html("div", { class: "items" });
-    draft = { key, place, questionnaire: new Questionnaire(place) };
-    draft.questionnaire.begin(questions);
+    draft = { key, place, questionnaire: new Questionnaire(place, questions) };
     drafts.set(key, draft);
   }
   byId("items").replaceChildren(draft.place);
@@ -152,7 +134,7 @@ async function act(path, wish, taken = () => {}) {
   const isToBeShown = turn(),
     before = shown;
   try {
-    const state = await ask(path, wish);
+    const state = await askFor(path, wish);
     taken();
     if (!isToBeShown()) return;
     show(state);
@@ -178,17 +160,13 @@ function answer() {
 async function look() {
   const isToBeShown = turn();
   try {
-    const state = await ask("api/experiment");
+    const state = await askFor("api/experiment");
     if (!isToBeShown()) return;
     show(state);
-    if (byId("notes").dataset.lost) {
-      delete byId("notes").dataset.lost;
-      note("");
-    }
+    found();
   } catch (error) {
     if (!isToBeShown()) return;
-    byId("notes").dataset.lost = "true";
-    note(`${error.message.replace(/\.?$/, ".")} Please tell the experimenter.`);
+    lost(`${error.message.replace(/\.?$/, ".")} Please tell the experimenter.`);
   }
   document.body.dataset.ready = "true";
 }

@@ -18,18 +18,16 @@ export class GamepadButton {
       this.#isChoosing = !this.#isChoosing;
       this.#draw();
     });
-    window.addEventListener("gamepadconnected", () => this.#begin());
+    window.addEventListener("gamepadconnected", () => {
+      this.#draw();
+      if (!this.#isPolling) this.#poll();
+    });
     window.addEventListener("gamepaddisconnected", () => this.#draw());
     this.#draw();
   }
 
   get #pads() {
     return [...navigator.getGamepads()].filter((pad) => pad?.connected);
-  }
-
-  #begin() {
-    this.#draw();
-    if (!this.#isPolling) this.#poll();
   }
 
   /** Looks at the buttons with each picture, as browsers give no events of them. */

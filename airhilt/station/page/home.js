@@ -3,6 +3,7 @@
 import { button, byId, html } from "./dom.js";
 import { onThisHost } from "./neighbours.js";
 import { Rows } from "./rows.js";
+import { ask, found, lost, note } from "./server.js";
 import { connectTheme } from "./theme.js";
 import { whole } from "./words.js";
 
@@ -19,18 +20,6 @@ let scenarios = [],
   told = "";
 const chosen = new Set(),
   started = new Rows(byId("started"));
-
-/** Asks the server, and throws what it refuses in its words. */
-async function ask(path, wish) {
-  const headers = { "Content-Type": "application/json" },
-    how = wish && { method: "POST", headers, body: JSON.stringify(wish) },
-    answer = await fetch(path, how),
-    content = await answer.json();
-  if (!answer.ok) throw new Error(content.error ?? `the server answers ${answer.status}`);
-  return content;
-}
-
-const note = (text) => byId("notes").replaceChildren(...(text ? [html("p", {}, text)] : []));
 
 // --- a new run -----------------------------------------------------------------------------------
 
@@ -179,10 +168,10 @@ function recordedRow(run) {
 
 function showRecorded() {
   const wanted = byId("find").value.trim().toLowerCase(),
-    found = recorded.filter((run) => run.name.toLowerCase().includes(wanted)),
+    listed = recorded.filter((run) => run.name.toLowerCase().includes(wanted)),
     empty = recorded.length ? "No run has this in its name." : NOTHING_RECORDED,
     nothing = html("tr", {}, html("td", { colspan: 7, class: "dim" }, empty));
-  const rows = found.length ? found.map(recordedRow) : [nothing];
+  const rows = listed.length ? listed.map(recordedRow) : [nothing];
   byId("recorded").tBodies[0].replaceChildren(...rows);
 }
 
@@ -208,13 +197,9 @@ async function showRuns() {
 async function follow() {
   try {
     await showRuns();
-    if (byId("notes").dataset.lost) {
-      delete byId("notes").dataset.lost;
-      note("");
-    }
+    found();
   } catch {
-    byId("notes").dataset.lost = "true";
-    note(
+    lost(
       "The station does not answer. Runs that were started go on. Start `airhilt station` again.",
     );
   }

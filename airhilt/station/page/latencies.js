@@ -24,15 +24,12 @@ export class Latencies {
   #canvas = byId("latencies");
   #run;
   #clock;
-  #size = null;
+  #size;
 
   constructor(run, clock) {
     this.#run = run;
     this.#clock = clock;
-    onSize(this.#canvas, (pen, width, height) => {
-      this.#size = { pen, width, height };
-      this.draw();
-    });
+    this.#size = onSize(this.#canvas, () => this.draw());
     for (const name of ["profile", "latencies"])
       byId(`show-${name}`).addEventListener("click", () => this.#show(name));
   }
@@ -46,7 +43,7 @@ export class Latencies {
   }
 
   draw() {
-    if (!this.#size || this.#canvas.hidden) return;
+    if (!this.#size.pen || this.#canvas.hidden) return;
     const { pen, width, height } = this.#size,
       { t, live } = this.#clock,
       to = t + (live ? 0 : AHEAD_S),

@@ -44,6 +44,7 @@ export const sentence = (reason) => `${capital(reason).replace(/\.$/, "")}.`;
 
 export class Live {
   #run;
+  #wish;
   #clock;
   #panes;
   #socket = null;
@@ -61,7 +62,7 @@ export class Live {
 
   constructor(run, clock) {
     this.#run = run;
-    this.wish = new SeatWish(run.run);
+    this.#wish = new SeatWish(run.run);
     this.#clock = clock;
     this.#lag = new Lag(run);
   }
@@ -76,8 +77,7 @@ export class Live {
   /** Lets the pictures of a camera come. */
   watch(name) {
     this.#watched = name;
-    if (this.#socket?.readyState === WebSocket.OPEN)
-      this.#socket.send(JSON.stringify({ watch: name }));
+    this.send({ watch: name });
   }
 
   #open() {
@@ -116,7 +116,7 @@ export class Live {
       const isOld = event.code === OLD_PAGE || event.code === REPLACED;
       this.#warn(
         event.reason ||
-          (this.#panes.seat.own
+          (this.#run.own
             ? `Connection lost, trying again. ${this.#seatMeanwhile}`
             : "Connection lost, trying again."),
         isOld,
@@ -156,16 +156,19 @@ export class Live {
    * stands still.
    */
   #listen() {
-    const isOpen = this.#socket.readyState === WebSocket.OPEN,
+    const isOpen = this.#isOpen,
       isOpening = this.#socket.readyState === WebSocket.CONNECTING,
       silentMs = performance.now() - this.#heard;
     this.#isSilent = isOpen && !this.#run.isOver && silentMs > SILENT_MS;
     this.#lag.draw(isOpen && !this.#isSilent, this.#heard);
     if (this.#isSilent) {
       this.#panes.talk.lost();
-      this.#warn(this.#panes.seat.own ? `${SILENT}, ${SILENT_AT_SEAT}` : `${SILENT}.`);
+      this.#warn(this.#run.own ? `${SILENT}, ${SILENT_AT_SEAT}` : `${SILENT}.`);
     }
-    if (!this.#run.isOver && ((isOpen && silentMs > DEAD_MS) || (isOpening && silentMs > SILENT_MS))) {
+    if (
+      !this.#run.isOver &&
+      ((isOpen && silentMs > DEAD_MS) || (isOpening && silentMs > SILENT_MS))
+    ) {
       this.#lostAt ??= this.#heard;
       this.#open();
     }
@@ -190,9 +193,13 @@ export class Live {
     byId("link-text").textContent = ending(this.#run);
   }
 
+  get #isOpen() {
+    return this.#socket?.readyState === WebSocket.OPEN;
+  }
+
   /** True while the station can be reached. */
   get isThere() {
-    return this.#socket?.readyState === WebSocket.OPEN && !this.#isSilent;
+    return this.#isOpen && !this.#isSilent;
   }
 
   /**
@@ -208,43 +215,46 @@ export class Live {
 
   /** Takes a seat with the uses to which the person agrees. */
   sit(seat, uses) {
-    this.wish.sit(seat, uses);
+    this.#wish.set({ seat, uses });
     this.#sendWish();
   }
 
   /** Leaves the seat. */
   leave() {
-    this.wish.clear();
+    this.#wish.set({});
     this.do({ do: "leave" });
   }
 
   /** Agrees to these uses from now on. */
   agree(uses) {
-    this.wish.agree(uses);
+    this.#wish.set({ ...this.#wish, uses });
     this.do({ do: "agree", uses });
   }
 
   /** Listens to these frequencies in kHz from now on. */
   tune(khz) {
-    this.wish.tune(khz);
+    this.#wish.set({ ...this.#wish, tuned: khz });
     this.do({ do: "tune", frequencies_khz: khz });
   }
 
-  /** Does something, and shows why it is refused; what the wish has is sent again after a loss. */
-  do(act) {
+  /**
+   * Does something, and shows why it is refused, or what is given if the connection is lost: what
+   * the wish has is sent again.
+   */
+  do(act, lost = "") {
     this.act(act).then(
       (why) => why && this.refuse(why),
-      () => {},
+      () => lost && this.refuse(lost),
     );
   }
 
   #sendWish() {
-    const { seat, acts } = this.wish;
+    const { seat, acts } = this.#wish;
     if (!seat || this.#run.isOver) return;
     this.act(acts[0], seat).then(
       (why) => {
         if (!why) return;
-        this.wish.clear();
+        this.#wish.set({});
         this.refuse(why);
       },
       () => {},
@@ -254,18 +264,17 @@ export class Live {
 
   /** Sends a message; returns false if there is no connection. */
   send(message) {
-    const isOpen = this.#socket?.readyState === WebSocket.OPEN;
-    if (isOpen) this.#socket.send(JSON.stringify(message));
-    return isOpen;
+    if (this.#isOpen) this.#socket.send(JSON.stringify(message));
+    return this.#isOpen;
   }
 
   /** Sends sound of the microphone. */
   sendSound(buffer) {
-    if (this.#socket?.readyState === WebSocket.OPEN) this.#socket.send(buffer);
+    if (this.#isOpen) this.#socket.send(buffer);
   }
 
   /** Number of bytes that wait to be sent. */
-  unsent() {
+  get unsent() {
     return this.#socket?.bufferedAmount ?? 0;
   }
 
@@ -275,22 +284,20 @@ export class Live {
     if (forget) this.#forget(shown);
     if (seats) this.#takeSeats(seats);
     if (own) this.#takeOwn(own);
-    if (!changes) {
-      this.#takeTalk(message);
-      return;
-    }
-    const { plan, transcript, cameras, sounds } = this.#panes;
-    this.#seen = next;
-    const { pace, phase } = this.#run,
-      changed = this.#run.apply(changes),
+    const { plan, transcript, cameras, sounds, talk } = this.#panes,
+      { pace, phase } = this.#run,
+      changed = this.#run.apply(changes ?? []),
       has = (...kinds) => kinds.some((kind) => changed.has(kind));
-    this.#takeTalk(message);
+    talk.take(message);
+    // The frequencies of the seat are known from now on.
+    if (own?.some(([kind]) => kind === "seat")) transcript.redraw();
+    if (!changes) return;
+    this.#seen = next;
     for (const [kind, ...rest] of changes) {
       if (kind === "picture") cameras.add(...rest);
-      if (kind === "call" && this.#clock.following && !this.#panes.seat.own) sounds.add(rest[0]);
+      if (kind === "call" && this.#clock.following && !this.#run.own) sounds.add(rest[0]);
     }
-    if (has("call"))
-      this.#panes.seat.heard(changes.filter(([kind]) => kind === "call").map(([, call]) => call));
+    if (has("call")) this.#panes.seat.drawTasks();
     if (has("briefing")) plan.renew();
     if (has("state", "plot")) plan.keepFitted();
     if (has("call")) transcript.redraw();
@@ -323,19 +330,12 @@ export class Live {
     if (last) this.refuse(`Refused at ${seconds(last.t)}: ${last.text}`);
   }
 
-  #takeTalk(message) {
-    const { talk, transcript } = this.#panes;
-    talk.take(message);
-    const hasState = message.own?.some(([kind]) => kind === "seat");
-    if (hasState) transcript.redraw(); // The frequencies of the seat are known from now on.
-  }
-
   #takeSeats(seats) {
     const { seat, talk, transcript, advisories, plan } = this.#panes,
-      before = seat.own;
+      before = this.#run.own;
     seat.setSeats(seats);
-    talk.setSeat(seat.own);
-    if (seat.own === before) return;
+    talk.setSeat(this.#run.own);
+    if (this.#run.own === before) return;
     transcript.redraw();
     advisories.redraw();
     plan.fitFirst();

@@ -62,7 +62,7 @@ async function begin() {
   });
   const traffic = new Traffic(run, clock),
     transport = new Transport(run, clock);
-  const panes = [
+  const panes = {
     profile,
     latencies,
     marks,
@@ -72,7 +72,7 @@ async function begin() {
     cameras,
     sounds,
     transport,
-  ];
+  };
   noteReading(byId("calls"), byId("advisories"));
   connectTheme(() => {
     profile.redraw();
@@ -80,31 +80,19 @@ async function begin() {
     plan.redraw();
     marks.draw();
   });
-  clock.listen(() => panes.forEach((pane) => pane.draw()));
+  clock.listen(() => Object.values(panes).forEach((pane) => pane.draw()));
   clock.animate(() => plan.draw());
   const seat = live ? new Seat(run, live, clock, cameras) : null;
   const talk = live ? new Talk(run, live) : null;
-  if (live) for (const pane of [transcript, seat]) pane.hearOnly(() => talk.heard);
-  live?.connect({
-    plan,
-    profile,
-    marks,
-    transcript,
-    advisories,
-    traffic,
-    cameras,
-    sounds,
-    transport,
-    seat,
-    talk,
-  });
+  if (live) run.tuned = () => talk.heard;
+  live?.connect({ ...panes, plan, seat, talk });
   connectKeys([
     ...timeKeys(clock, transport),
     {
       names: ["m"],
       shown: ["M"],
       text: "sound off or on",
-      isUsed: () => !seat?.own, // a seat has its volume
+      isUsed: () => !run.own, // a seat has its volume
       act: () => sounds.mute(),
     },
     { names: ["f"], shown: ["F"], text: "all traffic in the plan", act: () => plan.fit("all") },

@@ -2,27 +2,23 @@
 // the loop.
 
 import { byId, colour } from "./dom.js";
-import { box, onSize, severityInk, shape } from "./pen.js";
+import { FILLED, box, onSize, severityInk, shape } from "./pen.js";
 
 const THUMB_PX = 8; // half the width of the slider's thumb, by which its ends are inside the strip
-const FILLED = ["WARNING", "CAUTION"];
 
 export class Marks {
   #run;
   #clock;
-  #size = null;
+  #size;
 
   constructor(run, clock) {
     this.#run = run;
     this.#clock = clock;
-    onSize(byId("marks"), (pen, width, height) => {
-      this.#size = { pen, width, height };
-      this.draw();
-    });
+    this.#size = onSize(byId("marks"), () => this.draw());
   }
 
   draw() {
-    if (!this.#size) return;
+    if (!this.#size.pen) return;
     const { pen, width, height } = this.#size,
       { loop, end } = this.#clock,
       x = (t) => THUMB_PX + (t / Math.max(end, 1e-9)) * (width - 2 * THUMB_PX);

@@ -20,7 +20,9 @@ const AUDIO = {
 };
 
 export class Microphone {
-  #link;
+  #live;
+  #frequency;
+  #delay;
   #state = null; // of the seat
   #node = null;
   #stream = null;
@@ -29,11 +31,13 @@ export class Microphone {
   #held = false;
 
   /**
-   * `link` has act(act), sendSound(buffer), unsent(), isThere(), frequency(), and delay(event), the
-   * time since an event in s.
+   * `frequency()` returns that on which is spoken, in kHz; `delay(event)` the time since an event,
+   * in s.
    */
-  constructor(link) {
-    this.#link = link;
+  constructor(live, frequency, delay) {
+    this.#live = live;
+    this.#frequency = frequency;
+    this.#delay = delay;
     const button = byId("talk-button");
     button.addEventListener("pointerdown", (event) => {
       if (event.button === 0) {
@@ -70,7 +74,9 @@ export class Microphone {
     else if (!state.uses.includes("voice"))
       this.#tell("To speak, choose beside the seat that your voice may be used.");
     else
-      this.#tell(state.is_recognised ? "" : "No recogniser takes part: only people understand you.");
+      this.#tell(
+        state.is_recognised ? "" : "No recogniser takes part: only people understand you.",
+      );
   }
 
   get #mayOpen() {
@@ -79,7 +85,8 @@ export class Microphone {
 
   /** Closes the microphone, also if it opens now, and tells why. */
   shut(why) {
-    this.#end();
+    this.#opening = null;
+    this.#close();
     this.#tell(why);
   }
 
@@ -89,15 +96,10 @@ export class Microphone {
     this.#tell(why);
   }
 
-  #end() {
-    this.#opening = null;
-    this.#close();
-  }
-
   /** Begins to transmit. */
   press(event) {
     if (this.#held || !this.#node) return;
-    if (!this.#link.isThere()) {
+    if (!this.#live.isThere) {
       this.#tell("Nobody hears you: the connection is lost.");
       return;
     }
@@ -105,10 +107,10 @@ export class Microphone {
     this.#held = true;
     const press = {
       do: "press",
-      frequency_khz: this.#link.frequency(),
-      delay_s: this.#link.delay(event),
+      frequency_khz: this.#frequency(),
+      delay_s: this.#delay(event),
     };
-    this.#link.act(press).then(
+    this.#live.act(press).then(
       (why) => why && this.cut(why),
       () => {},
     );
@@ -128,12 +130,7 @@ export class Microphone {
     const { tagName, type } = event.target,
       isTyping =
         tagName === "SELECT" || tagName === "SUMMARY" || (tagName === "INPUT" && type === "text");
-    if (
-      event.key !== " " ||
-      !this.#mayOpen ||
-      isTyping ||
-      document.querySelector("dialog[open]")
-    )
+    if (event.key !== " " || !this.#mayOpen || isTyping || document.querySelector("dialog[open]"))
       return;
     event.preventDefault();
     event.stopPropagation();
@@ -177,7 +174,9 @@ export class Microphone {
     this.#stream = stream; // It can be closed from now on.
     stream
       .getTracks()[0]
-      .addEventListener("ended", () => this.shut("The microphone is gone. Type what you want to say."));
+      .addEventListener("ended", () =>
+        this.shut("The microphone is gone. Type what you want to say."),
+      );
     try {
       const { context, source } = connected(stream);
       this.#context = context;
@@ -195,11 +194,11 @@ export class Microphone {
   #take({ pcm, level, isOver }) {
     if (level !== undefined) byId("talk-level").value = level;
     if (pcm && !this.#node) return; // It was closed meanwhile.
-    if (pcm && this.#link.unsent() > MOST_UNSENT_BYTES) {
+    if (pcm && this.#live.unsent > MOST_UNSENT_BYTES) {
       this.release();
       this.#tell("Your call was cut: the connection is too slow.");
-    } else if (pcm) this.#link.sendSound(pcm);
-    if (isOver) this.#link.act({ do: "release" }).catch(() => {});
+    } else if (pcm) this.#live.sendSound(pcm);
+    if (isOver) this.#live.act({ do: "release" }).catch(() => {});
   }
 
   #close() {

@@ -1,8 +1,10 @@
-// The mode panel: what autopilot and guidance are to do. A field sets its value with Enter.
+// The mode panel: what autopilot and guidance are to do. A field sets its value with Enter. Each
+// command that calls have for the person has a button, which gives it.
 
 import { button, byId, html } from "./dom.js";
-import { Offers } from "./offers.js";
-import { feet, known } from "./words.js";
+import { identsOf } from "./model.js";
+import { Rows } from "./rows.js";
+import { capital, feet, instruction, known } from "./words.js";
 
 const LEAST_CHANGE_FT = 100; // of altitude, for which a vertical speed can be set
 // What a field sets: its name, its unit, the least and the greatest value, and its command.
@@ -49,22 +51,31 @@ const AT_ONCE = [
 const NAMES_IN_VEHICLE = { hold_position: "Brake, hold position", continue: "Drive on" };
 const OF_VEHICLES = ["hold_position", "continue"];
 
+/** Returns a command in words; a track as the instruments show it, magnetic where that is known. */
+function inWords(command, isVehicle, variation) {
+  const points = command.action === "land" ? { via: command.via.length } : {};
+  if (command.action === "route") points.route = command.route.length;
+  if (command.action === "track" && known(variation))
+    points.track_deg = (command.track_deg - variation + 360) % 360;
+  return capital(instruction({ ...command, ...points }, isVehicle));
+}
+
+/** Says what came of a command. */
+function tell(text) {
+  byId("panel-state").textContent = text;
+}
+
 export class ModePanel {
-  #send;
-  #tell;
+  #live;
   #isVehicle = false;
-  #offers = new Offers((text, command) => this.#give(text, command));
+  #offers = []; // that are open, the oldest first
+  #rows = new Rows(byId("offers"));
   // Magnetic variation in degrees, positive east; altitude and selected altitude in ft. Null: it
   // is not known.
   #shown = { variation: null, altitude: null, selected: null };
 
-  /**
-   * `send(command, { heard, lost })` gives a command to the own aircraft, and calls one of the two
-   * once it is known whether the station has heard it; `tell(text)` says what came of it.
-   */
-  constructor(send, tell) {
-    this.#send = send;
-    this.#tell = tell;
+  constructor(live) {
+    this.#live = live;
     byId("panel-values").replaceChildren(...Object.keys(FIELDS).map((id) => this.#field(id)));
     const runway = html("select", { id: "panel-runway", "aria-label": "Runway" });
     byId("panel-runways").replaceChildren(
@@ -77,9 +88,7 @@ export class ModePanel {
 
   /** Offers what an aircraft or a vehicle can do, and the runways of the airport. */
   offer(category, airport) {
-    const idents = (airport?.runways ?? []).flatMap((runway) =>
-        runway.ends.map((end) => end.ident),
-      ),
+    const idents = identsOf(airport),
       isVehicle = category === "vehicle";
     byId("panel-title").textContent = isVehicle ? "Vehicle" : "Mode panel";
     byId("panel-values").hidden = isVehicle;
@@ -113,12 +122,25 @@ export class ModePanel {
 
   /** Takes in which commands calls have for the person, and have no more. */
   takeOffers(offers) {
-    this.#offers.take(offers);
+    this.#offers = offers;
     this.#drawOffers();
   }
 
   #drawOffers() {
-    this.#offers.draw({ isVehicle: this.#isVehicle, variation: this.#shown.variation });
+    this.#rows.show(
+      this.#offers.map((offer) => ({
+        ...offer,
+        text: inWords(offer.command, this.#isVehicle, this.#shown.variation),
+      })),
+      (offer) => offer.number,
+      ({ text, command }) =>
+        html(
+          "li",
+          {},
+          html("span", { class: "dim" }, "When it is time: "),
+          button(text, () => this.#give(text, command)),
+        ),
+    );
   }
 
   /** A take-off is rejected where there is no approach to break off. */
@@ -132,8 +154,7 @@ export class ModePanel {
   clear() {
     Object.assign(this.#shown, { altitude: null, selected: null });
     for (const id of Object.keys(FIELDS)) byId(`panel-${id}`).value = "";
-    this.#offers.clear();
-    this.#drawOffers();
+    this.takeOffers([]);
   }
 
   /** Puts the cursor into the field of speed, track or altitude. */
@@ -143,11 +164,7 @@ export class ModePanel {
 
   /** Rejects a take-off, or stops elsewhere on the ground. */
   brake() {
-    this.#press(this.#action("cancel_takeoff").hidden ? "hold_position" : "cancel_takeoff");
-  }
-
-  goAround() {
-    this.#press("go_around");
+    this.press(this.#action("cancel_takeoff").hidden ? "hold_position" : "cancel_takeoff");
   }
 
   #action(name) {
@@ -155,19 +172,19 @@ export class ModePanel {
   }
 
   /** Presses a button, if it is shown. */
-  #press(name) {
+  press(name) {
     if (!this.#action(name).hidden) this.#action(name).click();
   }
 
   #give(text, command) {
-    this.#tell("");
-    this.#send(command, {
-      heard: () => this.#tell(`Set: ${text}.`),
-      lost: (wasSent) =>
-        this.#tell(
+    tell("");
+    this.#live.act({ do: "fly", command }).then(
+      (why) => (why ? this.#live.refuse(why) : tell(`Set: ${text}.`)),
+      ({ wasSent }) =>
+        tell(
           `Not set: the connection is lost.${wasSent ? ` The station may have heard it: ${text}.` : ""}`,
         ),
-    });
+    );
   }
 
   #atOnce(name, action) {
@@ -217,13 +234,13 @@ export class ModePanel {
       value = Number(input.value),
       { altitude, selected } = this.#shown;
     if (input.value.trim() === "" || !(value >= least && value <= most)) {
-      this.#tell(`${name}: expected ${least} to ${most} ${unit}.`);
+      tell(`${name}: expected ${least} to ${most} ${unit}.`);
       return;
     }
     let target = "";
     if (id === "rate") {
       if (selected === null || Math.abs(selected - altitude) < LEAST_CHANGE_FT) {
-        this.#tell(`${name}: set another altitude first.`);
+        tell(`${name}: set another altitude first.`);
         return;
       }
       target = `, ${selected > altitude ? "up" : "down"} to ${feet(selected)}`;

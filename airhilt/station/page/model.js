@@ -2,12 +2,10 @@
 // events.
 
 import { keepNewest } from "./bounds.js";
-import { personMoments } from "./person.js";
 import { RadarPlots } from "./radar_plots.js";
-import { at, before } from "./series.js";
-import { instruction, known, words } from "./words.js";
+import { at, before, headingAt } from "./series.js";
+import { METRE_PER_NM, SEVERITIES, instruction, known, words } from "./words.js";
 
-export const METRE_PER_NM = 1852;
 const COLOURS = 8;
 const MOST_LATENCIES = 4000; // bars of a live run that are kept: some ten minutes
 const LONGEST_INTERVAL_S = 12; // between two reports of an actor: a turn of a surveillance radar
@@ -25,7 +23,10 @@ const MOST_PHASES = 500; // of an actor of a live run, and of its times on the g
 // Of a live run that are kept, the newest.
 const MOST_ROWS = { calls: 1000, events: 2000, advisories: 1000, spoken: 200 };
 const CONTROLLER = "ATC"; // as recipient of advisories
-export const SEVERITIES = ["INFO", "ADVISORY", "CAUTION", "WARNING"];
+
+/** Returns the identifiers of the ends of all runways; none without an airport. */
+export const identsOf = (airport) =>
+  (airport?.runways ?? []).flatMap(({ ends }) => ends.map(({ ident }) => ident));
 
 /** The track of one actor. */
 export class Track {
@@ -68,8 +69,9 @@ export class Track {
       east,
       north,
       speed,
+      knots: (speed * 3600) / METRE_PER_NM,
       course,
-      heading: this.heading_deg ? this.#heading(now) : course,
+      heading: this.heading_deg ? headingAt(this, now) : course,
       altitude: at(this.t, this.altitude_ft, now),
       rate: this.verticalRate(now),
       onGround: this.on_ground.some(([down, up]) => down <= now && now <= up),
@@ -93,15 +95,6 @@ export class Track {
       from = Math.max(to - RATE_SPAN_S, this.first),
       climbed = at(this.t, this.altitude_ft, to) - at(this.t, this.altitude_ft, from);
     return to > from ? (climbed / (to - from)) * 60 : 0;
-  }
-
-  #heading(t) {
-    const i = before(this.t, t),
-      next = Math.min(i + 1, this.t.length - 1),
-      from = this.heading_deg[i];
-    const turn = ((this.heading_deg[next] - from + 540) % 360) - 180,
-      span = this.t[next] - this.t[i];
-    return ((from + (span > 0 ? (turn * (t - this.t[i])) / span : 0)) * Math.PI) / 180;
   }
 }
 
@@ -203,17 +196,24 @@ function put(rows, row, isSame) {
   else rows[i] = row;
 }
 
-/** Bounds of no place at all. */
-const nowhere = () => ({ east: [Infinity, -Infinity], north: [Infinity, -Infinity] });
+/** Bounds of no place at all, in m. */
+export const NOWHERE = { east: [Infinity, -Infinity], north: [Infinity, -Infinity] };
+
+/** Returns the bounds that hold a place as well. */
+export const widened = ({ east, north }, place) => ({
+  east: [Math.min(east[0], place[0]), Math.max(east[1], place[0])],
+  north: [Math.min(north[0], place[1]), Math.max(north[1], place[1])],
+});
 
 /** A run as the page shows it. */
 export class Run {
   #callsigns = new Map(); // by the addresses under which actors were known first
   #active = { t: null, rows: [] };
-  #advised = 0; // changes so far of the advisories that are seen
+  advised = 0; // changes so far of the advisories that are seen
   #moments = null; // until somebody asks for them
   ownCategory = null; // of the seat: "unit", "aircraft" or "vehicle"; null until it is known
   #own = null; // the seat of the person at this page
+  tuned = () => null; // returns the frequencies in kHz that are listened to here; null: all
   plots = new RadarPlots();
   #actors; // that have had a track so far
 
@@ -228,15 +228,9 @@ export class Run {
     // Seconds before and after an instant over which its speed is a mean.
     this.span = given.airport ? 1 : 4;
     this.title = given.scenario.title || given.scenario.name;
-    this.bounds = nowhere();
-    for (const track of this.tracks)
-      track.east.forEach((east, i) => this.#widen(east, track.north[i]));
-  }
-
-  #widen(east, north) {
-    const { bounds } = this;
-    bounds.east = [Math.min(bounds.east[0], east), Math.max(bounds.east[1], east)];
-    bounds.north = [Math.min(bounds.north[0], north), Math.max(bounds.north[1], north)];
+    this.bounds = this.tracks
+      .flatMap(({ east, north }) => east.map((metres, i) => [metres, north[i]]))
+      .reduce(widened, NOWHERE);
   }
 
   /** Forgets what was seen of a live run: another seat sees something else. */
@@ -244,9 +238,9 @@ export class Run {
     for (const name of ["tracks", "cameras", "latencies", ...Object.keys(MOST_ROWS)])
       this[name] = [];
     this.plots = new RadarPlots();
-    this.bounds = nowhere();
+    this.bounds = NOWHERE;
     this.#callsigns.clear();
-    this.#advised += 1;
+    this.advised += 1;
     this.#moments = null;
     this.#actors = 0;
   }
@@ -276,7 +270,7 @@ export class Run {
     for (const [name, most] of Object.entries(MOST_ROWS))
       if (this[name].length > 1.2 * most) this[name].splice(0, this[name].length - most);
     if (changed.has("call") || changed.has("event")) this.#moments = null;
-    if (["advisory", "name", "briefing"].some((kind) => changed.has(kind))) this.#advised += 1;
+    if (["advisory", "name", "briefing"].some((kind) => changed.has(kind))) this.advised += 1;
     return changed;
   }
 
@@ -291,7 +285,7 @@ export class Run {
     state: (...state) => this.#addState(state),
     plot: (plot) => {
       this.plots.add(plot, this.tracks);
-      this.#widen(plot.east, plot.north);
+      this.bounds = widened(this.bounds, [plot.east, plot.north]);
     },
     name: (address, callsign) => this.#rename(address, callsign),
     call: (call) => put(this.calls, call, (one) => one.id === call.id),
@@ -332,7 +326,7 @@ export class Run {
     track.add(state);
     if (!known) this.plots.explain(track);
     this.now = Math.max(this.now ?? 0, state[0]);
-    this.#widen(state[1], state[2]);
+    this.bounds = widened(this.bounds, [state[1], state[2]]);
     return isNew;
   }
 
@@ -363,10 +357,16 @@ export class Run {
     return this.#own;
   }
 
+  /** True if a call is on a frequency that is listened to here. */
+  hears(call) {
+    const heard = this.tuned();
+    return !heard || heard.includes(call.frequency_khz);
+  }
+
   set own(seat) {
     if (seat !== this.#own) this.ownCategory = null;
     this.#own = seat;
-    this.#advised += 1;
+    this.advised += 1;
   }
 
   /** Texts of an advisory that are seen here. */
@@ -402,18 +402,13 @@ export class Run {
    * found once for each time.
    */
   activeAdvisories(t) {
-    if (this.#active.t === t && this.#active.advised === this.#advised) return this.#active.rows;
+    if (this.#active.t === t && this.#active.advised === this.advised) return this.#active.rows;
     const newest = new Map();
     for (const row of this.advisories)
       if (row.t <= t && this.textsOf(row).length) newest.set(`${row.equipment}/${row.id}`, row);
     const rows = [...newest.values()].filter((row) => row.active);
-    this.#active = { t, advised: this.#advised, rows };
+    this.#active = { t, advised: this.advised, rows };
     return rows;
-  }
-
-  /** A number that changes with the advisories that are seen. */
-  get advised() {
-    return this.#advised;
   }
 
   /** Horizontal and vertical distance of the pair at a time, null without a pair. */
@@ -510,4 +505,37 @@ function commandOf(text) {
   } catch {
     return text;
   }
+}
+
+function ofReaction({ seat, reaction }) {
+  const about = [reaction.severity, words(reaction.advised ?? "")]
+      .filter((part) => part)
+      .join(", "),
+    began = reaction.counted_from === "seen" ? reaction.t_seen_s : reaction.t_heard_s;
+  return [
+    { t: reaction.t_seen_s, text: `${seat} sees ${about}` },
+    { t: reaction.t_heard_s, text: `${seat} hears ${about}` },
+    {
+      t: known(reaction.reaction_time_s) && known(began) ? began + reaction.reaction_time_s : null,
+      text: `${seat} reacts to ${about}: ${words(reaction.first_action ?? "")}`,
+    },
+  ];
+}
+
+function ofRating({ seat, rating }) {
+  return known(rating.rating)
+    ? {
+        t: rating.t_s + rating.answered_after_s,
+        text: `${seat} answers: workload ${rating.rating}`,
+      }
+    : { t: rating.t_s, text: `${seat} does not answer for the workload` };
+}
+
+/** The moments of people that a summary has; none in a run that goes on. */
+function personMoments(people = []) {
+  const found = people.flatMap(({ seat, reactions, workload }) => [
+    ...reactions.flatMap((reaction) => ofReaction({ seat, reaction })),
+    ...(workload?.isa ?? []).map((rating) => ofRating({ seat, rating })),
+  ]);
+  return found.filter(({ t }) => known(t)).map((moment) => ({ ...moment, kind: "person" }));
 }

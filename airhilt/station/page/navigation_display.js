@@ -3,10 +3,9 @@
 
 import { byId, html } from "./dom.js";
 import { boxesOff, firstFree } from "./labels.js";
-import { METRE_PER_NM, SEVERITIES } from "./model.js";
 import { box, circle, label, line, onSize, shape } from "./pen.js";
 import { INK } from "./primary_flight_display.js";
-import { whole } from "./words.js";
+import { METRE_PER_NM, SEVERITIES, whole } from "./words.js";
 
 const RANGES_NM = [1, 2.5, 5, 10, 20, 40, 80];
 const NEAR_NM = 6,
@@ -18,19 +17,16 @@ const CLIMBS_FPM = 500; // from which an arrow tells that traffic climbs or desc
 
 export class NavigationDisplay {
   #canvas = byId("nd");
+  #size = onSize(this.#canvas, () => {}); // It is drawn with each frame.
   #range = byId("nd-range");
   #run;
   #clock;
-  #size = null;
 
   constructor(run, clock) {
     this.#run = run;
     this.#clock = clock;
     const options = RANGES_NM.map((nm) => html("option", { value: nm }, `${nm} NM`));
     this.#range.replaceChildren(...options);
-    onSize(this.#canvas, (pen, width, height) => {
-      this.#size = { pen, width, height };
-    });
   }
 
   /** Shows the range that one begins with: short at an airport. */
@@ -49,7 +45,7 @@ export class NavigationDisplay {
    * TCAS tells, or null.
    */
   draw(callsign, shown, tcas) {
-    if (!this.#size) return;
+    if (!this.#size.pen) return;
     const { pen, width, height } = this.#size,
       track = this.#run.track(callsign);
     box(pen, INK.black, 0, 0, width, height);

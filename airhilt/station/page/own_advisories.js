@@ -5,9 +5,8 @@ import { badge, basisOf } from "./advisories.js";
 import { keepNewest } from "./bounds.js";
 import { byId, html } from "./dom.js";
 import { identity } from "./identity.js";
-import { SEVERITIES } from "./model.js";
 import { Rows } from "./rows.js";
-import { capital, instruction, known, seconds } from "./words.js";
+import { SEVERITIES, capital, instruction, known, seconds } from "./words.js";
 
 const MOST_SHOWN = 10; // at a time, those that began last
 const MOST_TOLD = 1000; // reports that are not made again, and alerts that do not sound again
@@ -17,7 +16,7 @@ export class OwnAdvisories {
   #tell;
   #warn;
   // Least severity that the assistant speaks; null: it speaks none; undefined: not known yet.
-  #spokenFrom = undefined;
+  spokenFrom = undefined;
   #shown = new Map(); // the newest text of each advisory in force
   #told = new Set();
   #sounded = new Set(); // what was audible, and is not to sound again
@@ -31,11 +30,6 @@ export class OwnAdvisories {
     this.#run = run;
     this.#tell = tell;
     this.#warn = warn;
-  }
-
-  /** Takes in the least severity that the assistant speaks; null: it has no voice. */
-  setSpoken(severity) {
-    this.#spokenFrom = severity;
   }
 
   /** Takes in an advisory, as the run publishes it. */
@@ -70,13 +64,13 @@ export class OwnAdvisories {
   /** Forgets everything: whoever has the seat next is another person. */
   clear() {
     for (const kept of [this.#shown, this.#told, this.#sounded]) kept.clear();
-    this.#spokenFrom = undefined;
+    this.spokenFrom = undefined;
     this.#draw();
   }
 
   #isSpoken({ severity }) {
-    if (this.#spokenFrom === undefined) return true;
-    const from = SEVERITIES.indexOf(this.#spokenFrom);
+    if (this.spokenFrom === undefined) return true;
+    const from = SEVERITIES.indexOf(this.spokenFrom);
     return from >= 0 && SEVERITIES.indexOf(severity) >= from;
   }
 

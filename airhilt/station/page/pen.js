@@ -5,16 +5,18 @@ import { colour } from "./dom.js";
 export const FONT = '12px system-ui, -apple-system, "Segoe UI", Roboto, "DejaVu Sans", sans-serif';
 export const BOLD = `600 ${FONT}`;
 export const FONT_SMALL = FONT.replace("12px", "11px");
+/** Severities whose symbols are filled. */
+export const FILLED = ["CAUTION", "WARNING"];
 const SEVERITY_INKS = { WARNING: "--bad", CAUTION: "--warn", ADVISORY: "--accent" };
 
 /** Returns the colour of a severity on the page. */
 export const severityInk = (severity) => colour(SEVERITY_INKS[severity] ?? "--dim");
 
 /**
- * Calls a function with the drawing context, width and height of a canvas whenever its size
- * changes.
+ * Keeps the drawing context, width and height of a canvas in an object, which it returns, and calls
+ * a function whenever they change, with true for the first time. Until then the pen is null.
  */
-export function onSize(canvas, call) {
+export function onSize(canvas, changed, size = { pen: null, width: 0, height: 0 }) {
   const resized = () => {
     const factor = devicePixelRatio || 1,
       { width, height } = canvas.getBoundingClientRect();
@@ -22,10 +24,13 @@ export function onSize(canvas, call) {
     canvas.width = Math.round(width * factor);
     canvas.height = Math.round(height * factor);
     const pen = canvas.getContext("2d");
+    const isFirst = !size.pen;
     pen.setTransform(factor, 0, 0, factor, 0, 0);
-    call(pen, width, height);
+    Object.assign(size, { pen, width, height });
+    changed(isFirst);
   };
   new ResizeObserver(resized).observe(canvas);
+  return size;
 }
 
 /** Returns a copy of what a canvas shows. */

@@ -1,9 +1,9 @@
 // Phrases for the situation, that can be chosen instead of typed.
 
 import { button, byId, html } from "./dom.js";
-import { METRE_PER_NM } from "./model.js";
+import { identsOf } from "./model.js";
+import { METRE_PER_FT, METRE_PER_NM } from "./words.js";
 
-const METRE_PER_FOOT = 0.3048;
 const PERIOD_MS = 3000;
 
 export class Phrases {
@@ -16,8 +16,8 @@ export class Phrases {
   constructor(run) {
     this.#run = run;
     for (const id of ["phrase-to", "phrase-runway"])
-      byId(id).addEventListener("change", () => this.#renew());
-    setInterval(() => this.#renew(), PERIOD_MS);
+      byId(id).addEventListener("change", () => this.renew());
+    setInterval(() => this.renew(), PERIOD_MS);
   }
 
   /** Takes in the own seat, null for none, and the phraseology of the run. */
@@ -31,19 +31,14 @@ export class Phrases {
       this.#asked += 1; // What comes yet is for the former seat.
     }
     this.#told = "";
-    this.#renew();
+    this.renew();
   }
 
   /** Offers what can be said to an actor. */
   address(callsign) {
     if (![...byId("phrase-to").options].some(({ value }) => value === callsign)) return;
     byId("phrase-to").value = callsign;
-    this.#renew();
-  }
-
-  /** Offers a readback at once when a call has come. */
-  heard() {
-    this.#renew();
+    this.renew();
   }
 
   get #isUnit() {
@@ -84,7 +79,7 @@ export class Phrases {
   /** Where an actor is seen from the airport: its reference point is the centre of the plan. */
   #fromAirport({ altitude, east, north }, { elevation_m }) {
     return {
-      height_ft: Math.round((altitude - elevation_m / METRE_PER_FOOT) / 100) * 100,
+      height_ft: Math.round((altitude - elevation_m / METRE_PER_FT) / 100) * 100,
       distance_nm: Math.round(Math.hypot(east, north) / METRE_PER_NM),
     };
   }
@@ -97,12 +92,11 @@ export class Phrases {
     return call?.transcripts.at(-1)?.text;
   }
 
-  async #renew() {
+  /** Offers what can be said now, such as a readback when a call has come. */
+  async renew() {
     if (!this.#run.ownCategory || !this.#run.categories) return;
-    const idents = (this.#run.airport?.runways ?? []).flatMap((runway) =>
-      runway.ends.map((end) => end.ident),
-    );
-    const spoken = Object.keys(this.#run.categories).filter((name) => name !== this.#own);
+    const idents = identsOf(this.#run.airport),
+      spoken = Object.keys(this.#run.categories).filter((name) => name !== this.#own);
     this.#offer("phrase-to", spoken);
     this.#offer("phrase-runway", idents);
     byId("phrase-to-label").hidden = !this.#isUnit;

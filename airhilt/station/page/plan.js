@@ -1,6 +1,7 @@
 // The plan: what is drawn on it, in which order, and how one moves on it.
 
 import { byId, colour, html } from "./dom.js";
+import { NOWHERE, widened } from "./model.js";
 import { box, copyOf, onSize } from "./pen.js";
 import { drawCamera } from "./plan_camera.js";
 import { drawAirport } from "./plan_map.js";
@@ -8,7 +9,7 @@ import { drawPlots, inWords } from "./plan_radar.js";
 import { drawRings, drawScale } from "./plan_ranges.js";
 import { drawActor, drawBlocks, drawTracks } from "./plan_traffic.js";
 import { PlanView, ROOM } from "./plan_view.js";
-import { whole } from "./words.js";
+import { known, whole } from "./words.js";
 
 const LEADERS_S = [0, 10, 30, 60, 120];
 const MOST_NAMED = 30; // actors in words
@@ -42,12 +43,11 @@ export class Plan {
     this.#clock = clock;
     this.#views();
     this.#controls();
-    onSize(this.#canvas, (pen, width, height) => {
-      const isFirst = !this.#view.pen;
-      this.#view.resize(pen, width, height);
+    const resized = (isFirst) => {
       if (isFirst || this.#fitted) this.fit(this.#fitted ?? "all");
       else this.redraw();
-    });
+    };
+    onSize(this.#canvas, resized, this.#view);
   }
 
   /**
@@ -173,27 +173,17 @@ export class Plan {
   }
 
   #boundsOf(name) {
-    const points = name === "conflict" ? this.#closest() : this.#field(),
-      nowhere = [Infinity, -Infinity],
-      known = name === "all" ? this.#run.bounds : { east: nowhere, north: nowhere };
-    const range = (i, begin) =>
-      points.reduce(
-        ([low, high], point) => [Math.min(low, point[i]), Math.max(high, point[i])],
-        begin,
-      );
-    const [east, north] = [range(0, known.east), range(1, known.north)];
-    return east[0] <= east[1] ? { east, north } : { east: [-1e4, 1e4], north: [-1e4, 1e4] };
-  }
-
-  #field() {
-    return this.#run.airport ? this.#run.airport.runways.flatMap((runway) => runway.pavement) : [];
+    const { airport, bounds } = this.#run,
+      field = (airport?.runways ?? []).flatMap((runway) => runway.pavement),
+      points = name === "conflict" ? this.#closest() : field,
+      found = points.reduce(widened, name === "all" ? bounds : NOWHERE);
+    return found.east[0] <= found.east[1] ? found : { east: [-1e4, 1e4], north: [-1e4, 1e4] };
   }
 
   #closest() {
     const t = this.#run.summary?.closest_approach?.t_s,
       pair = (this.#run.pair ?? []).map((name) => this.#run.track(name));
-    if (t === undefined || t === null || pair.length < 2 || pair.some((track) => !track))
-      return null;
+    if (!known(t) || pair.length < 2 || pair.some((track) => !track)) return null;
     return pair.flatMap((track) =>
       [-20, 0, 20].map((shift) =>
         track.place(Math.min(Math.max(t + shift, track.first), track.last)),

@@ -1,9 +1,8 @@
 // Ranges on the plan: rings about a place, and a bar that says how long a distance is.
 
 import { colour } from "./dom.js";
-import { METRE_PER_NM } from "./model.js";
 import { FONT_SMALL, circle, line, write } from "./pen.js";
-import { fixed, metres } from "./words.js";
+import { METRE_PER_NM, fixed, metres } from "./words.js";
 
 const RINGS_NM = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20, 50, 100, 200];
 const BARS = [0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100, 200, 500, 1000]; // m or NM

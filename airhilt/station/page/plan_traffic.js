@@ -2,9 +2,7 @@
 
 import { colour } from "./dom.js";
 import { freeBox, level } from "./labels.js";
-import { METRE_PER_NM } from "./model.js";
 import { BOLD, FONT, line, path, severityInk, shape, write } from "./pen.js";
-import { symbolOf } from "./symbols.js";
 import { whole } from "./words.js";
 
 const HISTORY_DOTS = 8;
@@ -15,6 +13,40 @@ const CLIMBS_FPM = 200;
 // Corners of the shape about an actor, its turn, and its half width in pixels, by severity.
 const AROUND = { WARNING: [4, Math.PI / 4, 20], CAUTION: [3, -Math.PI / 2, 25] };
 const CIRCLE = [40, 0, 20];
+
+// Outlines of actors, nose up: places right and back of the middle, in half lengths.
+
+/** Returns an outline of which the right half is given, from the front to the back. */
+const mirrored = (half) => [...half, ...half.toReversed().map(([right, back]) => [-right, back])];
+
+const AIRCRAFT = mirrored([
+  [0, -1],
+  [0.12, -0.7],
+  [0.12, -0.25],
+  [1, 0.2],
+  [1, 0.36],
+  [0.12, 0.14],
+  [0.08, 0.66],
+  [0.4, 0.86],
+  [0.4, 1],
+  [0, 0.9],
+]);
+const VEHICLE = mirrored([
+  [0.3, -1],
+  [0.6, -0.5],
+  [0.6, 1],
+]);
+const ANIMAL = mirrored([
+  [0, -0.9],
+  [0.9, 0],
+  [0, 0.9],
+]);
+
+/** Returns the outline of a category of actors, and its least half length in pixels. */
+function symbolOf(category) {
+  const outline = { vehicle: VEHICLE, wildlife: ANIMAL }[category] ?? AIRCRAFT;
+  return { outline, least: outline === AIRCRAFT ? 10 : 6 };
+}
 
 /** Draws the track of each actor, as far as it is known. */
 export function drawTracks(view, tracks) {
@@ -121,7 +153,7 @@ export function drawBlocks(view, run, states, t, names) {
 
 /** Returns the lines of a data block. */
 function linesOf(track, state, severity) {
-  const knots = whole((state.speed * 3600) / METRE_PER_NM),
+  const knots = whole(state.knots),
     ink = colour("--ink");
   const second = state.ended
     ? "ended"

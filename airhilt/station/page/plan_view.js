@@ -11,11 +11,6 @@ export class PlanView {
   scale = 0.01; // pixels a metre
   #centre = [0, 0];
 
-  /** Takes in the size of the canvas. */
-  resize(pen, width, height) {
-    Object.assign(this, { pen, width, height });
-  }
-
   /** Returns where a place, metres east and north, is on the canvas. */
   pixel([east, north]) {
     return [

@@ -54,16 +54,9 @@ const climbScale = (fpm) =>
     : 0.5 + Math.min(Math.abs(fpm) - 1000, 3000) / 6000);
 
 export class PrimaryFlightDisplay {
-  #size = null;
+  #size = onSize(byId("pfd"), () => this.draw(this.#shown, this.#tcas));
   #shown = null;
   #tcas = null;
-
-  constructor() {
-    onSize(byId("pfd"), (pen, width, height) => {
-      this.#size = { pen, width, height };
-      this.draw(this.#shown, this.#tcas);
-    });
-  }
 
   /**
    * Draws what the instruments show, and what TCAS tells; null: nothing is known, nothing is told.
@@ -71,7 +64,7 @@ export class PrimaryFlightDisplay {
   draw(shown, tcas) {
     this.#shown = shown;
     this.#tcas = tcas;
-    if (!this.#size) return;
+    if (!this.#size.pen) return;
     const { pen, width, height } = this.#size;
     box(pen, INK.black, 0, 0, width, height);
     if (!shown) {

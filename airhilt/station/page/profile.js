@@ -2,14 +2,8 @@
 
 import { byId, colour } from "./dom.js";
 import { FONT_SMALL, box, copyOf, line, onSize, write } from "./pen.js";
+import { niceStep } from "./series.js";
 import { seconds, whole } from "./words.js";
-
-/** Returns a round step that gives at most `most` ticks. */
-export function niceStep(range, most) {
-  const rough = Math.max(range, 1e-9) / most,
-    power = 10 ** Math.floor(Math.log10(rough));
-  return [1, 2, 5, 10].map((factor) => factor * power).find((step) => step >= rough);
-}
 
 const LEAST_TICK_S = 0.1;
 
@@ -38,7 +32,7 @@ export class Profile {
   #canvas = byId("profile");
   #run;
   #clock;
-  #size = null;
+  #size;
   #picture = null;
 
   constructor(run, clock) {
@@ -55,10 +49,7 @@ export class Profile {
     this.#canvas.addEventListener("pointermove", (event) => {
       if (event.buttons & 1) seek(event);
     });
-    onSize(this.#canvas, (pen, width, height) => {
-      this.#size = { pen, width, height };
-      this.redraw();
-    });
+    this.#size = onSize(this.#canvas, () => this.redraw());
   }
 
   get #area() {
@@ -77,7 +68,7 @@ export class Profile {
   }
 
   draw() {
-    if (!this.#size) return;
+    if (!this.#size.pen) return;
     const { pen, width, height } = this.#size,
       { top, bottom, right } = this.#area,
       x = Math.min(this.#x(this.#clock.t), right); // the lines are a little older than the time

@@ -5,37 +5,21 @@ import { html } from "./dom.js";
 const MOST_BUTTONS = 11; // steps of a scale that are buttons; one with more is a slider
 
 export class Questionnaire {
-  #place;
-  #items = [];
-  #name = "";
-  #answers = {};
+  #items;
+  answers = {}; // by the names of the items
 
-  /** `place` is the element in which the questions are shown. */
-  constructor(place) {
-    this.#place = place;
-  }
-
-  /** Shows all items of a questionnaire as not answered. */
-  begin({ name, items }) {
-    this.#name = name;
+  /** Shows all items as not answered; `place` is the element in which they are. */
+  constructor(place, { name, items }) {
+    this.name = name;
     this.#items = items;
-    this.#answers = {};
-    this.#place.replaceChildren(...items.map((item) => this.#row(item)));
-  }
-
-  get name() {
-    return this.#name;
+    place.replaceChildren(...items.map((item) => this.#row(item)));
   }
 
   /** Names, on the page, of the items that nobody has answered yet. */
   get missing() {
     return this.#items
-      .filter(({ name }) => !(name in this.#answers))
+      .filter(({ name }) => !(name in this.answers))
       .map(({ title, question }) => title ?? question);
-  }
-
-  get answers() {
-    return { ...this.#answers };
   }
 
   #row(item) {
@@ -57,7 +41,7 @@ export class Questionnaire {
     });
     for (const event of ["input", "click"])
       input.addEventListener(event, () => {
-        this.#answers[name] = Number(input.value);
+        this.answers[name] = Number(input.value);
         input.classList.remove("untouched");
         input.removeAttribute("aria-valuetext");
       });
@@ -99,7 +83,7 @@ export class Questionnaire {
   #button(name, answer) {
     const input = html("input", { type: "radio", name, value: answer });
     input.addEventListener("change", () => {
-      this.#answers[name] = answer;
+      this.answers[name] = answer;
     });
     return html("label", {}, input, ` ${answer}`);
   }

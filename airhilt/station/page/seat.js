@@ -1,7 +1,7 @@
 // The seat of a person: task cards, words for the radio, and the displays of the seat.
 
 import { Displays } from "./displays.js";
-import { byId, html } from "./dom.js";
+import { button, byId, html } from "./dom.js";
 import { addressee } from "./neighbours.js";
 import { Rows } from "./rows.js";
 import { bearing, feet, known, percent, seconds, whole, words } from "./words.js";
@@ -23,7 +23,6 @@ const consequence = (isRecorded) =>
 export class Seat {
   #run;
   #live;
-  #own = null;
   #tasks = [];
   #notice = null; // the last one, as it was shown
   #seats = {};
@@ -44,27 +43,15 @@ export class Seat {
       ),
     );
     byId("seat-name").addEventListener("change", () => this.#hint());
-    this.#displays = new Displays(
-      run,
-      clock,
-      cameras,
-      (command, { heard, lost }) =>
-        live.act({ do: "fly", command }).then(
-          (why) => (why ? this.refuse(why) : heard?.()),
-          ({ wasSent }) => lost(wasSent),
-        ),
-      (text) => {
-        byId("panel-state").textContent = text;
-      },
-    );
+    this.#displays = new Displays(run, clock, cameras, live);
     byId("seat-form").addEventListener("submit", (event) => {
       event.preventDefault();
       if (!live.isThere) this.refuse("Not done: the connection is lost.");
-      else if (this.#own) live.leave();
+      else if (this.#run.own) live.leave();
       else live.sit(byId("seat-name").value, USES[byId("seat-uses").value]);
     });
     byId("seat-uses").addEventListener("change", (event) => {
-      if (this.#own) live.agree(USES[event.target.value]);
+      if (this.#run.own) live.agree(USES[event.target.value]);
     });
     byId("say").addEventListener("submit", (event) => {
       event.preventDefault();
@@ -78,35 +65,30 @@ export class Seat {
     return this.#displays.keys;
   }
 
-  /** Shows on the displays only calls on the frequencies that a function returns. */
-  hearOnly(heard) {
-    this.#displays.hearOnly(heard);
-  }
-
   /** Takes in which seats are free, taken or one's own. */
   setSeats(seats) {
-    const before = this.#own;
+    const before = this.#run.own;
     this.#seats = seats;
-    this.#own = Object.keys(seats).find((name) => seats[name].is === "yours") ?? null;
-    this.#run.own = this.#own;
-    byId("seat-take").textContent = this.#own ? "Leave the seat" : "Take the seat";
-    byId("seat-name").disabled = Boolean(this.#own);
-    if (this.#own) byId("seat-name").value = this.#own;
+    const own = Object.keys(seats).find((name) => seats[name].is === "yours") ?? null;
+    this.#run.own = own;
+    byId("seat-take").textContent = own ? "Leave the seat" : "Take the seat";
+    byId("seat-name").disabled = Boolean(own);
+    if (own) byId("seat-name").value = own;
     else if (before) byId("seat-uses").value = ""; // Who has it next chooses anew.
-    if (this.#own !== before) this.refuse("");
+    if (own !== before) this.refuse("");
     this.#hint();
-    byId("say").hidden = !this.#own || this.#run.isOver;
-    this.#displays.setSeat(this.#own);
+    byId("say").hidden = !own || this.#run.isOver;
+    this.#displays.setSeat(own);
     // Nobody at a seat goes back in time.
-    if (this.#own && !this.#clock.following) this.#clock.follow();
-    this.#drawTasks();
+    if (own && !this.#clock.following) this.#clock.follow();
+    this.drawTasks();
   }
 
   /** Shows before a seat is taken what it is for, and what becomes of what is said there. */
   #hint() {
     const name = byId("seat-name").value,
       taken = Object.keys(this.#seats).filter((one) => this.#seats[one].is === "taken");
-    byId("seat-hint").textContent = this.#own
+    byId("seat-hint").textContent = this.#run.own
       ? ""
       : [
           ...taken.map((one) => `${one} is taken. `),
@@ -114,10 +96,6 @@ export class Seat {
           LOGGED,
           consequence(this.#seats[name]?.recorded ?? true),
         ].join("");
-  }
-
-  get own() {
-    return this.#own;
   }
 
   /** Shows why something was not done. */
@@ -136,7 +114,7 @@ export class Seat {
     this.#displays.forget();
     byId("words").value = "";
     for (const id of ["instruments", "panel-state"]) byId(id).textContent = "";
-    this.#drawTasks();
+    this.drawTasks();
   }
 
   /** Takes in what only the person at the own seat sees. */
@@ -167,12 +145,7 @@ export class Seat {
       byId("panel-state").textContent = "";
     }
     this.#notice = JSON.stringify(notice);
-    this.#drawTasks();
-  }
-
-  /** Takes cards away once somebody has made their calls. */
-  heard() {
-    this.#drawTasks();
+    this.drawTasks();
   }
 
   #showInstruments(shown) {
@@ -191,23 +164,23 @@ export class Seat {
     byId("instruments").hidden = false;
   }
 
-  #drawTasks() {
+  /** Shows the cards of calls that nobody has made yet. */
+  drawTasks() {
     this.#rows.show(
-      this.#own
+      this.#run.own
         ? this.#tasks.filter(({ line }) => !this.#run.calls.some((call) => call.id === line))
         : [],
       (card) => card.line,
       (card) => this.#row(card),
     );
-    if (!this.#own) byId("instruments").hidden = true;
+    if (!this.#run.own) byId("instruments").hidden = true;
   }
 
   #row(card) {
-    const button = html("button", { type: "button" }, card.text);
-    button.addEventListener("click", () => {
+    const choose = () => {
       byId("words").value = card.text;
       byId("words").focus();
-    });
+    };
     return html(
       "li",
       {},
@@ -216,7 +189,7 @@ export class Seat {
         { class: "dim" },
         `Due since ${seconds(card.t)}${card.addressed ? `, to ${card.addressed}` : ""}: `,
       ),
-      button,
+      button(card.text, choose),
     );
   }
 

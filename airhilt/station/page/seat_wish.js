@@ -9,24 +9,11 @@ export class SeatWish {
   constructor(run) {
     this.#run = run;
     const kept = JSON.parse(sessionStorage.getItem(KEPT));
-    this.clear(kept?.run === run ? kept : {});
+    this.set(kept?.run === run ? kept : {});
   }
 
-  /** Wants a seat with these uses, and all of its frequencies. */
-  sit(seat, uses) {
-    this.clear({ seat, uses });
-  }
-
-  agree(uses) {
-    this.clear({ ...this, uses });
-  }
-
-  tune(tuned) {
-    this.clear({ ...this, tuned });
-  }
-
-  /** Wants nothing, or what is given; `tuned` null: all frequencies of the seat. */
-  clear({ seat = null, uses = [], tuned = null } = {}) {
+  /** Wants what is given, or nothing; `tuned` null: all frequencies of the seat. */
+  set({ seat = null, uses = [], tuned = null }) {
     Object.assign(this, { seat, uses, tuned });
     if (seat) sessionStorage.setItem(KEPT, JSON.stringify({ run: this.#run, seat, uses, tuned }));
     else sessionStorage.removeItem(KEPT);

@@ -3,7 +3,6 @@
 
 import { button, byId, html } from "./dom.js";
 import { level } from "./labels.js";
-import { METRE_PER_NM } from "./model.js";
 import { whole, words } from "./words.js";
 
 const PERIOD_MS = 500;
@@ -14,17 +13,11 @@ export class Strips {
   #clock;
   #strips = new Map();
   #drawn = 0;
-  #heard = () => null;
 
   constructor(run, clock) {
     this.#run = run;
     this.#clock = clock;
     this.#list.addEventListener("keydown", (event) => this.#key(event));
-  }
-
-  /** Shows only calls on the frequencies in kHz that a function returns; null: of all. */
-  hearOnly(heard) {
-    this.#heard = heard;
   }
 
   /** Adds strips of those who are new, and shows what is known of all. */
@@ -91,7 +84,7 @@ export class Strips {
       isThere = state && !state.ended && state.isThere,
       kind = this.#run.categories?.[callsign] ?? track?.category ?? "",
       severity = this.#run.severityOf(callsign, this.#clock.t) ?? "",
-      knots = isThere ? whole((state.speed * 3600) / METRE_PER_NM) : "",
+      knots = isThere ? whole(state.knots) : "",
       call = this.#lastCall(callsign);
     Object.assign(item.dataset, { kind, severity });
     type.textContent = [words(track?.type || kind), severity].filter((text) => text).join(" ");
@@ -105,10 +98,9 @@ export class Strips {
 
   /** The last call of this callsign that the recogniser has understood. */
   #lastCall(callsign) {
-    const heard = this.#heard();
     return this.#run.calls.findLast(
       (call) =>
-        (!heard || heard.includes(call.frequency_khz)) &&
+        this.#run.hears(call) &&
         call.from <= this.#clock.t &&
         (call.addressed === callsign ||
           call.speaker === callsign ||

@@ -23,7 +23,6 @@ export class Talk {
   #frequencies;
   #phrases;
   #workload;
-  #spokenFrom = null; // least severity that the assistant speaks
   #isPrepared = false; // what is known of the seat from its beginning has been shown
   #roundTrip = 0; // s
   #isBehind = false; // what comes was sent while the connection was lost
@@ -32,14 +31,11 @@ export class Talk {
   constructor(run, live) {
     this.#run = run;
     this.#live = live;
-    this.#microphone = new Microphone({
-      act: (act) => live.act(act),
-      sendSound: (buffer) => live.sendSound(buffer),
-      unsent: () => live.unsent(),
-      isThere: () => live.isThere,
-      frequency: () => this.#frequencies.transmit,
-      delay: (event) => this.#delay(event),
-    });
+    this.#microphone = new Microphone(
+      live,
+      () => this.#frequencies.transmit,
+      (event) => this.#delay(event),
+    );
     this.#loudspeaker = new Loudspeaker((id, after) =>
       live.do({ do: "hear", id, after_s: this.#afterArrival(after) }),
     );
@@ -53,11 +49,13 @@ export class Talk {
         }),
       (severity, url) => this.#loudspeaker.warn(severity, url),
     );
-    this.#pace = new RunPace(run, (factor) => this.#try({ do: "pace", factor }, "Not set"));
+    this.#pace = new RunPace(run, (factor) =>
+      live.do({ do: "pace", factor }, "Not set: the connection is lost."),
+    );
     this.#frequencies = new Frequencies((khz) => live.tune(khz));
     this.#phrases = new Phrases(run);
     this.#workload = new Workload(run.nasa_tlx, (answer) =>
-      this.#try({ do: "answer", ...answer }, "Not answered"),
+      live.do({ do: "answer", ...answer }, "Not answered: the connection is lost."),
     );
     this.#microphone.setState(null);
     byId("strips").addEventListener("focusin", ({ target }) =>
@@ -65,14 +63,6 @@ export class Talk {
     );
     byId("seat-take").addEventListener("click", () => this.#loudspeaker.begin());
     setInterval(() => live.send({ echo: performance.now() }), ECHO_MS);
-  }
-
-  /** Does something, and tells why it was not done. */
-  #try(act, not) {
-    this.#live.act(act).then(
-      (why) => why && this.#live.refuse(why),
-      () => this.#live.refuse(`${not}: the connection is lost.`),
-    );
   }
 
   /** Keys of a seat, for the list of keys. */
@@ -170,7 +160,7 @@ export class Talk {
     }
     const state = own?.find(([kind]) => kind === "seat")?.[1];
     if (state && this.#own) this.#takeState(state);
-    if (changes?.some(([kind]) => kind === "call")) this.#phrases.heard();
+    if (changes?.some(([kind]) => kind === "call")) this.#phrases.renew();
     if (sounds && this.#own) this.#frequencies.take(sounds);
     if (sounds && this.#own && !this.#isBehind)
       this.#loudspeaker.take(sounds, {
@@ -188,9 +178,8 @@ export class Talk {
     this.#pace.setState(state);
     this.#workload.take(isOver ? null : state.question, this.#run.now ?? 0);
     this.#frequencies.show(state.frequencies_khz, state.tuned_khz);
-    if (!this.#isPrepared || state.spoken_from !== this.#spokenFrom) {
-      this.#spokenFrom = state.spoken_from;
-      this.#advisories.setSpoken(state.spoken_from);
+    if (!this.#isPrepared || state.spoken_from !== this.#advisories.spokenFrom) {
+      this.#advisories.spokenFrom = state.spoken_from;
       this.#takeActive(); // What is in force and nobody speaks sounds now.
     }
     if (this.#isPrepared) return;

@@ -1,7 +1,6 @@
 // The actors as a table: the words for what the plan draws.
 
 import { byId, html, svg } from "./dom.js";
-import { METRE_PER_NM } from "./model.js";
 import { bearing, feet, whole, words } from "./words.js";
 
 export class Traffic {
@@ -52,8 +51,8 @@ export class Traffic {
 }
 
 /** Returns altitude, speed and heading. */
-const numbersOf = ({ onGround, altitude, speed, heading }) => [
+const numbersOf = ({ onGround, altitude, knots, heading }) => [
   onGround ? "ground" : feet(altitude),
-  `${whole((speed * 3600) / METRE_PER_NM)} kt`,
+  `${whole(knots)} kt`,
   bearing(((heading * 180) / Math.PI + 360) % 360),
 ];

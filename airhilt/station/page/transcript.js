@@ -17,7 +17,6 @@ export class Transcript {
   #items = [];
   #current = "";
   #shown = null; // the row that is kept in view
-  #tuned = () => null;
 
   constructor(run, clock) {
     this.#run = run;
@@ -30,17 +29,11 @@ export class Transcript {
     this.redraw();
   }
 
-  /** Shows only the calls on the frequencies in kHz that a function returns; null: all. */
-  hearOnly(tuned) {
-    this.#tuned = tuned;
-  }
-
   /** Shows the calls again, because there are new ones. */
   redraw() {
-    const heard = this.#tuned(),
-      calls = this.#run.calls
-        .filter((call) => !heard || heard.includes(call.frequency_khz))
-        .slice(this.#clock.live ? -MOST_LIVE : 0);
+    const calls = this.#run.calls
+      .filter((call) => this.#run.hears(call))
+      .slice(this.#clock.live ? -MOST_LIVE : 0);
     const several = new Set(calls.map((call) => call.frequency_khz)).size > 1;
     const empty = !this.#clock.live
       ? "Nobody says anything in this run."

@@ -2,8 +2,7 @@
 
 import { RATES } from "./clock.js";
 import { byId, html } from "./dom.js";
-import { feet, metres, miles, seconds } from "./words.js";
-import { METRE_PER_NM } from "./model.js";
+import { METRE_PER_NM, feet, metres, miles, seconds } from "./words.js";
 
 const PLAY = "M4 2l10 6-10 6z",
   PAUSE = "M3 2h4v12H3zM9 2h4v12H9z";

@@ -1,6 +1,6 @@
 // Questions about workload: ISA while the run goes on, NASA-TLX at its end.
 
-import { byId, html } from "./dom.js";
+import { button, byId } from "./dom.js";
 import { Questionnaire } from "./questionnaire.js";
 
 /** Ratings of the Instantaneous Self-Assessment (Tattersall & Foord 1996). */
@@ -12,22 +12,16 @@ export class Workload {
   #question = null;
   #timer = null;
   #nasaTlx;
-  #tlx = new Questionnaire(byId("tlx-items"));
+  #tlx = null; // what is asked, or was asked last
 
   /** `nasaTlx` is its questionnaire; `answer(answer)` gives an answer to the run. */
   constructor(nasaTlx, answer) {
     this.#nasaTlx = nasaTlx;
     this.#answer = answer;
     byId("isa-ratings").replaceChildren(
-      ...RATINGS.map((name, i) => {
-        const button = html(
-          "button",
-          { type: "button", title: `${name}: key ${i + 1}` },
-          `${i + 1} ${name}`,
-        );
-        button.addEventListener("click", () => this.rate(i + 1));
-        return button;
-      }),
+      ...RATINGS.map((name, i) =>
+        button(`${i + 1} ${name}`, () => this.rate(i + 1), { title: `${name}: key ${i + 1}` }),
+      ),
     );
     byId("tlx").addEventListener("submit", (event) => {
       event.preventDefault();
@@ -38,13 +32,16 @@ export class Workload {
   }
 
   /**
-   * Takes in the question that is open at the own seat, null for none; whoever has just taken the
-   * seat is not asked what is long ago.
+   * Takes in the question that is open at the own seat, null for none, as where the seat is another
+   * person's or the run is over; whoever has just taken the seat is not asked what is long ago.
    */
   take(question, now) {
     const before = this.#question;
     this.#question = question?.number ?? null;
-    if (!question) this.clear();
+    if (!question) {
+      this.#hideIsa();
+      byId("tlx-dialog").close();
+    }
     if (!question || question.number === before) return;
     if (question.scale === "isa" && (now - question.t) * 1000 > PATIENCE_MS) return;
     if (question.scale === "isa") {
@@ -53,7 +50,7 @@ export class Workload {
       this.#timer = setTimeout(() => this.#hideIsa(), PATIENCE_MS);
     } else {
       this.#hideIsa();
-      this.#tlx.begin(this.#nasaTlx);
+      this.#tlx = new Questionnaire(byId("tlx-items"), this.#nasaTlx);
       byId("tlx-state").textContent = "";
       if (!byId("tlx-dialog").open) byId("tlx-dialog").showModal();
     }
@@ -64,12 +61,6 @@ export class Workload {
     if (byId("isa").hidden) return;
     this.#answer({ question: this.#question, isa: rating });
     this.#hideIsa();
-  }
-
-  /** Takes the questions away: the seat is another person's, or the run is over. */
-  clear() {
-    this.#hideIsa();
-    byId("tlx-dialog").close();
   }
 
   #hideIsa() {
