@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,7 @@ from airhilt.scenario import Scenario
 from airhilt.scenario.models.radio import ReceiverRadio
 from seats import logged, spoken, tower, voice
 from shortened import shortened
+from stations import PretendedRun, seat_page
 
 
 @pytest.fixture(scope="session")
@@ -49,3 +51,10 @@ def noisy_seat(tmp_path_factory: pytest.TempPathFactory) -> Path:
     scenario = tower(10.0).model_copy(update={"radio": radio})
     logged(scenario, out, ["tower", "AAL123"], words, speech=True)
     return out
+
+
+@pytest.fixture
+def seat() -> Iterator[tuple[PretendedRun, str]]:
+    """A run that is only pretended, and the URL of its page."""
+    with seat_page() as served:
+        yield served

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
@@ -28,7 +27,7 @@ from microphone import (
     talk,
 )
 from seats import voice
-from stations import PATIENCE_S, PretendedRun, opened, seat_page, seats_given_back_at_once, sit
+from stations import PATIENCE_S, PretendedRun, opened, sit
 
 SAY_PLACE = "document.getElementById('say-button').getBoundingClientRect().y"
 ADVISORY = {
@@ -76,18 +75,6 @@ VOLUME = """(() => {
 BUSY = "document.getElementById('frequencies').innerText.includes('busy')"
 
 
-@pytest.fixture(scope="module")
-def served() -> Iterator[tuple[PretendedRun, str]]:
-    with seat_page() as served:
-        yield served
-
-
-@pytest.fixture
-def seat(served: tuple[PretendedRun, str]) -> Iterator[tuple[PretendedRun, str]]:
-    with seats_given_back_at_once(served[0]):
-        yield served
-
-
 @pytest.mark.browser
 def test_what_is_said_while_the_space_bar_is_held_comes_at_the_seat(
     seat: tuple[PretendedRun, str], tmp_path: Path
@@ -96,16 +83,15 @@ def test_what_is_said_while_the_space_bar_is_held_comes_at_the_seat(
     file = microphone_file(tmp_path / "said.wav", WORDS)
     with page_with_microphone(*playing(file)) as page:
         sit_down(page, url)
-        assert page.evaluate("document.activeElement.id") == "talk-button"
+        page.wait_for("document.activeElement.id === 'talk-button'")
         open_microphone(page)
         talk(page)
         pressed, pcm = run.call()
         page.key("keyDown", " ", 32)
-        page.wait_for(f"{BUTTON} === 'On the air'")
+        assert run.next().do == "press"
         run.seats.cut("TOWER", "Your call was cut after 60 s.")
         page.wait_for(f"{BUTTON} === 'Hold to talk'")  # Though the space bar is still held.
         page.key("keyUp", " ", 32)
-        run.call()
     assert 0.0 <= pressed.delay_s < 60.0
     said, expected = from_pcm(pcm), voice(WORDS)
     assert len(said) > len(expected) - SAMPLE_RATE_HZ // 5

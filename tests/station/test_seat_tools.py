@@ -5,7 +5,6 @@ from __future__ import annotations
 import asyncio
 import json
 import time
-from collections.abc import Iterator
 from pathlib import Path
 
 import httpx
@@ -59,12 +58,6 @@ GAMEPAD = """
     navigator.getGamepads = () => window.pads;
     window.dispatchEvent(new Event('gamepadconnected'));
 """
-
-
-@pytest.fixture
-def seat() -> Iterator[tuple[PretendedRun, str]]:
-    with seat_page() as served:
-        yield served
 
 
 def next_of(socket: ClientConnection, kind: str) -> list[list[object]]:

@@ -20,7 +20,6 @@ from urllib.parse import urlencode
 
 import httpx
 import psutil
-import pytest
 from cryptography import x509
 from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.hazmat.primitives.hashes import SHA256
@@ -47,7 +46,6 @@ from airhilt.messages import (
 )
 from airhilt.seats import Seats
 from airhilt.sim import Director, Virtual
-from airhilt.station import browsers as station_browsers
 from airhilt.station.address import Address
 from airhilt.station.app import live_app
 from airhilt.station.audiences import heard_by
@@ -61,8 +59,6 @@ from devtools import Page
 from seats import state_of
 
 PATIENCE_S = 60.0
-FREED_WITHIN_S = 10.0
-"""Time in which a seat is free whose page is closed, in s; it is not after a test that failed."""
 TOKEN = "0123456789abcdef0123456789abcdef"
 TOWER = state_of("TOWER", recipients=("TOWER", "ATC"), spoken_from=Severity.CAUTION)
 ADVISORY: dict[str, Any] = {
@@ -373,17 +369,6 @@ class PretendedClient:
     def close(self) -> None:
         """Let the hold end."""
         self._run.end_hold(self.holder)
-
-
-@contextmanager
-def seats_given_back_at_once(run: PretendedRun) -> Iterator[None]:
-    """Let nobody keep a seat who is gone, and wait at the end until all seats are free."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(station_browsers, "HOLD_S", 0.0)
-        yield
-        is_taken = dict.fromkeys(run.views.own, False)
-        while any(is_taken.values()) or not run.presence.empty():
-            is_taken |= [run.presence.get(timeout=FREED_WITHIN_S)]
 
 
 @contextmanager
