@@ -8,10 +8,10 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
+from airhilt.host.text import LONGEST_LINE, readable
 from airhilt.report.comparison.runs import RunComparison
 from airhilt.report.comparison.sweeps import SweepComparison
 from airhilt.report.comparison.words import measure_row, metric_row
-from airhilt.text import LONGEST_LINE, readable
 
 FILE_WIDTH = 120
 """Characters of a line where standard output is no terminal."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from airhilt.text import LONGEST_LINE, readable
+from airhilt.host.text import LONGEST_LINE, readable
 
 
 def echo(text: object, err: bool = False) -> None:

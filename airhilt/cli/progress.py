@@ -14,9 +14,9 @@ from rich.text import Text
 
 from airhilt.cli.output import counted
 from airhilt.cosim.observer import Observer, Snapshot
+from airhilt.host.text import LONGEST_LINE, readable
 from airhilt.messages import Advisory, Severity
 from airhilt.metrics.summary import RadioStatistics, Summary, VisionStatistics
-from airhilt.text import LONGEST_LINE, readable
 from airhilt.units import FOOT, NAUTICAL_MILE
 
 PLAIN_PERIOD_S = 5.0

@@ -13,9 +13,9 @@ from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, T
 from rich.text import Text
 
 from airhilt.cli.output import counted
+from airhilt.host.text import LONGEST_LINE, readable
 from airhilt.sweep.engine import SweepObserver
 from airhilt.sweep.outcome import Outcome
-from airhilt.text import LONGEST_LINE, readable
 
 LINE_PERIOD_S = 10.0
 """Time between two lines where standard error is no terminal, in s."""

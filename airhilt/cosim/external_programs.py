@@ -14,6 +14,7 @@ from airhilt.cosim.modalities import Modalities
 from airhilt.cosim.observer import Observer
 from airhilt.cosim.router import MessageRouter
 from airhilt.errors import WorkerError, first_problem
+from airhilt.host.text import readable
 from airhilt.messages import (
     UNREGISTERED,
     ActorCommand,
@@ -36,7 +37,6 @@ from airhilt.messages import (
 )
 from airhilt.seats import Seats
 from airhilt.sim import Director, RealTime, Virtual
-from airhilt.text import readable
 from airhilt.workers.pool import is_match, parse_output
 
 PAGE = "page"

@@ -6,9 +6,9 @@ from airhilt.cosim.events import EventPublisher
 from airhilt.cosim.observer import Observer
 from airhilt.cosim.router import MessageRouter
 from airhilt.errors import RunStopped
+from airhilt.host.text import readable
 from airhilt.messages import EventKind, Modality, ModalityState, Status
 from airhilt.sim import Director
-from airhilt.text import readable
 from airhilt.units import SECOND_NS
 
 

@@ -39,6 +39,7 @@ from airhilt.cosim.world_loop import WorldLoop
 from airhilt.errors import AirhiltError
 from airhilt.host.child_process import cpu_s
 from airhilt.host.memory import give_memory_back
+from airhilt.host.text import LONGEST_LINE, readable
 from airhilt.messages import WorkerDescription
 from airhilt.metrics.collector import Collector
 from airhilt.metrics.plans import Plans
@@ -56,7 +57,6 @@ from airhilt.sensors.radio.advisory_calls import AdvisoryChannel
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sensors.starting import start_sensors
 from airhilt.sim import Director, Pace, Priority, RealTime, StepRecord, Virtual, interruptible
-from airhilt.text import LONGEST_LINE, readable
 from airhilt.units import FOOT_PER_MINUTE, SECOND_NS, seconds_to_ns
 from airhilt.workers import Worker
 from airhilt.workers.pool import WorkerPool

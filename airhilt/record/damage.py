@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from airhilt.text import LONGEST_LINE, readable
+from airhilt.host.text import LONGEST_LINE, readable
 
 Notice = Callable[[str], None]
 """Tells a person one line."""

@@ -15,13 +15,13 @@ from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio, from_pcm
 from airhilt.audio.wav import write_wav_pieces
 from airhilt.errors import RunFolderError, SpeechError, first_problem
 from airhilt.host.files import replace_file
+from airhilt.host.text import LONGEST_LINE, readable
 from airhilt.messages import SpokenTruth, Transcript, Transmission
 from airhilt.quantities import LONGEST_RUN_S
 from airhilt.record.audio import MessageWithSound, audio_file, recorded_pcm
 from airhilt.record.damage import Notice, untold
 from airhilt.record.folder import RunFolder
 from airhilt.record.run import Run, open_run
-from airhilt.text import LONGEST_LINE, readable
 from airhilt.units import SECOND_NS
 
 SILENCE_SAMPLES = 10 * SAMPLE_RATE_HZ

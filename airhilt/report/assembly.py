@@ -13,8 +13,8 @@ from collections.abc import Mapping, Sequence
 from importlib import resources
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from airhilt.host.text import readable
 from airhilt.report.page_section import PageSection
-from airhilt.text import readable
 
 if TYPE_CHECKING:
     from jinja2 import Environment

@@ -16,6 +16,7 @@ from pydantic import ValidationError
 
 from airhilt.errors import AirhiltError, RunFolderError, first_line
 from airhilt.geodesy.relative_motion import horizontal_distance_m
+from airhilt.host.text import readable
 from airhilt.metrics.summary import ClosestApproach, Summary
 from airhilt.record import Logged, Run, RunFolder, RunInfo
 from airhilt.report.events import MOST_EVENTS, Events
@@ -31,7 +32,6 @@ from airhilt.report.tracks import (
 )
 from airhilt.report.unread import CANNOT_READ, UnreadMessages
 from airhilt.shapes.sizes import Size
-from airhilt.text import readable
 from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS
 from airhilt.world.flight import load_aircraft_type
 from airhilt.world.surface.kinds import load_kind

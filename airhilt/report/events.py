@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from airhilt.host.text import readable
 from airhilt.record import Logged, RunInfo
-from airhilt.text import readable
 from airhilt.units import SECOND_NS
 
 Json = dict[str, Any]

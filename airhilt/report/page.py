@@ -6,12 +6,12 @@ from pathlib import Path
 
 from airhilt.errors import RunFolderError
 from airhilt.host.files import replace_file
+from airhilt.host.text import readable
 from airhilt.record import Run, open_run
 from airhilt.record.damage import Notice, untold
 from airhilt.report.assembly import Assembly
 from airhilt.report.data import read_run
 from airhilt.report.sections import GuardedContent, load_sections
-from airhilt.text import readable
 
 SHARED = (
     "document",

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from airhilt.geodesy.wgs84 import Place, offset_m
+from airhilt.host.text import readable
 from airhilt.record import Logged
 from airhilt.report.intervals import Intervals, seconds
-from airhilt.text import readable
 from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, wrap_angle
 
 Json = dict[str, Any]

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from pydantic import ValidationError
 
 from airhilt.errors import first_problem
+from airhilt.host.text import readable
 from airhilt.record import Logged
-from airhilt.text import readable
 from airhilt.units import SECOND_NS
 
 CANNOT_READ = (

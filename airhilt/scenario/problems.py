@@ -15,7 +15,7 @@ from pydantic import BaseModel, ValidationError
 
 from airhilt.errors import ScenarioError
 from airhilt.host import library
-from airhilt.text import readable
+from airhilt.host.text import readable
 
 LONGEST_PATH = 100
 """Number of characters that an error shows of a path."""

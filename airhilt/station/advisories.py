@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from airhilt.host.text import readable
 from airhilt.messages import Advisory, EquipmentAlert, Evidence
 from airhilt.record import Logged, RunFolder
 from airhilt.report.sections import Content
-from airhilt.text import readable
 from airhilt.units import SECOND_NS
 
 if TYPE_CHECKING:

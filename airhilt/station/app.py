@@ -14,6 +14,7 @@ from fastapi.responses import FileResponse, JSONResponse
 from airhilt.audio.pcm import from_pcm
 from airhilt.audio.wav import encode_wav
 from airhilt.errors import AirhiltError
+from airhilt.host.text import LONGEST_LINE, readable
 from airhilt.station.browsers import Browsers
 from airhilt.station.debrief import Debrief
 from airhilt.station.page_files import media_type, page_files
@@ -21,7 +22,6 @@ from airhilt.station.phrases import Situation, offered
 from airhilt.station.pictures import jpeg
 from airhilt.station.questionnaires import NASA_TLX
 from airhilt.station.subscription import Subscription
-from airhilt.text import LONGEST_LINE, readable
 
 Identity = Annotated[str, Query(max_length=64)]
 """Name of an open page, which only it and the server know."""

@@ -16,6 +16,7 @@ from pydantic import ValidationError
 
 from airhilt.bus.seat_client import SeatClient
 from airhilt.errors import first_problem
+from airhilt.host.text import readable
 from airhilt.messages import LeaveSeat, PressToTalk, ReleaseToTalk, SayVoice, SeatAct, TakeSeat
 from airhilt.station.audiences import Audience
 from airhilt.station.changes import MOST_AT_ONCE, Changes
@@ -23,7 +24,6 @@ from airhilt.station.page_files import page_version
 from airhilt.station.page_messages import PageMessage
 from airhilt.station.refusals import Refusals
 from airhilt.station.seat_views import SeatViews
-from airhilt.text import readable
 
 PERIOD_S = 0.05
 """Time between two messages to a browser, in s."""

@@ -6,11 +6,11 @@ from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ
+from airhilt.host.text import readable
 from airhilt.messages import AdvisoryAudio, Transcript, Word
 from airhilt.metrics.calls import CallRecord, CallRecords, call_message
 from airhilt.record import Logged, RunFolder
 from airhilt.report.sections import Content
-from airhilt.text import readable
 from airhilt.units import SECOND_NS
 
 if TYPE_CHECKING:

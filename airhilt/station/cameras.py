@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from airhilt.host.text import readable
 from airhilt.messages import CameraFrame, CameraInfo, CameraTruth, CameraView, Detections
 from airhilt.record import Logged, RunFolder
 from airhilt.report.sections import Content
 from airhilt.report.tracks import Locate
-from airhilt.text import readable
 from airhilt.units import DEGREE, NAUTICAL_MILE, SECOND_NS
 
 if TYPE_CHECKING:

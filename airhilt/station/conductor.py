@@ -9,12 +9,12 @@ from collections.abc import Sequence
 from typing import Any
 
 from airhilt.errors import StationError
+from airhilt.host.text import readable
 from airhilt.options import options_of
 from airhilt.scenario import loading
 from airhilt.station.participant_progress import Progress
 from airhilt.station.questionnaires import Answers
 from airhilt.station.started_runs import PAGE_OF_THIS_MACHINE, StartedRuns
-from airhilt.text import readable
 
 
 class Conductor:

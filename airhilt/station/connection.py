@@ -14,9 +14,9 @@ from pydantic import ValidationError
 from airhilt.bus.access import Role
 from airhilt.bus.session import close_session, connect_client, find_run
 from airhilt.errors import StationError
+from airhilt.host.text import readable
 from airhilt.messages import Briefing, Clock, Message, Phase, SeatState
 from airhilt.scenario.seats import ROLES, without_roles
-from airhilt.text import readable
 
 T = TypeVar("T", bound=Message)
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import Any
 
 from airhilt.errors import StationError
+from airhilt.host.text import readable
 from airhilt.record import Run
 from airhilt.report.data import read_run
 from airhilt.report.sections import Content, GuardedContent, Section
 from airhilt.station import advisories, calls, cameras, latencies, redrawing, seat_sounds
 from airhilt.station.kept_pictures import kept_pictures
 from airhilt.station.sounds import Sounds
-from airhilt.text import readable
 
 Json = dict[str, Any]
 SHARED = (

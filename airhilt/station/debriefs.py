@@ -12,9 +12,9 @@ from pathlib import Path
 from typing import IO, Any
 
 from airhilt.errors import RunFolderError, StationError
+from airhilt.host.text import LONGEST_LINE, readable
 from airhilt.record import RunFolder
 from airhilt.station.started_runs import StartedRuns, is_address
-from airhilt.text import LONGEST_LINE, readable
 
 MOST_OPEN = 4
 """Largest number of debriefs; the one that was opened first is closed for the next."""

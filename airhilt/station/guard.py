@@ -11,9 +11,9 @@ from starlette.datastructures import Headers, MutableHeaders
 from starlette.responses import PlainTextResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from airhilt.host.text import readable
 from airhilt.station.address import Address
 from airhilt.station.refusals import Refusals
-from airhilt.text import readable
 
 COOKIE = "airhilt_token"
 POLICY = "; ".join(

@@ -8,12 +8,12 @@ from fastapi import FastAPI
 from pydantic import BaseModel, ConfigDict, Field
 
 from airhilt.errors import AirhiltError
+from airhilt.host.text import readable
 from airhilt.options import Options, options_of
 from airhilt.station.app import page_app, refuse_in_words
 from airhilt.station.debriefs import Debriefs
 from airhilt.station.scenario_choices import ScenarioChoices
 from airhilt.station.started_runs import StartedRuns
-from airhilt.text import readable
 
 OFFERED = (
     "seed", "seat", "assistant", "snr_db", "visibility_m", "cameras", "speech", "isa_minutes",

@@ -8,11 +8,11 @@ from pathlib import Path
 from PIL import Image
 
 from airhilt.host.files import read_inside
+from airhilt.host.text import readable
 from airhilt.record import Run
 from airhilt.record.pictures import PictureName
 from airhilt.record.run import result_problem
 from airhilt.station.pictures import encoded
-from airhilt.text import readable
 
 MOST = 12
 """Number of pictures that are read; a run keeps three of full size."""

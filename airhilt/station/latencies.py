@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from airhilt.host.text import readable
 from airhilt.messages import (
     AdsbReport,
     Advisory,
@@ -16,7 +17,6 @@ from airhilt.messages import (
 )
 from airhilt.record import Logged, RunFolder
 from airhilt.report.sections import Content
-from airhilt.text import readable
 from airhilt.units import SECOND_NS
 
 if TYPE_CHECKING:

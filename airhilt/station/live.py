@@ -10,6 +10,7 @@ from pydantic import ValidationError
 
 from airhilt.errors import AirhiltError, first_line, first_problem
 from airhilt.geodesy.wgs84 import Place
+from airhilt.host.text import readable
 from airhilt.messages import (
     ActorCommand,
     ActorTruth,
@@ -51,7 +52,6 @@ from airhilt.station.latencies import LatencyBars
 from airhilt.station.seat_views import SeatViews
 from airhilt.station.subscription import sound_name
 from airhilt.surveillance.radar import plot_place
-from airhilt.text import readable
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE, SECOND_NS
 
 Json = dict[str, Any]

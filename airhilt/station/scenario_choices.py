@@ -9,9 +9,9 @@ from typing import Any
 
 from airhilt.errors import ScenarioError, StationError
 from airhilt.host import library
+from airhilt.host.text import readable
 from airhilt.scenario import loading
 from airhilt.scenario.seats import possible_seats
-from airhilt.text import readable
 
 Json = dict[str, Any]
 MOST_FILES = 500

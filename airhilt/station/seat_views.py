@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
+from airhilt.host.text import readable
 from airhilt.messages import SeatState, key_chunk
 from airhilt.station.audiences import EVERYBODY, NOBODY, Audience
 from airhilt.station.changes import Newest
-from airhilt.text import readable
 from airhilt.units import SECOND_NS
 
 

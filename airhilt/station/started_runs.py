@@ -21,9 +21,9 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from airhilt.errors import StationError
 from airhilt.host.files import make_folder, open_inside, read_inside, replace_file
+from airhilt.host.text import LONGEST_LINE, readable
 from airhilt.options import Options, arguments_of
 from airhilt.scenario.seats import seats_of
-from airhilt.text import LONGEST_LINE, readable
 from airhilt.world.loading import load
 
 KEPT = ".station"

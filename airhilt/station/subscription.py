@@ -17,6 +17,7 @@ import zenoh
 from pydantic import ValidationError
 
 from airhilt.bus.seat_client import SeatClient
+from airhilt.host.text import readable
 from airhilt.messages import (
     ActorCommand,
     AdvisoryAudio,
@@ -32,7 +33,6 @@ from airhilt.station.audiences import Audience, audience_of, heard_by
 from airhilt.station.changes import Changes
 from airhilt.station.connection import RunConnection
 from airhilt.station.pictures import Picture
-from airhilt.text import readable
 
 SUBSCRIBED = (
     "clock", "briefing", "status/*", "adsb/*", "surface/*", "radar/**", "radio/*/tx", "asr/*",

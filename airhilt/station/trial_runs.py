@@ -9,11 +9,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from airhilt.errors import RunFolderError, first_line
+from airhilt.host.text import readable
 from airhilt.record import RunFolder
 from airhilt.scenario import loading
 from airhilt.scenario.seats import seats_of
 from airhilt.station.plan import Plan, Trial
-from airhilt.text import readable
 from airhilt.world.loading import load
 
 MOST_ATTEMPTS = 1000

@@ -11,8 +11,8 @@ import pytest
 from airhilt.cli.output import echo, echo_json
 from airhilt.cli.progress import ProgressLine
 from airhilt.cosim.observer import Snapshot
+from airhilt.host.text import LONGEST_LINE
 from airhilt.messages import Advisory, Evidence, Severity
-from airhilt.text import LONGEST_LINE
 
 HOSTILE = "\x1b[2J\x9b31m\u202e\u2028[/red][bold]"
 

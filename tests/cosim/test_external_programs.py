@@ -11,9 +11,9 @@ from airhilt.bus.access import PUBLISHED
 from airhilt.cosim.external_programs import HEARD, LIMITS, MOST_NOTICES, ExternalPrograms
 from airhilt.cosim.observer import Observer
 from airhilt.errors import WorkerError
+from airhilt.host.text import MOST_CHARACTERS
 from airhilt.seats import Seats
 from airhilt.sim import Director, Virtual
-from airhilt.text import MOST_CHARACTERS
 from seats import state_of
 
 

@@ -15,6 +15,7 @@ import pytest
 
 from airhilt.cosim.simulation import run
 from airhilt.errors import AirhiltError, RunFolderError
+from airhilt.host.text import readable
 from airhilt.messages import (
     ActorTruth,
     Advisory,
@@ -33,7 +34,6 @@ from airhilt.report.assembly import embeddable
 from airhilt.report.intervals import Intervals
 from airhilt.report.tracks import ThinnedStates
 from airhilt.scenario import Scenario
-from airhilt.text import readable
 from airhilt.units import SECOND_NS
 from report_pages import shown
 

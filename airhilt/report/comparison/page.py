@@ -7,6 +7,7 @@ from typing import Any
 
 from airhilt.errors import AirhiltError
 from airhilt.host.files import replace_file
+from airhilt.host.text import readable
 from airhilt.report.assembly import Assembly
 from airhilt.report.comparison import runs, sweeps
 from airhilt.report.comparison.runs import RunComparison
@@ -14,7 +15,6 @@ from airhilt.report.comparison.sweeps import MeasureDifference, SweepComparison
 from airhilt.report.comparison.words import measure_row, metric_row
 from airhilt.report.figures import COLOURS, DIM, MARKERS, Figures
 from airhilt.report.page_section import PageSection
-from airhilt.text import readable
 
 Json = dict[str, Any]
 

@@ -7,10 +7,10 @@ from dataclasses import asdict, dataclass
 from typing import Any, ClassVar
 
 from airhilt.errors import AirhiltError
+from airhilt.host.text import readable
 from airhilt.metrics.columns import Value, metric_columns, metrics_of
 from airhilt.record import Run, RunInfo
 from airhilt.report.data import RunData, read_run
-from airhilt.text import readable
 
 Json = dict[str, Any]
 

@@ -7,6 +7,7 @@ import os
 from pathlib import Path
 from typing import Any
 
+from airhilt.host.text import readable
 from airhilt.imaging.boxes import size_px
 from airhilt.imaging.matching import matches
 from airhilt.messages import CameraFrame, CameraInfo, CameraTruth, Detections, SightingTruth, Status
@@ -17,7 +18,6 @@ from airhilt.record.run import result_problem
 from airhilt.report.data import RunData
 from airhilt.report.intervals import BridgedIntervals
 from airhilt.report.sections import Content, Section
-from airhilt.text import readable
 from airhilt.units import SECOND_NS
 
 Json = dict[str, Any]

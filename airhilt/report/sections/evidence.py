@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
+from airhilt.host.text import readable
 from airhilt.messages import Advisory
 from airhilt.record import Logged, RunFolder
 from airhilt.report.data import RunData
 from airhilt.report.sections import Content, Section
-from airhilt.text import readable
 from airhilt.units import SECOND_NS
 
 Json = dict[str, Any]

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
+from airhilt.host.text import readable
 from airhilt.report.data import RunData
 from airhilt.report.sections import Content, Section
-from airhilt.text import readable
 
 Json = dict[str, Any]
 

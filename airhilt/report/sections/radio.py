@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ
+from airhilt.host.text import readable
 from airhilt.messages import AdvisoryAudio, SpokenTruth, Transcript
 from airhilt.metrics.calls import CallRecord, CallRecords, call_message
 from airhilt.metrics.words import align
@@ -12,7 +13,6 @@ from airhilt.record import Logged, RunFolder
 from airhilt.report.data import RunData
 from airhilt.report.sections import Content, Section
 from airhilt.report.sounds import Sounds
-from airhilt.text import readable
 from airhilt.units import SECOND_NS
 
 Json = dict[str, Any]

@@ -6,13 +6,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from airhilt.host.text import readable
 from airhilt.messages import RunwayTruth
 from airhilt.record import Logged, RunFolder
 from airhilt.report.data import RunData
 from airhilt.report.events import runway_name
 from airhilt.report.intervals import Interval, Intervals
 from airhilt.report.sections import Content, Section
-from airhilt.text import readable
 from airhilt.units import NAUTICAL_MILE, SECOND_NS
 
 Json = dict[str, Any]

@@ -9,6 +9,7 @@ from typing import Any
 
 from airhilt.errors import AirhiltError
 from airhilt.host.files import replace_file
+from airhilt.host.text import readable
 from airhilt.record.damage import Notice, untold
 from airhilt.record.sweep_folder import SweepFolder
 from airhilt.report.assembly import Assembly
@@ -16,7 +17,6 @@ from airhilt.report.figures import Figures
 from airhilt.report.page_section import cannot_be_shown
 from airhilt.report.sweeps.data import SweepData, read_sweep_data
 from airhilt.report.sweeps.sections import SweepSection, load_sections
-from airhilt.text import readable
 
 SHARED = ("document", "page", "words", "tables")
 """Scripts that all sections may use, in the order in which they build on each other."""

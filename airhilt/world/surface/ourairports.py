@@ -16,7 +16,7 @@ from airhilt.errors import ScenarioError
 from airhilt.geodesy.wgs84 import distance_and_azimuth
 from airhilt.host import library
 from airhilt.host.files import read_file
-from airhilt.text import readable
+from airhilt.host.text import readable
 from airhilt.units import FOOT
 from airhilt.world.surface.airport import Frequency, Role, Runway, RunwayThreshold
 

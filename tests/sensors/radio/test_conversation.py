@@ -195,6 +195,20 @@ def test_a_controller_who_checks_corrects_a_wrong_readback_and_the_crew_does_wha
     assert [command.altitude_ft for _, command, _ in world.done] == [33_000]
 
 
+def test_a_crew_that_took_the_call_of_another_one_does_not_do_it_once_it_is_said_again() -> None:
+    commands = [
+        {"actor": "AAL123", "delay_s": 60.0, "command": CLIMB},
+        {"actor": "DAL456", "delay_s": 60.0, "command": CLIMB},
+    ]
+    spoken = {**CLEARANCE, "commands": commands}
+    words = READBACK["text"].replace("American one two three", "Delta four five six")
+    taken = line("taken", 16, "DAL456", TOWER, words, answers="clearance")
+    for checks, who in ((True, ["AAL123"]), (False, ["AAL123", "DAL456"])):
+        world = World(spoken, taken, controller_checks_readbacks=checks).run()
+        assert world.said() == ["clearance", "taken", *["clearance.repeat-1"] * checks]
+        assert sorted({callsign for callsign, _, _ in world.done}) == who
+
+
 def test_a_controller_does_not_correct_what_another_one_has_said() -> None:
     """The crew tells the next unit wrongly what it was cleared to; that unit did not say it."""
     report = {**READBACK, "to": "Potomac Approach", "text": WRONG, "answers": "clearance"}

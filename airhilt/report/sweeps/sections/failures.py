@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
+from airhilt.host.text import readable
 from airhilt.report.figures import Figures
 from airhilt.report.sweeps.data import SweepData
 from airhilt.report.sweeps.sections import SweepSection
-from airhilt.text import readable
 
 MOST_KEYS = 4
 """Greatest number of runs that are named for one cause."""

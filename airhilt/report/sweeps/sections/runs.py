@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from airhilt.host.text import readable
 from airhilt.report.figures import Figures
 from airhilt.report.sweeps.data import BEFORE_PARAMETERS, SweepData
 from airhilt.report.sweeps.sections import SweepSection
-from airhilt.text import readable
 
 if TYPE_CHECKING:
     from pandas import Series

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from airhilt.text import LONGEST_LINE, MOST_CHARACTERS, readable
+from airhilt.host.text import LONGEST_LINE, MOST_CHARACTERS, readable
 
 
 @pytest.mark.parametrize(
