@@ -28,7 +28,7 @@ settings.register_profile("long", max_examples=20_000, deadline=None)
 settings.register_profile("new", deadline=None)
 settings.register_profile("repeatable", derandomize=True, deadline=None)
 settings.load_profile("repeatable")
-WHOLE_RUNS = ("bus", "cli", "cosim", "docs", "sweep")
+WHOLE_RUNS = ("station", "bus", "cli", "cosim", "docs", "sweep")
 """Folders of tests that take long each."""
 CORE = (
     "audio", "bus", "cosim", "geodesy", "host", "metrics", "phraseology", "record", "scenario",
