@@ -119,8 +119,12 @@ class ExternalPrograms:
         self._keeps_voices = keeps_voices
         self._is_strict = is_strict
         self._act_keys = frozenset(f"seat/{key_chunk(state.seat)}/do" for state in seats)
-        limits = dict.fromkeys((ACTS, *self._act_keys), ACTS_LIMIT)
-        self._intake = Intake({**LIMITS, ANSWERS: EVENTS_LIMIT, **limits}, self._dropping)
+        self._limits = {
+            **LIMITS,
+            ANSWERS: EVENTS_LIMIT,
+            **dict.fromkeys((ACTS, *self._act_keys), ACTS_LIMIT),
+        }
+        self._intake = Intake(self._limits, self._dropping)
         self._dropped: dict[str, int] = {}
 
     def serve(self, bus: Bus) -> None:
@@ -192,11 +196,8 @@ class ExternalPrograms:
 
     def _dropping(self, keys: str, cause: DropCause) -> None:
         """Tell of the first message of its kind that is dropped for this cause (any thread)."""
-        limit = LIMITS.get(keys, EVENTS_LIMIT)
-        text = (
-            f"messages on {keys} are dropped: {DROPPED[cause].format(limit=limit)}; summary.json "
-            "will say how many"
-        )
+        why = DROPPED[cause].format(limit=self._limits[keys])
+        text = f"messages on {keys} are dropped: {why}; summary.json will say how many"
         self._director.post(lambda: self.take_refused(keys, text))
 
     def _hear(self, key: str, data: bytes) -> None:

@@ -204,5 +204,7 @@ def test_a_flood_of_acts_is_refused_and_counted_and_others_are_heard(tmp_path: P
         person.close()
     summary = json.loads((out / "summary.json").read_text())
     assert summary["messages_dropped"]["seat/*/do: rate"] > 0
+    dropping = "messages on seat/*/do are dropped: more than 100 in a second"
+    assert any(dropping.encode() in one.data for one in log_of(out) if one.key == "truth/event")
     of_tower = [call["id"] for call in calls(log_of(out)) if call["speaker"] == TOWER]
     assert set(of_tower) <= {"landing"}  # The script has it if nobody has come by then.
