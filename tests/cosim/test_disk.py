@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -56,3 +58,18 @@ def test_a_disk_that_fills_up_stops_the_run_and_keeps_what_it_has(
     folder = RunFolder(tmp_path / "run")
     assert max(logged.t_ns for logged in read_log(folder.log_path)) > 12e9
     assert replay(folder.path).identical
+
+
+def test_a_run_that_is_killed_at_once_leaves_a_log_without_messages(
+    encounter: Scenario, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    log, left = RunFolder(tmp_path / "run").log_path, tmp_path / "left.mcap"
+
+    def end_at_once(*_: Any, **__: Any) -> None:
+        shutil.copy(log, left)  # As it is on the disk, before anything is closed.
+        raise RunFolderError("ended at once")
+
+    monkeypatch.setattr(airhilt.cosim.simulation, "Simulation", end_at_once)
+    with pytest.raises(RunFolderError, match="ended at once"):
+        run(encounter, out=tmp_path / "run", latency="fixed")
+    assert list(read_log(left)) == []

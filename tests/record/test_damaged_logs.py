@@ -197,14 +197,6 @@ def test_a_file_of_another_kind_is_no_log(tmp_path: Path) -> None:
         list(read_log(path))
 
 
-def test_the_log_of_a_run_that_was_killed_at_once_has_no_message(tmp_path: Path) -> None:
-    path = tmp_path / "log.mcap"
-    log = LogWriter(path)
-    log.flush()
-    assert list(read_log(path)) == []
-    log.close()
-
-
 def test_another_log_in_its_place_is_named(run_copy: Path) -> None:
     log = LogWriter(run_copy / "log.mcap")
     log.write("clock", "run", Clock, 0, b"{}")
