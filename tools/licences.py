@@ -80,7 +80,7 @@ BUNDLED = (
     ),
     Component("GEOS", "LGPL-2.1-or-later", "https://libgeos.org", inside="shapely"),
 )  # fmt: skip
-"""What wheels bundle that has another licence than the metadata of its package says."""
+"""Parts bundled in wheels under another licence than the metadata of the package says."""
 
 INTRODUCTION = """# Licences
 

@@ -1,4 +1,4 @@
-"""What becomes true of pairs of actors, published as it happens."""
+"""Conflicts, collisions and incursions of actors, published as they happen."""
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ SHARED = {
         "megahertz", "metres", "miles", "minus", "percent", "seconds", "whole", "words",
     ),
 }  # fmt: skip
-"""What the page takes from scripts of a report, by the names of the scripts."""
+"""Names that the page takes from scripts of a report, by script."""
 
 
 def media_type(name: str) -> str:

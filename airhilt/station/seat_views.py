@@ -1,4 +1,4 @@
-"""What is seen of a run at each seat of a person, and what only the person there sees."""
+"""Views of a run, one for each seat of a person, and changes that only the person there sees."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the modules of the page do by themselves: time, tracks, plots, lists, what is kept."""
+"""Modules of the page by themselves: time, tracks, plots, lists, what is kept."""
 
 from __future__ import annotations
 

@@ -44,7 +44,7 @@ def test_a_server_that_ends_during_a_long_request_says_so_without_a_traceback(
 
 
 def test_a_large_body_is_refused_before_it_is_read() -> None:
-    """Whether its size is told or not."""
+    """Its size may be told or not."""
     app, read = page_app(), list[int]()
 
     @app.post("/wish")

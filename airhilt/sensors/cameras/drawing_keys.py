@@ -1,4 +1,4 @@
-"""What pictures and rays that are kept for other processes depend on, as text for their keys."""
+"""Keys of pictures and rays that are kept for other processes: text of all they depend on."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the radio needs of the run around it."""
+"""Protocols of the world and the failures of a run, as the radio needs them."""
 
 from __future__ import annotations
 

@@ -101,7 +101,7 @@ def drawing(airfield: Airfield) -> Iterator[dict[str, SceneRenderer]]:
 
 @pytest.fixture(scope="module")
 def frames(airfield: Airfield, drawing: dict[str, SceneRenderer]) -> list[Frame]:
-    """What the cameras see, by Embree."""
+    """Pictures of all cameras, drawn by Embree."""
     names = [camera.name for camera in airfield.cameras]
     return drawing["embree"].shoot(names, airfield.bodies, 0)
 
