@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import resource
 import signal
 import sys
 from typing import NoReturn
@@ -18,6 +19,12 @@ COMMANDS = Family("command", "airhilt.commands", "airhilt.cli.commands", "COMMAN
 CONTEXT = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
 INTERRUPTED = 130
 OUT_OF_MEMORY = 2
+
+ADDRESS_SPACE = 3 * 10**9
+"""Least address space that a sweep was seen to work in, in bytes.
+
+With less, OpenBLAS and Dask wait for memory for ever instead of failing.
+"""
 
 
 class Commands(click.Group):
@@ -83,6 +90,7 @@ def main() -> NoReturn:
     signal.signal(signal.SIGTERM, _interrupt)
     signal.signal(signal.SIGINT, _interrupt)
     try:
+        _check_address_space()
         code = cli.main(standalone_mode=False)
     except AirhiltError as error:
         for line in str(error).splitlines():
@@ -99,6 +107,16 @@ def main() -> NoReturn:
             raise
         _end_without_memory(error)
     sys.exit(code if isinstance(code, int) else 0)
+
+
+def _check_address_space() -> None:
+    """Refuse to start within an address space (``ulimit -v``) in which libraries hang."""
+    limit, _ = resource.getrlimit(resource.RLIMIT_AS)
+    if limit != resource.RLIM_INFINITY and limit < ADDRESS_SPACE:
+        raise AirhiltError(
+            f"the address space is limited to {limit / 1e9:.1f} GB (ulimit -v); "
+            f"expected at least {ADDRESS_SPACE / 1e9:.0f} GB"
+        )
 
 
 def _end_without_memory(error: Exception) -> NoReturn:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import resource
 import subprocess
 import sys
 
@@ -31,3 +32,20 @@ def test_memory_that_runs_out_is_said_in_one_line(error: str) -> None:
     assert done.returncode == 2
     (line,) = done.stderr.splitlines()
     assert line.startswith("airhilt: memory ran out (")
+
+
+@pytest.mark.parametrize("command", [["cosim", "--scenario", "s02a_headon"], ["list"]])
+def test_an_address_space_in_which_libraries_hang_is_refused(command: list[str]) -> None:
+    def limit() -> None:
+        resource.setrlimit(resource.RLIMIT_AS, (2 * 10**9, 2 * 10**9))
+
+    done = subprocess.run(
+        [sys.executable, "-m", "airhilt", *command],
+        capture_output=True,
+        text=True,
+        preexec_fn=limit,
+    )
+    assert done.returncode == 2
+    assert done.stderr == (
+        "airhilt: the address space is limited to 2.0 GB (ulimit -v); expected at least 3 GB\n"
+    )
