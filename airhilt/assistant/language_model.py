@@ -37,24 +37,16 @@ _PATH = "/chat/completions"
 
 @dataclass(frozen=True)
 class LanguageModelSettings:
-    """Language model of a run.
-
-    Attributes
-    ----------
-    url
-        Base of the endpoint, such as ``http://127.0.0.1:11434/v1``.
-    model
-        Name that the endpoint has for the model.
-    deadline_s
-        Wall time after which an answer is not waited for any more.
-    seed
-        Seed of sampling, which is sent with temperature 0.
-    """
+    """Language model of a run."""
 
     url: str
+    """Base of the endpoint, such as ``http://127.0.0.1:11434/v1``."""
     model: str
+    """Name that the endpoint has for the model."""
     deadline_s: float
+    """Wall time after which an answer is not waited for any more."""
     seed: int = 0
+    """Seed of sampling, which is sent with temperature 0."""
 
 
 @runtime_checkable

@@ -56,22 +56,15 @@ class _Prefix:
 
 @dataclass(frozen=True)
 class BeamSearch:
-    """Finds the likeliest units.
-
-    Attributes
-    ----------
-    weight
-        Weight of the language model's log-likelihood against the network's.
-    reward
-        Log-likelihood added for each unit, because each costs likelihood in the language model.
-    width
-        Number of beginnings that are kept.
-    """
+    """Finds the likeliest units."""
 
     language: Language
     weight: float
+    """Weight of the language model's log-likelihood against the network's."""
     reward: float
+    """Log-likelihood added for each unit, because each costs likelihood in the language model."""
     width: int = 12
+    """Number of beginnings that are kept."""
 
     def units(self, posteriors: NDArray[np.float32]) -> tuple[int, ...]:
         """Return the likeliest units of posteriors, shape (steps, units)."""

@@ -47,28 +47,19 @@ Floats = npt.NDArray[np.float64]
 
 
 class Approach(NamedTuple):
-    """Motion of something towards a camera, as of the last picture.
-
-    Attributes
-    ----------
-    closing
-        Reciprocal of the time to contact, in 1/s; negative if it recedes.
-    closing_error, turning_error
-        Standard deviations, by what differs from picture to picture.
-    lasting_error
-        Standard deviation of ``closing`` by errors of the size that last, in 1/s.
-    turning_rad_s
-        Rates at which its direction turns to the right and up, whatever way the camera turns.
-    size_rad
-        Larger side of its box.
-    """
+    """Motion of something towards a camera, as of the last picture."""
 
     closing: float
+    """Reciprocal of the time to contact, in 1/s; negative if it recedes."""
     closing_error: float
+    """Standard deviations, by what differs from picture to picture."""
     lasting_error: float
+    """Standard deviation of ``closing`` by errors of the size that last, in 1/s."""
     turning_rad_s: tuple[float, float]
+    """Rates at which its direction turns to the right and up, whatever way the camera turns."""
     turning_error: float
     size_rad: float
+    """Larger side of its box."""
 
     @property
     def time_s(self) -> float:

@@ -117,24 +117,18 @@ class SeparationStandard(SeparationConfig):
 
 
 class Prediction(NamedTuple):
-    """The predicted encounter of two aircraft, as of now.
-
-    Attributes
-    ----------
-    horizontal_m, vertical_m
-        Distances at the closest approach.
-    is_over
-        True if the two are past each other, or draw apart on paths that stay clear, or move so
-        slowly against each other that no turn brings them together within the look-ahead.
-    """
+    """The predicted encounter of two aircraft, as of now."""
 
     first: Track
     second: Track
     time_to_loss_s: float | None
     time_to_closest_approach_s: float
     horizontal_m: float
+    """Distances at the closest approach."""
     vertical_m: float
     is_over: bool
+    """True if the two are past each other, or draw apart on paths that stay clear, or move so
+    slowly against each other that no turn brings them together within the look-ahead."""
 
     @property
     def callsigns(self) -> tuple[str, str]:

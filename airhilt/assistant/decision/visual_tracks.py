@@ -57,25 +57,18 @@ class SightConfig(Configuration):
 
 
 class Observation(NamedTuple):
-    """A thing in one picture.
-
-    Attributes
-    ----------
-    ray
-        Direction towards its middle.
-    size_rad
-        Width and height.
-    is_whole
-        True if all of it is in the picture.
-    """
+    """A thing in one picture."""
 
     t_ns: int
     geometry: PictureGeometry
     box: Box
     confidence: float
     ray: Ray
+    """Direction towards its middle."""
     size_rad: tuple[float, float]
+    """Width and height."""
     is_whole: bool
+    """True if all of it is in the picture."""
 
     @classmethod
     def of(cls, t_ns: int, geometry: PictureGeometry, box: Box, confidence: float) -> Observation:
@@ -107,24 +100,17 @@ class _Look:
 
 @dataclass(slots=True, eq=False)
 class VisualTrack:
-    """Something that one camera follows.
-
-    Attributes
-    ----------
-    explained_by
-        Callsign that it has by ADS-B; None if it is unknown.
-    has_moved
-        True if it has moved, or its camera moves.
-    heard_ns
-        Time at which the last picture that shows it arrived, however old that was.
-    """
+    """Something that one camera follows."""
 
     camera: str
     first_ns: int
     observations: deque[Observation] = field(default_factory=deque)
     explained_by: str | None = None
+    """Callsign that it has by ADS-B; None if it is unknown."""
     has_moved: bool = False
+    """True if it has moved, or its camera moves."""
     heard_ns: int = 0
+    """Time at which the last picture that shows it arrived, however old that was."""
     _first_box: Box | None = None
     _explained_ns: int = 0
     _looks: deque[_Look] = field(default_factory=lambda: deque(maxlen=LOOKS + 1))

@@ -31,25 +31,17 @@ class Found(NamedTuple):
 
 
 class Shot(NamedTuple):
-    """Origin of a picture that a detector is given.
-
-    Attributes
-    ----------
-    camera
-        Name of the camera.
-    t_frame_ns
-        End of the exposure.
-    left, top
-        Place of the picture in that of the camera, in pixels: not 0 for a tile of a big picture.
-    own_aircraft
-        Mask of the pixels that the camera's own aircraft may cover; None if there are none.
-    """
+    """Origin of a picture that a detector is given."""
 
     camera: str
+    """Name of the camera."""
     t_frame_ns: int
+    """End of the exposure."""
     left: int = 0
+    """Place of the picture in that of the camera, in pixels: not 0 for a tile of a big picture."""
     top: int = 0
     own_aircraft: Mask | None = None
+    """Mask of the pixels that the camera's own aircraft may cover; None if there are none."""
 
 
 class PictureMissed(VisionError):

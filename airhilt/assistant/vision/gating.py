@@ -58,15 +58,10 @@ class Looks(Protocol):
 
 
 class _Looked(NamedTuple):
-    """State of a tile when its parts were last looked at.
-
-    Attributes
-    ----------
-    history
-        Hash of the pictures that it depends on.
-    """
+    """State of a tile when its parts were last looked at."""
 
     history: str
+    """Hash of the pictures that it depends on."""
     pixels: KeptPixels
     found: tuple[Found, ...]
 

@@ -19,24 +19,16 @@ MOST_LAYERS = 256
 
 
 class SeenPicture(NamedTuple):
-    """A picture that a camera has sent.
-
-    Attributes
-    ----------
-    shape
-        Rows, columns and 3 colours.
-    sha256
-        SHA-256 of the pixels; empty if nobody asks for it.
-    read
-        Returns the pixels.
-    is_made
-        True if the pixels are there to be read, False if reading makes them.
-    """
+    """A picture that a camera has sent."""
 
     shape: tuple[int, int, int]
+    """Rows, columns and 3 colours."""
     sha256: str
+    """SHA-256 of the pixels; empty if nobody asks for it."""
     read: Callable[[], Picture]
+    """Returns the pixels."""
     is_made: bool = True
+    """True if the pixels are there to be read, False if reading makes them."""
 
     @classmethod
     def of(cls, pixels: Picture) -> SeenPicture:

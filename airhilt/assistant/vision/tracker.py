@@ -55,19 +55,13 @@ class Tracked(NamedTuple):
 
 @dataclass
 class _Track:
-    """One thing: middle and sides of its box in pixels, each with its rate in pixels per second.
-
-    Attributes
-    ----------
-    state
-        Values and rates of column, row, width and height; shape (4, 2).
-    covariance
-        Covariance of each value and its rate; shape (4, 2, 2).
-    """
+    """One thing: middle and sides of its box in pixels, each with its rate in pixels per second."""
 
     id: int
     state: Array
+    """Values and rates of column, row, width and height; shape (4, 2)."""
     covariance: Array
+    """Covariance of each value and its rate; shape (4, 2, 2)."""
     found_ns: int
     hits: int = 1
     misses: int = 0

@@ -24,18 +24,12 @@ class AdvisoryWording(Protocol):
 
 
 class Worded(NamedTuple):
-    """The messages of all alerts of one step.
-
-    Attributes
-    ----------
-    messages
-        Text by the id of the alert and the recipient.
-    exchanges
-        Questions to a language model, with their answers, that the texts come from.
-    """
+    """The messages of all alerts of one step."""
 
     messages: Mapping[tuple[str, str], str]
+    """Text by the id of the alert and the recipient."""
     exchanges: tuple[ModelExchange, ...] = ()
+    """Questions to a language model, with their answers, that the texts come from."""
 
 
 @runtime_checkable

@@ -66,19 +66,13 @@ class Mention(NamedTuple):
 
 
 class Told(NamedTuple):
-    """An action in a message, with what stands in the same clause.
-
-    Attributes
-    ----------
-    callsigns
-        Callsigns of the clause, or the recipient: who is told to do it.
-    quantities
-        Numbers of the clause with their units, such as a level and a rate. A time does not get in
-        there: "go around, 12 s to go" is not "go around in 12 s".
-    """
+    """An action in a message, with what stands in the same clause."""
 
     callsigns: tuple[str, ...]
+    """Callsigns of the clause, or the recipient: who is told to do it."""
     quantities: tuple[tuple[str, str], ...]
+    """Numbers of the clause with their units, such as a level and a rate. A time does not get in
+    there: "go around, 12 s to go" is not "go around in 12 s"."""
     action: str
     sense: str | None
     altitude_ft: float | None
@@ -89,28 +83,19 @@ class Told(NamedTuple):
 
 @dataclass(frozen=True)
 class Reading:
-    """Meaning of a message, as far as it must not change.
-
-    Attributes
-    ----------
-    addressed
-        Callsign with which it begins; None if it begins with none.
-    runways
-        Designators, in their order.
-    actions
-        Actions, in an order of their own.
-    quantities
-        Numbers, each with its unit.
-    words
-        All other words.
-    """
+    """Meaning of a message, as far as it must not change."""
 
     addressed: str | None
+    """Callsign with which it begins; None if it begins with none."""
     mentions: tuple[Mention, ...]
     runways: tuple[str, ...]
+    """Designators, in their order."""
     actions: tuple[Told, ...]
+    """Actions, in an order of their own."""
     quantities: Counter[tuple[str, str]]
+    """Numbers, each with its unit."""
     words: Counter[str]
+    """All other words."""
 
 
 def reading(text: str, recipient: str, callsigns: Collection[str]) -> Reading:

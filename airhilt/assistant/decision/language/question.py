@@ -34,20 +34,14 @@ INSTRUCTIONS = (
 
 
 class Turn(NamedTuple):
-    """One call, as the phraseology understands it.
-
-    Attributes
-    ----------
-    name
-        Name of the call in the question, which says nothing about it.
-    callsign
-        Callsign that is called, or that speaks.
-    """
+    """One call, as the phraseology understands it."""
 
     name: str
+    """Name of the call in the question, which says nothing about it."""
     turn: RadioTurn
     call: Call
     callsign: str
+    """Callsign that is called, or that speaks."""
 
     @property
     def instructions(self) -> Sequence[Instruction]:
@@ -62,25 +56,17 @@ class Turn(NamedTuple):
 
 @dataclass(frozen=True)
 class QuestionContext:
-    """Situation as a language model is given it.
-
-    Attributes
-    ----------
-    callsigns
-        All who may be concerned.
-    runways
-        Designators of the airport's runways.
-    turns
-        Calls by their names.
-    alerts
-        Alerts of the rules that are open, by their ids.
-    """
+    """Situation as a language model is given it."""
 
     request: AssistantRequest
     callsigns: tuple[str, ...]
+    """All who may be concerned."""
     runways: tuple[str, ...]
+    """Designators of the airport's runways."""
     turns: Mapping[str, Turn]
+    """Calls by their names."""
     alerts: Mapping[str, Alert]
+    """Alerts of the rules that are open, by their ids."""
 
     @classmethod
     def of(

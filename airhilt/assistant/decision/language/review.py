@@ -80,18 +80,12 @@ class Answer(BaseModel):
 
 @dataclass(frozen=True)
 class Reviewed:
-    """Part of an answer that the rules accept.
-
-    Attributes
-    ----------
-    severities
-        Severity of alerts of the rules, by their ids, as the model judges them.
-    advisories
-        Alerts of the model's own.
-    """
+    """Part of an answer that the rules accept."""
 
     severities: Mapping[str, Severity]
+    """Severity of alerts of the rules, by their ids, as the model judges them."""
     advisories: tuple[Alert, ...]
+    """Alerts of the model's own."""
     rejections: tuple[Rejection, ...]
 
 
