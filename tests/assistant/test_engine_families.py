@@ -12,20 +12,17 @@ from typing import Any, TypeVar
 import pytest
 
 from airhilt import run
-from airhilt.assistant.asr.engines import FAMILY as RECOGNISERS
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import Decision, ReceivedMessage
-from airhilt.assistant.decision.engines import decision_engine
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.reference import reference_worker
-from airhilt.assistant.vision.detectors import FAMILY as DETECTORS
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.bus import free_endpoint
 from airhilt.cli.doctor import examine
 from airhilt.cosim import cameras
 from airhilt.cosim.observer import Result
 from airhilt.cosim.replay import replay
-from airhilt.engine_families import FAMILIES
+from airhilt.engine_families import ASSISTANTS, DETECTORS, FAMILIES, RECOGNISERS, VOICES
 from airhilt.engines import EngineFamily, Package
 from airhilt.errors import AirhiltError, SpeechError, VisionError, WorkerError
 from airhilt.messages import (
@@ -41,7 +38,6 @@ from airhilt.messages import (
 )
 from airhilt.record import read_log
 from airhilt.scenario import Scenario
-from airhilt.voices.engines import FAMILY as VOICES
 from camera_run import passing
 from engine_package import installed
 from oracle import BlankSceneRenderer
@@ -257,7 +253,7 @@ def test_the_template_says_what_an_assistant_notes_that_has_no_finding() -> None
 def test_an_assistant_of_another_name_is_refused_with_the_nearest() -> None:
     expected = r"expected adsb_only, .*reference, .*; did you mean 'reference'\?"
     with pytest.raises(AirhiltError, match=expected):
-        decision_engine("referense")
+        ASSISTANTS.create("referense")
 
 
 def test_an_assistant_that_reads_truth_is_refused() -> None:

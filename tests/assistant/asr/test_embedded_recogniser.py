@@ -20,9 +20,9 @@ import pytest
 
 import airhilt.assistant.asr.engines.embedded
 from airhilt.assistant.asr.alternatives import WordCurve
-from airhilt.assistant.asr.engines import asr_engine
 from airhilt.assistant.asr.engines.embedded import FILES, Calibration, Ctc, Emission
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
+from airhilt.engine_families import RECOGNISERS
 from airhilt.errors import SpeechError
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.channel import Other, VhfChannel
@@ -306,7 +306,7 @@ def test_a_network_of_another_kind_is_refused(folder: Path) -> None:
 
 
 def test_the_command_line_names_a_folder_of_ones_own(folder: Path) -> None:
-    engine = asr_engine(f"embedded:{folder}")
+    engine = RECOGNISERS.create(f"embedded:{folder}")
     assert engine.recognise(call(CHARLIE_HZ), ()).text == "charlie"
 
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from airhilt.assistant.decision.air_tracks import AirTracks
-from airhilt.assistant.decision.engines import decision_engine
+from airhilt.engine_families import ASSISTANTS
 from airhilt.messages import AdsbReport, Advisory, Severity
 from airhilt.units import KNOT, SECOND_NS
 from breadth import mostly_slow
@@ -23,7 +23,7 @@ def test_random_losses_are_warned_of_in_time_though_nobody_reacts(
     encounters: int, losses: int
 ) -> None:
     outcomes = [
-        fly(draw(np.random.default_rng((11, number))), decision_engine("reference"), number)
+        fly(draw(np.random.default_rng((11, number))), ASSISTANTS.create("reference"), number)
         for number in range(encounters)
     ]
     numbers = judged(outcomes)

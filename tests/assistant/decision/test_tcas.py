@@ -7,10 +7,10 @@ from typing import Any
 
 import pytest
 
-from airhilt.assistant.decision.engines import decision_engine
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.cosim.equipment import equipment_worker
+from airhilt.engine_families import ASSISTANTS
 from airhilt.errors import AirhiltError
 from airhilt.messages import Climb, MaintainLevel
 from interrogation import Jet, Meeting
@@ -20,7 +20,7 @@ OTHER = Jet("DAL2", "aaaaa2", 270.0, 450.0, 35_000.0)
 
 
 def meeting(one: Jet, other: Jet, engine: str = "tcas", **how: Any) -> Meeting:
-    return Meeting(decision_engine(engine), (replace(one), replace(other)), **how)
+    return Meeting(ASSISTANTS.create(engine), (replace(one), replace(other)), **how)
 
 
 CLIMBS = replace(OTHER, altitude_ft=35_000.0 - 2000.0 / 60.0 * 130.0, rate_fpm=2000.0)
@@ -191,7 +191,7 @@ def test_traffic_of_mode_c_is_followed_by_range_and_altitude() -> None:
 
 def test_two_with_one_address_do_not_hide_each_other() -> None:
     far = replace(OTHER, track_deg=90.0, offset_nm=-12.0, speed_kt=100.0, has_tcas=False)
-    flown = Meeting(decision_engine("tcas"), (replace(ONE), replace(OTHER), far)).fly()
+    flown = Meeting(ASSISTANTS.create("tcas"), (replace(ONE), replace(OTHER), far)).fly()
     assert flown.first_s("CAUTION") == pytest.approx(48.0, abs=2.0)
     assert flown.first_s("WARNING") == pytest.approx(35.0, abs=2.0)
 
@@ -201,13 +201,13 @@ def test_traffic_at_other_levels_is_none() -> None:
 
 
 def test_it_reads_replies_and_the_own_instruments_alone() -> None:
-    worker = DecisionWorker(decision_engine("tcas"), Template())
+    worker = DecisionWorker(ASSISTANTS.create("tcas"), Template())
     assert {wanted.key for wanted in worker.description.inputs} == {"cockpit/*", "tcas/*"}
 
 
 def test_an_unknown_argument_is_refused() -> None:
     with pytest.raises(AirhiltError, match="expected tcas or tcas:hmd"):
-        decision_engine("tcas:all")
+        ASSISTANTS.create("tcas:all")
 
 
 def test_the_same_replies_give_the_same_alerts() -> None:

@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
-from airhilt.assistant.decision.engines import decision_engine
 from airhilt.assistant.decision.remaining_clear import RESPONSE_S, _stays_clear, smallest_turn
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
+from airhilt.engine_families import ASSISTANTS
 from airhilt.geodesy.relative_motion import Relative
 from airhilt.messages import Advisory, Turn
 from airhilt.surveillance.well_clear import CORRECTIVE, Gap, time_to_violation_s
@@ -17,7 +17,7 @@ from encounters import Encounter, Flight, head_on
 
 
 def well_clear() -> DecisionWorker:
-    return DecisionWorker(decision_engine("well_clear"), Template())
+    return DecisionWorker(ASSISTANTS.create("well_clear"), Template())
 
 
 MEETS_S = 30.7 * 3600.0 / 480.0

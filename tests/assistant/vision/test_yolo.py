@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from airhilt.assistant.vision.detectors import vision_engine
 from airhilt.assistant.vision.detectors.yolo import LABELS, LEAST_CONFIDENCE, YoloDetector
+from airhilt.engine_families import DETECTORS
 from airhilt.errors import VisionError
 from pictures import background
 from tiny_models import write_yolo
@@ -76,7 +76,7 @@ def models(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.mark.parametrize("file", ["yolov10n.pt", "yolov10n.onnx", "fixed.onnx"])
 class TestModel:
     def test_finds_things_with_names_that_are_known(self, models: Path, file: str) -> None:
-        detector = vision_engine(f"yolo:{models / file}")
+        detector = DETECTORS.create(f"yolo:{models / file}")
         found = detector.detect(PICTURE)
         assert found
         assert {one.label for one in found} <= set(LABELS.values())
