@@ -10,8 +10,8 @@ a picture as well as the whole.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Sequence
-from typing import NamedTuple, Protocol, runtime_checkable
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, NamedTuple, Protocol, runtime_checkable
 
 from airhilt.assistant.vision.changes import changed_blocks, windows_about
 from airhilt.assistant.vision.detector import (
@@ -25,6 +25,9 @@ from airhilt.assistant.vision.detector import (
 from airhilt.assistant.vision.kept_pixels import KeptPixels, SeenPicture
 from airhilt.assistant.vision.tiling import Tile, merged, pieces_of, tiles_of
 from airhilt.imaging.boxes import centre, shared_area
+
+if TYPE_CHECKING:
+    from airhilt.assistant.vision.shared_looks import SharedLooks
 
 MOST_IN_WINDOWS = 0.5
 """Share of a tile in windows above which the detector looks at the whole tile."""
@@ -49,14 +52,6 @@ class Look(NamedTuple):
     found: tuple[Found, ...]
 
 
-class Looks(Protocol):
-    """Looks that may have been taken before."""
-
-    def get(self, history: str, tile: Tile, shape: Sequence[int], look: Callable[[], Look]) -> Look:
-        """Return a look: see `airhilt.assistant.vision.shared_looks.SharedLooks`."""
-        ...
-
-
 class _Looked(NamedTuple):
     """State of a tile when its parts were last looked at."""
 
@@ -77,7 +72,7 @@ class Gate:
         Looks that runs share, of pictures with a SHA-256; None if each is taken anew.
     """
 
-    def __init__(self, detector: Detector, looks: Looks | None = None) -> None:
+    def __init__(self, detector: Detector, looks: SharedLooks | None = None) -> None:
         self._detector = detector
         self._looks = looks
         self._looked: dict[tuple[str, Tile], _Looked] = {}
@@ -117,7 +112,7 @@ class Gate:
             look = take()
         else:
             look = self._looks.get(history, tile, picture.shape, take)
-        if last is None or look.windows == (_whole(tile),):
+        if last is None or look.windows == (Tile(0, 0, tile.height, tile.width),):
             history = _history("", picture.sha256)  # What was before has no part in it any more.
             last = _Looked(history, KeptPixels(tile, picture), look.found)
         elif look.windows:
@@ -154,25 +149,13 @@ class Gate:
         return Look(tuple(windows), tuple(_together(last.found, seen, windows)))
 
 
-def _whole(tile: Tile) -> Tile:
-    return Tile(0, 0, tile.height, tile.width)
-
-
 def _history(before: str, sha256: str) -> str:
-    """Return the hash of some pictures and one more."""
     return hashlib.sha256(f"{before} {sha256}".encode()).hexdigest()
 
 
 def _part(shot: Shot, tile: Tile) -> Shot:
-    """Return the origin of a tile."""
-    mask = shot.own_aircraft
-    return shot._replace(
-        left=tile.left,
-        top=tile.top,
-        own_aircraft=None
-        if mask is None
-        else mask[tile.top : tile.top + tile.height, tile.left : tile.left + tile.width],
-    )
+    mask = None if shot.own_aircraft is None else tile.of(shot.own_aircraft)
+    return shot._replace(left=tile.left, top=tile.top, own_aircraft=mask)
 
 
 def _together(

@@ -14,9 +14,6 @@ import numpy as np
 from airhilt.assistant.vision.detector import Picture
 from airhilt.assistant.vision.tiling import Tile
 
-MOST_LAYERS = 256
-"""Number of layers from which those that are covered by later ones are dropped."""
-
 
 class SeenPicture(NamedTuple):
     """A picture that a camera has sent."""
@@ -58,7 +55,6 @@ class KeptPixels:
         self._tile = tile
         self._whole = Tile(0, 0, tile.height, tile.width)
         self._layers: list[_Layer] = []
-        self._most = MOST_LAYERS
         self.add(picture, [self._whole])
 
     def add(self, picture: SeenPicture, windows: Sequence[Tile]) -> None:
@@ -67,9 +63,6 @@ class KeptPixels:
         self._layers.append(_Layer(lambda: tile.of(picture.read()), windows))
         if picture.is_made:
             self.read()
-        elif len(self._layers) > self._most:
-            self._layers = self._seen_layers()
-            self._most = len(self._layers) + MOST_LAYERS
 
     def read(self) -> Picture:
         """Return the pixels; they must not be written to."""

@@ -49,8 +49,6 @@ class SharedLooks:
         ----------
         history
             Hash of the pictures of the camera that a look depends on.
-        shape
-            Shape of the picture.
         """
         key = json.dumps([*self._identity, history, tile, shape])
         windows, found = json.loads(self._folder.get(key, lambda: json.dumps(look()).encode()))

@@ -14,14 +14,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from airhilt.assistant.vision.detector import Found, once
+from airhilt.assistant.vision.detector import Found
 from airhilt.assistant.vision.detectors.embedded import MODEL, EmbeddedDetector
 from airhilt.assistant.vision.refiner import (
     VIEW_PX,
     Refiner,
     RefinerCard,
     about,
-    moves_to,
     refined,
     views_of,
 )
@@ -102,13 +101,6 @@ def test_a_view_is_as_sharp_as_the_picture_where_its_pixels_are_the_same() -> No
     assert np.array_equal(near, picture[45 - half_px : 45 + half_px, 80 - half_px : 80 + half_px])
 
 
-@given(boxes(), boxes())
-def test_moves_take_a_box_to_the_body_where_that_is_near(box: Box, body: Box) -> None:
-    moves = np.array(moves_to(box, body))
-    if np.abs(moves[:2]).max() <= 1.0 and np.abs(moves[2:]).max() <= 1.5:
-        assert refined(box, moves) == pytest.approx(body, abs=1e-6 * size_px(box) + 1e-6)
-
-
 @given(boxes(), st.lists(st.floats(-1e6, 1e6), min_size=4, max_size=4))
 def test_no_moves_take_a_box_far_away(box: Box, moves: list[float]) -> None:
     (x, y), (x_, y_) = centre(box), centre(refined(box, np.array(moves)))
@@ -118,11 +110,6 @@ def test_no_moves_take_a_box_far_away(box: Box, moves: list[float]) -> None:
 @given(boxes(), st.floats(0.0, 1.0))
 def test_what_is_known_of_a_place_is_finite(box: Box, score: float) -> None:
     assert np.isfinite(about([box], [score])).all()
-
-
-def test_nothing_is_known_of_no_places() -> None:
-    assert about([], []).shape == (0, 3)
-    assert views_of(noise(), []).shape == (0, 2, VIEW_PX, VIEW_PX, 3)
 
 
 def test_what_is_known_of_a_place_is_its_score_its_size_and_its_shape() -> None:
@@ -194,14 +181,6 @@ def test_without_a_refiner_the_first_has_the_last_word(
     monkeypatch.setattr(EmbeddedDetector, "proposed", lambda *_: proposed)
     found = EmbeddedDetector(path, threshold=0.0).detect(noise())
     assert [one.box for one in found] == [one.box for one in proposed]
-
-
-def test_a_thing_that_was_found_twice_is_told_once() -> None:
-    whole = Found("airplane", 0.9, (10.0, 10.0, 60.0, 40.0))
-    again = Found("bird", 0.5, (12.0, 11.0, 61.0, 42.0))
-    behind = Found("airplane", 0.4, (45.0, 15.0, 58.0, 20.0))
-    another = Found("airplane", 0.3, (80.0, 10.0, 130.0, 40.0))
-    assert once([whole, again, behind, another]) == [whole, behind, another]
 
 
 def test_a_missing_refiner_is_named(tmp_path: Path) -> None:

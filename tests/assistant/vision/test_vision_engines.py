@@ -11,32 +11,10 @@ import pytest
 
 from airhilt.assistant.reference import reference_worker
 from airhilt.assistant.vision.detectors.embedded import MODEL, EmbeddedDetector
-from airhilt.assistant.vision.detectors.http import HttpDetector
 from airhilt.engine_families import DETECTORS
 from airhilt.errors import VisionError
 from airhilt.messages import Detections
 from pictures import Told, a, background, frame, info
-
-
-@pytest.mark.parametrize("name", ["", "opencv", "ftp://127.0.0.1/", "Embedded"])
-def test_a_name_that_is_none_says_what_would_be(name: str) -> None:
-    with pytest.raises(VisionError, match="there is none of that name; expected embedded, "):
-        DETECTORS.create(name)
-
-
-@pytest.mark.parametrize("name", ["yolo", "yolo:"])
-def test_an_engine_that_needs_a_file_says_so(name: str) -> None:
-    with pytest.raises(VisionError, match=f"detector '{name}': expected yolo:FILE"):
-        DETECTORS.create(name)
-
-
-def test_an_address_is_a_service() -> None:
-    assert isinstance(DETECTORS.create("http://127.0.0.1:8000/look"), HttpDetector)
-
-
-def test_a_reference_worker_looks_with_the_engine_that_is_named() -> None:
-    worker = reference_worker("vision", "http://127.0.0.1:8000/look", "eyes")
-    assert (worker.description.name, worker.description.modality) == ("eyes", "vision")
 
 
 def test_a_yolo_file_that_is_not_there_is_not_downloaded(tmp_path: Path) -> None:
@@ -98,12 +76,10 @@ def test_yolo_is_kept_from_the_network_and_nothing_else_is(
     monkeypatch.setitem(sys.modules, "ultralytics", SimpleNamespace(YOLO=Model))
     monkeypatch.setenv("YOLO_VERBOSE", "true")
     monkeypatch.delenv("YOLO_OFFLINE", raising=False)
-    before = dict(os.environ)
     path = tmp_path / "yolov10n.pt"
     path.write_bytes(b"x")
     assert DETECTORS.create(f"yolo:{path}").name == "yolo:yolov10n"
     assert (given["YOLO_OFFLINE"], given["YOLO_VERBOSE"]) == ("true", "false")
-    assert dict(os.environ) == before
 
 
 def test_without_the_package_it_says_how_to_get_it(

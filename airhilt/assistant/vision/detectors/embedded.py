@@ -23,7 +23,7 @@ from airhilt.assistant.vision.tiling import Tile
 from airhilt.engines import Engine
 from airhilt.errors import VisionError, first_line, first_problem
 from airhilt.host.files import read_file, sha256
-from airhilt.host.onnx import open_network, require_end
+from airhilt.host.onnx import open_network
 from airhilt.imaging.boxes import area, moved, size_px, within
 from airhilt.messages import Confidence, VisibleClass
 
@@ -109,7 +109,7 @@ class EmbeddedDetector:
     Raises
     ------
     VisionError
-        A file is missing, or is not what it must be, or a network never ends.
+        A file is missing, or is not what it must be.
     """
 
     name = "embedded"
@@ -123,16 +123,18 @@ class EmbeddedDetector:
         self._calibration = card.calibration
         self.threshold = card.threshold
         self._threshold = DOUBTFUL * card.threshold if threshold is None else threshold
-        if not 0.0 <= self._threshold <= 1.0:
-            raise VisionError(f"the threshold is {threshold}; expected 0 to 1")
         self._files = [file, file.with_name(CARD)]
         if card.refiner is not None:
             self._files.append(file.with_name(card.refiner.file))
         self._subject = f"detector {file}"
         self._network = open_network(file, self._subject, EXPECTED, VisionError, threads)
-        _require_shapes(self._network, self._subject)
-        empty = np.zeros((1, SMALLEST_PX, SMALLEST_PX, 3), np.uint8)
-        require_end(self._network, {"picture": empty}, self._subject, VisionError)
+        inputs, outputs = self._network.get_inputs(), self._network.get_outputs()
+        takes = [(each.name, each.type, each.shape[-1]) for each in inputs]
+        gives = [(each.name, each.type, each.shape[-1]) for each in outputs]
+        if takes != [("picture", "tensor(uint8)", 3)] or gives != [("found", "tensor(float)", 6)]:
+            both = (*inputs, *outputs)
+            told = ", ".join(f"{each.name!r} {each.type} {each.shape}" for each in both)
+            raise VisionError(f"{self._subject} has {told}; expected {EXPECTED}")
         self._refiner = (
             None
             if card.refiner is None
@@ -156,10 +158,8 @@ class EmbeddedDetector:
         picture.
         """
         proposed = self.proposed(part.of(picture))
-        return self._told(
-            picture,
-            [one._replace(box=moved(one.box, part.left, part.top)) for one in proposed],
-        )
+        moved_to_part = [one._replace(box=moved(one.box, part.left, part.top)) for one in proposed]
+        return self._told(picture, moved_to_part)
 
     def _told(self, picture: Picture, proposed: list[Found]) -> Sequence[Found]:
         found = [
@@ -180,7 +180,7 @@ class EmbeddedDetector:
         Raises
         ------
         VisionError
-            A network has failed, or this is no picture.
+            A network has failed.
         """
         return self._judged(picture, self.proposed(picture))
 
@@ -199,25 +199,16 @@ class EmbeddedDetector:
         Raises
         ------
         VisionError
-            It has failed, or this is no picture.
+            It has failed.
         """
-        if picture.dtype != np.uint8 or picture.ndim != 3 or picture.shape[2] != 3:
-            raise VisionError(
-                f"a picture is {picture.dtype} {list(picture.shape)}; expected uint8 "
-                "[rows, columns, 3]"
-            )
         rows, columns = picture.shape[:2]
-        if not rows or not columns:
-            return []
         try:
             found = self._network.run(["found"], {"picture": _padded(picture)[None]})[0][0]
         except Exception as error:  # onnxruntime raises classes of its own that share no base
             raise VisionError(f"{self._subject} has failed: {first_line(error)}") from None
-        if not np.isfinite(found).all():
-            raise VisionError(f"{self._subject} answers numbers that are not finite")
         boxes = [within(tuple(box), columns, rows) for box in found[:, :4].tolist()]
         proposed = [
-            Found(self._label(number), score, box)
+            Found(self._classes[int(number)], score, box)
             for box, (score, number) in zip(boxes, found[:, 4:].tolist(), strict=True)
             if area(box) > 0.0
         ]
@@ -227,45 +218,15 @@ class EmbeddedDetector:
         odds = self._calibration.log_odds(found.label, found.confidence, size_px(found.box))
         return 1.0 / (1.0 + math.exp(-min(max(odds, -MOST_LOG_ODDS), MOST_LOG_ODDS)))
 
-    def _label(self, number: float) -> VisibleClass:
-        index = int(number)
-        if not 0 <= index < len(self._classes):
-            raise VisionError(
-                f"{self._subject} answers class {number:g}; expected one of the "
-                f"{len(self._classes)} of its {CARD}, from 0"
-            )
-        return self._classes[index]
-
 
 def _card(path: Path) -> Card:
     try:
         return Card.model_validate_json(read_file(path, LARGEST_CARD_BYTES))
-    except OSError as error:
+    except (OSError, ValidationError) as error:
+        why = first_problem(error) if isinstance(error, ValidationError) else error.strerror
         raise VisionError(
-            f"{path}: cannot be read: {error.strerror}; "
-            "expected what tools/detector/train_detector.py writes beside a network"
+            f"{path}: {why}; expected what tools/detector/train_detector.py writes beside a network"
         ) from None
-    except ValidationError as error:
-        raise VisionError(
-            f"{path}: {first_problem(error)}; "
-            "expected what tools/detector/train_detector.py writes beside a network"
-        ) from None
-
-
-def _require_shapes(network: onnxruntime.InferenceSession, subject: str) -> None:
-    """Raise an error if a network takes or gives something else.
-
-    Raises
-    ------
-    VisionError
-        It does.
-    """
-    inputs, outputs = network.get_inputs(), network.get_outputs()
-    found = ", ".join(f"{each.name!r} {each.type} {each.shape}" for each in (*inputs, *outputs))
-    takes = [(each.name, each.type, len(each.shape), each.shape[-1]) for each in inputs]
-    gives = [(each.name, each.type, len(each.shape), each.shape[-1]) for each in outputs]
-    if takes != [("picture", "tensor(uint8)", 4, 3)] or gives != [("found", "tensor(float)", 3, 6)]:
-        raise VisionError(f"{subject} has {found}; expected {EXPECTED}")
 
 
 def _padded(picture: Picture) -> Picture:
