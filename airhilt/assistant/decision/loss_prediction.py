@@ -10,12 +10,7 @@ from pydantic import Field, model_validator
 from airhilt.assistant.decision.aerodrome import TrafficZone
 from airhilt.assistant.decision.tracks import Track
 from airhilt.configuration import Configuration, Seconds, require_order
-from airhilt.geodesy.relative_motion import (
-    Minima,
-    Relative,
-    relative,
-    time_to_loss_s,
-)
+from airhilt.geodesy.relative_motion import Minima, Relative, relative, time_to_loss_s
 from airhilt.messages import Evidence, Severity
 from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS
 

@@ -15,14 +15,7 @@ from airhilt.assistant.decision.service_messages import (
     RadioTurn,
     TrackSlice,
 )
-from airhilt.messages import (
-    AdsbReport,
-    Briefing,
-    CameraInfo,
-    Detections,
-    Message,
-    Transcript,
-)
+from airhilt.messages import AdsbReport, Briefing, CameraInfo, Detections, Message, Transcript
 from airhilt.phraseology import parse_call
 from airhilt.units import SECOND_NS
 

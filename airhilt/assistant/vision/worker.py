@@ -8,8 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from airhilt.assistant.vision.detector import Detector, Found, PictureMissed, Shot
-from airhilt.assistant.vision.gating import Gate
-from airhilt.assistant.vision.kept_pixels import SeenPicture
+from airhilt.assistant.vision.gating import Gate, SeenPicture
 from airhilt.assistant.vision.shared_looks import SharedLooks
 from airhilt.assistant.vision.tracker import Tracker
 from airhilt.imaging.masks import Mask, mask_of

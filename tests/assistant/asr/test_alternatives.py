@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from airhilt.assistant.asr.alternatives import (
+from airhilt.assistant.asr.beam_search import BLANK, Prior, aligned
+from airhilt.assistant.asr.confidences import (
     LARGEST_LOG_ODDS,
     LEAST_POSTERIOR,
     WordCurve,
@@ -17,7 +18,6 @@ from airhilt.assistant.asr.alternatives import (
     same_units,
     with_same,
 )
-from airhilt.assistant.asr.beam_search import BLANK, Prior, aligned
 from airhilt.assistant.asr.language import END
 from airhilt.assistant.asr.pieces import Pieces
 

@@ -19,7 +19,7 @@ import numpy as np
 import pytest
 
 import airhilt.assistant.asr.engines.embedded
-from airhilt.assistant.asr.alternatives import WordCurve
+from airhilt.assistant.asr.confidences import WordCurve
 from airhilt.assistant.asr.engines.embedded import FILES, Calibration, Ctc, Emission
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.engine_families import RECOGNISERS

@@ -5,11 +5,18 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from airhilt.assistant.asr.alternatives import LARGEST_LOG_ODDS
 from airhilt.assistant.asr.beam_search import HeardUnit
+from airhilt.assistant.asr.confidences import (
+    LARGEST_LOG_ODDS,
+    SILENCE,
+    Gap,
+    LossCurve,
+    gaps,
+    log_heard,
+    log_odds_of,
+    probability,
+)
 from airhilt.assistant.asr.language import END
-from airhilt.assistant.asr.logistic import log_odds_of, probability
-from airhilt.assistant.asr.lost_words import SILENCE, Gap, LossCurve, gaps, log_heard
 
 TURN, CLIMB, BREATH, UNITS = 1, 2, 3, 4
 ORDER = 3

@@ -13,15 +13,16 @@ from hypothesis import strategies as st
 
 from airhilt.assistant.decision.approach import (
     Approach,
+    _across,
     _line,
     _variance_ratio,
     approach_of,
+    may_stand,
+    stays_in_place,
 )
 from airhilt.assistant.decision.escalation import Escalation
-from airhilt.assistant.decision.intruder_advice import evasion
-from airhilt.assistant.decision.intruders import IntruderConfig, IntruderWatch
+from airhilt.assistant.decision.intruders import IntruderConfig, IntruderWatch, evasion
 from airhilt.assistant.decision.line_of_sight import Ray
-from airhilt.assistant.decision.standing import _across, may_stand, stays_in_place
 from airhilt.geodesy.relative_motion import Minima
 from airhilt.messages import Climb, Severity, Turn
 from airhilt.units import DEGREE, FOOT, SECOND_NS

@@ -17,7 +17,7 @@ from airhilt.assistant.decision.clarifications import Clarifications
 from airhilt.assistant.decision.clearances import Clearances
 from airhilt.assistant.decision.findings import NotReadBack
 from airhilt.assistant.decision.guard import ConfidenceGuard, Doubt
-from airhilt.assistant.decision.intruder_advice import evasion
+from airhilt.assistant.decision.intruders import evasion
 from airhilt.assistant.decision.line_of_sight import GroundFix, PictureGeometry
 from airhilt.assistant.decision.mobiles import Mobile
 from airhilt.assistant.decision.occupancy import velocity_of

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from airhilt.assistant.decision.remaining_clear import RESPONSE_S, _stays_clear, smallest_turn
+from airhilt.assistant.decision.engines.well_clear import RESPONSE_S, _stays_clear, smallest_turn
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.engine_families import ASSISTANTS

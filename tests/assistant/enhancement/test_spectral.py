@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from airhilt.assistant.enhancement.engines.spectral import LEAST_GAIN, Spectral
-from airhilt.assistant.enhancement.noise import noise_power
+from airhilt.assistant.enhancement.engines.spectral import LEAST_GAIN, Spectral, noise_power
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.errors import SpeechError
 

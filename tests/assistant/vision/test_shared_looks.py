@@ -11,8 +11,7 @@ import pytest
 
 from airhilt.assistant.vision.detector import Found, Picture, Shot
 from airhilt.assistant.vision.detectors.embedded import EmbeddedDetector
-from airhilt.assistant.vision.gating import Gate
-from airhilt.assistant.vision.kept_pixels import SeenPicture
+from airhilt.assistant.vision.gating import Gate, SeenPicture
 from airhilt.assistant.vision.shared_looks import Reproducible, SharedLooks
 from airhilt.assistant.vision.tiling import Tile
 from pictures import BlobDetector, background, with_blobs

@@ -17,13 +17,22 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from airhilt.assistant.asr.alternatives import WordCurve, log_odds, same_units, with_same
 from airhilt.assistant.asr.beam_search import BeamSearch, aligned
+from airhilt.assistant.asr.confidences import (
+    SILENCE,
+    Gap,
+    LossCurve,
+    WordCurve,
+    gaps,
+    log_odds,
+    log_odds_of,
+    probability,
+    same_units,
+    with_same,
+)
 from airhilt.assistant.asr.engine import Recognised
 from airhilt.assistant.asr.features import BINS, mel_power, normalised
 from airhilt.assistant.asr.language import Language
-from airhilt.assistant.asr.logistic import log_odds_of, probability
-from airhilt.assistant.asr.lost_words import SILENCE, Gap, LossCurve, gaps
 from airhilt.assistant.asr.pieces import Pieces
 from airhilt.assistant.asr.spotting import Odds, Spotted, Spotter, is_same
 from airhilt.audio.pcm import Audio

@@ -1,7 +1,15 @@
-"""The baseline of unmanned aviation: detect and avoid by DO-365B, for crews with ADS-B In."""
+"""The baseline of unmanned aviation: detect and avoid by DO-365B, for crews with ADS-B In.
+
+DO-365B asks a system for bands of tracks that lead to a violation, and leaves the choice among the
+others to the pilot. The choice here is an assumption: the smallest turn that stays well clear for
+the look-ahead, to the right rather than to the left, as both turn that meet head-on (ICAO Annex 2,
+3.2.2.2). The other one is taken to fly straight on. The turn is begun after the response time, and
+its duration is part of that.
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
@@ -11,30 +19,24 @@ from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import Decision, ReceivedMessage
 from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.findings import Announcement
-from airhilt.assistant.decision.remaining_clear import smallest_turn
 from airhilt.assistant.decision.tracks import Track
 from airhilt.engines import Engine
 from airhilt.geodesy.relative_motion import Relative, relative
-from airhilt.messages import (
-    AdsbReport,
-    Briefing,
-    Evidence,
-    Message,
-    Recommendation,
-    Severity,
-    Turn,
-)
+from airhilt.messages import AdsbReport, Briefing, Evidence, Message, Recommendation, Severity, Turn
 from airhilt.surveillance.well_clear import (
+    CORRECTIVE,
     HYSTERESIS_S,
+    LOOK_AHEAD_S,
     PREVENTIVE,
     WARNING,
     AlertLevel,
     AlertName,
     Gap,
+    Volume,
     level_of,
     time_to_violation_s,
 )
-from airhilt.units import SECOND_NS
+from airhilt.units import DEGREE, SECOND_NS
 
 SEVERITIES: dict[AlertName, Severity] = {
     "preventive": Severity.ADVISORY,
@@ -58,6 +60,13 @@ REACH = Reach(
 )
 """The farthest volume. A violation begins within the time of an alert, and two that fly straight on
 are within DMOD after tau more at most."""
+TURNS_DEG = tuple(sign * degrees for degrees in range(10, 100, 10) for sign in (1, -1))
+"""Turns that are tried, to the right if positive, the smallest first; steps are an assumption."""
+RESPONSE_S = 15.0
+"""Time for the pilot's decision and the turn, in s; an assumption."""
+
+Velocity = tuple[float, float]
+"""North and east, in m/s."""
 
 
 @dataclass(slots=True)
@@ -151,6 +160,43 @@ class WellClearEngine:
         first, second = (self._tracks.present(icao24, t_ns) for icao24 in pair)
         evidence = Evidence(sources=("adsb",), note="well clear", tracks=pair)
         yield _alert(encounter, first, second, evidence, is_active=False)
+
+
+def smallest_turn(motion: Relative, own: Velocity, gap: Gap) -> Turn | None:
+    """Return the smallest turn of the own aircraft that remains well clear; None if none does.
+
+    There is none either if the two are past each other before a turn is made.
+
+    Parameters
+    ----------
+    motion
+        The other one relative to the own aircraft.
+    own
+        Own velocity over the ground.
+    """
+    if motion.time_to_closest_approach_s() <= RESPONSE_S:
+        return None
+    for degrees in TURNS_DEG:
+        if _stays_clear(motion, own, gap, degrees * DEGREE):
+            return Turn(degrees=degrees)
+    return None
+
+
+def _stays_clear(motion: Relative, own: Velocity, gap: Gap, turn_rad: float) -> bool:
+    """Return whether nothing is violated after a turn, within the look-ahead."""
+    cosine, sine = math.cos(turn_rad), math.sin(turn_rad)
+    north, east = own
+    later = motion.at(RESPONSE_S)
+    turned = Relative(
+        later.north_m,
+        later.east_m,
+        later.velocity_north_m_s + north - (north * cosine - east * sine),
+        later.velocity_east_m_s + east - (north * sine + east * cosine),
+    )
+    gap_later = Gap(gap.gap_m + gap.rate_m_s * RESPONSE_S, gap.rate_m_s)
+    volume: Volume = CORRECTIVE.volume
+    violation_s = time_to_violation_s(turned, gap_later, volume)
+    return violation_s is None or violation_s > LOOK_AHEAD_S
 
 
 def _gap(first: Track, second: Track) -> Gap:
