@@ -48,7 +48,7 @@ class AirTracks:
         self._updated[report.icao24] = None
         track = self._tracks.get(report.icao24)
         if track is None:
-            self._tracks[report.icao24] = Track.of(report, report.altitude_ft)
+            self._tracks[report.icao24] = Track.of(report, report.altitude_ft, report.t_adsb_in_ns)
         else:
             track.update(report, report.altitude_ft)
 

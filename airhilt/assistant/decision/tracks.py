@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from airhilt.geodesy.relative_motion import VerticalProfile
 from airhilt.geodesy.wgs84 import displaced
 from airhilt.messages import AdsbReport
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
+
+if TYPE_CHECKING:
+    from airhilt.assistant.decision.service_messages import TrackSlice
 
 LEVEL_BELOW_M_S = 200 * FOOT_PER_MINUTE
 """Vertical rate, in m/s, below which flight counts as level: three quanta of ADS-B."""
@@ -55,13 +59,13 @@ class Track:
     """Id of the transmission with that announcement."""
 
     @classmethod
-    def of(cls, report: AdsbReport, altitude_ft: float) -> Track:
-        """Return the track of a first report."""
+    def of(cls, report: AdsbReport | TrackSlice, altitude_ft: float, t_ns: int) -> Track:
+        """Return the track of a first report, which is as of a time."""
         north, east = _velocity(report)
         return cls(
             report.icao24,
             report.callsign or report.icao24,
-            report.t_adsb_in_ns,
+            t_ns,
             report.latitude_deg * DEGREE,
             report.longitude_deg * DEGREE,
             altitude_ft * FOOT,
@@ -117,22 +121,12 @@ class Track:
             self.velocity_east_m_s * elapsed,
             self.altitude_m,
         )
-        return Track(
-            self.icao24,
-            self.callsign,
-            t_ns,
-            latitude,
-            longitude,
-            self.profile().at(elapsed),
-            self.velocity_north_m_s,
-            self.velocity_east_m_s,
-            self.vertical_rate_m_s,
-            self.cleared_m,
-            self.cleared_ns,
-            self.in_distress,
-            self.descent_ns,
-            self.cleared_id,
-            self.descent_id,
+        return replace(
+            self,
+            t_ns=t_ns,
+            latitude_rad=latitude,
+            longitude_rad=longitude,
+            altitude_m=self.profile().at(elapsed),
         )
 
     @property
@@ -168,6 +162,6 @@ class Track:
         return VerticalProfile(self.altitude_m, rate)
 
 
-def _velocity(report: AdsbReport) -> tuple[float, float]:
+def _velocity(report: AdsbReport | TrackSlice) -> tuple[float, float]:
     speed, track = report.ground_speed_kt * KNOT, report.track_deg * DEGREE
     return speed * math.cos(track), speed * math.sin(track)

@@ -214,7 +214,7 @@ def test_who_descends_goes_down_as_far_as_who_climbs_goes_up(vertical_ft: float)
 
 
 def test_a_track_has_the_last_callsign_that_was_reported() -> None:
-    track = Track.of(report(callsign=None), 4000.0)
+    track = Track.of(report(callsign=None), 4000.0, 0)
     assert track.callsign == "a1b2c3"
     for t_ns, callsign in enumerate(("AAL123", None, "AAL124"), start=1):
         track.update(report(callsign=callsign, t_adsb_in_ns=t_ns), 4000.0)

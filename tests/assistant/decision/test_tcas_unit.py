@@ -9,7 +9,7 @@ import pytest
 
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.tcas_tracks import IntruderTrack, IntruderTracks
-from airhilt.assistant.decision.tcas_unit import Coordination, TcasUnit
+from airhilt.assistant.decision.tcas_unit import Senses, TcasUnit
 from airhilt.messages import Climb, CockpitInstruments, MaintainLevel, Severity, TcasReply
 from airhilt.units import FOOT, FOOT_PER_MINUTE, SECOND_NS
 
@@ -160,10 +160,10 @@ class Flight:
 
     def __init__(
         self, *, altitude_ft: int = 10_000, rate_fpm: int = 0, filters_misses: bool = False,
-        coordination: Coordination | None = None, **own: Any,
+        senses: Senses | None = None, **own: Any,
     ) -> None:  # fmt: skip
-        self.coordination = coordination or Coordination()
-        self.unit = TcasUnit("AAL1", OWN, self.coordination, filters_misses=filters_misses)
+        self.senses = {} if senses is None else senses
+        self.unit = TcasUnit("AAL1", OWN, self.senses, filters_misses=filters_misses)
         self._own = {"altitude_ft": altitude_ft, "rate_fpm": rate_fpm, **own}
         self.told: list[tuple[float, Alert]] = []
 
@@ -191,7 +191,7 @@ def meets(
 
 
 def test_nothing_is_judged_before_the_own_instruments_are_known() -> None:
-    unit = TcasUnit("AAL1", OWN, Coordination(), filters_misses=False)
+    unit = TcasUnit("AAL1", OWN, {}, filters_misses=False)
     unit.take_reply(reply(0.0, 100.0))
     assert unit.judge(0) == []
     assert unit.due_ns is None
@@ -210,7 +210,7 @@ def test_without_replies_the_next_cycle_comes_after_a_second_and_a_half() -> Non
 
 
 def test_older_instruments_than_the_last_ones_say_nothing() -> None:
-    unit = TcasUnit("AAL1", OWN, Coordination(), filters_misses=False)
+    unit = TcasUnit("AAL1", OWN, {}, filters_misses=False)
     unit.take_instruments(instruments(5.0, 20_000))
     unit.take_instruments(instruments(4.0, 10_000))
     for t in range(8):
@@ -221,7 +221,7 @@ def test_older_instruments_than_the_last_ones_say_nothing() -> None:
 @pytest.mark.parametrize(("rate_fpm", "is_told"), [(0, False), (6000, True), (-6000, False)])
 def test_the_own_altitude_is_carried_on_by_its_rate(rate_fpm: int, is_told: bool) -> None:
     """From 3,000 ft below; after 25 s it is at the level of the intruder, or twice as far."""
-    unit = TcasUnit("AAL1", OWN, Coordination(), filters_misses=False)
+    unit = TcasUnit("AAL1", OWN, {}, filters_misses=False)
     unit.take_instruments(instruments(0.0, 7_000, rate_fpm))
     told: list[Alert] = []
     for t in range(26):
@@ -395,30 +395,16 @@ def test_who_comes_back_after_all_was_well_is_announced_again() -> None:
 # --- with others --------------------------------------------------------------------------------
 
 
-def test_of_two_senses_the_other_ones_choice_leaves_the_opposite() -> None:
-    coordination = Coordination()
-    assert coordination.required(OWN, OTHER) is None
-    coordination.tell(OTHER, OWN, "climb")
-    assert coordination.required(OWN, OTHER) == "descend"
-    assert coordination.required(OTHER, OWN) is None
-    assert coordination.required(OWN, None) is None
-    coordination.withdraw(OTHER, None)
-    assert coordination.required(OWN, OTHER) == "descend"
-    coordination.withdraw(OTHER, OWN)
-    assert coordination.required(OWN, OTHER) is None
-
-
-@pytest.mark.parametrize(("has_tcas", "left"), [(True, "descend"), (False, None)])
-def test_who_has_tcas_is_told_the_own_sense(has_tcas: bool, left: str | None) -> None:
+@pytest.mark.parametrize(("has_tcas", "told"), [(True, "climb"), (False, None)])
+def test_who_has_tcas_is_told_the_own_sense(has_tcas: bool, told: str | None) -> None:
     flight = meets(Flight(altitude_ft=10_050), until_s=25.0, has_tcas=has_tcas)
     assert flight.notes()[1] == "climb, climb"
-    assert flight.coordination.required(OTHER, OWN) == left
+    assert flight.senses.get((OWN, OTHER)) == told
 
 
 def test_who_was_told_a_sense_takes_the_other_one() -> None:
-    coordination = Coordination()
-    coordination.tell(OTHER, OWN, "climb")
-    flight = meets(Flight(altitude_ft=10_050, coordination=coordination), until_s=25.0)
+    senses: Senses = {(OTHER, OWN): "climb"}
+    flight = meets(Flight(altitude_ft=10_050, senses=senses), until_s=25.0)
     assert flight.notes()[1] == "descend, descend"
 
 

@@ -25,7 +25,8 @@ def report(t_s: float = 0.0, **given: Any) -> AdsbReport:
 
 
 def track(**given: Any) -> Track:
-    return Track.of(report(**given), given.get("altitude_ft", 31_000.0))
+    first = report(**given)
+    return Track.of(first, given.get("altitude_ft", 31_000.0), first.t_adsb_in_ns)
 
 
 def test_a_first_report_is_taken_as_it_is() -> None:

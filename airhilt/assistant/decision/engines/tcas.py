@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import Decision, ReceivedMessage
-from airhilt.assistant.decision.tcas_unit import Coordination, TcasUnit
+from airhilt.assistant.decision.tcas_unit import Senses, TcasUnit
 from airhilt.engines import Engine
 from airhilt.errors import WorkerError
 from airhilt.messages import CockpitInstruments, Message, TcasReply
@@ -27,7 +27,7 @@ class TcasEngine:
 
     def __init__(self, *, filters_misses: bool = False) -> None:
         self._filters_misses = filters_misses
-        self._coordination = Coordination()
+        self._senses: Senses = {}
         self._units: dict[str, TcasUnit] = {}
         self._instruments: dict[str, CockpitInstruments] = {}
 
@@ -57,7 +57,7 @@ class TcasEngine:
             unit = self._units[reply.callsign] = TcasUnit(
                 reply.callsign,
                 reply.own_icao24,
-                self._coordination,
+                self._senses,
                 filters_misses=self._filters_misses,
             )
             if reply.callsign in self._instruments:

@@ -14,7 +14,6 @@ assumptions of this project; the model may
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -22,13 +21,13 @@ from pydantic import BaseModel, ConfigDict
 
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.language.question import ACTIONS, KINDS, QuestionContext, Turn
-from airhilt.assistant.decision.service_messages import AssistantRequest, TrackSlice
+from airhilt.assistant.decision.service_messages import AssistantRequest
 from airhilt.assistant.decision.slices import MS_NS
 from airhilt.assistant.decision.tracks import Track
 from airhilt.geodesy.relative_motion import Minima, relative, time_to_loss_s
 from airhilt.messages import CONTROLLER, AdvisoryKind, Evidence, Recommendation, Rejection, Severity
 from airhilt.phraseology import TAU_ASR, Action
-from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE
+from airhilt.units import FOOT, NAUTICAL_MILE
 
 RESOLVING: frozenset[Action] = frozenset(
     {"go_around", "hold_short", "hold_position", "cancel_takeoff", "cancel_landing", "vacate",
@@ -45,27 +44,28 @@ ANSWERED_MS = 30_000
 """Longest time from an instruction to its readback, in ms: that of the rules."""
 
 
-class Judgement(BaseModel):
+class _Answered(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Judgement(_Answered):
     """Judgement of the model about an alert of the rules."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
     alert: str
     severity: Severity
     radio: tuple[str, ...] = ()
 
 
-class Recommended(BaseModel):
+class Recommended(_Answered):
     """An action that the model recommends."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
     callsign: str
     action: str
 
 
-class OwnAdvisory(BaseModel):
+class OwnAdvisory(_Answered):
     """A conflict that the model sees and the rules do not."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
     kind: AdvisoryKind
     severity: Severity
     traffic: tuple[str, ...]
@@ -75,10 +75,9 @@ class OwnAdvisory(BaseModel):
     radio: tuple[str, ...] = ()
 
 
-class Answer(BaseModel):
+class Answer(_Answered):
     """The answer of the model."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
     judgements: tuple[Judgement, ...] = ()
     advisories: tuple[OwnAdvisory, ...] = ()
 
@@ -277,21 +276,18 @@ def is_airborne_conflict(traffic: Sequence[str], request: AssistantRequest) -> b
         NEAR * request.context.vertical_separation_ft * FOOT,
     )
     flying = [
-        track
+        Track.of(each, each.altitude_ft, each.ts_ms * MS_NS).at(request.ts_ms * MS_NS)
         for each in request.tracks
         if (each.callsign or each.icao24) in traffic
-        and (track := _track(each, request.ts_ms)) is not None
+        and each.altitude_ft is not None
+        and not each.on_ground
     ]
-    return len(flying) == len(set(traffic)) and any(
-        _is_near(first, second, near) for first, second in itertools.combinations(flying, 2)
-    )
-
-
-def _is_near(first: Track, second: Track, near: Minima) -> bool:
-    """Return whether two come within some distances in time."""
-    motion = relative(first, second)
-    meeting_s = time_to_loss_s(motion, first.profile(), second.profile(), near)
-    return meeting_s is not None and meeting_s <= LOOK_AHEAD_S
+    meetings_s = [
+        time_to_loss_s(relative(first, second), first.profile(), second.profile(), near)
+        for first, second in itertools.combinations(flying, 2)
+    ]
+    is_near = any(each is not None and each <= LOOK_AHEAD_S for each in meetings_s)
+    return is_near and len(flying) == len(set(traffic))
 
 
 def misread_turns(turns: Sequence[Turn]) -> bool:
@@ -307,22 +303,3 @@ def misread_turns(turns: Sequence[Turn]) -> bool:
         for call in given
         for answer in read
     )
-
-
-def _track(report: TrackSlice, ts_ms: int) -> Track | None:
-    """Return an aircraft in flight as of a time; None if it is on the ground."""
-    if report.altitude_ft is None or report.on_ground:
-        return None
-    speed_m_s, course = report.ground_speed_kt * KNOT, report.track_deg * DEGREE
-    track = Track(
-        icao24=report.icao24,
-        callsign=report.callsign or report.icao24,
-        t_ns=report.ts_ms * MS_NS,
-        latitude_rad=report.latitude_deg * DEGREE,
-        longitude_rad=report.longitude_deg * DEGREE,
-        altitude_m=report.altitude_ft * FOOT,
-        velocity_north_m_s=speed_m_s * math.cos(course),
-        velocity_east_m_s=speed_m_s * math.sin(course),
-        vertical_rate_m_s=report.vertical_rate_fpm * FOOT_PER_MINUTE,
-    )
-    return track.at(ts_ms * MS_NS)
