@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from airhilt.assistant.tts import TtsWorker
+from airhilt.assistant.tts.worker import TtsWorker
 from airhilt.cosim.engines_in_use import is_own_engine, is_remote
 from airhilt.cosim.reference_workers import reference_workers, speak_min_level
 from airhilt.errors import LanguageModelError

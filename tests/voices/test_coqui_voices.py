@@ -64,13 +64,6 @@ def test_an_incomplete_folder_is_refused_by_the_file_that_it_lacks(
         Coqui(tmp_path)
 
 
-def test_a_folder_that_is_not_there_lacks_everything(tmp_path: Path) -> None:
-    with pytest.raises(SpeechError) as refused:
-        Coqui(tmp_path / "xtts")
-    for name in MODEL_FILES:
-        assert name in str(refused.value)
-
-
 def test_without_the_package_the_error_says_how_to_get_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -122,25 +115,12 @@ class TestWithCoquiTts:
         np.testing.assert_array_equal(engine.synthesise(LANDING, voice), first)
         np.testing.assert_array_equal(Coqui(model).synthesise(LANDING, voice), first)
 
-    def test_another_text_sounds_otherwise(self, engine: Coqui) -> None:
-        voice = VoiceSpec(XTTS_SPEAKERS[1])
-        landing, around = (engine.synthesise(text, voice) for text in (LANDING, "Go around."))
-        assert not np.array_equal(landing, around)
-
-    def test_another_voice_sounds_otherwise(self, engine: Coqui) -> None:
-        spoken = [engine.synthesise(LANDING, VoiceSpec(name)) for name in XTTS_SPEAKERS[:2]]
-        assert not np.array_equal(spoken[0], spoken[1])
-
     def test_speaking_leaves_the_draws_of_torch_alone(self, engine: Coqui) -> None:
         import torch
 
         before = torch.random.get_rng_state()
         engine.synthesise("Go around.", VoiceSpec(XTTS_SPEAKERS[0]))
         assert torch.equal(torch.random.get_rng_state(), before)
-
-    def test_a_voice_that_the_model_lacks_is_refused(self, engine: Coqui) -> None:
-        with pytest.raises(SpeechError, match=r"no voice 'Nobody'; expected one of Ana Florence, "):
-            engine.synthesise(LANDING, VoiceSpec("Nobody"))
 
     def test_a_text_longer_than_the_model_takes_is_refused(self, engine: Coqui) -> None:
         with pytest.raises(SpeechError, match="cannot speak 'Go around"):
@@ -191,11 +171,6 @@ class TestWithCoquiTts:
         (folder / "config.json").unlink()
         (folder / "config.json").write_text(json.dumps(config))
         with pytest.raises(SpeechError, match="does not load as XTTS-v2: RuntimeError"):
-            Coqui(folder)
-
-    def test_a_model_without_speakers_is_refused(self, folder: Path) -> None:
-        replace(folder / "speakers_xtts.pth", {})
-        with pytest.raises(SpeechError, match=r"speakers_xtts\.pth: without speakers"):
             Coqui(folder)
 
     @pytest.mark.parametrize("speakers", [[], {"Ana": {}}, {"Ana": [1.0, 2.0]}, {"Ana": {"a": 1}}])

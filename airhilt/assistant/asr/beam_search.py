@@ -114,8 +114,6 @@ class BeamSearch:
 
     def prior(self) -> Prior:
         """Return the prior of units, which remembers what the language model said in a call."""
-        if self.weight == 0.0:  # The language model has no say, and is not asked.
-            return lambda _, unit: 0.0 if unit == END else self.reward
         known, before_most = cache(self.language.score), self.language.order - 1
 
         def prior(before: tuple[int, ...], unit: int) -> float:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import takewhile
 
 from airhilt.assistant.asr.engine import AsrEngine
 from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ, from_pcm
@@ -91,9 +92,6 @@ class PartialRecogniser:
 
 def _agreed(before: Sequence[str], now: Sequence[str]) -> int:
     """Return the number of words at the beginning that two recognitions share."""
-    count = 0
-    for one, other in zip(before, now, strict=False):
-        if one != other:
-            break
-        count += 1
-    return count
+    return sum(
+        1 for _ in takewhile(lambda both: both[0] == both[1], zip(before, now, strict=False))
+    )

@@ -152,25 +152,6 @@ def test_before_a_briefing_nobody_is_expected() -> None:
     assert [callsigns for _, callsigns in engine.asked] == [(), ("AAL123",)]
 
 
-@pytest.mark.parametrize(
-    ("changes", "said"),
-    [
-        ({"samples": 1_601}, "3200 bytes at 16000 Hz; expected 1601 samples"),
-        ({"samples": 0}, "expected 0 samples"),
-        ({"sample_rate_hz": 8_000}, "at 8000 Hz; expected 1600 samples of 16 bits at 16000 Hz"),
-    ],
-)
-def test_audio_that_is_not_what_its_header_says_is_refused(
-    changes: dict[str, int], said: str
-) -> None:
-    engine = Counting()
-    sent = transmission("call-7")
-    wrong = Input(sent.key, sent.t_in_ns, sent.payload, sent.attachment | changes)
-    with pytest.raises(SpeechError, match=f"transmission call-7: .*{said}"):
-        transcripts(AsrWorker(engine), wrong)
-    assert engine.asked == []
-
-
 def test_an_engine_that_fails_says_so_itself() -> None:
     with pytest.raises(SpeechError, match="no ears"):
         transcripts(AsrWorker(Broken()), transmission())

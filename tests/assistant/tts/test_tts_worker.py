@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from airhilt.assistant.tts import TtsWorker
+from airhilt.assistant.tts.worker import TtsWorker
 from airhilt.audio.pcm import Audio, from_pcm
 from airhilt.errors import SpeechError
 from airhilt.messages import Advisory, AdvisoryAudio, Evidence, Severity
