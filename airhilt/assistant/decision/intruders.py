@@ -26,7 +26,6 @@ from airhilt.geodesy.relative_motion import Minima
 from airhilt.messages import (
     CONTROLLER,
     AdsbReport,
-    CameraView,
     Climb,
     Evidence,
     GoAround,
@@ -120,7 +119,6 @@ class _Encounter(NamedTuple):
 
     @property
     def rank(self) -> int:
-        """Rank of its severity; -1 without one."""
         return -1 if self.severity is None else self.severity.rank
 
     def past_ns(self, minima: Minima) -> int:
@@ -145,6 +143,12 @@ class _Ongoing:
     escalation: Escalation
     recommendation: Recommendation | None = None
     past_ns: int = 0
+
+    def is_of(self, encounter: _Encounter) -> bool:
+        last = self.encounter
+        return last.carrier == encounter.carrier and (
+            last.track is encounter.track or last.ray.angle_to(encounter.ray) <= SAME_DIRECTION_RAD
+        )
 
 
 class IntruderWatch:
@@ -182,30 +186,39 @@ class IntruderWatch:
         told: list[Alert] = []
         threatened: list[_Ongoing] = []
         for encounter in self._encounters(t_ns):
-            ongoing = self._known(encounter)
-            if ongoing is not None and encounter.approach.closing > 0.0:
+            ongoing = next((each for each in self._ongoing if each.is_of(encounter)), None)
+            if ongoing is None and encounter.severity is not None:
+                self._count += 1
+                ongoing = _Ongoing(encounter, Escalation(f"intruder-{self._count}"))
                 ongoing.past_ns = encounter.past_ns(self._minima_from(encounter.track))
-            if encounter.severity is None:
+                self._ongoing.append(ongoing)
+            elif ongoing is not None and encounter.approach.closing > 0.0:
+                ongoing.past_ns = encounter.past_ns(self._minima_from(encounter.track))
+            if ongoing is None or encounter.severity is None or ongoing in threatened:
                 continue
-            ongoing = ongoing or self._new(encounter)
-            if ongoing not in threatened:
-                threatened.append(ongoing)
-                ongoing.encounter = encounter
-                told += self._raise(t_ns, ongoing, encounter.severity)
+            threatened.append(ongoing)
+            ongoing.encounter = encounter
+            if ongoing.escalation.rises(encounter.severity, t_ns, self.config.persistence_s):
+                if ongoing.escalation.severity is Severity.WARNING:
+                    ongoing.recommendation = self._recommended(encounter)
+                told.append(self._alert(t_ns, ongoing))
         for ongoing in [each for each in self._ongoing if each not in threatened]:
             told += self._calm(t_ns, ongoing)
         return told
 
-    # --- what is seen -----------------------------------------------------------------------
-
     def _encounters(self, t_ns: int) -> list[_Encounter]:
-        """Return what is seen in the air, the most urgent first."""
+        """Return what is seen in the air, the most urgent first.
+
+        If both the carrier of a camera and what it sees have a transponder, the watch for
+        separation keeps them apart.
+        """
         found = []
         for track in self._visual_tracks:
-            carrier = track.carrier
-            if carrier is None or not self._is_flying(track.last.geometry.view):
-                continue
-            if not self._is_unknown(track) or may_stand(track):
+            view, carrier = track.last.geometry.view, track.carrier
+            report = self._visual_tracks.traffic.carrier(view)
+            is_flying = view.height_m > GROUNDED_M if report is None else not report.on_ground
+            is_unknown = track.explained_by is None or report is None
+            if carrier is None or not is_flying or not is_unknown or may_stand(track):
                 continue
             approach = approach_of(track.observations)
             if approach is not None and not stays_in_place(track, approach):
@@ -214,95 +227,47 @@ class IntruderWatch:
         found.sort(key=lambda each: (-each.rank, each.approach.time_s))
         return found
 
-    def _is_flying(self, view: CameraView) -> bool:
-        """Return whether the aircraft that a camera is on is in the air."""
-        report = self._visual_tracks.traffic.carrier(view)
-        return view.height_m > GROUNDED_M if report is None else not report.on_ground
-
-    def _is_unknown(self, track: VisualTrack) -> bool:
-        """Return whether the carrier of a camera or what it sees has no transponder.
-
-        If both have one, the watch for separation keeps them apart.
-        """
-        is_carrier_known = self._visual_tracks.traffic.carrier(track.last.geometry.view) is not None
-        return track.explained_by is None or not is_carrier_known
-
     def _grade(self, track: VisualTrack, approach: Approach, t_ns: int) -> Severity | None:
-        """Return the severity of an approach; None if it passes by or is far."""
+        """Return the severity of an approach; None if it passes by or is far.
+
+        The pictures of something that stays in one direction are alike, and so are the errors of a
+        detector in them: many doubtful ones make no certain one.
+        """
         config, miss = self.config, approach.least_miss()
         left_s = approach.time_s - (t_ns - track.last.t_ns) / SECOND_NS
-        if miss > config.near_sizes or approach.closing < approach.closing_error:
+        passes = miss > config.near_sizes or approach.closing < approach.closing_error
+        if passes or left_s < 0.0:
             return None
-        if left_s < 0.0:
-            return None
-        is_certain = self._is_there(track) and approach.is_growing
-        if is_certain and left_s <= config.warning_s and miss <= config.warning_sizes:
-            return Severity.WARNING
-        if is_certain and left_s <= config.caution_s:
-            return Severity.CAUTION
+        is_there = track.belief_of_one_look > EVEN_ODDS and self._visual_tracks.shows((track,))
+        if is_there and approach.is_growing:
+            if left_s <= config.warning_s and miss <= config.warning_sizes:
+                return Severity.WARNING
+            if left_s <= config.caution_s:
+                return Severity.CAUTION
         return Severity.ADVISORY if left_s <= config.advisory_s else None
-
-    def _is_there(self, track: VisualTrack) -> bool:
-        """Return whether something is there that stays in one direction.
-
-        Its pictures are alike, and so are the errors of a detector in them: many doubtful ones
-        make no certain one.
-        """
-        believed = track.belief_of_one_look > EVEN_ODDS
-        return believed and self._visual_tracks.shows((track,))
-
-    # --- what is told -----------------------------------------------------------------------
-
-    def _known(self, encounter: _Encounter) -> _Ongoing | None:
-        """Return the encounter that is known already, None if there is none."""
-        for ongoing in self._ongoing:
-            last = ongoing.encounter
-            if last.carrier == encounter.carrier and (
-                last.track is encounter.track
-                or last.ray.angle_to(encounter.ray) <= SAME_DIRECTION_RAD
-            ):
-                return ongoing
-        return None
-
-    def _new(self, encounter: _Encounter) -> _Ongoing:
-        self._count += 1
-        ongoing = _Ongoing(encounter, Escalation(f"intruder-{self._count}"))
-        ongoing.past_ns = encounter.past_ns(self._minima_from(encounter.track))
-        self._ongoing.append(ongoing)
-        return ongoing
-
-    def _raise(self, t_ns: int, ongoing: _Ongoing, severity: Severity) -> list[Alert]:
-        if not ongoing.escalation.rises(severity, t_ns, self.config.persistence_s):
-            return []
-        if ongoing.escalation.severity is Severity.WARNING:
-            ongoing.recommendation = self._recommended(ongoing.encounter)
-        return [self._alert(t_ns, ongoing)]
 
     def _calm(self, t_ns: int, ongoing: _Ongoing) -> list[Alert]:
         """End an encounter once it is past, so that nobody goes back before."""
-        if ongoing.escalation.severity is None:
-            if ongoing.escalation.is_over(t_ns, BLIND_NS / SECOND_NS):
-                self._ongoing.remove(ongoing)
+        escalation = ongoing.escalation
+        has_alert = escalation.severity is not None
+        if has_alert and t_ns < ongoing.past_ns:
+            escalation.stays()
             return []
-        if t_ns < ongoing.past_ns:
-            ongoing.escalation.stays()
-            return []
-        if not ongoing.escalation.is_over(t_ns, self.config.release_s):
+        if not escalation.is_over(
+            t_ns, self.config.release_s if has_alert else BLIND_NS / SECOND_NS
+        ):
             return []
         self._ongoing.remove(ongoing)
-        return [self._alert(t_ns, ongoing, active=False)]
+        return [self._alert(t_ns, ongoing, active=False)] if has_alert else []
 
     def _recommended(self, encounter: _Encounter) -> Recommendation:
-        """Return how to stay clear."""
-        track = encounter.track
-        runway = self._runway_of(encounter.carrier)
+        track, runway = encounter.track, self._runway_of(encounter.carrier)
         if runway is not None:
             return GoAround(runway=runway)
         report = self._visual_tracks.traffic.carrier(track.last.geometry.view)
         return evasion(track, encounter.approach, report, self._minima_from(track).vertical_m)
 
     def _minima_from(self, track: VisualTrack) -> Minima:
-        """Return the distances to keep from something."""
         return BIRDS if track.label == "bird" else self._minima()
 
     def _alert(self, t_ns: int, ongoing: _Ongoing, active: bool = True) -> Alert:
