@@ -122,12 +122,10 @@ class SeparationWatch:
         alerts, self._misread = self._misread, []
         for doubt, traffic in self._readbacks.doubts(t_ns, self.config):
             alerts += self._clarifications.ask(t_ns, doubt, traffic)
-        tracks = self._tracks
         pairs = self._pairs_with_news(t_ns)
-        silent = [pair for pair in self._conflicts if tracks.silent_ns(pair, t_ns) >= COASTING_NS]
-        for pair in [*pairs, *silent]:
+        for pair in [*pairs, *self._tracks.silent(self._conflicts, t_ns, COASTING_NS)]:
             alerts += self._judge(t_ns, pair)
-        tracks.end_step()
+        self._tracks.end_step()
         return alerts
 
     def observe(self, t_ns: int) -> None:
@@ -140,9 +138,8 @@ class SeparationWatch:
 
     def _pairs_with_news(self, t_ns: int) -> list[Pair]:
         config = self.config
-        self._tracks.begin_step(t_ns - round(config.stale_s * SECOND_NS), self._conflicts)
         reach = Reach(config.horizontal_m, config.vertical_m, config.advisory_s + config.stale_s)
-        return list(self._tracks.pairs_with_news(reach, self._conflicts))
+        return self._tracks.pairs_with_news(t_ns, reach, config.stale_s, self._conflicts)
 
     def _level(self, prediction: Prediction) -> Severity | None:
         if "loss_of_separation" not in self.config.rules:

@@ -49,8 +49,8 @@ AURALS = {
     Severity.WARNING: "traffic, maneuver now, traffic, maneuver now",
 }
 """Aural alerts (DO-365B, table 2-21)."""
-STALE_NS = 15 * SECOND_NS
-"""Silence after which a track is dropped, in ns; an assumption."""
+STALE_S = 15.0
+"""Silence after which a track is dropped, in s; an assumption."""
 CYCLE_NS = SECOND_NS
 """Time without a report after which a pair with an alert is judged again, in ns."""
 REACH = Reach(
@@ -106,12 +106,10 @@ class WellClearEngine:
     def decide(self, t_ns: int) -> Decision:
         """Return the alerts that are new, have risen, or are over."""
         tracks = self._tracks
-        tracks.begin_step(t_ns - STALE_NS, self._encounters)
-        silent = [pair for pair in self._encounters if tracks.silent_ns(pair, t_ns) >= CYCLE_NS]
+        pairs = tracks.pairs_with_news(t_ns, REACH, STALE_S, self._encounters)
+        silent = tracks.silent(self._encounters, t_ns, CYCLE_NS)
         alerts = [
-            alert
-            for pair in dict.fromkeys([*tracks.pairs_with_news(REACH, self._encounters), *silent])
-            for alert in self._judge(pair, t_ns)
+            alert for pair in dict.fromkeys([*pairs, *silent]) for alert in self._judge(pair, t_ns)
         ]
         tracks.end_step()
         return Decision(alerts, again_ns=t_ns + CYCLE_NS if self._encounters else None)
@@ -119,12 +117,21 @@ class WellClearEngine:
     def _judge(self, pair: Pair, t_ns: int) -> Iterator[Alert]:
         """Yield the alert about one pair if it is new or has changed."""
         first, second = (self._tracks.present(icao24, t_ns) for icao24 in pair)
-        motion, gap = relative(first, second), _gap(first, second)
-        level = None if self._is_exempt(first, second) else level_of(motion, gap)
+        motion, zone = relative(first, second), self._zone
+        own, other = first.profile(), second.profile()
+        gap = Gap(other.altitude_m - own.altitude_m, other.rate_m_s - own.rate_m_s)
+        is_exempt = (
+            self._tracks.is_grounded(first)
+            or self._tracks.is_grounded(second)
+            or (zone is not None and zone.contains(first) and zone.contains(second))
+        )
+        level = None if is_exempt else level_of(motion, gap)
         encounter = self._encounters.get(pair)
         if level is None:
-            if encounter is not None:
-                yield from self._calm(pair, encounter, motion, t_ns)
+            if encounter is not None and self._is_over(encounter, motion, t_ns):
+                del self._encounters[pair]
+                evidence = Evidence(sources=("adsb",), note="well clear", tracks=pair)
+                yield _alert(encounter, first, second, evidence, is_active=False)
             return
         if encounter is None:
             self._count += 1
@@ -135,31 +142,16 @@ class WellClearEngine:
                 encounter.recommendations = _turns(first, second, gap)
             yield _alert(encounter, first, second, _evidence(pair, motion, gap, level))
 
-    def _is_exempt(self, first: Track, second: Track) -> bool:
-        """Return whether either is on the ground, or both are in a terminal area."""
-        if self._tracks.is_grounded(first) or self._tracks.is_grounded(second):
-            return True
-        zone = self._zone
-        return zone is not None and zone.contains(first) and zone.contains(second)
-
-    def _calm(
-        self, pair: Pair, encounter: _Encounter, motion: Relative, t_ns: int
-    ) -> Iterator[Alert]:
-        """Yield the end of an alert.
+    def _is_over(self, encounter: _Encounter, motion: Relative, t_ns: int) -> bool:
+        """Note that nothing is wrong now, and return whether an alert is over.
 
         Once crews were told to turn, it does not end before the two are past each other: going
         back would bring it back.
         """
-        must_pass = bool(encounter.recommendations)
-        if must_pass and motion.time_to_closest_approach_s() > 0.0:
+        if encounter.recommendations and motion.time_to_closest_approach_s() > 0.0:
             encounter.escalation.stays()
-            return
-        if not encounter.escalation.is_over(t_ns, HYSTERESIS_S):
-            return
-        del self._encounters[pair]
-        first, second = (self._tracks.present(icao24, t_ns) for icao24 in pair)
-        evidence = Evidence(sources=("adsb",), note="well clear", tracks=pair)
-        yield _alert(encounter, first, second, evidence, is_active=False)
+            return False
+        return encounter.escalation.is_over(t_ns, HYSTERESIS_S)
 
 
 def smallest_turn(motion: Relative, own: Velocity, gap: Gap) -> Turn | None:
@@ -199,23 +191,16 @@ def _stays_clear(motion: Relative, own: Velocity, gap: Gap, turn_rad: float) -> 
     return violation_s is None or violation_s > LOOK_AHEAD_S
 
 
-def _gap(first: Track, second: Track) -> Gap:
-    own, other = first.profile(), second.profile()
-    return Gap(other.altitude_m - own.altitude_m, other.rate_m_s - own.rate_m_s)
-
-
 def _turns(first: Track, second: Track, gap: Gap) -> dict[str, Recommendation]:
     """Return the turn of each crew, where there is one."""
     opposite = Gap(-gap.gap_m, -gap.rate_m_s)
-    turns: dict[str, Turn | None] = {
-        first.callsign: smallest_turn(relative(first, second), _velocity(first), gap),
-        second.callsign: smallest_turn(relative(second, first), _velocity(second), opposite),
+    turns = {
+        own.callsign: smallest_turn(
+            relative(own, other), (own.velocity_north_m_s, own.velocity_east_m_s), seen
+        )
+        for own, other, seen in ((first, second, gap), (second, first, opposite))
     }
     return {callsign: turn for callsign, turn in turns.items() if turn is not None}
-
-
-def _velocity(track: Track) -> tuple[float, float]:
-    return track.velocity_north_m_s, track.velocity_east_m_s
 
 
 def _evidence(pair: Pair, motion: Relative, gap: Gap, level: AlertLevel) -> Evidence:
