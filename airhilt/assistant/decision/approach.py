@@ -21,7 +21,6 @@ import numpy.typing as npt
 from airhilt.assistant.decision.line_of_sight import Ray
 from airhilt.assistant.decision.visual_tracks import Observation, VisualTrack
 from airhilt.geodesy.wgs84 import offset_m
-from airhilt.messages import CameraView
 from airhilt.units import DEGREE, SECOND_NS
 
 LEAST_SPAN_NS = round(0.75 * SECOND_NS)
@@ -242,31 +241,21 @@ def _across_and_along_m_s(observations: Sequence[Observation]) -> tuple[float, f
     seconds = (last.t_ns - first.t_ns) / SECOND_NS
     if seconds <= 0.0:
         return 0.0, 0.0, 0.0
-    moved = _moved_m(first.geometry.view, last.geometry.view)
-    right, up = _across(last.ray)
-    to_right, upward, along = (
-        sum(a * b for a, b in zip(moved, axis, strict=True)) / seconds
-        for axis in (right, up, last.ray)
-    )
-    return to_right, upward, along
-
-
-def _moved_m(before: CameraView, now: CameraView) -> tuple[float, float, float]:
-    """Return the movement of a camera to the east, to the north and up, in m."""
+    before, now = first.geometry.view, last.geometry.view
     north_m, east_m = offset_m(
         (before.latitude_deg * DEGREE, before.longitude_deg * DEGREE),
         (now.latitude_deg * DEGREE, now.longitude_deg * DEGREE),
     )
-    return east_m, north_m, now.height_m - before.height_m
-
-
-def _across(ray: Ray) -> tuple[Ray, Ray]:
-    """Return the directions to the right of a line of sight and above it."""
-    azimuth, elevation = ray.azimuth_rad, ray.elevation_rad
+    moved = east_m, north_m, now.height_m - before.height_m
+    azimuth, elevation = last.ray.azimuth_rad, last.ray.elevation_rad
     right = Ray(math.cos(azimuth), -math.sin(azimuth), 0.0)
     up = Ray(
         -math.sin(elevation) * math.sin(azimuth),
         -math.sin(elevation) * math.cos(azimuth),
         math.cos(elevation),
     )
-    return right, up
+    to_right, upward, along = (
+        sum(a * b for a, b in zip(moved, axis, strict=True)) / seconds
+        for axis in (right, up, last.ray)
+    )
+    return to_right, upward, along

@@ -131,7 +131,7 @@ class SeparationWatch:
     def observe(self, t_ns: int) -> None:
         """Note the conflicts at a time at which nothing is told; tracks with news keep it."""
         for pair in self._pairs_with_news(t_ns):
-            level = self._level(self._predict(t_ns, pair))
+            level = self.config.severity_of(self._predict(t_ns, pair).time_to_loss_s)
             conflict = self._conflict_of(pair, level)
             if conflict is not None:
                 conflict.escalation.observe(level, t_ns)
@@ -140,11 +140,6 @@ class SeparationWatch:
         config = self.config
         reach = Reach(config.horizontal_m, config.vertical_m, config.advisory_s + config.stale_s)
         return self._tracks.pairs_with_news(t_ns, reach, config.stale_s, self._conflicts)
-
-    def _level(self, prediction: Prediction) -> Severity | None:
-        if "loss_of_separation" not in self.config.rules:
-            return None
-        return self.config.severity_of(prediction.time_to_loss_s)
 
     def _conflict_of(self, pair: Pair, level: Severity | None) -> _Conflict | None:
         """Return the conflict of a pair, a new one if its level is the first."""
@@ -158,7 +153,7 @@ class SeparationWatch:
     def _judge(self, t_ns: int, pair: Pair) -> list[Alert]:
         """Predict one pair, and tell it if that changes what is known of its conflict."""
         prediction = self._predict(t_ns, pair)
-        level = self._level(prediction)
+        level = self.config.severity_of(prediction.time_to_loss_s)
         conflict = self._conflict_of(pair, level)
         if conflict is None:
             return []

@@ -93,10 +93,6 @@ class _Look:
     confidence: float = 0.0
     pictures: int = 0
 
-    @property
-    def mean(self) -> float:
-        return self.confidence / self.pictures
-
 
 @dataclass(slots=True, eq=False)
 class VisualTrack:
@@ -150,7 +146,7 @@ class VisualTrack:
         return sum(means) / len(means) if means else 0.0
 
     def _means(self) -> list[float]:
-        return [look.mean for look in list(self._looks)[:-1]]
+        return [look.confidence / look.pictures for look in list(self._looks)[:-1]]
 
     @property
     def is_doubtful(self) -> bool:
@@ -171,17 +167,14 @@ class VisualTrack:
         while observation.t_ns - self.observations[0].t_ns > OBSERVED_NS:
             self.observations.popleft()
         self._votes[label] += observation.confidence
-        self._look(observation.t_ns, observation.confidence)
+        self.look(observation.t_ns, observation.confidence)
         if explained_by is not None:
             self.explained_by, self._explained_ns = explained_by, observation.t_ns
         elif observation.t_ns - self._explained_ns > EXPLAINED_NS:
             self.explained_by = None
 
-    def miss(self, t_ns: int) -> None:
-        """Update with a picture that does not show it."""
-        self._look(t_ns, 0.0)
-
-    def _look(self, t_ns: int, confidence: float) -> None:
+    def look(self, t_ns: int, confidence: float = 0.0) -> None:
+        """Update its looks with a picture that shows it with a confidence; 0: it does not."""
         if not self._looks or t_ns - self._looks[-1].begun_ns >= LOOK_NS:
             self._looks.append(_Look(t_ns))
         self._looks[-1].confidence += confidence
@@ -247,7 +240,7 @@ class VisualTracks:
             found[number] = track
         for number, track in followed.items():
             if number not in found:
-                track.miss(t_ns)
+                track.look(t_ns)
                 if not track.is_doubtful:
                     found[number] = track
         self._tracks[detections.camera] = found

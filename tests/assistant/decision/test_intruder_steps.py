@@ -6,16 +6,10 @@ import math
 from types import SimpleNamespace
 from typing import Any, cast
 
-import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from airhilt.assistant.decision.approach import (
     Approach,
-    _across,
-    _line,
-    _variance_ratio,
     approach_of,
     may_stand,
     stays_in_place,
@@ -82,39 +76,6 @@ def test_it_passes_by_as_many_sizes_as_its_direction_turns(
     found = approach(turning_rad_s=turning, turning_error=error)
     assert found.least_miss() == pytest.approx(sizes)
     assert found.passes_above() == pytest.approx(turning[1] * 20.0 / 0.01)
-
-
-@given(st.floats(-5.0, 5.0), st.floats(-2.0, 2.0), st.integers(6, 30))
-def test_a_straight_line_is_fitted_through_points_on_one_and_not_through_an_outlier(
-    now: float, slope: float, count: int
-) -> None:
-    times = np.linspace(-3.0, 0.0, count)
-    values = now + slope * times
-    values[count // 2] += 50.0
-    errors = np.full(count, 0.1)
-    found = _line(times, values, errors)
-    assert (found.now, found.slope) == pytest.approx((now, slope), abs=1e-6)
-    assert found.slope_error > 0.0
-
-
-def test_the_error_of_a_slope_is_that_of_least_squares_where_pictures_are_unlike() -> None:
-    times = np.linspace(-10.0, 0.0, 21)  # Half a second apart: more than errors stay alike.
-    found = _line(times, 2.0 + 0.3 * times, np.full(21, 0.2))
-    spread = float(np.sum((times - times.mean()) ** 2))
-    assert found.slope_error == pytest.approx(0.2 / math.sqrt(spread))
-
-
-@pytest.mark.parametrize(
-    ("misfit", "ratio"),
-    [
-        ((1.0, -1.0, 1.0, -1.0), 1.0),  # Errors that alternate do not last.
-        ((0.0, 0.0), 1.0),
-        ((1.0, 1.0, 1.0, 1.0), 7.0),  # r is 3 / 4.
-        ((1.0,) * 100, 39.0),  # 0.99 counts as 0.95.
-    ],
-)
-def test_errors_that_last_raise_the_variance(misfit: tuple[float, ...], ratio: float) -> None:
-    assert _variance_ratio(np.array(misfit)) == pytest.approx(ratio)
 
 
 def nears(times_s: list[float], *, contact_s: float = 20.0, focal_px: float = 1000.0) -> Any:
@@ -272,19 +233,6 @@ def test_what_would_be_larger_than_an_airliner_on_the_ground_is_in_the_air(
     assert may_stand(cast(Any, SimpleNamespace(label=label, last=last))) is stands
     foot.elevation_rad = 0.0
     assert not may_stand(cast(Any, SimpleNamespace(label=label, last=last)))
-
-
-@given(st.floats(-3.1, 3.1), st.floats(-1.4, 1.4))
-def test_right_and_above_are_square_to_a_line_of_sight(azimuth: float, elevation: float) -> None:
-    ray = Ray(
-        math.cos(elevation) * math.sin(azimuth), math.cos(elevation) * math.cos(azimuth),
-        math.sin(elevation),
-    )  # fmt: skip
-    axes = np.array([*_across(ray), ray])
-    assert axes @ axes.T == pytest.approx(np.eye(3), abs=1e-9)
-    assert np.linalg.det(axes) == pytest.approx(-1.0)  # East, up and north at azimuth 0.
-    assert axes[1, 2] > 0.0
-    assert axes[0, 2] == 0.0
 
 
 # --- when it is told ------------------------------------------------------------------------

@@ -93,21 +93,6 @@ def pair(upper: Track, lower: Track) -> _Pair:
     return _Pair(upper, lower, STANDARD)
 
 
-@pytest.mark.parametrize(
-    ("gap_ft", "levels_ft"),
-    [(0.0, (35_600, 34_400)), (-400.0, (35_400, 34_200)), (1190.0, (36_200, 34_900)),
-     (1200.0, None), (1300.0, None)],
-)  # fmt: skip
-def test_levels_are_far_enough_apart_in_hundreds_of_feet_outward(
-    gap_ft: float, levels_ft: tuple[float, float] | None
-) -> None:
-    upper, lower = track("a1", 0.0, 35_000 + gap_ft), track("a2", 0.0, 35_000)
-    found = pair(upper, lower).levels_apart()
-    assert (found and tuple(level / FOOT for level in found)) == (
-        levels_ft and pytest.approx(levels_ft)
-    )
-
-
 def test_who_goes_alone_goes_clear_of_where_the_other_gets_to_while_the_two_are_near() -> None:
     """5 NM are 9,260 m: of 48 km at 480 m/s the two are near from 80.7 s to 119.3 s from now."""
     upper = track("a1", 0.0, 35_000, 240.0, rate_fpm=-600.0)
@@ -115,26 +100,8 @@ def test_who_goes_alone_goes_clear_of_where_the_other_gets_to_while_the_two_are_
     both = pair(upper, lower)
     last_s = (48_000.0 + 5.0 * NAUTICAL_MILE) / 480.0
     highest_ft, lowest_ft = 34_000.0 + 20.0 * last_s, 35_000.0 - 10.0 * last_s
-    assert both.level_above() / FOOT == pytest.approx(100.0 * math.ceil((highest_ft + 1200) / 100))
-    assert both.level_below() / FOOT == pytest.approx(100.0 * math.floor((lowest_ft - 1200) / 100))
-
-
-@pytest.mark.parametrize(
-    ("apart_m", "closing_m_s", "expected_s"),
-    [
-        (48_000.0, 480.0, (38_740.0 / 480.0, 57_260.0 / 480.0)),
-        (5_000.0, 480.0, (0.0, 14_260.0 / 480.0)),  # They are near already.
-        (-48_000.0, 480.0, (0.0, 0.0)),  # They were.
-        (5_000.0, 0.0, (0.0, 600.0)),  # And will be for as long as is foreseen.
-        (48_000.0, 0.0, (0.0, 0.0)),
-        (20_000.0, 20.0, (10_740.0 / 20.0, 600.0)),
-    ],
-)
-def test_the_two_are_near_while_they_are_within_the_horizontal_minimum(
-    apart_m: float, closing_m_s: float, expected_s: tuple[float, float]
-) -> None:
-    both = pair(track("a1", 0.0, 35_000, closing_m_s), track("a2", apart_m, 35_000))
-    assert both._near_s() == pytest.approx(expected_s, rel=0.01)
+    assert both.above_m / FOOT == pytest.approx(100.0 * math.ceil((highest_ft + 1200) / 100))
+    assert both.below_m / FOOT == pytest.approx(100.0 * math.floor((lowest_ft - 1200) / 100))
 
 
 # --- what is tried first ----------------------------------------------------------------------
