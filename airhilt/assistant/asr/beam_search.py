@@ -87,7 +87,6 @@ class BeamSearch:
         units: list[tuple[int, float]],
         prior: Prior,
     ) -> dict[tuple[int, ...], _Prefix]:
-        """Return the best beginnings after one more step."""
         grown: dict[tuple[int, ...], _Prefix] = {}
         for before, prefix in beam.items():
             heard = prefix.heard()

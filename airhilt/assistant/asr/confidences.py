@@ -72,15 +72,7 @@ class WordCurve:
     offset: float
 
     def __call__(self, posterior: float, against: float) -> float:
-        """Return the probability that a word is right.
-
-        Parameters
-        ----------
-        posterior
-            Least posterior of its pieces.
-        against
-            Least `log_odds` of them.
-        """
+        """Return the probability by the least posterior of the pieces, and their least log-odds."""
         heard = self.posterior_slope * log_odds_of(posterior)
         return probability(heard + self.alternatives_slope * against + self.offset)
 

@@ -100,7 +100,6 @@ class AsrWorker:
 
 
 def _inputs(calls: str, gives_partials: bool) -> tuple[InputSpec, ...]:
-    """Return the inputs of a worker that recognises whole calls, and those that go on if asked."""
     keys = (calls, "briefing")
     if gives_partials:
         return tuple(InputSpec(key=key, policy="batch") for key in (*keys, "radio/*/audio"))

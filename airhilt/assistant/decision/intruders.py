@@ -304,7 +304,6 @@ class IntruderWatch:
 
 
 def _where(encounter: _Encounter) -> Where:
-    """Return the direction of something as the crew sees it."""
     heading_rad = encounter.track.last.geometry.view.heading_deg * DEGREE
     right_rad = wrap_angle(encounter.ray.azimuth_rad - heading_rad)
     is_right = right_rad > 0.0
@@ -318,7 +317,6 @@ def _where(encounter: _Encounter) -> Where:
 
 
 def _note(encounter: _Encounter) -> str:
-    """Return the estimates with their errors, for the evidence."""
     approach, track = encounter.approach, encounter.track
     turning = math.hypot(*approach.turning_rad_s) / DEGREE
     error_s = math.hypot(approach.closing_error, approach.lasting_error) * approach.time_s**2
@@ -361,7 +359,6 @@ def evasion(
 
 
 def _sense(track: VisualTrack, approach: Approach, vertical_rate_m_s: float) -> int:
-    """Return 1 to climb and -1 to descend, away from where it is or will be."""
     above = approach.passes_above()
     turns = abs(approach.turning_rad_s[1]) > 2.0 * approach.turning_error
     if abs(above) > ABOVE_SIZES and turns:

@@ -113,7 +113,6 @@ class _Pair:
 
 
 def _candidates(pair: _Pair, strong: bool) -> Iterator[list[Candidate]]:
-    """Yield groups of candidates, the least disturbing first."""
     strongest = list(_verticals(pair, STRONG_VERTICAL_RATE_FPM))
     verticals = strongest if strong else list(_verticals(pair, VERTICAL_RATE_FPM))
     right = Manoeuvre(turn_rad=TURN_DEG * DEGREE)
@@ -191,7 +190,6 @@ class _Encounter:
         )
 
     def better(self, best: _Choice, candidates: Sequence[Candidate]) -> _Choice:
-        """Return the first candidate that keeps separation, or the best one so far."""
         if not candidates:
             return best
         ups, downs = (
@@ -212,14 +210,12 @@ class _Encounter:
         return best
 
     def _threatens(self, manoeuvre: Manoeuvre, flown: Paths) -> bool:
-        """Return whether a manoeuvre brings an aircraft into conflict with somebody else."""
         if manoeuvre == NONE:
             return False
         return bool(np.any(separations(flown, self._traffic, self._minima) < 1.0))
 
 
 def _over_ground(origin: Track, track: Track) -> Relative:
-    """Return where an aircraft is as seen from another one, and how it moves over the ground."""
     motion = relative(origin, track)
     return motion._replace(
         velocity_north_m_s=motion.velocity_north_m_s + origin.velocity_north_m_s,

@@ -94,7 +94,6 @@ class SeparationWatch:
             self._misread.append(self._misread_alert(misread, t_in_ns))
 
     def _misread_alert(self, misread: LevelMisread, t_in_ns: int) -> Alert:
-        """Return the alert for a readback mismatch with activity (the ladder's step a)."""
         self._count += 1
         return Alert(
             id=f"readback-{self._count}",
@@ -142,7 +141,6 @@ class SeparationWatch:
         return self._tracks.pairs_with_news(t_ns, reach, config.stale_s, self._conflicts)
 
     def _conflict_of(self, pair: Pair, level: Severity | None) -> _Conflict | None:
-        """Return the conflict of a pair, a new one if its level is the first."""
         conflict = self._conflicts.get(pair)
         if conflict is None and level is not None:
             self._count += 1
@@ -151,7 +149,6 @@ class SeparationWatch:
         return conflict
 
     def _judge(self, t_ns: int, pair: Pair) -> list[Alert]:
-        """Predict one pair, and tell it if that changes what is known of its conflict."""
         prediction = self._predict(t_ns, pair)
         level = self.config.severity_of(prediction.time_to_loss_s)
         conflict = self._conflict_of(pair, level)

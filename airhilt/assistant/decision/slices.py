@@ -37,13 +37,7 @@ SECOND_MS = 1_000
 
 
 class Slices:
-    """Keeps the last minutes of what has arrived and can be right.
-
-    Attributes
-    ----------
-    checks
-        Checks of what arrives, which know what was wrong.
-    """
+    """Keeps the last minutes of what has arrived and can be right by its checks."""
 
     def __init__(self) -> None:
         self.checks = InputChecks()

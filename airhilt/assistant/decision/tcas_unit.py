@@ -126,8 +126,6 @@ class TcasUnit:
 
     Parameters
     ----------
-    callsign, icao24
-        Callsign and address of the own aircraft.
     senses
         Senses that equipped aircraft have told each other.
     filters_misses
@@ -179,7 +177,6 @@ class TcasUnit:
         return alerts
 
     def _judge(self, look: _Look, t_ns: int) -> Iterator[Alert]:
-        """Yield the alert about one intruder if it is new or has changed."""
         said = look.said(self._filters_misses)
         encounter = self._encounters.get(look.track)
         if encounter is not None and encounter.is_over:
@@ -208,7 +205,6 @@ class TcasUnit:
             yield from self._end(look.track)
 
     def _first_resolution(self, look: _Look) -> Resolution:
-        """Choose the first resolution advisory, and coordinate it."""
         in_force = [
             other.resolution.sense
             for other in self._encounters.values()
@@ -230,7 +226,6 @@ class TcasUnit:
         return resolution
 
     def _end(self, track: IntruderTrack) -> Iterator[Alert]:
-        """Yield the last alert about an intruder, if there was one before."""
         encounter = self._encounters.get(track)
         if track.icao24 is not None:
             self._senses.pop((self.icao24, track.icao24), None)
@@ -277,7 +272,6 @@ class TcasUnit:
 
 
 def _own_state(instruments: CockpitInstruments, t_ns: int) -> tuple[Vertical, float]:
-    """Return altitude and vertical rate now, and the height, from the latest instruments."""
     elapsed_s = (t_ns - instruments.t_ns) / SECOND_NS
     rate_m_s = instruments.vertical_speed_fpm * FOOT_PER_MINUTE
     altitude_m = instruments.altitude_ft * FOOT + rate_m_s * elapsed_s

@@ -73,16 +73,8 @@ class Observation(NamedTuple):
     @classmethod
     def of(cls, t_ns: int, geometry: PictureGeometry, box: Box, confidence: float) -> Observation:
         """Return the observation of a box in a picture."""
-        is_whole = not geometry.touches_edge(box)
-        return cls(
-            t_ns,
-            geometry,
-            box,
-            confidence,
-            geometry.middle(box),
-            geometry.angular_size(box),
-            is_whole,
-        )
+        ray, size_rad = geometry.middle(box), geometry.angular_size(box)
+        return cls(t_ns, geometry, box, confidence, ray, size_rad, not geometry.touches_edge(box))
 
 
 @dataclass(slots=True)
@@ -153,11 +145,6 @@ class VisualTrack:
         """True if the belief has fallen so low that it is forgotten."""
         return len(self._looks) > 1 and self.belief < DOUBT
 
-    @property
-    def age_ns(self) -> int:
-        """Time between the first and the last picture that showed it, in ns."""
-        return self.last.t_ns - self.first_ns
-
     def take(self, observation: Observation, label: VisibleClass, explained_by: str | None) -> None:
         """Update with a picture that shows it."""
         self._first_box = self._first_box or observation.box
@@ -207,7 +194,7 @@ class VisualTracks:
             return False
         if len({track.camera for track in together}) >= self.config.cameras:
             return True
-        longest_ns = max(track.age_ns for track in together)
+        longest_ns = max(track.last.t_ns - track.first_ns for track in together)
         return longest_ns >= self.config.persistence_s * SECOND_NS
 
     def take_briefing(self, briefing: Briefing) -> None:
@@ -272,7 +259,6 @@ class VisualTracks:
 
 
 def _shift(before: Box, now: Box, sizes: float, pixels: float) -> float:
-    """Return the movement of a box, in units of so many of its sizes and pixels."""
     x = (now[0] + now[2] - before[0] - before[2]) / 2.0
     y = (now[1] + now[3] - before[1] - before[3]) / 2.0
     size_px = max(before[2] - before[0], before[3] - before[1])

@@ -28,7 +28,6 @@ from airhilt.messages import (
     InputSpec,
     Message,
     ModelExchange,
-    PartialTranscript,
     RadarInfo,
     RadarPlot,
     Status,
@@ -36,9 +35,6 @@ from airhilt.messages import (
     TcasReply,
     Transcript,
     Transmission,
-    TransmissionChunk,
-    TransmissionClosed,
-    TransmissionOpened,
     WorkerDescription,
 )
 from airhilt.sim.worker import Input, Output
@@ -59,15 +55,6 @@ KEYS: dict[type[Message], str] = {
     Status: "status/*",
 }
 """The key of each message that an engine may read by its class alone."""
-CALLS = (
-    Transcript,
-    PartialTranscript,
-    Transmission,
-    TransmissionOpened,
-    TransmissionChunk,
-    TransmissionClosed,
-)
-"""Messages about a transmission."""
 GATE_READS = (Transcript, Transmission, Status)
 """Messages that tell that a transcript is to come, has come, or will not come."""
 
@@ -159,7 +146,7 @@ class DecisionWorker:
         message = (
             model.validate_json(item.payload) if header is None else model.validate_python(header)
         )
-        if isinstance(message, CALLS) and message.id.startswith(ADVISORY_CALL):
+        if str(getattr(message, "id", "")).startswith(ADVISORY_CALL):
             return  # It knows what it has said itself.
         if self._gate is not None:
             self._gate.receive(message)
@@ -168,7 +155,6 @@ class DecisionWorker:
             self._engine.receive(ReceivedMessage(message, item.t_in_ns, t_ns, raw))
 
     def _answers(self, exchanges: Sequence[ModelExchange]) -> Iterator[Output]:
-        """Yield what a language model was asked and answered, under the ids of the advisories."""
         for exchange in exchanges:
             ids = tuple(f"{self._name}-{each}" for each in exchange.advisories)
             named = exchange.model_copy(update={"advisories": ids})

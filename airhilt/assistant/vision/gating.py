@@ -83,13 +83,7 @@ class _Layer(NamedTuple):
 
 
 class KeptPixels:
-    """A tile as it was when its parts were last looked at.
-
-    Parameters
-    ----------
-    picture
-        The picture of which the whole tile was looked at.
-    """
+    """A tile as it was when its parts were last looked at, first in a whole picture."""
 
     def __init__(self, tile: Tile, picture: SeenPicture) -> None:
         self._tile = tile
@@ -146,13 +140,7 @@ class Gate:
         self._looked: dict[tuple[str, Tile], _Looked] = {}
 
     def look(self, shot: Shot, picture: Picture) -> list[Found]:
-        """Return what is in the next picture of a camera, by falling confidence.
-
-        Raises
-        ------
-        airhilt.errors.VisionError
-            The detector has failed.
-        """
+        """Return what is in the next picture of a camera, by falling confidence."""
         return self.look_at(shot, SeenPicture.of(picture))
 
     def look_at(self, shot: Shot, picture: SeenPicture) -> list[Found]:
@@ -168,7 +156,6 @@ class Gate:
         ])  # fmt: skip
 
     def _look_at(self, shot: Shot, tile: Tile, picture: SeenPicture) -> tuple[Found, ...]:
-        """Return what is in a tile, with boxes as they are in it."""
         last = self._looked.get((shot.camera, tile))
         history = _history("" if last is None else last.history, picture.sha256)
 
@@ -229,7 +216,6 @@ def _part(shot: Shot, tile: Tile) -> Shot:
 def _together(
     before: Sequence[Found], seen: Sequence[Found], windows: Sequence[Tile]
 ) -> list[Found]:
-    """Return what is seen in windows and what was outside of them, by falling confidence."""
     outside = [
         one for one in before if not any(shared_area(one.box, window.box) for window in windows)
     ]

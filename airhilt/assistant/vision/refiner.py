@@ -63,8 +63,6 @@ class Refiner:
         Folder of the card.
     classes
         Classes in the order of the network's probabilities.
-    threads
-        Number of threads that share the work.
 
     Raises
     ------
@@ -97,13 +95,7 @@ class Refiner:
             )
 
     def places(self, found: Sequence[Found], pixels: int) -> list[Found]:
-        """Return the findings of the first network that are looked at, by falling score.
-
-        Parameters
-        ----------
-        pixels
-            Number of pixels of the picture.
-        """
+        """Return the findings that are looked at in a picture of so many pixels."""
         most = math.ceil(self._card.most * max(pixels / USUAL_PIXELS, 1.0))
         return [each for each in found if each.confidence >= self._card.least_score][:most]
 

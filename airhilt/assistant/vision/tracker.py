@@ -81,16 +81,13 @@ class _Track:
 
     @property
     def side(self) -> float:
-        """Side of a square with the area of the box, in pixels."""
         return _side(self.state[:, 0])
 
     @property
     def label(self) -> VisibleClass:
-        """The label that it had most, weighted by confidence."""
         return max(self.labels, key=self.labels.__getitem__)
 
     def predict(self, dt_s: float) -> None:
-        """Extrapolate by a time."""
         move = np.array(((1.0, dt_s), (0.0, 1.0)))
         # White noise as acceleration (Bar-Shalom et al., 2001, section 6.2.2), in px^2/s^3.
         noise = np.array(((dt_s**3 / 3.0, dt_s**2 / 2.0), (dt_s**2 / 2.0, dt_s)))
@@ -128,7 +125,6 @@ class _Track:
         return np.where(is_possible, costs, NEVER)
 
     def update(self, found: Found, t_ns: int) -> None:
-        """Update with a finding."""
         variance = _measurement_variance(self.side)
         gain = self.covariance[:, :, 0] / (self.covariance[:, 0, 0] + variance)[:, None]
         self.state = self.state + gain * (_measured(found) - self.state[:, 0])[:, None]
@@ -139,7 +135,6 @@ class _Track:
         self.misses = 0
 
     def is_over(self, t_ns: int, view: CameraView) -> bool:
-        """Return whether the track has ended."""
         column, row = self.state[:2, 0]
         is_out = not (0.0 <= column <= view.width_px and 0.0 <= row <= view.height_px)
         life_s = LIFE_S if self.hits >= CONFIRMED_HITS else TENTATIVE_LIFE_S
@@ -166,11 +161,6 @@ class Tracker:
         """Return the findings in the next picture with their tracks, by falling confidence.
 
         Doubtful findings are left out unless they continue a confirmed track.
-
-        Parameters
-        ----------
-        t_ns
-            End of the exposure.
         """
         self._expect(t_ns, view)
         confident = [one for one in found if one.confidence >= self._threshold]
@@ -197,7 +187,6 @@ class Tracker:
         return sorted(told, key=lambda each: (-each.found.confidence, each.track_id))
 
     def _expect(self, t_ns: int, view: CameraView) -> None:
-        """Extrapolate all tracks to this picture."""
         if self._last is not None:
             last_ns, last_view = self._last
             dt_s = max(t_ns - last_ns, 0) / SECOND_NS
@@ -237,7 +226,6 @@ def _side(box: Array) -> float:
 
 
 def _measurement_variance(side: float) -> Array:
-    """Return the variances of middle and sides of a detector's box, in square pixels."""
     place, size = 0.7 + 0.05 * side, 1.0 + 0.1 * side
     return np.square((place, place, size, size))
 

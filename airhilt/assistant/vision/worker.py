@@ -42,11 +42,6 @@ class VisionWorker:
 
     A finding below the detector's threshold is published only if it continues a track that was
     found in three pictures or more.
-
-    Parameters
-    ----------
-    looks
-        Looks that runs share; None if each is taken anew.
     """
 
     def __init__(
@@ -73,11 +68,6 @@ class VisionWorker:
 
         The detections of a picture that the detector has missed say why, and those of an exposure
         that the camera left out say that.
-
-        Raises
-        ------
-        VisionError
-            The detector has failed for good.
         """
         outputs = []
         for item in inputs:

@@ -98,13 +98,7 @@ CHANGES = {
 
 
 def reading(text: str, recipient: str, callsigns: Collection[str]) -> Reading:
-    """Return what a message to a recipient says.
-
-    Parameters
-    ----------
-    callsigns
-        Callsigns that it may name.
-    """
+    """Return what a message to a recipient says, with the callsigns that it may name."""
     known = tuple(sorted(callsigns))
     words = tokens(text)
     naming = roster_of(known).naming(words, is_written=True)
@@ -125,8 +119,6 @@ def change(rule: str, reworded: str, recipient: str, severity: Severity) -> str:
 
     Parameters
     ----------
-    rule, reworded
-        Text of the rule, and what a wording has made of it.
     recipient
         Callsign or `airhilt.messages.CONTROLLER`.
     severity
@@ -169,7 +161,6 @@ def _changed_words(was: Reading, now: Reading, severity: Severity) -> str:
 
 
 def _without_callsigns(words: list[str], naming: Naming) -> tuple[tuple[Mention, ...], list[str]]:
-    """Return the callsigns of a message, in their order, and its other words."""
     found = [naming.hit, *naming.again, *naming.others]
     mentions: list[Mention] = []
     rest: list[str] = []
@@ -185,7 +176,6 @@ def _without_callsigns(words: list[str], naming: Naming) -> tuple[tuple[Mention,
 
 
 def _without_runways(words: list[str]) -> tuple[tuple[str, ...], list[str]]:
-    """Return the runways of a message, in their order, and its other words."""
     text = " ".join(words)
     found = tuple(designator(each[1], each[2]) for each in NAMED_RUNWAY.finditer(text))
     return found, NAMED_RUNWAY.sub(" ", text).split()
@@ -229,7 +219,6 @@ def _actions(text: str, recipient: str, callsigns: tuple[str, ...]) -> tuple[Tol
 
 
 def _named(text: str, names: Mapping[str, str]) -> str:
-    """Return a text in which callsigns stand for addresses, which no phraseology reads."""
     return _ADDRESS.sub(lambda found: names.get(found[0], found[0]), text)
 
 

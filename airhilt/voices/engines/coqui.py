@@ -90,12 +90,8 @@ class Coqui:
         with self._torch.random.fork_rng():
             self._torch.manual_seed(int.from_bytes(seed))
             try:
-                spoken = self._model.inference(
-                    text,
-                    LANGUAGE,
-                    *self._speakers[voice.name],
-                    speed=voice.rate,
-                )
+                speaker = self._speakers[voice.name]
+                spoken = self._model.inference(text, LANGUAGE, *speaker, speed=voice.rate)
             except Exception as error:  # whatever torch raises
                 raise SpeechError(
                     f"voice coqui: cannot speak {text[:60]!r}: {first_line(error)}"

@@ -293,11 +293,6 @@ def test_it_is_what_it_was_mostly_taken_for() -> None:
     assert only(tracks).label == "bird"
 
 
-def test_its_age_is_from_the_first_to_the_last_picture_that_shows_it() -> None:
-    track = only(followed(shown(1.0, STILL), shown(2.5, STILL), shown(3.0, None)))
-    assert track.age_ns == 1.5 * SECOND_NS
-
-
 def test_observations_are_kept_for_5_s() -> None:
     track = only(followed(*(shown(0.5 * n, STILL) for n in range(13))))
     assert track.observations[0].t_ns == SECOND_NS

@@ -7,7 +7,6 @@ import pytest
 
 from airhilt.assistant.enhancement.engines.spectral import LEAST_GAIN, Spectral, noise_power
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
-from airhilt.errors import SpeechError
 
 
 def speech(seconds: float = 4.0) -> Audio:
@@ -60,9 +59,6 @@ def test_as_many_samples_come_out_as_go_in(samples: int) -> None:
     assert Spectral().enhance(audio).tobytes() == enhanced.tobytes()
 
 
-def test_silence_stays_silence_and_samples_that_are_no_numbers_are_refused() -> None:
+def test_silence_stays_silence() -> None:
     silence = np.zeros(16_000, np.float32)
     assert not Spectral().enhance(silence).any()
-    silence[5] = np.nan
-    with pytest.raises(SpeechError, match="no numbers"):
-        Spectral().enhance(silence)

@@ -169,8 +169,6 @@ class Ctc:
         """Return the words of a call; see `AsrEngine.recognise`."""
         if len(audio) < LEAST_SAMPLES:
             return Recognised("", (), 1.0)
-        if not np.isfinite(audio).all():
-            raise SpeechError(f"recogniser {self.name}: the audio has samples that are no numbers")
         words = [
             (each.word, confidence_of(each, self._card.word_curve, self._card.lost_words))
             for each in self.path(self.posteriors(audio), callsigns)
@@ -224,7 +222,6 @@ class Ctc:
         return np.concatenate(windows)
 
     def _window(self, features: NDArray[np.float32], begin: int) -> NDArray[np.float32]:
-        """Return the posteriors of the window that begins at a frame."""
         first = max(begin - CONTEXT_FRAMES, 0)
         seen = features[first : begin + WINDOW_FRAMES + CONTEXT_FRAMES]
         logits = self._session.run(None, {"features": seen[None]})[0][0]

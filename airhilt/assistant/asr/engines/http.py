@@ -22,7 +22,7 @@ MAXIMUM_BYTES = 1_000_000
 
 
 class _Answer(BaseModel):
-    model_config = ConfigDict(extra="ignore", allow_inf_nan=False)
+    model_config = ConfigDict(allow_inf_nan=False)
     text: str
     confidence: Confidence | None = None
     words: tuple[Word, ...] = ()
@@ -47,16 +47,13 @@ class HttpAsr:
         data = self._service.post(encode_wav(audio), "audio/wav")
         expected = 'JSON such as {"text": "...", "confidence": 0.9}'
         answer = self._service.parsed(data, _Answer, expected)
-        if answer.words:
-            words = canonical((word.text, word.confidence) for word in answer.words)
-            text = " ".join(word for word, _ in words)
-        else:
-            words = ()
-            text = " ".join(word for word, _ in canonical([(answer.text, 1.0)]))
+        given = [(word.text, word.confidence) for word in answer.words]
+        words = canonical(given or [(answer.text, 1.0)])
         confidence = answer.confidence
         if confidence is None:
-            confidence = float(np.mean([certainty for _, certainty in words])) if words else 1.0
-        return Recognised(text, words, confidence)
+            confidence = float(np.mean([each for _, each in words])) if words else 1.0
+        text = " ".join(word for word, _ in words)
+        return Recognised(text, words if given else (), confidence)
 
 
 ENGINE = Engine(

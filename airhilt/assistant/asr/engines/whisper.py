@@ -84,9 +84,11 @@ class Whisper:
 
     def recognise(self, audio: Audio, callsigns: Sequence[str]) -> Recognised:
         """Return what was said; nothing if nobody speaks."""
-        if not np.isfinite(audio).all():
-            raise SpeechError("ASR whisper: audio that is not finite; expected [-1, 1]")
-        if self._speech_s(audio) < LEAST_SPEECH_S:
+        if audio.size < LEAST_SPEECH_S * SAMPLE_RATE_HZ:
+            return Recognised("", (), 1.0)
+        speech = self._speech_of(audio, threshold=SPEECH_PROBABILITY, speech_pad_ms=0)
+        samples = sum(each["end"] - each["start"] for each in speech)
+        if samples < LEAST_SPEECH_S * SAMPLE_RATE_HZ:
             return Recognised("", (), 1.0)
         try:
             segments, _ = self._model.transcribe(
@@ -113,12 +115,6 @@ class Whisper:
         by_word = float(np.mean([confidence for _, confidence in words]))
         by_model = min(_probability(math.exp(segment.avg_logprob)) for segment in found)
         return Recognised(" ".join(word for word, _ in words), words, min(by_word, by_model))
-
-    def _speech_s(self, audio: Audio) -> float:
-        if audio.size < LEAST_SPEECH_S * SAMPLE_RATE_HZ:
-            return 0.0
-        intervals = self._speech_of(audio, threshold=SPEECH_PROBABILITY, speech_pad_ms=0)
-        return float(sum(each["end"] - each["start"] for each in intervals)) / SAMPLE_RATE_HZ
 
 
 def hot_words(callsigns: Sequence[str]) -> str:

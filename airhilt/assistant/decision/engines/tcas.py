@@ -14,13 +14,7 @@ MISS_DISTANCE_FILTER = "hmd"
 
 
 class TcasEngine:
-    """TCAS II of each aircraft that interrogates others; equipped aircraft coordinate.
-
-    Parameters
-    ----------
-    filters_misses
-        True for the horizontal miss distance filter.
-    """
+    """TCAS II of each aircraft that interrogates others; equipped aircraft coordinate."""
 
     name = "tcas"
     reads: tuple[type[Message], ...] = (CockpitInstruments, TcasReply)
@@ -51,7 +45,6 @@ class TcasEngine:
         return Decision(alerts, again_ns=min(due, default=None))
 
     def _unit(self, reply: TcasReply) -> TcasUnit:
-        """Return the unit of the aircraft that has interrogated."""
         unit = self._units.get(reply.callsign)
         if unit is None:
             unit = self._units[reply.callsign] = TcasUnit(
@@ -66,7 +59,6 @@ class TcasEngine:
 
 
 def _create(argument: str) -> TcasEngine:
-    """Return the engine, with the filter if it is asked for."""
     if argument not in ("", MISS_DISTANCE_FILTER):
         raise WorkerError(
             f"assistant 'tcas:{argument}': expected tcas or tcas:{MISS_DISTANCE_FILTER}"

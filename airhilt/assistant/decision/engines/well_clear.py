@@ -115,7 +115,6 @@ class WellClearEngine:
         return Decision(alerts, again_ns=t_ns + CYCLE_NS if self._encounters else None)
 
     def _judge(self, pair: Pair, t_ns: int) -> Iterator[Alert]:
-        """Yield the alert about one pair if it is new or has changed."""
         first, second = (self._tracks.present(icao24, t_ns) for icao24 in pair)
         motion, zone = relative(first, second), self._zone
         own, other = first.profile(), second.profile()
@@ -175,7 +174,6 @@ def smallest_turn(motion: Relative, own: Velocity, gap: Gap) -> Turn | None:
 
 
 def _stays_clear(motion: Relative, own: Velocity, gap: Gap, turn_rad: float) -> bool:
-    """Return whether nothing is violated after a turn, within the look-ahead."""
     cosine, sine = math.cos(turn_rad), math.sin(turn_rad)
     north, east = own
     later = motion.at(RESPONSE_S)
@@ -192,7 +190,6 @@ def _stays_clear(motion: Relative, own: Velocity, gap: Gap, turn_rad: float) -> 
 
 
 def _turns(first: Track, second: Track, gap: Gap) -> dict[str, Recommendation]:
-    """Return the turn of each crew, where there is one."""
     opposite = Gap(-gap.gap_m, -gap.rate_m_s)
     turns = {
         own.callsign: smallest_turn(

@@ -132,7 +132,6 @@ def judged(alert: Alert, severity: Severity) -> Alert:
 
 
 def _against_judgement(judgement: Judgement, situation: QuestionContext) -> str:
-    """Return why a judgement is refused; empty if it is not."""
     alert = situation.alerts.get(judgement.alert)
     if alert is None:
         return "the rules have no such alert"
@@ -154,17 +153,16 @@ def _against_judgement(judgement: Judgement, situation: QuestionContext) -> str:
 
 
 def _resolves(turn: Turn, now_ms: int) -> bool:
-    """Return whether a call is a readback that may have resolved a conflict just now."""
     confidence = min(turn.call.confidence, turn.turn.confidence)
     is_recent = now_ms - turn.turn.end_ms <= RESOLVED_MS
-    resolves = turn.call.kind == "readback" and not RESOLVING.isdisjoint(turn.actions)
+    actions = {each.action for each in turn.call.instructions}
+    resolves = turn.call.kind == "readback" and not RESOLVING.isdisjoint(actions)
     return is_recent and resolves and confidence >= TAU_ASR
 
 
 def _against_advisory(
     advisory: OwnAdvisory, situation: QuestionContext, runway_of: Callable[[str], str | None]
 ) -> str:
-    """Return why an advisory of the model's own is refused; empty if it is not."""
     traffic = set(advisory.traffic)
     unknown = sorted((traffic | set(advisory.recipients)) - {CONTROLLER} - set(situation.callsigns))
     if unknown:
@@ -219,7 +217,7 @@ def _unsupported(
     named = {
         turn.callsign
         for turn in cited
-        if any(each.runway == advisory.runway for each in turn.instructions)
+        if any(each.runway == advisory.runway for each in turn.call.instructions)
     }
     on_runway = {each for each in traffic if runway_of(each) == advisory.runway}
     missing = sorted(traffic - named - on_runway)
@@ -235,7 +233,6 @@ def _ruled(callsign: str, situation: QuestionContext) -> Recommendation | None:
 
 
 def _alert(advisory: OwnAdvisory, situation: QuestionContext) -> Alert:
-    """Return an advisory of the model's own as an alert, in words of this project."""
     traffic = tuple(sorted(advisory.traffic))
     what = advisory.kind.replace("_", " ")
     where = f" on runway {advisory.runway}" if advisory.runway else ""
@@ -298,7 +295,7 @@ def misread_turns(turns: Sequence[Turn]) -> bool:
         0 < answer.turn.ts_ms - call.turn.ts_ms <= ANSWERED_MS
         and (
             answer.callsign != call.callsign
-            or set(answer.instructions).isdisjoint(call.instructions)
+            or set(answer.call.instructions).isdisjoint(call.call.instructions)
         )
         for call in given
         for answer in read

@@ -22,7 +22,6 @@ from scipy.special import exp1
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.engines import Engine
-from airhilt.errors import SpeechError
 
 FRAME = 512
 """Samples of a frame: 32 ms."""
@@ -52,15 +51,7 @@ class Spectral:
     name = "spectral"
 
     def enhance(self, audio: Audio) -> Audio:
-        """Return the audio with less noise.
-
-        Raises
-        ------
-        SpeechError
-            A sample is no number.
-        """
-        if not np.isfinite(audio).all():
-            raise SpeechError("enhancer spectral: the audio has samples that are no numbers (NaN)")
+        """Return the audio with less noise."""
         if len(audio) < FRAME:
             return audio
         _, _, spectrum = stft(audio, SAMPLE_RATE_HZ, nperseg=FRAME, noverlap=FRAME - HOP)
@@ -72,13 +63,7 @@ class Spectral:
 
 
 def noise_power(power: NDArray[np.float64], frames_per_s: float) -> NDArray[np.float64]:
-    """Return the power of the noise in each frame and band.
-
-    Parameters
-    ----------
-    power
-        Power of the frames of a transmission, shape (bands, frames).
-    """
+    """Return the power of the noise in each band and frame of a transmission, as ``power`` has."""
     start = SMOOTHING * power[:, : max(round(0.1 * frames_per_s), 1)].mean(axis=1, keepdims=True)
     smooth, _ = lfilter([1.0 - SMOOTHING], [1.0, -SMOOTHING], power, axis=1, zi=start)
     frames = max(round(WINDOW_S * frames_per_s), 1)

@@ -101,11 +101,6 @@ class EmbeddedDetector:
     threads
         Number of threads that share the work.
 
-    Attributes
-    ----------
-    threshold
-        Confidence from which a finding counts by itself: that of the card.
-
     Raises
     ------
     VisionError
@@ -162,10 +157,11 @@ class EmbeddedDetector:
         return self._told(picture, moved_to_part)
 
     def _told(self, picture: Picture, proposed: list[Found]) -> Sequence[Found]:
-        found = [
-            one._replace(confidence=self._confidence(one))
-            for one in self._judged(picture, proposed)
-        ]
+        found = []
+        for one in self._judged(picture, proposed):
+            odds = self._calibration.log_odds(one.label, one.confidence, size_px(one.box))
+            odds = min(max(odds, -MOST_LOG_ODDS), MOST_LOG_ODDS)
+            found.append(one._replace(confidence=1.0 / (1.0 + math.exp(-odds))))
         told = sorted(
             (one for one in found if one.confidence >= self._threshold),
             key=lambda one: -one.confidence,
@@ -176,11 +172,6 @@ class EmbeddedDetector:
         """Return all findings of the last network, with its scores as confidences.
 
         The refiner may move several onto one body.
-
-        Raises
-        ------
-        VisionError
-            A network has failed.
         """
         return self._judged(picture, self.proposed(picture))
 
@@ -213,10 +204,6 @@ class EmbeddedDetector:
             if area(box) > 0.0
         ]
         return sorted(proposed, key=lambda one: -one.confidence)
-
-    def _confidence(self, found: Found) -> float:
-        odds = self._calibration.log_odds(found.label, found.confidence, size_px(found.box))
-        return 1.0 / (1.0 + math.exp(-min(max(odds, -MOST_LOG_ODDS), MOST_LOG_ODDS)))
 
 
 def _card(path: Path) -> Card:

@@ -95,7 +95,6 @@ class HttpDetector:
         return answer
 
     def _placed(self, each: _Detection, picture: Picture) -> Found:
-        """Return a detection with its box cut to the picture."""
         rows, columns = picture.shape[:2]
         left, top, right, bottom = each.box
         if left > right or top > bottom:
