@@ -12,7 +12,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -20,7 +19,7 @@ from scipy.optimize import linear_sum_assignment
 
 from airhilt.assistant.vision.detector import Found
 from airhilt.imaging.pinhole import Pinhole
-from airhilt.messages import CONFIRMED_HITS, CameraView, VisibleClass
+from airhilt.messages import CONFIRMED_HITS, CameraView, Detection, VisibleClass
 from airhilt.units import SECOND_NS
 
 Array = npt.NDArray[np.float64]
@@ -42,15 +41,6 @@ OTHER_LABEL = 4.0
 SOON_S = 1e-3
 """Time step for rotating a velocity together with its position, in s."""
 NEVER = 1e6
-
-
-class Tracked(NamedTuple):
-    """A finding that belongs to a track."""
-
-    found: Found
-    """The finding; its label is the one that the track had most, weighted by confidence."""
-    track_id: int
-    hits: int
 
 
 @dataclass
@@ -157,10 +147,11 @@ class Tracker:
         self._count = 0
         self._last: tuple[int, CameraView] | None = None
 
-    def follow(self, t_ns: int, view: CameraView, found: Sequence[Found]) -> list[Tracked]:
+    def follow(self, t_ns: int, view: CameraView, found: Sequence[Found]) -> list[Detection]:
         """Return the findings in the next picture with their tracks, by falling confidence.
 
-        Doubtful findings are left out unless they continue a confirmed track.
+        Each has the label that its track had most, weighted by confidence. Doubtful findings are
+        left out unless they continue a confirmed track.
         """
         self._expect(t_ns, view)
         confident = [one for one in found if one.confidence >= self._threshold]
@@ -180,11 +171,17 @@ class Tracker:
             followed.append((track, one))
         self._tracks = [track for track in self._tracks if not track.is_over(t_ns, view)]
         told = [
-            Tracked(one._replace(label=track.label), track.id, track.hits)
+            Detection(
+                label=track.label,
+                confidence=one.confidence,
+                box=one.box,
+                track_id=track.id,
+                hits=track.hits,
+            )
             for track, one in followed
             if one.confidence >= self._threshold or track.hits >= CONFIRMED_HITS
         ]
-        return sorted(told, key=lambda each: (-each.found.confidence, each.track_id))
+        return sorted(told, key=lambda each: (-each.confidence, each.track_id or 0))
 
     def _expect(self, t_ns: int, view: CameraView) -> None:
         if self._last is not None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
@@ -18,7 +17,6 @@ from airhilt.messages import (
     CameraFrame,
     CameraInfo,
     DeclaredLatency,
-    Detection,
     Detections,
     InputSpec,
     WorkerDescription,
@@ -28,13 +26,6 @@ from airhilt.workers.protocol import Step
 
 MOST_OF_OWN_AIRCRAFT = 0.6
 """Share of a box that the camera's own aircraft may cover; a box that it covers more is dropped."""
-
-
-class _LastLook(NamedTuple):
-    """The last picture of a camera that was looked at, by its SHA-256, and what is in it."""
-
-    sha256: str
-    found: Sequence[Found]
 
 
 class VisionWorker:
@@ -52,7 +43,8 @@ class VisionWorker:
         self._threshold = detector.threshold
         self._masks: dict[str, Mask | None] = {}
         self._trackers: dict[str, Tracker] = {}
-        self._last: dict[str, _LastLook] = {}
+        self._last: dict[str, tuple[str, Sequence[Found]]] = {}
+        """SHA-256 of the last picture of each camera that was looked at, and what is in it."""
         self.description = WorkerDescription(
             name=name,
             modality="vision",
@@ -102,22 +94,13 @@ class VisionWorker:
         if mask is not None:
             found = [one for one in found if covered_share(one.box, mask) <= MOST_OF_OWN_AIRCRAFT]
         tracker = self._trackers.setdefault(header.camera, Tracker(self._threshold))
-        detections = tuple(
-            Detection(
-                label=one.found.label,
-                confidence=one.found.confidence,
-                box=one.found.box,
-                track_id=one.track_id,
-                hits=one.hits,
-            )
-            for one in tracker.follow(header.t_frame_ns, header.view, found)
-        )
-        return seen.model_copy(update={"detections": detections})
+        detections = tracker.follow(header.t_frame_ns, header.view, found)
+        return seen.model_copy(update={"detections": tuple(detections)})
 
     def _found(self, header: CameraFrame, item: Input, mask: Mask | None) -> Sequence[Found]:
         """Return what is in a picture; the same pixels again have the same in them."""
-        last = self._last.get(header.camera)
-        if last is None or last.sha256 != header.sha256:
+        sha256, found = self._last.get(header.camera, (None, ()))
+        if sha256 != header.sha256:
             shape = header.view.height_px, header.view.width_px, 3
             picture = SeenPicture(
                 shape,
@@ -126,9 +109,9 @@ class VisionWorker:
                 is_made=not isinstance(item, DeferredInput),
             )
             shot = Shot(header.camera, header.t_frame_ns, own_aircraft=mask)
-            last = _LastLook(header.sha256, self._gate.look_at(shot, picture))
-            self._last[header.camera] = last
-        return last.found
+            found = self._gate.look_at(shot, picture)
+            self._last[header.camera] = header.sha256, found
+        return found
 
 
 def covered_share(box: Box, mask: Mask) -> float:

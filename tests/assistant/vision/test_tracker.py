@@ -13,9 +13,9 @@ from hypothesis import strategies as st
 from scipy.stats import chi2
 
 from airhilt.assistant.vision.detector import Found
-from airhilt.assistant.vision.tracker import NEVER, Tracked, Tracker, _Track
+from airhilt.assistant.vision.tracker import NEVER, Tracker, _Track
 from airhilt.imaging.view import Intrinsics, Pose, View
-from airhilt.messages import CONFIRMED_HITS, CameraView
+from airhilt.messages import CONFIRMED_HITS, CameraView, Detection
 from airhilt.units import SECOND_NS
 from breadth import examples
 from pictures import PERIOD_NS, a, camera_view
@@ -27,22 +27,26 @@ Scene = Callable[[float], list[Found]]
 
 def follow(
     tracker: Tracker, scene: Scene, steps: Iterable[int], rate_hz: float = 16.0
-) -> list[list[Tracked]]:
+) -> list[list[Detection]]:
     return [
         tracker.follow(round(step * SECOND_NS / rate_hz), VIEW, scene(step / rate_hz))
         for step in steps
     ]
 
 
-def ids_by_label(pictures: list[list[Tracked]]) -> dict[str, set[int]]:
+def finding(told: Detection) -> Found:
+    return Found(told.label, told.confidence, told.box)
+
+
+def ids_by_label(pictures: list[list[Detection]]) -> dict[str, set[int]]:
     ids: dict[str, set[int]] = {}
     for told in pictures:
         for one in told:
-            ids.setdefault(one.found.label, set()).add(one.track_id)
+            ids.setdefault(one.label, set()).add(one.track_id)
     return ids
 
 
-def ids(pictures: list[list[Tracked]]) -> set[int]:
+def ids(pictures: list[list[Detection]]) -> set[int]:
     return {one.track_id for told in pictures for one in told}
 
 
@@ -56,7 +60,7 @@ def test_hits_count_the_pictures_in_which_it_was_found() -> None:
 def test_findings_keep_their_boxes_and_confidences() -> None:
     found = [a("bird", 30, 30, 7, 0.31), a("airplane", 400, 100, 60, 0.87)]
     told = Tracker().follow(0, VIEW, found)
-    assert [one.found for one in told] == sorted(found, key=lambda one: -one.confidence)
+    assert [finding(one) for one in told] == sorted(found, key=lambda one: -one.confidence)
 
 
 @examples(60)
@@ -103,7 +107,7 @@ def test_two_of_a_kind_that_cross_keep_their_tracks(
 
     tracker = Tracker()
     told = follow(tracker, scene, range(33))
-    upper = [min(each, key=lambda one: one.found.box[1]).track_id for each in told]
+    upper = [min(each, key=lambda one: one.box[1]).track_id for each in told]
     assert ids(told) == {1, 2}
     assert upper[0] != upper[-1]
 
@@ -125,7 +129,7 @@ def test_an_airplane_that_overtakes_a_bird_of_its_size_unseen_is_still_the_airpl
 
     told = follow(Tracker(), scene, range(33))
     assert ids(told) == {1, 2}
-    assert [one.found for one in told[-1]] == scene(2.0)
+    assert [finding(one) for one in told[-1]] == scene(2.0)
 
 
 def test_what_is_vaguely_expected_does_not_take_what_is_settled() -> None:
@@ -203,7 +207,7 @@ def test_a_thing_is_called_what_it_was_taken_for_most() -> None:
         return [a("bird" if t == 0.5 else "airplane", 320, 200, 12, 0.6)]
 
     told = follow(Tracker(), scene, range(16))
-    assert {one.found.label for each in told for one in each} == {"airplane"}
+    assert {one.label for each in told for one in each} == {"airplane"}
     assert ids(told) == {1}
 
 
@@ -212,7 +216,7 @@ def test_one_sure_finding_says_more_about_what_it_is_than_two_unsure_ones() -> N
     tracker = Tracker()
     for step, one in enumerate((doubtful, confident, doubtful)):
         (told,) = tracker.follow(step * PERIOD_NS, VIEW, [one])
-    assert (told.track_id, told.hits, told.found.label) == (1, 3, "bird")
+    assert (told.track_id, told.hits, told.label) == (1, 3, "bird")
 
 
 class TestOfWhatIsUnsure:
@@ -227,14 +231,14 @@ class TestOfWhatIsUnsure:
         told = follow(Tracker(threshold=0.5), scene, range(32))
         assert [len(each) for each in told] == [1] * 32
         assert ids(told) == {1}
-        assert told[-1][0].found.confidence == 0.2
+        assert told[-1][0].confidence == 0.2
 
     def test_sure_findings_come_first(self) -> None:
         tracker = Tracker(threshold=0.5)
         follow(tracker, lambda t: [a("bird", 100, 100, 10)], range(5))
         near, far = a("bird", 100.5, 100, 10, 0.3), a("bird", 103, 101, 10, 0.9)
         (told,) = follow(tracker, lambda t: [near, far], [5])
-        assert [(one.found, one.track_id) for one in told] == [(far, 1)]
+        assert [(finding(one), one.track_id) for one in told] == [(far, 1)]
 
 
 def test_the_same_pictures_give_the_same_tracks() -> None:
@@ -250,7 +254,7 @@ class TestCameraThatTurns:
     PLACES = ((300.0, 5000.0, 200.0), (-250.0, 6000.0, 260.0))
     """East, north and up, in metres."""
 
-    def told(self, angles: Callable[[float], tuple[float, float, float]]) -> list[list[Tracked]]:
+    def told(self, angles: Callable[[float], tuple[float, float, float]]) -> list[list[Detection]]:
         tracker = Tracker()
         told = []
         for step in range(48):
