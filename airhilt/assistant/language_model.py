@@ -54,11 +54,9 @@ class UsesLanguageModel(Protocol):
     @property
     def name(self) -> str:
         """Short name, such as ``llm``."""
-        ...
 
     def use(self, settings: LanguageModelSettings) -> None:
         """Ask this language model."""
-        ...
 
 
 class _Message(BaseModel):

@@ -47,11 +47,8 @@ class _Prefix:
     blank: float = _NEVER
     unit: float = _NEVER
 
-    def heard(self) -> float:
-        return max(self.blank, self.unit)
-
     def total(self) -> float:
-        return self.heard() + self.prior
+        return max(self.blank, self.unit) + self.prior
 
 
 @dataclass(frozen=True)
@@ -89,7 +86,7 @@ class BeamSearch:
     ) -> dict[tuple[int, ...], _Prefix]:
         grown: dict[tuple[int, ...], _Prefix] = {}
         for before, prefix in beam.items():
-            heard = prefix.heard()
+            heard = max(prefix.blank, prefix.unit)
             same = grown.setdefault(before, _Prefix(prefix.prior))
             same.blank = max(same.blank, heard + blank)
             last = before[-1] if before else BLANK

@@ -118,10 +118,6 @@ def log_odds(
     ----------
     posteriors
         Posterior of the blank and of each piece, shape (steps, units).
-    heard
-        Pieces of the call, where they were heard.
-    prior
-        Log-likelihood of a piece after others.
     order
         Order of the n-grams of the prior: it depends on one piece less.
     """
@@ -203,8 +199,6 @@ def gaps(
         Posterior of the blank and of each piece, shape (steps, units).
     words
         Pieces of each word that is written.
-    prior
-        Log-likelihood of a piece after others.
     order
         Order of the n-grams of the prior: it depends on one piece less.
     """

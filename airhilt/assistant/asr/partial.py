@@ -59,13 +59,7 @@ class PartialRecogniser:
                 self._on_air.pop(TransmissionClosed.model_validate(attachment).id, None)
 
     def partials(self, callsigns: Sequence[str]) -> Iterator[PartialTranscript]:
-        """Yield a partial transcript of each transmission of which more has come.
-
-        Raises
-        ------
-        airhilt.errors.SpeechError
-            The engine has failed.
-        """
+        """Yield a partial transcript of each transmission of which more has come."""
         for on_air in self._on_air.values():
             if on_air.is_news:
                 on_air.is_news = False

@@ -157,10 +157,7 @@ class GroundFix(NamedTuple):
     def chance(self, is_inside: Callable[[npt.NDArray[np.float64]], float]) -> float:
         """Return the probability that the position is in an area.
 
-        Parameters
-        ----------
-        is_inside
-            Returns the share of some positions, shape (n, 2), that is in the area.
+        ``is_inside`` returns the share of some positions, shape (n, 2), that is in it.
         """
         spread = np.array(((self.east_m2, self.both_m2), (self.both_m2, self.north_m2)))
         return is_inside(np.asarray(self.point) + _PROBES @ np.linalg.cholesky(spread).T)

@@ -85,8 +85,6 @@ def resolve(
         best = encounter.better(best, fair)
         if best.margin >= 1.0:
             break
-    if math.isinf(best.margin):
-        return Resolution(None, None, 0.0)
     told = _recommendation(upper, best.up), _recommendation(lower, best.down)
     return Resolution(*(told if first_is_upper else told[::-1]), best.margin)
 

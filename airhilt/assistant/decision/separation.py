@@ -159,7 +159,17 @@ class SeparationWatch:
         if not conflict.escalation.rises(level, t_ns, self.config.persistence_s):
             return []
         if conflict.escalation.is_for_crews:
-            self._recommend(conflict, prediction)
+            others = [track.at(t_ns) for track in self._tracks if track.icao24 not in pair]
+            is_warning = conflict.escalation.severity is Severity.WARNING
+            resolution = resolve(
+                prediction.first,
+                prediction.second,
+                others,
+                self.config.standard,
+                self.config.infringed,
+                strong=is_warning and conflict.escalation.has_alert,
+            )
+            conflict.recommendations = (resolution.first, resolution.second)
         return [self._alert(conflict, prediction, active=True)]
 
     def _predict(self, t_ns: int, pair: Pair) -> Prediction:
@@ -186,24 +196,6 @@ class SeparationWatch:
             return []
         del self._conflicts[conflict.pair]
         return [self._alert(conflict, prediction, active=False)]
-
-    def _recommend(self, conflict: _Conflict, prediction: Prediction) -> None:
-        """Choose what both are told to do; what they do is seen on their tracks."""
-        others = [
-            track.at(prediction.first.t_ns)
-            for track in self._tracks
-            if track.icao24 not in conflict.pair
-        ]
-        resolution = resolve(
-            prediction.first,
-            prediction.second,
-            others,
-            self.config.standard,
-            self.config.infringed,
-            strong=conflict.escalation.severity is Severity.WARNING
-            and conflict.escalation.has_alert,
-        )
-        conflict.recommendations = (resolution.first, resolution.second)
 
     def _alert(self, conflict: _Conflict, prediction: Prediction, active: bool) -> Alert:
         """Return the alert about a conflict; crews are told from CAUTION on."""

@@ -61,7 +61,7 @@ class Track:
     @classmethod
     def of(cls, report: AdsbReport | TrackSlice, altitude_ft: float, t_ns: int) -> Track:
         """Return the track of a first report, which is as of a time."""
-        north, east = _velocity(report)
+        speed, course = report.ground_speed_kt * KNOT, report.track_deg * DEGREE
         return cls(
             report.icao24,
             report.callsign or report.icao24,
@@ -69,8 +69,8 @@ class Track:
             report.latitude_deg * DEGREE,
             report.longitude_deg * DEGREE,
             altitude_ft * FOOT,
-            north,
-            east,
+            speed * math.cos(course),
+            speed * math.sin(course),
             report.vertical_rate_fpm * FOOT_PER_MINUTE,
         )
 
@@ -78,17 +78,13 @@ class Track:
         """Update with a newer report; an older one is ignored."""
         if report.t_adsb_in_ns < self.t_ns:
             return
-        north, east = _velocity(report)
-        keep = VELOCITY_MEMORY
+        now = Track.of(report, altitude_ft, report.t_adsb_in_ns)
         self.callsign = report.callsign or self.callsign
-        self.t_ns = report.t_adsb_in_ns
-        self.latitude_rad = report.latitude_deg * DEGREE
-        self.longitude_rad = report.longitude_deg * DEGREE
-        self.altitude_m = altitude_ft * FOOT
-        self.velocity_north_m_s = keep * self.velocity_north_m_s + (1.0 - keep) * north
-        self.velocity_east_m_s = keep * self.velocity_east_m_s + (1.0 - keep) * east
-        rate = report.vertical_rate_fpm * FOOT_PER_MINUTE
-        self.vertical_rate_m_s = keep * self.vertical_rate_m_s + (1.0 - keep) * rate
+        self.t_ns, self.altitude_m = now.t_ns, now.altitude_m
+        self.latitude_rad, self.longitude_rad = now.latitude_rad, now.longitude_rad
+        self.velocity_north_m_s = _mean(self.velocity_north_m_s, now.velocity_north_m_s)
+        self.velocity_east_m_s = _mean(self.velocity_east_m_s, now.velocity_east_m_s)
+        self.vertical_rate_m_s = _mean(self.vertical_rate_m_s, now.vertical_rate_m_s)
         if not self._is_followed():
             self.cleared_m = None
 
@@ -152,16 +148,14 @@ class Track:
             return VerticalProfile(self.altitude_m, steepest, EMERGENCY_LEVEL_M)
         if abs(rate) < LEVEL_BELOW_M_S:
             return VerticalProfile(self.altitude_m, 0.0)
-        if self.cleared_m is None:
-            return VerticalProfile(self.altitude_m, rate)
-        to_go_m = self.cleared_m - self.altitude_m
-        if to_go_m * rate > 0.0:
-            return VerticalProfile(self.altitude_m, rate, self.cleared_m)
-        if abs(to_go_m) <= LEVEL_WITHIN_M:
-            return VerticalProfile(self.altitude_m, 0.0)
+        if self.cleared_m is not None:
+            to_go_m = self.cleared_m - self.altitude_m
+            if to_go_m * rate > 0.0:
+                return VerticalProfile(self.altitude_m, rate, self.cleared_m)
+            if abs(to_go_m) <= LEVEL_WITHIN_M:
+                return VerticalProfile(self.altitude_m, 0.0)
         return VerticalProfile(self.altitude_m, rate)
 
 
-def _velocity(report: AdsbReport | TrackSlice) -> tuple[float, float]:
-    speed, track = report.ground_speed_kt * KNOT, report.track_deg * DEGREE
-    return speed * math.cos(track), speed * math.sin(track)
+def _mean(before: float, now: float) -> float:
+    return VELOCITY_MEMORY * before + (1.0 - VELOCITY_MEMORY) * now

@@ -55,12 +55,10 @@ class Detector(Protocol):
     @property
     def name(self) -> str:
         """Name in ``Detections.engine``."""
-        ...
 
     @property
     def threshold(self) -> float:
         """Confidence from which a finding counts by itself; others only continue tracks."""
-        ...
 
     def detect(self, picture: Picture) -> Sequence[Found]:
         """Return what is in a picture, by falling confidence.
@@ -72,7 +70,6 @@ class Detector(Protocol):
         airhilt.errors.VisionError
             The detector has failed for good.
         """
-        ...
 
 
 @runtime_checkable
@@ -81,7 +78,6 @@ class DetectsShots(Protocol):
 
     def detect_shot(self, picture: Picture, shot: Shot) -> Sequence[Found]:
         """Return what is in a picture; it raises what `Detector.detect` does."""
-        ...
 
 
 def once(found: Sequence[Found]) -> list[Found]:

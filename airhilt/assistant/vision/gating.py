@@ -36,7 +36,6 @@ class SeesParts(Detector, Protocol):
 
         It raises what `Detector.detect` does.
         """
-        ...
 
 
 class Look(NamedTuple):

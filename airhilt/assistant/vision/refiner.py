@@ -103,11 +103,6 @@ class Refiner:
         """Return the likeliest class at each place, and its probability, in the order of places.
 
         Boxes may reach beyond the picture.
-
-        Raises
-        ------
-        VisionError
-            The network has failed.
         """
         if not places:
             return []

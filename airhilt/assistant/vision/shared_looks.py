@@ -32,7 +32,6 @@ class Reproducible(SeesParts, Protocol):
     @property
     def identity(self) -> Sequence[str]:
         """SHA-256 of its files, and names and versions of its libraries."""
-        ...
 
 
 class SharedLooks:

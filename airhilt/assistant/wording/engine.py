@@ -16,11 +16,9 @@ class AdvisoryWording(Protocol):
     @property
     def name(self) -> str:
         """Short name, such as ``template``."""
-        ...
 
     def message(self, alert: Alert, recipient: str) -> str:
         """Return what one recipient of an alert is told."""
-        ...
 
 
 class Worded(NamedTuple):
@@ -38,7 +36,6 @@ class WordsTogether(Protocol):
 
     def words(self, alerts: Sequence[Alert]) -> Worded:
         """Return what all recipients of some alerts are told."""
-        ...
 
 
 def words(wording: AdvisoryWording, alerts: Sequence[Alert]) -> Worded:

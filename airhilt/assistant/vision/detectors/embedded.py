@@ -98,8 +98,6 @@ class EmbeddedDetector:
         ONNX file, with its ``card.json`` beside it.
     threshold
         Confidence below which nothing is reported; None: `DOUBTFUL` times the card's.
-    threads
-        Number of threads that share the work.
 
     Raises
     ------
@@ -185,13 +183,7 @@ class EmbeddedDetector:
         return [one for one in inside if area(one.box) > 0.0]
 
     def proposed(self, picture: Picture) -> list[Found]:
-        """Return all findings of the first network, the highest scores first.
-
-        Raises
-        ------
-        VisionError
-            It has failed.
-        """
+        """Return all findings of the first network, the highest scores first."""
         rows, columns = picture.shape[:2]
         try:
             found = self._network.run(["found"], {"picture": _padded(picture)[None]})[0][0]

@@ -133,13 +133,7 @@ def _load(path: Path) -> Any:
 
 
 def _fixed_sides(path: Path) -> tuple[int, int] | None:
-    """Return rows and columns of the pictures that a network takes; None if it takes any.
-
-    Raises
-    ------
-    VisionError
-        It is no network, or there is code in its metadata.
-    """
+    """Return rows and columns of the pictures that a network takes; None if it takes any."""
     session = open_network(path, f"detector yolo: {path}", EXPECTED, VisionError)
     metadata = session.get_modelmeta().custom_metadata_map
     for name in LITERALS:
