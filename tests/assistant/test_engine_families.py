@@ -22,7 +22,7 @@ from airhilt.cli.doctor import examine
 from airhilt.cosim import cameras
 from airhilt.cosim.observer import Result
 from airhilt.cosim.replay import replay
-from airhilt.engine_families import ASSISTANTS, DETECTORS, FAMILIES, RECOGNISERS, VOICES
+from airhilt.engine_families import DETECTORS, FAMILIES, RECOGNISERS, VOICES
 from airhilt.engines import EngineFamily, Package
 from airhilt.errors import AirhiltError, SpeechError, VisionError, WorkerError
 from airhilt.messages import (
@@ -108,12 +108,6 @@ ASSISTANT, WORDING = (
     next(block for block in BLOCKS if f"class {name}:" in block) for name in ("Nervous", "Shouting")
 )
 """The examples of the guide."""
-UNUSABLE = (
-    HEAD
-    + """
-ENGINE = Engine("late", "needs something", str, requires=(Package("not-installed-1", "none"),))
-"""
-)
 LACKS = (
     "name, enhance",
     "name, recognise",
@@ -123,7 +117,6 @@ LACKS = (
     "name, message",
 )
 """Member that a wrong object lacks, by family."""
-BROKEN = "raise RuntimeError('it is broken')"
 
 
 @pytest.fixture
@@ -250,12 +243,6 @@ def test_the_template_says_what_an_assistant_notes_that_has_no_finding() -> None
     ]
 
 
-def test_an_assistant_of_another_name_is_refused_with_the_nearest() -> None:
-    expected = r"expected adsb_only, .*reference, .*; did you mean 'reference'\?"
-    with pytest.raises(AirhiltError, match=expected):
-        ASSISTANTS.create("referense")
-
-
 def test_an_assistant_that_reads_truth_is_refused() -> None:
     class Cheat:
         name = "cheat"
@@ -325,13 +312,6 @@ def test_doctor_lists_the_engines_of_all_families(monkeypatch: pytest.MonkeyPatc
     assert "everything_is_a_deer" in " ".join(found)
 
 
-def test_doctor_says_what_an_engine_lacks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("airhilt.cli.doctor._renderers", list)
-    with installed(tmp_path, monkeypatch, "airhilt.asr", "late", UNUSABLE):
-        late = {one.name: one for one in examine()}["recogniser late"]
-    assert (late.found, late.remedy) == ("", "needs something; pip install 'airhilt[none]'")
-
-
 def faulty(create: str = "lambda _: 42", more: str = "") -> str:
     """Return the source of an engine that does not do what it must."""
     return f"""
@@ -373,18 +353,6 @@ def test_an_engine_that_makes_something_else_is_told_what_that_lacks(
         family.create("faulty")
 
 
-def test_an_engine_that_fails_over_a_path_is_named_with_the_cause(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    words = "recogniser 'faulty' cannot say whether 'some/path' is for it: LookupError: no model"
-    source = faulty(more=", takes=fail")
-    with (
-        installed(tmp_path, monkeypatch, "airhilt.asr", "faulty", source),
-        pytest.raises(SpeechError, match=words),
-    ):
-        RECOGNISERS.create("some/path")
-
-
 @pytest.mark.parametrize(
     ("source", "cause"),
     [
@@ -404,16 +372,6 @@ def test_doctor_survives_a_broken_engine_and_gives_the_cause(
     assert (broken.found, broken.needed) == ("", False)
     assert cause in broken.remedy
     assert found["recogniser embedded"].found
-
-
-def test_a_broken_engine_does_not_hide_the_others(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    with (
-        installed(tmp_path, monkeypatch, "airhilt.asr", "broken", BROKEN),
-        pytest.raises(SpeechError, match="none of that name; expected embedded, embedded:FOLDER"),
-    ):
-        RECOGNISERS.create("nobody")
 
 
 def test_two_engines_of_one_name_are_refused(
@@ -454,18 +412,6 @@ def test_a_folder_with_two_models_is_ambiguous(tmp_path: Path) -> None:
         RECOGNISERS.choose(str(tmp_path))
 
 
-def test_a_folder_with_the_files_of_xtts_goes_to_coqui(tmp_path: Path) -> None:
-    (tmp_path / "model.pth").touch()
-    assert VOICES.choose(str(tmp_path))[0].name == "coqui"
-
-
-def test_a_model_file_goes_to_the_detector_that_takes_such_files(tmp_path: Path) -> None:
-    assert DETECTORS.choose("yolov10n.pt")[0].name == "yolo"
-    assert DETECTORS.choose(f"{tmp_path}/yolov10n.onnx")[0].name == "yolo"
-    (tmp_path / "card.json").touch()
-    assert DETECTORS.choose(f"{tmp_path}/mine.onnx")[0].name == "embedded"
-
-
 def test_an_error_says_what_is_not_installed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(Package, "found", lambda _: "")
     with pytest.raises(
@@ -493,8 +439,3 @@ def test_only_a_run_takes_a_word_in_the_place_of_an_engine(tmp_path: Path) -> No
         run("s02a_headon", assistant="externl", out=tmp_path / "run")
     with pytest.raises(VisionError, match="or none; did you mean 'none'"):
         run("s01b_nominal", detector="non", out=tmp_path / "run")
-
-
-def test_a_name_takes_no_argument_that_it_does_not_know() -> None:
-    with pytest.raises(SpeechError, match="voice 'espeak:en': expected espeak"):
-        VOICES.create("espeak:en")

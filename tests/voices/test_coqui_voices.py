@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib.util
-import json
 import shutil
 import socket
 import sys
@@ -108,23 +107,12 @@ class TestWithCoquiTts:
         assert engine._model.config.audio.output_sample_rate == 24_000
         assert len(audio) == pytest.approx(len(spoken[0]["wav"]) * 16_000 / 24_000, abs=1)
 
-    def test_the_same_text_and_voice_sound_the_same(self, engine: Coqui, model: Path) -> None:
-        voice = VoiceSpec(XTTS_SPEAKERS[1], 1.05)
-        first = engine.synthesise(LANDING, voice)
-        engine.synthesise("Go around.", voice)
-        np.testing.assert_array_equal(engine.synthesise(LANDING, voice), first)
-        np.testing.assert_array_equal(Coqui(model).synthesise(LANDING, voice), first)
-
     def test_speaking_leaves_the_draws_of_torch_alone(self, engine: Coqui) -> None:
         import torch
 
         before = torch.random.get_rng_state()
         engine.synthesise("Go around.", VoiceSpec(XTTS_SPEAKERS[0]))
         assert torch.equal(torch.random.get_rng_state(), before)
-
-    def test_a_text_longer_than_the_model_takes_is_refused(self, engine: Coqui) -> None:
-        with pytest.raises(SpeechError, match="cannot speak 'Go around"):
-            engine.synthesise("Go around. " * 20, VoiceSpec(XTTS_SPEAKERS[0]))
 
     def test_it_needs_no_network(self, model: Path, monkeypatch: pytest.MonkeyPatch) -> None:
         def refuse(*_: Any, **__: Any) -> None:
@@ -163,18 +151,4 @@ class TestWithCoquiTts:
         (folder / name).unlink()
         (folder / name).write_bytes(b"damaged")
         with pytest.raises(SpeechError, match=f"{folder}: does not load as XTTS-v2: "):
-            Coqui(folder)
-
-    def test_weights_of_another_size_are_refused(self, folder: Path) -> None:
-        config = json.loads((folder / "config.json").read_text())
-        config["model_args"]["gpt_layers"] = 2
-        (folder / "config.json").unlink()
-        (folder / "config.json").write_text(json.dumps(config))
-        with pytest.raises(SpeechError, match="does not load as XTTS-v2: RuntimeError"):
-            Coqui(folder)
-
-    @pytest.mark.parametrize("speakers", [[], {"Ana": {}}, {"Ana": [1.0, 2.0]}, {"Ana": {"a": 1}}])
-    def test_speakers_of_another_shape_are_refused(self, speakers: Any, folder: Path) -> None:
-        replace(folder / "speakers_xtts.pth", speakers)
-        with pytest.raises(SpeechError, match="does not load as XTTS-v2"):
             Coqui(folder)

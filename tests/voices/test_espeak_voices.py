@@ -56,19 +56,6 @@ def test_speakers_keep_their_voices_and_have_different_ones(espeak: Espeak) -> N
     assert len(set(voices)) == len(speakers)
 
 
-@pytest.mark.parametrize("speaker", [f"AAL{number}" for number in range(12)])
-def test_every_voice_that_a_speaker_can_have_speaks(espeak: Espeak, speaker: str) -> None:
-    speech = espeak.synthesise("roger", espeak.voice_of(speaker))
-    assert active(speech).any()
-
-
-def test_a_faster_voice_takes_less_time(espeak: Espeak) -> None:
-    slow, fast = (
-        len(espeak.synthesise(CALL, VoiceSpec("en-us+m3", rate=rate))) for rate in (0.9, 1.3)
-    )
-    assert fast < 0.85 * slow
-
-
 def test_a_voice_that_is_not_there_is_named(espeak: Espeak) -> None:
     with pytest.raises(SpeechError, match="no-such-voice"):
         espeak.synthesise(CALL, VoiceSpec("no-such-voice"))

@@ -104,16 +104,6 @@ def test_a_word_that_is_nearly_lost_is_found_again() -> None:
     assert text(with_callsign(path, cast(Spotted, found))) == "american one two six climb"
 
 
-def test_words_of_a_callsign_are_less_sure_where_it_fits_less() -> None:
-    heard = posteriors({"american": 0.1}, *clear("one", "two"))
-    plain = posteriors(*clear("american", "one", "two"))
-    sure, less_sure = (
-        with_callsign(likeliest(each), cast(Spotted, spotted(each, "AAL12")))[0].posterior
-        for each in (plain, heard)
-    )
-    assert 0.5 < less_sure < sure - 0.005
-
-
 @pytest.mark.parametrize("said", ["four", "eight"])
 def test_another_number_that_is_clearly_said_is_not_overheard(said: str) -> None:
     heard = posteriors(*({word: 0.9999} for word in ("american", "one", said)))
@@ -126,10 +116,6 @@ def test_of_two_that_fit_alike_none_is_taken() -> None:
     assert spotted(heard, "AAL126", "UAL136").callsign == "AAL126"
 
 
-def test_noise_is_nobody() -> None:
-    assert spotted(posteriors(*[{}] * 30), "AAL12", "N54") is None
-
-
 def test_a_value_is_no_short_registration_without_its_first_sign() -> None:
     heard = posteriors(*clear("climb", "five", "four"))
     assert spotted(heard, "N54", "N5", "N4") is None
@@ -137,19 +123,8 @@ def test_a_value_is_no_short_registration_without_its_first_sign() -> None:
     assert spotted(said, "N54", "N5", "N4").callsign == "N54"
 
 
-def test_nothing_is_found_without_a_roster_or_without_audio() -> None:
-    assert spotted(posteriors(*clear("american", "one"))) is None
-    assert spotted(np.zeros((0, len(WORDS) + 1), np.float32), "AAL1") is None
-
-
 def test_a_callsign_with_a_word_that_the_recogniser_does_not_know_is_left_out() -> None:
     assert spotted(posteriors(*clear("golf", "one", "two")), "GTI12") is None
-
-
-def test_the_same_digit_twice_needs_a_gap_between() -> None:
-    said = posteriors(*clear("american", "one", "one"))
-    assert spotted(said, "AAL11").confidence == pytest.approx(probability(4.4), abs=1e-3)
-    assert spotted(posteriors(*clear("american", "one")), "AAL11") is None
 
 
 @pytest.mark.parametrize(

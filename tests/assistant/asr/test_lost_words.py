@@ -12,9 +12,6 @@ from airhilt.assistant.asr.confidences import (
     Gap,
     LossCurve,
     gaps,
-    log_heard,
-    log_odds_of,
-    probability,
 )
 from airhilt.assistant.asr.language import END
 
@@ -50,19 +47,6 @@ def heard(steps: np.ndarray, *places: tuple[int, int]) -> list[float]:
 def test_what_no_word_has_is_counted_before_each_word_and_behind_the_last() -> None:
     steps = posteriors(0.5, 0.9, 0.0, 0.6, 0.4, 0.9, 0.3)
     assert heard(steps, (1, 2), (5, 6)) == pytest.approx([0.5, 1.0, 0.3])
-
-
-def test_words_that_follow_each_other_have_nothing_between_them() -> None:
-    assert gaps(posteriors(0.9, 0.9), words((0, 1), (1, 2)), alike, ORDER) == [SILENCE] * 3
-
-
-def test_a_long_silence_is_nothing_that_was_heard() -> None:
-    steps = posteriors(*[0.02] * 20_000, 0.9, *[0.02] * 20_000)
-    assert heard(steps, (20_000, 20_001)) == [0.0, 0.0]
-
-
-def test_all_of_a_call_without_words_is_a_gap() -> None:
-    assert heard(posteriors(0.5, 0.25)) == pytest.approx([0.75])
 
 
 def test_one_more_word_is_as_likely_as_it_was_heard_where_all_make_sense() -> None:
@@ -105,26 +89,3 @@ def test_a_word_is_lost_the_likelier_the_more_was_heard_and_the_more_sense_it_wo
     assert lost == sorted(lost)
     assert curve(SILENCE) < 0.01 < 0.5 < lost[-1]
     assert Gap(0.0, -LARGEST_LOG_ODDS) == SILENCE
-
-
-@pytest.mark.parametrize(("step", "counted"), [(0.0625, 0.0625), (0.046875, 0.0)])
-def test_a_step_counts_from_a_twentieth_on(step: float, counted: float) -> None:
-    assert heard(posteriors(step)) == [counted]
-
-
-def test_gaps_of_far_less_than_a_tenth_of_a_step_differ_no_more() -> None:
-    assert log_heard(0.0) == pytest.approx(np.log(0.1))
-    assert log_heard(0.9) == pytest.approx(0.0)
-    assert log_heard(0.001) - log_heard(0.0) < 0.01
-    curve = LossCurve(heard_slope=1.3, inserted_slope=0.5, offset=-1.1)
-    assert curve(Gap(0.9, 0.0)) == pytest.approx(probability(-1.1))
-    assert curve(Gap(9.9, 2.0)) == pytest.approx(probability(1.3 * np.log(10.0) + 1.0 - 1.1))
-
-
-def test_probabilities_and_log_odds_are_inverse_down_to_one_in_a_million() -> None:
-    for odds in (-5.0, -1.0, 0.0, 2.0):
-        assert log_odds_of(probability(odds)) == pytest.approx(odds)
-    assert probability(0.0) == 0.5
-    assert log_odds_of(0.9) == pytest.approx(np.log(9.0))
-    for beyond, bound in ((0.0, 1e-6), (1.0, 1.0 - 1e-6), (1e-9, 1e-6)):
-        assert log_odds_of(beyond) == pytest.approx(np.log(bound / (1.0 - bound)))

@@ -133,13 +133,6 @@ def test_a_pair_has_been_silent_since_the_last_report_of_either() -> None:
     assert tracks.silent([pair], 10 * SECOND_NS, 7 * SECOND_NS + 1) == []
 
 
-def test_who_reports_no_altitude_is_on_the_ground_until_the_next_one() -> None:
-    tracks = tracks_of([report("00000a"), report("00000a", altitude_m=None, t_s=1.0)])
-    assert tracks.is_grounded(track_of(tracks, "00000a"))
-    tracks.take_report(report("00000a", t_s=2.0), 2 * SECOND_NS)
-    assert not tracks.is_grounded(track_of(tracks, "00000a"))
-
-
 def test_a_track_is_carried_on_to_the_present() -> None:
     tracks = tracks_of([report("00000a", north_m_s=100.0, up_m_s=5.0)])
     later = tracks.present("00000a", 10 * SECOND_NS)

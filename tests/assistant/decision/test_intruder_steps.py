@@ -31,53 +31,6 @@ def approach(**changed: Any) -> Approach:
 # --- what an approach says ------------------------------------------------------------------
 
 
-@pytest.mark.parametrize(("closing", "time_s"), [(0.05, 20.0), (0.0, math.inf), (-0.05, math.inf)])
-def test_the_time_to_contact_is_the_inverse_of_the_rate(closing: float, time_s: float) -> None:
-    assert approach(closing=closing).time_s == time_s
-
-
-@pytest.mark.parametrize(
-    ("errors", "longest_s"),
-    [
-        ((0.003, 0.004), 25.0),
-        ((0.0, 0.0), 20.0),
-        ((0.015, 0.02), math.inf),
-        ((0.02, 0.02), math.inf),
-    ],
-)
-def test_the_longest_time_is_that_of_two_standard_deviations_less(
-    errors: tuple[float, float], longest_s: float
-) -> None:
-    """0.003 and 0.004 are 0.005 together, and 0.05 less twice that is 0.04 a second."""
-    found = approach(closing_error=errors[0], lasting_error=errors[1]).longest_s
-    assert found == pytest.approx(longest_s)
-
-
-@pytest.mark.parametrize(("error", "grows"), [(0.0249, True), (0.0251, False)])
-def test_what_grows_by_more_than_two_standard_deviations_comes_nearer(
-    error: float, grows: bool
-) -> None:
-    assert approach(closing_error=error, lasting_error=1.0).is_growing is grows
-
-
-@pytest.mark.parametrize(
-    ("turning", "error", "sizes"),
-    [
-        ((0.003, 0.004), 0.0, 10.0),  # 0.005 rad/s in 20 s, over 0.01 rad.
-        ((-0.003, -0.004), 0.0, 10.0),
-        ((0.003, 0.004), 0.001, 6.0),
-        ((0.003, 0.004), 0.0025, 0.0),
-        ((0.003, 0.004), 0.004, 0.0),
-    ],
-)
-def test_it_passes_by_as_many_sizes_as_its_direction_turns(
-    turning: tuple[float, float], error: float, sizes: float
-) -> None:
-    found = approach(turning_rad_s=turning, turning_error=error)
-    assert found.least_miss() == pytest.approx(sizes)
-    assert found.passes_above() == pytest.approx(turning[1] * 20.0 / 0.01)
-
-
 def nears(times_s: list[float], *, contact_s: float = 20.0, focal_px: float = 1000.0) -> Any:
     """Return the approach of what is met after a time, and is 0.01 rad wide at time 0."""
     observations = [
@@ -102,20 +55,6 @@ def test_five_pictures_within_three_quarters_of_a_second_tell_a_growth(
     times_s: list[float], is_told: bool
 ) -> None:
     assert (nears(times_s) is not None) is is_told
-
-
-@pytest.mark.parametrize("focal_px", [1000.0, 4000.0])
-def test_errors_of_the_size_that_last_are_those_of_2_px_in_the_first_and_the_last_picture(
-    focal_px: float,
-) -> None:
-    """The slope of 1 / size between the two is wrong by what either makes of its 1 / size."""
-    times_s = [0.25 * n for n in range(17)]
-    found = nears(times_s, focal_px=focal_px)
-    first, last = 1.0 / 0.01, 0.8 / 0.01
-    wrong = [value**2 * 2.0 / focal_px for value in (first, last)]
-    assert found.lasting_error == pytest.approx(math.hypot(*wrong) / 4.0 / last)
-    assert found.closing == pytest.approx(1.0 / 16.0)
-    assert found.size_rad == pytest.approx(0.01 / (1.0 - 3.5 / 20.0))  # The median of five.
 
 
 # --- how grave it is ------------------------------------------------------------------------
@@ -321,48 +260,3 @@ def test_what_is_larger_than_an_aircraft_or_a_flock_where_it_would_stand_stays(
     assert stays(label=label, size=size, azimuth_deg=-30.0, turning_rad_s=(-0.05, 0.0)) is (
         is_standing
     )
-
-
-def test_the_less_exactly_its_turning_is_known_the_nearer_it_may_be() -> None:
-    """Two standard deviations of 0.005 make 1000 m 833 m."""
-    assert stays(size=0.097, turning_error=0.005)
-    assert not stays(size=0.095, turning_error=0.005)
-
-
-@pytest.mark.parametrize(
-    ("outward", "error", "is_standing"),
-    [(0.05, 0.0, True), (-0.05, 0.0, False), (0.0, 0.0, False),
-     (0.051, 0.025, True), (0.049, 0.025, False)],
-)  # fmt: skip
-def test_what_stays_turns_away_from_the_course(
-    outward: float, error: float, is_standing: bool
-) -> None:
-    assert stays(size=0.4, turning_rad_s=(outward, 0.0), turning_error=error) is is_standing
-
-
-@pytest.mark.parametrize(
-    ("sideward", "error", "is_standing"),
-    [(0.0124, 0.0, True), (0.0126, 0.0, False), (-0.0124, 0.0, True), (-0.0126, 0.0, False),
-     (0.0274, 0.005, True), (0.0276, 0.005, False)],
-)  # fmt: skip
-def test_it_turns_hardly_to_the_side_of_that(
-    sideward: float, error: float, is_standing: bool
-) -> None:
-    """A quarter of the turning away, and three standard deviations."""
-    assert stays(turning_rad_s=(0.05, sideward), turning_error=error) is is_standing
-
-
-@pytest.mark.parametrize(
-    ("closing", "error", "is_standing"),
-    [(0.108, 0.0, True), (0.1085, 0.0, False), (0.138, 0.01, True), (0.1385, 0.01, False)],
-)
-def test_it_grows_no_faster_than_the_camera_comes_nearer(
-    closing: float, error: float, is_standing: bool
-) -> None:
-    """At 86.6 m/s along 1 km, and a quarter more, with three standard deviations."""
-    assert stays(closing=closing, closing_error=error) is is_standing
-
-
-def test_from_a_camera_that_does_not_move_nothing_is_known_to_stay() -> None:
-    assert not stays(speed_m_s=0.0)
-    assert not stays(seconds=0.0)

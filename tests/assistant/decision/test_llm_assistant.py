@@ -206,15 +206,6 @@ def test_the_schema_can_name_only_what_is_known() -> None:
     assert "judgements" not in situation([], CLEARED).schema()["properties"]
 
 
-def test_the_schema_of_an_advisory_leaves_room_for_three_in_conflict_and_the_controller() -> None:
-    advisory = situation([CAUTION], CLEARED).schema()["properties"]["advisories"]["items"]
-    most = {name: part.get("maxItems") for name, part in advisory["properties"].items()}
-    assert most["traffic"] == most["actions"] == 3
-    assert most["recipients"] == 4
-    assert set(most) == set(advisory["required"])
-    assert advisory["additionalProperties"] is False
-
-
 def test_words_that_mean_nothing_to_the_phraseology_do_not_reach_the_model() -> None:
     without = situation([CAUTION], CLEARED)
     both = f"United seven, runway zero one, cleared for takeoff, {INJECTION}"
@@ -259,21 +250,6 @@ def test_the_question_has_calls_tracks_and_alerts_in_round_numbers() -> None:
     assert json.loads(situation([CAUTION]).question())["rules"][0]["time_left_s"] is None
 
 
-@pytest.mark.parametrize(("count", "given"), [(3, 3), (20, 20), (25, 20)])
-def test_the_question_has_the_last_12_calls_and_20_tracks_at_most(count: int, given: int) -> None:
-    tracks = [
-        report("AAL123", -77.0, 90.0, 59.0).model_copy(update={"icao24": f"b0{n:04x}"})
-        for n in range(count)
-    ]
-    calls = [call("American one two three, go around", 20 + n, f"c-{n}") for n in range(count)]
-    about = situation([], *tracks, *calls)
-    document = json.loads(about.question())
-    assert len(document["tracks"]) == given
-    ages = [each["age_s"] for each in document["radio"]]
-    assert ages == [40 - n for n in range(count)][-12:]
-    assert [each["id"] for each in document["radio"]] == [f"r{n + 1}" for n in range(len(ages))]
-
-
 @pytest.mark.parametrize(
     ("age_s", "tracks", "calls"), [(15.0, 1, 1), (15.1, 0, 1), (119.9, 0, 1), (121.1, 0, 0)]
 )
@@ -287,25 +263,6 @@ def test_tracks_are_given_for_15_s_and_calls_for_two_minutes_from_their_end(
     request = slices.request(200 * SECOND_NS)
     assert (len(request.tracks), len(request.radio)) == (tracks, calls)
     assert request.ts_ms == 200_000
-
-
-def test_a_call_is_given_as_it_was_heard_and_by_whom() -> None:
-    slices = Slices()
-    for message in (BRIEFING, CLEARED, READBACK.model_copy(update={"id": "c-2"})):
-        slices.receive(ReceivedMessage(message, 0, 0))
-    to, by = slices.request(60 * SECOND_NS).radio
-    assert (to.turn_id, to.ts_ms, to.end_ms, to.frequency_khz) == ("c-1", 50_000, 51_000, 118_300)
-    assert (to.addressed_callsign, to.speaker) == ("UAL7", None)
-    assert (by.addressed_callsign, by.speaker) == (None, "AAL123")
-    assert slices.callsigns() == NAMES
-
-
-def test_who_has_adsb_and_is_not_on_the_roster_is_known_too() -> None:
-    slices = Slices()
-    other = report("AAL123", -77.0, 90.0, 0.0).model_copy(update={"callsign": "BAW9"})
-    for message in (BRIEFING, other):
-        slices.receive(ReceivedMessage(message, 0, 0))
-    assert slices.callsigns() == ("AAL123", "BAW9", "DAL456", "UAL7")
 
 
 # --- the engine -----------------------------------------------------------------------------

@@ -81,13 +81,6 @@ def test_who_is_told_nothing_flies_straight_on_and_levels_off() -> None:
     assert TIMES_S[SOON_STEPS - 1] == pytest.approx(178.0)
 
 
-def test_no_manoeuvre_is_the_same_as_flying_straight_on() -> None:
-    profile, motion = VerticalProfile(3000.0, 10.0, 3500.0), Relative(100.0, 200.0, 70.0, -30.0)
-    told, left = paths(motion, profile, [NONE]).soon(0), straight_paths([motion], [profile])
-    for one, other in zip(told, left, strict=True):
-        assert one == pytest.approx(other)
-
-
 @pytest.mark.parametrize(
     ("north_m", "east_m", "up_m", "least"),
     [
@@ -108,28 +101,3 @@ def test_separation_is_that_of_the_minimum_that_is_kept_better(
     minima = Minima(5000.0, 300.0)
     assert separations(here, there, minima) == pytest.approx([least])
     assert separations(there, here, minima) == pytest.approx([least])
-
-
-@pytest.mark.parametrize("turn_deg", [30.0, -90.0])
-@pytest.mark.parametrize("speed_m_s", [60.0, 240.0])
-def test_a_turn_changes_the_heading_and_not_the_speed(turn_deg: float, speed_m_s: float) -> None:
-    """The track before is 40 degrees, and afterwards 40 degrees and the turn."""
-    north, east = math.cos(40.0 * DEGREE), math.sin(40.0 * DEGREE)
-    motion = Relative(10.0, -20.0, speed_m_s * north, speed_m_s * east)
-    flown = paths(motion, LEVEL, [Manoeuvre(turn_rad=turn_deg * DEGREE)])
-    step_north, step_east = np.diff(flown.north_m[0]), np.diff(flown.east_m[0])
-    speeds = np.hypot(step_north, step_east) / TIMES_S[1]
-    assert speeds == pytest.approx(speed_m_s, rel=0.001)
-    headings = np.degrees(np.arctan2(step_east, step_north))
-    assert headings[0] == pytest.approx(40.0)
-    assert headings[-1] == pytest.approx(40.0 + turn_deg)
-    assert (flown.north_m[0, 0], flown.east_m[0, 0]) == pytest.approx((10.0, -20.0))
-
-
-def test_a_climb_is_flown_at_its_rate_from_the_response_on() -> None:
-    up = Manoeuvre(10_300.0, 7.5)
-    (told,) = paths(NORTHBOUND, LEVEL, [up]).altitude_m
-    expected = np.clip(10_000.0 + 7.5 * (TIMES_S - RESPONSE_S), 10_000.0, 10_300.0)
-    assert told == pytest.approx(expected)
-    (at_once,) = paths(NORTHBOUND, LEVEL, [up], response_s=0.0).altitude_m
-    assert at_once == pytest.approx(np.minimum(10_000.0 + 7.5 * TIMES_S, 10_300.0))

@@ -83,12 +83,6 @@ def test_two_share_what_is_missing_to_the_minimum_and_200_ft(
     assert told(second, first) == (second_goes, first_goes)
 
 
-def test_in_a_warning_they_do_it_with_2500_ft_min() -> None:
-    assert told(*head_on(35_000, 35_000), strong=True) == (
-        descend(34_400, 2500.0), climb(35_600, 2500.0),
-    )  # fmt: skip
-
-
 def pair(upper: Track, lower: Track) -> _Pair:
     return _Pair(upper, lower, STANDARD)
 
@@ -139,13 +133,6 @@ def test_levels_come_before_a_turn_and_more_of_either_after_that() -> None:
     ]
 
 
-def test_in_a_warning_levels_are_tried_at_the_stronger_rate_at_once() -> None:
-    lower, upper = head_on(35_000, 35_000)
-    levels, turned, wide, combined = groups(upper, lower, strong=True)
-    assert rates(levels) == rates(combined) == {round(STRONG_M_S, 6)}
-    assert rates(turned) == rates(wide) == set()
-
-
 @pytest.mark.parametrize(
     ("upper_rate", "lower_rate", "stops_ft"),
     [
@@ -176,19 +163,6 @@ def test_whoever_moves_towards_the_other_may_stop_short(
         for each in both
         if each != NONE
     )
-
-
-@pytest.mark.parametrize(("gap_ft", "may_stop"), [(1_090.0, False), (1_101.0, True)])
-def test_a_stop_is_a_level_ahead_that_keeps_the_minimum(gap_ft: float, may_stop: bool) -> None:
-    """At 35,000 ft, a hundred feet above which are 1,000 ft below 36,100 ft."""
-    upper = track("a1", 0.0, 35_000 + gap_ft, 240.0)
-    lower = track("a2", 60_000.0, 35_000, -240.0, rate_fpm=1500.0)
-    up, down = groups(upper, lower)[0][0]
-    assert (up == NONE and down.target_m == pytest.approx(35_100 * FOOT)) is may_stop
-    upper = track("a1", 0.0, 35_000, 240.0, rate_fpm=-1500.0)
-    lower = track("a2", 60_000.0, 35_000 - gap_ft, -240.0)
-    up, down = groups(upper, lower)[0][0]
-    assert (down == NONE and up.target_m == pytest.approx(34_900 * FOOT)) is may_stop
 
 
 @pytest.mark.parametrize(("lower_ft", "is_down"), [(3_220.0, True), (3_140.0, False)])
@@ -236,22 +210,6 @@ def test_what_would_meet_others_is_the_last_resort() -> None:
     first, second = told(*head_on(35_000, 35_000), others=above)
     assert second is None or getattr(second, "sense", "") != "climb"
     assert first is not None
-
-
-@pytest.mark.parametrize(("above_ft", "is_clear"), [(36_440, False), (36_460, True)])
-def test_others_matter_within_the_infringed_minimum_only(above_ft: float, is_clear: bool) -> None:
-    """The climb ends at 35,600 ft: 850 ft above that are 36,450 ft."""
-    pair = head_on(35_000, 35_000)
-    above = track("b1", 70_000.0, above_ft, -240.0)
-    assert (told(*pair, others=(above,)) == told(*pair)) is is_clear
-
-
-def test_of_what_keeps_separation_the_first_is_taken_and_not_what_keeps_more() -> None:
-    climber = {"rate_fpm": 1500.0}
-    assert told(*head_on(35_000, 37_000, first=climber)) == (
-        MaintainLevel(altitude_ft=36_000),
-        None,
-    )
 
 
 # --- what is told of it -----------------------------------------------------------------------

@@ -48,46 +48,6 @@ def track_of(*replies: TcasReply) -> IntruderTrack:
     return track
 
 
-def test_the_second_reply_gives_the_rate() -> None:
-    track = track_of(reply(0.0, 9000.0), reply(2.0, 8600.0, 10_200))
-    assert track.motion(2 * SECOND_NS) == pytest.approx((8600.0, -200.0))
-    assert track.motion(5 * SECOND_NS) == pytest.approx((8000.0, -200.0))
-    assert track.motion(60 * SECOND_NS) == pytest.approx((0.0, -200.0))  # No range is negative.
-    assert track.vertical(2 * SECOND_NS) == pytest.approx((10_200 * FOOT, 0.0))
-
-
-@pytest.mark.parametrize(("mode", "alpha"), [("S", 0.5), ("C", 0.3)])
-def test_later_ones_correct_it_by_the_gains_of_an_alpha_beta_tracker(
-    mode: str, alpha: float
-) -> None:
-    """Range by 0.67 and 0.25; altitude by alpha^2 / (2 - alpha) as well (Benedict and Bordner)."""
-    named: dict[str, Any] = {"mode": mode, "icao24": OTHER if mode == "S" else None}
-    track = track_of(
-        reply(0.0, 9000.0, **named),
-        reply(1.0, 8800.0, **named),
-        reply(3.0, 8500.0, 10_400, **named),
-    )
-    range_m, rate_m_s = track.motion(3 * SECOND_NS)
-    assert range_m == pytest.approx(8400.0 + 0.67 * 100.0)
-    assert rate_m_s == pytest.approx(-200.0 + 0.25 * 100.0 / 2.0)
-    altitude_m, climb_m_s = track.vertical(3 * SECOND_NS)
-    assert altitude_m == pytest.approx((10_000 + alpha * 400.0) * FOOT)
-    assert climb_m_s == pytest.approx(alpha**2 / (2.0 - alpha) * 400.0 * FOOT / 2.0)
-    assert track.vertical(5 * SECOND_NS).altitude_m == pytest.approx(altitude_m + 2.0 * climb_m_s)
-
-
-def test_a_track_is_settled_with_its_fourth_reply() -> None:
-    replies = [reply(float(t), 9000.0) for t in range(4)]
-    assert [track_of(*replies[: count + 1]).is_settled for count in range(4)] == [
-        False, False, False, True,
-    ]  # fmt: skip
-
-
-def test_the_latest_reply_says_whether_it_is_on_the_ground_and_has_tcas() -> None:
-    track = track_of(reply(0.0, 9000.0), reply(1.0, 9000.0, on_ground=True, has_tcas=True))
-    assert (track.on_ground, track.has_tcas) == (True, True)
-
-
 @pytest.mark.parametrize(("miss_m", "speed_m_s"), [(3000.0, 100.0), (4000.0, 120.0)])
 def test_the_miss_distance_is_found_from_the_acceleration_of_the_range(
     miss_m: float, speed_m_s: float
@@ -190,13 +150,6 @@ def meets(
     return flight
 
 
-def test_nothing_is_judged_before_the_own_instruments_are_known() -> None:
-    unit = TcasUnit("AAL1", OWN, {}, filters_misses=False)
-    unit.take_reply(reply(0.0, 100.0))
-    assert unit.judge(0) == []
-    assert unit.due_ns is None
-
-
 def test_without_replies_the_next_cycle_comes_after_a_second_and_a_half() -> None:
     flight = Flight()
     flight.hears(0.0, 90_000.0)
@@ -207,15 +160,6 @@ def test_without_replies_the_next_cycle_comes_after_a_second_and_a_half() -> Non
     assert flight.unit.due_ns == 3.0 * SECOND_NS
     flight.hears(2.0, 90_000.0)
     assert flight.unit.due_ns == 3.5 * SECOND_NS
-
-
-def test_older_instruments_than_the_last_ones_say_nothing() -> None:
-    unit = TcasUnit("AAL1", OWN, {}, filters_misses=False)
-    unit.take_instruments(instruments(5.0, 20_000))
-    unit.take_instruments(instruments(4.0, 10_000))
-    for t in range(8):
-        unit.take_reply(reply(float(t), 3000.0 - 200.0 * t))
-        assert unit.judge(t * SECOND_NS) == []  # It is 10,000 ft below.
 
 
 @pytest.mark.parametrize(("rate_fpm", "is_told"), [(0, False), (6000, True), (-6000, False)])
@@ -359,15 +303,6 @@ def test_with_the_track_the_advisory_is_gone() -> None:
     for t in range(23, 40):
         flight.hears(float(t), None)
     assert 28.0 < ended_s(flight.told) <= 30.0
-
-
-def test_the_hold_of_an_advisory_begins_soon_after_the_run_as_well_as_late() -> None:
-    """It draws away from the fourth second on, as soon as there is an advisory."""
-    for begin_s in (0.0, 1000.0):
-        flight = Flight()
-        for t in range(20):
-            flight.hears(begin_s + t, 900.0 + 10.0 * abs(t - 3), 10_800)
-        assert ended_s(flight.told) - begin_s == pytest.approx(13.5, abs=1.5)
 
 
 def test_who_has_not_gone_since_the_end_is_not_announced_again_but_is_resolved_again() -> None:

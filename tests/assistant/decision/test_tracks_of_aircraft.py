@@ -29,16 +29,6 @@ def track(**given: Any) -> Track:
     return Track.of(first, given.get("altitude_ft", 31_000.0), first.t_adsb_in_ns)
 
 
-def test_a_first_report_is_taken_as_it_is() -> None:
-    found = track(vertical_rate_fpm=1200.0)
-    assert (found.latitude_rad, found.longitude_rad) == (38.9 * DEGREE, -77.0 * DEGREE)
-    assert found.altitude_m == pytest.approx(31_000.0 * FOOT)
-    assert found.velocity_north_m_s == pytest.approx(480.0 * KNOT * math.cos(30.0 * DEGREE))
-    assert found.velocity_east_m_s == pytest.approx(240.0 * KNOT)
-    assert found.vertical_rate_m_s == pytest.approx(1200.0 * FOOT_PER_MINUTE)
-    assert track(callsign=None).callsign == "a1b2c3"
-
-
 def test_a_velocity_is_the_mean_of_the_reports_of_about_a_second() -> None:
     """What does not change stays; of what changes suddenly, 0.4 counts in the first report."""
     found = track(vertical_rate_fpm=600.0)

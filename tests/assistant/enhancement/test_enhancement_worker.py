@@ -33,13 +33,6 @@ class Halving:
         return np.asarray(0.5 * audio, np.float32)
 
 
-class Shortening:
-    name = "shortening"
-
-    def enhance(self, audio: Audio) -> Audio:
-        return audio[1:]
-
-
 class Loudness:
     """An `AsrEngine` that hears how loud the audio is."""
 
@@ -75,10 +68,6 @@ def test_the_recogniser_hears_what_the_enhancer_has_made_of_a_call() -> None:
     (heard,) = worker.step(0, (Input(output.key, 0, output.payload, output.attachment),)).outputs
     transcript = Transcript.model_validate_json(heard.payload)
     assert (transcript.id, transcript.text, transcript.t_end_ns) == ("call", "0.25", 3 * SECOND_NS)
-
-
-def test_a_call_without_sound_is_left_alone() -> None:
-    assert EnhancementWorker(Halving()).step(0, (transmission(0),)).outputs == ()
 
 
 def test_enhanced_audio_must_be_what_its_header_says_and_on_its_frequency() -> None:

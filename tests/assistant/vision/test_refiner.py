@@ -11,7 +11,6 @@ from typing import Any, cast
 
 import numpy as np
 import pytest
-from hypothesis import given
 from hypothesis import strategies as st
 
 from airhilt.assistant.vision.detector import Found
@@ -21,11 +20,9 @@ from airhilt.assistant.vision.refiner import (
     Refiner,
     RefinerCard,
     about,
-    refined,
     views_of,
 )
 from airhilt.errors import VisionError
-from airhilt.imaging.boxes import centre, size_px
 from airhilt.messages import Box, VisibleClass
 
 CLASSES = tuple(json.loads(MODEL.with_name("card.json").read_text())["classes"])
@@ -60,20 +57,6 @@ def look(classes: Sequence[VisibleClass] = CLASSES, **card: Any) -> Refiner:
     return Refiner(RefinerCard.model_validate(shipped | card), MODEL.parent, classes)
 
 
-@given(boxes())
-def test_a_view_of_an_even_picture_is_even(box: Box) -> None:
-    picture = np.full((ROWS, COLUMNS, 3), (10, 130, 250), dtype=np.uint8)
-    assert (views_of(picture, [box]) == (10, 130, 250)).all()
-
-
-@given(boxes())
-def test_a_view_has_no_colour_that_the_picture_has_not(box: Box) -> None:
-    views = views_of(noise(), [box])
-    assert views.shape == (1, 2, VIEW_PX, VIEW_PX, 3)
-    assert views.min() >= 60
-    assert views.max() < 200
-
-
 @pytest.mark.parametrize("side", [6.0, 20.0, 45.0])
 @pytest.mark.parametrize("place", [(0.0, 0.0), (60.0, 30.0), (100.0, 30.0)])
 def test_what_is_in_the_box_is_in_the_middle_of_both_views(
@@ -99,17 +82,6 @@ def test_a_view_is_as_sharp_as_the_picture_where_its_pixels_are_the_same() -> No
     near = views_of(picture, [box])[0, 0]
     half_px = VIEW_PX // 2
     assert np.array_equal(near, picture[45 - half_px : 45 + half_px, 80 - half_px : 80 + half_px])
-
-
-@given(boxes(), st.lists(st.floats(-1e6, 1e6), min_size=4, max_size=4))
-def test_no_moves_take_a_box_far_away(box: Box, moves: list[float]) -> None:
-    (x, y), (x_, y_) = centre(box), centre(refined(box, np.array(moves)))
-    assert max(abs(x - x_), abs(y - y_)) <= 1.01 * size_px(box)
-
-
-@given(boxes(), st.floats(0.0, 1.0))
-def test_what_is_known_of_a_place_is_finite(box: Box, score: float) -> None:
-    assert np.isfinite(about([box], [score])).all()
 
 
 def test_what_is_known_of_a_place_is_its_score_its_size_and_its_shape() -> None:

@@ -107,22 +107,6 @@ def test_another_look_is_taken(pictures: Sequence[Picture], detector: Counting) 
     assert detector.asked > 0
 
 
-def test_pictures_without_a_sha256_are_not_taken_for_one_another() -> None:
-    for scene in SCENES[:2]:
-        detector = Counting()
-        Gate(detector, SharedLooks(detector)).look(Shot("tower", 0), scene)
-        assert detector.asked == 1
-
-
-def test_a_damaged_look_is_taken_again(cache: Path) -> None:
-    first = looks_at(SCENES[:1], Counting())
-    (entry,) = cache.iterdir()
-    entry.write_bytes(entry.read_bytes()[:-1])
-    again = Counting()
-    assert looks_at(SCENES[:1], again) == first
-    assert again.asked == 1
-
-
 def test_a_long_row_of_pictures_is_put_together_from_few_of_them() -> None:
     """A body crosses the picture: only what later looks have left of it is read again."""
     field = background(640, 64)

@@ -24,10 +24,6 @@ from airhilt.assistant.vision.tiling import (
 from pictures import BlobDetector, background, with_blobs
 
 
-def test_small_pictures_are_looked_at_in_one_piece() -> None:
-    assert tiles_of((720, 1280)) == [Tile(0, 0, 720, 1280)]
-
-
 @pytest.mark.parametrize(("columns", "rows"), [(1920, 1080), (1281, 200), (100, 3000)])
 def test_tiles_are_small_and_leave_nothing_out(columns: int, rows: int) -> None:
     picture = background(columns, rows)
@@ -59,13 +55,6 @@ def test_what_two_tiles_take_for_different_things_is_one() -> None:
     box, beside = (600.0, 300.0, 640.0, 330.0), (602.0, 300.0, 642.0, 330.0)
     confident, doubtful = Found("airplane", 0.9, box), Found("truck", 0.5, beside)
     assert merged([Piece(doubtful, is_cut=False), Piece(confident, is_cut=False)]) == [confident]
-
-
-def test_different_things_side_by_side_stay_two() -> None:
-    flat = np.full((1080, 1920, 3), 100, np.uint8)
-    blobs = [("truck", (600, 300, 640, 330)), ("truck", (642, 300, 682, 330))]
-    found = Gate(BlobDetector()).look(Shot("tower", 0), with_blobs(flat, blobs))
-    assert sorted(one.box for one in found) == [box for _, box in blobs]
 
 
 @pytest.mark.parametrize("length", [1281, 1300, 1600, 1920, 2560, 3840, 4096])
@@ -127,16 +116,3 @@ def test_pieces_of_one_class_are_one_if_they_share_most_of_the_smaller(
     large, small = (500, 300, 640, 330), (right_px - 40, 300, right_px, 330)
     found = [Piece(Found("truck", 0.9, large), False), Piece(Found(label, 0.5, small), False)]
     assert len(merged(found)) == count
-
-
-@pytest.mark.parametrize(
-    ("place", "is_in"),
-    [((640, 320), True), ((1279.9, 959.9), True), ((1280, 500), False), ((700, 960), False),
-     ((639.9, 500), False), ((700, 319.9), False)],
-)  # fmt: skip
-def test_a_tile_holds_the_places_from_its_first_pixel_to_its_last(
-    place: tuple[float, float], is_in: bool
-) -> None:
-    tile = Tile(320, 640, 640, 640)
-    assert tile.holds(place) is is_in
-    assert tile.box == (640, 320, 1280, 960)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Callable, Iterable
 
@@ -10,10 +9,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scipy.stats import chi2
 
 from airhilt.assistant.vision.detector import Found
-from airhilt.assistant.vision.tracker import NEVER, Tracker, _Track
+from airhilt.assistant.vision.tracker import Tracker, _Track
 from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.messages import CONFIRMED_HITS, CameraView, Detection
 from airhilt.units import SECOND_NS
@@ -303,34 +301,6 @@ def pixel_of(view: CameraView, place: tuple[float, float, float]) -> tuple[float
     return float(column), float(row)
 
 
-@pytest.mark.parametrize("dt_s", [0.0, 0.0625, 0.5])
-def test_it_does_not_matter_in_how_many_steps_time_goes_by(dt_s: float) -> None:
-    """The noise of white acceleration over two steps is that over both (Bar-Shalom et al.)."""
-    once, twice = (_Track.begin(1, a("truck", 100.0, 50.0, 20.0), 0) for _ in range(2))
-    for track in (once, twice):
-        track.state[:, 1] = (3.0, -2.0, 0.0, 0.0)
-    once.predict(2.0 * dt_s)
-    twice.predict(dt_s)
-    twice.predict(dt_s)
-    assert once.state == pytest.approx(twice.state)
-    assert once.covariance == pytest.approx(twice.covariance)
-    moved = _Track.begin(1, a("truck", 100.0, 50.0, 20.0), 0)
-    moved.state[:, 1] = (3.0, -2.0, 0.0, 0.0)
-    place = moved.state[:2, 0].copy()
-    moved.predict(dt_s)
-    assert moved.state[:2, 0] - place == pytest.approx([3.0 * dt_s, -2.0 * dt_s])
-
-
-def test_what_is_known_of_a_thing_wears_off_with_time() -> None:
-    track = _Track.begin(1, a("truck", 100.0, 50.0, 20.0), 0)
-    spreads = [track.covariance[:, 0, 0].copy()]
-    for _ in range(5):
-        track.predict(0.1)
-        spreads.append(track.covariance[:, 0, 0].copy())
-        assert np.linalg.eigvalsh(track.covariance).min() > 0.0
-    assert all((later > sooner).all() for sooner, later in itertools.pairwise(spreads))
-
-
 # --- its laws -----------------------------------------------------------------------------------
 
 
@@ -339,64 +309,6 @@ def settled(side_px: float = 20.0) -> _Track:
     track = _Track.begin(1, a("truck", 300.0, 150.0, side_px), 0)
     track.covariance[:, 0, 0] = 9.0
     return track
-
-
-def test_a_place_is_possible_within_99_9_percent_of_chi_squared() -> None:
-    track = settled()
-    sigma_px = math.sqrt(9.0 + (0.7 + 0.05 * 20.0) ** 2)
-    limit = math.sqrt(chi2.ppf(0.999, 2))
-    near, far = (a("truck", 300.0 + part * limit * sigma_px, 150.0, 20.0) for part in (0.99, 1.01))
-    aside = a("truck", 300.0, 150.0 - 1.01 * limit * sigma_px, 20.0)
-    assert [cost < NEVER for cost in track.costs([near, far, aside])] == [True, False, False]
-
-
-@pytest.mark.parametrize(
-    ("side_px", "is_possible"), [(49.5, True), (50.5, False), (8.1, True), (7.9, False)]
-)
-def test_a_size_is_possible_up_to_two_and_a_half_times(side_px: float, is_possible: bool) -> None:
-    (cost,) = settled().costs([a("truck", 300.0, 150.0, side_px)])
-    assert bool(cost < NEVER) is is_possible
-
-
-def test_a_cost_is_the_squared_distance_in_place_size_and_label() -> None:
-    """In standard deviations of each; another label is as much as two of them."""
-    track, right = settled(), a("truck", 300.0, 150.0, 20.0)
-    variance = 9.0 + (0.7 + 0.05 * 20.0) ** 2
-    found = [right, a("truck", 304.0, 147.0, 20.0), a("truck", 300.0, 150.0, 28.0),
-             a("bird", 300.0, 150.0, 20.0)]  # fmt: skip
-    none, place, size, label = track.costs(found)
-    assert none == pytest.approx(2.0 * math.log(variance))
-    assert place - none == pytest.approx((16.0 + 9.0) / variance)
-    assert size - none == pytest.approx((math.log(1.4) / math.log(1.4)) ** 2)
-    assert label - none == pytest.approx(4.0)
-
-
-def test_a_finding_moves_a_track_by_the_gain_of_a_kalman_filter() -> None:
-    track = settled()
-    track.covariance[:, 0, 1] = track.covariance[:, 1, 0] = 6.0
-    before = track.covariance.copy()
-    track.update(a("truck", 310.0, 150.0, 20.0), SECOND_NS)
-    variance = (0.7 + 0.05 * 20.0) ** 2
-    gain = 9.0 / (9.0 + variance)
-    assert track.state[0] == pytest.approx([300.0 + gain * 10.0, 6.0 / (9.0 + variance) * 10.0])
-    assert track.state[1] == pytest.approx([150.0, 0.0])
-    assert track.covariance[0, 0, 0] == pytest.approx((1.0 - gain) * 9.0)
-    assert track.covariance[0, 0, 1] == pytest.approx((1.0 - gain) * 6.0)
-    assert track.covariance[0, 1, 1] == pytest.approx(before[0, 1, 1] - 36.0 / (9.0 + variance))
-    size_variance = (1.0 + 0.1 * 20.0) ** 2
-    assert track.covariance[2, 0, 0] == pytest.approx(9.0 * size_variance / (9.0 + size_variance))
-    assert (track.hits, track.misses, track.found_ns) == (2, 0, SECOND_NS)
-
-
-def test_a_new_thing_may_move_fast_and_a_large_one_faster() -> None:
-    track = _Track.begin(1, a("truck", 300.0, 150.0, 20.0), 0)
-    assert np.sqrt(track.covariance[:, 1, 1]) == pytest.approx([120.0, 120.0, 15.0, 15.0])
-    assert np.sqrt(track.covariance[:, 0, 0]) == pytest.approx([1.7, 1.7, 3.0, 3.0])
-    assert not track.covariance[:, 0, 1].any()
-    track.predict(0.5)
-    grown = 1.7**2 + 0.25 * 120.0**2 + (15.0 + 20.0) ** 2 * 0.5**3 / 3.0
-    assert track.covariance[0, 0, 0] == pytest.approx(grown)
-    assert track.covariance[2, 1, 1] == pytest.approx(15.0**2 + (5.0 + 10.0) ** 2 * 0.5)
 
 
 @pytest.mark.parametrize(
@@ -428,14 +340,6 @@ def test_what_has_left_the_picture_unseen_is_over(column: float, row: float, is_
     assert not track.is_over(0, VIEW)
     track.misses = 1
     assert track.is_over(0, VIEW) is is_over
-
-
-def test_no_thing_shrinks_to_less_than_a_pixel() -> None:
-    track = settled()
-    track.state[2:, 1] = -1000.0
-    track.predict(1.0)
-    assert track.state[2:, 0] == pytest.approx([1.0, 1.0])
-    assert track.state[:2, 0] == pytest.approx([300.0, 150.0])
 
 
 @pytest.mark.parametrize(("confidence", "is_told"), [(0.5, True), (0.49, False)])

@@ -70,19 +70,6 @@ def test_each_camera_has_tracks_of_its_own() -> None:
     ]  # fmt: skip
 
 
-def test_the_detector_sees_the_pixels_that_were_sent() -> None:
-    class Keeping(Told):
-        kept: Picture
-
-        def detect(self, picture: Picture) -> Sequence[Found]:
-            self.kept = picture
-            return []
-
-    detector = Keeping()
-    seen(VisionWorker(detector), frame(TRUCK))
-    np.testing.assert_array_equal(detector.kept, TRUCK)
-
-
 class TestOwnAircraft:
     """Its lower third is in the picture."""
 

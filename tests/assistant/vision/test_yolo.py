@@ -7,7 +7,6 @@ import socket
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 from airhilt.assistant.vision.detectors.yolo import LABELS, LEAST_CONFIDENCE, YoloDetector
@@ -90,18 +89,6 @@ class TestModel:
         assert LEAST_CONFIDENCE < detector.threshold < 1.0
         assert detector.name == f"yolo:{Path(file).stem}"
 
-    def test_finds_the_same_in_the_same(self, models: Path, file: str) -> None:
-        first, second = (YoloDetector(models / file).detect(PICTURE) for _ in range(2))
-        assert list(first) == list(second)
-
-    @pytest.mark.parametrize(("columns", "rows"), [(160, 320), (333, 97)])
-    def test_takes_pictures_of_any_size(
-        self, models: Path, file: str, columns: int, rows: int
-    ) -> None:
-        for one in YoloDetector(models / file).detect(background(columns, rows)):
-            assert one.box[2] <= columns
-            assert one.box[3] <= rows
-
 
 def test_the_two_forms_of_a_model_find_the_same(models: Path) -> None:
     torch_found = YoloDetector(models / "yolov10n.pt").detect(background(640, 384))
@@ -138,8 +125,3 @@ def test_a_file_that_is_no_model_is_refused(tmp_path: Path) -> None:
     path.write_bytes(b"not a model")
     with pytest.raises(VisionError, match=r"broken\.pt: does not load"):
         YoloDetector(path)
-
-
-def test_nothing_is_printed(models: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    YoloDetector(models / "yolov10n.pt").detect(np.zeros((64, 64, 3), np.uint8))
-    assert capfd.readouterr().out == ""
