@@ -7,7 +7,7 @@ import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import pytest
 
@@ -19,28 +19,22 @@ from airhilt.assistant.reference import reference_worker
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.bus import free_endpoint
 from airhilt.cli.doctor import examine
-from airhilt.cosim import cameras
 from airhilt.cosim.observer import Result
 from airhilt.cosim.replay import replay
-from airhilt.engine_families import DETECTORS, FAMILIES, RECOGNISERS, VOICES
-from airhilt.engines import EngineFamily, Package
+from airhilt.engine_families import DETECTORS, RECOGNISERS
+from airhilt.engines import Package
 from airhilt.errors import AirhiltError, SpeechError, VisionError, WorkerError
 from airhilt.messages import (
     ActorTruth,
     Advisory,
-    AdvisoryAudio,
-    Detections,
     Evidence,
     GoAround,
     Message,
     Severity,
-    Transcript,
 )
 from airhilt.record import read_log
 from airhilt.scenario import Scenario
-from camera_run import passing
 from engine_package import installed
-from oracle import BlankSceneRenderer
 from paths import DOCS
 from processes import process
 
@@ -108,15 +102,6 @@ ASSISTANT, WORDING = (
     next(block for block in BLOCKS if f"class {name}:" in block) for name in ("Nervous", "Shouting")
 )
 """The examples of the guide."""
-LACKS = (
-    "name, enhance",
-    "name, recognise",
-    "name, version, voice_of, synthesise",
-    "name, threshold, detect",
-    "name, reads, receive, decide",
-    "name, message",
-)
-"""Member that a wrong object lacks, by family."""
 
 
 @pytest.fixture
@@ -133,45 +118,6 @@ def added(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 def messages(result: Result, prefix: str, model: type[M]) -> list[M]:
     log = read_log(result.folder / "log.mcap")
     return [model.model_validate_json(one.data) for one in log if one.key.startswith(prefix)]
-
-
-@pytest.mark.usefixtures("added")
-def test_a_run_listens_and_speaks_with_engines_of_other_packages(
-    encounter: Scenario, tmp_path: Path
-) -> None:
-    result = run(
-        encounter,
-        out=tmp_path / "run",
-        latency="fixed",
-        asr="parrot:american one two three",
-        tts="beep",
-    )
-    heard = messages(result, "asr/", Transcript)
-    assert {(one.engine, one.text) for one in heard} == {("parrot", "american one two three")}
-    spoken = messages(result, "tts/", AdvisoryAudio)
-    assert {(one.engine, one.samples) for one in spoken} == {("beep", 8_000)}
-
-
-@pytest.mark.usefixtures("added")
-def test_a_run_looks_with_a_detector_of_another_package(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(
-        cameras, "_open_renderer", lambda scenario, *_: BlankSceneRenderer(scenario)
-    )
-    monkeypatch.setattr(cameras, "_start_renderers", lambda *_: ())
-    scenario = passing().model_copy(update={"duration_s": 2.0})
-    result = run(
-        scenario,
-        out=tmp_path / "run",
-        latency="fixed",
-        speech=False,
-        detector="everything_is_a_deer",
-    )
-    seen = messages(result, "vision/", Detections)
-    assert {one.engine for one in seen} == {"deer"}
-    assert all(found.label == "deer" for one in seen for found in one.detections)
-    assert any(one.detections for one in seen)
 
 
 def test_a_run_decides_and_words_with_engines_of_other_packages(
@@ -341,19 +287,6 @@ def test_an_engine_that_cannot_be_made_is_named_with_the_cause(
 
 
 @pytest.mark.parametrize(
-    ("family", "lacks"), list(zip(FAMILIES, LACKS, strict=True)), ids=lambda one: str(one)[:9]
-)
-def test_an_engine_that_makes_something_else_is_told_what_that_lacks(
-    family: EngineFamily[Any], lacks: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    with (
-        installed(tmp_path, monkeypatch, family.group, "faulty", faulty()),
-        pytest.raises(AirhiltError, match=f"'faulty': what it makes, 42, has no {lacks}$"),
-    ):
-        family.create("faulty")
-
-
-@pytest.mark.parametrize(
     ("source", "cause"),
     [
         (faulty("fail"), "LookupError: no model"),
@@ -382,12 +315,6 @@ def test_two_engines_of_one_name_are_refused(
         pytest.raises(SpeechError, match="more than one recogniser named 'whisper'"),
     ):
         RECOGNISERS.create("whisper:base.en")
-
-
-def test_an_address_goes_to_the_service() -> None:
-    for family in (RECOGNISERS, VOICES, DETECTORS):
-        engine, argument = family.choose("https://example.org/engine")
-        assert (engine.name, argument) == ("http", "https://example.org/engine")
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from airhilt.host.caches import CacheFolder
-from airhilt.voices.cache import CachedTts
 from airhilt.voices.engine import VoiceSpec
 from tone import Tone, cached_tone
 
@@ -48,11 +46,3 @@ def test_another_line_voice_or_version_is_another_sound(
     engine = Tone(version)
     cached_tone(tmp_path, engine).synthesise(text, voice)
     assert len(engine.asked) == 1
-
-
-def test_it_is_in_the_users_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    CachedTts(Tone()).synthesise("hello", PILOT)
-    engine = Tone()
-    CachedTts(engine, CacheFolder("voices", tmp_path / "airhilt")).synthesise("hello", PILOT)
-    assert engine.asked == []

@@ -89,9 +89,6 @@ def resolve(
     return Resolution(*(told if first_is_upper else told[::-1]), best.margin)
 
 
-# --- candidates -----------------------------------------------------------------------------
-
-
 class _Pair:
     """Two aircraft in conflict, of which one is, or counts as, the upper one."""
 
@@ -165,9 +162,6 @@ def _flight_level_above(altitude_m: float) -> float:
 
 def _flight_level_below(altitude_m: float) -> float:
     return math.floor(altitude_m / LEVEL_STEP_M + 1e-6) * LEVEL_STEP_M
-
-
-# --- the choice -----------------------------------------------------------------------------
 
 
 class _Choice(NamedTuple):

@@ -70,8 +70,6 @@ class SeparationWatch:
         """True if there is a conflict to be judged again even without news."""
         return bool(self._conflicts)
 
-    # --- what is known ----------------------------------------------------------------------
-
     def take_briefing(self, briefing: Briefing) -> None:
         """Set the minima, and where a tower separates."""
         self.config = self.config.model_copy(
@@ -113,8 +111,6 @@ class SeparationWatch:
             recommendations={misread.callsign: MaintainLevel(altitude_ft=misread.cleared_ft)},
             t_ready_ns=t_in_ns,
         )
-
-    # --- losses of separation ---------------------------------------------------------------
 
     def judge(self, t_ns: int) -> list[Alert]:
         """Return the alerts that are new, have risen, or are over."""

@@ -55,8 +55,6 @@ KEYS: dict[type[Message], str] = {
     Status: "status/*",
 }
 """The key of each message that an engine may read by its class alone."""
-GATE_READS = (Transcript, Transmission, Status)
-"""Messages that tell that a transcript is to come, has come, or will not come."""
 
 
 class DecisionWorker:
@@ -95,7 +93,8 @@ class DecisionWorker:
         if isinstance(engine, NamesInputs):
             read |= engine.inputs
         self._read = frozenset(read)
-        gating = {KEYS[model]: model for model in GATE_READS} if is_gated else {}
+        gates = (Transcript, Transmission, Status) if is_gated else ()
+        gating = {KEYS[model]: model for model in gates}
         self._models: dict[str, TypeAdapter[Message]] = {
             key: TypeAdapter(model) for key, model in (read | gating).items()
         }

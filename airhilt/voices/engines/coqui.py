@@ -21,8 +21,6 @@ UP, DOWN = 2, 3
 """Resampling factors from the 24 kHz of XTTS-v2 (``output_sample_rate`` in its config.json) to
 16 kHz."""
 LANGUAGE = "en"
-_SEED_BYTES = 7
-"""Size of a seed for torch, whose generators take 64 bits with a sign."""
 
 
 class Coqui:
@@ -86,7 +84,8 @@ class Coqui:
 
     def synthesise(self, text: str, voice: VoiceSpec) -> Audio:
         """Return the text as speech; the seed of the model comes from text and voice."""
-        seed = hashlib.sha256(f"{voice}{text}".encode()).digest()[:_SEED_BYTES]
+        # Seven bytes: torch's generators take 64 bits with a sign.
+        seed = hashlib.sha256(f"{voice}{text}".encode()).digest()[:7]
         with self._torch.random.fork_rng():
             self._torch.manual_seed(int.from_bytes(seed))
             try:

@@ -74,22 +74,6 @@ def test_clear_is_no_other_word_than_cleared() -> None:
     assert same == {1: [2], 2: [1]}
 
 
-def test_that_nothing_was_said_is_an_alternative() -> None:
-    steps = np.array([[0.4, 0.6, 0.0, 0.0]], np.float32)
-    (against_nothing,) = odds(steps, (GO,), alike)
-    assert against_nothing == pytest.approx(np.log(0.6 / 0.4), abs=1e-4)
-
-
-def test_what_was_hardly_heard_is_no_alternative_however_likely_it_would_be() -> None:
-    steps = np.array([[0.4, 0.6, 0.1 * LEAST_POSTERIOR, 0.0]], np.float32)
-
-    def rather_no(before: tuple[int, ...], unit: int) -> float:
-        return 20.0 if unit == NO else 0.0
-
-    (against_nothing,) = odds(steps, (GO,), rather_no)
-    assert against_nothing == pytest.approx(np.log(0.6 / 0.4), abs=1e-4)
-
-
 def test_a_piece_beside_another_may_be_no_more_than_a_longer_one() -> None:
     """Without a blank between them, the same unit twice is one unit."""
     steps = np.array([[0.0, 0.1, 0.0, 0.9], [0.0, 0.55, 0.0, 0.45]], np.float32)

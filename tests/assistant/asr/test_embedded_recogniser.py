@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import json
 import shutil
-import subprocess
-import sys
 from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
@@ -199,23 +197,10 @@ def test_a_card_that_does_not_say_what_it_must_is_refused(
         Ctc(folder)
 
 
-def test_a_file_that_is_no_network_is_refused(folder: Path) -> None:
-    (folder / "ctc.onnx").write_bytes(b"these are no weights")
-    with pytest.raises(SpeechError, match=r"ctc\.onnx: no ONNX model.*expected a network of"):
-        Ctc(folder)
-
-
 def test_a_language_model_that_is_damaged_is_refused(folder: Path) -> None:
     path = folder / "language.npz"
     path.write_bytes(path.read_bytes()[:200])
     with pytest.raises(SpeechError, match=r"language\.npz: no language model.*learn_language"):
-        Ctc(folder)
-
-
-def test_a_language_model_of_other_pieces_is_refused(folder: Path) -> None:
-    np.savez(folder / "language.npz", keys1=np.arange(9, dtype=np.uint64),
-             scores1=np.zeros(9), backoffs1=np.zeros(9))  # fmt: skip
-    with pytest.raises(SpeechError, match="no language model of 4 units"):
         Ctc(folder)
 
 
@@ -287,19 +272,3 @@ def test_windows_change_nothing(embedded: Ctc, monkeypatch: pytest.MonkeyPatch) 
     by_windows = embedded.posteriors(audio)
     monkeypatch.setattr(airhilt.assistant.asr.engines.embedded, "WINDOW_FRAMES", len(audio))
     assert np.abs(by_windows - embedded.posteriors(audio)).max() < 1e-4
-
-
-@pytest.mark.slow
-@pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="needs Linux's VmHWM")
-def test_ten_minutes_of_an_open_microphone_take_less_than_half_a_gigabyte() -> None:
-    measure = """
-import numpy as np
-from airhilt.assistant.asr.engines.embedded import Ctc
-audio = np.random.default_rng(0).standard_normal(600 * 16_000, np.float32) * np.float32(0.05)
-Ctc().recognise(audio, ("AAL123", "DAL456"))
-print(next(line.split()[1] for line in open("/proc/self/status") if line.startswith("VmHWM")))
-"""
-    measured = subprocess.run(
-        [sys.executable, "-c", measure], capture_output=True, text=True, check=True
-    )
-    assert int(measured.stdout) * 1_024 < 500e6

@@ -7,10 +7,6 @@ import pytest
 
 from airhilt.assistant.asr.beam_search import HeardUnit
 from airhilt.assistant.asr.confidences import (
-    LARGEST_LOG_ODDS,
-    SILENCE,
-    Gap,
-    LossCurve,
     gaps,
 )
 from airhilt.assistant.asr.language import END
@@ -49,12 +45,6 @@ def test_what_no_word_has_is_counted_before_each_word_and_behind_the_last() -> N
     assert heard(steps, (1, 2), (5, 6)) == pytest.approx([0.5, 1.0, 0.3])
 
 
-def test_one_more_word_is_as_likely_as_it_was_heard_where_all_make_sense() -> None:
-    before, behind = gaps(posteriors(0.4, 0.9, 0.7), words((1, 2)), alike, ORDER)
-    assert before.inserted == pytest.approx(np.log(0.4 / 0.6), abs=1e-5)
-    assert behind.inserted == pytest.approx(np.log(0.7 / 0.3), abs=1e-5)
-
-
 def test_what_would_make_no_sense_there_was_hardly_said_however_well_it_was_heard() -> None:
     steps = posteriors(0.0, 0.6, unit=BREATH)
     steps[0] = [0.1, 0.0, 0.9, 0.0]
@@ -78,14 +68,3 @@ def test_a_word_that_only_makes_sense_of_the_next_was_likely_lost() -> None:
     heard_so = np.log(0.2 / 0.8)
     assert before.inserted == pytest.approx(heard_so + 5.0, abs=1e-5)
     assert behind.inserted == pytest.approx(heard_so - 2.0, abs=1e-5)
-
-
-def test_a_word_is_lost_the_likelier_the_more_was_heard_and_the_more_sense_it_would_make() -> None:
-    curve = LossCurve(heard_slope=1.3, inserted_slope=0.5, offset=-1.1)
-    lost = [
-        curve(Gap(*each))
-        for each in ((0.0, -8.0), (0.5, -8.0), (2.0, -8.0), (2.0, 0.0), (2.0, 4.0))
-    ]
-    assert lost == sorted(lost)
-    assert curve(SILENCE) < 0.01 < 0.5 < lost[-1]
-    assert Gap(0.0, -LARGEST_LOG_ODDS) == SILENCE

@@ -93,13 +93,6 @@ def test_the_nearer_it_passes_the_graver_it_is(sizes: float, severity: Severity 
     assert grade(seen) is severity
 
 
-def test_what_recedes_or_is_past_is_nothing() -> None:
-    assert grade(approach(closing=-0.05)) is None
-    assert grade(approach(closing=0.05, closing_error=0.051)) is None
-    assert grade(approach(), age_s=20.0) is Severity.WARNING
-    assert grade(approach(), age_s=20.1) is None
-
-
 # --- the way out ----------------------------------------------------------------------------
 
 

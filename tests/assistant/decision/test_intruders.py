@@ -402,13 +402,6 @@ def test_what_grows_because_more_of_it_shows_may_be_far_longer_away_than_it_seem
     assert approach_of(wrong).longest_s > left_s
 
 
-def test_what_is_cut_off_at_the_edge_or_seen_too_shortly_tells_nothing() -> None:
-    seen = glimpses_of(170.0, 0.0, 12.0, 3.0, 0.0, 0.0)
-    assert approach_of(seen[:4]) is None
-    cut = [Observation.of(each.t_ns, each.geometry, (0.0, *each.box[1:]), 0.9) for each in seen]
-    assert approach_of(cut) is None
-
-
 @pytest.mark.parametrize("phase", range(5))
 def test_wings_that_come_and_go_do_not_hide_that_something_nears(phase: int) -> None:
     """They are thinner than a pixel: now only the fuselage shows, now all of it."""
@@ -473,9 +466,3 @@ def test_the_evidence_has_the_time_with_its_error_and_how_the_direction_turns() 
     assert _note(cast(Any, encounter)) == (
         "nose: contact in 20 s, give or take 2 s; direction turns by 0.05 degrees/s"
     )
-
-
-def test_a_judgement_rests_on_sight_alone_unless_the_other_is_known_by_ads_b() -> None:
-    told = watching(closing_camera(130.0, 0.0, 22.0, 6.0), 6.0)
-    assert {alert.evidence.sources for alert in told} == {("vision",)}
-    assert all(alert.evidence.shares == {"vision": 1.0} for alert in told)

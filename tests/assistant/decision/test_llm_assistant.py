@@ -32,7 +32,7 @@ from airhilt.messages import (
 from airhilt.units import SECOND_NS
 from language_models import Json, saying, settings
 from services import Answer as ServiceAnswer
-from services import nobody, service
+from services import service
 
 NAMES = ("AAL123", "DAL456", "UAL7")
 RUNWAY = RunwayBriefing(
@@ -173,10 +173,6 @@ class TestAdvisoriesOfTheModel:
         assert not result.advisories
         assert why in result.rejections[0].reason
 
-    def test_a_runway_that_nobody_uses_is_in_no_conflict(self) -> None:
-        result = reviewed(situation([], CLEARED), runway=None, advisories=[own()])
-        assert "none of them uses runway 01" in result.rejections[0].reason
-
     def test_an_action_against_that_of_the_rules_is_refused(self) -> None:
         actions = [{"callsign": "AAL123", "action": "hold_position"}]
         advisory = own(actions=actions, recipients=["AAL123"])
@@ -315,15 +311,6 @@ def test_the_rules_alerts_go_out_when_they_would_whatever_the_model_says(
     assert {severity for _, _, severity in expected} > {Severity.CAUTION, Severity.WARNING}
     with assistant(saying(reply)) as engine:
         assert Encounter(engine).told() == expected
-
-
-def test_a_model_that_is_not_there_changes_nothing() -> None:
-    engine = LanguageModelAssistant()
-    engine.use(settings(nobody()))
-    encounter = Encounter(engine)
-    assert encounter.told() == Encounter(ReferenceEngine()).told()
-    failures = [each.failure for _, one in encounter.decisions for each in one.exchanges]
-    assert "is not there" in failures[0]
 
 
 def test_it_is_asked_at_most_every_two_seconds_and_not_before_a_warning_goes_out() -> None:

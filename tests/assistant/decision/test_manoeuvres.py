@@ -17,7 +17,6 @@ from airhilt.assistant.decision.manoeuvres import (
     paths,
     separations,
     straight_paths,
-    turn_rate_rad_s,
 )
 from airhilt.geodesy.relative_motion import Minima, Relative, VerticalProfile
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE
@@ -37,23 +36,6 @@ def test_a_turn_takes_the_time_of_its_bank_and_begins_after_the_response() -> No
     radius_m = SPEED_M_S / rate_rad_s
     assert flown.north_m[0, is_over] == pytest.approx(SPEED_M_S * RESPONSE_S + radius_m)
     assert np.diff(flown.east_m[0, is_over]) == pytest.approx(SPEED_M_S * TIMES_S[1])
-
-
-def test_left_is_the_mirror_of_right() -> None:
-    flown = paths(
-        NORTHBOUND, LEVEL, [Manoeuvre(turn_rad=60 * DEGREE), Manoeuvre(turn_rad=-60 * DEGREE)]
-    )
-    assert flown.north_m[0] == pytest.approx(flown.north_m[1])
-    assert flown.east_m[0] == pytest.approx(-flown.east_m[1])
-    assert flown.east_m[0, -1] > 0.0
-
-
-def test_a_slow_aircraft_turns_at_rate_one() -> None:
-    """By 25 degrees of bank rate one is flown up to 87.3 m/s, 170 kt (ICAO Doc 8168, volume II)."""
-    assert turn_rate_rad_s(50.0) == pytest.approx(3.0 * DEGREE)
-    assert turn_rate_rad_s(87.3) == pytest.approx(3.0 * DEGREE)
-    assert turn_rate_rad_s(87.4) < 3.0 * DEGREE
-    assert turn_rate_rad_s(SPEED_M_S) / DEGREE == pytest.approx(1.092, abs=0.001)
 
 
 def test_who_is_told_to_descend_flies_on_for_the_response_and_levels_off() -> None:

@@ -171,21 +171,6 @@ def test_head_on_both_share_what_is_missing_and_it_is_enough() -> None:
     assert resolution.margin >= 1.0
 
 
-def test_who_climbs_towards_the_other_need_only_stop_short() -> None:
-    resolution = resolve(*head_on_pair(2_000, 1_500), [], STANDARD, INFRINGED, strong=False)
-    assert resolution.first == MaintainLevel(altitude_ft=36_000)
-    assert resolution.second is None
-
-
-@pytest.mark.parametrize(("gap_ft", "rate_fpm"), [(900, 1_500), (-900, -1_500)])
-def test_who_is_nearer_than_the_minimum_already_cannot_stop_short(
-    gap_ft: float, rate_fpm: float
-) -> None:
-    resolution = resolve(*head_on_pair(gap_ft, rate_fpm), [], STANDARD, INFRINGED, strong=False)
-    assert not isinstance(resolution.first, MaintainLevel)
-    assert sense(resolution.first) or sense(resolution.second)
-
-
 @examples(60)
 @given(pairs_in_conflict(), st.lists(st.tuples(*[st.floats(-30_000.0, 30_000.0)] * 2,
                                                st.sampled_from([34_000.0, 35_000.0, 36_000.0])),

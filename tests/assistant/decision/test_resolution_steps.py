@@ -7,17 +7,16 @@ from typing import Any
 
 import pytest
 
-from airhilt.assistant.decision.manoeuvres import NONE, Manoeuvre
+from airhilt.assistant.decision.manoeuvres import NONE
 from airhilt.assistant.decision.resolution import (
     Candidate,
     _candidates,
     _Pair,
-    _recommendation,
     resolve,
 )
 from airhilt.assistant.decision.tracks import Track
 from airhilt.geodesy.relative_motion import Minima
-from airhilt.messages import Climb, MaintainLevel, Turn
+from airhilt.messages import Climb
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, NAUTICAL_MILE
 
 STANDARD = Minima(5.0 * NAUTICAL_MILE, 1000.0 * FOOT)
@@ -213,27 +212,3 @@ def test_what_would_meet_others_is_the_last_resort() -> None:
 
 
 # --- what is told of it -----------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("rate_fpm", "manoeuvre", "expected"),
-    [
-        (0.0, NONE, None),
-        (0.0, Manoeuvre(turn_rad=30.0 * DEGREE), Turn(degrees=30)),
-        (0.0, Manoeuvre(turn_rad=-60.0 * DEGREE), Turn(degrees=-60)),
-        (0.0, Manoeuvre(36_000 * FOOT, NORMAL_M_S), climb(36_000)),
-        (0.0, Manoeuvre(34_000 * FOOT, STRONG_M_S), descend(34_000, 2500.0)),
-        (0.0, Manoeuvre(36_000 * FOOT, STRONG_M_S, -30.0 * DEGREE), climb(36_000, 2500.0, -30.0)),
-        (1500.0, Manoeuvre(36_000 * FOOT, NORMAL_M_S), MaintainLevel(altitude_ft=36_000)),
-        (-1500.0, Manoeuvre(34_000 * FOOT, NORMAL_M_S), MaintainLevel(altitude_ft=34_000)),
-        (-1500.0, Manoeuvre(36_000 * FOOT, NORMAL_M_S), climb(36_000)),
-        (1500.0, Manoeuvre(34_000 * FOOT, NORMAL_M_S), descend(34_000)),
-        (1500.0, Manoeuvre(36_000 * FOOT, STRONG_M_S), climb(36_000, 2500.0)),
-        (1500.0, Manoeuvre(36_000 * FOOT, NORMAL_M_S, 30.0 * DEGREE), climb(36_000, 1500.0, 30.0)),
-    ],
-)
-def test_a_level_at_the_present_rate_is_one_to_maintain(
-    rate_fpm: float, manoeuvre: Manoeuvre, expected: Any
-) -> None:
-    own = track("a1", 0.0, 35_000, 240.0, rate_fpm=rate_fpm)
-    assert _recommendation(own, manoeuvre) == expected

@@ -89,13 +89,6 @@ def test_crews_are_told_from_a_caution_on_and_what_to_do() -> None:
             assert told.vertical_rate_fpm == rate_fpm
 
 
-def test_a_warning_that_comes_first_is_not_told_at_the_stronger_rate() -> None:
-    """Nobody has had a chance to do it at the usual one."""
-    ((_, warning),) = Sky(50.0).flies(0, 5).told
-    assert warning.severity is Severity.WARNING
-    assert {told.vertical_rate_fpm for told in warning.recommendations.values()} == {1500.0}
-
-
 def test_without_reports_it_goes_on_from_where_they_were() -> None:
     sky = Sky(65.0).flies(0, 3).flies(3, 12, reports=False)
     assert sky.severities() == [(1, "CAUTION"), (6, "WARNING")]
@@ -122,11 +115,6 @@ def test_a_caution_stays_while_the_two_could_meet_again_and_is_told_again() -> N
     assert sky.told[-1][1].id == "separation-1"
     again = Sky(100.0).flies(0, 3).flies(3, 9, second_ft=37_000.0).flies(9, 20)
     assert again.severities() == [(1, "CAUTION")]  # It was clear for less than 8 s.
-
-
-def test_who_has_landed_loses_separation_from_nobody() -> None:
-    sky = Sky(170.0).flies(0, 3).flies(3, 30, first_ft=None)
-    assert sky.severities() == [(1, "ADVISORY"), (11, "INFO")]
 
 
 @pytest.mark.parametrize(("silent_s", "is_known"), [(15, True), (16, False)])

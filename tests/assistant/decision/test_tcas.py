@@ -135,24 +135,6 @@ def test_near_the_ground_it_is_inhibited(height_ft: float, severities: set[str] 
     assert found == ({"CAUTION", "WARNING"} if severities is None else severities)
 
 
-def test_near_the_ground_nobody_is_told_to_descend() -> None:
-    """Both are below 1,100 ft; the one above would descend if it were not for the ground."""
-    jets = (replace(ONE, altitude_ft=1080.0, speed_kt=150.0),
-            replace(OTHER, altitude_ft=1090.0, speed_kt=150.0, has_tcas=False))  # fmt: skip
-    notes = meeting(*jets).fly().notes("AAL1")
-    assert any(note.startswith("climb") for note in notes)
-    assert not any("descend" in note or "descent" in note for note in notes)
-
-
-def test_nor_is_one_whom_the_other_one_leaves_the_lower_side() -> None:
-    """DAL2 is above, and first to choose; that AAL1 then must not climb is all it is told."""
-    jets = (replace(ONE, altitude_ft=1050.0, speed_kt=150.0, phase_ns=600_000_000),
-            replace(OTHER, altitude_ft=1080.0, speed_kt=150.0))  # fmt: skip
-    flown = meeting(*jets).fly()
-    assert "climb, climb" in flown.notes("DAL2")
-    assert flown.notes("AAL1")[1:-1] == ["monitor vertical speed"]
-
-
 def test_an_intruder_on_the_ground_is_none() -> None:
     rolls = replace(OTHER, on_ground=True, altitude_ft=1200.0, speed_kt=120.0)
     assert meeting(replace(ONE, altitude_ft=2700.0, speed_kt=150.0), rolls).fly().told == []
@@ -167,13 +149,6 @@ def test_traffic_of_mode_c_is_followed_by_range_and_altitude() -> None:
     flown = meeting(ONE, replace(OTHER, mode="C", has_tcas=False)).fly()
     assert flown.first_s("WARNING") == pytest.approx(35.0, abs=2.0)
     assert {alert.traffic for _, alert in flown.told} == {("AAL1",)}
-
-
-def test_two_with_one_address_do_not_hide_each_other() -> None:
-    far = replace(OTHER, track_deg=90.0, offset_nm=-12.0, speed_kt=100.0, has_tcas=False)
-    flown = Meeting(ASSISTANTS.create("tcas"), (replace(ONE), replace(OTHER), far)).fly()
-    assert flown.first_s("CAUTION") == pytest.approx(48.0, abs=2.0)
-    assert flown.first_s("WARNING") == pytest.approx(35.0, abs=2.0)
 
 
 def test_an_unknown_argument_is_refused() -> None:

@@ -11,7 +11,7 @@ from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.tcas_tracks import IntruderTrack, IntruderTracks
 from airhilt.assistant.decision.tcas_unit import Senses, TcasUnit
 from airhilt.messages import Climb, CockpitInstruments, MaintainLevel, Severity, TcasReply
-from airhilt.units import FOOT, FOOT_PER_MINUTE, SECOND_NS
+from airhilt.units import FOOT_PER_MINUTE, SECOND_NS
 
 OWN, OTHER = "aaaaa1", "aaaaa2"
 
@@ -48,25 +48,6 @@ def track_of(*replies: TcasReply) -> IntruderTrack:
     return track
 
 
-@pytest.mark.parametrize(("miss_m", "speed_m_s"), [(3000.0, 100.0), (4000.0, 120.0)])
-def test_the_miss_distance_is_found_from_the_acceleration_of_the_range(
-    miss_m: float, speed_m_s: float
-) -> None:
-    """The miss of one that passes straight on, less what jitter of the ranges may have added."""
-    ranges = [math.hypot(miss_m, speed_m_s * (t - 50.0)) for t in range(31)]
-    replies = [reply(float(t), range_m) for t, range_m in enumerate(ranges)]
-    found = track_of(*replies).miss_distance_m()
-    before = replies[:2]
-    assert track_of(*before).miss_distance_m() == 0.0
-    assert 0.5 * miss_m < found < miss_m
-    range_m = ranges[-1]
-    rate = -speed_m_s * 20.0 * speed_m_s / range_m
-    least = (speed_m_s**2 - rate**2) / range_m - 1.645 * 0.0142 * 50.0 * FOOT
-    across = range_m * least
-    expected = range_m * math.sqrt(across / (rate**2 + across))
-    assert found == pytest.approx(expected, rel=0.15)
-
-
 @pytest.mark.parametrize(
     ("replies", "range_m", "altitude_ft", "fits"),
     [
@@ -88,20 +69,6 @@ def test_a_reply_belongs_to_a_track_within_its_gates(
     track = track_of(*(reply(float(t), 9000.0) for t in range(replies)))
     misfit = track.misfit(reply(float(replies), range_m, altitude_ft))
     assert (misfit is not None) is fits
-
-
-def test_no_reply_belongs_to_the_track_of_another_address_or_to_its_own_time() -> None:
-    track = track_of(reply(0.0, 9000.0))
-    assert track.misfit(reply(1.0, 9000.0)) == 0.0
-    assert track.misfit(reply(1.0, 9000.0, icao24="bbbbbb")) is None
-    assert track.misfit(reply(0.0, 9000.0)) is None
-
-
-def test_a_reply_goes_to_the_track_that_it_fits_best() -> None:
-    tracks = IntruderTracks()
-    for each in (reply(0.0, 9000.0), reply(0.0, 9500.0), reply(1.0, 9480.0), reply(1.0, 9020.0)):
-        tracks.take_reply(each)
-    assert [track.range_m for track in tracks] == [9020.0, 9480.0]
 
 
 @pytest.mark.parametrize(("silent_s", "is_lost"), [(6.0, False), (6.1, True)])
@@ -200,13 +167,6 @@ def test_who_has_never_been_close_is_none() -> None:
     assert flight.told == []
 
 
-def test_only_a_settled_track_is_judged() -> None:
-    flight = meets(Flight(), from_m=3000.0, until_s=2.0)
-    assert flight.told == []
-    flight.hears(3.0, 2400.0)
-    assert flight.told != []
-
-
 def recommended(flight: Flight) -> list[Any]:
     return [alert.recommendations["AAL1"] for _, alert in flight.told if alert.recommendations]
 
@@ -296,13 +256,6 @@ def test_a_resolution_advisory_lasts_3_s_after_it() -> None:
     told = passed(Flight(), 10_000)
     assert {alert.severity for _, alert in told} >= {Severity.WARNING, Severity.INFO}
     assert 43.0 <= ended_s(told) <= 46.0
-
-
-def test_with_the_track_the_advisory_is_gone() -> None:
-    flight = meets(Flight(), until_s=22.0)
-    for t in range(23, 40):
-        flight.hears(float(t), None)
-    assert 28.0 < ended_s(flight.told) <= 30.0
 
 
 def test_who_has_not_gone_since_the_end_is_not_announced_again_but_is_resolved_again() -> None:

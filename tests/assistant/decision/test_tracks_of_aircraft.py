@@ -78,14 +78,6 @@ def test_it_is_carried_on_with_its_velocity_and_its_climb_and_keeps_what_is_know
     assert [getattr(later, name) for name in kept] == [getattr(found, name) for name in kept]
 
 
-def test_a_climb_ends_at_the_level_that_was_read_back() -> None:
-    found = track(vertical_rate_fpm=1200.0)
-    assert found.at(300 * SECOND_NS).altitude_m == pytest.approx(37_000.0 * FOOT)
-    found.clear(33_000.0 * FOOT, 0, "readback")
-    assert found.at(300 * SECOND_NS).altitude_m == pytest.approx(33_000.0 * FOOT)
-    assert (found.profile().target_m, found.radio_id) == (33_000.0 * FOOT, "readback")
-
-
 @pytest.mark.parametrize(("rate_fpm", "is_steep"), [(0.0, False), (-7000.0, True)])
 def test_an_emergency_descent_is_one_of_5_000_ft_min_to_10_000_ft_until_it_is_seen(
     rate_fpm: float, is_steep: bool

@@ -10,7 +10,6 @@ import pytest
 from airhilt.assistant.decision.line_of_sight import PictureGeometry
 from airhilt.assistant.decision.traffic import Traffic
 from airhilt.assistant.decision.visual_tracks import (
-    Observation,
     SightConfig,
     VisualTrack,
     VisualTracks,
@@ -102,13 +101,6 @@ def test_it_may_be_off_by_the_errors_of_the_position_its_size_and_the_box(
     assert explained(box(320.0, y_px + side * (along_px + beyond_px)), report(1000.0)) == name
 
 
-@pytest.mark.parametrize(("width_px", "name"), [(18.0, "AAL123"), (20.0, None)])
-def test_what_is_far_larger_than_it_is_somebody_nearer(width_px: float, name: str | None) -> None:
-    """Three times 16 m at 1,037 m are 14.8 px, and 4 px more."""
-    y_px = 180.0 - FOCAL_PX * (1000.0 * FOOT - 30.0) / 1000.0
-    assert explained(box(320.0, y_px, width_px), report(1000.0)) == name
-
-
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_it_is_carried_on_by_its_speed_and_its_climb(side: float) -> None:
     """At 100 kt eastward and 600 ft/min for 2 s; the error grows by 3 m/s."""
@@ -194,35 +186,12 @@ def only(tracks: VisualTracks) -> VisualTrack:
 STILL = box(100.0, 200.0, 20.0, 10.0)
 
 
-def moving(t_s: float) -> Box:
-    return box(100.0 + 40.0 * t_s, 200.0, 20.0, 10.0)
-
-
-def test_looks_of_half_a_second_count_once_they_are_over() -> None:
-    pictures = [shown(0.1 * n, STILL, confidence=0.5) for n in range(5)]
-    assert only(followed(*pictures)).belief == 0.0
-    assert only(followed(*pictures, shown(0.5, STILL))).belief == pytest.approx(0.5)
-
-
 def test_the_belief_in_what_never_moved_is_that_of_one_look() -> None:
     """The errors of pictures that are alike are alike too."""
     looks = [(0.0, 0.9), (0.5, 0.3), (1.0, 0.6), (1.5, 0.1)]
     track = only(followed(*(shown(t_s, STILL, confidence=sure) for t_s, sure in looks)))
     assert track.belief == track.belief_of_one_look == pytest.approx(0.6)
     assert not track.has_moved
-
-
-def test_the_belief_in_what_moves_is_that_not_all_looks_err() -> None:
-    looks = [(0.0, 0.9), (0.5, 0.3), (1.0, 0.6), (1.5, 0.1)]
-    track = only(followed(*(shown(t_s, moving(t_s), confidence=sure) for t_s, sure in looks)))
-    assert track.has_moved
-    assert track.belief == pytest.approx(1.0 - 0.1 * 0.7 * 0.4)
-    assert track.belief_of_one_look == pytest.approx(0.6)
-
-
-def test_a_picture_without_it_counts_as_one_with_no_confidence() -> None:
-    looks = [shown(0.0, STILL), shown(0.1, None), shown(0.5, STILL), shown(1.0, STILL)]
-    assert only(followed(*looks)).belief == pytest.approx((0.25 + 0.5) / 2.0)
 
 
 def test_what_is_hardly_there_any_more_is_forgotten() -> None:
@@ -243,13 +212,6 @@ def test_it_has_moved_from_half_of_its_size_and_4_px_on(moved_px: float, has_mov
         box(100.0, 200.0 + moved_px, 20.0, 10.0),
     ):
         assert only(followed(shown(0.0, STILL), shown(0.1, place))).has_moved is has_moved
-
-
-@pytest.mark.parametrize(("silent_s", "is_kept"), [(10.0, True), (10.1, False)])
-def test_without_new_pictures_it_is_kept_for_10_s(silent_s: float, is_kept: bool) -> None:
-    tracks = followed(shown(0.0, STILL))
-    tracks.forget(round(silent_s * SECOND_NS))
-    assert bool(list(tracks)) is is_kept
 
 
 @pytest.mark.parametrize(("silent_s", "is_known"), [(3.0, True), (3.1, False)])
@@ -317,13 +279,3 @@ def test_two_cameras_need_not_wait_and_their_beliefs_add_up() -> None:
     assert not tracks.shows([])
     three = followed(*lasting(0.5, 0.5), *lasting(0.5, 0.5, "other"), config=SightConfig(cameras=3))
     assert not three.shows(three)
-
-
-def test_an_observation_at_the_edge_of_a_picture_is_not_whole() -> None:
-    geometry = PictureGeometry(view())
-    inside, cut = box(320.0, 180.0), (0.5, 170.0, 20.0, 190.0)
-    whole = Observation.of(0, geometry, inside, 0.5)
-    assert whole.is_whole
-    assert whole.size_rad == pytest.approx((6.0 / FOCAL_PX, 3.0 / FOCAL_PX), rel=1e-3)
-    assert (whole.ray.elevation_rad, whole.ray.azimuth_rad) == pytest.approx((0.0, 0.0), abs=1e-9)
-    assert not Observation.of(0, geometry, cut, 0.5).is_whole

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
 
 from airhilt.assistant.decision.engines.well_clear import RESPONSE_S, _stays_clear, smallest_turn
@@ -13,7 +11,7 @@ from airhilt.engine_families import ASSISTANTS
 from airhilt.geodesy.relative_motion import Relative
 from airhilt.messages import Advisory, Turn
 from airhilt.surveillance.well_clear import CORRECTIVE, Gap, time_to_violation_s
-from encounters import Encounter, Flight, head_on
+from encounters import Encounter, head_on
 
 
 def well_clear() -> DecisionWorker:
@@ -64,19 +62,6 @@ def test_crews_that_meet_head_on_are_told_to_turn_right() -> None:
     turns = [each.recommendation for each in first]
     assert all(isinstance(turn, Turn) and 0.0 < turn.degrees <= 40.0 for turn in turns)
     assert all(each.message.startswith("traffic, avoid, turn right") for each in first)
-
-
-def crosses(**second: Any) -> Encounter:
-    flights = [
-        Flight("AAL123", "a1b2c3", 90.0, 20.0, 35_000),
-        Flight("DAL456", "a4d5e6", 0.0, 20.0, 35_000, **second),
-    ]
-    return Encounter(flights, 150.0)
-
-
-def test_an_aircraft_without_adsb_is_unknown_to_it() -> None:
-    assert flown(crosses()).told
-    assert flown(crosses(equipped=False)).told == []
 
 
 def test_an_alert_stays_open_until_the_two_are_past_each_other() -> None:

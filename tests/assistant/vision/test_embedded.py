@@ -155,20 +155,6 @@ def test_a_calibration_changes_how_sure_it_is_and_not_what_is_found(
             assert one.confidence == pytest.approx(confidence[one.box])
 
 
-def test_a_file_that_is_no_network_is_named(tmp_path: Path) -> None:
-    path = copy(tmp_path)
-    path.write_bytes(b"pictures of cats")
-    with pytest.raises(VisionError, match=r"detector\.onnx: no ONNX model that can be run"):
-        EmbeddedDetector(path)
-
-
-def test_a_network_without_a_card_is_named(tmp_path: Path) -> None:
-    path = copy(tmp_path)
-    (tmp_path / "card.json").unlink()
-    with pytest.raises(VisionError, match=r"card\.json: No such file"):
-        EmbeddedDetector(path)
-
-
 @pytest.mark.parametrize(
     ("card", "message"),
     [

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import product
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.assistant.vision.changes import MARGIN_PX, changed_blocks, windows_about
+from airhilt.assistant.vision.changes import MARGIN_PX, windows_about
 from airhilt.assistant.vision.detector import Found, Picture, PictureMissed, Shot
 from airhilt.assistant.vision.gating import Gate
 from airhilt.assistant.vision.tiling import Tile, tiles_of
@@ -121,18 +120,6 @@ def test_who_writes_into_a_picture_afterwards_changes_nothing() -> None:
     assert not gate.look(Shot("tower", 0), picture)
 
 
-@pytest.mark.parametrize(("level", "expected"), [(8, False), (10, False), (7, True), (11, True)])
-def test_one_pixel_in_an_odd_corner_is_a_change_from_two_levels_on(
-    level: int, expected: bool
-) -> None:
-    before = np.full((361, 645, 3), 9, np.uint8)
-    after = before.copy()
-    after[360, 644, 2] = level
-    changed = changed_blocks(before, after)
-    assert changed[-1, -1] == expected
-    assert changed.sum() == int(expected)
-
-
 # --- windows, of detectors that see parts ---------------------------------------------------
 
 
@@ -169,16 +156,6 @@ def test_what_a_window_would_cut_is_looked_at_as_a_whole() -> None:
     assert detector.asked[-1][1] >= 200
 
 
-def test_at_the_edges_of_a_picture_windows_are_no_smaller() -> None:
-    for row, column in product((0, 22), (0, 39)):
-        blocks = np.zeros((23, 40), dtype=bool)
-        blocks[row, column] = True
-        window = windows_about(blocks, [], 360, 640)[0]
-        # The last row of blocks is half in the picture.
-        assert min(window.height, window.width) >= 80
-        assert window.holds((16.0 * column + 8.0, min(16.0 * row + 8.0, 359.0)))
-
-
 def test_what_reaches_out_of_a_window_is_told_if_its_middle_is_in_it() -> None:
     class FarReaching(PartBlobDetector):
         def detect_in(self, picture: Picture, part: Tile) -> list[Found]:
@@ -191,21 +168,6 @@ def test_what_reaches_out_of_a_window_is_told_if_its_middle_is_in_it() -> None:
     gate.look(Shot("tower", 0), scene)
     found = gate.look(Shot("tower", 0), with_blobs(scene, [("bird", (300, 100, 306, 104))]))
     assert [one.label for one in found] == ["bird"]
-
-
-def test_what_two_windows_take_for_the_same_is_told_once_by_the_surer() -> None:
-    class Wide(PartBlobDetector):
-        def detect_in(self, picture: Picture, part: Tile) -> list[Found]:
-            column = part.left + part.width / 2.0
-            return [Found("truck", column / 1000.0, (column - 250.0, 100.0, column + 250.0, 200.0))]
-
-    gate, scene = Gate(Wide()), background()
-    gate.look(Shot("tower", 0), scene)
-    both = [("bird", (260, 150, 262, 152)), ("bird", (388, 150, 390, 152))]
-    blocks = changed_blocks(scene, with_blobs(scene, both))
-    assert len(windows_about(blocks, [], 360, 640)) == 2
-    found = gate.look(Shot("tower", 0), with_blobs(scene, both))
-    assert [one.confidence > 0.325 for one in found] == [True]
 
 
 @pytest.mark.parametrize("size", [

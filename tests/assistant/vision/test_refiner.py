@@ -89,15 +89,6 @@ def test_what_is_known_of_a_place_is_its_score_its_size_and_its_shape() -> None:
     assert known[0] == pytest.approx((math.log(3.0), 1.0, 2.0))
 
 
-def test_a_wide_view_shows_what_is_around() -> None:
-    picture = np.zeros((ROWS, COLUMNS, 3), dtype=np.uint8)
-    picture[:, 120:] = 255
-    # 40 px wide, so that the wide view reaches 100 px to each side of column 60.
-    wide = views_of(picture, [(40.0, 35.0, 80.0, 55.0)])[0, 1, :, :, 0]
-    bright = np.flatnonzero(wide[VIEW_PX // 2] > 127)
-    assert bright[0] == pytest.approx((0.5 + 60.0 / 200.0) * VIEW_PX, abs=1.0)
-
-
 def place(left: float, top: float, score: float = 0.5) -> Found:
     return Found("airplane", score, (left, top, left + 30.0, top + 12.0))
 
@@ -155,12 +146,6 @@ def test_without_a_refiner_the_first_has_the_last_word(
     assert [one.box for one in found] == [one.box for one in proposed]
 
 
-def test_a_missing_refiner_is_named(tmp_path: Path) -> None:
-    path = detector_in(tmp_path, file="gone.onnx")
-    with pytest.raises(VisionError, match=r"gone\.onnx, which the card beside it names: no such"):
-        EmbeddedDetector(path)
-
-
 @pytest.mark.parametrize("file", ["../refiner.onnx", "/etc/passwd", "refiner.pt", ""])
 def test_a_refiner_lies_beside_its_card(tmp_path: Path, file: str) -> None:
     with pytest.raises(VisionError, match=r"card\.json: refiner/file"):
@@ -172,8 +157,3 @@ def test_a_network_that_is_no_refiner_is_named(tmp_path: Path) -> None:
     shutil.copy(MODEL, tmp_path / "refiner.onnx")
     with pytest.raises(VisionError, match=r"refiner\.onnx, .* has .*; expected a network of too"):
         EmbeddedDetector(path)
-
-
-def test_a_refiner_for_other_classes_is_named() -> None:
-    with pytest.raises(VisionError, match=r"chances.*and 3 classes"):
-        look(classes=CLASSES[:3])

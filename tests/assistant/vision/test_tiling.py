@@ -16,23 +16,10 @@ from airhilt.assistant.vision.tiling import (
     OVERLAP_PX,
     TILE_PX,
     Piece,
-    Tile,
     merged,
-    pieces_of,
     tiles_of,
 )
-from pictures import BlobDetector, background, with_blobs
-
-
-@pytest.mark.parametrize(("columns", "rows"), [(1920, 1080), (1281, 200), (100, 3000)])
-def test_tiles_are_small_and_leave_nothing_out(columns: int, rows: int) -> None:
-    picture = background(columns, rows)
-    seen = np.zeros((rows, columns), dtype=bool)
-    for tile in tiles_of(picture.shape):
-        assert max(tile.height, tile.width) <= TILE_PX
-        assert tile.of(picture).shape[:2] == (tile.height, tile.width)
-        tile.of(seen)[...] = True
-    assert seen.all()
+from pictures import BlobDetector, with_blobs
 
 
 @settings(max_examples=8, deadline=None)
@@ -71,32 +58,6 @@ def test_tiles_begin_on_the_grid_and_overlap_by_128_px_at_least(length: int) -> 
     steps = [after - left for left, after in itertools.pairwise(lefts)]
     assert max(steps) - min(steps) <= 2 * GRID_PX
     assert len(tiles) <= -(-(length - TILE_PX) // (TILE_PX - OVERLAP_PX - 2 * GRID_PX)) + 1
-
-
-@pytest.mark.parametrize(
-    ("box", "is_cut"),
-    [
-        ((0.5, 100.0, 50.0, 120.0), True),
-        ((1.5, 100.0, 50.0, 120.0), False),
-        ((100.0, 0.5, 150.0, 20.0), True),
-        ((100.0, 1.5, 150.0, 20.0), False),
-        ((600.0, 100.0, 639.5, 120.0), True),
-        ((600.0, 100.0, 638.5, 120.0), False),
-        ((100.0, 600.0, 150.0, 639.5), True),
-        ((100.0, 600.0, 150.0, 638.5), False),
-    ],
-)
-def test_a_finding_is_cut_where_its_tile_ends_and_the_picture_does_not(
-    box: tuple[float, float, float, float], is_cut: bool
-) -> None:
-    found = Found("truck", 0.9, box)
-    inner = Tile(320, 640, 640, 640)
-    (piece,) = pieces_of([found], inner, (1280, 1920))
-    assert piece.is_cut is is_cut
-    left, top, right, bottom = box
-    assert piece.found.box == (left + 640, top + 320, right + 640, bottom + 320)
-    (whole,) = pieces_of([found], Tile(0, 0, 640, 640), (640, 640))
-    assert not whole.is_cut
 
 
 def test_a_whole_finding_is_kept_before_a_surer_one_that_an_edge_cuts() -> None:

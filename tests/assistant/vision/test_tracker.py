@@ -55,12 +55,6 @@ def test_hits_count_the_pictures_in_which_it_was_found() -> None:
     ]
 
 
-def test_findings_keep_their_boxes_and_confidences() -> None:
-    found = [a("bird", 30, 30, 7, 0.31), a("airplane", 400, 100, 60, 0.87)]
-    told = Tracker().follow(0, VIEW, found)
-    assert [finding(one) for one in told] == sorted(found, key=lambda one: -one.confidence)
-
-
 @examples(60)
 @given(
     heading=st.floats(0.0, 2.0 * math.pi),
@@ -164,21 +158,6 @@ def test_what_is_hidden_for_half_a_second_keeps_its_track(
     assert ids(follow(Tracker(), scene, range(40))) == {1}
 
 
-def test_what_was_gone_for_long_is_something_new() -> None:
-    def scene(t: float) -> list[Found]:
-        return [] if 1.0 < t < 2.2 else [a("truck", 320, 200, 20)]
-
-    assert ids(follow(Tracker(), scene, range(48))) == {1, 2}
-
-
-def test_a_flicker_is_forgotten_soon() -> None:
-    """A bird that is seen once a second at one place is never confirmed."""
-    told = follow(
-        Tracker(), lambda t: [a("bird", 320, 200, 8)] if t % 1.0 == 0.0 else [], range(320)
-    )
-    assert max(one.hits for each in told for one in each) == 1
-
-
 def test_random_false_findings_are_hardly_ever_confirmed() -> None:
     """Two a second, anywhere in the picture, for ten minutes."""
     rng = np.random.default_rng(1)
@@ -207,14 +186,6 @@ def test_a_thing_is_called_what_it_was_taken_for_most() -> None:
     told = follow(Tracker(), scene, range(16))
     assert {one.label for each in told for one in each} == {"airplane"}
     assert ids(told) == {1}
-
-
-def test_one_sure_finding_says_more_about_what_it_is_than_two_unsure_ones() -> None:
-    doubtful, confident = a("airplane", 320, 200, 12, 0.3), a("bird", 320, 200, 12, 0.9)
-    tracker = Tracker()
-    for step, one in enumerate((doubtful, confident, doubtful)):
-        (told,) = tracker.follow(step * PERIOD_NS, VIEW, [one])
-    assert (told.track_id, told.hits, told.label) == (1, 3, "bird")
 
 
 class TestOfWhatIsUnsure:

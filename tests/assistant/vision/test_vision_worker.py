@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from airhilt.assistant.vision.detector import Found, Picture, PictureMissed
-from airhilt.assistant.vision.worker import VisionWorker, covered_share
+from airhilt.assistant.vision.worker import VisionWorker
 from airhilt.errors import VisionError
 from airhilt.imaging.masks import runs_of
 from airhilt.messages import EXPOSURE_LEFT_OUT, Detection, Detections
@@ -90,26 +90,6 @@ class TestOwnAircraft:
         worker = VisionWorker(Told([a("airplane", 320, 360, 60)]))
         (told,) = seen(worker, info(own_aircraft=self.own()), frame(EMPTY))
         assert told.detections == ()
-
-    @pytest.mark.parametrize(
-        ("box", "share"),
-        [
-            ((0.0, 0.0, 2.0, 2.0), 0.25),
-            ((0.0, 0.0, 1.0, 1.0), 1.0),
-            ((1.0, 0.0, 2.0, 1.0), 0.0),
-            ((-5.0, -5.0, 0.2, 0.4), 1.0),  # Beyond a corner: its pixel counts.
-            ((2.6, 2.7, 9.0, 9.0), 1.0),
-            ((9.0, 9.0, 12.0, 12.0), 1.0),
-            ((0.0, 0.0, 4.0, 3.0), 2.0 / 12.0),
-            ((1.2, 0.9, 1.3, 1.0), 0.0),  # Less than a pixel is one.
-        ],
-    )
-    def test_the_share_that_is_covered_is_one_of_pixels(
-        self, box: tuple[float, float, float, float], share: float
-    ) -> None:
-        mask = np.zeros((3, 4), dtype=bool)
-        mask[0, 0] = mask[2, 3] = True
-        assert covered_share(box, mask) == pytest.approx(share)
 
     def test_other_cameras_are_not_masked(self) -> None:
         worker = VisionWorker(Told([a("airplane", 320, 340, 20)]))

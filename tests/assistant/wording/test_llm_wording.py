@@ -101,12 +101,6 @@ def test_a_rewording_that_changes_something_is_refused_and_the_log_says_why(
     assert changed(RULE[ALERT.id, "AAL123"]) in rejections[0].answered
 
 
-def test_another_severity_is_refused() -> None:
-    spoken = worded(saying(echo(severity="INFO")))
-    assert spoken.messages == RULE
-    assert "severity: INFO; expected WARNING" in exchange_of(spoken).rejections[0].reason
-
-
 @pytest.mark.parametrize(
     ("answer", "why"),
     [

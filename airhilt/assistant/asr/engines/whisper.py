@@ -143,8 +143,7 @@ def _expected() -> str:
 
 
 def _require_files(folder: Path) -> None:
-    missing = [name for name in MODEL_FILES if not (folder / name).is_file()]
-    if missing:
+    if missing := [name for name in MODEL_FILES if not (folder / name).is_file()]:
         raise SpeechError(
             f"ASR whisper: {folder}: without {', '.join(missing)}; expected {_expected()}, as "
             "`ct2-transformers-converter --copy_files tokenizer.json preprocessor_config.json` "
