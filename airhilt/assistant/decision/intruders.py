@@ -253,9 +253,8 @@ class IntruderWatch:
         if has_alert and t_ns < ongoing.past_ns:
             escalation.stays()
             return []
-        if not escalation.is_over(
-            t_ns, self.config.release_s if has_alert else BLIND_NS / SECOND_NS
-        ):
+        quiet_s = self.config.release_s if has_alert else BLIND_NS / SECOND_NS
+        if not escalation.is_over(t_ns, quiet_s):
             return []
         self._ongoing.remove(ongoing)
         return [self._alert(t_ns, ongoing, active=False)] if has_alert else []

@@ -253,3 +253,26 @@ def test_what_is_larger_than_an_aircraft_or_a_flock_where_it_would_stand_stays(
     assert stays(label=label, size=size, azimuth_deg=-30.0, turning_rad_s=(-0.05, 0.0)) is (
         is_standing
     )
+
+
+@pytest.mark.parametrize(
+    ("sideward", "error", "is_standing"),
+    [(0.0124, 0.0, True), (0.0126, 0.0, False), (-0.0124, 0.0, True), (-0.0126, 0.0, False),
+     (0.0274, 0.005, True), (0.0276, 0.005, False)],
+)  # fmt: skip
+def test_it_turns_hardly_to_the_side_of_that(
+    sideward: float, error: float, is_standing: bool
+) -> None:
+    """A quarter of the turning away, and three standard deviations."""
+    assert stays(turning_rad_s=(0.05, sideward), turning_error=error) is is_standing
+
+
+@pytest.mark.parametrize(
+    ("closing", "error", "is_standing"),
+    [(0.108, 0.0, True), (0.1085, 0.0, False), (0.138, 0.01, True), (0.1385, 0.01, False)],
+)
+def test_it_grows_no_faster_than_the_camera_comes_nearer(
+    closing: float, error: float, is_standing: bool
+) -> None:
+    """At 86.6 m/s along 1 km, and a quarter more, with three standard deviations."""
+    assert stays(closing=closing, closing_error=error) is is_standing

@@ -246,6 +246,21 @@ def test_the_question_has_calls_tracks_and_alerts_in_round_numbers() -> None:
     assert json.loads(situation([CAUTION]).question())["rules"][0]["time_left_s"] is None
 
 
+@pytest.mark.parametrize(("count", "given"), [(3, 3), (20, 20), (25, 20)])
+def test_the_question_has_the_last_12_calls_and_20_tracks_at_most(count: int, given: int) -> None:
+    tracks = [
+        report("AAL123", -77.0, 90.0, 59.0).model_copy(update={"icao24": f"b0{n:04x}"})
+        for n in range(count)
+    ]
+    calls = [call("American one two three, go around", 20 + n, f"c-{n}") for n in range(count)]
+    about = situation([], *tracks, *calls)
+    document = json.loads(about.question())
+    assert len(document["tracks"]) == given
+    ages = [each["age_s"] for each in document["radio"]]
+    assert ages == [40 - n for n in range(count)][-12:]
+    assert [each["id"] for each in document["radio"]] == [f"r{n + 1}" for n in range(len(ages))]
+
+
 @pytest.mark.parametrize(
     ("age_s", "tracks", "calls"), [(15.0, 1, 1), (15.1, 0, 1), (119.9, 0, 1), (121.1, 0, 0)]
 )
