@@ -67,7 +67,7 @@ class Approach(NamedTuple):
     closing: float
     """Reciprocal of the time to contact, in 1/s; negative if it recedes."""
     closing_error: float
-    """Standard deviations, by what differs from picture to picture."""
+    """Standard deviation of ``closing``, by what differs from picture to picture."""
     lasting_error: float
     """Standard deviation of ``closing`` by errors of the size that last, in 1/s."""
     turning_rad_s: tuple[float, float]

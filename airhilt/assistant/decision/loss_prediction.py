@@ -109,7 +109,7 @@ class Prediction(NamedTuple):
     time_to_loss_s: float | None
     time_to_closest_approach_s: float
     horizontal_m: float
-    """Distances at the closest approach."""
+    """Horizontal distance at the closest approach, in m."""
     vertical_m: float
     is_over: bool
     """True if the two are past each other, or draw apart on paths that stay clear, or move so

@@ -38,7 +38,7 @@ class Shot(NamedTuple):
     t_frame_ns: int
     """End of the exposure."""
     left: int = 0
-    """Place of the picture in that of the camera, in pixels: not 0 for a tile of a big picture."""
+    """Left edge of the picture in that of the camera, in pixels: not 0 for a tile."""
     top: int = 0
     own_aircraft: Mask | None = None
     """Mask of the pixels that the camera's own aircraft may cover; None if there are none."""

@@ -111,14 +111,10 @@ class EmbeddedDetector:
         self, path: Path | None = None, threshold: float | None = None, threads: int = THREADS
     ) -> None:
         file = path or MODEL
-        card = _card(file.with_name(CARD))
-        self._classes = card.classes
-        self._calibration = card.calibration
+        self._card = card = _card(file.with_name(CARD))
         self.threshold = card.threshold
         self._threshold = DOUBTFUL * card.threshold if threshold is None else threshold
         self._files = [file, file.with_name(CARD)]
-        if card.refiner is not None:
-            self._files.append(file.with_name(card.refiner.file))
         self._subject = f"detector {file}"
         self._network = open_network(file, self._subject, EXPECTED, VisionError, threads)
         inputs, outputs = self._network.get_inputs(), self._network.get_outputs()
@@ -128,11 +124,10 @@ class EmbeddedDetector:
             both = (*inputs, *outputs)
             told = ", ".join(f"{each.name!r} {each.type} {each.shape}" for each in both)
             raise VisionError(f"{self._subject} has {told}; expected {EXPECTED}")
-        self._refiner = (
-            None
-            if card.refiner is None
-            else Refiner(card.refiner, file.parent, card.classes, threads)
-        )
+        self._refiner: Refiner | None = None
+        if card.refiner is not None:
+            self._files.append(file.with_name(card.refiner.file))
+            self._refiner = Refiner(card.refiner, file.parent, card.classes, threads)
 
     @property
     def identity(self) -> Sequence[str]:
@@ -157,13 +152,11 @@ class EmbeddedDetector:
     def _told(self, picture: Picture, proposed: list[Found]) -> Sequence[Found]:
         found = []
         for one in self._judged(picture, proposed):
-            odds = self._calibration.log_odds(one.label, one.confidence, size_px(one.box))
+            odds = self._card.calibration.log_odds(one.label, one.confidence, size_px(one.box))
             odds = min(max(odds, -MOST_LOG_ODDS), MOST_LOG_ODDS)
             found.append(one._replace(confidence=1.0 / (1.0 + math.exp(-odds))))
-        told = sorted(
-            (one for one in found if one.confidence >= self._threshold),
-            key=lambda one: -one.confidence,
-        )
+        told = [one for one in found if one.confidence >= self._threshold]
+        told.sort(key=lambda one: -one.confidence)
         return told if self._refiner is None else once(told)
 
     def uncalibrated(self, picture: Picture) -> list[Found]:
@@ -191,7 +184,7 @@ class EmbeddedDetector:
             raise VisionError(f"{self._subject} has failed: {first_line(error)}") from None
         boxes = [within(tuple(box), columns, rows) for box in found[:, :4].tolist()]
         proposed = [
-            Found(self._classes[int(number)], score, box)
+            Found(self._card.classes[int(number)], score, box)
             for box, (score, number) in zip(boxes, found[:, 4:].tolist(), strict=True)
             if area(box) > 0.0
         ]
