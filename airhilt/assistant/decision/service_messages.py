@@ -155,7 +155,10 @@ class AssistantAnswer(Part):
 
 def service_schemas() -> dict[str, Any]:
     """Return the schemas of what is sent to all services, and of their answers, as one object."""
-    models = {"assistant (request)": AssistantRequest, "assistant (answer)": AssistantAnswer}
+    models: dict[str, type[Part]] = {
+        "assistant (request)": AssistantRequest,
+        "assistant (answer)": AssistantAnswer,
+    }
     return {
         name: {"title": model.__name__, **model.model_json_schema()}
         for name, model in models.items()

@@ -36,15 +36,15 @@ def finding(told: Detection) -> Found:
     return Found(told.label, told.confidence, told.box)
 
 
-def ids_by_label(pictures: list[list[Detection]]) -> dict[str, set[int]]:
-    ids: dict[str, set[int]] = {}
+def ids_by_label(pictures: list[list[Detection]]) -> dict[str, set[int | None]]:
+    ids: dict[str, set[int | None]] = {}
     for told in pictures:
         for one in told:
             ids.setdefault(one.label, set()).add(one.track_id)
     return ids
 
 
-def ids(pictures: list[list[Detection]]) -> set[int]:
+def ids(pictures: list[list[Detection]]) -> set[int | None]:
     return {one.track_id for told in pictures for one in told}
 
 
