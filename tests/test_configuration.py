@@ -8,15 +8,15 @@ from typing import Any
 
 import pytest
 
-from airhilt.assistant.decision.engines import FAMILY, decision_engine
 from airhilt.assistant.decision.engines.reference import ReferenceEngine
 from airhilt.configuration import read_configuration, settings
+from airhilt.engine_families import ASSISTANTS
 from airhilt.errors import AirhiltError
 from paths import DOCS
 
 
 def test_values_take_the_place_of_defaults_and_of_nothing_else() -> None:
-    engine = decision_engine("reference", configuration={"runways": {"warning_s": 8}})
+    engine = ASSISTANTS.create("reference", configuration={"runways": {"warning_s": 8}})
     assert isinstance(engine, ReferenceEngine)
     assert engine.configuration.runways.warning_s == 8.0
     assert engine.configuration.runways.caution_s == 60.0
@@ -39,7 +39,7 @@ def test_values_take_the_place_of_defaults_and_of_nothing_else() -> None:
 )  # fmt: skip
 def test_what_is_wrong_is_answered_with_what_would_be_right(given: Any, answer: str) -> None:
     with pytest.raises(AirhiltError, match=f"^configuration of 'reference': .*{answer}"):
-        decision_engine("reference", configuration=given)
+        ASSISTANTS.create("reference", configuration=given)
 
 
 @pytest.mark.parametrize(
@@ -57,7 +57,7 @@ def test_a_file_that_holds_no_object_is_refused_by_its_name(
 
 @pytest.mark.parametrize("name", ["reference", "paper"])
 def test_every_setting_says_what_it_is_and_time_its_unit_and_source(name: str) -> None:
-    for place, field in settings(FAMILY.configuration_model(name)):
+    for place, field in settings(ASSISTANTS.configuration_model(name)):
         assert field.description, place
         if place[-1].endswith("_s"):
             assert re.search(r"\bin s\b", field.description), place

@@ -19,9 +19,8 @@ import numpy as np
 
 sys.path.append(str(Path(__file__).parent / "asr"))
 from airhilt.assistant.asr.engine import AsrEngine
-from airhilt.assistant.asr.engines import asr_engine
-from airhilt.assistant.enhancement.engines import FAMILY
 from airhilt.audio.pcm import Audio
+from airhilt.engine_families import ENHANCERS, RECOGNISERS
 from airhilt.phraseology import parse_call
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.channel import VhfChannel
@@ -53,7 +52,7 @@ def main() -> None:
     parser.add_argument("--enhancer", default="spectral")
     parser.add_argument("--engine", default="embedded", help="recogniser")
     given = parser.parse_args()
-    engine, enhance = asr_engine(given.engine), FAMILY.create(given.enhancer).enhance
+    engine, enhance = RECOGNISERS.create(given.engine), ENHANCERS.create(given.enhancer).enhance
     print(
         f"| WER % (callsigns right %) | SNR | as received | {given.enhancer} |\n|---|---|---|---|"
     )

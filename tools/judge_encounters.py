@@ -20,7 +20,7 @@ import numpy as np
 from rich.progress import track
 
 import standard_output
-from airhilt.assistant.decision.engines import decision_engine
+from airhilt.engine_families import ASSISTANTS
 from pairs.flying import Outcome, fly
 from pairs.geometry import draw
 
@@ -46,7 +46,7 @@ def main() -> None:
     outcomes = []
     for number in track(range(given.count), "flying", disable=given.json, transient=True):
         encounter = draw(np.random.default_rng((given.seed, number)))
-        outcomes.append(fly(encounter, decision_engine(given.assistant), given.seed + number))
+        outcomes.append(fly(encounter, ASSISTANTS.create(given.assistant), given.seed + number))
     numbers = judged(outcomes)
     if given.json:
         print(json.dumps(numbers, indent=2))

@@ -10,8 +10,8 @@ from pathlib import Path
 
 from pydantic import BaseModel
 
-from airhilt.assistant.decision.engines import FAMILY
 from airhilt.configuration import settings
+from airhilt.engine_families import ASSISTANTS
 
 PAGE = Path(__file__).resolve().parents[1] / "docs" / "decision.md"
 TABLE = re.compile(r"(<!-- thresholds of (\w+) -->\n).*?(?=<!-- end -->)", re.DOTALL)
@@ -22,7 +22,7 @@ def table(name: str) -> str:
     """Return the table of an engine's configuration, in Markdown."""
     rows = [
         f"| `{'.'.join(place)}` | {_default(field.default)} | {field.description} |"
-        for place, field in settings(FAMILY.configuration_model(name))
+        for place, field in settings(ASSISTANTS.configuration_model(name))
         if not isinstance(field.default, BaseModel)
     ]
     return "\n".join(["| setting | default | meaning |", "|---|---|---|", *rows, ""])

@@ -1,9 +1,7 @@
 """A language model behind an OpenAI-compatible endpoint: one question, one answer in JSON.
 
-Ollama, vLLM and llama.cpp have such endpoints, and so have services. One POST request is all that
-is needed, so `airhilt.host.services.HttpService` makes it: it has a deadline for the whole answer,
-follows no redirects and no proxies, and reads nothing from the environment. The client library
-``openai`` would add retries, which break the deadline, and addresses from the environment.
+The client library ``openai`` would add retries, which break the deadline, and addresses from the
+environment.
 """
 
 from __future__ import annotations
@@ -15,7 +13,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, Protocol, TypeVar, runtime_checkable
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, Field, ValidationError
 
 from airhilt.errors import AirhiltError, LanguageModelError, first_problem
 from airhilt.host.services import HttpService, without_key, without_user
@@ -37,24 +35,16 @@ _PATH = "/chat/completions"
 
 @dataclass(frozen=True)
 class LanguageModelSettings:
-    """Language model of a run.
-
-    Attributes
-    ----------
-    url
-        Base of the endpoint, such as ``http://127.0.0.1:11434/v1``.
-    model
-        Name that the endpoint has for the model.
-    deadline_s
-        Wall time after which an answer is not waited for any more.
-    seed
-        Seed of sampling, which is sent with temperature 0.
-    """
+    """Language model of a run."""
 
     url: str
+    """Base of the endpoint, such as ``http://127.0.0.1:11434/v1``."""
     model: str
+    """Name that the endpoint has for the model."""
     deadline_s: float
+    """Wall time after which an answer is not waited for any more."""
     seed: int = 0
+    """Seed of sampling, which is sent with temperature 0."""
 
 
 @runtime_checkable
@@ -64,27 +54,22 @@ class UsesLanguageModel(Protocol):
     @property
     def name(self) -> str:
         """Short name, such as ``llm``."""
-        ...
 
     def use(self, settings: LanguageModelSettings) -> None:
         """Ask this language model."""
-        ...
 
 
 class _Message(BaseModel):
-    model_config = ConfigDict(extra="ignore")
     content: str | None = None
     refusal: str | None = None
 
 
 class _Choice(BaseModel):
-    model_config = ConfigDict(extra="ignore")
     message: _Message
     finish_reason: str | None = None
 
 
 class _Completion(BaseModel):
-    model_config = ConfigDict(extra="ignore")
     choices: tuple[_Choice, ...] = Field(min_length=1)
 
 
@@ -122,13 +107,23 @@ class LanguageModel:
                 "in a row had no usable answer"
             )
         begun = time.monotonic()
-        request = self._request(instructions, question)
+        request = {
+            "model": self._settings.model,
+            "messages": [
+                {"role": "system", "content": instructions},
+                {"role": "user", "content": question},
+            ],
+            "temperature": 0,
+            "seed": self._settings.seed,
+            "max_tokens": MOST_TOKENS,
+        }
         self._failures += 1
         try:
             data = self._post(request | _format(schema, self._dialect), self._settings.deadline_s)
         except LanguageModelError as error:
             left_s = self._settings.deadline_s - (time.monotonic() - begun)
-            if self._dialect != "json_schema" or not _names_format(error) or left_s <= 0.0:
+            refuses_format = "HTTP status" in str(error) and "response_format" in str(error)
+            if self._dialect != "json_schema" or not refuses_format or left_s <= 0.0:
                 raise
             data = self._post(request | _format(schema, "json_object"), left_s)
             self._dialect = "json_object"
@@ -171,20 +166,7 @@ class LanguageModel:
             "language model", self._url, timeout_s, MAXIMUM_BYTES, LanguageModelError
         )
 
-    def _request(self, instructions: str, question: str) -> dict[str, Any]:
-        return {
-            "model": self._settings.model,
-            "messages": [
-                {"role": "system", "content": instructions},
-                {"role": "user", "content": question},
-            ],
-            "temperature": 0,
-            "seed": self._settings.seed,
-            "max_tokens": MOST_TOKENS,
-        }
-
     def _content(self, data: bytes) -> str:
-        """Return the text of a completion."""
         try:
             choice = _Completion.model_validate_json(data).choices[0]
         except ValidationError as error:
@@ -204,16 +186,10 @@ class LanguageModel:
 
 
 def _format(schema: Mapping[str, Any], dialect: Dialect) -> dict[str, Any]:
-    """Return the part of a request that asks for JSON of a schema."""
     if dialect == "json_object":
         return {"response_format": {"type": "json_object", "schema": schema}}
     described = {"name": "answer", "strict": True, "schema": schema}
     return {"response_format": {"type": "json_schema", "json_schema": described}}
-
-
-def _names_format(error: LanguageModelError) -> bool:
-    """Return whether an endpoint refuses the way in which JSON was asked for."""
-    return "HTTP status" in str(error) and "response_format" in str(error)
 
 
 def endpoint(url: str) -> str:
@@ -234,13 +210,7 @@ def endpoint(url: str) -> str:
 
 
 def _key() -> str:
-    """Return the key of the endpoint; empty if there is none.
-
-    Raises
-    ------
-    LanguageModelError
-        It has characters that a header cannot have; the error does not show it.
-    """
+    """Return the key of the endpoint; empty if there is none. An error does not show it."""
     key = os.environ.get(KEY_VARIABLE, "").strip()
     if not all("!" <= character <= "~" for character in key):
         raise LanguageModelError(

@@ -21,13 +21,7 @@ LARGEST_WAV_BYTES = 100_000_000
 
 
 def encode_wav(audio: Audio) -> bytes:
-    """Return samples as the bytes of a WAV file.
-
-    Raises
-    ------
-    SpeechError
-        As `to_pcm`.
-    """
+    """Return samples as the bytes of a WAV file; it raises what `to_pcm` does."""
     stream = io.BytesIO()
     _write(stream, (audio,))
     return stream.getvalue()
@@ -100,13 +94,7 @@ def read_wav(path: Path) -> Audio:
 
 
 def write_wav(path: Path, audio: Audio) -> None:
-    """Write samples to a WAV file, all or nothing.
-
-    Raises
-    ------
-    SpeechError
-        It cannot be written, or as `to_pcm`.
-    """
+    """Write samples to a WAV file; see `write_wav_pieces`."""
     write_wav_pieces(path, (audio,))
 
 
@@ -116,7 +104,7 @@ def write_wav_pieces(path: Path, pieces: Iterable[Audio]) -> None:
     Raises
     ------
     SpeechError
-        As `write_wav`.
+        It cannot be written, or as `to_pcm`.
     """
     try:
         with replacing(path) as stream:

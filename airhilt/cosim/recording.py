@@ -13,6 +13,7 @@ from pydantic import TypeAdapter
 from airhilt.audio.pcm import SAMPLE_BYTES
 from airhilt.cosim.engines_in_use import is_remote
 from airhilt.cosim.recorded import Recorded, UnregisteredMessage
+from airhilt.engine_families import VOICES
 from airhilt.errors import SpeechError
 from airhilt.messages import (
     STALLED,
@@ -39,7 +40,6 @@ from airhilt.record.latency import RecordedLatencies
 from airhilt.sensors.radio.on_air import OnAir
 from airhilt.sim import Input, LatencySpec, Output, Reply, WorkerLost
 from airhilt.units import SECOND_NS
-from airhilt.voices.engines import FAMILY as VOICES
 from airhilt.workers.pool import Participant
 
 if TYPE_CHECKING:

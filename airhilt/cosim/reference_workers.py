@@ -5,13 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable
 
 from airhilt.assistant.language_model import LanguageModelSettings
-from airhilt.assistant.reference import (
-    asr_worker,
-    decision_worker,
-    enhancement_worker,
-    tts_worker,
-    vision_worker,
-)
+from airhilt.assistant.reference import decision_worker, reference_worker, vision_worker
 from airhilt.engine_families import ASSISTANTS, NONE
 from airhilt.messages import SPEAK_MIN_LEVEL, Modality, Severity, WorkerDescription
 from airhilt.options import Options
@@ -43,12 +37,15 @@ def reference_workers(
     workers: list[Worker] = []
     is_enhanced = "enhancement" in taken or options.enhancer != NONE
     if options.enhancer != NONE and "enhancement" not in taken:
-        workers.append(enhancement_worker(options.enhancer))
+        workers.append(reference_worker("enhancement", options.enhancer))
     is_read = radio.topology == "asr_first" or options.seat or (is_assisted and "asr" in given)
     if options.speech and is_read and "asr" not in taken:
         workers.append(
-            asr_worker(
-                options.asr, gives_partials=options.partial_transcripts, hears_enhanced=is_enhanced
+            reference_worker(
+                "asr",
+                options.asr,
+                gives_partials=options.partial_transcripts,
+                hears_enhanced=is_enhanced,
             )
         )
     deciding: list[Worker] = []
@@ -65,7 +62,8 @@ def reference_workers(
         )
     if options.speech and "tts" not in taken and is_assisted:
         level = speak_min_level(worker.description for worker in deciding)
-        workers.append(tts_worker(options.tts, style=radio.phraseology, speak_min_level=level))
+        settings = {"style": radio.phraseology, "speak_min_level": level}
+        workers.append(reference_worker("tts", options.tts, **settings))
     has_pictures = options.cameras and bool(scenario.cameras) and "vision" in given
     if has_pictures and options.detector != NONE and "vision" not in taken and is_assisted:
         workers.append(vision_worker(options.detector, shares_detections=options.share_pictures))

@@ -121,24 +121,3 @@ def _after(limit_s: float, stop: Callable[[], None]) -> Iterator[None]:
         yield
     finally:
         timer.cancel()
-
-
-def require_end(
-    network: onnxruntime.InferenceSession,
-    inputs: Mapping[str, Any],
-    subject: str,
-    error: type[AirhiltError],
-) -> None:
-    """Complain about a network that does not end, or fails, when it is tried.
-
-    Raises
-    ------
-    AirhiltError
-        It is one.
-    """
-    try:
-        first_look(network, inputs)
-    except TimeoutError as cause:
-        raise error(f"{subject}: the network {cause}; expected one that ends") from None
-    except Exception as cause:  # onnxruntime raises classes of its own that share no base
-        raise error(f"{subject} has failed: {first_line(cause)}") from None

@@ -14,14 +14,9 @@ FORMAT = 1
 
 
 class CachedTts:
-    """A `TtsEngine` that asks another one only for texts that are not in the cache.
+    """A `TtsEngine` that asks another one only for texts that are not in the cache of the user.
 
     Samples are rounded to 16 bits, from the cache or not.
-
-    Parameters
-    ----------
-    cache
-        Where lines are kept; None takes the user's cache.
     """
 
     def __init__(self, engine: TtsEngine, cache: CacheFolder | None = None) -> None:

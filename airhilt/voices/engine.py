@@ -27,16 +27,13 @@ class TtsEngine(Protocol):
     @property
     def name(self) -> str:
         """Short name, for logs and the cache."""
-        ...
 
     @property
     def version(self) -> str:
         """Version; it changes whenever the samples may change."""
-        ...
 
     def voice_of(self, speaker: str) -> VoiceSpec:
         """Return the voice of a speaker, the same in every run."""
-        ...
 
     def synthesise(self, text: str, voice: VoiceSpec) -> Audio:
         """Return the text as speech.
@@ -46,4 +43,3 @@ class TtsEngine(Protocol):
         airhilt.errors.SpeechError
             The engine has failed.
         """
-        ...

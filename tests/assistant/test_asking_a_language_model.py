@@ -134,15 +134,6 @@ def test_who_fails_otherwise_is_not_asked_again(model: Model, refusal: LanguageM
     assert scripted.asked[1]["response_format"]["type"] == "json_schema"
 
 
-def test_who_refuses_both_formats_is_asked_in_the_first_one_next_time(model: Model) -> None:
-    asks, scripted = model(OTHER_FORMAT)
-    for _ in range(2):
-        with pytest.raises(LanguageModelError):
-            ask(asks)
-    formats = [each["response_format"]["type"] for each in scripted.asked]
-    assert formats == ["json_schema", "json_object"] * 2
-
-
 def test_when_the_time_is_over_nothing_more_is_asked(model: Model) -> None:
     asks, scripted = model(OTHER_FORMAT, said("{}"))
     scripted.takes_s = 5.0
@@ -178,13 +169,6 @@ def test_what_is_no_answer_is_told_as_such(model: Model, answer: bytes, why: str
     asks, _ = model(answer)
     with pytest.raises(LanguageModelError, match=why):
         ask(asks)
-
-
-def test_a_long_refusal_is_cut_after_200_letters(model: Model) -> None:
-    asks, _ = model(said(None, refusal="x" * 300))
-    with pytest.raises(LanguageModelError) as raised:
-        ask(asks)
-    assert str(raised.value).count("x") == 200 + "expected".count("x")
 
 
 @pytest.mark.parametrize(

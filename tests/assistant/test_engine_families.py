@@ -7,44 +7,34 @@ import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import pytest
 
 from airhilt import run
-from airhilt.assistant.asr.engines import FAMILY as RECOGNISERS
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import Decision, ReceivedMessage
-from airhilt.assistant.decision.engines import decision_engine
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.reference import reference_worker
-from airhilt.assistant.vision.detectors import FAMILY as DETECTORS
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.bus import free_endpoint
 from airhilt.cli.doctor import examine
-from airhilt.cosim import cameras
 from airhilt.cosim.observer import Result
 from airhilt.cosim.replay import replay
-from airhilt.engine_families import FAMILIES
-from airhilt.engines import EngineFamily, Package
+from airhilt.engine_families import DETECTORS, RECOGNISERS
+from airhilt.engines import Package
 from airhilt.errors import AirhiltError, SpeechError, VisionError, WorkerError
 from airhilt.messages import (
     ActorTruth,
     Advisory,
-    AdvisoryAudio,
-    Detections,
     Evidence,
     GoAround,
     Message,
     Severity,
-    Transcript,
 )
 from airhilt.record import read_log
 from airhilt.scenario import Scenario
-from airhilt.voices.engines import FAMILY as VOICES
-from camera_run import passing
 from engine_package import installed
-from oracle import BlankSceneRenderer
 from paths import DOCS
 from processes import process
 
@@ -112,22 +102,6 @@ ASSISTANT, WORDING = (
     next(block for block in BLOCKS if f"class {name}:" in block) for name in ("Nervous", "Shouting")
 )
 """The examples of the guide."""
-UNUSABLE = (
-    HEAD
-    + """
-ENGINE = Engine("late", "needs something", str, requires=(Package("not-installed-1", "none"),))
-"""
-)
-LACKS = (
-    "name, enhance",
-    "name, recognise",
-    "name, version, voice_of, synthesise",
-    "name, threshold, detect",
-    "name, reads, receive, decide",
-    "name, message",
-)
-"""Member that a wrong object lacks, by family."""
-BROKEN = "raise RuntimeError('it is broken')"
 
 
 @pytest.fixture
@@ -144,45 +118,6 @@ def added(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
 def messages(result: Result, prefix: str, model: type[M]) -> list[M]:
     log = read_log(result.folder / "log.mcap")
     return [model.model_validate_json(one.data) for one in log if one.key.startswith(prefix)]
-
-
-@pytest.mark.usefixtures("added")
-def test_a_run_listens_and_speaks_with_engines_of_other_packages(
-    encounter: Scenario, tmp_path: Path
-) -> None:
-    result = run(
-        encounter,
-        out=tmp_path / "run",
-        latency="fixed",
-        asr="parrot:american one two three",
-        tts="beep",
-    )
-    heard = messages(result, "asr/", Transcript)
-    assert {(one.engine, one.text) for one in heard} == {("parrot", "american one two three")}
-    spoken = messages(result, "tts/", AdvisoryAudio)
-    assert {(one.engine, one.samples) for one in spoken} == {("beep", 8_000)}
-
-
-@pytest.mark.usefixtures("added")
-def test_a_run_looks_with_a_detector_of_another_package(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(
-        cameras, "_open_renderer", lambda scenario, *_: BlankSceneRenderer(scenario)
-    )
-    monkeypatch.setattr(cameras, "_start_renderers", lambda *_: ())
-    scenario = passing().model_copy(update={"duration_s": 2.0})
-    result = run(
-        scenario,
-        out=tmp_path / "run",
-        latency="fixed",
-        speech=False,
-        detector="everything_is_a_deer",
-    )
-    seen = messages(result, "vision/", Detections)
-    assert {one.engine for one in seen} == {"deer"}
-    assert all(found.label == "deer" for one in seen for found in one.detections)
-    assert any(one.detections for one in seen)
 
 
 def test_a_run_decides_and_words_with_engines_of_other_packages(
@@ -254,12 +189,6 @@ def test_the_template_says_what_an_assistant_notes_that_has_no_finding() -> None
     ]
 
 
-def test_an_assistant_of_another_name_is_refused_with_the_nearest() -> None:
-    expected = r"expected adsb_only, .*reference, .*; did you mean 'reference'\?"
-    with pytest.raises(AirhiltError, match=expected):
-        decision_engine("referense")
-
-
 def test_an_assistant_that_reads_truth_is_refused() -> None:
     class Cheat:
         name = "cheat"
@@ -329,13 +258,6 @@ def test_doctor_lists_the_engines_of_all_families(monkeypatch: pytest.MonkeyPatc
     assert "everything_is_a_deer" in " ".join(found)
 
 
-def test_doctor_says_what_an_engine_lacks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("airhilt.cli.doctor._renderers", list)
-    with installed(tmp_path, monkeypatch, "airhilt.asr", "late", UNUSABLE):
-        late = {one.name: one for one in examine()}["recogniser late"]
-    assert (late.found, late.remedy) == ("", "needs something; pip install 'airhilt[none]'")
-
-
 def faulty(create: str = "lambda _: 42", more: str = "") -> str:
     """Return the source of an engine that does not do what it must."""
     return f"""
@@ -365,31 +287,6 @@ def test_an_engine_that_cannot_be_made_is_named_with_the_cause(
 
 
 @pytest.mark.parametrize(
-    ("family", "lacks"), list(zip(FAMILIES, LACKS, strict=True)), ids=lambda one: str(one)[:9]
-)
-def test_an_engine_that_makes_something_else_is_told_what_that_lacks(
-    family: EngineFamily[Any], lacks: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    with (
-        installed(tmp_path, monkeypatch, family.group, "faulty", faulty()),
-        pytest.raises(AirhiltError, match=f"'faulty': what it makes, 42, has no {lacks}$"),
-    ):
-        family.create("faulty")
-
-
-def test_an_engine_that_fails_over_a_path_is_named_with_the_cause(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    words = "recogniser 'faulty' cannot say whether 'some/path' is for it: LookupError: no model"
-    source = faulty(more=", takes=fail")
-    with (
-        installed(tmp_path, monkeypatch, "airhilt.asr", "faulty", source),
-        pytest.raises(SpeechError, match=words),
-    ):
-        RECOGNISERS.create("some/path")
-
-
-@pytest.mark.parametrize(
     ("source", "cause"),
     [
         (faulty("fail"), "LookupError: no model"),
@@ -410,16 +307,6 @@ def test_doctor_survives_a_broken_engine_and_gives_the_cause(
     assert found["recogniser embedded"].found
 
 
-def test_a_broken_engine_does_not_hide_the_others(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    with (
-        installed(tmp_path, monkeypatch, "airhilt.asr", "broken", BROKEN),
-        pytest.raises(SpeechError, match="none of that name; expected embedded, embedded:FOLDER"),
-    ):
-        RECOGNISERS.create("nobody")
-
-
 def test_two_engines_of_one_name_are_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -428,12 +315,6 @@ def test_two_engines_of_one_name_are_refused(
         pytest.raises(SpeechError, match="more than one recogniser named 'whisper'"),
     ):
         RECOGNISERS.create("whisper:base.en")
-
-
-def test_an_address_goes_to_the_service() -> None:
-    for family in (RECOGNISERS, VOICES, DETECTORS):
-        engine, argument = family.choose("https://example.org/engine")
-        assert (engine.name, argument) == ("http", "https://example.org/engine")
 
 
 @pytest.mark.parametrize(
@@ -456,18 +337,6 @@ def test_a_folder_with_two_models_is_ambiguous(tmp_path: Path) -> None:
     expected = f"more than one can take it; expected embedded:{tmp_path} or whisper:{tmp_path}"
     with pytest.raises(SpeechError, match=expected):
         RECOGNISERS.choose(str(tmp_path))
-
-
-def test_a_folder_with_the_files_of_xtts_goes_to_coqui(tmp_path: Path) -> None:
-    (tmp_path / "model.pth").touch()
-    assert VOICES.choose(str(tmp_path))[0].name == "coqui"
-
-
-def test_a_model_file_goes_to_the_detector_that_takes_such_files(tmp_path: Path) -> None:
-    assert DETECTORS.choose("yolov10n.pt")[0].name == "yolo"
-    assert DETECTORS.choose(f"{tmp_path}/yolov10n.onnx")[0].name == "yolo"
-    (tmp_path / "card.json").touch()
-    assert DETECTORS.choose(f"{tmp_path}/mine.onnx")[0].name == "embedded"
 
 
 def test_an_error_says_what_is_not_installed(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -497,8 +366,3 @@ def test_only_a_run_takes_a_word_in_the_place_of_an_engine(tmp_path: Path) -> No
         run("s02a_headon", assistant="externl", out=tmp_path / "run")
     with pytest.raises(VisionError, match="or none; did you mean 'none'"):
         run("s01b_nominal", detector="non", out=tmp_path / "run")
-
-
-def test_a_name_takes_no_argument_that_it_does_not_know() -> None:
-    with pytest.raises(SpeechError, match="voice 'espeak:en': expected espeak"):
-        VOICES.create("espeak:en")

@@ -47,16 +47,6 @@ def test_samples_that_are_no_numbers_are_refused(bad: float, tmp_path: Path) -> 
     assert not (tmp_path / "a.wav").exists()
 
 
-def test_two_channels_are_refused() -> None:
-    with pytest.raises(SpeechError, match="one row"):
-        to_pcm(np.zeros((2, 100), np.float32))
-
-
-def test_half_a_sample_is_refused() -> None:
-    with pytest.raises(SpeechError, match="even number"):
-        from_pcm(b"abc")
-
-
 @pytest.mark.parametrize(
     ("data", "said"),
     [

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from airhilt import load
-from airhilt.assistant.vision.kept_pixels import KeptPixels
+from airhilt.assistant.vision.gating import KeptPixels
 from airhilt.cosim import cameras as vision
 from airhilt.cosim.observer import Observer, Snapshot
 from airhilt.cosim.replay import replay

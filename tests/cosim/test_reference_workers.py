@@ -7,12 +7,12 @@ from typing import Any
 
 import pytest
 
-from airhilt.assistant.tts import TtsWorker
 from airhilt.cosim.engines_in_use import is_own_engine, is_remote
 from airhilt.cosim.reference_workers import reference_workers, speak_min_level
 from airhilt.errors import LanguageModelError
 from airhilt.messages import Advisory, Evidence, Modality, Severity, WorkerDescription
 from airhilt.options import Options
+from airhilt.sim.worker import Input
 from airhilt.world.loading import load
 from decisions import reference
 
@@ -137,9 +137,10 @@ def test_the_voice_speaks_from_the_severity_on_that_the_assistant_is_given(
     options = Options(assistant=assistant, tts="espeak", assistant_config=given)
     taken: tuple[Modality, ...] = ("asr", "vision")
     voice, _ = reference_workers(options, load("s02a_headon"), taken)
-    assert isinstance(voice, TtsWorker)
-    assert voice.speaks(CAUTION) is (given is None)
-    assert voice.speaks(CAUTION.model_copy(update={"severity": Severity.WARNING}))
+    warning = CAUTION.model_copy(update={"severity": Severity.WARNING})
+    for advisory, is_spoken in ((CAUTION, given is None), (warning, True)):
+        told = Input("advisory/AAL123", 0, advisory.model_dump_json().encode())
+        assert bool(voice.step(0, [told]).outputs) is is_spoken
 
 
 @pytest.mark.parametrize(

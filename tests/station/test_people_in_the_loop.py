@@ -20,9 +20,9 @@ import numpy as np
 import psutil
 import pytest
 
-from airhilt.assistant.asr.engines import asr_engine
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.cosim.replay import replay
+from airhilt.engine_families import RECOGNISERS
 from airhilt.host.library import find
 from airhilt.messages import SeatAudioClosed
 from airhilt.phraseology import TAU_ASR, parse_call
@@ -180,7 +180,7 @@ def test_two_people_hear_each_other_and_block_each_other_when_both_talk(tmp_path
             open_microphone(page)
         for speaker, listener, words in ((tower, pilot, "go around"), (pilot, tower, "unable")):
             heard = said_until_written(speaker, listener, words)
-            assert words in asr_engine("embedded").recognise(heard, ("AAL123",)).text
+            assert words in RECOGNISERS.create("embedded").recognise(heard, ("AAL123",)).text
         hold(tower)
         hold(pilot)
         pilot.wait_for("document.querySelector('.lamp').textContent.includes('busy')")

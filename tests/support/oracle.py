@@ -189,13 +189,7 @@ class Follower(Oracle):
             self.erred["false"] += 1
             found.append(self._false(frame.view))
         tracker = self._trackers.setdefault(frame.camera, Tracker(SURE))
-        return tuple(
-            Detection(
-                label=one.found.label, confidence=one.found.confidence, box=one.found.box,
-                track_id=one.track_id, hits=one.hits,
-            )
-            for one in tracker.follow(frame.t_frame_ns, frame.view, found)
-        )  # fmt: skip
+        return tuple(tracker.follow(frame.t_frame_ns, frame.view, found))
 
     def _unsure(self, found: Detection) -> Found:
         """Return a finding, of which one in six is not sure."""

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.assistant.decision.engines import decision_engine
+from airhilt.engine_families import ASSISTANTS
 from airhilt.geodesy.relative_motion import Relative
 from airhilt.surveillance import tcas
 from airhilt.surveillance.tcas_resolution import (
@@ -348,6 +348,6 @@ def test_a_descent_is_increased_above_1_550_ft_only(height_ft: float, is_increas
     """FAA, Introduction to TCAS II, section on inhibits. The crew does not respond."""
     lower = Jet("AAL1", "aaaaa1", 90.0, 150.0, height_ft)
     upper = Jet("DAL2", "aaaaa2", 270.0, 150.0, height_ft + 60.0, has_tcas=False)
-    notes = Meeting(decision_engine("tcas"), (lower, upper)).fly().notes("AAL1")
+    notes = Meeting(ASSISTANTS.create("tcas"), (lower, upper)).fly().notes("AAL1")
     assert "descend, descend" in notes
     assert ("increase descent, increase descent" in notes) == is_increased

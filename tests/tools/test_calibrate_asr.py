@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import calibrate_asr
+from airhilt.assistant.asr.confidences import SILENCE, Gap
 from airhilt.assistant.asr.engines.embedded import Emission
-from airhilt.assistant.asr.lost_words import SILENCE, Gap
 from airhilt.assistant.asr.spotting import Aligned, Odds, SpokenForm
 from eval_asr import SpokenCall
 

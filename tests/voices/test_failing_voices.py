@@ -15,18 +15,15 @@ from airhilt.audio.pcm import SAMPLE_RATE_HZ
 from airhilt.audio.wav import encode_wav
 from airhilt.cosim.observer import Observer, Result
 from airhilt.cosim.replay import replay
-from airhilt.errors import RunStopped, SpeechError
+from airhilt.errors import SpeechError
 from airhilt.messages import SpokenTruth, Transmission, TransmissionClosed
 from airhilt.record import read_log
 from airhilt.scenario import Scenario
-from airhilt.scenario.models.radio import ReceiverRadio
 from airhilt.sensors.radio.learned_channel import LearnedChannel
 from paths import DATA
 from services import answering, nobody, service
 
 CHANNEL = DATA / "channels" / "echo.onnx"
-FIELD_THAT_NOBODY_KNOWS = b"\xa2\x06\x01x"
-"""Field 100 of a protocol buffer."""
 
 
 class Voices:
@@ -124,11 +121,6 @@ def test_calls_after_that_take_the_time_of_their_words_and_arrive_without_them(
     assert transcribed <= {first.id}
 
 
-def test_strict_stops_the_run_when_the_voices_fail(short: Scenario, tmp_path: Path) -> None:
-    with pytest.raises(RunStopped, match=r"--strict asks: voice http.*hoarse"):
-        lost_after(1, short, tmp_path / "run", assistant="none", strict=True)
-
-
 def test_voices_that_fail_before_the_run_end_the_command(short: Scenario, tmp_path: Path) -> None:
     with pytest.raises(SpeechError, match="is not there"):
         run(short, out=tmp_path / "run", latency="fixed", tts=nobody())
@@ -186,31 +178,3 @@ def test_a_replay_knows_what_was_heard_of_a_call_in_which_the_voices_failed(
     assert rows(result, "radio/", Transmission)[0].samples == 0
     verdict = replay(result.folder)
     assert verdict.identical, verdict.difference
-
-
-@pytest.mark.parametrize("calls", [2, 100])
-def test_a_replay_knows_what_a_seat_with_a_bad_receiver_heard_of_these_voices(
-    calls: int, short: Scenario, tmp_path: Path
-) -> None:
-    receivers = {"Washington Centre": ReceiverRadio(snr_db=3.0)}
-    radio = short.radio.model_copy(update={"snr_db": 20.0, "receivers": receivers})
-    scenario = short.model_copy(update={"radio": radio})
-    options = {"assistant": "none", "seat": ("Washington Centre",), "pace": "virtual"}
-    result = lost_after(calls, scenario, tmp_path / "run", **options)
-    assert list((result.folder / "audio").glob("seat-Washington_Centre-*.wav"))
-    verdict = replay(result.folder)  # The service is down now.
-    assert verdict.identical, verdict.difference
-
-
-@pytest.mark.slow
-def test_a_replay_says_that_a_learned_channel_is_another_one(
-    short: Scenario, tmp_path: Path
-) -> None:
-    channel = tmp_path / "channel.onnx"
-    channel.write_bytes(CHANNEL.read_bytes())
-    result = run(
-        short, out=tmp_path / "run", latency="fixed", radio_profile=str(channel), assistant="none"
-    )
-    assert replay(result.folder).notes == ()
-    channel.write_bytes(CHANNEL.read_bytes() + FIELD_THAT_NOBODY_KNOWS)
-    assert replay(result.folder).notes == (f"{channel} is not the file of the recording any more",)

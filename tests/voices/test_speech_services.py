@@ -77,22 +77,6 @@ def test_a_recogniser_is_given_a_wav_and_gives_words() -> None:
     assert recognised.confidence == pytest.approx((0.8 + 0.7 + 0.7) / 3)
 
 
-@pytest.mark.parametrize(
-    ("said", "confidence"), [({"text": "Hello."}, 1.0), ({"text": "hello", "confidence": 0.4}, 0.4)]
-)
-def test_a_recogniser_need_not_know_how_sure_it_is(
-    said: dict[str, object], confidence: float
-) -> None:
-    with service(answering(json.dumps(said).encode())) as url:
-        recognised = HttpAsr(url).recognise(TONE, [])
-    assert (recognised.text, recognised.words) == ("hello", ())
-    assert recognised.confidence == confidence
-
-
-def test_nothing_is_asked_about_no_audio() -> None:
-    assert HttpAsr(nobody()).recognise(TONE[:0], []).text == ""
-
-
 @pytest.mark.parametrize("use", [speak, hear])
 class TestServiceThat:
     def test_is_down(self, use: object) -> None:
@@ -188,26 +172,3 @@ def test_a_recogniser_that_answers_nonsense_is_refused(data: bytes) -> None:
         hear(url)
     assert url in str(refused.value)
     assert 'expected JSON such as {"text"' in str(refused.value)
-
-
-@pytest.mark.parametrize(
-    "said",
-    [
-        {"text": "hello " * 21},
-        {"text": "h" * 401},
-        {"text": "hello", "words": [{"text": "hello", "confidence": 1.0}] * 21},
-    ],
-)
-def test_a_recogniser_that_hears_more_than_anybody_says_is_refused(
-    said: dict[str, object],
-) -> None:
-    with (
-        service(answering(json.dumps(said).encode())) as url,
-        pytest.raises(SpeechError, match=r"to 1\.0 s of audio; expected at most 20 words"),
-    ):
-        hear(url)
-
-
-def test_a_recogniser_may_hear_as_much_as_a_fast_talker_says() -> None:
-    with service(answering(json.dumps({"text": "hello " * 20}).encode())) as url:
-        assert hear(url).split() == ["hello"] * 20

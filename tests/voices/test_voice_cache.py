@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import multiprocessing
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from airhilt.host.caches import CacheFolder
-from airhilt.voices.cache import CachedTts
 from airhilt.voices.engine import VoiceSpec
-from tone import Tone, cached_tone, say_lines
+from tone import Tone, cached_tone
 
 PILOT = VoiceSpec("pilot")
 
@@ -48,27 +45,4 @@ def test_another_line_voice_or_version_is_another_sound(
     cached_tone(tmp_path, Tone()).synthesise("hello", PILOT)
     engine = Tone(version)
     cached_tone(tmp_path, engine).synthesise(text, voice)
-    assert len(engine.asked) == 1
-
-
-def test_parallel_processes_share_it(tmp_path: Path) -> None:
-    with multiprocessing.get_context("spawn").Pool(3) as pool:
-        first, *others = pool.map(say_lines, [tmp_path] * 3)
-    assert all(other == first for other in others)
-    assert len(list((tmp_path / "voices").iterdir())) == 7
-
-
-def test_it_is_in_the_users_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    CachedTts(Tone()).synthesise("hello", PILOT)
-    engine = Tone()
-    CachedTts(engine, CacheFolder("voices", tmp_path / "airhilt")).synthesise("hello", PILOT)
-    assert engine.asked == []
-
-
-def test_a_line_said_again_and_again_is_synthesised_once(tmp_path: Path) -> None:
-    engine = Tone()
-    cached = cached_tone(tmp_path, engine)
-    said = {cached.synthesise("words " * 80, PILOT).tobytes() for _ in range(20)}
-    assert len(said) == 1
     assert len(engine.asked) == 1

@@ -32,12 +32,10 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import minimize
 
-from airhilt.assistant.asr.alternatives import WordCurve
 from airhilt.assistant.asr.beam_search import BeamSearch
+from airhilt.assistant.asr.confidences import LossCurve, WordCurve, log_heard, log_odds_of
 from airhilt.assistant.asr.engines.embedded import Ctc, Emission, confidence_of
 from airhilt.assistant.asr.language import Language
-from airhilt.assistant.asr.logistic import log_odds_of
-from airhilt.assistant.asr.lost_words import LossCurve, log_heard
 from airhilt.assistant.asr.pieces import Pieces
 from airhilt.assistant.asr.spotting import Aligned, Odds, Spotter
 from airhilt.audio.pcm import Audio

@@ -26,8 +26,8 @@ import jiwer
 import numpy as np
 from numpy.typing import NDArray
 
-from airhilt.assistant.asr.engines import asr_engine
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
+from airhilt.engine_families import RECOGNISERS
 from airhilt.metrics.words import in_words
 from airhilt.phraseology import parse_call
 from airhilt.scenario.radio_profiles import PROFILES
@@ -128,7 +128,7 @@ def rosters_for(utterances: list[SpokenCall]) -> list[tuple[str, ...]]:
 
 def misled(utterances: list[SpokenCall], engine_name: str, snr_db: float) -> float:
     """Return the share of calls taken for a roster's callsign that is one digit off theirs."""
-    engine = asr_engine(engine_name)
+    engine = RECOGNISERS.create(engine_name)
     channel = VhfChannel(PROFILES["vhf"])
     rng = random.Random(1)
     everybody = [each.callsign for each in utterances if each.callsign]
@@ -158,7 +158,7 @@ def noise_alone(count: int, seed: int) -> Iterator[Audio]:
 
 def talkative(engine_name: str) -> float:
     """Return the share of transmissions without speech that give words."""
-    engine = asr_engine(engine_name)
+    engine = RECOGNISERS.create(engine_name)
     roster = ("AAL123", "DAL456", "N54G")
     noises = noise_alone(SILENT_CALLS, seed=5)
     return float(np.mean([bool(engine.recognise(audio, roster).text) for audio in noises]))
@@ -175,7 +175,7 @@ def score(
     utterances: list[SpokenCall], engine_name: str, snr_db: float | None
 ) -> tuple[Score, float]:
     """Return the score of an engine, and its real-time factor (CPU)."""
-    engine = asr_engine(engine_name)
+    engine = RECOGNISERS.create(engine_name)
     channel = VhfChannel(PROFILES["vhf"])
     rosters = rosters_for(utterances)
     result = Score([], [], [], [], Meanings())

@@ -10,9 +10,9 @@ import time
 from pathlib import Path
 
 from airhilt import load, run
-from airhilt.assistant.asr.engines import asr_engine
 from airhilt.audio.pcm import SAMPLE_RATE_HZ
 from airhilt.audio.wav import read_wav
+from airhilt.engine_families import RECOGNISERS
 from airhilt.host.library import names
 from airhilt.metrics.summary import Summary
 from airhilt.phraseology import Instruction, parse_call, say
@@ -73,7 +73,7 @@ def phraseology() -> dict[str, float]:
 
 def speech() -> dict[str, float]:
     """Compare a run with sound, its voices cached, with one without, turn by turn."""
-    engine = asr_engine("embedded")
+    engine = RECOGNISERS.create("embedded")
 
     def measured(*, is_spoken: bool) -> tuple[float, Summary, float]:
         """Return CPU time, summary, and the CPU time of recognition by the length of the calls."""

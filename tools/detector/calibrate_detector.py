@@ -162,7 +162,7 @@ def gone_on(body: BodyState, t_s: float) -> BodyState:
 def false_detections(detector: EmbeddedDetector, pictures: Iterator[Exposure]) -> dict[float, int]:
     """Return for each threshold how many things are confirmed that are not there."""
     trackers = {threshold: Tracker(threshold) for threshold in THRESHOLDS}
-    confirmed: dict[float, set[int]] = {threshold: set() for threshold in THRESHOLDS}
+    confirmed: dict[float, set[int | None]] = {threshold: set() for threshold in THRESHOLDS}
     found: list[Found] = []
     for shot in pictures:
         if not shot.unchanged:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from airhilt.assistant.vision.refiner import about, moves_to, views_of
+from airhilt.assistant.vision.refiner import about, views_of
 from airhilt.imaging.boxes import centre, sides, size_px
 from airhilt.messages import Box
 from detector_places import Places
@@ -83,6 +83,19 @@ class Lessons:
             views = views[:, :, ::-1]
             wanted = -wanted[0], *wanted[1:]
         return varied(views, draws), known, label, np.array(wanted, dtype=np.float32)
+
+
+def moves_to(box: Box, other: Box) -> tuple[float, float, float, float]:
+    """Return the moves by which `airhilt.assistant.vision.refiner.refined` makes another box."""
+    (column, row), (column_, row_) = centre(box), centre(other)
+    longest = max(size_px(box), 1.0)
+    (width, height), (width_, height_) = sides(box), sides(other)
+    return (
+        (column_ - column) / longest,
+        (row_ - row) / longest,
+        math.log(width_ / width),
+        math.log(height_ / height),
+    )
 
 
 def _moved_about(box: Box, draws: np.random.Generator) -> Box:

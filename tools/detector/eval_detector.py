@@ -34,8 +34,8 @@ from typing import Any
 from rich.progress import track
 
 from airhilt.assistant.vision.detector import Detector, Found, Picture
-from airhilt.assistant.vision.detectors import vision_engine
 from airhilt.assistant.vision.worker import MOST_OF_OWN_AIRCRAFT, covered_share
+from airhilt.engine_families import DETECTORS
 from airhilt.imaging.boxes import centre, overlap, share_of_smaller
 from airhilt.imaging.matching import is_about
 from detector_data import CLASSES, LEAST_CONTRAST, Body, Shot, read_folder
@@ -372,7 +372,7 @@ def main() -> None:
     given = parser.parse_args()
     if not given.folders and not given.approaches:
         parser.error("nothing to judge: give folders of airhilt dataset export, or --approaches")
-    engine = vision_engine(given.engine)
+    engine = DETECTORS.create(given.engine)
     result: dict[str, Any] = {"engine": engine.name}
     if given.folders:
         shots = [shot for folder in given.folders for shot in read_folder(folder)]

@@ -47,31 +47,21 @@ class _Prefix:
     blank: float = _NEVER
     unit: float = _NEVER
 
-    def heard(self) -> float:
-        return max(self.blank, self.unit)
-
     def total(self) -> float:
-        return self.heard() + self.prior
+        return max(self.blank, self.unit) + self.prior
 
 
 @dataclass(frozen=True)
 class BeamSearch:
-    """Finds the likeliest units.
-
-    Attributes
-    ----------
-    weight
-        Weight of the language model's log-likelihood against the network's.
-    reward
-        Log-likelihood added for each unit, because each costs likelihood in the language model.
-    width
-        Number of beginnings that are kept.
-    """
+    """Finds the likeliest units."""
 
     language: Language
     weight: float
+    """Weight of the language model's log-likelihood against the network's."""
     reward: float
+    """Log-likelihood added for each unit, because each costs likelihood in the language model."""
     width: int = 12
+    """Number of beginnings that are kept."""
 
     def units(self, posteriors: NDArray[np.float32]) -> tuple[int, ...]:
         """Return the likeliest units of posteriors, shape (steps, units)."""
@@ -94,10 +84,9 @@ class BeamSearch:
         units: list[tuple[int, float]],
         prior: Prior,
     ) -> dict[tuple[int, ...], _Prefix]:
-        """Return the best beginnings after one more step."""
         grown: dict[tuple[int, ...], _Prefix] = {}
         for before, prefix in beam.items():
-            heard = prefix.heard()
+            heard = max(prefix.blank, prefix.unit)
             same = grown.setdefault(before, _Prefix(prefix.prior))
             same.blank = max(same.blank, heard + blank)
             last = before[-1] if before else BLANK
@@ -121,8 +110,6 @@ class BeamSearch:
 
     def prior(self) -> Prior:
         """Return the prior of units, which remembers what the language model said in a call."""
-        if self.weight == 0.0:  # The language model has no say, and is not asked.
-            return lambda _, unit: 0.0 if unit == END else self.reward
         known, before_most = cache(self.language.score), self.language.order - 1
 
         def prior(before: tuple[int, ...], unit: int) -> float:

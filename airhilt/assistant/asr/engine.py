@@ -28,7 +28,6 @@ class AsrEngine(Protocol):
     @property
     def name(self) -> str:
         """Short name, in transcripts and tables."""
-        ...
 
     def recognise(self, audio: Audio, callsigns: Sequence[str]) -> Recognised:
         """Return what was said.
@@ -45,4 +44,3 @@ class AsrEngine(Protocol):
         airhilt.errors.SpeechError
             The engine has failed.
         """
-        ...

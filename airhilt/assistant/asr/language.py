@@ -7,8 +7,6 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from pathlib import Path
-from typing import BinaryIO
-from zipfile import ZipFile
 
 import numpy as np
 
@@ -18,8 +16,6 @@ END = 0
 """Unit that stands before the first piece of a call and after its last."""
 BITS = 12
 """Bits of a unit in a key."""
-LARGEST_BYTES = 500_000_000
-"""Greatest size of all arrays of an archive, unpacked."""
 EXPECTED = "an archive of tools/asr/learn_language.py"
 
 
@@ -29,12 +25,6 @@ def key(units: tuple[int, ...]) -> int:
     for unit in units:
         found = found << BITS | unit
     return found
-
-
-def _unpacked_bytes(file: BinaryIO) -> int:
-    """Return the size of what is in a ZIP archive."""
-    with ZipFile(file) as archive:
-        return sum(entry.file_size for entry in archive.infolist())
 
 
 class Language:
@@ -57,8 +47,6 @@ class Language:
     def __init__(self, path: Path, units: int) -> None:
         try:
             with path.open("rb") as file, np.load(file, allow_pickle=False) as archive:
-                if _unpacked_bytes(file) > LARGEST_BYTES:
-                    raise ValueError(f"its arrays have over {LARGEST_BYTES:,} bytes")
                 self.order = sum(name.startswith("keys") for name in archive.files)
                 tables = [
                     tuple(

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
+from itertools import takewhile
 
 from airhilt.assistant.asr.engine import AsrEngine
 from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ, from_pcm
@@ -58,13 +59,7 @@ class PartialRecogniser:
                 self._on_air.pop(TransmissionClosed.model_validate(attachment).id, None)
 
     def partials(self, callsigns: Sequence[str]) -> Iterator[PartialTranscript]:
-        """Yield a partial transcript of each transmission of which more has come.
-
-        Raises
-        ------
-        airhilt.errors.SpeechError
-            The engine has failed.
-        """
+        """Yield a partial transcript of each transmission of which more has come."""
         for on_air in self._on_air.values():
             if on_air.is_news:
                 on_air.is_news = False
@@ -91,9 +86,6 @@ class PartialRecogniser:
 
 def _agreed(before: Sequence[str], now: Sequence[str]) -> int:
     """Return the number of words at the beginning that two recognitions share."""
-    count = 0
-    for one, other in zip(before, now, strict=False):
-        if one != other:
-            break
-        count += 1
-    return count
+    return sum(
+        1 for _ in takewhile(lambda both: both[0] == both[1], zip(before, now, strict=False))
+    )

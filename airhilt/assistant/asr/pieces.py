@@ -13,13 +13,7 @@ BEGIN = "_"
 
 
 class Pieces:
-    """An inventory of pieces. Unit 0 is the blank, unit i is piece i - 1.
-
-    Parameters
-    ----------
-    pieces
-        The pieces, each once.
-    """
+    """An inventory of pieces, each once. Unit 0 is the blank, unit i is piece i - 1."""
 
     def __init__(self, pieces: Sequence[str]) -> None:
         self._pieces = tuple(pieces)

@@ -114,8 +114,12 @@ def spoken_forms(callsign: str) -> Iterator[SpokenForm]:
     airline = _AIRLINE.fullmatch(callsign)
     if airline and airline[1] in TELEPHONY:
         letters = _spell(airline[3])
+        digits = airline[2]
+        numbers = [_spell(digits)]
+        if len(digits) > 1 and digits[0] != "0":
+            numbers.append(tuple(speak_group(int(digits), "faa").split()))
         for name in names(airline[1]):
-            for number in _ways(airline[2]):
+            for number in numbers:
                 yield SpokenForm(tuple(name.split()), (*number, *letters))
     elif is_registration(callsign):
         for name, signs, _ in forms(callsign):
@@ -123,13 +127,6 @@ def spoken_forms(callsign: str) -> Iterator[SpokenForm]:
                 yield SpokenForm((), _spell(signs))
             elif name != MAKER and len(name) == 1:
                 yield SpokenForm((), _spell(name.upper() + signs))
-
-
-def _ways(number: str) -> Iterator[tuple[str, ...]]:
-    """Yield a flight number digit by digit, and in pairs."""
-    yield _spell(number)
-    if len(number) > 1 and number[0] != "0":
-        yield tuple(speak_group(int(number), "faa").split())
 
 
 def _spell(signs: str) -> tuple[str, ...]:
@@ -140,17 +137,7 @@ def _spell(signs: str) -> tuple[str, ...]:
 
 
 class Spotter:
-    """Looks for the callsigns of one roster.
-
-    Parameters
-    ----------
-    pieces
-        Pieces of the recogniser.
-    callsigns
-        Callsigns of the roster; those with a word that has no pieces are not looked for.
-    odds
-        Odds that one of them was said, by how well it fits.
-    """
+    """Looks for the callsigns of one roster, but for those with a word that has no pieces."""
 
     def __init__(self, pieces: Pieces, callsigns: Sequence[str], odds: Odds) -> None:
         known = [
@@ -184,13 +171,7 @@ class Spotter:
         self._weights = np.where(is_name, NAME_WEIGHT, 1.0).astype(np.float32)
 
     def spot(self, posteriors: NDArray[np.float32]) -> Spotted | None:
-        """Return the callsign that was probably said, if one was.
-
-        Parameters
-        ----------
-        posteriors
-            Posteriors of each unit at each step, shape (steps, units).
-        """
+        """Return the callsign that was probably said, by posteriors of shape (steps, units)."""
         likeliest: dict[str, Aligned] = {}
         for each in sorted(self.aligned(posteriors), key=self._odds, reverse=True):
             likeliest.setdefault(each.callsign, each)

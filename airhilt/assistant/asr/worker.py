@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 
 from airhilt.assistant.asr.engine import AsrEngine
 from airhilt.assistant.asr.partial import PartialRecogniser
-from airhilt.assistant.received_audio import pcm_to_audio
+from airhilt.audio.pcm import from_pcm
 from airhilt.messages import (
     Briefing,
     DeclaredLatency,
@@ -54,30 +54,22 @@ class AsrWorker:
         )
 
     def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:  # noqa: ARG002
-        """Recognise the transmissions that have arrived, and those that go on.
-
-        Raises
-        ------
-        SpeechError
-            The engine has failed, or the audio is not what its header says.
-        """
+        """Recognise the transmissions that have arrived, and those that go on."""
         transcripts = [
             Output(f"asr/{transcript.frequency_khz}", transcript.model_dump_json().encode())
             for item in inputs
             if (transcript := self._take(item)) is not None
         ]
-        return Step((*transcripts, *self._partials(inputs)))
-
-    def _partials(self, inputs: Sequence[Input]) -> Iterator[Output]:
-        """Yield the partial transcripts of the calls that go on, if they are asked for."""
-        if self._partial is None:
-            return
-        for item in inputs:
-            if item.key.endswith("/audio"):
-                self._partial.take(item)
-        for partial in self._partial.partials(self._callsigns):
-            key = f"asr/{partial.frequency_khz}/partial"
-            yield Output(key, partial.model_dump_json().encode())
+        partials = () if self._partial is None else self._partial.partials(self._callsigns)
+        return Step(
+            (
+                *transcripts,
+                *(
+                    Output(f"asr/{each.frequency_khz}/partial", each.model_dump_json().encode())
+                    for each in partials
+                ),
+            )
+        )
 
     def _take(self, item: Input) -> Transcript | None:
         if item.key == "briefing":
@@ -85,14 +77,15 @@ class AsrWorker:
             self._controller = briefing.controller
             self._callsigns = tuple(entry.callsign for entry in briefing.roster)
             return None
-        if item.key.endswith("/audio"):
-            return None  # It is for the partial transcripts.
+        if self._partial is not None and item.key.endswith("/audio"):
+            self._partial.take(item)
+            return None
         is_enhanced = item.key.startswith("enhanced/")
         model = EnhancedTransmission if is_enhanced else Transmission
         header = model.model_validate(item.attachment)
         if not header.samples and not item.payload:
             return None  # In a run without sound, its words arrive as text.
-        heard = self._engine.recognise(pcm_to_audio(header, item.payload), self._callsigns)
+        heard = self._engine.recognise(from_pcm(item.payload), self._callsigns)
         transcript = Transcript(
             id=header.id,
             frequency_khz=header.frequency_khz,
@@ -107,7 +100,6 @@ class AsrWorker:
 
 
 def _inputs(calls: str, gives_partials: bool) -> tuple[InputSpec, ...]:
-    """Return the inputs of a worker that recognises whole calls, and those that go on if asked."""
     keys = (calls, "briefing")
     if gives_partials:
         return tuple(InputSpec(key=key, policy="batch") for key in (*keys, "radio/*/audio"))

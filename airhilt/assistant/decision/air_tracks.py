@@ -6,11 +6,11 @@ from collections.abc import Collection, Iterator
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from airhilt.assistant.decision.tracks import Track
 from airhilt.geodesy.wgs84 import LEAST_CURVATURE_RADIUS_M
 from airhilt.messages import AdsbReport
+from airhilt.units import SECOND_NS
 
 Pair = tuple[str, str]
 """Addresses of two aircraft, in order."""
@@ -48,7 +48,7 @@ class AirTracks:
         self._updated[report.icao24] = None
         track = self._tracks.get(report.icao24)
         if track is None:
-            self._tracks[report.icao24] = Track.of(report, report.altitude_ft)
+            self._tracks[report.icao24] = Track.of(report, report.altitude_ft, report.t_adsb_in_ns)
         else:
             track.update(report, report.altitude_ft)
 
@@ -65,15 +65,6 @@ class AirTracks:
         """Return whether an aircraft was on the ground by its last report."""
         return track.icao24 in self._grounded
 
-    def begin_step(self, oldest_ns: int, kept: Collection[Pair]) -> None:
-        """Drop the tracks of which nothing arrived since a time, but for pairs that are kept."""
-        self._carried.clear()
-        stale = [icao24 for icao24 in self._tracks if self._heard_ns[icao24] < oldest_ns]
-        coasting = {icao24 for pair in kept for icao24 in pair} if stale else set()
-        for icao24 in stale:
-            if icao24 not in coasting:
-                del self._tracks[icao24]
-
     def end_step(self) -> None:
         """Forget which tracks have news."""
         self._updated.clear()
@@ -85,16 +76,34 @@ class AirTracks:
             track = self._carried[icao24] = self._tracks[icao24].at(t_ns)
         return track
 
-    def pairs_with_news(self, reach: Reach, wanted: Collection[Pair]) -> Iterator[Pair]:
-        """Yield the pairs that have news and are wanted or could come together.
+    def pairs_with_news(
+        self, t_ns: int, reach: Reach, stale_s: float, wanted: Collection[Pair]
+    ) -> list[Pair]:
+        """Return the pairs that have news and are wanted or could come together.
 
-        Most pairs of a busy sky are too far apart in level or latitude to meet within the
+        Tracks of which nothing arrived for ``stale_s`` are dropped, but for those of pairs that are
+        wanted. Most pairs of a busy sky are too far apart in level or latitude to meet within the
         look-ahead; they are left out here, where it is cheap.
         """
+        self._carried.clear()
+        coasting = {icao24 for pair in wanted for icao24 in pair}
+        oldest_ns = t_ns - round(stale_s * SECOND_NS)
+        for icao24 in list(self._tracks):
+            if self._heard_ns[icao24] < oldest_ns and icao24 not in coasting:
+                del self._tracks[icao24]
         names = list(self._tracks)
         places = {icao24: place for place, icao24 in enumerate(names)}
-        altitude_m, latitude_rad, climb_m, north_m = self._extents(reach.time_s)
-        seen = set()
+        rows = [
+            (
+                track.altitude_m,
+                track.latitude_rad,
+                abs(track.profile().rate_m_s) * reach.time_s,
+                abs(track.velocity_north_m_s) * reach.time_s,
+            )
+            for track in self._tracks.values()
+        ]
+        altitude_m, latitude_rad, climb_m, north_m = np.array(rows, np.float64).reshape(-1, 4).T
+        pairs: dict[Pair, None] = {}
         for icao24 in self._updated:
             own = places.get(icao24)
             if own is None:
@@ -108,24 +117,13 @@ class AirTracks:
             is_near[own] = False
             for place in np.flatnonzero(is_near).tolist():
                 name = names[place]
-                pair = (icao24, name) if icao24 < name else (name, icao24)
-                if pair not in seen:
-                    seen.add(pair)
-                    yield pair
+                pairs[(icao24, name) if icao24 < name else (name, icao24)] = None
+        return list(pairs)
 
-    def _extents(self, time_s: float) -> NDArray[np.float64]:
-        """Return altitude, latitude, and ways up or down and north or south in a time, by track."""
-        rows = [
-            (
-                track.altitude_m,
-                track.latitude_rad,
-                abs(track.profile().rate_m_s) * time_s,
-                abs(track.velocity_north_m_s) * time_s,
-            )
-            for track in self._tracks.values()
+    def silent(self, pairs: Collection[Pair], t_ns: int, least_ns: int) -> list[Pair]:
+        """Return the pairs of which nothing has been heard for some time."""
+        return [
+            pair
+            for pair in pairs
+            if t_ns - max(self._heard_ns[icao24] for icao24 in pair) >= least_ns
         ]
-        return np.array(rows, np.float64).reshape(-1, 4).T
-
-    def silent_ns(self, pair: Pair, t_ns: int) -> int:
-        """Return how long nothing has been heard of either of a pair."""
-        return t_ns - max(self._heard_ns[icao24] for icao24 in pair)

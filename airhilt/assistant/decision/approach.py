@@ -4,6 +4,9 @@ An object on a collision course stays in the same direction and grows. The recip
 falls in proportion to the distance: evenly, to 0 at the encounter, while both fly straight on.
 Neither its size nor its distance need be known (D. N. Lee, A theory of visual control of braking
 based on information about time-to-collision, Perception 5 (1976) 437-459).
+
+What stays in its place, a cloud or what is on the ground, moves in the pictures while the camera
+flies by.
 """
 
 from __future__ import annotations
@@ -15,8 +18,10 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from airhilt.assistant.decision.visual_tracks import Observation
-from airhilt.units import SECOND_NS
+from airhilt.assistant.decision.line_of_sight import Ray
+from airhilt.assistant.decision.visual_tracks import Observation, VisualTrack
+from airhilt.geodesy.wgs84 import offset_m
+from airhilt.units import DEGREE, SECOND_NS
 
 LEAST_SPAN_NS = round(0.75 * SECOND_NS)
 LEAST_OBSERVATIONS = 5
@@ -42,33 +47,34 @@ pixels to the next."""
 OUTLIER_SIGMAS = 3.0
 MAD_PER_SIGMA = 0.6745
 """Median absolute deviation of a normal distribution, in standard deviations."""
+FLOCK_M = 20.0
+AIRLINER_M = 80.0
+"""Largest sizes of a flock and of an aircraft, in m."""
+TOLD_SIGMAS = 2.0
+"""Standard deviations from which a motion counts as one."""
+ALIKE_SIGMAS = 3.0
+"""Standard deviations within which two motions count as the same."""
+SLACK = 0.25
+"""Largest error of the motion of a cloud, as a share of it: its middle is not one place on it. An
+assumption."""
 
 Floats = npt.NDArray[np.float64]
 
 
 class Approach(NamedTuple):
-    """Motion of something towards a camera, as of the last picture.
-
-    Attributes
-    ----------
-    closing
-        Reciprocal of the time to contact, in 1/s; negative if it recedes.
-    closing_error, turning_error
-        Standard deviations, by what differs from picture to picture.
-    lasting_error
-        Standard deviation of ``closing`` by errors of the size that last, in 1/s.
-    turning_rad_s
-        Rates at which its direction turns to the right and up, whatever way the camera turns.
-    size_rad
-        Larger side of its box.
-    """
+    """Motion of something towards a camera, as of the last picture."""
 
     closing: float
+    """Reciprocal of the time to contact, in 1/s; negative if it recedes."""
     closing_error: float
+    """Standard deviation of ``closing``, by what differs from picture to picture."""
     lasting_error: float
+    """Standard deviation of ``closing`` by errors of the size that last, in 1/s."""
     turning_rad_s: tuple[float, float]
+    """Rates at which its direction turns to the right and up, whatever way the camera turns."""
     turning_error: float
     size_rad: float
+    """Larger side of its box."""
 
     @property
     def time_s(self) -> float:
@@ -188,3 +194,68 @@ def _variance_ratio(misfit: Floats) -> float:
         return 1.0
     r = min(max(float(np.sum(misfit[1:] * misfit[:-1])) / squares, 0.0), MOST_CORRELATION)
     return (1.0 + r) / (1.0 - r)
+
+
+def may_stand(track: VisualTrack) -> bool:
+    """Return whether something may stand on the ground, by the size that it would have there."""
+    last = track.last
+    height_m = last.geometry.view.height_m
+    depression_rad = -last.geometry.foot(last.box).elevation_rad
+    if depression_rad <= 0.0 or height_m <= 0.0:
+        return False
+    return max(last.size_rad) * height_m / math.sin(depression_rad) <= _largest_m(track)
+
+
+def _largest_m(track: VisualTrack) -> float:
+    return FLOCK_M if track.label == "bird" else AIRLINER_M
+
+
+def stays_in_place(track: VisualTrack, approach: Approach) -> bool:
+    """Return whether something moves and grows as what is larger than an aircraft and stays.
+
+    The direction to what stays in its place turns away from the camera's course, the slower the
+    farther it is. So the turning tells its distance, and the size in the picture its own.
+    """
+    observations, last = track.observations, track.last
+    speeds = _across_and_along_m_s(observations)
+    across_m_s = math.hypot(*speeds[:2])
+    error = approach.turning_error
+    if across_m_s <= 0.0:
+        return False
+    away = (-speeds[0] / across_m_s, -speeds[1] / across_m_s)
+    turning = approach.turning_rad_s
+    outward = turning[0] * away[0] + turning[1] * away[1]
+    sideward = turning[0] * away[1] - turning[1] * away[0]
+    if outward <= TOLD_SIGMAS * error or abs(sideward) > ALIKE_SIGMAS * error + SLACK * outward:
+        return False
+    fastest = speeds[2] / across_m_s * outward
+    if approach.closing > ALIKE_SIGMAS * approach.closing_error + (1.0 + SLACK) * fastest:
+        return False
+    nearest_m = across_m_s / (outward + TOLD_SIGMAS * error)
+    return max(last.size_rad) * nearest_m > _largest_m(track)
+
+
+def _across_and_along_m_s(observations: Sequence[Observation]) -> tuple[float, float, float]:
+    """Return the speeds of a camera to the right of a line of sight, above it and along it."""
+    first, last = observations[0], observations[-1]
+    seconds = (last.t_ns - first.t_ns) / SECOND_NS
+    if seconds <= 0.0:
+        return 0.0, 0.0, 0.0
+    before, now = first.geometry.view, last.geometry.view
+    north_m, east_m = offset_m(
+        (before.latitude_deg * DEGREE, before.longitude_deg * DEGREE),
+        (now.latitude_deg * DEGREE, now.longitude_deg * DEGREE),
+    )
+    moved = east_m, north_m, now.height_m - before.height_m
+    azimuth, elevation = last.ray.azimuth_rad, last.ray.elevation_rad
+    right = Ray(math.cos(azimuth), -math.sin(azimuth), 0.0)
+    up = Ray(
+        -math.sin(elevation) * math.sin(azimuth),
+        -math.sin(elevation) * math.cos(azimuth),
+        math.cos(elevation),
+    )
+    to_right, upward, along = (
+        sum(a * b for a, b in zip(moved, axis, strict=True)) / seconds
+        for axis in (right, up, last.ray)
+    )
+    return to_right, upward, along

@@ -14,29 +14,26 @@ from typing import NamedTuple
 from pydantic import Field, model_validator
 
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.approach import Approach, approach_of
+from airhilt.assistant.decision.approach import Approach, approach_of, may_stand, stays_in_place
 from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.findings import Intruder, Where
-from airhilt.assistant.decision.intruder_advice import evasion
 from airhilt.assistant.decision.line_of_sight import Ray
-from airhilt.assistant.decision.standing import may_stand, stays_in_place
+from airhilt.assistant.decision.resolution import BUFFER_FT, STRONG_VERTICAL_RATE_FPM, TURN_DEG
 from airhilt.assistant.decision.threats import UNIDENTIFIED, WILDLIFE
-from airhilt.assistant.decision.visual_tracks import (
-    BLIND_NS,
-    VisualTrack,
-    VisualTracks,
-)
+from airhilt.assistant.decision.visual_tracks import BLIND_NS, VisualTrack, VisualTracks
 from airhilt.configuration import Configuration, Seconds, require_order
 from airhilt.geodesy.relative_motion import Minima
 from airhilt.messages import (
     CONTROLLER,
-    CameraView,
+    AdsbReport,
+    Climb,
     Evidence,
     GoAround,
     Recommendation,
     Severity,
+    Turn,
 )
-from airhilt.units import DEGREE, FOOT, SECOND_NS, wrap_angle
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, SECOND_NS, wrap_angle
 
 SAME_DIRECTION_RAD = 4.0 * DEGREE
 """Angle, in rad, within which a new track is the same aircraft as one that was lost."""
@@ -55,6 +52,13 @@ SMALLEST_M = 8.0
 """Least span of an aircraft, in m; an assumption."""
 LONGEST_S = 180.0
 """Longest time for which an intruder that is no longer seen is avoided, in s; chosen."""
+LEVEL_STEP_FT = 100.0
+LEAST_HEIGHT_M = 600.0
+"""Height, in m, below which nobody is recommended to descend."""
+LEVEL_RAD = 0.5 * DEGREE
+"""Angle from the horizon, in rad, within which an aircraft is at about the same level."""
+ABOVE_SIZES = 1.0
+"""Height in its own sizes from which an aircraft passes above."""
 
 
 class IntruderConfig(Configuration):
@@ -115,7 +119,6 @@ class _Encounter(NamedTuple):
 
     @property
     def rank(self) -> int:
-        """Rank of its severity; -1 without one."""
         return -1 if self.severity is None else self.severity.rank
 
     def past_ns(self, minima: Minima) -> int:
@@ -140,6 +143,12 @@ class _Ongoing:
     escalation: Escalation
     recommendation: Recommendation | None = None
     past_ns: int = 0
+
+    def is_of(self, encounter: _Encounter) -> bool:
+        last = self.encounter
+        return last.carrier == encounter.carrier and (
+            last.track is encounter.track or last.ray.angle_to(encounter.ray) <= SAME_DIRECTION_RAD
+        )
 
 
 class IntruderWatch:
@@ -177,30 +186,39 @@ class IntruderWatch:
         told: list[Alert] = []
         threatened: list[_Ongoing] = []
         for encounter in self._encounters(t_ns):
-            ongoing = self._known(encounter)
-            if ongoing is not None and encounter.approach.closing > 0.0:
+            ongoing = next((each for each in self._ongoing if each.is_of(encounter)), None)
+            if ongoing is None and encounter.severity is not None:
+                self._count += 1
+                ongoing = _Ongoing(encounter, Escalation(f"intruder-{self._count}"))
                 ongoing.past_ns = encounter.past_ns(self._minima_from(encounter.track))
-            if encounter.severity is None:
+                self._ongoing.append(ongoing)
+            elif ongoing is not None and encounter.approach.closing > 0.0:
+                ongoing.past_ns = encounter.past_ns(self._minima_from(encounter.track))
+            if ongoing is None or encounter.severity is None or ongoing in threatened:
                 continue
-            ongoing = ongoing or self._new(encounter)
-            if ongoing not in threatened:
-                threatened.append(ongoing)
-                ongoing.encounter = encounter
-                told += self._raise(t_ns, ongoing, encounter.severity)
+            threatened.append(ongoing)
+            ongoing.encounter = encounter
+            if ongoing.escalation.rises(encounter.severity, t_ns, self.config.persistence_s):
+                if ongoing.escalation.severity is Severity.WARNING:
+                    ongoing.recommendation = self._recommended(encounter)
+                told.append(self._alert(t_ns, ongoing))
         for ongoing in [each for each in self._ongoing if each not in threatened]:
             told += self._calm(t_ns, ongoing)
         return told
 
-    # --- what is seen -----------------------------------------------------------------------
-
     def _encounters(self, t_ns: int) -> list[_Encounter]:
-        """Return what is seen in the air, the most urgent first."""
+        """Return what is seen in the air, the most urgent first.
+
+        If both the carrier of a camera and what it sees have a transponder, the watch for
+        separation keeps them apart.
+        """
         found = []
         for track in self._visual_tracks:
-            carrier = track.carrier
-            if carrier is None or not self._is_flying(track.last.geometry.view):
-                continue
-            if not self._is_unknown(track) or may_stand(track):
+            view, carrier = track.last.geometry.view, track.carrier
+            report = self._visual_tracks.traffic.carrier(view)
+            is_flying = view.height_m > GROUNDED_M if report is None else not report.on_ground
+            is_unknown = track.explained_by is None or report is None
+            if carrier is None or not is_flying or not is_unknown or may_stand(track):
                 continue
             approach = approach_of(track.observations)
             if approach is not None and not stays_in_place(track, approach):
@@ -209,95 +227,46 @@ class IntruderWatch:
         found.sort(key=lambda each: (-each.rank, each.approach.time_s))
         return found
 
-    def _is_flying(self, view: CameraView) -> bool:
-        """Return whether the aircraft that a camera is on is in the air."""
-        report = self._visual_tracks.traffic.carrier(view)
-        return view.height_m > GROUNDED_M if report is None else not report.on_ground
-
-    def _is_unknown(self, track: VisualTrack) -> bool:
-        """Return whether the carrier of a camera or what it sees has no transponder.
-
-        If both have one, the watch for separation keeps them apart.
-        """
-        is_carrier_known = self._visual_tracks.traffic.carrier(track.last.geometry.view) is not None
-        return track.explained_by is None or not is_carrier_known
-
     def _grade(self, track: VisualTrack, approach: Approach, t_ns: int) -> Severity | None:
-        """Return the severity of an approach; None if it passes by or is far."""
+        """Return the severity of an approach; None if it passes by or is far.
+
+        The pictures of something that stays in one direction are alike, and so are the errors of a
+        detector in them: many doubtful ones make no certain one.
+        """
         config, miss = self.config, approach.least_miss()
         left_s = approach.time_s - (t_ns - track.last.t_ns) / SECOND_NS
-        if miss > config.near_sizes or approach.closing < approach.closing_error:
+        passes = miss > config.near_sizes or approach.closing < approach.closing_error
+        if passes or left_s < 0.0:
             return None
-        if left_s < 0.0:
-            return None
-        is_certain = self._is_there(track) and approach.is_growing
-        if is_certain and left_s <= config.warning_s and miss <= config.warning_sizes:
-            return Severity.WARNING
-        if is_certain and left_s <= config.caution_s:
-            return Severity.CAUTION
+        is_there = track.belief_of_one_look > EVEN_ODDS and self._visual_tracks.shows((track,))
+        if is_there and approach.is_growing:
+            if left_s <= config.warning_s and miss <= config.warning_sizes:
+                return Severity.WARNING
+            if left_s <= config.caution_s:
+                return Severity.CAUTION
         return Severity.ADVISORY if left_s <= config.advisory_s else None
-
-    def _is_there(self, track: VisualTrack) -> bool:
-        """Return whether something is there that stays in one direction.
-
-        Its pictures are alike, and so are the errors of a detector in them: many doubtful ones
-        make no certain one.
-        """
-        believed = track.belief_of_one_look > EVEN_ODDS
-        return believed and self._visual_tracks.shows((track,))
-
-    # --- what is told -----------------------------------------------------------------------
-
-    def _known(self, encounter: _Encounter) -> _Ongoing | None:
-        """Return the encounter that is known already, None if there is none."""
-        for ongoing in self._ongoing:
-            last = ongoing.encounter
-            if last.carrier == encounter.carrier and (
-                last.track is encounter.track
-                or last.ray.angle_to(encounter.ray) <= SAME_DIRECTION_RAD
-            ):
-                return ongoing
-        return None
-
-    def _new(self, encounter: _Encounter) -> _Ongoing:
-        self._count += 1
-        ongoing = _Ongoing(encounter, Escalation(f"intruder-{self._count}"))
-        ongoing.past_ns = encounter.past_ns(self._minima_from(encounter.track))
-        self._ongoing.append(ongoing)
-        return ongoing
-
-    def _raise(self, t_ns: int, ongoing: _Ongoing, severity: Severity) -> list[Alert]:
-        if not ongoing.escalation.rises(severity, t_ns, self.config.persistence_s):
-            return []
-        if ongoing.escalation.severity is Severity.WARNING:
-            ongoing.recommendation = self._recommended(ongoing.encounter)
-        return [self._alert(t_ns, ongoing)]
 
     def _calm(self, t_ns: int, ongoing: _Ongoing) -> list[Alert]:
         """End an encounter once it is past, so that nobody goes back before."""
-        if ongoing.escalation.severity is None:
-            if ongoing.escalation.is_over(t_ns, BLIND_NS / SECOND_NS):
-                self._ongoing.remove(ongoing)
+        escalation = ongoing.escalation
+        has_alert = escalation.severity is not None
+        if has_alert and t_ns < ongoing.past_ns:
+            escalation.stays()
             return []
-        if t_ns < ongoing.past_ns:
-            ongoing.escalation.stays()
-            return []
-        if not ongoing.escalation.is_over(t_ns, self.config.release_s):
+        quiet_s = self.config.release_s if has_alert else BLIND_NS / SECOND_NS
+        if not escalation.is_over(t_ns, quiet_s):
             return []
         self._ongoing.remove(ongoing)
-        return [self._alert(t_ns, ongoing, active=False)]
+        return [self._alert(t_ns, ongoing, active=False)] if has_alert else []
 
     def _recommended(self, encounter: _Encounter) -> Recommendation:
-        """Return how to stay clear."""
-        track = encounter.track
-        runway = self._runway_of(encounter.carrier)
+        track, runway = encounter.track, self._runway_of(encounter.carrier)
         if runway is not None:
             return GoAround(runway=runway)
         report = self._visual_tracks.traffic.carrier(track.last.geometry.view)
         return evasion(track, encounter.approach, report, self._minima_from(track).vertical_m)
 
     def _minima_from(self, track: VisualTrack) -> Minima:
-        """Return the distances to keep from something."""
         return BIRDS if track.label == "bird" else self._minima()
 
     def _alert(self, t_ns: int, ongoing: _Ongoing, active: bool = True) -> Alert:
@@ -334,7 +303,6 @@ class IntruderWatch:
 
 
 def _where(encounter: _Encounter) -> Where:
-    """Return the direction of something as the crew sees it."""
     heading_rad = encounter.track.last.geometry.view.heading_deg * DEGREE
     right_rad = wrap_angle(encounter.ray.azimuth_rad - heading_rad)
     is_right = right_rad > 0.0
@@ -348,7 +316,6 @@ def _where(encounter: _Encounter) -> Where:
 
 
 def _note(encounter: _Encounter) -> str:
-    """Return the estimates with their errors, for the evidence."""
     approach, track = encounter.approach, encounter.track
     turning = math.hypot(*approach.turning_rad_s) / DEGREE
     error_s = math.hypot(approach.closing_error, approach.lasting_error) * approach.time_s**2
@@ -356,3 +323,48 @@ def _note(encounter: _Encounter) -> str:
         f"{track.camera}: contact in {approach.time_s:.0f} s, give or take {error_s:.0f} s; "
         f"direction turns by {turning:.2f} degrees/s"
     )
+
+
+def evasion(
+    track: VisualTrack, approach: Approach, report: AdsbReport | None, vertical_m: float
+) -> Climb | Turn:
+    """Return how to stay clear of something: climb or descend away from it, or turn right.
+
+    Within half a minute more distance is gained vertically, and less of it is needed: the vertical
+    minimum. `BUFFER_FT` beyond it is what a direction that is wrong by `LEVEL_RAD` makes of 7 km,
+    from where no light aircraft is seen. Aircraft that meet head-on, and one that overtakes, turn
+    right (14 CFR 91.113).
+
+    Parameters
+    ----------
+    report
+        Last report of the aircraft that the camera is on; None if there is none.
+    vertical_m
+        Vertical distance to keep, in m.
+    """
+    if report is None or report.altitude_ft is None:
+        return Turn(degrees=TURN_DEG)
+    sense = _sense(track, approach, report.vertical_rate_fpm * FOOT_PER_MINUTE)
+    climb_ft = vertical_m / FOOT + BUFFER_FT
+    if sense < 0 and track.last.geometry.view.height_m - climb_ft * FOOT < LEAST_HEIGHT_M:
+        return Turn(degrees=TURN_DEG)
+    level = (report.altitude_ft + sense * climb_ft) / LEVEL_STEP_FT
+    rounded = math.ceil(level) if sense > 0 else math.floor(level)
+    return Climb(
+        sense="climb" if sense > 0 else "descend",
+        altitude_ft=rounded * LEVEL_STEP_FT,
+        vertical_rate_fpm=STRONG_VERTICAL_RATE_FPM,
+    )
+
+
+def _sense(track: VisualTrack, approach: Approach, vertical_rate_m_s: float) -> int:
+    above = approach.passes_above()
+    turns = abs(approach.turning_rad_s[1]) > 2.0 * approach.turning_error
+    if abs(above) > ABOVE_SIZES and turns:
+        return -1 if above > 0.0 else 1
+    if track.label == "bird":
+        return 1  # Birds that take fright dive.
+    elevation_rad = track.last.ray.elevation_rad
+    if abs(elevation_rad) > LEVEL_RAD:
+        return -1 if elevation_rad > 0.0 else 1
+    return -1 if vertical_rate_m_s < 0.0 else 1

@@ -157,25 +157,16 @@ class GroundFix(NamedTuple):
     def chance(self, is_inside: Callable[[npt.NDArray[np.float64]], float]) -> float:
         """Return the probability that the position is in an area.
 
-        Parameters
-        ----------
-        is_inside
-            Returns the share of some positions, shape (n, 2), that is in the area.
+        ``is_inside`` returns the share of some positions, shape (n, 2), that is in it.
         """
         spread = np.array(((self.east_m2, self.both_m2), (self.both_m2, self.north_m2)))
         return is_inside(np.asarray(self.point) + _PROBES @ np.linalg.cholesky(spread).T)
 
 
-def _probes() -> npt.NDArray[np.float64]:
-    """Return equally probable points of a normal distribution about 0 in the plane."""
-    rings, turns = 6, 10
-    radii = np.sqrt(-2.0 * np.log1p(-(np.arange(rings) + 0.5) / rings))
-    angles = np.arange(turns) * math.tau / turns
-    east, north = np.outer(radii, np.sin(angles)), np.outer(radii, np.cos(angles))
-    return np.column_stack((east.ravel(), north.ravel()))
-
-
-_PROBES = _probes()
+_RADII = np.sqrt(-2.0 * np.log1p(-(np.arange(6) + 0.5) / 6))
+_ANGLES = np.arange(10) * math.tau / 10
+_PROBES = np.column_stack([np.outer(_RADII, f(_ANGLES)).ravel() for f in (np.sin, np.cos)])
+"""Equally probable points of a normal distribution about 0 in the plane."""
 
 
 class LineOfSight(NamedTuple):

@@ -10,12 +10,7 @@ from pydantic import Field, model_validator
 from airhilt.assistant.decision.aerodrome import TrafficZone
 from airhilt.assistant.decision.tracks import Track
 from airhilt.configuration import Configuration, Seconds, require_order
-from airhilt.geodesy.relative_motion import (
-    Minima,
-    Relative,
-    relative,
-    time_to_loss_s,
-)
+from airhilt.geodesy.relative_motion import Minima, Relative, relative, time_to_loss_s
 from airhilt.messages import Evidence, Severity
 from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS
 
@@ -80,6 +75,8 @@ class SeparationConfig(Configuration):
 
     def severity_of(self, time_to_loss_s: float | None) -> Severity | None:
         """Return how severe a loss of separation is that is so far ahead; None if it is none."""
+        if "loss_of_separation" not in self.rules:
+            return None
         if time_to_loss_s is None or time_to_loss_s > self.advisory_s:
             return None
         if time_to_loss_s <= self.warning_s:
@@ -94,11 +91,6 @@ class SeparationStandard(SeparationConfig):
     vertical_m: float = 1000.0 * FOOT
 
     @property
-    def vertical_tolerance_m(self) -> float:
-        """Allowance for level keeping and for the errors of ADS-B, in m."""
-        return self.vertical_tolerance_ft * FOOT
-
-    @property
     def standard(self) -> Minima:
         """The separation minima."""
         return Minima(self.horizontal_m, self.vertical_m)
@@ -106,35 +98,22 @@ class SeparationStandard(SeparationConfig):
     @property
     def infringed(self) -> Minima:
         """The distances below which separation counts as lost."""
-        return Minima(self.horizontal_m, self.vertical_m - self.vertical_tolerance_m)
-
-    def infringed_by(self, is_told: bool) -> Minima:
-        """Return `infringed`, with hysteresis if a CAUTION about the two has been told."""
-        return Minima(
-            self.infringed.horizontal_m + (self.hysteresis_m if is_told else 0.0),
-            self.infringed.vertical_m,
-        )
+        return Minima(self.horizontal_m, self.vertical_m - self.vertical_tolerance_ft * FOOT)
 
 
 class Prediction(NamedTuple):
-    """The predicted encounter of two aircraft, as of now.
-
-    Attributes
-    ----------
-    horizontal_m, vertical_m
-        Distances at the closest approach.
-    is_over
-        True if the two are past each other, or draw apart on paths that stay clear, or move so
-        slowly against each other that no turn brings them together within the look-ahead.
-    """
+    """The predicted encounter of two aircraft, as of now."""
 
     first: Track
     second: Track
     time_to_loss_s: float | None
     time_to_closest_approach_s: float
     horizontal_m: float
+    """Horizontal distance at the closest approach, in m."""
     vertical_m: float
     is_over: bool
+    """True if the two are past each other, or draw apart on paths that stay clear, or move so
+    slowly against each other that no turn brings them together within the look-ahead."""
 
     @property
     def callsigns(self) -> tuple[str, str]:
@@ -178,7 +157,9 @@ def predict(
     """
     motion = relative(first, second)
     profiles = (first.profile(), second.profile())
-    infringed = config.infringed_by(is_told)
+    infringed = config.infringed
+    if is_told:
+        infringed = Minima(infringed.horizontal_m + config.hysteresis_m, infringed.vertical_m)
     interval = motion.interval_within(infringed.horizontal_m)
     is_near = interval is not None and interval[1] > 0.0 and interval[0] <= config.advisory_s
     loss_s = time_to_loss_s(motion, *profiles, infringed) if is_near else None

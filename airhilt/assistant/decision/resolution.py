@@ -77,65 +77,37 @@ def resolve(
     encounter = _Encounter(upper, lower, others, infringed)
     best = _Choice(-math.inf, NONE, NONE)
     for candidates in _candidates(_Pair(upper, lower, standard), strong):
-        best = encounter.better(best, [each for each in candidates if _is_fair(upper, lower, each)])
+        fair = [
+            (up, down)
+            for up, down in candidates
+            if not (upper.in_distress and up != NONE) and not (lower.in_distress and down != NONE)
+        ]
+        best = encounter.better(best, fair)
         if best.margin >= 1.0:
             break
-    if math.isinf(best.margin):
-        return Resolution(None, None, 0.0)
     told = _recommendation(upper, best.up), _recommendation(lower, best.down)
     return Resolution(*(told if first_is_upper else told[::-1]), best.margin)
 
 
-def _is_fair(upper: Track, lower: Track, candidate: Candidate) -> bool:
-    """Return whether a candidate tells nothing to an aircraft in distress."""
-    up, down = candidate
-    return not (upper.in_distress and up != NONE) and not (lower.in_distress and down != NONE)
-
-
-# --- candidates -----------------------------------------------------------------------------
-
-
-class _Pair(NamedTuple):
+class _Pair:
     """Two aircraft in conflict, of which one is, or counts as, the upper one."""
 
-    upper: Track
-    lower: Track
-    standard: Minima
-
-    def levels_apart(self) -> tuple[float, float] | None:
-        """Return levels that are far enough apart if both leave theirs; None if these are."""
-        gap_m = self.upper.altitude_m - self.lower.altitude_m
-        half_m = 0.5 * (self._aimed_at_m - gap_m)
-        if half_m <= 0.0:
-            return None
-        return (
-            _flight_level_above(self.upper.altitude_m + half_m),
-            _flight_level_below(self.lower.altitude_m - half_m),
-        )
-
-    def level_above(self) -> float:
-        """Return a level above the lower one, wherever that one gets to while the two are near."""
-        highest_m = max(self.lower.profile().at(time_s) for time_s in self._near_s())
-        return _flight_level_above(highest_m + self._aimed_at_m)
-
-    def level_below(self) -> float:
-        """Return a level below the upper one, wherever that one gets to while the two are near."""
-        lowest_m = min(self.upper.profile().at(time_s) for time_s in self._near_s())
-        return _flight_level_below(lowest_m - self._aimed_at_m)
-
-    @property
-    def _aimed_at_m(self) -> float:
-        return self.standard.vertical_m + BUFFER_FT * FOOT
-
-    def _near_s(self) -> tuple[float, float]:
-        """Return from when to when the two are within the horizontal minimum."""
-        interval = relative(self.upper, self.lower).interval_within(self.standard.horizontal_m)
-        begin_s, end_s = interval or (0.0, 0.0)
-        return max(begin_s, 0.0), min(max(end_s, 0.0), HORIZON_S)
+    def __init__(self, upper: Track, lower: Track, standard: Minima) -> None:
+        self.upper, self.lower, self.standard = upper, lower, standard
+        aimed_at_m = standard.vertical_m + BUFFER_FT * FOOT
+        interval = relative(upper, lower).interval_within(standard.horizontal_m) or (0.0, 0.0)
+        near_s = max(interval[0], 0.0), min(max(interval[1], 0.0), HORIZON_S)
+        highest_m = max(lower.profile().at(time_s) for time_s in near_s)
+        lowest_m = min(upper.profile().at(time_s) for time_s in near_s)
+        self.above_m = _flight_level_above(highest_m + aimed_at_m)
+        """Level above the lower one, wherever that one gets to while the two are near."""
+        self.below_m = _flight_level_below(lowest_m - aimed_at_m)
+        """Level below the upper one, wherever that one gets to while the two are near."""
+        self.share_m = 0.5 * (aimed_at_m - (upper.altitude_m - lower.altitude_m))
+        """Distance by which each leaves its level if both do; at most 0 if theirs are enough."""
 
 
 def _candidates(pair: _Pair, strong: bool) -> Iterator[list[Candidate]]:
-    """Yield groups of candidates, the least disturbing first."""
     strongest = list(_verticals(pair, STRONG_VERTICAL_RATE_FPM))
     verticals = strongest if strong else list(_verticals(pair, VERTICAL_RATE_FPM))
     right = Manoeuvre(turn_rad=TURN_DEG * DEGREE)
@@ -154,7 +126,7 @@ def _candidates(pair: _Pair, strong: bool) -> Iterator[list[Candidate]]:
 
 def _stops(pair: _Pair) -> Iterator[Candidate]:
     """Yield that whoever climbs or descends towards the other stops short of it."""
-    upper, lower, standard = pair
+    upper, lower, standard = pair.upper, pair.lower, pair.standard
     stop_lower = _flight_level_below(upper.altitude_m - standard.vertical_m)
     if _vertical(lower) > 0.0 and stop_lower > lower.altitude_m:
         yield NONE, Manoeuvre(stop_lower, _vertical(lower))
@@ -166,13 +138,14 @@ def _stops(pair: _Pair) -> Iterator[Candidate]:
 def _verticals(pair: _Pair, rate_fpm: float) -> Iterator[Candidate]:
     """Yield a climb and a descent that share what is missing, and then one of them alone."""
     rate_m_s = rate_fpm * FOOT_PER_MINUTE
-    apart, up, down = pair.levels_apart(), pair.level_above(), pair.level_below()
-    if apart is not None and apart[1] >= LEAST_LEVEL_M:
-        yield Manoeuvre(apart[0], rate_m_s), Manoeuvre(apart[1], rate_m_s)
-    if up > pair.upper.altitude_m:
-        yield Manoeuvre(up, rate_m_s), NONE
-    if LEAST_LEVEL_M <= down < pair.lower.altitude_m:
-        yield NONE, Manoeuvre(down, rate_m_s)
+    up_m = _flight_level_above(pair.upper.altitude_m + pair.share_m)
+    down_m = _flight_level_below(pair.lower.altitude_m - pair.share_m)
+    if pair.share_m > 0.0 and down_m >= LEAST_LEVEL_M:
+        yield Manoeuvre(up_m, rate_m_s), Manoeuvre(down_m, rate_m_s)
+    if pair.above_m > pair.upper.altitude_m:
+        yield Manoeuvre(pair.above_m, rate_m_s), NONE
+    if LEAST_LEVEL_M <= pair.below_m < pair.lower.altitude_m:
+        yield NONE, Manoeuvre(pair.below_m, rate_m_s)
 
 
 def _with_turn(manoeuvre: Manoeuvre, degrees: float) -> Manoeuvre:
@@ -191,9 +164,6 @@ def _flight_level_below(altitude_m: float) -> float:
     return math.floor(altitude_m / LEVEL_STEP_M + 1e-6) * LEVEL_STEP_M
 
 
-# --- the choice -----------------------------------------------------------------------------
-
-
 class _Choice(NamedTuple):
     """A candidate with its margin, less 1 if it brings either into conflict with others."""
 
@@ -206,24 +176,17 @@ class _Encounter:
     """Paths of two aircraft, and of the others, in the frame of the upper one."""
 
     def __init__(self, upper: Track, lower: Track, others: Sequence[Track], minima: Minima) -> None:
-        self._upper, self._lower, self._minima = upper, lower, minima
-        self._motions = _over_ground(upper, upper), _over_ground(upper, lower)
+        self._upper, self._both, self._minima = upper, (upper, lower), minima
         self._traffic = straight_paths(
             [_over_ground(upper, each) for each in others], [each.profile() for each in others]
         )
 
     def better(self, best: _Choice, candidates: Sequence[Candidate]) -> _Choice:
-        """Return the first candidate that keeps separation, or the best one so far."""
         if not candidates:
             return best
         ups, downs = (
-            paths(motion, track.profile(), manoeuvres)
-            for motion, track, manoeuvres in zip(
-                self._motions,
-                (self._upper, self._lower),
-                zip(*candidates, strict=True),
-                strict=True,
-            )
+            paths(_over_ground(self._upper, track), track.profile(), manoeuvres)
+            for track, manoeuvres in zip(self._both, zip(*candidates, strict=True), strict=True)
         )
         margins = separations(ups, downs, self._minima)
         for row, (up, down) in enumerate(candidates):
@@ -239,14 +202,12 @@ class _Encounter:
         return best
 
     def _threatens(self, manoeuvre: Manoeuvre, flown: Paths) -> bool:
-        """Return whether a manoeuvre brings an aircraft into conflict with somebody else."""
         if manoeuvre == NONE:
             return False
         return bool(np.any(separations(flown, self._traffic, self._minima) < 1.0))
 
 
 def _over_ground(origin: Track, track: Track) -> Relative:
-    """Return where an aircraft is as seen from another one, and how it moves over the ground."""
     motion = relative(origin, track)
     return motion._replace(
         velocity_north_m_s=motion.velocity_north_m_s + origin.velocity_north_m_s,

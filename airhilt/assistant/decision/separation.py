@@ -70,8 +70,6 @@ class SeparationWatch:
         """True if there is a conflict to be judged again even without news."""
         return bool(self._conflicts)
 
-    # --- what is known ----------------------------------------------------------------------
-
     def take_briefing(self, briefing: Briefing) -> None:
         """Set the minima, and where a tower separates."""
         self.config = self.config.model_copy(
@@ -94,7 +92,6 @@ class SeparationWatch:
             self._misread.append(self._misread_alert(misread, t_in_ns))
 
     def _misread_alert(self, misread: LevelMisread, t_in_ns: int) -> Alert:
-        """Return the alert for a readback mismatch with activity (the ladder's step a)."""
         self._count += 1
         return Alert(
             id=f"readback-{self._count}",
@@ -115,42 +112,31 @@ class SeparationWatch:
             t_ready_ns=t_in_ns,
         )
 
-    # --- losses of separation ---------------------------------------------------------------
-
     def judge(self, t_ns: int) -> list[Alert]:
         """Return the alerts that are new, have risen, or are over."""
         alerts, self._misread = self._misread, []
         for doubt, traffic in self._readbacks.doubts(t_ns, self.config):
             alerts += self._clarifications.ask(t_ns, doubt, traffic)
-        tracks = self._tracks
         pairs = self._pairs_with_news(t_ns)
-        silent = [pair for pair in self._conflicts if tracks.silent_ns(pair, t_ns) >= COASTING_NS]
-        for pair in [*pairs, *silent]:
+        for pair in [*pairs, *self._tracks.silent(self._conflicts, t_ns, COASTING_NS)]:
             alerts += self._judge(t_ns, pair)
-        tracks.end_step()
+        self._tracks.end_step()
         return alerts
 
     def observe(self, t_ns: int) -> None:
         """Note the conflicts at a time at which nothing is told; tracks with news keep it."""
         for pair in self._pairs_with_news(t_ns):
-            level = self._level(self._predict(t_ns, pair))
+            level = self.config.severity_of(self._predict(t_ns, pair).time_to_loss_s)
             conflict = self._conflict_of(pair, level)
             if conflict is not None:
                 conflict.escalation.observe(level, t_ns)
 
     def _pairs_with_news(self, t_ns: int) -> list[Pair]:
         config = self.config
-        self._tracks.begin_step(t_ns - round(config.stale_s * SECOND_NS), self._conflicts)
         reach = Reach(config.horizontal_m, config.vertical_m, config.advisory_s + config.stale_s)
-        return list(self._tracks.pairs_with_news(reach, self._conflicts))
-
-    def _level(self, prediction: Prediction) -> Severity | None:
-        if "loss_of_separation" not in self.config.rules:
-            return None
-        return self.config.severity_of(prediction.time_to_loss_s)
+        return self._tracks.pairs_with_news(t_ns, reach, config.stale_s, self._conflicts)
 
     def _conflict_of(self, pair: Pair, level: Severity | None) -> _Conflict | None:
-        """Return the conflict of a pair, a new one if its level is the first."""
         conflict = self._conflicts.get(pair)
         if conflict is None and level is not None:
             self._count += 1
@@ -159,9 +145,8 @@ class SeparationWatch:
         return conflict
 
     def _judge(self, t_ns: int, pair: Pair) -> list[Alert]:
-        """Predict one pair, and tell it if that changes what is known of its conflict."""
         prediction = self._predict(t_ns, pair)
-        level = self._level(prediction)
+        level = self.config.severity_of(prediction.time_to_loss_s)
         conflict = self._conflict_of(pair, level)
         if conflict is None:
             return []
@@ -170,7 +155,17 @@ class SeparationWatch:
         if not conflict.escalation.rises(level, t_ns, self.config.persistence_s):
             return []
         if conflict.escalation.is_for_crews:
-            self._recommend(conflict, prediction)
+            others = [track.at(t_ns) for track in self._tracks if track.icao24 not in pair]
+            is_warning = conflict.escalation.severity is Severity.WARNING
+            resolution = resolve(
+                prediction.first,
+                prediction.second,
+                others,
+                self.config.standard,
+                self.config.infringed,
+                strong=is_warning and conflict.escalation.has_alert,
+            )
+            conflict.recommendations = (resolution.first, resolution.second)
         return [self._alert(conflict, prediction, active=True)]
 
     def _predict(self, t_ns: int, pair: Pair) -> Prediction:
@@ -197,24 +192,6 @@ class SeparationWatch:
             return []
         del self._conflicts[conflict.pair]
         return [self._alert(conflict, prediction, active=False)]
-
-    def _recommend(self, conflict: _Conflict, prediction: Prediction) -> None:
-        """Choose what both are told to do; what they do is seen on their tracks."""
-        others = [
-            track.at(prediction.first.t_ns)
-            for track in self._tracks
-            if track.icao24 not in conflict.pair
-        ]
-        resolution = resolve(
-            prediction.first,
-            prediction.second,
-            others,
-            self.config.standard,
-            self.config.infringed,
-            strong=conflict.escalation.severity is Severity.WARNING
-            and conflict.escalation.has_alert,
-        )
-        conflict.recommendations = (resolution.first, resolution.second)
 
     def _alert(self, conflict: _Conflict, prediction: Prediction, active: bool) -> Alert:
         """Return the alert about a conflict; crews are told from CAUTION on."""

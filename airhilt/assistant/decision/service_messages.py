@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Self
 
-from pydantic import BaseModel, Field, StringConstraints, model_validator
+from pydantic import Field, StringConstraints, model_validator
 
 from airhilt.messages import (
     AdvisoryKind,
@@ -153,16 +153,13 @@ class AssistantAnswer(Part):
         return self
 
 
-SERVICE_MESSAGES: dict[str, type[BaseModel]] = {
-    "assistant (request)": AssistantRequest,
-    "assistant (answer)": AssistantAnswer,
-}
-"""Bodies of POST requests to services, and of their answers."""
-
-
 def service_schemas() -> dict[str, Any]:
-    """Return the schemas of all services in one JSON object."""
+    """Return the schemas of what is sent to all services, and of their answers, as one object."""
+    models: dict[str, type[Part]] = {
+        "assistant (request)": AssistantRequest,
+        "assistant (answer)": AssistantAnswer,
+    }
     return {
         name: {"title": model.__name__, **model.model_json_schema()}
-        for name, model in SERVICE_MESSAGES.items()
+        for name, model in models.items()
     }

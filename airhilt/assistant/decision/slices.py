@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Mapping
 from types import MappingProxyType
+from typing import Any
 
 from airhilt.assistant.decision.engine import ReceivedMessage
 from airhilt.assistant.decision.input_checks import InputChecks
@@ -15,14 +16,7 @@ from airhilt.assistant.decision.service_messages import (
     RadioTurn,
     TrackSlice,
 )
-from airhilt.messages import (
-    AdsbReport,
-    Briefing,
-    CameraInfo,
-    Detections,
-    Message,
-    Transcript,
-)
+from airhilt.messages import AdsbReport, Briefing, CameraInfo, Detections, Message, Part, Transcript
 from airhilt.phraseology import parse_call
 from airhilt.units import SECOND_NS
 
@@ -43,13 +37,7 @@ SECOND_MS = 1_000
 
 
 class Slices:
-    """Keeps the last minutes of what has arrived and can be right.
-
-    Attributes
-    ----------
-    checks
-        Checks of what arrives, which know what was wrong.
-    """
+    """Keeps the last minutes of what has arrived and can be right by its checks."""
 
     def __init__(self) -> None:
         self.checks = InputChecks()
@@ -65,14 +53,7 @@ class Slices:
             case CameraInfo() as info:
                 self.checks.take_camera(info)
             case Briefing() as briefing:
-                self._context = FlightContext(
-                    controller=briefing.controller,
-                    horizontal_separation_nm=briefing.horizontal_separation_nm,
-                    vertical_separation_ft=briefing.vertical_separation_ft,
-                    roster=briefing.roster,
-                    airport=briefing.airport,
-                    animals=briefing.animals,
-                )
+                self._context = FlightContext(**_shared(briefing, FlightContext))
             case AdsbReport() as report if self.checks.believes_report(report, t_ns):
                 last = self._tracks.get(report.icao24)
                 if last is None or report.t_adsb_in_ns >= last.t_adsb_in_ns:
@@ -93,19 +74,6 @@ class Slices:
 
     def request(self, t_ns: int) -> AssistantRequest:
         """Return the slices of now, and forget what is older."""
-        self._forget(t_ns)
-        callsigns = self.callsigns()
-        radio = sorted(self._radio.values(), key=lambda each: (each.t_tx_ns, each.id))
-        return AssistantRequest(
-            ts_ms=t_ns // MS_NS,
-            context=self._context,
-            radio=tuple(_turn(each, callsigns) for each in radio),
-            cameras=tuple(_camera(each) for each in self._cameras),
-            tracks=tuple(_track(each) for _, each in sorted(self._tracks.items())),
-        )
-
-    def _forget(self, t_ns: int) -> None:
-        """Forget what is older than its age."""
         self._radio = {
             name: each for name, each in self._radio.items() if t_ns - each.t_end_ns <= RADIO_NS
         }
@@ -116,45 +84,43 @@ class Slices:
         }
         while self._cameras and t_ns - self._cameras[0].t_frame_ns > CAMERAS_NS:
             self._cameras.popleft()
+        callsigns = self.callsigns()
+        radio = sorted(self._radio.values(), key=lambda each: (each.t_tx_ns, each.id))
+        return AssistantRequest(
+            ts_ms=t_ns // MS_NS,
+            context=self._context,
+            radio=tuple(_turn(each, callsigns) for each in radio),
+            cameras=tuple(
+                CameraSlice(
+                    camera_id=each.camera,
+                    ts_ms=each.t_frame_ns // MS_NS,
+                    **_shared(each, CameraSlice),
+                )
+                for each in self._cameras
+            ),
+            tracks=tuple(
+                TrackSlice(ts_ms=each.t_adsb_in_ns // MS_NS, **_shared(each, TrackSlice))
+                for _, each in sorted(self._tracks.items())
+            ),
+        )
 
 
 def _turn(transcript: Transcript, callsigns: tuple[str, ...]) -> RadioTurn:
     call = parse_call(transcript.text, callsigns)
+    speaker = transcript.speaker or (None if call.addressed_first else call.callsign)
     return RadioTurn(
-        turn_id=transcript.id,
-        ts_ms=transcript.t_tx_ns // MS_NS,
-        end_ms=transcript.t_end_ns // MS_NS,
-        frequency_khz=transcript.frequency_khz,
-        text=transcript.text,
-        words=transcript.words,
-        confidence=transcript.confidence,
-        addressed_callsign=call.callsign if call.addressed_first else None,
-        speaker=transcript.speaker or (None if call.addressed_first else call.callsign),
-        overheard=transcript.overheard,
+        **_shared(transcript, RadioTurn)
+        | {
+            "turn_id": transcript.id,
+            "ts_ms": transcript.t_tx_ns // MS_NS,
+            "end_ms": transcript.t_end_ns // MS_NS,
+            "addressed_callsign": call.callsign if call.addressed_first else None,
+            "speaker": speaker,
+        }
     )
 
 
-def _camera(detections: Detections) -> CameraSlice:
-    return CameraSlice(
-        camera_id=detections.camera,
-        ts_ms=detections.t_frame_ns // MS_NS,
-        view=detections.view,
-        detections=detections.detections,
-    )
-
-
-def _track(report: AdsbReport) -> TrackSlice:
-    return TrackSlice(
-        icao24=report.icao24,
-        callsign=report.callsign,
-        ts_ms=report.t_adsb_in_ns // MS_NS,
-        latitude_deg=report.latitude_deg,
-        longitude_deg=report.longitude_deg,
-        altitude_ft=report.altitude_ft,
-        on_ground=report.on_ground,
-        emitter_category=report.emitter_category,
-        ground_speed_kt=report.ground_speed_kt,
-        track_deg=report.track_deg,
-        vertical_rate_fpm=report.vertical_rate_fpm,
-        nacp=report.nacp,
-    )
+def _shared(message: Message, part: type[Part]) -> dict[str, Any]:
+    """Return the values of a message under the names that a part of a request has as well."""
+    names = part.model_fields.keys() & type(message).model_fields.keys()
+    return {name: getattr(message, name) for name in names}

@@ -24,6 +24,7 @@ from airhilt.messages import (
     TcasReply,
 )
 from airhilt.surveillance import tcas
+from airhilt.surveillance.tcas import RangeMotion
 from airhilt.surveillance.tcas_resolution import (
     ACCELERATION_M_S2,
     INCREASED_RATE_M_S,
@@ -55,36 +56,11 @@ LEVEL_BELOW_M_S = 300 * FOOT_PER_MINUTE
 """Vertical rate, in m/s, below which an aircraft counts as level already."""
 
 
-class Coordination:
-    """Senses that equipped aircraft have told each other by Mode S.
+Senses = dict[tuple[str, str], Sense]
+"""Sense that the aircraft with the first address has told the second one by Mode S.
 
-    Who chooses first is followed. Of two that choose in one cycle the lower address comes first, as
-    in TCAS II, where the higher one gives way.
-    """
-
-    def __init__(self) -> None:
-        self._chosen: dict[tuple[str, str], Sense] = {}
-
-    def required(self, own: str, other: str | None) -> Sense | None:
-        """Return the sense that another aircraft's choice against the own one leaves."""
-        chosen = None if other is None else self._chosen.get((other, own))
-        return None if chosen is None else opposite(chosen)
-
-    def tell(self, own: str, other: str, sense: Sense) -> None:
-        """Tell another aircraft the own sense against it."""
-        self._chosen[own, other] = sense
-
-    def withdraw(self, own: str, other: str | None) -> None:
-        """Tell another aircraft that there is no advisory against it any more."""
-        if other is not None:
-            self._chosen.pop((own, other), None)
-
-
-class OwnState(NamedTuple):
-    """The own aircraft by its instruments; the height is infinite above the radio altimeter."""
-
-    vertical: Vertical
-    height_m: float
+Who chooses first is followed. Of two that choose in one cycle the lower address comes first, as in
+TCAS II, where the higher one gives way."""
 
 
 @dataclass(slots=True)
@@ -101,24 +77,66 @@ class _Encounter:
     is_over: bool = False
 
 
+class _Look(NamedTuple):
+    """One intruder and the own aircraft as of one cycle."""
+
+    track: IntruderTrack
+    motion: RangeMotion
+    intruder: Vertical
+    own: Vertical
+    height_m: float
+    """Own height; infinite above the reach of the radio altimeter."""
+
+    @property
+    def level(self) -> tcas.SensitivityLevel:
+        return tcas.sensitivity_level(self.own.altitude_m, self.height_m)
+
+    @property
+    def is_closing(self) -> bool:
+        return self.motion.rate_m_s < 0.0
+
+    @property
+    def approach_s(self) -> float:
+        """Time to the closest approach, in s; 0 if it is past."""
+        return self.motion.range_m / -self.motion.rate_m_s if self.is_closing else 0.0
+
+    @property
+    def time_s(self) -> float:
+        """Time to the closest approach that an advisory is modelled for, in s."""
+        thresholds = self.level.resolution
+        return min(self.approach_s, 0.0 if thresholds is None else thresholds.tau_s)
+
+    def said(self, filters_misses: bool) -> tcas.Alert | None:
+        """Return the alert that thresholds, inhibits and the filter give."""
+        if self.track.on_ground:
+            return None
+        gap_m = self.intruder.altitude_m - self.own.altitude_m
+        state = tcas.Own(self.own.altitude_m, self.height_m, self.height_m + gap_m)
+        gap_rate_m_s = self.intruder.rate_m_s - self.own.rate_m_s
+        said = tcas.alert_at(self.motion, gap_m, gap_rate_m_s, state)
+        thresholds = self.level.resolution
+        if said == "tcas_ra" and filters_misses and thresholds is not None:
+            miss_m = math.sqrt(max(self.track.miss_distance_m() ** 2 - gap_m**2, 0.0))
+            return "tcas_ta" if miss_m > thresholds.dmod_m else said
+        return said
+
+
 class TcasUnit:
     """TCAS II of one aircraft.
 
     Parameters
     ----------
-    callsign, icao24
-        Callsign and address of the own aircraft.
+    senses
+        Senses that equipped aircraft have told each other.
     filters_misses
         True for the horizontal miss distance filter: no resolution advisory against an intruder
         whose miss distance is beyond DMOD.
     """
 
-    def __init__(
-        self, callsign: str, icao24: str, coordination: Coordination, *, filters_misses: bool
-    ) -> None:
+    def __init__(self, callsign: str, icao24: str, senses: Senses, *, filters_misses: bool) -> None:
         self.callsign = callsign
         self.icao24 = icao24
-        self._coordination = coordination
+        self._senses = senses
         self._filters_misses = filters_misses
         self._tracks = IntruderTracks()
         self._encounters: dict[IntruderTrack, _Encounter] = {}
@@ -150,130 +168,67 @@ class TcasUnit:
         if self._own is None or not (self._has_replies or (due_ns is not None and t_ns >= due_ns)):
             return []
         self._has_replies, self._cycle_ns = False, t_ns
-        own = _own_state(self._own, t_ns)
+        own, height_m = _own_state(self._own, t_ns)
         alerts = [alert for track in self._tracks.forget(t_ns) for alert in self._end(track)]
         for track in self._tracks:
             if track.is_settled:
-                alerts += self._judge(track, own, t_ns)
+                look = _Look(track, track.motion(t_ns), track.vertical(t_ns), own, height_m)
+                alerts += self._judge(look, t_ns)
         return alerts
 
-    def _judge(self, track: IntruderTrack, own: OwnState, t_ns: int) -> Iterator[Alert]:
-        """Yield the alert about one intruder if it is new or has changed."""
-        said = self._said(track, own, t_ns)
-        encounter = self._encounters.get(track)
-        is_closing = track.motion(t_ns).rate_m_s < 0.0
+    def _judge(self, look: _Look, t_ns: int) -> Iterator[Alert]:
+        said = look.said(self._filters_misses)
+        encounter = self._encounters.get(look.track)
         if encounter is not None and encounter.is_over:
-            if said is not None and not (said == "tcas_ra" and is_closing):
+            if said is not None and not (said == "tcas_ra" and look.is_closing):
                 return
-            del self._encounters[track]
+            del self._encounters[look.track]
             encounter = None
         if encounter is None:
-            if said is None or not is_closing:
+            if said is None or not look.is_closing:
                 return
             self._count += 1
             encounter = _Encounter(f"{self.callsign}-{self._count}")
-            self._encounters[track] = encounter
+            self._encounters[look.track] = encounter
             if said == "tcas_ta":
-                yield self._alert(track, encounter, own, t_ns, "traffic, traffic")
-        changed = self._resolution(track, encounter, said, own, t_ns)
+                yield self._alert(look, encounter, "traffic, traffic")
+        if encounter.resolution is None:
+            changed = self._first_resolution(look) if said == "tcas_ra" else None
+        else:
+            has_responded = t_ns - encounter.changed_ns >= RESPONSE_S * SECOND_NS
+            changed = _changed(encounter.resolution, look) if has_responded else None
         if changed is not None:
             encounter.severity = Severity.WARNING
             encounter.resolution, encounter.changed_ns = changed, t_ns
-            yield self._alert(track, encounter, own, t_ns, _aural(changed, own))
-        elif self._is_over(track, encounter, said, own, t_ns):
-            yield from self._end(track)
+            yield self._alert(look, encounter, _aural(changed, look.own))
+        elif _is_over(encounter, look, said, t_ns):
+            yield from self._end(look.track)
 
-    def _resolution(
-        self,
-        track: IntruderTrack,
-        encounter: _Encounter,
-        said: tcas.Alert | None,
-        own: OwnState,
-        t_ns: int,
-    ) -> Resolution | None:
-        """Return a resolution advisory that is new or has changed; None if neither."""
-        present = encounter.resolution
-        if present is None:
-            return self._first_resolution(track, own, t_ns) if said == "tcas_ra" else None
-        has_responded = t_ns - encounter.changed_ns >= RESPONSE_S * SECOND_NS
-        if not has_responded or track.motion(t_ns).rate_m_s >= 0.0:
-            return None
-        encountered = (own.vertical, track.vertical(t_ns))
-        time_s, alim_m = self._time_s(track, own, t_ns), self._level(own).alim_m
-        if is_insufficient(*encountered, present, time_s, alim_m):
-            return _stronger(present, own)
-        if present.rate_m_s > 0.0 and may_weaken(*encountered, present.sense, time_s, alim_m):
-            return Resolution(present.sense, 0.0)
-        return None
-
-    def _said(self, track: IntruderTrack, own: OwnState, t_ns: int) -> tcas.Alert | None:
-        """Return the alert that thresholds, inhibits and the filter give now."""
-        if track.on_ground:
-            return None
-        intruder = track.vertical(t_ns)
-        gap_m = intruder.altitude_m - own.vertical.altitude_m
-        state = tcas.Own(own.vertical.altitude_m, own.height_m, own.height_m + gap_m)
-        gap_rate_m_s = intruder.rate_m_s - own.vertical.rate_m_s
-        said = tcas.alert_at(track.motion(t_ns), gap_m, gap_rate_m_s, state)
-        thresholds = self._level(own).resolution
-        if said == "tcas_ra" and self._filters_misses and thresholds is not None:
-            miss_m = math.sqrt(max(track.miss_distance_m() ** 2 - gap_m**2, 0.0))
-            return "tcas_ta" if miss_m > thresholds.dmod_m else said
-        return said
-
-    def _level(self, own: OwnState) -> tcas.SensitivityLevel:
-        return tcas.sensitivity_level(own.vertical.altitude_m, own.height_m)
-
-    def _first_resolution(self, track: IntruderTrack, own: OwnState, t_ns: int) -> Resolution:
-        """Choose the first resolution advisory, and coordinate it."""
+    def _first_resolution(self, look: _Look) -> Resolution:
         in_force = [
             other.resolution.sense
             for other in self._encounters.values()
             if other.resolution is not None and not other.is_over
         ]
-        required = self._coordination.required(self.icao24, track.icao24)
+        icao24 = look.track.icao24
+        told = None if icao24 is None else self._senses.get((icao24, self.icao24))
+        required = None if told is None else opposite(told)
         resolution = select(
-            own.vertical,
-            track.vertical(t_ns),
-            self._time_s(track, own, t_ns),
-            self._level(own).alim_m,
+            look.own,
+            look.intruder,
+            look.time_s,
+            look.level.alim_m,
             required=in_force[0] if in_force else required,
-            may_descend=own.height_m > NO_DESCENT_BELOW_M,
+            may_descend=look.height_m > NO_DESCENT_BELOW_M,
         )
-        if track.has_tcas and track.icao24 is not None:
-            self._coordination.tell(self.icao24, track.icao24, resolution.sense)
+        if look.track.has_tcas and icao24 is not None:
+            self._senses[self.icao24, icao24] = resolution.sense
         return resolution
 
-    def _is_over(
-        self,
-        track: IntruderTrack,
-        encounter: _Encounter,
-        said: tcas.Alert | None,
-        own: OwnState,
-        t_ns: int,
-    ) -> bool:
-        """Note whether anything is wrong now, and return whether nothing was for long enough.
-
-        A threat stays one while it closes within the limits by range, whatever its altitude: the
-        advisory itself opens the vertical distance.
-        """
-        motion, thresholds = track.motion(t_ns), self._level(own).resolution
-        if encounter.resolution is None:
-            hold_s, is_wrong = TRAFFIC_HOLD_S, said is not None
-        else:
-            hold_s = RESOLUTION_HOLD_S
-            is_wrong = thresholds is not None and tcas.range_test(motion, thresholds)
-        if is_wrong and motion.rate_m_s < 0.0:
-            encounter.calm_since_ns = None
-            return False
-        if encounter.calm_since_ns is None:
-            encounter.calm_since_ns = t_ns
-        return t_ns - encounter.calm_since_ns >= hold_s * SECOND_NS
-
     def _end(self, track: IntruderTrack) -> Iterator[Alert]:
-        """Yield the last alert about an intruder, if there was one before."""
         encounter = self._encounters.get(track)
-        self._coordination.withdraw(self.icao24, track.icao24)
+        if track.icao24 is not None:
+            self._senses.pop((self.icao24, track.icao24), None)
         if encounter is None or encounter.is_over:
             return
         encounter.is_over = True
@@ -288,23 +243,13 @@ class TcasUnit:
             active=False,
         )
 
-    def _time_s(self, track: IntruderTrack, own: OwnState, t_ns: int) -> float:
-        """Return the time to the closest approach that an advisory is modelled for."""
-        range_m, rate_m_s = track.motion(t_ns)
-        thresholds = self._level(own).resolution
-        most_s = 0.0 if thresholds is None else thresholds.tau_s
-        return min(range_m / -rate_m_s, most_s) if rate_m_s < 0.0 else 0.0
-
     def _traffic(self, track: IntruderTrack) -> tuple[str, ...]:
         return (self.callsign,) if track.icao24 is None else (self.callsign, track.icao24)
 
-    def _alert(
-        self, track: IntruderTrack, encounter: _Encounter, own: OwnState, t_ns: int, aural: str
-    ) -> Alert:
-        range_m, rate_m_s = track.motion(t_ns)
-        approach_s = range_m / -rate_m_s if rate_m_s < 0.0 else 0.0
-        gap_m = track.vertical(t_ns).at(approach_s) - own.vertical.at(approach_s)
-        resolution = encounter.resolution
+    def _alert(self, look: _Look, encounter: _Encounter, aural: str) -> Alert:
+        approach_s, resolution = look.approach_s, encounter.resolution
+        gap_m = look.intruder.at(approach_s) - look.own.at(approach_s)
+        advice = None if resolution is None else _recommendation(resolution, look)
         revision, encounter.revision = encounter.revision, encounter.revision + 1
         return Alert(
             id=encounter.id,
@@ -312,51 +257,70 @@ class TcasUnit:
             kind="loss_of_separation",
             severity=encounter.severity,
             recipients=(self.callsign,),
-            traffic=self._traffic(track),
+            traffic=self._traffic(look.track),
             evidence=Evidence(
                 sources=("tcas",),
                 time_to_closest_approach_s=approach_s,
                 vertical_at_closest_approach_m=abs(gap_m),
                 note=aural,
-                tracks=() if track.icao24 is None else (track.icao24,),
+                tracks=() if look.track.icao24 is None else (look.track.icao24,),
                 rules=("traffic_advisory" if resolution is None else "resolution_advisory",),
             ),
             finding=Announcement(aural),
-            recommendations=(
-                {} if resolution is None else {self.callsign: _recommendation(resolution, own)}
-            ),
+            recommendations={} if advice is None else {self.callsign: advice},
         )
 
 
-def _own_state(instruments: CockpitInstruments, t_ns: int) -> OwnState:
-    """Return the own state now, from the latest instruments."""
+def _own_state(instruments: CockpitInstruments, t_ns: int) -> tuple[Vertical, float]:
     elapsed_s = (t_ns - instruments.t_ns) / SECOND_NS
     rate_m_s = instruments.vertical_speed_fpm * FOOT_PER_MINUTE
     altitude_m = instruments.altitude_ft * FOOT + rate_m_s * elapsed_s
     height_ft = 0 if instruments.on_ground else instruments.radio_height_ft
-    return OwnState(
-        Vertical(altitude_m, rate_m_s),
-        math.inf if height_ft is None else height_ft * FOOT + rate_m_s * elapsed_s,
-    )
+    height_m = math.inf if height_ft is None else height_ft * FOOT + rate_m_s * elapsed_s
+    return Vertical(altitude_m, rate_m_s), height_m
 
 
-def _stronger(resolution: Resolution, own: OwnState) -> Resolution | None:
-    """Return the next stronger advisory of the same sense; None if there is none."""
-    sense, rate_m_s = resolution
-    if rate_m_s < RATE_M_S:
-        may_begin = sense == "climb" or own.height_m > NO_DESCENT_BELOW_M
-        return Resolution(sense, RATE_M_S) if may_begin else None
-    may_increase = sense == "climb" or own.height_m > NO_INCREASED_DESCENT_BELOW_M
-    if rate_m_s < INCREASED_RATE_M_S and may_increase:
-        return Resolution(sense, INCREASED_RATE_M_S)
+def _changed(present: Resolution, look: _Look) -> Resolution | None:
+    """Return a stronger or a weaker advisory of the same sense; None if the present one stays."""
+    if not look.is_closing:
+        return None
+    sense, rate_m_s = present
+    time_s, alim_m = look.time_s, look.level.alim_m
+    if is_insufficient(look.own, look.intruder, present, time_s, alim_m):
+        lowest_m = NO_DESCENT_BELOW_M if rate_m_s < RATE_M_S else NO_INCREASED_DESCENT_BELOW_M
+        stronger_m_s = RATE_M_S if rate_m_s < RATE_M_S else INCREASED_RATE_M_S
+        may_strengthen = sense == "climb" or look.height_m > lowest_m
+        is_more = rate_m_s < stronger_m_s
+        return Resolution(sense, stronger_m_s) if is_more and may_strengthen else None
+    if rate_m_s > 0.0 and may_weaken(look.own, look.intruder, sense, time_s, alim_m):
+        return Resolution(sense, 0.0)
     return None
 
 
-def _aural(resolution: Resolution, own: OwnState) -> str:
+def _is_over(encounter: _Encounter, look: _Look, said: tcas.Alert | None, t_ns: int) -> bool:
+    """Note whether anything is wrong now, and return whether nothing was for long enough.
+
+    A threat stays one while it closes within the limits by range, whatever its altitude: the
+    advisory itself opens the vertical distance.
+    """
+    if encounter.resolution is None:
+        hold_s, is_wrong = TRAFFIC_HOLD_S, said is not None
+    else:
+        hold_s, thresholds = RESOLUTION_HOLD_S, look.level.resolution
+        is_wrong = thresholds is not None and tcas.range_test(look.motion, thresholds)
+    if is_wrong and look.is_closing:
+        encounter.calm_since_ns = None
+        return False
+    if encounter.calm_since_ns is None:
+        encounter.calm_since_ns = t_ns
+    return t_ns - encounter.calm_since_ns >= hold_s * SECOND_NS
+
+
+def _aural(resolution: Resolution, own: Vertical) -> str:
     """Return the announcement of an advisory (FAA, Introduction to TCAS II, table 4)."""
     sense, rate_m_s = resolution
     if rate_m_s == 0.0:
-        is_level = abs(own.vertical.rate_m_s) < LEVEL_BELOW_M_S
+        is_level = abs(own.rate_m_s) < LEVEL_BELOW_M_S
         return "monitor vertical speed" if is_level else "level off, level off"
     if rate_m_s == INCREASED_RATE_M_S:
         word = "climb" if sense == "climb" else "descent"
@@ -364,9 +328,9 @@ def _aural(resolution: Resolution, own: OwnState) -> str:
     return f"{sense}, {sense}"
 
 
-def _recommendation(resolution: Resolution, own: OwnState) -> Recommendation:
+def _recommendation(resolution: Resolution, look: _Look) -> Recommendation:
     """Return what a crew is to fly: a level, because an autopilot is flown to one."""
-    altitude_m, rate_m_s = own.vertical
+    altitude_m, rate_m_s = look.own
     if resolution.rate_m_s == 0.0:
         if abs(rate_m_s) >= LEVEL_BELOW_M_S:
             stopping_s = RESPONSE_S + 0.5 * abs(rate_m_s) / ACCELERATION_M_S2
@@ -374,7 +338,7 @@ def _recommendation(resolution: Resolution, own: OwnState) -> Recommendation:
         return MaintainLevel(altitude_ft=_to_hundreds_ft(altitude_m))
     change_m = resolution.rate_m_s * ADVISED_FOR_S
     if resolution.sense == "descend":
-        change_m = -min(change_m, max(own.height_m - tcas.RESOLUTION_INHIBITED_BELOW_M, 0.0))
+        change_m = -min(change_m, max(look.height_m - tcas.RESOLUTION_INHIBITED_BELOW_M, 0.0))
     return Climb(
         sense=resolution.sense,
         altitude_ft=_to_hundreds_ft(altitude_m + change_m),

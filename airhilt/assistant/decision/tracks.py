@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 from airhilt.geodesy.relative_motion import VerticalProfile
 from airhilt.geodesy.wgs84 import displaced
 from airhilt.messages import AdsbReport
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
+
+if TYPE_CHECKING:
+    from airhilt.assistant.decision.service_messages import TrackSlice
 
 LEVEL_BELOW_M_S = 200 * FOOT_PER_MINUTE
 """Vertical rate, in m/s, below which flight counts as level: three quanta of ADS-B."""
@@ -55,18 +59,18 @@ class Track:
     """Id of the transmission with that announcement."""
 
     @classmethod
-    def of(cls, report: AdsbReport, altitude_ft: float) -> Track:
-        """Return the track of a first report."""
-        north, east = _velocity(report)
+    def of(cls, report: AdsbReport | TrackSlice, altitude_ft: float, t_ns: int) -> Track:
+        """Return the track of a first report, which is as of a time."""
+        speed, course = report.ground_speed_kt * KNOT, report.track_deg * DEGREE
         return cls(
             report.icao24,
             report.callsign or report.icao24,
-            report.t_adsb_in_ns,
+            t_ns,
             report.latitude_deg * DEGREE,
             report.longitude_deg * DEGREE,
             altitude_ft * FOOT,
-            north,
-            east,
+            speed * math.cos(course),
+            speed * math.sin(course),
             report.vertical_rate_fpm * FOOT_PER_MINUTE,
         )
 
@@ -74,17 +78,13 @@ class Track:
         """Update with a newer report; an older one is ignored."""
         if report.t_adsb_in_ns < self.t_ns:
             return
-        north, east = _velocity(report)
-        keep = VELOCITY_MEMORY
+        now = Track.of(report, altitude_ft, report.t_adsb_in_ns)
         self.callsign = report.callsign or self.callsign
-        self.t_ns = report.t_adsb_in_ns
-        self.latitude_rad = report.latitude_deg * DEGREE
-        self.longitude_rad = report.longitude_deg * DEGREE
-        self.altitude_m = altitude_ft * FOOT
-        self.velocity_north_m_s = keep * self.velocity_north_m_s + (1.0 - keep) * north
-        self.velocity_east_m_s = keep * self.velocity_east_m_s + (1.0 - keep) * east
-        rate = report.vertical_rate_fpm * FOOT_PER_MINUTE
-        self.vertical_rate_m_s = keep * self.vertical_rate_m_s + (1.0 - keep) * rate
+        self.t_ns, self.altitude_m = now.t_ns, now.altitude_m
+        self.latitude_rad, self.longitude_rad = now.latitude_rad, now.longitude_rad
+        self.velocity_north_m_s = _mean(self.velocity_north_m_s, now.velocity_north_m_s)
+        self.velocity_east_m_s = _mean(self.velocity_east_m_s, now.velocity_east_m_s)
+        self.vertical_rate_m_s = _mean(self.vertical_rate_m_s, now.vertical_rate_m_s)
         if not self._is_followed():
             self.cleared_m = None
 
@@ -117,22 +117,12 @@ class Track:
             self.velocity_east_m_s * elapsed,
             self.altitude_m,
         )
-        return Track(
-            self.icao24,
-            self.callsign,
-            t_ns,
-            latitude,
-            longitude,
-            self.profile().at(elapsed),
-            self.velocity_north_m_s,
-            self.velocity_east_m_s,
-            self.vertical_rate_m_s,
-            self.cleared_m,
-            self.cleared_ns,
-            self.in_distress,
-            self.descent_ns,
-            self.cleared_id,
-            self.descent_id,
+        return replace(
+            self,
+            t_ns=t_ns,
+            latitude_rad=latitude,
+            longitude_rad=longitude,
+            altitude_m=self.profile().at(elapsed),
         )
 
     @property
@@ -158,16 +148,14 @@ class Track:
             return VerticalProfile(self.altitude_m, steepest, EMERGENCY_LEVEL_M)
         if abs(rate) < LEVEL_BELOW_M_S:
             return VerticalProfile(self.altitude_m, 0.0)
-        if self.cleared_m is None:
-            return VerticalProfile(self.altitude_m, rate)
-        to_go_m = self.cleared_m - self.altitude_m
-        if to_go_m * rate > 0.0:
-            return VerticalProfile(self.altitude_m, rate, self.cleared_m)
-        if abs(to_go_m) <= LEVEL_WITHIN_M:
-            return VerticalProfile(self.altitude_m, 0.0)
+        if self.cleared_m is not None:
+            to_go_m = self.cleared_m - self.altitude_m
+            if to_go_m * rate > 0.0:
+                return VerticalProfile(self.altitude_m, rate, self.cleared_m)
+            if abs(to_go_m) <= LEVEL_WITHIN_M:
+                return VerticalProfile(self.altitude_m, 0.0)
         return VerticalProfile(self.altitude_m, rate)
 
 
-def _velocity(report: AdsbReport) -> tuple[float, float]:
-    speed, track = report.ground_speed_kt * KNOT, report.track_deg * DEGREE
-    return speed * math.cos(track), speed * math.sin(track)
+def _mean(before: float, now: float) -> float:
+    return VELOCITY_MEMORY * before + (1.0 - VELOCITY_MEMORY) * now

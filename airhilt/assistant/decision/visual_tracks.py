@@ -57,39 +57,24 @@ class SightConfig(Configuration):
 
 
 class Observation(NamedTuple):
-    """A thing in one picture.
-
-    Attributes
-    ----------
-    ray
-        Direction towards its middle.
-    size_rad
-        Width and height.
-    is_whole
-        True if all of it is in the picture.
-    """
+    """A thing in one picture."""
 
     t_ns: int
     geometry: PictureGeometry
     box: Box
     confidence: float
     ray: Ray
+    """Direction towards its middle."""
     size_rad: tuple[float, float]
+    """Width and height."""
     is_whole: bool
+    """True if all of it is in the picture."""
 
     @classmethod
     def of(cls, t_ns: int, geometry: PictureGeometry, box: Box, confidence: float) -> Observation:
         """Return the observation of a box in a picture."""
-        is_whole = not geometry.touches_edge(box)
-        return cls(
-            t_ns,
-            geometry,
-            box,
-            confidence,
-            geometry.middle(box),
-            geometry.angular_size(box),
-            is_whole,
-        )
+        ray, size_rad = geometry.middle(box), geometry.angular_size(box)
+        return cls(t_ns, geometry, box, confidence, ray, size_rad, not geometry.touches_edge(box))
 
 
 @dataclass(slots=True)
@@ -100,31 +85,20 @@ class _Look:
     confidence: float = 0.0
     pictures: int = 0
 
-    @property
-    def mean(self) -> float:
-        return self.confidence / self.pictures
-
 
 @dataclass(slots=True, eq=False)
 class VisualTrack:
-    """Something that one camera follows.
-
-    Attributes
-    ----------
-    explained_by
-        Callsign that it has by ADS-B; None if it is unknown.
-    has_moved
-        True if it has moved, or its camera moves.
-    heard_ns
-        Time at which the last picture that shows it arrived, however old that was.
-    """
+    """Something that one camera follows."""
 
     camera: str
     first_ns: int
     observations: deque[Observation] = field(default_factory=deque)
     explained_by: str | None = None
+    """Callsign that it has by ADS-B; None if it is unknown."""
     has_moved: bool = False
+    """True if it has moved, or its camera moves."""
     heard_ns: int = 0
+    """Time at which the last picture that shows it arrived, however old that was."""
     _first_box: Box | None = None
     _explained_ns: int = 0
     _looks: deque[_Look] = field(default_factory=lambda: deque(maxlen=LOOKS + 1))
@@ -164,17 +138,12 @@ class VisualTrack:
         return sum(means) / len(means) if means else 0.0
 
     def _means(self) -> list[float]:
-        return [look.mean for look in list(self._looks)[:-1]]
+        return [look.confidence / look.pictures for look in list(self._looks)[:-1]]
 
     @property
     def is_doubtful(self) -> bool:
         """True if the belief has fallen so low that it is forgotten."""
         return len(self._looks) > 1 and self.belief < DOUBT
-
-    @property
-    def age_ns(self) -> int:
-        """Time between the first and the last picture that showed it, in ns."""
-        return self.last.t_ns - self.first_ns
 
     def take(self, observation: Observation, label: VisibleClass, explained_by: str | None) -> None:
         """Update with a picture that shows it."""
@@ -185,17 +154,14 @@ class VisualTrack:
         while observation.t_ns - self.observations[0].t_ns > OBSERVED_NS:
             self.observations.popleft()
         self._votes[label] += observation.confidence
-        self._look(observation.t_ns, observation.confidence)
+        self.look(observation.t_ns, observation.confidence)
         if explained_by is not None:
             self.explained_by, self._explained_ns = explained_by, observation.t_ns
         elif observation.t_ns - self._explained_ns > EXPLAINED_NS:
             self.explained_by = None
 
-    def miss(self, t_ns: int) -> None:
-        """Update with a picture that does not show it."""
-        self._look(t_ns, 0.0)
-
-    def _look(self, t_ns: int, confidence: float) -> None:
+    def look(self, t_ns: int, confidence: float = 0.0) -> None:
+        """Update its looks with a picture that shows it with a confidence; 0: it does not."""
         if not self._looks or t_ns - self._looks[-1].begun_ns >= LOOK_NS:
             self._looks.append(_Look(t_ns))
         self._looks[-1].confidence += confidence
@@ -228,7 +194,7 @@ class VisualTracks:
             return False
         if len({track.camera for track in together}) >= self.config.cameras:
             return True
-        longest_ns = max(track.age_ns for track in together)
+        longest_ns = max(track.last.t_ns - track.first_ns for track in together)
         return longest_ns >= self.config.persistence_s * SECOND_NS
 
     def take_briefing(self, briefing: Briefing) -> None:
@@ -261,7 +227,7 @@ class VisualTracks:
             found[number] = track
         for number, track in followed.items():
             if number not in found:
-                track.miss(t_ns)
+                track.look(t_ns)
                 if not track.is_doubtful:
                     found[number] = track
         self._tracks[detections.camera] = found
@@ -293,7 +259,6 @@ class VisualTracks:
 
 
 def _shift(before: Box, now: Box, sizes: float, pixels: float) -> float:
-    """Return the movement of a box, in units of so many of its sizes and pixels."""
     x = (now[0] + now[2] - before[0] - before[2]) / 2.0
     y = (now[1] + now[3] - before[1] - before[3]) / 2.0
     size_px = max(before[2] - before[0], before[3] - before[1])

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
-from pydantic import TypeAdapter, ValidationError
+from pydantic import TypeAdapter
 
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import (
@@ -16,7 +16,7 @@ from airhilt.assistant.decision.engine import (
 )
 from airhilt.assistant.decision.fusion import FusionGate
 from airhilt.assistant.wording.engine import AdvisoryWording, words
-from airhilt.errors import WorkerError, first_problem, shown
+from airhilt.errors import WorkerError
 from airhilt.messages import (
     ADVISORY_CALL,
     AdsbReport,
@@ -28,7 +28,6 @@ from airhilt.messages import (
     InputSpec,
     Message,
     ModelExchange,
-    PartialTranscript,
     RadarInfo,
     RadarPlot,
     Status,
@@ -36,9 +35,6 @@ from airhilt.messages import (
     TcasReply,
     Transcript,
     Transmission,
-    TransmissionChunk,
-    TransmissionClosed,
-    TransmissionOpened,
     WorkerDescription,
 )
 from airhilt.sim.worker import Input, Output
@@ -59,17 +55,6 @@ KEYS: dict[type[Message], str] = {
     Status: "status/*",
 }
 """The key of each message that an engine may read by its class alone."""
-CALLS = (
-    Transcript,
-    PartialTranscript,
-    Transmission,
-    TransmissionOpened,
-    TransmissionChunk,
-    TransmissionClosed,
-)
-"""Messages about a transmission."""
-GATE_READS = (Transcript, Transmission, Status)
-"""Messages that tell that a transcript is to come, has come, or will not come."""
 
 
 class DecisionWorker:
@@ -83,8 +68,7 @@ class DecisionWorker:
     Raises
     ------
     WorkerError
-        The engine wants truth, or messages without saying on which key they are, or takes those
-        of a key for others.
+        The engine wants truth, or messages without saying on which key they are.
     """
 
     def __init__(
@@ -106,9 +90,11 @@ class DecisionWorker:
         self._wording = wording
         self._gate = FusionGate() if is_gated else None
         read: dict[str, Any] = {key: model for model, key in KEYS.items() if model in engine.reads}
-        read |= _named_by(engine)
+        if isinstance(engine, NamesInputs):
+            read |= engine.inputs
         self._read = frozenset(read)
-        gating = {KEYS[model]: model for model in GATE_READS} if is_gated else {}
+        gates = (Transcript, Transmission, Status) if is_gated else ()
+        gating = {KEYS[model]: model for model in gates}
         self._models: dict[str, TypeAdapter[Message]] = {
             key: TypeAdapter(model) for key, model in (read | gating).items()
         }
@@ -120,19 +106,15 @@ class DecisionWorker:
             inputs=tuple(InputSpec(key=key, policy="batch") for key in self._models),
             latency=DeclaredLatency(median_s=0.15, sigma=0.3),
             engine=engine.name,
-            configuration=_configuration(engine),
+            configuration=engine.configuration.model_dump(mode="json")
+            if isinstance(engine, HasConfiguration)
+            else {},
         )
         for wanted in self.description.inputs:
             require_open_key(name, wanted.key)
 
     def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:
-        """Give the engine what has arrived, and publish what has changed.
-
-        Raises
-        ------
-        WorkerError
-            An input is not what belongs on its key.
-        """
+        """Give the engine what has arrived, and publish what has changed."""
         for item in inputs:
             self._give(t_ns, item)
         if self._gate is not None:
@@ -143,61 +125,39 @@ class DecisionWorker:
         decision = self._engine.decide(t_ns)
         worded = words(self._wording, decision.alerts)
         advisories = (
-            advisory
+            self._advisory(alert, recipient, worded.messages[alert.id, recipient], t_ready_ns)
             for alert in decision.alerts
-            for advisory in self._advisories(alert, worded.messages, t_ready_ns)
+            for recipient in alert.recipients
         )
-        return Step(
-            (
-                *(
-                    Output(f"advisory/{advisory.recipient}", advisory.model_dump_json().encode())
-                    for advisory in advisories
-                ),
-                *self._answers([*decision.exchanges, *worded.exchanges]),
-            ),
-            wake_ns=decision.again_ns,
-        )
+        told = [
+            Output(f"advisory/{each.recipient}", each.model_dump_json().encode())
+            for each in advisories
+        ]
+        answers = self._answers([*decision.exchanges, *worded.exchanges])
+        return Step((*told, *answers), wake_ns=decision.again_ns)
 
     def _give(self, t_ns: int, item: Input) -> None:
-        """Give one input to the gate and to the engine, as far as they read it."""
         pattern = self._patterns.get(item.key)
         if pattern is None:
             pattern = next(pattern for pattern in self._models if is_match(item.key, pattern))
             self._patterns[item.key] = pattern
-        message = _parse(item, self._models[pattern])
-        if isinstance(message, CALLS) and message.id.startswith(ADVISORY_CALL):
+        model, header = self._models[pattern], item.attachment
+        message = (
+            model.validate_json(item.payload) if header is None else model.validate_python(header)
+        )
+        if str(getattr(message, "id", "")).startswith(ADVISORY_CALL):
             return  # It knows what it has said itself.
         if self._gate is not None:
             self._gate.receive(message)
         if pattern in self._read:
-            raw = b"" if item.attachment is None else item.payload
+            raw = b"" if header is None else item.payload
             self._engine.receive(ReceivedMessage(message, item.t_in_ns, t_ns, raw))
 
     def _answers(self, exchanges: Sequence[ModelExchange]) -> Iterator[Output]:
-        """Yield what a language model was asked and answered, under the ids of the advisories."""
         for exchange in exchanges:
             ids = tuple(f"{self._name}-{each}" for each in exchange.advisories)
             named = exchange.model_copy(update={"advisories": ids})
             yield Output(f"llm/{self._name}", named.model_dump_json().encode())
-
-    def _advisories(
-        self, alert: Alert, messages: Mapping[tuple[str, str], str], t_ready_ns: int
-    ) -> Iterator[Advisory]:
-        """Yield the advisory for each recipient.
-
-        Raises
-        ------
-        WorkerError
-            The alert is none that can be published.
-        """
-        try:
-            for recipient in alert.recipients:
-                yield self._advisory(alert, recipient, messages[alert.id, recipient], t_ready_ns)
-        except ValidationError as error:
-            raise WorkerError(
-                f"assistant {self._engine.name!r} gave an alert {shown(alert.id)} that makes no "
-                f"Advisory: {first_problem(error)}; see `airhilt schema`"
-            ) from None
 
     def _advisory(self, alert: Alert, recipient: str, message: str, t_ready_ns: int) -> Advisory:
         return Advisory(
@@ -214,38 +174,3 @@ class DecisionWorker:
             evidence=alert.evidence,
             t_ready_ns=t_ready_ns if alert.t_ready_ns is None else alert.t_ready_ns,
         )
-
-
-def _configuration(engine: DecisionEngine) -> dict[str, Any]:
-    """Return the configuration of an engine, whole; empty if it has none."""
-    if not isinstance(engine, HasConfiguration):
-        return {}
-    return engine.configuration.model_dump(mode="json")
-
-
-def _named_by(engine: DecisionEngine) -> dict[str, Any]:
-    """Return the inputs that an engine names by their keys; none if it names none.
-
-    Raises
-    ------
-    WorkerError
-        It takes the messages of a key for others.
-    """
-    named = dict(engine.inputs) if isinstance(engine, NamesInputs) else {}
-    for model, key in KEYS.items():
-        if named.get(key, model) is not model:
-            raise WorkerError(
-                f"assistant {engine.name!r}: input {key!r}: expected {model.__name__}"
-            )
-    return named
-
-
-def _parse(item: Input, model: TypeAdapter[Message]) -> Message:
-    try:
-        if item.attachment is not None:
-            return model.validate_python(item.attachment)
-        return model.validate_json(item.payload)
-    except ValidationError as error:
-        raise WorkerError(
-            f"{item.key}: no {error.title}: {first_problem(error)}; see `airhilt schema`"
-        ) from None

@@ -14,7 +14,6 @@ class Enhancer(Protocol):
     @property
     def name(self) -> str:
         """Short name, in messages and tables."""
-        ...
 
     def enhance(self, audio: Audio) -> Audio:
         """Return the audio with less noise, of the same length, 16 kHz.
@@ -24,4 +23,3 @@ class Enhancer(Protocol):
         airhilt.errors.SpeechError
             The engine has failed.
         """
-        ...

@@ -6,9 +6,7 @@ import hashlib
 from collections.abc import Sequence
 
 from airhilt.assistant.enhancement.engine import Enhancer
-from airhilt.assistant.received_audio import pcm_to_audio
-from airhilt.audio.pcm import to_pcm
-from airhilt.errors import SpeechError
+from airhilt.audio.pcm import from_pcm, to_pcm
 from airhilt.messages import (
     DeclaredLatency,
     EnhancedTransmission,
@@ -33,27 +31,14 @@ class EnhancementWorker:
         )
 
     def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:  # noqa: ARG002
-        """Enhance the transmissions that have arrived.
-
-        Raises
-        ------
-        SpeechError
-            The engine has failed, or the audio is not what its header says.
-        """
+        """Enhance the transmissions that have arrived."""
         return Step(tuple(output for item in inputs if (output := self._take(item)) is not None))
 
     def _take(self, item: Input) -> Output | None:
         header = Transmission.model_validate(item.attachment)
         if not header.samples and not item.payload:
             return None  # In a run without sound, its words arrive as text.
-        audio = pcm_to_audio(header, item.payload)
-        enhanced = self._engine.enhance(audio)
-        if enhanced.shape != audio.shape:
-            raise SpeechError(
-                f"enhancer {self._engine.name}: made {len(enhanced)} samples of {len(audio)}; "
-                "expected as many"
-            )
-        pcm = to_pcm(enhanced)
+        pcm = to_pcm(self._engine.enhance(from_pcm(item.payload)))
         result = EnhancedTransmission(
             id=header.id,
             frequency_khz=header.frequency_khz,

@@ -1,5 +1,1 @@
-"""The reference TTS worker: advisories in, the assistant's voice out."""
-
-from airhilt.assistant.tts.worker import TtsWorker
-
-__all__ = ["TtsWorker"]
+"""Speech synthesis of the assistant: advisories in, its voice out."""

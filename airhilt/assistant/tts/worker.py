@@ -33,8 +33,6 @@ class TtsWorker:
     ----------
     speak_min_level
         Least severity that is spoken.
-    style
-        Style in which numbers are said.
     """
 
     def __init__(
@@ -57,14 +55,10 @@ class TtsWorker:
 
     def step(self, t_ns: int, inputs: Sequence[Input]) -> Step:  # noqa: ARG002
         """Speak the advisories that are active and urgent enough."""
+        least = self._speak_min_level.rank
         advisories = (Advisory.model_validate_json(item.payload) for item in inputs)
-        return Step(
-            tuple(self._speak(advisory) for advisory in advisories if self.speaks(advisory))
-        )
-
-    def speaks(self, advisory: Advisory) -> bool:
-        """Return whether an advisory is active and urgent enough."""
-        return advisory.active and advisory.severity.rank >= self._speak_min_level.rank
+        urgent = (each for each in advisories if each.active and each.severity.rank >= least)
+        return Step(tuple(map(self._speak, urgent)))
 
     def _speak(self, advisory: Advisory) -> Output:
         text = read_aloud(advisory.message, advisory.recipient, self._style)

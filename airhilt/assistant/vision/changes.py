@@ -63,11 +63,14 @@ def windows_about(blocks: Blocks, boxes: Sequence[Box], rows: int, columns: int)
             waiting.append(_about([window, *met, *cut]))
         else:
             windows.append(window)
-    return [_tile(window, rows, columns) for window in windows]
+    return [
+        Tile(top, left, bottom - top, right - left)
+        for window in windows
+        for left, top, right, bottom in [map(round, within(window, columns, rows))]
+    ]
 
 
 def _inside(changed: slice, blocks: int) -> tuple[float, float]:
-    """Return begin and end of a window along a side of the picture, in pixels."""
     first, end = changed.start - MARGIN_BLOCKS, changed.stop + MARGIN_BLOCKS
     back, on = max(end - blocks, 0), max(-first, 0)
     return max(first - back, 0) * GRID_PX, min(end + on, blocks) * GRID_PX
@@ -83,8 +86,3 @@ def _about(boxes: Sequence[Box], margin_px: float = 0.0) -> Box:
         math.ceil(right / GRID_PX) * GRID_PX,
         math.ceil(bottom / GRID_PX) * GRID_PX,
     )
-
-
-def _tile(window: Box, rows: int, columns: int) -> Tile:
-    left, top, right, bottom = map(round, within(window, columns, rows))
-    return Tile(top, left, bottom - top, right - left)

@@ -31,25 +31,17 @@ class Found(NamedTuple):
 
 
 class Shot(NamedTuple):
-    """Origin of a picture that a detector is given.
-
-    Attributes
-    ----------
-    camera
-        Name of the camera.
-    t_frame_ns
-        End of the exposure.
-    left, top
-        Place of the picture in that of the camera, in pixels: not 0 for a tile of a big picture.
-    own_aircraft
-        Mask of the pixels that the camera's own aircraft may cover; None if there are none.
-    """
+    """Origin of a picture that a detector is given."""
 
     camera: str
+    """Name of the camera."""
     t_frame_ns: int
+    """End of the exposure."""
     left: int = 0
+    """Left edge of the picture in that of the camera, in pixels: not 0 for a tile."""
     top: int = 0
     own_aircraft: Mask | None = None
+    """Mask of the pixels that the camera's own aircraft may cover; None if there are none."""
 
 
 class PictureMissed(VisionError):
@@ -63,12 +55,10 @@ class Detector(Protocol):
     @property
     def name(self) -> str:
         """Name in ``Detections.engine``."""
-        ...
 
     @property
     def threshold(self) -> float:
         """Confidence from which a finding counts by itself; others only continue tracks."""
-        ...
 
     def detect(self, picture: Picture) -> Sequence[Found]:
         """Return what is in a picture, by falling confidence.
@@ -80,7 +70,6 @@ class Detector(Protocol):
         airhilt.errors.VisionError
             The detector has failed for good.
         """
-        ...
 
 
 @runtime_checkable
@@ -89,7 +78,6 @@ class DetectsShots(Protocol):
 
     def detect_shot(self, picture: Picture, shot: Shot) -> Sequence[Found]:
         """Return what is in a picture; it raises what `Detector.detect` does."""
-        ...
 
 
 def once(found: Sequence[Found]) -> list[Found]:

@@ -11,20 +11,17 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Sequence
-from typing import NamedTuple, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, NamedTuple, Protocol, runtime_checkable
+
+import numpy as np
 
 from airhilt.assistant.vision.changes import changed_blocks, windows_about
-from airhilt.assistant.vision.detector import (
-    Detector,
-    DetectsShots,
-    Found,
-    Picture,
-    Shot,
-    once,
-)
-from airhilt.assistant.vision.kept_pixels import KeptPixels, SeenPicture
+from airhilt.assistant.vision.detector import Detector, DetectsShots, Found, Picture, Shot, once
 from airhilt.assistant.vision.tiling import Tile, merged, pieces_of, tiles_of
 from airhilt.imaging.boxes import centre, shared_area
+
+if TYPE_CHECKING:
+    from airhilt.assistant.vision.shared_looks import SharedLooks
 
 MOST_IN_WINDOWS = 0.5
 """Share of a tile in windows above which the detector looks at the whole tile."""
@@ -39,7 +36,6 @@ class SeesParts(Detector, Protocol):
 
         It raises what `Detector.detect` does.
         """
-        ...
 
 
 class Look(NamedTuple):
@@ -49,26 +45,81 @@ class Look(NamedTuple):
     found: tuple[Found, ...]
 
 
-class Looks(Protocol):
-    """Looks that may have been taken before."""
-
-    def get(self, history: str, tile: Tile, shape: Sequence[int], look: Callable[[], Look]) -> Look:
-        """Return a look: see `airhilt.assistant.vision.shared_looks.SharedLooks`."""
-        ...
-
-
 class _Looked(NamedTuple):
-    """State of a tile when its parts were last looked at.
-
-    Attributes
-    ----------
-    history
-        Hash of the pictures that it depends on.
-    """
+    """State of a tile when its parts were last looked at."""
 
     history: str
+    """Hash of the pictures that it depends on."""
     pixels: KeptPixels
     found: tuple[Found, ...]
+
+
+class SeenPicture(NamedTuple):
+    """A picture that a camera has sent."""
+
+    shape: tuple[int, int, int]
+    """Rows, columns and 3 colours."""
+    sha256: str
+    """SHA-256 of the pixels; empty if nobody asks for it."""
+    read: Callable[[], Picture]
+    """Returns the pixels."""
+    is_made: bool = True
+    """True if the pixels are there to be read, False if reading makes them."""
+
+    @classmethod
+    def of(cls, pixels: Picture) -> SeenPicture:
+        """Return the picture of these pixels, which may change later."""
+        rows, columns, colours = pixels.shape
+        kept = pixels.copy()
+        return cls((rows, columns, colours), "", lambda: kept)
+
+
+class _Layer(NamedTuple):
+    """Windows of a tile that show one picture."""
+
+    read: Callable[[], Picture]
+    windows: Sequence[Tile]
+
+
+class KeptPixels:
+    """A tile as it was when its parts were last looked at, first in a whole picture."""
+
+    def __init__(self, tile: Tile, picture: SeenPicture) -> None:
+        self._tile = tile
+        self._whole = Tile(0, 0, tile.height, tile.width)
+        self._layers: list[_Layer] = []
+        self.add(picture, [self._whole])
+
+    def add(self, picture: SeenPicture, windows: Sequence[Tile]) -> None:
+        """Put windows of a later picture over what there is."""
+        tile = self._tile
+        self._layers.append(_Layer(lambda: tile.of(picture.read()), windows))
+        if picture.is_made:
+            self.read()
+
+    def read(self) -> Picture:
+        """Return the pixels; they must not be written to."""
+        if len(self._layers) > 1:
+            pixels = np.empty((self._whole.height, self._whole.width, 3), dtype=np.uint8)
+            for layer in self._seen_layers():
+                shown = layer.read()
+                for window in layer.windows:
+                    window.of(pixels)[...] = window.of(shown)
+            self._layers = [_Layer(lambda: pixels, [self._whole])]
+        return self._layers[0].read()
+
+    def _seen_layers(self) -> list[_Layer]:
+        """Return the layers that later ones do not cover, the oldest first."""
+        free = np.ones((self._whole.height, self._whole.width), dtype=bool)
+        seen = []
+        for layer in reversed(self._layers):
+            if any(window.of(free).any() for window in layer.windows):
+                seen.append(layer)
+                for window in layer.windows:
+                    window.of(free)[...] = False
+            if not free.any():
+                break
+        return seen[::-1]
 
 
 class Gate:
@@ -82,19 +133,13 @@ class Gate:
         Looks that runs share, of pictures with a SHA-256; None if each is taken anew.
     """
 
-    def __init__(self, detector: Detector, looks: Looks | None = None) -> None:
+    def __init__(self, detector: Detector, looks: SharedLooks | None = None) -> None:
         self._detector = detector
         self._looks = looks
         self._looked: dict[tuple[str, Tile], _Looked] = {}
 
     def look(self, shot: Shot, picture: Picture) -> list[Found]:
-        """Return what is in the next picture of a camera, by falling confidence.
-
-        Raises
-        ------
-        airhilt.errors.VisionError
-            The detector has failed.
-        """
+        """Return what is in the next picture of a camera, by falling confidence."""
         return self.look_at(shot, SeenPicture.of(picture))
 
     def look_at(self, shot: Shot, picture: SeenPicture) -> list[Found]:
@@ -110,7 +155,6 @@ class Gate:
         ])  # fmt: skip
 
     def _look_at(self, shot: Shot, tile: Tile, picture: SeenPicture) -> tuple[Found, ...]:
-        """Return what is in a tile, with boxes as they are in it."""
         last = self._looked.get((shot.camera, tile))
         history = _history("" if last is None else last.history, picture.sha256)
 
@@ -122,7 +166,7 @@ class Gate:
             look = take()
         else:
             look = self._looks.get(history, tile, picture.shape, take)
-        if last is None or look.windows == (_whole(tile),):
+        if last is None or look.windows == (Tile(0, 0, tile.height, tile.width),):
             history = _history("", picture.sha256)  # What was before has no part in it any more.
             last = _Looked(history, KeptPixels(tile, picture), look.found)
         elif look.windows:
@@ -159,31 +203,18 @@ class Gate:
         return Look(tuple(windows), tuple(_together(last.found, seen, windows)))
 
 
-def _whole(tile: Tile) -> Tile:
-    return Tile(0, 0, tile.height, tile.width)
-
-
 def _history(before: str, sha256: str) -> str:
-    """Return the hash of some pictures and one more."""
     return hashlib.sha256(f"{before} {sha256}".encode()).hexdigest()
 
 
 def _part(shot: Shot, tile: Tile) -> Shot:
-    """Return the origin of a tile."""
-    mask = shot.own_aircraft
-    return shot._replace(
-        left=tile.left,
-        top=tile.top,
-        own_aircraft=None
-        if mask is None
-        else mask[tile.top : tile.top + tile.height, tile.left : tile.left + tile.width],
-    )
+    mask = None if shot.own_aircraft is None else tile.of(shot.own_aircraft)
+    return shot._replace(left=tile.left, top=tile.top, own_aircraft=mask)
 
 
 def _together(
     before: Sequence[Found], seen: Sequence[Found], windows: Sequence[Tile]
 ) -> list[Found]:
-    """Return what is seen in windows and what was outside of them, by falling confidence."""
     outside = [
         one for one in before if not any(shared_area(one.box, window.box) for window in windows)
     ]

@@ -15,12 +15,11 @@ from typing import Annotated
 
 import numpy as np
 import numpy.typing as npt
-import onnxruntime
 from pydantic import BaseModel, ConfigDict, Field
 
 from airhilt.assistant.vision.detector import Found, Picture
 from airhilt.errors import VisionError, first_line
-from airhilt.host.onnx import open_network, require_end
+from airhilt.host.onnx import open_network
 from airhilt.imaging.boxes import centre, sides, size_px
 from airhilt.messages import Box, Confidence, VisibleClass
 
@@ -64,13 +63,11 @@ class Refiner:
         Folder of the card.
     classes
         Classes in the order of the network's probabilities.
-    threads
-        Number of threads that share the work.
 
     Raises
     ------
     VisionError
-        The file is missing, or is not what it must be, or its network never ends.
+        The file is missing, or is not what it must be.
     """
 
     def __init__(
@@ -84,19 +81,21 @@ class Refiner:
         self._card, self._classes = card, classes
         self._subject = f"refiner {path}, which the card beside it names"
         self._network = open_network(path, self._subject, EXPECTED, VisionError, threads)
-        _require_shapes(self._network, self._subject, len(classes))
-        views = np.zeros((1, 2, VIEW_PX, VIEW_PX, 3), np.uint8)
-        inputs = {"views": views, "about": np.zeros((1, 3), np.float32)}
-        require_end(self._network, inputs, self._subject, VisionError)
+        both = (*self._network.get_inputs(), *self._network.get_outputs())
+        expected = {
+            "views": ("tensor(uint8)", [2, VIEW_PX, VIEW_PX, 3]),
+            "about": ("tensor(float)", [3]),
+            "chances": ("tensor(float)", [1 + len(classes)]),
+            "moves": ("tensor(float)", [4]),
+        }
+        if {each.name: (each.type, each.shape[1:]) for each in both} != expected:
+            told = ", ".join(f"{each.name!r} {each.type} {each.shape}" for each in both)
+            raise VisionError(
+                f"{self._subject} has {told}; expected {EXPECTED}, and {len(classes)} classes"
+            )
 
     def places(self, found: Sequence[Found], pixels: int) -> list[Found]:
-        """Return the findings of the first network that are looked at, by falling score.
-
-        Parameters
-        ----------
-        pixels
-            Number of pixels of the picture.
-        """
+        """Return the findings that are looked at in a picture of so many pixels."""
         most = math.ceil(self._card.most * max(pixels / USUAL_PIXELS, 1.0))
         return [each for each in found if each.confidence >= self._card.least_score][:most]
 
@@ -104,11 +103,6 @@ class Refiner:
         """Return the likeliest class at each place, and its probability, in the order of places.
 
         Boxes may reach beyond the picture.
-
-        Raises
-        ------
-        VisionError
-            The network has failed.
         """
         if not places:
             return []
@@ -118,13 +112,6 @@ class Refiner:
             chances, moves = self._network.run(["chances", "moves"], inputs)
         except Exception as error:  # onnxruntime raises classes of its own that share no base
             raise VisionError(f"{self._subject} has failed: {first_line(error)}") from None
-        if not (len(chances) == len(moves) == len(places)):
-            raise VisionError(
-                f"{self._subject} answers for {len(chances)} and {len(moves)} places; expected "
-                f"{len(places)}"
-            )
-        if not (np.isfinite(chances).all() and np.isfinite(moves).all()):
-            raise VisionError(f"{self._subject} answers numbers that are not finite")
         of_class = chances[:, 1:]
         return [
             Found(self._classes[label], float(each[label]), refined(box, move))
@@ -171,19 +158,6 @@ def refined(box: Box, moves: npt.NDArray[np.floating]) -> Box:
     return column - width, row - height, column + width, row + height
 
 
-def moves_to(box: Box, other: Box) -> tuple[float, float, float, float]:
-    """Return the moves by which a box becomes another; see `refined`."""
-    (column, row), (column_, row_) = centre(box), centre(other)
-    longest = max(size_px(box), 1.0)
-    (width, height), (width_, height_) = sides(box), sides(other)
-    return (
-        (column_ - column) / longest,
-        (row_ - row) / longest,
-        math.log(width_ / width),
-        math.log(height_ / height),
-    )
-
-
 def views_of(picture: Picture, boxes: Sequence[Box]) -> Views:
     """Return a near and a wide view of each place, shape (n, 2, `VIEW_PX`, `VIEW_PX`, 3).
 
@@ -218,24 +192,3 @@ def _taps(
     part = np.where(step > 1.0, 0.5, middle - 0.5 - first)
     places = np.stack((first, second), axis=-1).reshape(*start.shape, 2 * VIEW_PX)
     return places.clip(0, size - 1).astype(np.intp), np.rint(PARTS * part).astype(np.uint16)
-
-
-def _require_shapes(network: onnxruntime.InferenceSession, subject: str, classes: int) -> None:
-    """Raise an error if a network takes or gives something else.
-
-    Raises
-    ------
-    VisionError
-        It does.
-    """
-    both = (*network.get_inputs(), *network.get_outputs())
-    found = {each.name: (each.type, each.shape[1:]) for each in both}
-    expected = {
-        "views": ("tensor(uint8)", [2, VIEW_PX, VIEW_PX, 3]),
-        "about": ("tensor(float)", [3]),
-        "chances": ("tensor(float)", [1 + classes]),
-        "moves": ("tensor(float)", [4]),
-    }
-    if found != expected or any(isinstance(each.shape[0], int) for each in both):
-        told = ", ".join(f"{each.name!r} {each.type} {each.shape}" for each in both)
-        raise VisionError(f"{subject} has {told}; expected {EXPECTED}, and {classes} classes")

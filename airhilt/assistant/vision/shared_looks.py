@@ -32,7 +32,6 @@ class Reproducible(SeesParts, Protocol):
     @property
     def identity(self) -> Sequence[str]:
         """SHA-256 of its files, and names and versions of its libraries."""
-        ...
 
 
 class SharedLooks:
@@ -43,15 +42,7 @@ class SharedLooks:
         self._identity = [_code(), *detector.identity, np.__version__, processor_sha256()]
 
     def get(self, history: str, tile: Tile, shape: Sequence[int], look: Callable[[], Look]) -> Look:
-        """Return a look, which is taken if nobody has taken it before.
-
-        Parameters
-        ----------
-        history
-            Hash of the pictures of the camera that a look depends on.
-        shape
-            Shape of the picture.
-        """
+        """Return a look, which is taken if nobody has after pictures with the same hash."""
         key = json.dumps([*self._identity, history, tile, shape])
         windows, found = json.loads(self._folder.get(key, lambda: json.dumps(look()).encode()))
         return Look(

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from itertools import product
-from typing import NamedTuple
+from typing import NamedTuple, TypeVar
 
-from airhilt.assistant.vision.detector import GRID_PX, SAME_OVERLAP, Found, Picture
+import numpy as np
+import numpy.typing as npt
+
+from airhilt.assistant.vision.detector import GRID_PX, SAME_OVERLAP, Found
 from airhilt.imaging.boxes import moved, overlap, share_of_smaller
 from airhilt.messages import Box
 
@@ -19,6 +22,9 @@ SAME_SHARE = 0.7
 EDGE_PX = 1.0
 
 
+Pixel = TypeVar("Pixel", bound=np.generic)
+
+
 class Tile(NamedTuple):
     """A part of a picture, in pixels."""
 
@@ -27,7 +33,7 @@ class Tile(NamedTuple):
     height: int
     width: int
 
-    def of(self, picture: Picture) -> Picture:
+    def of(self, picture: npt.NDArray[Pixel]) -> npt.NDArray[Pixel]:
         """Return the pixels of the part."""
         return picture[self.top : self.top + self.height, self.left : self.left + self.width]
 

@@ -12,7 +12,6 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -20,7 +19,7 @@ from scipy.optimize import linear_sum_assignment
 
 from airhilt.assistant.vision.detector import Found
 from airhilt.imaging.pinhole import Pinhole
-from airhilt.messages import CONFIRMED_HITS, CameraView, VisibleClass
+from airhilt.messages import CONFIRMED_HITS, CameraView, Detection, VisibleClass
 from airhilt.units import SECOND_NS
 
 Array = npt.NDArray[np.float64]
@@ -44,30 +43,15 @@ SOON_S = 1e-3
 NEVER = 1e6
 
 
-class Tracked(NamedTuple):
-    """A finding that belongs to a track."""
-
-    found: Found
-    """The finding; its label is the one that the track had most, weighted by confidence."""
-    track_id: int
-    hits: int
-
-
 @dataclass
 class _Track:
-    """One thing: middle and sides of its box in pixels, each with its rate in pixels per second.
-
-    Attributes
-    ----------
-    state
-        Values and rates of column, row, width and height; shape (4, 2).
-    covariance
-        Covariance of each value and its rate; shape (4, 2, 2).
-    """
+    """One thing: middle and sides of its box in pixels, each with its rate in pixels per second."""
 
     id: int
     state: Array
+    """Values and rates of column, row, width and height; shape (4, 2)."""
     covariance: Array
+    """Covariance of each value and its rate; shape (4, 2, 2)."""
     found_ns: int
     hits: int = 1
     misses: int = 0
@@ -87,16 +71,13 @@ class _Track:
 
     @property
     def side(self) -> float:
-        """Side of a square with the area of the box, in pixels."""
         return _side(self.state[:, 0])
 
     @property
     def label(self) -> VisibleClass:
-        """The label that it had most, weighted by confidence."""
         return max(self.labels, key=self.labels.__getitem__)
 
     def predict(self, dt_s: float) -> None:
-        """Extrapolate by a time."""
         move = np.array(((1.0, dt_s), (0.0, 1.0)))
         # White noise as acceleration (Bar-Shalom et al., 2001, section 6.2.2), in px^2/s^3.
         noise = np.array(((dt_s**3 / 3.0, dt_s**2 / 2.0), (dt_s**2 / 2.0, dt_s)))
@@ -134,7 +115,6 @@ class _Track:
         return np.where(is_possible, costs, NEVER)
 
     def update(self, found: Found, t_ns: int) -> None:
-        """Update with a finding."""
         variance = _measurement_variance(self.side)
         gain = self.covariance[:, :, 0] / (self.covariance[:, 0, 0] + variance)[:, None]
         self.state = self.state + gain * (_measured(found) - self.state[:, 0])[:, None]
@@ -145,7 +125,6 @@ class _Track:
         self.misses = 0
 
     def is_over(self, t_ns: int, view: CameraView) -> bool:
-        """Return whether the track has ended."""
         column, row = self.state[:2, 0]
         is_out = not (0.0 <= column <= view.width_px and 0.0 <= row <= view.height_px)
         life_s = LIFE_S if self.hits >= CONFIRMED_HITS else TENTATIVE_LIFE_S
@@ -168,15 +147,11 @@ class Tracker:
         self._count = 0
         self._last: tuple[int, CameraView] | None = None
 
-    def follow(self, t_ns: int, view: CameraView, found: Sequence[Found]) -> list[Tracked]:
+    def follow(self, t_ns: int, view: CameraView, found: Sequence[Found]) -> list[Detection]:
         """Return the findings in the next picture with their tracks, by falling confidence.
 
-        Doubtful findings are left out unless they continue a confirmed track.
-
-        Parameters
-        ----------
-        t_ns
-            End of the exposure.
+        Each has the label that its track had most, weighted by confidence. Doubtful findings are
+        left out unless they continue a confirmed track.
         """
         self._expect(t_ns, view)
         confident = [one for one in found if one.confidence >= self._threshold]
@@ -196,14 +171,19 @@ class Tracker:
             followed.append((track, one))
         self._tracks = [track for track in self._tracks if not track.is_over(t_ns, view)]
         told = [
-            Tracked(one._replace(label=track.label), track.id, track.hits)
+            Detection(
+                label=track.label,
+                confidence=one.confidence,
+                box=one.box,
+                track_id=track.id,
+                hits=track.hits,
+            )
             for track, one in followed
             if one.confidence >= self._threshold or track.hits >= CONFIRMED_HITS
         ]
-        return sorted(told, key=lambda each: (-each.found.confidence, each.track_id))
+        return sorted(told, key=lambda each: (-each.confidence, each.track_id or 0))
 
     def _expect(self, t_ns: int, view: CameraView) -> None:
-        """Extrapolate all tracks to this picture."""
         if self._last is not None:
             last_ns, last_view = self._last
             dt_s = max(t_ns - last_ns, 0) / SECOND_NS
@@ -243,7 +223,6 @@ def _side(box: Array) -> float:
 
 
 def _measurement_variance(side: float) -> Array:
-    """Return the variances of middle and sides of a detector's box, in square pixels."""
     place, size = 0.7 + 0.05 * side, 1.0 + 0.1 * side
     return np.square((place, place, size, size))
 

@@ -3,16 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
-from pydantic import ValidationError
 
 from airhilt.assistant.vision.detector import Detector, Found, PictureMissed, Shot
-from airhilt.assistant.vision.gating import Gate, Looks
-from airhilt.assistant.vision.kept_pixels import SeenPicture
+from airhilt.assistant.vision.gating import Gate, SeenPicture
+from airhilt.assistant.vision.shared_looks import SharedLooks
 from airhilt.assistant.vision.tracker import Tracker
-from airhilt.errors import VisionError, first_problem
 from airhilt.imaging.masks import Mask, mask_of
 from airhilt.messages import (
     EXPOSURE_LEFT_OUT,
@@ -20,7 +17,6 @@ from airhilt.messages import (
     CameraFrame,
     CameraInfo,
     DeclaredLatency,
-    Detection,
     Detections,
     InputSpec,
     WorkerDescription,
@@ -32,35 +28,23 @@ MOST_OF_OWN_AIRCRAFT = 0.6
 """Share of a box that the camera's own aircraft may cover; a box that it covers more is dropped."""
 
 
-class _LastLook(NamedTuple):
-    """The last picture of a camera that was looked at, by its SHA-256, and what is in it."""
-
-    sha256: str
-    found: Sequence[Found]
-
-
 class VisionWorker:
     """Gives each picture to a detector, follows what it finds, and publishes it.
 
     A finding below the detector's threshold is published only if it continues a track that was
     found in three pictures or more.
-
-    Parameters
-    ----------
-    looks
-        Looks that runs share; None if each is taken anew.
     """
 
     def __init__(
-        self, detector: Detector, name: str = "vision", looks: Looks | None = None
+        self, detector: Detector, name: str = "vision", looks: SharedLooks | None = None
     ) -> None:
         self._engine = detector.name
         self._gate = Gate(detector, looks)
         self._threshold = detector.threshold
-        self._infos: dict[str, CameraInfo] = {}
-        self._masks: dict[str, Mask] = {}
+        self._masks: dict[str, Mask | None] = {}
         self._trackers: dict[str, Tracker] = {}
-        self._last: dict[str, _LastLook] = {}
+        self._last: dict[str, tuple[str, Sequence[Found]]] = {}
+        """SHA-256 of the last picture of each camera that was looked at, and what is in it."""
         self.description = WorkerDescription(
             name=name,
             modality="vision",
@@ -76,11 +60,6 @@ class VisionWorker:
 
         The detections of a picture that the detector has missed say why, and those of an exposure
         that the camera left out say that.
-
-        Raises
-        ------
-        VisionError
-            The detector has failed for good, or a picture is not what its header says.
         """
         outputs = []
         for item in inputs:
@@ -92,24 +71,12 @@ class VisionWorker:
         return Step(tuple(outputs))
 
     def _meet(self, item: Input) -> None:
-        """Keep what never changes about a camera."""
-        try:
-            info = CameraInfo.model_validate_json(item.payload)
-            mask = mask_of(info.own_aircraft, info.height_px, info.width_px)
-        except ValidationError as error:
-            raise VisionError(
-                f"{item.key}: not about a camera: {first_problem(error)}; see `airhilt schema`"
-            ) from None
-        except ValueError as error:
-            raise VisionError(f"{item.key}: own_aircraft has {error}") from None
-        self._infos[info.camera] = info
-        if mask.any():
-            self._masks[info.camera] = mask
-        else:
-            self._masks.pop(info.camera, None)
+        info = CameraInfo.model_validate_json(item.payload)
+        mask = mask_of(info.own_aircraft, info.height_px, info.width_px)
+        self._masks[info.camera] = mask if mask.any() else None
 
     def _look(self, item: Input) -> Detections:
-        header = header_of(item)
+        header = CameraFrame.model_validate(item.attachment)
         seen = Detections(
             camera=header.camera,
             seq=header.seq,
@@ -119,88 +86,32 @@ class VisionWorker:
         )
         if header.encoding == "none":
             return seen.model_copy(update={"missed": EXPOSURE_LEFT_OUT})
-        picture = picture_of(header, item, self._infos.get(header.camera))
         mask = self._masks.get(header.camera)
         try:
-            found = self._found(header, picture, mask)
+            found = self._found(header, item, mask)
         except PictureMissed as missed:
             return seen.model_copy(update={"missed": str(missed)})
         if mask is not None:
             found = [one for one in found if covered_share(one.box, mask) <= MOST_OF_OWN_AIRCRAFT]
         tracker = self._trackers.setdefault(header.camera, Tracker(self._threshold))
-        detections = tuple(
-            Detection(
-                label=one.found.label,
-                confidence=one.found.confidence,
-                box=one.found.box,
-                track_id=one.track_id,
-                hits=one.hits,
-            )
-            for one in tracker.follow(header.t_frame_ns, header.view, found)
-        )
-        return seen.model_copy(update={"detections": detections})
+        detections = tracker.follow(header.t_frame_ns, header.view, found)
+        return seen.model_copy(update={"detections": tuple(detections)})
 
-    def _found(
-        self, header: CameraFrame, picture: SeenPicture, mask: Mask | None
-    ) -> Sequence[Found]:
+    def _found(self, header: CameraFrame, item: Input, mask: Mask | None) -> Sequence[Found]:
         """Return what is in a picture; the same pixels again have the same in them."""
-        last = self._last.get(header.camera)
-        if last is None or last.sha256 != header.sha256:
+        sha256, found = self._last.get(header.camera, (None, ()))
+        if sha256 != header.sha256:
+            shape = header.view.height_px, header.view.width_px, 3
+            picture = SeenPicture(
+                shape,
+                header.sha256,
+                lambda: np.frombuffer(item.payload, np.uint8).reshape(shape),
+                is_made=not isinstance(item, DeferredInput),
+            )
             shot = Shot(header.camera, header.t_frame_ns, own_aircraft=mask)
-            last = _LastLook(header.sha256, self._gate.look_at(shot, picture))
-            self._last[header.camera] = last
-        return last.found
-
-
-def header_of(item: Input) -> CameraFrame:
-    """Return the header of a picture.
-
-    Raises
-    ------
-    VisionError
-        There is none, or it is that of another camera.
-    """
-    if item.attachment is None:
-        raise VisionError(f"{item.key}: no header; expected a CameraFrame as attachment")
-    try:
-        header = CameraFrame.model_validate(item.attachment)
-    except ValidationError as error:
-        raise VisionError(
-            f"{item.key}: not the header of a picture: {first_problem(error)}; expected a "
-            "CameraFrame, see `airhilt schema`"
-        ) from None
-    if item.key != f"camera/{header.camera}/frame":
-        raise VisionError(
-            f"{item.key}: a picture of camera {header.camera!r}; expected that of the key"
-        )
-    return header
-
-
-def picture_of(header: CameraFrame, item: Input, info: CameraInfo | None) -> SeenPicture:
-    """Return the picture in an input, whose pixels are read-only.
-
-    Raises
-    ------
-    VisionError
-        Its size is not what its header or the camera's description says.
-    """
-    columns, rows = header.view.width_px, header.view.height_px
-    if info is not None and (columns, rows) != (info.width_px, info.height_px):
-        raise VisionError(
-            f"camera {header.camera}, picture {header.seq}: {columns} by {rows} pixels; expected "
-            f"{info.width_px} by {info.height_px}, as its description says"
-        )
-    if item.size != 3 * columns * rows:
-        raise VisionError(
-            f"camera {header.camera}, picture {header.seq}: {item.size} bytes; expected "
-            f"{3 * columns * rows}, {columns} by {rows} pixels of rgb8"
-        )
-    return SeenPicture(
-        (rows, columns, 3),
-        header.sha256,
-        lambda: np.frombuffer(item.payload, np.uint8).reshape(rows, columns, 3),
-        is_made=not isinstance(item, DeferredInput),
-    )
+            found = self._gate.look_at(shot, picture)
+            self._last[header.camera] = header.sha256, found
+        return found
 
 
 def covered_share(box: Box, mask: Mask) -> float:

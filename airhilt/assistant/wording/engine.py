@@ -16,26 +16,18 @@ class AdvisoryWording(Protocol):
     @property
     def name(self) -> str:
         """Short name, such as ``template``."""
-        ...
 
     def message(self, alert: Alert, recipient: str) -> str:
         """Return what one recipient of an alert is told."""
-        ...
 
 
 class Worded(NamedTuple):
-    """The messages of all alerts of one step.
-
-    Attributes
-    ----------
-    messages
-        Text by the id of the alert and the recipient.
-    exchanges
-        Questions to a language model, with their answers, that the texts come from.
-    """
+    """The messages of all alerts of one step."""
 
     messages: Mapping[tuple[str, str], str]
+    """Text by the id of the alert and the recipient."""
     exchanges: tuple[ModelExchange, ...] = ()
+    """Questions to a language model, with their answers, that the texts come from."""
 
 
 @runtime_checkable
@@ -44,7 +36,6 @@ class WordsTogether(Protocol):
 
     def words(self, alerts: Sequence[Alert]) -> Worded:
         """Return what all recipients of some alerts are told."""
-        ...
 
 
 def words(wording: AdvisoryWording, alerts: Sequence[Alert]) -> Worded:

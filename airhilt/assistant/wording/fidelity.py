@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -29,22 +29,9 @@ ADDED = frozenset(
 )  # fmt: skip
 """Words that a wording may add: they order nothing and deny nothing."""
 DENYING = frozenset(
-    {
-        "no",
-        "not",
-        "nothing",
-        "never",
-        "without",
-        "cancel",
-        "cancelled",
-        "unidentified",
-        "negative",
-        "disregard",
-        "until",
-        "unless",
-        "if",
-    }
-)
+    {"no", "not", "nothing", "never", "without", "cancel", "cancelled", "unidentified", "negative",
+     "disregard", "until", "unless", "if"}
+)  # fmt: skip
 """Words of a message that a wording may not leave out either."""
 ROLES = frozenset({"for", "by", "of", "from", "to", "behind", "after", "with"})
 """Words before a callsign that say what it has to do with the rest."""
@@ -59,68 +46,59 @@ _NUMBER = re.compile(r"[0-9]+")
 
 
 class Mention(NamedTuple):
-    """A callsign in a message, with the word before it if that is one of `ROLES`."""
+    """A callsign in a message, behind the word before it if that is one of `ROLES`."""
 
-    callsign: str
     role: str
+    callsign: str
+
+
+Quantities = tuple[tuple[str, str], ...]
+"""Numbers, each with its unit, in an order of their own."""
 
 
 class Told(NamedTuple):
-    """An action in a message, with what stands in the same clause.
-
-    Attributes
-    ----------
-    callsigns
-        Callsigns of the clause, or the recipient: who is told to do it.
-    quantities
-        Numbers of the clause with their units, such as a level and a rate. A time does not get in
-        there: "go around, 12 s to go" is not "go around in 12 s".
-    """
+    """An action in a message, with what stands in the same clause."""
 
     callsigns: tuple[str, ...]
-    quantities: tuple[tuple[str, str], ...]
+    """Callsigns of the clause, or the recipient: who is told to do it."""
     action: str
     sense: str | None
     altitude_ft: float | None
     turn: str | None
     heading_deg: float | None
     condition: str | None
+    quantities: Quantities
+    """Numbers of the clause, such as a level and a rate. A time does not get in there: "go around,
+    12 s to go" is not "go around in 12 s"."""
 
 
 @dataclass(frozen=True)
 class Reading:
-    """Meaning of a message, as far as it must not change.
-
-    Attributes
-    ----------
-    addressed
-        Callsign with which it begins; None if it begins with none.
-    runways
-        Designators, in their order.
-    actions
-        Actions, in an order of their own.
-    quantities
-        Numbers, each with its unit.
-    words
-        All other words.
-    """
+    """Meaning of a message, as far as it must not change."""
 
     addressed: str | None
+    """Callsign with which it begins; None if it begins with none."""
     mentions: tuple[Mention, ...]
     runways: tuple[str, ...]
+    """Designators, in their order."""
     actions: tuple[Told, ...]
-    quantities: Counter[tuple[str, str]]
+    """Actions, in an order of their own."""
+    quantities: Quantities
     words: Counter[str]
+    """All other words."""
+
+
+CHANGES = {
+    "mentions": "callsigns",
+    "runways": "runways",
+    "actions": "actions",
+    "quantities": "numbers",
+}
+"""Parts of a `Reading` that must not change, in words."""
 
 
 def reading(text: str, recipient: str, callsigns: Collection[str]) -> Reading:
-    """Return what a message to a recipient says.
-
-    Parameters
-    ----------
-    callsigns
-        Callsigns that it may name.
-    """
+    """Return what a message to a recipient says, with the callsigns that it may name."""
     known = tuple(sorted(callsigns))
     words = tokens(text)
     naming = roster_of(known).naming(words, is_written=True)
@@ -141,8 +119,6 @@ def change(rule: str, reworded: str, recipient: str, severity: Severity) -> str:
 
     Parameters
     ----------
-    rule, reworded
-        Text of the rule, and what a wording has made of it.
     recipient
         Callsign or `airhilt.messages.CONTROLLER`.
     severity
@@ -156,21 +132,12 @@ def change(rule: str, reworded: str, recipient: str, severity: Severity) -> str:
     was = reading(rule, recipient, callsigns)
     now = reading(reworded, recipient, callsigns)
     if now.addressed != was.addressed:
-        return (
-            f"it begins with {now.addressed or 'no callsign'}; expected {was.addressed or 'none'}"
-        )
-    if now.mentions != was.mentions:
-        return (
-            f"it changes the callsigns: {_listed(now.mentions)}; expected {_listed(was.mentions)}"
-        )
-    if now.runways != was.runways:
-        return f"it changes the runways: {', '.join(now.runways) or 'none'}; expected " + (
-            ", ".join(was.runways) or "none"
-        )
-    if now.actions != was.actions:
-        return f"it changes the actions: {_acts(now.actions)}; expected {_acts(was.actions)}"
-    if now.quantities != was.quantities:
-        return f"it changes the numbers: {_amounts(now)}; expected {_amounts(was)}"
+        begin, expected = now.addressed or "no callsign", was.addressed or "none"
+        return f"it begins with {begin}; expected {expected}"
+    for part, what in CHANGES.items():
+        before, after = getattr(was, part), getattr(now, part)
+        if after != before:
+            return f"it changes the {what}: {_listed(after)}; expected {_listed(before)}"
     return _changed_words(was, now, severity)
 
 
@@ -194,7 +161,6 @@ def _changed_words(was: Reading, now: Reading, severity: Severity) -> str:
 
 
 def _without_callsigns(words: list[str], naming: Naming) -> tuple[tuple[Mention, ...], list[str]]:
-    """Return the callsigns of a message, in their order, and its other words."""
     found = [naming.hit, *naming.again, *naming.others]
     mentions: list[Mention] = []
     rest: list[str] = []
@@ -204,24 +170,24 @@ def _without_callsigns(words: list[str], naming: Naming) -> tuple[tuple[Mention,
             continue
         rest += words[at : hit.start]
         before = words[hit.start - 1] if hit.start > at else ""
-        mentions.append(Mention(hit.callsign, before if before in ROLES else ""))
+        mentions.append(Mention(before if before in ROLES else "", hit.callsign))
         at = hit.end
     return tuple(mentions), rest + words[at:]
 
 
 def _without_runways(words: list[str]) -> tuple[tuple[str, ...], list[str]]:
-    """Return the runways of a message, in their order, and its other words."""
     text = " ".join(words)
     found = tuple(designator(each[1], each[2]) for each in NAMED_RUNWAY.finditer(text))
     return found, NAMED_RUNWAY.sub(" ", text).split()
 
 
-def _quantities(words: list[str]) -> Counter[tuple[str, str]]:
-    """Return the numbers among some words, each with its unit."""
-    return Counter(
-        (word, UNITS.get(after, ""))
-        for word, after in zip(words, [*words[1:], ""], strict=True)
-        if _NUMBER.fullmatch(word)
+def _quantities(words: list[str]) -> Quantities:
+    return tuple(
+        sorted(
+            (word, UNITS.get(after, ""))
+            for word, after in zip(words, [*words[1:], ""], strict=True)
+            if _NUMBER.fullmatch(word)
+        )
     )
 
 
@@ -239,13 +205,13 @@ def _actions(text: str, recipient: str, callsigns: tuple[str, ...]) -> tuple[Tol
         told += (
             Told(
                 tuple(each.callsign for each in mentions) or (recipient,),
-                tuple(sorted(_quantities(rest).elements())),
                 each.action,
                 each.sense,
                 each.altitude_ft,
                 each.turn,
                 each.heading_deg,
                 each.condition or each.until,
+                _quantities(rest),
             )
             for each in parse_call(clause, callsigns).instructions
         )
@@ -253,22 +219,14 @@ def _actions(text: str, recipient: str, callsigns: tuple[str, ...]) -> tuple[Tol
 
 
 def _named(text: str, names: Mapping[str, str]) -> str:
-    """Return a text in which callsigns stand for addresses, which no phraseology reads."""
     return _ADDRESS.sub(lambda found: names.get(found[0], found[0]), text)
 
 
-def _listed(mentions: tuple[Mention, ...]) -> str:
-    return ", ".join(f"{each.role} {each.callsign}".strip() for each in mentions) or "none"
+def _listed(parts: Iterable[object]) -> str:
+    return ", ".join(_shown(each) for each in parts) or "none"
 
 
-def _acts(actions: tuple[Told, ...]) -> str:
-    return ", ".join(_act(each) for each in actions) or "none"
-
-
-def _act(told: Told) -> str:
-    amounts = [f"{n} {unit}".strip() for n, unit in told.quantities]
-    return " ".join([*told.callsigns, *(str(part) for part in told[2:] if part), *amounts])
-
-
-def _amounts(read: Reading) -> str:
-    return ", ".join(f"{n} {unit}".strip() for n, unit in sorted(read.quantities)) or "none"
+def _shown(part: object) -> str:
+    if isinstance(part, tuple):
+        return " ".join(_shown(each) for each in part if each)
+    return str(part)

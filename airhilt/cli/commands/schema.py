@@ -47,7 +47,7 @@ def schema(
 
         document = service_schemas()
     elif assistant is not None:
-        from airhilt.assistant.decision.engines import FAMILY as ASSISTANTS
+        from airhilt.engine_families import ASSISTANTS
 
         document = ASSISTANTS.configuration_model(assistant).model_json_schema()
     elif sweep:

@@ -44,7 +44,7 @@ def station(page: PageOptions, runs: Path, scenarios: tuple[Path, ...]) -> None:
     """
     address = page.address()
 
-    from airhilt.assistant.decision.engines import FAMILY as ASSISTANTS
+    from airhilt.engine_families import ASSISTANTS
     from airhilt.station.debriefs import Debriefs
     from airhilt.station.home import home_app
     from airhilt.station.scenario_choices import ScenarioChoices

@@ -66,12 +66,12 @@ def worker(
 
     if connect is None and tls is None:
         raise click.UsageError("expected --connect ENDPOINT, or --tls DIR")
-    configuration = None
+    settings = {}
     if assistant_config is not None:
         if kind != "decision":
             raise click.UsageError(f"--assistant-config would do nothing for a worker of {kind}")
-        configuration = read_configuration(assistant_config)
-    made = reference_worker(kind, engine, name or kind, configuration=configuration)
+        settings["configuration"] = read_configuration(assistant_config)
+    made = reference_worker(kind, engine, name or kind, **settings)
     serve(made, connect, run_name, patience, tls)
 
 

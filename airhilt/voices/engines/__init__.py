@@ -7,11 +7,8 @@ Voices of another package are found by an entry point of the group ``airhilt.tts
 from __future__ import annotations
 
 from airhilt.engine_families import VOICES
-from airhilt.engines import EngineFamily
 from airhilt.voices.cache import CachedTts
 from airhilt.voices.engine import TtsEngine
-
-FAMILY: EngineFamily[TtsEngine] = VOICES
 
 
 def tts_engine(name: str) -> TtsEngine:
@@ -22,4 +19,4 @@ def tts_engine(name: str) -> TtsEngine:
     SpeechError
         There are none of that name, or they cannot be loaded.
     """
-    return CachedTts(FAMILY.create(name))
+    return CachedTts(VOICES.create(name))

@@ -21,8 +21,6 @@ UP, DOWN = 2, 3
 """Resampling factors from the 24 kHz of XTTS-v2 (``output_sample_rate`` in its config.json) to
 16 kHz."""
 LANGUAGE = "en"
-_SEED_BYTES = 7
-"""Size of a seed for torch, whose generators take 64 bits with a sign."""
 
 
 class Coqui:
@@ -74,8 +72,6 @@ class Coqui:
             raise SpeechError(
                 f"voice coqui: {folder}: does not load as XTTS-v2: {first_line(error)}"
             ) from None
-        if not self._speakers:
-            raise SpeechError(f"voice coqui: {folder}/speakers_xtts.pth: without speakers")
         self._torch: Any = torch
         self.version = f"{importlib.metadata.version('coqui-tts')} {_fingerprint(folder)}"
 
@@ -88,21 +84,13 @@ class Coqui:
 
     def synthesise(self, text: str, voice: VoiceSpec) -> Audio:
         """Return the text as speech; the seed of the model comes from text and voice."""
-        if voice.name not in self._speakers:
-            raise SpeechError(
-                f"voice coqui: there is no voice {voice.name!r}; expected one of "
-                f"{', '.join(sorted(self._speakers))}"
-            )
-        seed = hashlib.sha256(f"{voice}{text}".encode()).digest()[:_SEED_BYTES]
+        # Seven bytes: torch's generators take 64 bits with a sign.
+        seed = hashlib.sha256(f"{voice}{text}".encode()).digest()[:7]
         with self._torch.random.fork_rng():
             self._torch.manual_seed(int.from_bytes(seed))
             try:
-                spoken = self._model.inference(
-                    text,
-                    LANGUAGE,
-                    *self._speakers[voice.name],
-                    speed=voice.rate,
-                )
+                speaker = self._speakers[voice.name]
+                spoken = self._model.inference(text, LANGUAGE, *speaker, speed=voice.rate)
             except Exception as error:  # whatever torch raises
                 raise SpeechError(
                     f"voice coqui: cannot speak {text[:60]!r}: {first_line(error)}"

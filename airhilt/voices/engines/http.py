@@ -21,18 +21,13 @@ class HttpTts:
 
     The voice of a speaker has the speaker's name. The service chooses what it sounds like, and
     must choose the same every time.
-
-    Parameters
-    ----------
-    version
-        Version of the service's model; with another version, nothing comes from the cache.
     """
 
     name = "http"
 
-    def __init__(self, url: str, timeout_s: float = TIMEOUT_S, version: str = "1") -> None:
+    def __init__(self, url: str, timeout_s: float = TIMEOUT_S) -> None:
         self._service = HttpService("voice http", url, timeout_s, MAXIMUM_BYTES, SpeechError)
-        self.version = f"{url} {version}"
+        self.version = url
 
     def voice_of(self, speaker: str) -> VoiceSpec:
         """Return a voice with the speaker's name."""

@@ -9,15 +9,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from airhilt.assistant.asr.alternatives import (
+from airhilt.assistant.asr.beam_search import BLANK, Prior, aligned
+from airhilt.assistant.asr.confidences import (
     LARGEST_LOG_ODDS,
     LEAST_POSTERIOR,
-    WordCurve,
     log_odds,
     same_units,
     with_same,
 )
-from airhilt.assistant.asr.beam_search import BLANK, Prior, aligned
 from airhilt.assistant.asr.language import END
 from airhilt.assistant.asr.pieces import Pieces
 
@@ -53,12 +52,6 @@ def test_a_word_that_was_heard_badly_is_sure_if_the_next_makes_sense_only_after_
     assert together == pytest.approx(6.0, abs=1e-3)
 
 
-def test_a_word_that_was_heard_well_is_unsure_if_another_makes_far_more_sense() -> None:
-    steps = np.array([[0.1, 0.1, 0.8, 0.0], [0.05, 0.0, 0.05, 0.9]], np.float32)
-    unlikely, _ = odds(steps, (NO, AROUND), go_before_around)
-    assert unlikely < 0.0
-
-
 def test_a_digit_that_may_have_been_said_in_another_way_is_no_less_sure() -> None:
     pieces = Pieces(["_five", "_fife", "_nine", "_niner", "_go"])
     same = same_units(pieces)
@@ -81,30 +74,6 @@ def test_clear_is_no_other_word_than_cleared() -> None:
     assert same == {1: [2], 2: [1]}
 
 
-def test_other_units_stay_as_they_were_heard() -> None:
-    steps = np.array([[0.1, 0.5, 0.4, 0.0], [0.05, 0.0, 0.05, 0.9]], np.float32)
-    heard = aligned(steps, (GO, AROUND))
-    added, kept = with_same(steps, heard, {NO: [GO]})
-    assert np.array_equal(added, steps)
-    assert kept == heard
-
-
-def test_that_nothing_was_said_is_an_alternative() -> None:
-    steps = np.array([[0.4, 0.6, 0.0, 0.0]], np.float32)
-    (against_nothing,) = odds(steps, (GO,), alike)
-    assert against_nothing == pytest.approx(np.log(0.6 / 0.4), abs=1e-4)
-
-
-def test_what_was_hardly_heard_is_no_alternative_however_likely_it_would_be() -> None:
-    steps = np.array([[0.4, 0.6, 0.1 * LEAST_POSTERIOR, 0.0]], np.float32)
-
-    def rather_no(before: tuple[int, ...], unit: int) -> float:
-        return 20.0 if unit == NO else 0.0
-
-    (against_nothing,) = odds(steps, (GO,), rather_no)
-    assert against_nothing == pytest.approx(np.log(0.6 / 0.4), abs=1e-4)
-
-
 def test_a_piece_beside_another_may_be_no_more_than_a_longer_one() -> None:
     """Without a blank between them, the same unit twice is one unit."""
     steps = np.array([[0.0, 0.1, 0.0, 0.9], [0.0, 0.55, 0.0, 0.45]], np.float32)
@@ -116,11 +85,6 @@ def test_a_piece_beside_another_may_be_no_more_than_a_longer_one() -> None:
     assert go == pytest.approx(np.log(0.55 / 0.45), abs=1e-4)
     go, _ = odds(steps[::-1], (GO, AROUND), never_twice)
     assert go == pytest.approx(np.log(0.55 / 0.45), abs=1e-4)
-
-
-def test_no_piece_is_surer_than_one_in_a_million() -> None:
-    steps = np.array([[0.0, 1.0, 0.0, 0.0]], np.float32)
-    assert odds(steps, (GO,), alike) == pytest.approx([LARGEST_LOG_ODDS])
 
 
 @given(
@@ -160,10 +124,3 @@ def test_the_odds_are_those_of_whole_calls_in_which_one_piece_differs(
         own = each.pop(spoken[step])
         against = np.logaddexp.reduce([*each.values(), own - LARGEST_LOG_ODDS])
         assert found == pytest.approx(max(own - against, -LARGEST_LOG_ODDS), abs=1e-4)
-
-
-def test_a_word_is_the_likelier_right_the_better_it_was_heard_and_the_more_sense_it_makes() -> None:
-    curve = WordCurve(posterior_slope=0.3, alternatives_slope=0.4, offset=-0.7)
-    assert curve(0.5, 0.0) == pytest.approx(1.0 / (1.0 + np.exp(0.7)))
-    assert curve(0.5, 0.0) < curve(0.9, 0.0) < curve(0.9, 3.0) < curve(0.99, 6.0) < 1.0
-    assert curve(0.0, -LARGEST_LOG_ODDS) > 0.0

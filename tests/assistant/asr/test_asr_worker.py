@@ -7,15 +7,13 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import pytest
 
 from airhilt.assistant.asr.engine import Recognised
 from airhilt.assistant.asr.worker import AsrWorker
 from airhilt.audio.pcm import Audio, to_pcm
-from airhilt.errors import SpeechError
 from airhilt.messages import Briefing, RosterEntry, Transcript, Transmission, Word
 from airhilt.sim.worker import Input, Output
-from airhilt.workers.pool import parse_output, policy_of
+from airhilt.workers.pool import parse_output
 
 
 class Counting:
@@ -30,20 +28,6 @@ class Counting:
         self.asked.append((audio, tuple(callsigns)))
         words = (("samples", 0.5), (str(len(audio)), 0.75))
         return Recognised(f"samples {len(audio)}", words, 0.625)
-
-
-class Deaf:
-    name = "deaf"
-
-    def recognise(self, audio: Audio, callsigns: Sequence[str]) -> Recognised:
-        return Recognised("", (), 0.0)
-
-
-class Broken:
-    name = "broken"
-
-    def recognise(self, audio: Audio, callsigns: Sequence[str]) -> Recognised:
-        raise SpeechError("recogniser broken: no ears")
 
 
 def transmission(name: str = "call", samples: int = 1_600, **changes: Any) -> Input:
@@ -98,15 +82,6 @@ def test_a_transmission_becomes_a_transcript_of_it() -> None:
     )
 
 
-def test_the_engine_hears_the_samples_that_were_sent() -> None:
-    engine = Counting()
-    sent = transmission(samples=320)
-    transcripts(AsrWorker(engine), sent)
-    ((audio, _),) = engine.asked
-    assert audio.dtype == np.float32
-    assert to_pcm(audio) == sent.payload
-
-
 def test_transmissions_are_taken_in_order_each_on_its_frequency() -> None:
     sent = [
         transmission("first", 16),
@@ -126,11 +101,6 @@ def test_transmissions_are_taken_in_order_each_on_its_frequency() -> None:
     ]
 
 
-def test_nothing_recognised_is_told_too_so_that_nobody_waits_for_it() -> None:
-    (transcript,) = transcripts(AsrWorker(Deaf()), transmission())
-    assert (transcript.text, transcript.words, transcript.confidence) == ("", (), 0.0)
-
-
 def test_a_run_without_sound_has_nothing_to_recognise() -> None:
     engine = Counting()
     assert transcripts(AsrWorker(engine), transmission(samples=0)) == []
@@ -144,47 +114,3 @@ def test_a_briefing_tells_who_may_be_on_the_frequency_and_is_no_call() -> None:
     transcripts(worker, transmission())
     transcripts(worker, transmission())
     assert [callsigns for _, callsigns in engine.asked] == [("AAL123", "DAL456")] * 2
-
-
-def test_before_a_briefing_nobody_is_expected() -> None:
-    engine = Counting()
-    transcripts(AsrWorker(engine), transmission(), briefing("AAL123"), transmission())
-    assert [callsigns for _, callsigns in engine.asked] == [(), ("AAL123",)]
-
-
-@pytest.mark.parametrize(
-    ("changes", "said"),
-    [
-        ({"samples": 1_601}, "3200 bytes at 16000 Hz; expected 1601 samples"),
-        ({"samples": 0}, "expected 0 samples"),
-        ({"sample_rate_hz": 8_000}, "at 8000 Hz; expected 1600 samples of 16 bits at 16000 Hz"),
-    ],
-)
-def test_audio_that_is_not_what_its_header_says_is_refused(
-    changes: dict[str, int], said: str
-) -> None:
-    engine = Counting()
-    sent = transmission("call-7")
-    wrong = Input(sent.key, sent.t_in_ns, sent.payload, sent.attachment | changes)
-    with pytest.raises(SpeechError, match=f"transmission call-7: .*{said}"):
-        transcripts(AsrWorker(engine), wrong)
-    assert engine.asked == []
-
-
-def test_an_engine_that_fails_says_so_itself() -> None:
-    with pytest.raises(SpeechError, match="no ears"):
-        transcripts(AsrWorker(Broken()), transmission())
-
-
-def test_it_asks_for_all_frequencies_and_loses_no_call() -> None:
-    description = AsrWorker(Counting()).description
-    policies = {wanted.key: wanted.policy for wanted in description.inputs}
-    assert description.modality == "asr"
-    assert policy_of("radio/134325/tx", policies) == "fifo"
-    assert policy_of("briefing", policies) == "fifo"
-    assert policy_of("asr/134325", policies) is None
-
-
-def test_it_may_have_another_name() -> None:
-    assert AsrWorker(Counting()).description.name == "asr"
-    assert AsrWorker(Counting(), name="second-asr").description.name == "second-asr"

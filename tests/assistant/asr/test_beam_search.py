@@ -85,30 +85,9 @@ def test_the_language_model_is_asked_about_as_many_units_before_as_it_knows(
     assert asked == expected
 
 
-def test_a_reward_makes_up_for_what_each_piece_costs(tmp_path: Path) -> None:
-    said = np.array([[0.55, 0.45, 0, 0]], np.float32)
-    even = language(tmp_path, {})
-    assert BeamSearch(even, 1.0, 0.0).units(said) == ()
-    assert BeamSearch(even, 1.0, 2.0).units(said) == (1,)
-
-
 def test_a_long_silence_does_not_become_a_word(tmp_path: Path) -> None:
     silence = np.tile(np.array([0.94, 0.02, 0.02, 0.02], np.float32), (1_000, 1))
     assert BeamSearch(language(tmp_path, {}), 0.5, 1.5).units(silence) == ()
-
-
-def test_a_language_model_without_weight_is_not_asked(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    model = language(tmp_path, {(1, 2): 0.9})
-    monkeypatch.setattr(Language, "score", lambda *_: pytest.fail("it was asked"))
-    said = np.array([[0.1, 0.9, 0, 0], [0.9, 0.1, 0, 0], [0.1, 0, 0.4, 0.5]], np.float32)
-    assert BeamSearch(model, 0.0, 0.0).units(said) == (1, 3)
-
-
-def test_without_audio_there_is_nothing(tmp_path: Path) -> None:
-    search = BeamSearch(language(tmp_path, {(END, END): 0.5}), 1.0, 0.0)
-    assert search.units(np.zeros((0, 4), np.float32)) == ()
 
 
 def test_each_unit_is_found_where_it_was_said() -> None:

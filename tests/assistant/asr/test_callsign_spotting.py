@@ -62,12 +62,6 @@ def probability(*log_odds: float) -> float:
     return float(shares[0] / shares.sum())
 
 
-def test_a_callsign_that_is_clearly_said_has_the_odds_of_its_words() -> None:
-    found = spotted(posteriors(*clear("american", "one", "two", "climb")), "AAL12")
-    assert found.callsign == "AAL12"
-    assert found.confidence == pytest.approx(probability(0.8 + 1.4 + 2 * 1.1), abs=1e-3)
-
-
 def test_what_a_digit_loses_counts_more_than_what_a_name_does() -> None:
     lost = 4.0
     shares = {"american": np.exp(-lost), "delta": 1.0 - np.exp(-lost)}
@@ -104,30 +98,10 @@ def test_a_word_that_is_nearly_lost_is_found_again() -> None:
     assert text(with_callsign(path, cast(Spotted, found))) == "american one two six climb"
 
 
-def test_words_of_a_callsign_are_less_sure_where_it_fits_less() -> None:
-    heard = posteriors({"american": 0.1}, *clear("one", "two"))
-    plain = posteriors(*clear("american", "one", "two"))
-    sure, less_sure = (
-        with_callsign(likeliest(each), cast(Spotted, spotted(each, "AAL12")))[0].posterior
-        for each in (plain, heard)
-    )
-    assert 0.5 < less_sure < sure - 0.005
-
-
 @pytest.mark.parametrize("said", ["four", "eight"])
 def test_another_number_that_is_clearly_said_is_not_overheard(said: str) -> None:
     heard = posteriors(*({word: 0.9999} for word in ("american", "one", said)))
     assert spotted(heard, "AAL12") is None
-
-
-def test_of_two_that_fit_alike_none_is_taken() -> None:
-    heard = posteriors(*clear("american", "one"), {"two": 0.3, "three": 0.3}, *clear("six"))
-    assert spotted(heard, "AAL126", "AAL136") is None
-    assert spotted(heard, "AAL126", "UAL136").callsign == "AAL126"
-
-
-def test_noise_is_nobody() -> None:
-    assert spotted(posteriors(*[{}] * 30), "AAL12", "N54") is None
 
 
 def test_a_value_is_no_short_registration_without_its_first_sign() -> None:
@@ -137,19 +111,8 @@ def test_a_value_is_no_short_registration_without_its_first_sign() -> None:
     assert spotted(said, "N54", "N5", "N4").callsign == "N54"
 
 
-def test_nothing_is_found_without_a_roster_or_without_audio() -> None:
-    assert spotted(posteriors(*clear("american", "one"))) is None
-    assert spotted(np.zeros((0, len(WORDS) + 1), np.float32), "AAL1") is None
-
-
 def test_a_callsign_with_a_word_that_the_recogniser_does_not_know_is_left_out() -> None:
     assert spotted(posteriors(*clear("golf", "one", "two")), "GTI12") is None
-
-
-def test_the_same_digit_twice_needs_a_gap_between() -> None:
-    said = posteriors(*clear("american", "one", "one"))
-    assert spotted(said, "AAL11").confidence == pytest.approx(probability(4.4), abs=1e-3)
-    assert spotted(posteriors(*clear("american", "one")), "AAL11") is None
 
 
 @pytest.mark.parametrize(
@@ -187,15 +150,6 @@ def test_the_same_digit_twice_needs_a_gap_between() -> None:
 def test_callsigns_are_looked_for_as_they_may_be_said(callsign: str, forms: set[Any]) -> None:
     said = {" ".join(form.name + form.signs) for form in spoken_forms(callsign)}
     assert said == forms
-
-
-def test_any_word_for_a_digit_will_do() -> None:
-    pieces = Pieces([*(BEGIN + word for word in WORDS), BEGIN + "nine"])
-    heard = np.full((4, len(pieces) + 1), 1e-6, np.float32)
-    heard[0, UNIT["delta"]] = heard[2, len(pieces)] = 1.0
-    heard[[1, 3], 0] = 1.0
-    found = Spotter(pieces, ("DAL9",), ODDS).spot(heard)
-    assert found.confidence == pytest.approx(probability(0.8 + 1.4 + 1.1), abs=1e-3)
 
 
 def test_what_is_clearly_said_is_left_as_it_is() -> None:

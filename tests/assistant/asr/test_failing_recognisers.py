@@ -16,7 +16,6 @@ import airhilt.assistant.asr.engines.http
 from airhilt import run
 from airhilt.audio.wav import decode_wav
 from airhilt.cosim.observer import Observer, Result
-from airhilt.errors import RunStopped
 from airhilt.messages import Transcript
 from airhilt.record import read_log
 from airhilt.scenario import Scenario
@@ -115,14 +114,6 @@ def test_what_was_recognised_before_a_service_failed_stays(short: Scenario, tmp_
     assert (transcript.id, transcript.text) == ("check-in-aal", "washington center")
     assert transcript.engine == "http"
     assert result.summary.modalities["asr"] == "lost"
-
-
-def test_strict_stops_at_the_first_failure(short: Scenario, tmp_path: Path) -> None:
-    with (
-        service(answering(b"", 503)) as url,
-        pytest.raises(RunStopped, match=r"--strict asks: worker 'asr' failed.*HTTP status 503"),
-    ):
-        run(short, out=tmp_path / "run", latency="fixed", asr=url, strict=True)
 
 
 def test_crews_that_read_the_radio_go_on_without_transcripts(

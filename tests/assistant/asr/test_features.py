@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from airhilt.assistant.asr.features import BINS, is_near_speech, logarithm, mel_power, normalised
+from airhilt.assistant.asr.features import BINS, logarithm, mel_power, normalised
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 
 
@@ -30,14 +29,6 @@ def test_a_call_without_noise_looks_like_one_with_hardly_any(count: int, level: 
 
 
 @settings(deadline=None)
-@given(st.floats(0.05, 1.0))
-def test_how_loud_a_call_is_makes_no_difference(gain: float) -> None:
-    call = bursts(3)
-    loud, soft = (normalised(mel_power(call * np.float32(one))) for one in (1.0, gain))
-    assert np.abs(loud - soft).max() < 0.1
-
-
-@settings(deadline=None)
 @given(st.floats(0.0, 20.0), st.floats(0.0, 20.0), st.sampled_from([0.0, 1e-3]))
 def test_pauses_before_and_behind_a_call_change_nothing_in_it(
     before_s: float, behind_s: float, noise_level: float
@@ -52,27 +43,6 @@ def test_pauses_before_and_behind_a_call_change_nothing_in_it(
     as_it_is = normalised(mel_power(alone + noise[: len(alone)]))[:-1]
     with_pauses = normalised(mel_power(held + noise))[of_call]
     assert np.abs(as_it_is - with_pauses).mean() < 0.5  # Of features from -5 to 5.
-
-
-def test_a_click_in_a_long_pause_is_no_call() -> None:
-    call = np.pad(bursts(6), (8 * SAMPLE_RATE_HZ, 0))
-    clicked = call.copy()
-    clicked[2 * SAMPLE_RATE_HZ : 2 * SAMPLE_RATE_HZ + 400] += 0.9
-    quiet, loud = (normalised(mel_power(each))[8 * 100 + 5 :] for each in (call, clicked))
-    assert np.abs(quiet - loud).mean() < 0.1
-
-
-def test_clicks_alone_have_features() -> None:
-    clicks = np.zeros(10 * SAMPLE_RATE_HZ, np.float32)
-    for second in range(10):
-        clicks[second * SAMPLE_RATE_HZ : second * SAMPLE_RATE_HZ + 800] = 0.5
-    assert np.isfinite(normalised(mel_power(clicks))).all()
-
-
-def test_silence_has_no_features() -> None:
-    features = normalised(mel_power(np.zeros(SAMPLE_RATE_HZ, np.float32)))
-    assert features.shape == (101, BINS)
-    assert np.abs(features).max() < 1e-3
 
 
 def reference_power(audio: NDArray[np.floating]) -> NDArray[np.float64]:
@@ -122,44 +92,3 @@ def test_features_are_logarithms_above_a_floor_without_their_means() -> None:
     np.testing.assert_allclose(normalised(power), expected, atol=0.02)
     silence = logarithm(np.zeros((1, BINS), np.float32), 0.0)
     np.testing.assert_allclose(silence, np.log(1e-7), rtol=1e-5)
-
-
-def levels(count: int, level: float, *louder: tuple[int, int, float]) -> NDArray[np.float32]:
-    """Return the power of frames of one level, but for those from one to another."""
-    power = np.full((count, BINS), level, np.float32)
-    for begin, end, power_there in louder:
-        power[begin:end] = power_there
-    return power
-
-
-def test_a_quarter_of_a_second_on_both_sides_of_speech_is_no_pause() -> None:
-    """The levels are means of five frames: two frames more than the speech are loud."""
-    near = np.flatnonzero(is_near_speech(levels(1_000, 1e-5, (400, 500, 1e-2))))
-    assert (near[0], near[-1], len(near)) == (400 - 2 - 25, 499 + 2 + 25, 154)
-
-
-@pytest.mark.parametrize(("frames", "is_speech"), [(5, False), (6, True)])
-def test_a_sound_of_less_than_a_tenth_of_a_second_is_a_click(frames: int, is_speech: bool) -> None:
-    """The means of five frames make it four frames longer."""
-    power = levels(1_000, 1e-5, (400, 500, 1e-2), (800, 800 + frames, 1e-2))
-    assert is_near_speech(power)[803] == is_speech
-
-
-@pytest.mark.parametrize(("frames", "has_pauses"), [(45, False), (46, True)])
-def test_speech_of_less_than_half_a_second_shows_no_pauses(frames: int, has_pauses: bool) -> None:
-    near = is_near_speech(levels(1_000, 1e-5, (400, 400 + frames, 1e-2)))
-    assert near.all() != has_pauses
-
-
-@pytest.mark.parametrize(("range_db", "has_pauses"), [(5.9, False), (6.1, True)])
-def test_less_than_6_db_between_loud_and_quiet_are_noise(range_db: float, has_pauses: bool) -> None:
-    loud = 1e-3 * 10.0 ** (range_db / 10.0)
-    near = is_near_speech(levels(1_000, 1e-3, (400, 600, loud)))
-    assert near.all() != has_pauses
-
-
-def test_what_is_above_the_middle_in_db_is_loud() -> None:
-    """Between -50 and -20 dB that is -35 dB."""
-    power = levels(1_000, 1e-5, (400, 500, 1e-2), (700, 740, 10**-3.6), (850, 890, 10**-3.4))
-    near = is_near_speech(power)
-    assert (near[450], near[720], near[870]) == (True, False, True)

@@ -73,17 +73,3 @@ def test_words_are_plain_and_keep_their_confidences(monkeypatch: pytest.MonkeyPa
 
 def test_it_is_not_asked_about_no_audio(monkeypatch: pytest.MonkeyPatch) -> None:
     assert recognised(monkeypatch, {"text": "climb"}, 0.0) == ("", (), 1.0)
-
-
-@pytest.mark.parametrize(("seconds", "most"), [(0.1, 11), (0.95, 19), (2.0, 30)])
-def test_nobody_says_more_than_ten_words_a_second_and_ten_more(
-    monkeypatch: pytest.MonkeyPatch, seconds: float, most: int
-) -> None:
-    for words in (["go"] * most, ["x" * (20 * most)]):
-        assert recognised(monkeypatch, {"text": " ".join(words)}, seconds)[0]
-    for words in (["go"] * (most + 1), ["x" * (20 * most + 1)]):
-        with pytest.raises(SpeechError, match=f"at most {most} words"):
-            recognised(monkeypatch, {"text": " ".join(words)}, seconds)
-        listed = [{"text": word, "confidence": 1.0} for word in words]
-        with pytest.raises(SpeechError, match=f"at most {most} words"):
-            recognised(monkeypatch, {"text": "", "words": listed}, seconds)

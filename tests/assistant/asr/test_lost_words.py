@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from airhilt.assistant.asr.alternatives import LARGEST_LOG_ODDS
 from airhilt.assistant.asr.beam_search import HeardUnit
+from airhilt.assistant.asr.confidences import (
+    gaps,
+)
 from airhilt.assistant.asr.language import END
-from airhilt.assistant.asr.logistic import log_odds_of, probability
-from airhilt.assistant.asr.lost_words import SILENCE, Gap, LossCurve, gaps, log_heard
 
 TURN, CLIMB, BREATH, UNITS = 1, 2, 3, 4
 ORDER = 3
@@ -45,25 +45,6 @@ def test_what_no_word_has_is_counted_before_each_word_and_behind_the_last() -> N
     assert heard(steps, (1, 2), (5, 6)) == pytest.approx([0.5, 1.0, 0.3])
 
 
-def test_words_that_follow_each_other_have_nothing_between_them() -> None:
-    assert gaps(posteriors(0.9, 0.9), words((0, 1), (1, 2)), alike, ORDER) == [SILENCE] * 3
-
-
-def test_a_long_silence_is_nothing_that_was_heard() -> None:
-    steps = posteriors(*[0.02] * 20_000, 0.9, *[0.02] * 20_000)
-    assert heard(steps, (20_000, 20_001)) == [0.0, 0.0]
-
-
-def test_all_of_a_call_without_words_is_a_gap() -> None:
-    assert heard(posteriors(0.5, 0.25)) == pytest.approx([0.75])
-
-
-def test_one_more_word_is_as_likely_as_it_was_heard_where_all_make_sense() -> None:
-    before, behind = gaps(posteriors(0.4, 0.9, 0.7), words((1, 2)), alike, ORDER)
-    assert before.inserted == pytest.approx(np.log(0.4 / 0.6), abs=1e-5)
-    assert behind.inserted == pytest.approx(np.log(0.7 / 0.3), abs=1e-5)
-
-
 def test_what_would_make_no_sense_there_was_hardly_said_however_well_it_was_heard() -> None:
     steps = posteriors(0.0, 0.6, unit=BREATH)
     steps[0] = [0.1, 0.0, 0.9, 0.0]
@@ -87,37 +68,3 @@ def test_a_word_that_only_makes_sense_of_the_next_was_likely_lost() -> None:
     heard_so = np.log(0.2 / 0.8)
     assert before.inserted == pytest.approx(heard_so + 5.0, abs=1e-5)
     assert behind.inserted == pytest.approx(heard_so - 2.0, abs=1e-5)
-
-
-def test_a_word_is_lost_the_likelier_the_more_was_heard_and_the_more_sense_it_would_make() -> None:
-    curve = LossCurve(heard_slope=1.3, inserted_slope=0.5, offset=-1.1)
-    lost = [
-        curve(Gap(*each))
-        for each in ((0.0, -8.0), (0.5, -8.0), (2.0, -8.0), (2.0, 0.0), (2.0, 4.0))
-    ]
-    assert lost == sorted(lost)
-    assert curve(SILENCE) < 0.01 < 0.5 < lost[-1]
-    assert Gap(0.0, -LARGEST_LOG_ODDS) == SILENCE
-
-
-@pytest.mark.parametrize(("step", "counted"), [(0.0625, 0.0625), (0.046875, 0.0)])
-def test_a_step_counts_from_a_twentieth_on(step: float, counted: float) -> None:
-    assert heard(posteriors(step)) == [counted]
-
-
-def test_gaps_of_far_less_than_a_tenth_of_a_step_differ_no_more() -> None:
-    assert log_heard(0.0) == pytest.approx(np.log(0.1))
-    assert log_heard(0.9) == pytest.approx(0.0)
-    assert log_heard(0.001) - log_heard(0.0) < 0.01
-    curve = LossCurve(heard_slope=1.3, inserted_slope=0.5, offset=-1.1)
-    assert curve(Gap(0.9, 0.0)) == pytest.approx(probability(-1.1))
-    assert curve(Gap(9.9, 2.0)) == pytest.approx(probability(1.3 * np.log(10.0) + 1.0 - 1.1))
-
-
-def test_probabilities_and_log_odds_are_inverse_down_to_one_in_a_million() -> None:
-    for odds in (-5.0, -1.0, 0.0, 2.0):
-        assert log_odds_of(probability(odds)) == pytest.approx(odds)
-    assert probability(0.0) == 0.5
-    assert log_odds_of(0.9) == pytest.approx(np.log(9.0))
-    for beyond, bound in ((0.0, 1e-6), (1.0, 1.0 - 1e-6), (1e-9, 1e-6)):
-        assert log_odds_of(beyond) == pytest.approx(np.log(bound / (1.0 - bound)))

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from airfield import NORTH, Airfield, Mover, drives, lands
-from airhilt.assistant.decision.engines import decision_engine
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
+from airhilt.engine_families import ASSISTANTS
 from encounters import head_on
 
 
 def adsb_only() -> DecisionWorker:
-    return DecisionWorker(decision_engine("adsb_only"), Template())
+    return DecisionWorker(ASSISTANTS.create("adsb_only"), Template())
 
 
 def test_it_hears_and_sees_nothing() -> None:

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from airhilt.assistant.decision.air_tracks import AirTracks, Reach
+from airhilt.assistant.decision.air_tracks import AirTracks, Pair, Reach
 from airhilt.assistant.decision.tracks import Track
 from airhilt.geodesy.wgs84 import displaced
 from airhilt.messages import AdsbReport
@@ -46,6 +46,10 @@ def tracks_of(reports: Sequence[AdsbReport]) -> AirTracks:
     return tracks
 
 
+def news(tracks: AirTracks, *wanted: Pair, t_ns: int = 0) -> list[Pair]:
+    return tracks.pairs_with_news(t_ns, REACH, 15.0, wanted)
+
+
 @pytest.mark.parametrize(
     ("other", "is_looked_at"),
     [
@@ -69,10 +73,8 @@ def test_two_are_looked_at_together_if_they_could_meet_in_level_and_latitude(
 ) -> None:
     for reports in ((report("00000a"), other), (other, report("00000a"))):
         tracks = tracks_of(reports)
-        assert list(tracks.pairs_with_news(REACH, [])) == (
-            [("00000a", "00000b")] if is_looked_at else []
-        )
-        assert list(tracks.pairs_with_news(REACH, [("00000a", "00000b")])) == [("00000a", "00000b")]
+        assert news(tracks) == ([("00000a", "00000b")] if is_looked_at else [])
+        assert news(tracks, ("00000a", "00000b")) == [("00000a", "00000b")]
 
 
 @given(
@@ -91,7 +93,7 @@ def test_no_pair_that_meets_within_the_time_is_left_out(
             for number, (north_m, altitude_m, north_m_s, up_m_s) in enumerate(flights)
         ]
     )
-    together = list(tracks.pairs_with_news(REACH, []))
+    together = news(tracks)
     assert len(together) == len(set(together))
     for (first, one), (second, other) in itertools.combinations(enumerate(flights), 2):
         for step in range(11):
@@ -107,38 +109,32 @@ def test_no_pair_that_meets_within_the_time_is_left_out(
 def test_only_pairs_with_news_are_looked_at() -> None:
     tracks = tracks_of([report("00000a"), report("00000b"), report("00000c")])
     tracks.end_step()
-    assert list(tracks.pairs_with_news(REACH, [("00000a", "00000b")])) == []
+    assert news(tracks, ("00000a", "00000b")) == []
     tracks.take_report(report("00000b", t_s=1.0), SECOND_NS)
-    assert set(tracks.pairs_with_news(REACH, [])) == {("00000a", "00000b"), ("00000b", "00000c")}
+    assert set(news(tracks)) == {("00000a", "00000b"), ("00000b", "00000c")}
 
 
 def test_who_is_silent_is_dropped_but_as_one_of_a_pair_that_is_kept() -> None:
     tracks = tracks_of(
         [report("00000a"), report("00000b"), report("00000c"), report("00000d", t_s=5.0)]
     )
-    tracks.begin_step(0, [])
+    news(tracks, t_ns=15 * SECOND_NS)
     assert [track.icao24 for track in tracks] == ["00000a", "00000b", "00000c", "00000d"]
-    tracks.begin_step(1, [("00000a", "00000b")])
+    news(tracks, ("00000a", "00000b"), t_ns=15 * SECOND_NS + 1)
     assert [track.icao24 for track in tracks] == ["00000a", "00000b", "00000d"]
-    tracks.begin_step(5 * SECOND_NS, [])
+    news(tracks, t_ns=20 * SECOND_NS)
     assert [track.icao24 for track in tracks] == ["00000d"]
 
 
 def test_a_pair_has_been_silent_since_the_last_report_of_either() -> None:
     tracks = tracks_of([report("00000a"), report("00000b", t_s=3.0)])
-    assert tracks.silent_ns(("00000a", "00000b"), 10 * SECOND_NS) == 7 * SECOND_NS
-
-
-def test_who_reports_no_altitude_is_on_the_ground_until_the_next_one() -> None:
-    tracks = tracks_of([report("00000a"), report("00000a", altitude_m=None, t_s=1.0)])
-    assert tracks.is_grounded(track_of(tracks, "00000a"))
-    tracks.take_report(report("00000a", t_s=2.0), 2 * SECOND_NS)
-    assert not tracks.is_grounded(track_of(tracks, "00000a"))
+    pair = ("00000a", "00000b")
+    assert tracks.silent([pair], 10 * SECOND_NS, 7 * SECOND_NS) == [pair]
+    assert tracks.silent([pair], 10 * SECOND_NS, 7 * SECOND_NS + 1) == []
 
 
 def test_a_track_is_carried_on_to_the_present() -> None:
     tracks = tracks_of([report("00000a", north_m_s=100.0, up_m_s=5.0)])
-    tracks.begin_step(0, [])
     later = tracks.present("00000a", 10 * SECOND_NS)
     assert later.altitude_m == pytest.approx(3050.0)
     assert later.latitude_rad > track_of(tracks, "00000a").latitude_rad

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from airhilt.assistant.decision.engines import decision_engine
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
+from airhilt.engine_families import ASSISTANTS
 from encounters import Encounter, head_on
 
 LOST_S = (2.0 * 30.7 - 5.0) / 960.0 * 3600.0
@@ -14,7 +14,7 @@ LOST_S = (2.0 * 30.7 - 5.0) / 960.0 * 3600.0
 
 
 def flown(encounter: Encounter) -> Encounter:
-    encounter.worker = DecisionWorker(decision_engine("conflict_alert"), Template())
+    encounter.worker = DecisionWorker(ASSISTANTS.create("conflict_alert"), Template())
     return encounter.fly()
 
 

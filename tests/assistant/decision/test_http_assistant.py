@@ -13,7 +13,6 @@ import pytest
 from airhilt.assistant.decision.engine import Decision, ReceivedMessage
 from airhilt.assistant.decision.engines.http import HttpAssistant
 from airhilt.assistant.decision.service_messages import AssistantRequest
-from airhilt.assistant.decision.slices import Slices
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.errors import WorkerError
@@ -21,15 +20,12 @@ from airhilt.messages import (
     AdsbReport,
     Advisory,
     Briefing,
-    CameraInfo,
     Climb,
-    Detections,
     RosterEntry,
     Severity,
     Transcript,
 )
 from airhilt.units import SECOND_NS
-from airhilt.workers import check_worker
 from airhilt.workers.samples import sample_inputs
 from services import answering, breaking_off, nobody, redirecting, service
 
@@ -197,34 +193,6 @@ def test_what_cannot_be_right_is_left_out_and_the_advisory_says_so() -> None:
     assert "ADS-B of AAL123" in wrong
 
 
-def sampled() -> Detections:
-    """Return the detections in a picture of the end of the first second."""
-    (sample,) = (
-        Detections.model_validate_json(item.payload)
-        for item in sample_inputs(SECOND_NS)
-        if item.key.startswith("vision/")
-    )
-    return sample
-
-
-@pytest.mark.parametrize(("t_s", "count"), [(1.9, 1), (2.1, 0)])
-def test_a_picture_is_given_for_a_second(t_s: float, count: int) -> None:
-    slices = Slices()
-    slices.receive(ReceivedMessage(sampled(), SECOND_NS, SECOND_NS))
-    assert len(slices.request(round(t_s * SECOND_NS)).cameras) == count
-
-
-def test_pictures_of_a_camera_that_was_not_announced_are_left_out() -> None:
-    slices, sample = Slices(), sampled()
-    known, unknown = (sample.model_copy(update={"camera": name}) for name in ("RWY_A", "ELSEWHERE"))
-    info = CameraInfo(
-        camera="RWY_A", rate_hz=8.0, width_px=640, height_px=360, horizontal_fov_deg=45.0
-    )
-    for message in (info, known, unknown):
-        slices.receive(ReceivedMessage(message, SECOND_NS, SECOND_NS))
-    assert [each.camera_id for each in slices.request(SECOND_NS).cameras] == ["RWY_A"]
-
-
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
@@ -245,14 +213,6 @@ def test_an_answer_that_is_not_of_the_schema_is_refused_by_name(changes: Json, w
         advisories_of(worker_of(url), 2)
 
 
-def test_two_advisories_of_one_name_are_refused() -> None:
-    with (
-        service(Scripted([ADVISORY, ADVISORY])) as url,
-        pytest.raises(WorkerError, match="two advisories with the id 'pair-1'"),
-    ):
-        advisories_of(worker_of(url), 2)
-
-
 @pytest.mark.parametrize(
     ("answer", "words"),
     [
@@ -267,14 +227,3 @@ def test_a_service_that_fails_is_named(answer: Callable[..., None], words: str) 
         advisories_of(worker_of(url), 2)
     with pytest.raises(WorkerError, match="is not there"):
         advisories_of(worker_of(nobody()), 2)
-
-
-def test_an_address_with_a_password_is_refused_without_showing_it() -> None:
-    with pytest.raises(WorkerError, match=r"http://127\.0\.0\.1:9000 contains a user") as raised:
-        HttpAssistant("http://me:secret@127.0.0.1:9000/advise")
-    assert "secret" not in str(raised.value)
-
-
-def test_it_is_a_worker_that_a_run_takes() -> None:
-    with service(Scripted()) as url:
-        check_worker(worker_of(url))

@@ -12,7 +12,8 @@ import pytest
 
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.approach import Approach
-from airhilt.assistant.decision.intruders import IntruderConfig, IntruderWatch, _Encounter
+from airhilt.assistant.decision.escalation import Escalation
+from airhilt.assistant.decision.intruders import IntruderConfig, IntruderWatch, _Encounter, _Ongoing
 from airhilt.assistant.decision.line_of_sight import Ray
 from airhilt.assistant.decision.visual_tracks import VisualTracks
 from airhilt.geodesy.local_frame import LocalFrame
@@ -103,20 +104,9 @@ def test_one_that_is_known_does_not_hide_another_that_is_not() -> None:
     assert told.traffic == ("AAL123", "unidentified")
 
 
-@pytest.mark.parametrize(
-    ("height_m", "reports", "is_flying"),
-    [
-        (20.1, [], True), (19.9, [], False),  # Nobody reports: by its height.
-        (20.1, [report("DAL456", on_ground=True)], True),
-        (500.0, [report("AAL123", on_ground=True)], False),
-        (1.0, [report("AAL123")], True),
-    ],
-)  # fmt: skip
-def test_a_carrier_flies_by_its_report_or_else_from_20_m_on(
-    height_m: float, reports: list[AdsbReport], is_flying: bool
-) -> None:
-    watch = Watch(reports=reports).watch
-    assert watch._is_flying(nose(height_m=height_m).view(0.0)) is is_flying
+def test_a_carrier_that_reports_that_it_is_on_the_ground_meets_nobody() -> None:
+    seen = Watch(nose(ahead(22.0)), reports=[report("AAL123", on_ground=True)]).sees(0.0, 2.0)
+    assert seen.told(2.0, 2.5) == []
 
 
 # --- how long it lasts ------------------------------------------------------------------------
@@ -163,13 +153,10 @@ def test_two_are_past_each_other_at_the_latest_time_by_the_errors_within_three_m
 def test_a_new_track_within_4_degrees_of_one_before_is_the_same(
     azimuth_deg: float, carrier: str, is_same: bool
 ) -> None:
-    watch = Watch().watch
-    other, known = watch._new(encounter(azimuth_deg=90.0)), watch._new(encounter())
-    again = encounter(azimuth_deg=azimuth_deg, carrier=carrier)
-    assert watch._known(again) is (known if is_same else None)
-    assert watch._known(other.encounter) is other
-    turned = known.encounter._replace(carrier=carrier)
-    assert watch._known(turned) is (known if carrier == "AAL123" else None)
+    known = _Ongoing(encounter(), Escalation("intruder-1"))
+    assert known.is_of(encounter(azimuth_deg=azimuth_deg, carrier=carrier)) is is_same
+    assert not known.is_of(encounter(azimuth_deg=90.0))
+    assert known.is_of(known.encounter._replace(severity=None))
 
 
 # --- what is told -----------------------------------------------------------------------------

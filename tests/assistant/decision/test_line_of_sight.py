@@ -89,42 +89,6 @@ def test_the_foot_of_a_box_leads_to_where_it_stands_within_the_error(
     assert not fix.is_same(far, sigmas=1.0)
 
 
-def test_the_error_grows_with_the_square_of_the_distance_along_and_evenly_across() -> None:
-    def errors(distance: float) -> tuple[float, float]:
-        ray = Ray.towards(0.0, distance, -10.0)
-        fix = LineOfSight(Vector(0.0, 0.0), 10.0, ray, 1e-3).on_ground()
-        return math.sqrt(fix.north_m2), math.sqrt(fix.east_m2)
-
-    (near_along, near_across), (far_along, far_across) = errors(200.0), errors(400.0)
-    assert near_along == pytest.approx(200.0**2 / 10.0 * 1e-3, rel=0.01)
-    assert far_along / near_along == pytest.approx(4.0, rel=0.01)
-    assert far_across / near_across == pytest.approx(2.0, rel=0.01)
-
-
-@pytest.mark.parametrize("height_m", [10.0, 200.0])
-@pytest.mark.parametrize("depression_deg", [8.0, 45.0, 80.0])
-def test_the_error_on_the_ground_is_what_a_little_turn_of_the_line_of_sight_makes(
-    height_m: float, depression_deg: float
-) -> None:
-    turn_rad = 1e-4
-
-    def fix(down_deg: float, azimuth_rad: float = 0.0) -> GroundFix:
-        level, down = math.cos(down_deg * DEGREE), math.sin(down_deg * DEGREE)
-        ray = Ray(level * math.sin(azimuth_rad), level * math.cos(azimuth_rad), -down)
-        found = LineOfSight(Vector(0.0, 0.0), height_m, ray, turn_rad).on_ground()
-        assert found is not None
-        return found
-
-    here = fix(depression_deg)
-    farther = fix(depression_deg - turn_rad / DEGREE)
-    assert math.sqrt(here.north_m2) == pytest.approx(
-        farther.point.north - here.point.north, rel=0.01
-    )
-    aside = fix(depression_deg, turn_rad / math.cos(depression_deg * DEGREE))
-    assert math.sqrt(here.east_m2) == pytest.approx(aside.point.east, rel=0.01)
-    assert here.both_m2 == pytest.approx(0.0, abs=1e-9)
-
-
 @pytest.mark.parametrize("azimuth_deg", [0.0, 30.0, 135.0, 250.0])
 def test_the_ellipse_of_the_error_turns_with_the_line_of_sight(azimuth_deg: float) -> None:
     east, north = math.sin(azimuth_deg * DEGREE), math.cos(azimuth_deg * DEGREE)
@@ -150,31 +114,6 @@ def test_a_position_counts_while_its_error_is_less_than_half_of_its_distance() -
     assert fix(50.1) is None
 
 
-@pytest.mark.parametrize(
-    ("ray", "azimuth_deg", "elevation_deg"),
-    [
-        (Ray.towards(1.0, 1.0, 0.0), 45.0, 0.0),
-        (Ray.towards(-1.0, 0.0, 1.0), -90.0, 45.0),
-        (Ray.towards(0.0, -2.0, -2.0), 180.0, -45.0),
-        (Ray(0.0, 0.0, 1.0 + 1e-15), 0.0, 90.0),  # Rounded to more than the whole.
-        (Ray(0.0, 0.0, -1.0 - 1e-15), 0.0, -90.0),
-    ],
-)
-def test_a_direction_has_an_azimuth_from_north_and_an_elevation_from_the_horizon(
-    ray: Ray, azimuth_deg: float, elevation_deg: float
-) -> None:
-    assert ray.azimuth_rad / DEGREE == pytest.approx(azimuth_deg)
-    assert ray.elevation_rad / DEGREE == pytest.approx(elevation_deg)
-
-
-def test_right_and_above_are_positive_also_across_south() -> None:
-    one = Ray.towards(0.01, -1.0, 0.0)
-    other = Ray.towards(-0.01, -1.0, 0.03)
-    assert one.offset_to(other) == pytest.approx((0.02, 0.03), rel=0.01)
-    assert other.offset_to(one) == pytest.approx((-0.02, -0.03), rel=0.01)
-    assert one.angle_to(other) == pytest.approx(math.hypot(0.02, 0.03), rel=0.01)
-
-
 @pytest.mark.parametrize("up", [0.0, 0.1, -0.001])
 def test_a_line_of_sight_to_the_horizon_or_above_meets_no_ground(up: float) -> None:
     assert LineOfSight(Vector(0.0, 0.0), 10.0, Ray.towards(0.0, 1.0, up), 1e-3).on_ground() is None
@@ -195,17 +134,6 @@ def test_turning_the_carrier_does_not_turn_what_is_seen(
     assume(box[1] > 2 and box[3] < turned.height_px - 2)
     straight = PictureGeometry(level.view(0.0)).middle(level.box(other, 0.0))
     assert PictureGeometry(turned.view(0.0)).middle(box).angle_to(straight) < 5e-5
-
-
-def test_cameras_from_two_sides_together_know_a_place_better_than_either() -> None:
-    west = LineOfSight(Vector(-300.0, 0.0), 8.0, Ray.towards(300.0, 0.0, -8.0), 2e-3).on_ground()
-    south = LineOfSight(Vector(0.0, -300.0), 8.0, Ray.towards(0.0, 300.0, -8.0), 2e-3).on_ground()
-    assert west is not None
-    assert south is not None
-    both = west.merged(south)
-    assert both.point == pytest.approx((0.0, 0.0), abs=1e-6)
-    assert both.east_m2 < south.east_m2 < west.east_m2
-    assert both.north_m2 < west.north_m2 < south.north_m2
 
 
 def test_the_chance_of_being_inside_is_that_of_the_error() -> None:
@@ -242,13 +170,6 @@ def test_two_positions_may_be_one_within_three_standard_deviations_and_6_m(seed:
 
 def line(place: tuple[float, float, float], ray: Ray, error_rad: float) -> LineOfSight:
     return LineOfSight(Vector(*place[:2]), place[2], ray, error_rad)
-
-
-def test_a_place_along_a_line_of_sight_errs_by_its_range() -> None:
-    found = line((10.0, 20.0, 5.0), Ray(0.6, 0.0, 0.8), 0.01).at(200.0)
-    assert found.point == pytest.approx((130.0, 20.0))
-    assert found.height_m == pytest.approx(165.0)
-    assert found.error_m == found.height_error_m == pytest.approx(2.0)
 
 
 @pytest.mark.parametrize(("apart_m", "size_m", "meets"), [(4.2, 0.0, True), (4.3, 0.0, False),
@@ -295,14 +216,6 @@ def test_nearly_parallel_lines_of_sight_give_no_place(angle_deg: float, meets: b
     assert (found is not None) is meets
 
 
-def test_what_is_behind_a_camera_is_met_by_no_line_of_sight() -> None:
-    ahead, back = Ray(1.0, 0.0, 0.0), Ray(-1.0, 0.0, 0.0)
-    other = line((100.0, -50.0, 0.0), Ray(0.0, 1.0, 0.0), 0.01)
-    assert meeting(line((0.0, 0.0, 0.0), ahead, 0.01), other, 0.0) is not None
-    assert meeting(line((0.0, 0.0, 0.0), back, 0.01), other, 0.0) is None
-    assert meeting(other, line((0.0, 0.0, 0.0), back, 0.01), 0.0) is None
-
-
 @given(
     east=st.floats(-200.0, 200.0), north=st.floats(300.0, 900.0), up=st.floats(0.0, 150.0),
 )  # fmt: skip
@@ -315,43 +228,3 @@ def test_two_lines_of_sight_meet_where_both_lead(east: float, north: float, up: 
     assert fix is not None
     assert (*fix.point, fix.height_m) == pytest.approx((east, north, up), abs=0.01)
     assert fix.error_m < 30.0
-
-
-def test_lines_of_sight_to_different_birds_do_not_meet() -> None:
-    def line(place: Vector, east: float, up: float) -> LineOfSight:
-        return LineOfSight(place, 3.0, Ray.towards(east - place.east, 600.0, up), 1e-3)
-
-    low, high = line(Vector(-120.0, 0.0), 0.0, 20.0), line(Vector(120.0, 0.0), 0.0, 90.0)
-    assert meeting(low, high, 10.0) is None
-    diverging = line(Vector(-120.0, 0.0), -200.0, 20.0), line(Vector(120.0, 0.0), 200.0, 20.0)
-    assert meeting(*diverging, 10.0) is None
-
-
-@pytest.mark.parametrize(
-    ("box", "touches"),
-    [
-        ((1.1, 1.1, 638.9, 358.9), False),
-        ((1.0, 1.1, 638.9, 358.9), True),
-        ((1.1, 1.0, 638.9, 358.9), True),
-        ((1.1, 1.1, 639.0, 358.9), True),
-        ((1.1, 1.1, 638.9, 359.0), True),
-    ],
-)
-def test_the_edge_is_a_pixel_wide(box: tuple[float, float, float, float], touches: bool) -> None:
-    camera = camera_at((0.0, 0.0, 5.0), 0.0, 0.0, still("truck", (0.0, 50.0, 0.0), CUBE))
-    assert PictureGeometry(camera.view(0.0)).touches_edge(box) is touches
-
-
-@pytest.mark.parametrize(
-    ("x_px", "y_px", "share"), [(320.0, 180.0, 1.0), (640.0, 180.0, 0.5), (320.0, 500.0, 0.5)]
-)
-def test_a_box_is_smaller_in_angle_the_farther_from_the_middle(
-    x_px: float, y_px: float, share: float
-) -> None:
-    """At 45 degrees from the middle a pixel is half of what it is there."""
-    camera = camera_at(
-        (0.0, 0.0, 5.0), 0.0, 0.0, still("truck", (0.0, 50.0, 0.0), CUBE), fov_deg=90.0
-    )
-    box = (x_px - 2.0, y_px - 1.0, x_px + 2.0, y_px + 1.0)
-    found = PictureGeometry(camera.view(0.0)).angular_size(box)
-    assert found == pytest.approx((share * 4.0 / 320.0, share * 2.0 / 320.0))

@@ -32,7 +32,7 @@ from airhilt.messages import (
 from airhilt.units import SECOND_NS
 from language_models import Json, saying, settings
 from services import Answer as ServiceAnswer
-from services import nobody, service
+from services import service
 
 NAMES = ("AAL123", "DAL456", "UAL7")
 RUNWAY = RunwayBriefing(
@@ -173,10 +173,6 @@ class TestAdvisoriesOfTheModel:
         assert not result.advisories
         assert why in result.rejections[0].reason
 
-    def test_a_runway_that_nobody_uses_is_in_no_conflict(self) -> None:
-        result = reviewed(situation([], CLEARED), runway=None, advisories=[own()])
-        assert "none of them uses runway 01" in result.rejections[0].reason
-
     def test_an_action_against_that_of_the_rules_is_refused(self) -> None:
         actions = [{"callsign": "AAL123", "action": "hold_position"}]
         advisory = own(actions=actions, recipients=["AAL123"])
@@ -204,15 +200,6 @@ def test_the_schema_can_name_only_what_is_known() -> None:
     text = json.dumps(schema)
     assert all(name in text for name in (*NAMES, "ATC", "runway-1", "r1", '"01"'))
     assert "judgements" not in situation([], CLEARED).schema()["properties"]
-
-
-def test_the_schema_of_an_advisory_leaves_room_for_three_in_conflict_and_the_controller() -> None:
-    advisory = situation([CAUTION], CLEARED).schema()["properties"]["advisories"]["items"]
-    most = {name: part.get("maxItems") for name, part in advisory["properties"].items()}
-    assert most["traffic"] == most["actions"] == 3
-    assert most["recipients"] == 4
-    assert set(most) == set(advisory["required"])
-    assert advisory["additionalProperties"] is False
 
 
 def test_words_that_mean_nothing_to_the_phraseology_do_not_reach_the_model() -> None:
@@ -289,25 +276,6 @@ def test_tracks_are_given_for_15_s_and_calls_for_two_minutes_from_their_end(
     assert request.ts_ms == 200_000
 
 
-def test_a_call_is_given_as_it_was_heard_and_by_whom() -> None:
-    slices = Slices()
-    for message in (BRIEFING, CLEARED, READBACK.model_copy(update={"id": "c-2"})):
-        slices.receive(ReceivedMessage(message, 0, 0))
-    to, by = slices.request(60 * SECOND_NS).radio
-    assert (to.turn_id, to.ts_ms, to.end_ms, to.frequency_khz) == ("c-1", 50_000, 51_000, 118_300)
-    assert (to.addressed_callsign, to.speaker) == ("UAL7", None)
-    assert (by.addressed_callsign, by.speaker) == (None, "AAL123")
-    assert slices.callsigns() == NAMES
-
-
-def test_who_has_adsb_and_is_not_on_the_roster_is_known_too() -> None:
-    slices = Slices()
-    other = report("AAL123", -77.0, 90.0, 0.0).model_copy(update={"callsign": "BAW9"})
-    for message in (BRIEFING, other):
-        slices.receive(ReceivedMessage(message, 0, 0))
-    assert slices.callsigns() == ("AAL123", "BAW9", "DAL456", "UAL7")
-
-
 # --- the engine -----------------------------------------------------------------------------
 
 
@@ -358,15 +326,6 @@ def test_the_rules_alerts_go_out_when_they_would_whatever_the_model_says(
     assert {severity for _, _, severity in expected} > {Severity.CAUTION, Severity.WARNING}
     with assistant(saying(reply)) as engine:
         assert Encounter(engine).told() == expected
-
-
-def test_a_model_that_is_not_there_changes_nothing() -> None:
-    engine = LanguageModelAssistant()
-    engine.use(settings(nobody()))
-    encounter = Encounter(engine)
-    assert encounter.told() == Encounter(ReferenceEngine()).told()
-    failures = [each.failure for _, one in encounter.decisions for each in one.exchanges]
-    assert "is not there" in failures[0]
 
 
 def test_it_is_asked_at_most_every_two_seconds_and_not_before_a_warning_goes_out() -> None:

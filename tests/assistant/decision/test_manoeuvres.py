@@ -17,7 +17,6 @@ from airhilt.assistant.decision.manoeuvres import (
     paths,
     separations,
     straight_paths,
-    turn_rate_rad_s,
 )
 from airhilt.geodesy.relative_motion import Minima, Relative, VerticalProfile
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE
@@ -37,23 +36,6 @@ def test_a_turn_takes_the_time_of_its_bank_and_begins_after_the_response() -> No
     radius_m = SPEED_M_S / rate_rad_s
     assert flown.north_m[0, is_over] == pytest.approx(SPEED_M_S * RESPONSE_S + radius_m)
     assert np.diff(flown.east_m[0, is_over]) == pytest.approx(SPEED_M_S * TIMES_S[1])
-
-
-def test_left_is_the_mirror_of_right() -> None:
-    flown = paths(
-        NORTHBOUND, LEVEL, [Manoeuvre(turn_rad=60 * DEGREE), Manoeuvre(turn_rad=-60 * DEGREE)]
-    )
-    assert flown.north_m[0] == pytest.approx(flown.north_m[1])
-    assert flown.east_m[0] == pytest.approx(-flown.east_m[1])
-    assert flown.east_m[0, -1] > 0.0
-
-
-def test_a_slow_aircraft_turns_at_rate_one() -> None:
-    """By 25 degrees of bank rate one is flown up to 87.3 m/s, 170 kt (ICAO Doc 8168, volume II)."""
-    assert turn_rate_rad_s(50.0) == pytest.approx(3.0 * DEGREE)
-    assert turn_rate_rad_s(87.3) == pytest.approx(3.0 * DEGREE)
-    assert turn_rate_rad_s(87.4) < 3.0 * DEGREE
-    assert turn_rate_rad_s(SPEED_M_S) / DEGREE == pytest.approx(1.092, abs=0.001)
 
 
 def test_who_is_told_to_descend_flies_on_for_the_response_and_levels_off() -> None:
@@ -81,13 +63,6 @@ def test_who_is_told_nothing_flies_straight_on_and_levels_off() -> None:
     assert TIMES_S[SOON_STEPS - 1] == pytest.approx(178.0)
 
 
-def test_no_manoeuvre_is_the_same_as_flying_straight_on() -> None:
-    profile, motion = VerticalProfile(3000.0, 10.0, 3500.0), Relative(100.0, 200.0, 70.0, -30.0)
-    told, left = paths(motion, profile, [NONE]).soon(0), straight_paths([motion], [profile])
-    for one, other in zip(told, left, strict=True):
-        assert one == pytest.approx(other)
-
-
 @pytest.mark.parametrize(
     ("north_m", "east_m", "up_m", "least"),
     [
@@ -108,28 +83,3 @@ def test_separation_is_that_of_the_minimum_that_is_kept_better(
     minima = Minima(5000.0, 300.0)
     assert separations(here, there, minima) == pytest.approx([least])
     assert separations(there, here, minima) == pytest.approx([least])
-
-
-@pytest.mark.parametrize("turn_deg", [30.0, -90.0])
-@pytest.mark.parametrize("speed_m_s", [60.0, 240.0])
-def test_a_turn_changes_the_heading_and_not_the_speed(turn_deg: float, speed_m_s: float) -> None:
-    """The track before is 40 degrees, and afterwards 40 degrees and the turn."""
-    north, east = math.cos(40.0 * DEGREE), math.sin(40.0 * DEGREE)
-    motion = Relative(10.0, -20.0, speed_m_s * north, speed_m_s * east)
-    flown = paths(motion, LEVEL, [Manoeuvre(turn_rad=turn_deg * DEGREE)])
-    step_north, step_east = np.diff(flown.north_m[0]), np.diff(flown.east_m[0])
-    speeds = np.hypot(step_north, step_east) / TIMES_S[1]
-    assert speeds == pytest.approx(speed_m_s, rel=0.001)
-    headings = np.degrees(np.arctan2(step_east, step_north))
-    assert headings[0] == pytest.approx(40.0)
-    assert headings[-1] == pytest.approx(40.0 + turn_deg)
-    assert (flown.north_m[0, 0], flown.east_m[0, 0]) == pytest.approx((10.0, -20.0))
-
-
-def test_a_climb_is_flown_at_its_rate_from_the_response_on() -> None:
-    up = Manoeuvre(10_300.0, 7.5)
-    (told,) = paths(NORTHBOUND, LEVEL, [up]).altitude_m
-    expected = np.clip(10_000.0 + 7.5 * (TIMES_S - RESPONSE_S), 10_000.0, 10_300.0)
-    assert told == pytest.approx(expected)
-    (at_once,) = paths(NORTHBOUND, LEVEL, [up], response_s=0.0).altitude_m
-    assert at_once == pytest.approx(np.minimum(10_000.0 + 7.5 * TIMES_S, 10_300.0))

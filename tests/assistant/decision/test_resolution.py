@@ -157,15 +157,6 @@ def test_who_gives_way_to_a_diver_goes_below_the_level_where_the_two_are_past() 
     assert told.altitude_ft * FOOT < diver.profile().at(near_s[1]) - STANDARD.vertical_m
 
 
-def test_nobody_is_told_to_descend_into_the_ground() -> None:
-    lander = track("a00001", 0.0, 0.0, 4_000, (60.0, 0.0), -1_000)
-    lander.in_distress = True
-    told = resolve(
-        lander, track("a00002", 6_000.0, 0.0, 3_000, (-60.0, 0.0)), [], STANDARD, INFRINGED, True
-    ).second
-    assert sense(told) != "descend" or told.altitude_ft * FOOT >= 600.0
-
-
 def head_on_pair(gap_ft: float = 0.0, rate_fpm: float = 0.0) -> tuple[Track, Track]:
     first = track("a00001", 0.0, 0.0, 35_000, (240.0, 0.0), rate_fpm)
     return first, track("a00002", 70_000.0, 0.0, 35_000 + gap_ft, (-240.0, 0.0))
@@ -178,33 +169,6 @@ def test_head_on_both_share_what_is_missing_and_it_is_enough() -> None:
     assert abs(levels[0] - levels[1]) >= 1_000
     assert all(level % 100 == 0 for level in levels)
     assert resolution.margin >= 1.0
-
-
-def test_who_climbs_towards_the_other_need_only_stop_short() -> None:
-    resolution = resolve(*head_on_pair(2_000, 1_500), [], STANDARD, INFRINGED, strong=False)
-    assert resolution.first == MaintainLevel(altitude_ft=36_000)
-    assert resolution.second is None
-
-
-def test_who_descends_towards_the_other_need_only_stop_short() -> None:
-    resolution = resolve(*head_on_pair(-2_000, -1_500), [], STANDARD, INFRINGED, strong=False)
-    assert resolution.first == MaintainLevel(altitude_ft=34_000)
-    assert resolution.second is None
-
-
-@pytest.mark.parametrize(("gap_ft", "rate_fpm"), [(900, 1_500), (-900, -1_500)])
-def test_who_is_nearer_than_the_minimum_already_cannot_stop_short(
-    gap_ft: float, rate_fpm: float
-) -> None:
-    resolution = resolve(*head_on_pair(gap_ft, rate_fpm), [], STANDARD, INFRINGED, strong=False)
-    assert not isinstance(resolution.first, MaintainLevel)
-    assert sense(resolution.first) or sense(resolution.second)
-
-
-def test_the_level_to_stop_at_is_the_next_flight_level_that_keeps_the_minimum() -> None:
-    up = resolve(*head_on_pair(2_060, 1_500), [], STANDARD, INFRINGED, strong=False).first
-    down = resolve(*head_on_pair(-2_060, -1_500), [], STANDARD, INFRINGED, strong=False).first
-    assert (up, down) == (MaintainLevel(altitude_ft=36_000), MaintainLevel(altitude_ft=34_000))
 
 
 @examples(60)
@@ -238,14 +202,6 @@ def test_nothing_that_could_have_been_told_would_have_kept_more_separation(
     turn = Turn(degrees=30)
     weighed = [worth(turn, turn), worth(turn, None), worth(None, turn)]
     assert best >= min(max(weighed), 1.0) - 0.01
-
-
-def test_in_a_warning_the_rate_is_stronger() -> None:
-    rates = [
-        resolve(*head_on_pair(), [], STANDARD, INFRINGED, strong).first.vertical_rate_fpm
-        for strong in (False, True)
-    ]
-    assert rates[1] > rates[0]
 
 
 def test_between_two_others_above_and_below_nobody_climbs_or_descends() -> None:

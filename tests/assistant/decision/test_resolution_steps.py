@@ -7,17 +7,16 @@ from typing import Any
 
 import pytest
 
-from airhilt.assistant.decision.manoeuvres import NONE, Manoeuvre
+from airhilt.assistant.decision.manoeuvres import NONE
 from airhilt.assistant.decision.resolution import (
     Candidate,
     _candidates,
     _Pair,
-    _recommendation,
     resolve,
 )
 from airhilt.assistant.decision.tracks import Track
 from airhilt.geodesy.relative_motion import Minima
-from airhilt.messages import Climb, MaintainLevel, Turn
+from airhilt.messages import Climb
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, NAUTICAL_MILE
 
 STANDARD = Minima(5.0 * NAUTICAL_MILE, 1000.0 * FOOT)
@@ -83,29 +82,8 @@ def test_two_share_what_is_missing_to_the_minimum_and_200_ft(
     assert told(second, first) == (second_goes, first_goes)
 
 
-def test_in_a_warning_they_do_it_with_2500_ft_min() -> None:
-    assert told(*head_on(35_000, 35_000), strong=True) == (
-        descend(34_400, 2500.0), climb(35_600, 2500.0),
-    )  # fmt: skip
-
-
 def pair(upper: Track, lower: Track) -> _Pair:
     return _Pair(upper, lower, STANDARD)
-
-
-@pytest.mark.parametrize(
-    ("gap_ft", "levels_ft"),
-    [(0.0, (35_600, 34_400)), (-400.0, (35_400, 34_200)), (1190.0, (36_200, 34_900)),
-     (1200.0, None), (1300.0, None)],
-)  # fmt: skip
-def test_levels_are_far_enough_apart_in_hundreds_of_feet_outward(
-    gap_ft: float, levels_ft: tuple[float, float] | None
-) -> None:
-    upper, lower = track("a1", 0.0, 35_000 + gap_ft), track("a2", 0.0, 35_000)
-    found = pair(upper, lower).levels_apart()
-    assert (found and tuple(level / FOOT for level in found)) == (
-        levels_ft and pytest.approx(levels_ft)
-    )
 
 
 def test_who_goes_alone_goes_clear_of_where_the_other_gets_to_while_the_two_are_near() -> None:
@@ -115,26 +93,8 @@ def test_who_goes_alone_goes_clear_of_where_the_other_gets_to_while_the_two_are_
     both = pair(upper, lower)
     last_s = (48_000.0 + 5.0 * NAUTICAL_MILE) / 480.0
     highest_ft, lowest_ft = 34_000.0 + 20.0 * last_s, 35_000.0 - 10.0 * last_s
-    assert both.level_above() / FOOT == pytest.approx(100.0 * math.ceil((highest_ft + 1200) / 100))
-    assert both.level_below() / FOOT == pytest.approx(100.0 * math.floor((lowest_ft - 1200) / 100))
-
-
-@pytest.mark.parametrize(
-    ("apart_m", "closing_m_s", "expected_s"),
-    [
-        (48_000.0, 480.0, (38_740.0 / 480.0, 57_260.0 / 480.0)),
-        (5_000.0, 480.0, (0.0, 14_260.0 / 480.0)),  # They are near already.
-        (-48_000.0, 480.0, (0.0, 0.0)),  # They were.
-        (5_000.0, 0.0, (0.0, 600.0)),  # And will be for as long as is foreseen.
-        (48_000.0, 0.0, (0.0, 0.0)),
-        (20_000.0, 20.0, (10_740.0 / 20.0, 600.0)),
-    ],
-)
-def test_the_two_are_near_while_they_are_within_the_horizontal_minimum(
-    apart_m: float, closing_m_s: float, expected_s: tuple[float, float]
-) -> None:
-    both = pair(track("a1", 0.0, 35_000, closing_m_s), track("a2", apart_m, 35_000))
-    assert both._near_s() == pytest.approx(expected_s, rel=0.01)
+    assert both.above_m / FOOT == pytest.approx(100.0 * math.ceil((highest_ft + 1200) / 100))
+    assert both.below_m / FOOT == pytest.approx(100.0 * math.floor((lowest_ft - 1200) / 100))
 
 
 # --- what is tried first ----------------------------------------------------------------------
@@ -172,13 +132,6 @@ def test_levels_come_before_a_turn_and_more_of_either_after_that() -> None:
     ]
 
 
-def test_in_a_warning_levels_are_tried_at_the_stronger_rate_at_once() -> None:
-    lower, upper = head_on(35_000, 35_000)
-    levels, turned, wide, combined = groups(upper, lower, strong=True)
-    assert rates(levels) == rates(combined) == {round(STRONG_M_S, 6)}
-    assert rates(turned) == rates(wide) == set()
-
-
 @pytest.mark.parametrize(
     ("upper_rate", "lower_rate", "stops_ft"),
     [
@@ -211,19 +164,6 @@ def test_whoever_moves_towards_the_other_may_stop_short(
     )
 
 
-@pytest.mark.parametrize(("gap_ft", "may_stop"), [(1_090.0, False), (1_101.0, True)])
-def test_a_stop_is_a_level_ahead_that_keeps_the_minimum(gap_ft: float, may_stop: bool) -> None:
-    """At 35,000 ft, a hundred feet above which are 1,000 ft below 36,100 ft."""
-    upper = track("a1", 0.0, 35_000 + gap_ft, 240.0)
-    lower = track("a2", 60_000.0, 35_000, -240.0, rate_fpm=1500.0)
-    up, down = groups(upper, lower)[0][0]
-    assert (up == NONE and down.target_m == pytest.approx(35_100 * FOOT)) is may_stop
-    upper = track("a1", 0.0, 35_000, 240.0, rate_fpm=-1500.0)
-    lower = track("a2", 60_000.0, 35_000 - gap_ft, -240.0)
-    up, down = groups(upper, lower)[0][0]
-    assert (down == NONE and up.target_m == pytest.approx(34_900 * FOOT)) is may_stop
-
-
 @pytest.mark.parametrize(("lower_ft", "is_down"), [(3_220.0, True), (3_140.0, False)])
 def test_nobody_goes_down_below_600_m(lower_ft: float, is_down: bool) -> None:
     """The lower one, by 200 ft, goes down by 500 ft, or by 1,000 ft alone; 600 m are 1,969 ft."""
@@ -246,7 +186,7 @@ def test_who_is_in_distress_is_told_nothing_and_the_other_gives_way() -> None:
         assert (other is None) is second
     both = head_on(35_000, 35_000, first={"in_distress": True}, second={"in_distress": True})
     assert told(*both) == (None, None)
-    assert resolve(*both, [], STANDARD, INFRINGED, True).margin == 0.0
+    assert told(*both, strong=True) == (None, None)
 
 
 @pytest.mark.parametrize(
@@ -271,44 +211,4 @@ def test_what_would_meet_others_is_the_last_resort() -> None:
     assert first is not None
 
 
-@pytest.mark.parametrize(("above_ft", "is_clear"), [(36_440, False), (36_460, True)])
-def test_others_matter_within_the_infringed_minimum_only(above_ft: float, is_clear: bool) -> None:
-    """The climb ends at 35,600 ft: 850 ft above that are 36,450 ft."""
-    pair = head_on(35_000, 35_000)
-    above = track("b1", 70_000.0, above_ft, -240.0)
-    assert (told(*pair, others=(above,)) == told(*pair)) is is_clear
-
-
-def test_of_what_keeps_separation_the_first_is_taken_and_not_what_keeps_more() -> None:
-    climber = {"rate_fpm": 1500.0}
-    assert told(*head_on(35_000, 37_000, first=climber)) == (
-        MaintainLevel(altitude_ft=36_000),
-        None,
-    )
-
-
 # --- what is told of it -----------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("rate_fpm", "manoeuvre", "expected"),
-    [
-        (0.0, NONE, None),
-        (0.0, Manoeuvre(turn_rad=30.0 * DEGREE), Turn(degrees=30)),
-        (0.0, Manoeuvre(turn_rad=-60.0 * DEGREE), Turn(degrees=-60)),
-        (0.0, Manoeuvre(36_000 * FOOT, NORMAL_M_S), climb(36_000)),
-        (0.0, Manoeuvre(34_000 * FOOT, STRONG_M_S), descend(34_000, 2500.0)),
-        (0.0, Manoeuvre(36_000 * FOOT, STRONG_M_S, -30.0 * DEGREE), climb(36_000, 2500.0, -30.0)),
-        (1500.0, Manoeuvre(36_000 * FOOT, NORMAL_M_S), MaintainLevel(altitude_ft=36_000)),
-        (-1500.0, Manoeuvre(34_000 * FOOT, NORMAL_M_S), MaintainLevel(altitude_ft=34_000)),
-        (-1500.0, Manoeuvre(36_000 * FOOT, NORMAL_M_S), climb(36_000)),
-        (1500.0, Manoeuvre(34_000 * FOOT, NORMAL_M_S), descend(34_000)),
-        (1500.0, Manoeuvre(36_000 * FOOT, STRONG_M_S), climb(36_000, 2500.0)),
-        (1500.0, Manoeuvre(36_000 * FOOT, NORMAL_M_S, 30.0 * DEGREE), climb(36_000, 1500.0, 30.0)),
-    ],
-)
-def test_a_level_at_the_present_rate_is_one_to_maintain(
-    rate_fpm: float, manoeuvre: Manoeuvre, expected: Any
-) -> None:
-    own = track("a1", 0.0, 35_000, 240.0, rate_fpm=rate_fpm)
-    assert _recommendation(own, manoeuvre) == expected

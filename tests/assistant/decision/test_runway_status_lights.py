@@ -19,9 +19,9 @@ from airfield import (
     stands,
     takes_off,
 )
-from airhilt.assistant.decision.engines import decision_engine
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
+from airhilt.engine_families import ASSISTANTS
 from airhilt.messages import Advisory, SurfaceTrack
 from airhilt.sim import Input
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE, SECOND_NS, bearing_degrees
@@ -40,7 +40,7 @@ class SurfaceField:
     configuration: dict[str, float] = field(default_factory=dict)
 
     def run(self, seconds: int) -> SurfaceField:
-        engine = decision_engine("runway_status_lights", configuration=self.configuration)
+        engine = ASSISTANTS.create("runway_status_lights", configuration=self.configuration)
         worker = DecisionWorker(engine, Template())
         worker.step(0, [Input("briefing", 0, BRIEFING.model_dump_json().encode())])
         for t_s in range(seconds):

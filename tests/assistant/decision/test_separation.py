@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from airhilt.assistant.decision.air_tracks import AirTracks
-from airhilt.assistant.decision.engines import decision_engine
+from airhilt.assistant.decision.air_tracks import AirTracks, Reach
+from airhilt.engine_families import ASSISTANTS
 from airhilt.messages import AdsbReport, Advisory, Severity
 from airhilt.units import KNOT, SECOND_NS
 from breadth import mostly_slow
@@ -23,7 +23,7 @@ def test_random_losses_are_warned_of_in_time_though_nobody_reacts(
     encounters: int, losses: int
 ) -> None:
     outcomes = [
-        fly(draw(np.random.default_rng((11, number))), decision_engine("reference"), number)
+        fly(draw(np.random.default_rng((11, number))), ASSISTANTS.create("reference"), number)
         for number in range(encounters)
     ]
     numbers = judged(outcomes)
@@ -127,5 +127,5 @@ def test_the_track_of_an_aircraft_that_has_landed_is_dropped_though_it_still_rep
             update={"altitude_ft": None, "on_ground": True}
         )
         tracks.take_report(landed, t_s * SECOND_NS)
-    tracks.begin_step(14 * SECOND_NS, ())
+    tracks.pairs_with_news(29 * SECOND_NS, Reach(0.0, 0.0, 0.0), 15.0, ())
     assert list(tracks) == []

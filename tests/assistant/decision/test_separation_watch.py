@@ -89,13 +89,6 @@ def test_crews_are_told_from_a_caution_on_and_what_to_do() -> None:
             assert told.vertical_rate_fpm == rate_fpm
 
 
-def test_a_warning_that_comes_first_is_not_told_at_the_stronger_rate() -> None:
-    """Nobody has had a chance to do it at the usual one."""
-    ((_, warning),) = Sky(50.0).flies(0, 5).told
-    assert warning.severity is Severity.WARNING
-    assert {told.vertical_rate_fpm for told in warning.recommendations.values()} == {1500.0}
-
-
 def test_without_reports_it_goes_on_from_where_they_were() -> None:
     sky = Sky(65.0).flies(0, 3).flies(3, 12, reports=False)
     assert sky.severities() == [(1, "CAUTION"), (6, "WARNING")]
@@ -113,12 +106,6 @@ def test_it_is_over_8_s_after_the_two_are_past_each_other() -> None:
     assert not sky.watch.has_conflict
 
 
-def test_an_advisory_is_over_8_s_after_it_is_not_foreseen_any_more() -> None:
-    sky = Sky(170.0).flies(0, 3).flies(3, 30, second_ft=37_000.0)
-    assert sky.severities() == [(1, "ADVISORY"), (11, "INFO")]
-    assert sky.told[-1][1].recipients == ("ATC",)
-
-
 def test_a_caution_stays_while_the_two_could_meet_again_and_is_told_again() -> None:
     sky = Sky(100.0).flies(0, 3).flies(3, 30, second_ft=37_000.0)
     assert sky.severities() == [(1, "CAUTION")]
@@ -130,19 +117,6 @@ def test_a_caution_stays_while_the_two_could_meet_again_and_is_told_again() -> N
     assert again.severities() == [(1, "CAUTION")]  # It was clear for less than 8 s.
 
 
-def test_what_was_never_told_is_forgotten_at_once() -> None:
-    sky = Sky(100.0).flies(0, 1).flies(1, 2, second_ft=37_000.0)
-    assert sky.told == []
-    assert not sky.watch.has_conflict
-    sky.flies(2, 5)
-    assert [alert.id for _, alert in sky.told] == ["separation-2"]
-
-
-def test_who_has_landed_loses_separation_from_nobody() -> None:
-    sky = Sky(170.0).flies(0, 3).flies(3, 30, first_ft=None)
-    assert sky.severities() == [(1, "ADVISORY"), (11, "INFO")]
-
-
 @pytest.mark.parametrize(("silent_s", "is_known"), [(15, True), (16, False)])
 def test_a_track_is_dropped_after_15_s_of_silence_unless_it_is_in_a_conflict(
     silent_s: int, is_known: bool
@@ -151,11 +125,6 @@ def test_a_track_is_dropped_after_15_s_of_silence_unless_it_is_in_a_conflict(
     assert len(list(sky.watch._tracks)) == (2 if is_known else 0)
     sky = Sky(100.0).flies(0, 3).flies(3, 40, reports=False)
     assert len(list(sky.watch._tracks)) == 2
-
-
-def test_nothing_that_is_not_applied_is_told() -> None:
-    config = SeparationConfig(rules=("level_readback",))
-    assert Sky(50.0, config).flies(0, 10).told == []
 
 
 def test_what_is_seen_while_nothing_is_told_counts_for_how_long_it_has_lasted() -> None:

@@ -11,13 +11,11 @@ import pytest
 
 from airfield import BRIEFING, FIELD, NORTH, charted, degrees
 from airhilt.assistant.decision.aerodrome import Aerodrome, Vector, Way
-from airhilt.assistant.decision.approach import Approach
 from airhilt.assistant.decision.call_order import CallOrder
 from airhilt.assistant.decision.clarifications import Clarifications
 from airhilt.assistant.decision.clearances import Clearances
 from airhilt.assistant.decision.findings import NotReadBack
 from airhilt.assistant.decision.guard import ConfidenceGuard, Doubt
-from airhilt.assistant.decision.intruder_advice import evasion
 from airhilt.assistant.decision.line_of_sight import GroundFix, PictureGeometry
 from airhilt.assistant.decision.mobiles import Mobile
 from airhilt.assistant.decision.occupancy import velocity_of
@@ -30,7 +28,6 @@ from airhilt.messages import (
     AdsbReport,
     AirportBriefing,
     CancelTakeoff,
-    Climb,
     GoAround,
     HoldPosition,
     Severity,
@@ -188,33 +185,11 @@ def test_what_stopped_more_than_two_seconds_ago_stands() -> None:
     assert velocity_after(4.5, 10.0, stops_s=2.0) == pytest.approx((0.0, 0.0), abs=0.1)
 
 
-@pytest.mark.parametrize("vertical_ft", [450.0, 1000.0])
-def test_who_descends_goes_down_as_far_as_who_climbs_goes_up(vertical_ft: float) -> None:
-    level = SimpleNamespace(
-        label="airplane",
-        last=SimpleNamespace(
-            ray=SimpleNamespace(elevation_rad=0.0),
-            geometry=SimpleNamespace(view=SimpleNamespace(height_m=3000.0)),
-        ),
-    )
-    straight = Approach(0.05, 0.001, 0.001, (0.0, 0.0), 0.001, 0.01)
-    up, down = (
-        evasion(cast(Any, level), straight, report(vertical_rate_fpm=rate), vertical_ft * FOOT)
-        for rate in (500.0, -500.0)
-    )
-    assert isinstance(up, Climb)
-    assert isinstance(down, Climb)
-    assert (up.sense, down.sense) == ("climb", "descend")
-    assert up.altitude_ft is not None
-    assert down.altitude_ft is not None
-    assert up.altitude_ft - 4000.0 == 4000.0 - down.altitude_ft > vertical_ft
-
-
 # --- in the air -----------------------------------------------------------------------------
 
 
 def test_a_track_has_the_last_callsign_that_was_reported() -> None:
-    track = Track.of(report(callsign=None), 4000.0)
+    track = Track.of(report(callsign=None), 4000.0, 0)
     assert track.callsign == "a1b2c3"
     for t_ns, callsign in enumerate(("AAL123", None, "AAL124"), start=1):
         track.update(report(callsign=callsign, t_adsb_in_ns=t_ns), 4000.0)

@@ -18,9 +18,9 @@ from airfield import (
     stands,
     takes_off,
 )
-from airhilt.assistant.decision.engines import decision_engine
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
+from airhilt.engine_families import ASSISTANTS
 from airhilt.errors import AirhiltError
 
 THRESHOLD_S = 90.0
@@ -32,7 +32,7 @@ def arrival(**rest: Any) -> Mover:
 
 
 def airfield(*movers: Mover, engine: str = "surf_a", seconds: float = 95.0) -> Airfield:
-    worker = DecisionWorker(decision_engine(engine), Template())
+    worker = DecisionWorker(ASSISTANTS.create(engine), Template())
     return Airfield(list(movers), worker=worker).run(seconds)
 
 
@@ -88,16 +88,16 @@ def test_an_arrival_to_a_crossing_runway_is_not_on_the_runway() -> None:
 
 
 def test_its_times_can_be_set_and_the_caution_is_never_the_later_one() -> None:
-    engine = decision_engine("surf_a", configuration={"caution_s": 40.0})
+    engine = ASSISTANTS.create("surf_a", configuration={"caution_s": 40.0})
     worker = DecisionWorker(engine, Template())
     field = Airfield(
         [arrival(), Mover("OPS1", NORTH, stands(1800.0), category="C2")], worker=worker
     ).run(95.0)
     assert times(field)[0] == ("CAUTION", pytest.approx(40.0, abs=1.5))
     with pytest.raises(AirhiltError, match="warning_s is 15; expected at most caution_s, 10"):
-        decision_engine("surf_a", configuration={"caution_s": 10.0})
+        ASSISTANTS.create("surf_a", configuration={"caution_s": 10.0})
 
 
 def test_a_severity_without_alerts_is_refused_by_name() -> None:
     with pytest.raises(AirhiltError, match="'surf_a:info': expected surf_a:caution or surf_a:warn"):
-        decision_engine("surf_a:info")
+        ASSISTANTS.create("surf_a:info")

@@ -9,9 +9,9 @@ import pytest
 
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.tcas_tracks import IntruderTrack, IntruderTracks
-from airhilt.assistant.decision.tcas_unit import Coordination, TcasUnit
+from airhilt.assistant.decision.tcas_unit import Senses, TcasUnit
 from airhilt.messages import Climb, CockpitInstruments, MaintainLevel, Severity, TcasReply
-from airhilt.units import FOOT, FOOT_PER_MINUTE, SECOND_NS
+from airhilt.units import FOOT_PER_MINUTE, SECOND_NS
 
 OWN, OTHER = "aaaaa1", "aaaaa2"
 
@@ -48,65 +48,6 @@ def track_of(*replies: TcasReply) -> IntruderTrack:
     return track
 
 
-def test_the_second_reply_gives_the_rate() -> None:
-    track = track_of(reply(0.0, 9000.0), reply(2.0, 8600.0, 10_200))
-    assert track.motion(2 * SECOND_NS) == pytest.approx((8600.0, -200.0))
-    assert track.motion(5 * SECOND_NS) == pytest.approx((8000.0, -200.0))
-    assert track.motion(60 * SECOND_NS) == pytest.approx((0.0, -200.0))  # No range is negative.
-    assert track.vertical(2 * SECOND_NS) == pytest.approx((10_200 * FOOT, 0.0))
-
-
-@pytest.mark.parametrize(("mode", "alpha"), [("S", 0.5), ("C", 0.3)])
-def test_later_ones_correct_it_by_the_gains_of_an_alpha_beta_tracker(
-    mode: str, alpha: float
-) -> None:
-    """Range by 0.67 and 0.25; altitude by alpha^2 / (2 - alpha) as well (Benedict and Bordner)."""
-    named: dict[str, Any] = {"mode": mode, "icao24": OTHER if mode == "S" else None}
-    track = track_of(
-        reply(0.0, 9000.0, **named),
-        reply(1.0, 8800.0, **named),
-        reply(3.0, 8500.0, 10_400, **named),
-    )
-    range_m, rate_m_s = track.motion(3 * SECOND_NS)
-    assert range_m == pytest.approx(8400.0 + 0.67 * 100.0)
-    assert rate_m_s == pytest.approx(-200.0 + 0.25 * 100.0 / 2.0)
-    altitude_m, climb_m_s = track.vertical(3 * SECOND_NS)
-    assert altitude_m == pytest.approx((10_000 + alpha * 400.0) * FOOT)
-    assert climb_m_s == pytest.approx(alpha**2 / (2.0 - alpha) * 400.0 * FOOT / 2.0)
-    assert track.vertical(5 * SECOND_NS).altitude_m == pytest.approx(altitude_m + 2.0 * climb_m_s)
-
-
-def test_a_track_is_settled_with_its_fourth_reply() -> None:
-    replies = [reply(float(t), 9000.0) for t in range(4)]
-    assert [track_of(*replies[: count + 1]).is_settled for count in range(4)] == [
-        False, False, False, True,
-    ]  # fmt: skip
-
-
-def test_the_latest_reply_says_whether_it_is_on_the_ground_and_has_tcas() -> None:
-    track = track_of(reply(0.0, 9000.0), reply(1.0, 9000.0, on_ground=True, has_tcas=True))
-    assert (track.on_ground, track.has_tcas) == (True, True)
-
-
-@pytest.mark.parametrize(("miss_m", "speed_m_s"), [(3000.0, 100.0), (4000.0, 120.0)])
-def test_the_miss_distance_is_found_from_the_acceleration_of_the_range(
-    miss_m: float, speed_m_s: float
-) -> None:
-    """The miss of one that passes straight on, less what jitter of the ranges may have added."""
-    ranges = [math.hypot(miss_m, speed_m_s * (t - 50.0)) for t in range(31)]
-    replies = [reply(float(t), range_m) for t, range_m in enumerate(ranges)]
-    found = track_of(*replies).miss_distance_m()
-    before = replies[:2]
-    assert track_of(*before).miss_distance_m() == 0.0
-    assert 0.5 * miss_m < found < miss_m
-    range_m = ranges[-1]
-    rate = -speed_m_s * 20.0 * speed_m_s / range_m
-    least = (speed_m_s**2 - rate**2) / range_m - 1.645 * 0.0142 * 50.0 * FOOT
-    across = range_m * least
-    expected = range_m * math.sqrt(across / (rate**2 + across))
-    assert found == pytest.approx(expected, rel=0.15)
-
-
 @pytest.mark.parametrize(
     ("replies", "range_m", "altitude_ft", "fits"),
     [
@@ -130,20 +71,6 @@ def test_a_reply_belongs_to_a_track_within_its_gates(
     assert (misfit is not None) is fits
 
 
-def test_no_reply_belongs_to_the_track_of_another_address_or_to_its_own_time() -> None:
-    track = track_of(reply(0.0, 9000.0))
-    assert track.misfit(reply(1.0, 9000.0)) == 0.0
-    assert track.misfit(reply(1.0, 9000.0, icao24="bbbbbb")) is None
-    assert track.misfit(reply(0.0, 9000.0)) is None
-
-
-def test_a_reply_goes_to_the_track_that_it_fits_best() -> None:
-    tracks = IntruderTracks()
-    for each in (reply(0.0, 9000.0), reply(0.0, 9500.0), reply(1.0, 9480.0), reply(1.0, 9020.0)):
-        tracks.take_reply(each)
-    assert [track.range_m for track in tracks] == [9020.0, 9480.0]
-
-
 @pytest.mark.parametrize(("silent_s", "is_lost"), [(6.0, False), (6.1, True)])
 def test_a_track_is_dropped_after_6_s_without_a_reply(silent_s: float, is_lost: bool) -> None:
     tracks = IntruderTracks()
@@ -160,10 +87,10 @@ class Flight:
 
     def __init__(
         self, *, altitude_ft: int = 10_000, rate_fpm: int = 0, filters_misses: bool = False,
-        coordination: Coordination | None = None, **own: Any,
+        senses: Senses | None = None, **own: Any,
     ) -> None:  # fmt: skip
-        self.coordination = coordination or Coordination()
-        self.unit = TcasUnit("AAL1", OWN, self.coordination, filters_misses=filters_misses)
+        self.senses = {} if senses is None else senses
+        self.unit = TcasUnit("AAL1", OWN, self.senses, filters_misses=filters_misses)
         self._own = {"altitude_ft": altitude_ft, "rate_fpm": rate_fpm, **own}
         self.told: list[tuple[float, Alert]] = []
 
@@ -190,13 +117,6 @@ def meets(
     return flight
 
 
-def test_nothing_is_judged_before_the_own_instruments_are_known() -> None:
-    unit = TcasUnit("AAL1", OWN, Coordination(), filters_misses=False)
-    unit.take_reply(reply(0.0, 100.0))
-    assert unit.judge(0) == []
-    assert unit.due_ns is None
-
-
 def test_without_replies_the_next_cycle_comes_after_a_second_and_a_half() -> None:
     flight = Flight()
     flight.hears(0.0, 90_000.0)
@@ -209,19 +129,10 @@ def test_without_replies_the_next_cycle_comes_after_a_second_and_a_half() -> Non
     assert flight.unit.due_ns == 3.5 * SECOND_NS
 
 
-def test_older_instruments_than_the_last_ones_say_nothing() -> None:
-    unit = TcasUnit("AAL1", OWN, Coordination(), filters_misses=False)
-    unit.take_instruments(instruments(5.0, 20_000))
-    unit.take_instruments(instruments(4.0, 10_000))
-    for t in range(8):
-        unit.take_reply(reply(float(t), 3000.0 - 200.0 * t))
-        assert unit.judge(t * SECOND_NS) == []  # It is 10,000 ft below.
-
-
 @pytest.mark.parametrize(("rate_fpm", "is_told"), [(0, False), (6000, True), (-6000, False)])
 def test_the_own_altitude_is_carried_on_by_its_rate(rate_fpm: int, is_told: bool) -> None:
     """From 3,000 ft below; after 25 s it is at the level of the intruder, or twice as far."""
-    unit = TcasUnit("AAL1", OWN, Coordination(), filters_misses=False)
+    unit = TcasUnit("AAL1", OWN, {}, filters_misses=False)
     unit.take_instruments(instruments(0.0, 7_000, rate_fpm))
     told: list[Alert] = []
     for t in range(26):
@@ -254,13 +165,6 @@ def test_who_has_never_been_close_is_none() -> None:
     """One that draws away from within the limits."""
     flight = meets(Flight(), closing_m_s=-5.0, from_m=900.0)
     assert flight.told == []
-
-
-def test_only_a_settled_track_is_judged() -> None:
-    flight = meets(Flight(), from_m=3000.0, until_s=2.0)
-    assert flight.told == []
-    flight.hears(3.0, 2400.0)
-    assert flight.told != []
 
 
 def recommended(flight: Flight) -> list[Any]:
@@ -354,22 +258,6 @@ def test_a_resolution_advisory_lasts_3_s_after_it() -> None:
     assert 43.0 <= ended_s(told) <= 46.0
 
 
-def test_with_the_track_the_advisory_is_gone() -> None:
-    flight = meets(Flight(), until_s=22.0)
-    for t in range(23, 40):
-        flight.hears(float(t), None)
-    assert 28.0 < ended_s(flight.told) <= 30.0
-
-
-def test_the_hold_of_an_advisory_begins_soon_after_the_run_as_well_as_late() -> None:
-    """It draws away from the fourth second on, as soon as there is an advisory."""
-    for begin_s in (0.0, 1000.0):
-        flight = Flight()
-        for t in range(20):
-            flight.hears(begin_s + t, 900.0 + 10.0 * abs(t - 3), 10_800)
-        assert ended_s(flight.told) - begin_s == pytest.approx(13.5, abs=1.5)
-
-
 def test_who_has_not_gone_since_the_end_is_not_announced_again_but_is_resolved_again() -> None:
     """It slows down until it closes within 45 s, and not within 30 s: traffic, but no threat."""
     flight, range_m = Flight(), 9000.0
@@ -395,30 +283,16 @@ def test_who_comes_back_after_all_was_well_is_announced_again() -> None:
 # --- with others --------------------------------------------------------------------------------
 
 
-def test_of_two_senses_the_other_ones_choice_leaves_the_opposite() -> None:
-    coordination = Coordination()
-    assert coordination.required(OWN, OTHER) is None
-    coordination.tell(OTHER, OWN, "climb")
-    assert coordination.required(OWN, OTHER) == "descend"
-    assert coordination.required(OTHER, OWN) is None
-    assert coordination.required(OWN, None) is None
-    coordination.withdraw(OTHER, None)
-    assert coordination.required(OWN, OTHER) == "descend"
-    coordination.withdraw(OTHER, OWN)
-    assert coordination.required(OWN, OTHER) is None
-
-
-@pytest.mark.parametrize(("has_tcas", "left"), [(True, "descend"), (False, None)])
-def test_who_has_tcas_is_told_the_own_sense(has_tcas: bool, left: str | None) -> None:
+@pytest.mark.parametrize(("has_tcas", "told"), [(True, "climb"), (False, None)])
+def test_who_has_tcas_is_told_the_own_sense(has_tcas: bool, told: str | None) -> None:
     flight = meets(Flight(altitude_ft=10_050), until_s=25.0, has_tcas=has_tcas)
     assert flight.notes()[1] == "climb, climb"
-    assert flight.coordination.required(OTHER, OWN) == left
+    assert flight.senses.get((OWN, OTHER)) == told
 
 
 def test_who_was_told_a_sense_takes_the_other_one() -> None:
-    coordination = Coordination()
-    coordination.tell(OTHER, OWN, "climb")
-    flight = meets(Flight(altitude_ft=10_050, coordination=coordination), until_s=25.0)
+    senses: Senses = {(OTHER, OWN): "climb"}
+    flight = meets(Flight(altitude_ft=10_050, senses=senses), until_s=25.0)
     assert flight.notes()[1] == "descend, descend"
 
 

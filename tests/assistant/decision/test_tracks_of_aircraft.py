@@ -25,17 +25,8 @@ def report(t_s: float = 0.0, **given: Any) -> AdsbReport:
 
 
 def track(**given: Any) -> Track:
-    return Track.of(report(**given), given.get("altitude_ft", 31_000.0))
-
-
-def test_a_first_report_is_taken_as_it_is() -> None:
-    found = track(vertical_rate_fpm=1200.0)
-    assert (found.latitude_rad, found.longitude_rad) == (38.9 * DEGREE, -77.0 * DEGREE)
-    assert found.altitude_m == pytest.approx(31_000.0 * FOOT)
-    assert found.velocity_north_m_s == pytest.approx(480.0 * KNOT * math.cos(30.0 * DEGREE))
-    assert found.velocity_east_m_s == pytest.approx(240.0 * KNOT)
-    assert found.vertical_rate_m_s == pytest.approx(1200.0 * FOOT_PER_MINUTE)
-    assert track(callsign=None).callsign == "a1b2c3"
+    first = report(**given)
+    return Track.of(first, given.get("altitude_ft", 31_000.0), first.t_adsb_in_ns)
 
 
 def test_a_velocity_is_the_mean_of_the_reports_of_about_a_second() -> None:
@@ -85,14 +76,6 @@ def test_it_is_carried_on_with_its_velocity_and_its_climb_and_keeps_what_is_know
             "descent_ns", "descent_id", "velocity_north_m_s", "velocity_east_m_s",
             "vertical_rate_m_s")  # fmt: skip
     assert [getattr(later, name) for name in kept] == [getattr(found, name) for name in kept]
-
-
-def test_a_climb_ends_at_the_level_that_was_read_back() -> None:
-    found = track(vertical_rate_fpm=1200.0)
-    assert found.at(300 * SECOND_NS).altitude_m == pytest.approx(37_000.0 * FOOT)
-    found.clear(33_000.0 * FOOT, 0, "readback")
-    assert found.at(300 * SECOND_NS).altitude_m == pytest.approx(33_000.0 * FOOT)
-    assert (found.profile().target_m, found.radio_id) == (33_000.0 * FOOT, "readback")
 
 
 @pytest.mark.parametrize(("rate_fpm", "is_steep"), [(0.0, False), (-7000.0, True)])

@@ -10,7 +10,6 @@ import pytest
 from airhilt.assistant.decision.line_of_sight import PictureGeometry
 from airhilt.assistant.decision.traffic import Traffic
 from airhilt.assistant.decision.visual_tracks import (
-    Observation,
     SightConfig,
     VisualTrack,
     VisualTracks,
@@ -102,25 +101,6 @@ def test_it_may_be_off_by_the_errors_of_the_position_its_size_and_the_box(
     assert explained(box(320.0, y_px + side * (along_px + beyond_px)), report(1000.0)) == name
 
 
-@pytest.mark.parametrize(("width_px", "name"), [(18.0, "AAL123"), (20.0, None)])
-def test_what_is_far_larger_than_it_is_somebody_nearer(width_px: float, name: str | None) -> None:
-    """Three times 16 m at 1,037 m are 14.8 px, and 4 px more."""
-    y_px = 180.0 - FOCAL_PX * (1000.0 * FOOT - 30.0) / 1000.0
-    assert explained(box(320.0, y_px, width_px), report(1000.0)) == name
-
-
-@pytest.mark.parametrize(
-    ("category", "half_m"),
-    [("A1", 8.0), ("A2", 14.0), ("A3", 21.0), ("A5", 38.0), ("C1", 7.0), (None, 38.0)],
-)
-def test_its_size_is_that_of_its_category(category: str | None, half_m: float) -> None:
-    level = view(1000.0 * FOOT)
-    across_px = FOCAL_PX * (half_m + 3.0) / 1000.0 + 3.0 + 3.0
-    seen = report(1000.0, emitter_category=category)
-    assert explained(box(320.0 + across_px - 0.2, 180.0), seen, camera=level) == "AAL123"
-    assert explained(box(320.0 + across_px + 0.2, 180.0), seen, camera=level) is None
-
-
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_it_is_carried_on_by_its_speed_and_its_climb(side: float) -> None:
     """At 100 kt eastward and 600 ft/min for 2 s; the error grows by 3 m/s."""
@@ -139,14 +119,6 @@ def test_it_is_carried_on_by_its_speed_and_its_climb(side: float) -> None:
         assert explained(outside, moved, t_s=2.0, camera=level) is None
 
 
-def test_on_the_ground_it_is_two_metres_high() -> None:
-    ground = report(400.0, altitude_ft=None)
-    down_px = FOCAL_PX * 28.0 / 400.0
-    assert explained(box(320.0, 180.0 + down_px), ground) == "AAL123"
-    off_px = FOCAL_PX * (11.0 + 25.0) / 401.0 + 3.0 + 1.5
-    assert explained(box(320.0, 180.0 + down_px + off_px + 0.3), ground) is None
-
-
 def test_where_the_ground_is_not_known_its_direction_alone_counts() -> None:
     for y_px in (20.0, 180.0, 300.0):
         assert explained(box(320.0, y_px), report(1000.0), ground_m=None) == "AAL123"
@@ -159,24 +131,12 @@ def test_nobody_is_explained_by_the_carrier_of_the_camera_or_by_who_is_behind_it
     assert explained(box(320.0, 180.0), report(-1000.0), camera=view(1000.0 * FOOT)) is None
 
 
-@pytest.mark.parametrize(("range_m", "name"), [(29.0, None), (31.0, "AAL123")])
-def test_who_is_within_30_m_of_a_camera_carries_it(range_m: float, name: str | None) -> None:
-    place = box(320.0, 180.0, 20.0, 20.0)
-    assert explained(place, report(range_m), camera=view(1000.0 * FOOT)) == name
-
-
 def test_the_ground_is_as_high_as_the_altimeter_of_a_carrier_less_its_height() -> None:
     known = traffic(report(0.0, altitude_ft=3000.0, vertical_rate_fpm=600.0), ground_m=None)
     known.learn_ground(view(700.0, carrier="AAL123"), 2 * SECOND_NS)
     assert known.ground_m == pytest.approx(3020.0 * FOOT - 700.0)
     known.learn_ground(view(100.0, carrier="DAL456"), 2 * SECOND_NS)
     assert known.ground_m == pytest.approx(3020.0 * FOOT - 700.0)
-
-
-def test_without_a_callsign_it_has_its_address() -> None:
-    known = traffic(report(1000.0, callsign=None), report(2000.0, icao24="abcdef"))
-    assert known.addresses("a1b2c3", "AAL123") == ("a1b2c3", "abcdef")
-    assert known.addresses("DAL456", None) == ()
 
 
 @pytest.mark.parametrize(
@@ -226,41 +186,12 @@ def only(tracks: VisualTracks) -> VisualTrack:
 STILL = box(100.0, 200.0, 20.0, 10.0)
 
 
-def moving(t_s: float) -> Box:
-    return box(100.0 + 40.0 * t_s, 200.0, 20.0, 10.0)
-
-
-def test_looks_of_half_a_second_count_once_they_are_over() -> None:
-    pictures = [shown(0.1 * n, STILL, confidence=0.5) for n in range(5)]
-    assert only(followed(*pictures)).belief == 0.0
-    assert only(followed(*pictures, shown(0.5, STILL))).belief == pytest.approx(0.5)
-
-
 def test_the_belief_in_what_never_moved_is_that_of_one_look() -> None:
     """The errors of pictures that are alike are alike too."""
     looks = [(0.0, 0.9), (0.5, 0.3), (1.0, 0.6), (1.5, 0.1)]
     track = only(followed(*(shown(t_s, STILL, confidence=sure) for t_s, sure in looks)))
     assert track.belief == track.belief_of_one_look == pytest.approx(0.6)
     assert not track.has_moved
-
-
-def test_the_belief_in_what_moves_is_that_not_all_looks_err() -> None:
-    looks = [(0.0, 0.9), (0.5, 0.3), (1.0, 0.6), (1.5, 0.1)]
-    track = only(followed(*(shown(t_s, moving(t_s), confidence=sure) for t_s, sure in looks)))
-    assert track.has_moved
-    assert track.belief == pytest.approx(1.0 - 0.1 * 0.7 * 0.4)
-    assert track.belief_of_one_look == pytest.approx(0.6)
-
-
-def test_six_looks_are_kept() -> None:
-    pictures = [shown(0.5 * n, moving(0.5 * n), confidence=0.1 * (n + 1)) for n in range(8)]
-    track = only(followed(*pictures))
-    assert track.belief_of_one_look == pytest.approx(sum(0.1 * n for n in range(2, 8)) / 6.0)
-
-
-def test_a_picture_without_it_counts_as_one_with_no_confidence() -> None:
-    looks = [shown(0.0, STILL), shown(0.1, None), shown(0.5, STILL), shown(1.0, STILL)]
-    assert only(followed(*looks)).belief == pytest.approx((0.25 + 0.5) / 2.0)
 
 
 def test_what_is_hardly_there_any_more_is_forgotten() -> None:
@@ -281,41 +212,6 @@ def test_it_has_moved_from_half_of_its_size_and_4_px_on(moved_px: float, has_mov
         box(100.0, 200.0 + moved_px, 20.0, 10.0),
     ):
         assert only(followed(shown(0.0, STILL), shown(0.1, place))).has_moved is has_moved
-
-
-def test_all_that_a_flying_camera_shows_has_moved() -> None:
-    assert only(followed(shown(0.0, STILL, carrier="AAL123"))).has_moved
-
-
-def test_it_is_what_it_was_mostly_taken_for() -> None:
-    labels = [(0.0, "bird", 0.3), (0.1, "airplane", 0.5), (0.2, "bird", 0.3)]
-    tracks = followed(*(shown(t_s, STILL, label=each, confidence=c) for t_s, each, c in labels))
-    assert only(tracks).label == "bird"
-
-
-def test_its_age_is_from_the_first_to_the_last_picture_that_shows_it() -> None:
-    track = only(followed(shown(1.0, STILL), shown(2.5, STILL), shown(3.0, None)))
-    assert track.age_ns == 1.5 * SECOND_NS
-
-
-def test_observations_are_kept_for_5_s() -> None:
-    track = only(followed(*(shown(0.5 * n, STILL) for n in range(13))))
-    assert track.observations[0].t_ns == SECOND_NS
-    assert track.observations[-1].t_ns == 6 * SECOND_NS
-
-
-@pytest.mark.parametrize(("silent_s", "is_kept"), [(10.0, True), (10.1, False)])
-def test_without_new_pictures_it_is_kept_for_10_s(silent_s: float, is_kept: bool) -> None:
-    tracks = followed(shown(0.0, STILL))
-    tracks.forget(round(silent_s * SECOND_NS))
-    assert bool(list(tracks)) is is_kept
-
-
-def test_a_picture_at_which_nobody_looked_changes_nothing() -> None:
-    tracks = followed(shown(0.0, STILL))
-    missed = shown(9.0, None).model_copy(update={"missed": "too late"})
-    tracks.take_detections(missed, 9 * SECOND_NS)
-    assert only(tracks).last.t_ns == 0
 
 
 @pytest.mark.parametrize(("silent_s", "is_known"), [(3.0, True), (3.1, False)])
@@ -383,23 +279,3 @@ def test_two_cameras_need_not_wait_and_their_beliefs_add_up() -> None:
     assert not tracks.shows([])
     three = followed(*lasting(0.5, 0.5), *lasting(0.5, 0.5, "other"), config=SightConfig(cameras=3))
     assert not three.shows(three)
-
-
-def test_an_observation_at_the_edge_of_a_picture_is_not_whole() -> None:
-    geometry = PictureGeometry(view())
-    inside, cut = box(320.0, 180.0), (0.5, 170.0, 20.0, 190.0)
-    whole = Observation.of(0, geometry, inside, 0.5)
-    assert whole.is_whole
-    assert whole.size_rad == pytest.approx((6.0 / FOCAL_PX, 3.0 / FOCAL_PX), rel=1e-3)
-    assert (whole.ray.elevation_rad, whole.ray.azimuth_rad) == pytest.approx((0.0, 0.0), abs=1e-9)
-    assert not Observation.of(0, geometry, cut, 0.5).is_whole
-
-
-def test_what_has_no_number_is_not_taken_for_what_has_one() -> None:
-    places = [(number, box(100.0 + 200.0 * index, 200.0)) for index, number in enumerate((None, 0))]
-    found = tuple(
-        Detection(label="truck", confidence=0.5, track_id=number, hits=1, box=place)
-        for number, place in places
-    )
-    both = shown(0.0, None).model_copy(update={"detections": found})
-    assert len(list(followed(both))) == 2

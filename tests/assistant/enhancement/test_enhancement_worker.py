@@ -14,7 +14,7 @@ from airhilt.assistant.enhancement.worker import EnhancementWorker
 from airhilt.audio.pcm import Audio, from_pcm, to_pcm
 from airhilt.cosim.option_checks import check_options
 from airhilt.cosim.requested_latency import STAGES
-from airhilt.errors import AirhiltError, SpeechError, WorkerError
+from airhilt.errors import AirhiltError, WorkerError
 from airhilt.messages import EnhancedTransmission, Transcript, Transmission
 from airhilt.metrics.latencies import StageLatencies
 from airhilt.options import Options
@@ -31,13 +31,6 @@ class Halving:
 
     def enhance(self, audio: Audio) -> Audio:
         return np.asarray(0.5 * audio, np.float32)
-
-
-class Shortening:
-    name = "shortening"
-
-    def enhance(self, audio: Audio) -> Audio:
-        return audio[1:]
 
 
 class Loudness:
@@ -75,15 +68,6 @@ def test_the_recogniser_hears_what_the_enhancer_has_made_of_a_call() -> None:
     (heard,) = worker.step(0, (Input(output.key, 0, output.payload, output.attachment),)).outputs
     transcript = Transcript.model_validate_json(heard.payload)
     assert (transcript.id, transcript.text, transcript.t_end_ns) == ("call", "0.25", 3 * SECOND_NS)
-
-
-def test_a_call_without_sound_is_left_alone() -> None:
-    assert EnhancementWorker(Halving()).step(0, (transmission(0),)).outputs == ()
-
-
-def test_an_enhancer_that_loses_samples_has_failed() -> None:
-    with pytest.raises(SpeechError, match="shortening: made 1599 samples of 1600"):
-        EnhancementWorker(Shortening()).step(0, (transmission(),))
 
 
 def test_enhanced_audio_must_be_what_its_header_says_and_on_its_frequency() -> None:

@@ -12,12 +12,9 @@ from typing import Any, cast
 import numpy as np
 import numpy.typing as npt
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
-from airhilt.assistant.asr.engines import embedded as recogniser
 from airhilt.assistant.vision.detector import Found
-from airhilt.assistant.vision.detectors.embedded import MODEL, Calibration, EmbeddedDetector
+from airhilt.assistant.vision.detectors.embedded import MODEL, EmbeddedDetector
 from airhilt.assistant.vision.refiner import Refiner
 from airhilt.assistant.vision.tiling import Tile
 from airhilt.errors import VisionError
@@ -89,31 +86,6 @@ def test_pictures_of_any_size_give_boxes_within_them(
             assert 0.0 <= top < bottom <= rows
 
 
-@pytest.mark.parametrize("shape", [(0, 0, 3), (0, 640, 3), (360, 0, 3)])
-def test_in_a_picture_without_pixels_there_is_nothing(
-    detector: EmbeddedDetector, shape: tuple[int, ...]
-) -> None:
-    assert detector.detect(np.zeros(shape, np.uint8)) == []
-
-
-def test_in_an_even_picture_there_is_nothing(detector: EmbeddedDetector) -> None:
-    for level in (0, 90, 200, 255):
-        assert not detector.detect(np.full((360, 640, 3), level, dtype=np.uint8))
-
-
-def test_the_same_picture_gives_the_same_answer(
-    detector: EmbeddedDetector, airliner: Airliner
-) -> None:
-    picture, _ = airliner
-    assert detector.detect(picture) == EmbeddedDetector().detect(picture.copy())
-
-
-def test_threads_change_nothing_of_the_answer(
-    detector: EmbeddedDetector, airliner: Airliner
-) -> None:
-    assert EmbeddedDetector(threads=1).detect(airliner[0]) == detector.detect(airliner[0])
-
-
 def test_a_part_of_a_picture_has_in_it_what_the_whole_has_there(
     detector: EmbeddedDetector,
     airliner: Airliner,
@@ -142,16 +114,6 @@ def test_a_part_of_a_picture_has_in_it_what_the_whole_has_there(
     assert looked_at == [picture.shape]
     outside = Tile(0, 0, 96, 96)
     assert all(one.label != "airplane" for one in detector.detect_in(picture, outside))
-
-
-def test_the_surest_come_first_and_none_is_below_the_threshold(
-    airliner: Airliner,
-) -> None:
-    picture, _ = airliner
-    confidences = [found.confidence for found in EmbeddedDetector(threshold=0.01).detect(picture)]
-    assert confidences == sorted(confidences, reverse=True)
-    assert all(0.01 <= confidence <= 1.0 for confidence in confidences)
-    assert len(EmbeddedDetector(threshold=0.5).detect(picture)) <= len(confidences)
 
 
 def test_a_file_of_its_own_is_used_with_its_card(tmp_path: Path, airliner: Airliner) -> None:
@@ -193,62 +155,6 @@ def test_a_calibration_changes_how_sure_it_is_and_not_what_is_found(
             assert one.confidence == pytest.approx(confidence[one.box])
 
 
-@given(
-    score=st.floats(0.001, 0.998),
-    more=st.floats(1e-4, 1e-3),
-    side_px=st.floats(1.0, 640.0),
-)
-def test_the_shipped_calibration_never_turns_scores_round(
-    score: float, more: float, side_px: float
-) -> None:
-    card = json.loads(MODEL.with_name("card.json").read_text())
-    calibration = Calibration.model_validate(card["calibration"])
-    less_sure = calibration.log_odds("airplane", score, side_px)
-    assert less_sure < calibration.log_odds("airplane", score + more, side_px)
-
-
-def test_a_picture_that_is_none_is_refused(detector: EmbeddedDetector) -> None:
-    with pytest.raises(VisionError, match=r"float64 \[4, 4\]; expected uint8"):
-        detector.detect(np.zeros((4, 4)))  # type: ignore[arg-type]
-
-
-def test_a_missing_file_is_named(tmp_path: Path) -> None:
-    copy(tmp_path)
-    with pytest.raises(VisionError, match=r"none\.onnx: no such file; expected a network of"):
-        EmbeddedDetector(tmp_path / "none.onnx")
-
-
-def test_a_file_that_is_no_network_is_named(tmp_path: Path) -> None:
-    path = copy(tmp_path)
-    path.write_bytes(b"pictures of cats")
-    with pytest.raises(VisionError, match=r"detector\.onnx: no ONNX model that can be run"):
-        EmbeddedDetector(path)
-
-
-def test_a_network_of_another_shape_is_named(tmp_path: Path) -> None:
-    path = copy(tmp_path)
-    shutil.copy(recogniser.MODEL / "ctc.onnx", path)
-    with pytest.raises(VisionError, match=r"detector\.onnx has .*; expected a network of tools/"):
-        EmbeddedDetector(path)
-
-
-@pytest.mark.parametrize(("name", "other"), [(b"picture", b"drawing"), (b"found", b"shown")])
-def test_a_network_that_only_takes_or_only_gives_something_else_is_named(
-    tmp_path: Path, name: bytes, other: bytes
-) -> None:
-    path = copy(tmp_path)
-    path.write_bytes(path.read_bytes().replace(name, other))
-    with pytest.raises(VisionError, match=rf"detector\.onnx has .*'{other.decode()}'.*; expected"):
-        EmbeddedDetector(path)
-
-
-def test_a_network_without_a_card_is_named(tmp_path: Path) -> None:
-    path = copy(tmp_path)
-    (tmp_path / "card.json").unlink()
-    with pytest.raises(VisionError, match=r"card\.json: cannot be read"):
-        EmbeddedDetector(path)
-
-
 @pytest.mark.parametrize(
     ("card", "message"),
     [
@@ -262,29 +168,3 @@ def test_a_card_that_is_wrong_is_named(
 ) -> None:
     with pytest.raises(VisionError, match=rf"card\.json: {message}"):
         EmbeddedDetector(copy(tmp_path, **card))
-
-
-def test_classes_are_those_of_the_card(tmp_path: Path, airliner: Airliner) -> None:
-    picture, _ = airliner
-    # The shipped network's airliner is its class 0.
-    others = ["truck", "airplane", "deer", "coyote", "bird"]
-    assert EmbeddedDetector(copy(tmp_path, classes=others)).detect(picture)[0].label == "truck"
-
-
-def test_a_class_that_the_card_does_not_know_is_named(tmp_path: Path) -> None:
-    noise = np.random.default_rng(0).integers(0, 255, (360, 640, 3), dtype=np.uint8)
-    with pytest.raises(VisionError, match=r"answers class \d; expected one of the 1 of its card"):
-        EmbeddedDetector(copy(tmp_path, classes=["truck"], refiner=None)).detect(noise)
-
-
-@pytest.mark.parametrize("threshold", [-0.1, 1.1, float("nan")])
-def test_a_threshold_that_is_none_is_refused(threshold: float) -> None:
-    with pytest.raises(VisionError, match="expected 0 to 1"):
-        EmbeddedDetector(threshold=threshold)
-
-
-def test_the_files_are_small_and_their_card_says_how_they_were_made() -> None:
-    assert sum(file.stat().st_size for file in MODEL.parent.iterdir()) < 10_000_000
-    card = json.loads(MODEL.with_name("card.json").read_text())
-    assert card["training"]["seed"] is not None
-    assert card["training"]["pictures"] > 5000

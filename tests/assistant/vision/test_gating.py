@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import product
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from airhilt.assistant.vision.changes import MARGIN_PX, changed_blocks, windows_about
+from airhilt.assistant.vision.changes import MARGIN_PX, windows_about
 from airhilt.assistant.vision.detector import Found, Picture, PictureMissed, Shot
 from airhilt.assistant.vision.gating import Gate
 from airhilt.assistant.vision.tiling import Tile, tiles_of
@@ -81,35 +80,12 @@ def test_it_finds_what_a_look_at_everything_finds(
     require_what_a_look_at_everything_finds(scenes, still)
 
 
-@pytest.mark.slow
-@settings(max_examples=50, deadline=None)
-@given(scenes=st.lists(BLOBS, min_size=2, max_size=4), still=BLOBS)
-def test_so_it_does_in_many_pictures(scenes: list[list[Blob]], still: list[Blob]) -> None:
-    require_what_a_look_at_everything_finds(scenes, still)
-
-
-def test_what_vanishes_is_not_found_any_more() -> None:
-    gate, scene = Gate(BlobDetector()), background()
-    assert gate.look(Shot("tower", 0), with_blobs(scene, [("bird", (300, 100, 306, 104))]))
-    assert not gate.look(Shot("tower", 0), scene)
-
-
 def test_a_faint_change_counts_once_it_has_added_up() -> None:
     detector = BlobDetector()
     gate, scene = Gate(detector), background()
     for step in range(4):
         gate.look(Shot("tower", 0), scene + np.uint8(step))
     assert len(detector.asked) == 2
-
-
-def test_a_faint_change_counts_too_where_windows_elsewhere_were_looked_at() -> None:
-    detector = PartBlobDetector()
-    gate, scene = Gate(detector), background()
-    gate.look(Shot("tower", 0), scene)
-    for step in (1, 2):
-        scene[300, 600] += 1
-        gate.look(Shot("tower", 0), with_blobs(scene, [("truck", (10, 10, 10 + step, 20))]))
-    assert len(detector.asked) == 1 + 1 + 2
 
 
 def test_cameras_do_not_know_of_each_other() -> None:
@@ -142,18 +118,6 @@ def test_who_writes_into_a_picture_afterwards_changes_nothing() -> None:
     assert gate.look(Shot("tower", 0), picture)
     picture[:] = background()
     assert not gate.look(Shot("tower", 0), picture)
-
-
-@pytest.mark.parametrize(("level", "expected"), [(8, False), (10, False), (7, True), (11, True)])
-def test_one_pixel_in_an_odd_corner_is_a_change_from_two_levels_on(
-    level: int, expected: bool
-) -> None:
-    before = np.full((361, 645, 3), 9, np.uint8)
-    after = before.copy()
-    after[360, 644, 2] = level
-    changed = changed_blocks(before, after)
-    assert changed[-1, -1] == expected
-    assert changed.sum() == int(expected)
 
 
 # --- windows, of detectors that see parts ---------------------------------------------------
@@ -192,25 +156,6 @@ def test_what_a_window_would_cut_is_looked_at_as_a_whole() -> None:
     assert detector.asked[-1][1] >= 200
 
 
-@pytest.mark.parametrize(("wide", "is_whole"), [(180, False), (400, True)])
-def test_all_is_looked_at_where_windows_would_hold_most_of_it(wide: int, is_whole: bool) -> None:
-    detector = PartBlobDetector()
-    gate, scene = Gate(detector), background()
-    gate.look(Shot("tower", 0), scene)
-    gate.look(Shot("tower", 0), with_blobs(scene, [("truck", (100, 5, 100 + wide, 355))]))
-    assert (detector.asked[-1] == (360, 640)) == is_whole
-
-
-def test_at_the_edges_of_a_picture_windows_are_no_smaller() -> None:
-    for row, column in product((0, 22), (0, 39)):
-        blocks = np.zeros((23, 40), dtype=bool)
-        blocks[row, column] = True
-        window = windows_about(blocks, [], 360, 640)[0]
-        # The last row of blocks is half in the picture.
-        assert min(window.height, window.width) >= 80
-        assert window.holds((16.0 * column + 8.0, min(16.0 * row + 8.0, 359.0)))
-
-
 def test_what_reaches_out_of_a_window_is_told_if_its_middle_is_in_it() -> None:
     class FarReaching(PartBlobDetector):
         def detect_in(self, picture: Picture, part: Tile) -> list[Found]:
@@ -223,33 +168,6 @@ def test_what_reaches_out_of_a_window_is_told_if_its_middle_is_in_it() -> None:
     gate.look(Shot("tower", 0), scene)
     found = gate.look(Shot("tower", 0), with_blobs(scene, [("bird", (300, 100, 306, 104))]))
     assert [one.label for one in found] == ["bird"]
-
-
-def test_the_surest_of_all_windows_and_of_what_was_there_come_first() -> None:
-    gate, scene = Gate(PartBlobDetector()), background()
-    still = with_blobs(scene, [("truck", (300, 40, 330, 60))])
-    gate.look(Shot("tower", 0), still)
-    ends = [("bird", (60, 60, 66, 64)), ("airplane", (560, 300, 566, 304))]
-    found = gate.look(Shot("tower", 0), with_blobs(still, ends))
-    assert len(found) == 3
-    assert [one.confidence for one in found] == sorted(
-        (one.confidence for one in found), reverse=True
-    )
-
-
-def test_what_two_windows_take_for_the_same_is_told_once_by_the_surer() -> None:
-    class Wide(PartBlobDetector):
-        def detect_in(self, picture: Picture, part: Tile) -> list[Found]:
-            column = part.left + part.width / 2.0
-            return [Found("truck", column / 1000.0, (column - 250.0, 100.0, column + 250.0, 200.0))]
-
-    gate, scene = Gate(Wide()), background()
-    gate.look(Shot("tower", 0), scene)
-    both = [("bird", (260, 150, 262, 152)), ("bird", (388, 150, 390, 152))]
-    blocks = changed_blocks(scene, with_blobs(scene, both))
-    assert len(windows_about(blocks, [], 360, 640)) == 2
-    found = gate.look(Shot("tower", 0), with_blobs(scene, both))
-    assert [one.confidence > 0.325 for one in found] == [True]
 
 
 @pytest.mark.parametrize("size", [
@@ -266,13 +184,6 @@ def test_windows_find_what_a_look_at_everything_finds(
         picture = with_blobs(background(*size), [*still, *blobs])
         found = places(gate.look(Shot("tower", 0), picture))
         assert found == places(Gate(BlobDetector()).look(Shot("tower", 0), picture))
-
-
-def test_a_body_that_stood_unseen_between_two_windows_is_not_told_in_halves() -> None:
-    """Windows that touch are one."""
-    blocks = np.zeros((23, 40), dtype=bool)
-    blocks[10, 4] = blocks[10, 4 + 2 * MARGIN_PX // 16 + 1] = True
-    assert len(windows_about(blocks, [], 360, 640)) == 1
 
 
 @given(

@@ -11,22 +11,18 @@ from typing import Any, cast
 
 import numpy as np
 import pytest
-from hypothesis import given
 from hypothesis import strategies as st
 
-from airhilt.assistant.vision.detector import Found, once
+from airhilt.assistant.vision.detector import Found
 from airhilt.assistant.vision.detectors.embedded import MODEL, EmbeddedDetector
 from airhilt.assistant.vision.refiner import (
     VIEW_PX,
     Refiner,
     RefinerCard,
     about,
-    moves_to,
-    refined,
     views_of,
 )
 from airhilt.errors import VisionError
-from airhilt.imaging.boxes import centre, size_px
 from airhilt.messages import Box, VisibleClass
 
 CLASSES = tuple(json.loads(MODEL.with_name("card.json").read_text())["classes"])
@@ -61,20 +57,6 @@ def look(classes: Sequence[VisibleClass] = CLASSES, **card: Any) -> Refiner:
     return Refiner(RefinerCard.model_validate(shipped | card), MODEL.parent, classes)
 
 
-@given(boxes())
-def test_a_view_of_an_even_picture_is_even(box: Box) -> None:
-    picture = np.full((ROWS, COLUMNS, 3), (10, 130, 250), dtype=np.uint8)
-    assert (views_of(picture, [box]) == (10, 130, 250)).all()
-
-
-@given(boxes())
-def test_a_view_has_no_colour_that_the_picture_has_not(box: Box) -> None:
-    views = views_of(noise(), [box])
-    assert views.shape == (1, 2, VIEW_PX, VIEW_PX, 3)
-    assert views.min() >= 60
-    assert views.max() < 200
-
-
 @pytest.mark.parametrize("side", [6.0, 20.0, 45.0])
 @pytest.mark.parametrize("place", [(0.0, 0.0), (60.0, 30.0), (100.0, 30.0)])
 def test_what_is_in_the_box_is_in_the_middle_of_both_views(
@@ -102,41 +84,9 @@ def test_a_view_is_as_sharp_as_the_picture_where_its_pixels_are_the_same() -> No
     assert np.array_equal(near, picture[45 - half_px : 45 + half_px, 80 - half_px : 80 + half_px])
 
 
-@given(boxes(), boxes())
-def test_moves_take_a_box_to_the_body_where_that_is_near(box: Box, body: Box) -> None:
-    moves = np.array(moves_to(box, body))
-    if np.abs(moves[:2]).max() <= 1.0 and np.abs(moves[2:]).max() <= 1.5:
-        assert refined(box, moves) == pytest.approx(body, abs=1e-6 * size_px(box) + 1e-6)
-
-
-@given(boxes(), st.lists(st.floats(-1e6, 1e6), min_size=4, max_size=4))
-def test_no_moves_take_a_box_far_away(box: Box, moves: list[float]) -> None:
-    (x, y), (x_, y_) = centre(box), centre(refined(box, np.array(moves)))
-    assert max(abs(x - x_), abs(y - y_)) <= 1.01 * size_px(box)
-
-
-@given(boxes(), st.floats(0.0, 1.0))
-def test_what_is_known_of_a_place_is_finite(box: Box, score: float) -> None:
-    assert np.isfinite(about([box], [score])).all()
-
-
-def test_nothing_is_known_of_no_places() -> None:
-    assert about([], []).shape == (0, 3)
-    assert views_of(noise(), []).shape == (0, 2, VIEW_PX, VIEW_PX, 3)
-
-
 def test_what_is_known_of_a_place_is_its_score_its_size_and_its_shape() -> None:
     known = about([(10.0, 10.0, 74.0, 26.0)], [0.75])
     assert known[0] == pytest.approx((math.log(3.0), 1.0, 2.0))
-
-
-def test_a_wide_view_shows_what_is_around() -> None:
-    picture = np.zeros((ROWS, COLUMNS, 3), dtype=np.uint8)
-    picture[:, 120:] = 255
-    # 40 px wide, so that the wide view reaches 100 px to each side of column 60.
-    wide = views_of(picture, [(40.0, 35.0, 80.0, 55.0)])[0, 1, :, :, 0]
-    bright = np.flatnonzero(wide[VIEW_PX // 2] > 127)
-    assert bright[0] == pytest.approx((0.5 + 60.0 / 200.0) * VIEW_PX, abs=1.0)
 
 
 def place(left: float, top: float, score: float = 0.5) -> Found:
@@ -196,20 +146,6 @@ def test_without_a_refiner_the_first_has_the_last_word(
     assert [one.box for one in found] == [one.box for one in proposed]
 
 
-def test_a_thing_that_was_found_twice_is_told_once() -> None:
-    whole = Found("airplane", 0.9, (10.0, 10.0, 60.0, 40.0))
-    again = Found("bird", 0.5, (12.0, 11.0, 61.0, 42.0))
-    behind = Found("airplane", 0.4, (45.0, 15.0, 58.0, 20.0))
-    another = Found("airplane", 0.3, (80.0, 10.0, 130.0, 40.0))
-    assert once([whole, again, behind, another]) == [whole, behind, another]
-
-
-def test_a_missing_refiner_is_named(tmp_path: Path) -> None:
-    path = detector_in(tmp_path, file="gone.onnx")
-    with pytest.raises(VisionError, match=r"gone\.onnx, which the card beside it names: no such"):
-        EmbeddedDetector(path)
-
-
 @pytest.mark.parametrize("file", ["../refiner.onnx", "/etc/passwd", "refiner.pt", ""])
 def test_a_refiner_lies_beside_its_card(tmp_path: Path, file: str) -> None:
     with pytest.raises(VisionError, match=r"card\.json: refiner/file"):
@@ -221,8 +157,3 @@ def test_a_network_that_is_no_refiner_is_named(tmp_path: Path) -> None:
     shutil.copy(MODEL, tmp_path / "refiner.onnx")
     with pytest.raises(VisionError, match=r"refiner\.onnx, .* has .*; expected a network of too"):
         EmbeddedDetector(path)
-
-
-def test_a_refiner_for_other_classes_is_named() -> None:
-    with pytest.raises(VisionError, match=r"chances.*and 3 classes"):
-        look(classes=CLASSES[:3])

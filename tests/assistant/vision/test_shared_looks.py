@@ -11,8 +11,7 @@ import pytest
 
 from airhilt.assistant.vision.detector import Found, Picture, Shot
 from airhilt.assistant.vision.detectors.embedded import EmbeddedDetector
-from airhilt.assistant.vision.gating import Gate
-from airhilt.assistant.vision.kept_pixels import SeenPicture
+from airhilt.assistant.vision.gating import Gate, SeenPicture
 from airhilt.assistant.vision.shared_looks import Reproducible, SharedLooks
 from airhilt.assistant.vision.tiling import Tile
 from pictures import BlobDetector, background, with_blobs
@@ -106,22 +105,6 @@ def test_another_look_is_taken(pictures: Sequence[Picture], detector: Counting) 
     looks_at([SCENES[1]], Counting())
     looks_at(pictures, detector)
     assert detector.asked > 0
-
-
-def test_pictures_without_a_sha256_are_not_taken_for_one_another() -> None:
-    for scene in SCENES[:2]:
-        detector = Counting()
-        Gate(detector, SharedLooks(detector)).look(Shot("tower", 0), scene)
-        assert detector.asked == 1
-
-
-def test_a_damaged_look_is_taken_again(cache: Path) -> None:
-    first = looks_at(SCENES[:1], Counting())
-    (entry,) = cache.iterdir()
-    entry.write_bytes(entry.read_bytes()[:-1])
-    again = Counting()
-    assert looks_at(SCENES[:1], again) == first
-    assert again.asked == 1
 
 
 def test_a_long_row_of_pictures_is_put_together_from_few_of_them() -> None:

@@ -16,27 +16,10 @@ from airhilt.assistant.vision.tiling import (
     OVERLAP_PX,
     TILE_PX,
     Piece,
-    Tile,
     merged,
-    pieces_of,
     tiles_of,
 )
-from pictures import BlobDetector, background, with_blobs
-
-
-def test_small_pictures_are_looked_at_in_one_piece() -> None:
-    assert tiles_of((720, 1280)) == [Tile(0, 0, 720, 1280)]
-
-
-@pytest.mark.parametrize(("columns", "rows"), [(1920, 1080), (1281, 200), (100, 3000)])
-def test_tiles_are_small_and_leave_nothing_out(columns: int, rows: int) -> None:
-    picture = background(columns, rows)
-    seen = np.zeros((rows, columns), dtype=bool)
-    for tile in tiles_of(picture.shape):
-        assert max(tile.height, tile.width) <= TILE_PX
-        assert tile.of(picture).shape[:2] == (tile.height, tile.width)
-        tile.of(seen)[...] = True
-    assert seen.all()
+from pictures import BlobDetector, with_blobs
 
 
 @settings(max_examples=8, deadline=None)
@@ -61,13 +44,6 @@ def test_what_two_tiles_take_for_different_things_is_one() -> None:
     assert merged([Piece(doubtful, is_cut=False), Piece(confident, is_cut=False)]) == [confident]
 
 
-def test_different_things_side_by_side_stay_two() -> None:
-    flat = np.full((1080, 1920, 3), 100, np.uint8)
-    blobs = [("truck", (600, 300, 640, 330)), ("truck", (642, 300, 682, 330))]
-    found = Gate(BlobDetector()).look(Shot("tower", 0), with_blobs(flat, blobs))
-    assert sorted(one.box for one in found) == [box for _, box in blobs]
-
-
 @pytest.mark.parametrize("length", [1281, 1300, 1600, 1920, 2560, 3840, 4096])
 def test_tiles_begin_on_the_grid_and_overlap_by_128_px_at_least(length: int) -> None:
     tiles = [tile for tile in tiles_of((100, length)) if tile.top == 0]
@@ -82,32 +58,6 @@ def test_tiles_begin_on_the_grid_and_overlap_by_128_px_at_least(length: int) -> 
     steps = [after - left for left, after in itertools.pairwise(lefts)]
     assert max(steps) - min(steps) <= 2 * GRID_PX
     assert len(tiles) <= -(-(length - TILE_PX) // (TILE_PX - OVERLAP_PX - 2 * GRID_PX)) + 1
-
-
-@pytest.mark.parametrize(
-    ("box", "is_cut"),
-    [
-        ((0.5, 100.0, 50.0, 120.0), True),
-        ((1.5, 100.0, 50.0, 120.0), False),
-        ((100.0, 0.5, 150.0, 20.0), True),
-        ((100.0, 1.5, 150.0, 20.0), False),
-        ((600.0, 100.0, 639.5, 120.0), True),
-        ((600.0, 100.0, 638.5, 120.0), False),
-        ((100.0, 600.0, 150.0, 639.5), True),
-        ((100.0, 600.0, 150.0, 638.5), False),
-    ],
-)
-def test_a_finding_is_cut_where_its_tile_ends_and_the_picture_does_not(
-    box: tuple[float, float, float, float], is_cut: bool
-) -> None:
-    found = Found("truck", 0.9, box)
-    inner = Tile(320, 640, 640, 640)
-    (piece,) = pieces_of([found], inner, (1280, 1920))
-    assert piece.is_cut is is_cut
-    left, top, right, bottom = box
-    assert piece.found.box == (left + 640, top + 320, right + 640, bottom + 320)
-    (whole,) = pieces_of([found], Tile(0, 0, 640, 640), (640, 640))
-    assert not whole.is_cut
 
 
 def test_a_whole_finding_is_kept_before_a_surer_one_that_an_edge_cuts() -> None:
@@ -127,16 +77,3 @@ def test_pieces_of_one_class_are_one_if_they_share_most_of_the_smaller(
     large, small = (500, 300, 640, 330), (right_px - 40, 300, right_px, 330)
     found = [Piece(Found("truck", 0.9, large), False), Piece(Found(label, 0.5, small), False)]
     assert len(merged(found)) == count
-
-
-@pytest.mark.parametrize(
-    ("place", "is_in"),
-    [((640, 320), True), ((1279.9, 959.9), True), ((1280, 500), False), ((700, 960), False),
-     ((639.9, 500), False), ((700, 319.9), False)],
-)  # fmt: skip
-def test_a_tile_holds_the_places_from_its_first_pixel_to_its_last(
-    place: tuple[float, float], is_in: bool
-) -> None:
-    tile = Tile(320, 640, 640, 640)
-    assert tile.holds(place) is is_in
-    assert tile.box == (640, 320, 1280, 960)

@@ -10,53 +10,31 @@ from types import SimpleNamespace
 import pytest
 
 from airhilt.assistant.reference import reference_worker
-from airhilt.assistant.vision.detectors import vision_engine
 from airhilt.assistant.vision.detectors.embedded import MODEL, EmbeddedDetector
-from airhilt.assistant.vision.detectors.http import HttpDetector
+from airhilt.engine_families import DETECTORS
 from airhilt.errors import VisionError
 from airhilt.messages import Detections
 from pictures import Told, a, background, frame, info
 
 
-@pytest.mark.parametrize("name", ["", "opencv", "ftp://127.0.0.1/", "Embedded"])
-def test_a_name_that_is_none_says_what_would_be(name: str) -> None:
-    with pytest.raises(VisionError, match="there is none of that name; expected embedded, "):
-        vision_engine(name)
-
-
-@pytest.mark.parametrize("name", ["yolo", "yolo:"])
-def test_an_engine_that_needs_a_file_says_so(name: str) -> None:
-    with pytest.raises(VisionError, match=f"detector '{name}': expected yolo:FILE"):
-        vision_engine(name)
-
-
-def test_an_address_is_a_service() -> None:
-    assert isinstance(vision_engine("http://127.0.0.1:8000/look"), HttpDetector)
-
-
-def test_a_reference_worker_looks_with_the_engine_that_is_named() -> None:
-    worker = reference_worker("vision", "http://127.0.0.1:8000/look", "eyes")
-    assert (worker.description.name, worker.description.modality) == ("eyes", "vision")
-
-
 def test_a_yolo_file_that_is_not_there_is_not_downloaded(tmp_path: Path) -> None:
     for name in ("yolov10n.pt", f"{tmp_path}/yolo11n.onnx", str(tmp_path)):
         with pytest.raises(VisionError, match=r"no such file.*nothing is downloaded"):
-            vision_engine(f"yolo:{name}")
+            DETECTORS.create(f"yolo:{name}")
 
 
 def test_a_yolo_file_of_another_kind_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "model.engine"
     path.write_bytes(b"x")
     with pytest.raises(VisionError, match=r"model\.engine: expected a model.*\.pt or \.onnx"):
-        vision_engine(f"yolo:{path}")
+        DETECTORS.create(f"yolo:{path}")
 
 
 def test_an_onnx_file_that_is_none_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "broken.onnx"
     path.write_bytes(b"not a network")
     with pytest.raises(VisionError, match=r"detector yolo: .*broken\.onnx: no ONNX model"):
-        vision_engine(f"yolo:{path}")
+        DETECTORS.create(f"yolo:{path}")
 
 
 def test_an_onnx_file_with_code_in_its_metadata_is_refused(tmp_path: Path) -> None:
@@ -68,7 +46,7 @@ def test_an_onnx_file_with_code_in_its_metadata_is_refused(tmp_path: Path) -> No
     assert len(entry) < 128
     path.write_bytes(network + b"\x72" + bytes([len(entry)]) + entry)
     with pytest.raises(VisionError, match="'names' is no plain value, and may be code"):
-        vision_engine(f"yolo:{path}")
+        DETECTORS.create(f"yolo:{path}")
     assert not ran.exists()
 
 
@@ -98,12 +76,10 @@ def test_yolo_is_kept_from_the_network_and_nothing_else_is(
     monkeypatch.setitem(sys.modules, "ultralytics", SimpleNamespace(YOLO=Model))
     monkeypatch.setenv("YOLO_VERBOSE", "true")
     monkeypatch.delenv("YOLO_OFFLINE", raising=False)
-    before = dict(os.environ)
     path = tmp_path / "yolov10n.pt"
     path.write_bytes(b"x")
-    assert vision_engine(f"yolo:{path}").name == "yolo:yolov10n"
+    assert DETECTORS.create(f"yolo:{path}").name == "yolo:yolov10n"
     assert (given["YOLO_OFFLINE"], given["YOLO_VERBOSE"]) == ("true", "false")
-    assert dict(os.environ) == before
 
 
 def test_without_the_package_it_says_how_to_get_it(
@@ -113,4 +89,4 @@ def test_without_the_package_it_says_how_to_get_it(
     path = tmp_path / "yolov10n.pt"
     path.write_bytes(b"x")
     with pytest.raises(VisionError, match=r"pip install airhilt\[yolo\]"):
-        vision_engine(f"yolo:{path}")
+        DETECTORS.create(f"yolo:{path}")

@@ -4,18 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 import pytest
 
 from airhilt.assistant.vision.detector import Found, Picture, PictureMissed
-from airhilt.assistant.vision.worker import VisionWorker, covered_share
+from airhilt.assistant.vision.worker import VisionWorker
 from airhilt.errors import VisionError
 from airhilt.imaging.masks import runs_of
 from airhilt.messages import EXPOSURE_LEFT_OUT, Detection, Detections
 from airhilt.sim import Input, WorkerLost
-from airhilt.workers.pool import parse_output, policy_of
+from airhilt.workers.pool import parse_output
 from airhilt.workers.protocol import LocalWorker
 from pictures import BlobDetector, Told, a, background, camera_view, frame, info, with_blobs
 
@@ -46,11 +45,6 @@ def test_a_picture_becomes_detections_of_it() -> None:
     )
 
 
-def test_nothing_found_is_told_too_so_that_nobody_waits_for_it() -> None:
-    (told,) = seen(VisionWorker(BlobDetector()), frame(EMPTY))
-    assert told.detections == ()
-
-
 def test_an_exposure_that_was_left_out_is_told_as_that_and_changes_no_track() -> None:
     left_out = replace(frame(TRUCK, 1, encoding="none"), payload=b"")
     items = [frame(TRUCK, 0), left_out, frame(TRUCK, 2)]
@@ -76,28 +70,6 @@ def test_each_camera_has_tracks_of_its_own() -> None:
     ]  # fmt: skip
 
 
-def test_the_detector_sees_the_pixels_that_were_sent() -> None:
-    class Keeping(Told):
-        kept: Picture
-
-        def detect(self, picture: Picture) -> Sequence[Found]:
-            self.kept = picture
-            return []
-
-    detector = Keeping()
-    seen(VisionWorker(detector), frame(TRUCK))
-    np.testing.assert_array_equal(detector.kept, TRUCK)
-
-
-def test_it_asks_for_what_cameras_are_and_for_the_newest_pictures() -> None:
-    description = VisionWorker(BlobDetector(), name="eyes").description
-    policies = {one.key: one.policy for one in description.inputs}
-    assert (description.name, description.modality) == ("eyes", "vision")
-    assert policy_of("camera/tower/frame", policies) == "latest"
-    assert policy_of("camera/tower/info", policies) == "fifo"
-    assert policy_of("truth/camera/tower", policies) is None
-
-
 class TestOwnAircraft:
     """Its lower third is in the picture."""
 
@@ -119,73 +91,10 @@ class TestOwnAircraft:
         (told,) = seen(worker, info(own_aircraft=self.own()), frame(EMPTY))
         assert told.detections == ()
 
-    @pytest.mark.parametrize(
-        ("box", "share"),
-        [
-            ((0.0, 0.0, 2.0, 2.0), 0.25),
-            ((0.0, 0.0, 1.0, 1.0), 1.0),
-            ((1.0, 0.0, 2.0, 1.0), 0.0),
-            ((-5.0, -5.0, 0.2, 0.4), 1.0),  # Beyond a corner: its pixel counts.
-            ((2.6, 2.7, 9.0, 9.0), 1.0),
-            ((9.0, 9.0, 12.0, 12.0), 1.0),
-            ((0.0, 0.0, 4.0, 3.0), 2.0 / 12.0),
-            ((1.2, 0.9, 1.3, 1.0), 0.0),  # Less than a pixel is one.
-        ],
-    )
-    def test_the_share_that_is_covered_is_one_of_pixels(
-        self, box: tuple[float, float, float, float], share: float
-    ) -> None:
-        mask = np.zeros((3, 4), dtype=bool)
-        mask[0, 0] = mask[2, 3] = True
-        assert covered_share(box, mask) == pytest.approx(share)
-
     def test_other_cameras_are_not_masked(self) -> None:
         worker = VisionWorker(Told([a("airplane", 320, 340, 20)]))
         (told,) = seen(worker, info("tail", own_aircraft=self.own()), frame(EMPTY))
         assert told.detections
-
-    def test_runs_that_do_not_fill_the_picture_are_refused(self) -> None:
-        with pytest.raises(VisionError, match=r"camera/tower/info: own_aircraft.*640 by 360"):
-            seen(VisionWorker(BlobDetector()), info(own_aircraft=(100, 200)))
-
-
-class TestPictureThatIsWrong:
-    def fails(self, match: str, *items: Input) -> None:
-        with pytest.raises(VisionError, match=match):
-            seen(VisionWorker(BlobDetector()), *items)
-
-    def test_too_few_pixels(self) -> None:
-        sent = frame(EMPTY, seq=3)
-        cut = Input(sent.key, 0, sent.payload[:-1], sent.attachment)
-        self.fails("camera tower, picture 3: 691199 bytes; expected 691200, 640 by 360", cut)
-
-    def test_another_size_than_the_camera_has(self) -> None:
-        self.fails("640 by 360 pixels; expected 320 by 180", info(width_px=320, height_px=180),
-                   frame(EMPTY))  # fmt: skip
-
-    def test_no_header(self) -> None:
-        self.fails("camera/tower/frame: no header", Input("camera/tower/frame", 0, b"", None))
-
-    @pytest.mark.parametrize("encoding", ["jpeg", "bgr8", None])
-    def test_another_encoding(self, encoding: Any) -> None:
-        self.fails("camera/tower/frame: .*encoding: .*'rgb8'", frame(EMPTY, encoding=encoding))
-
-    def test_the_picture_of_another_camera(self) -> None:
-        sent = frame(EMPTY, camera="tail")
-        self.fails(
-            "camera/tower/frame: a picture of camera 'tail'",
-            Input("camera/tower/frame", 0, sent.payload, sent.attachment),
-        )
-
-    def test_a_description_that_is_none(self) -> None:
-        self.fails("camera/tower/info: not about a camera", Input("camera/tower/info", 0, b"{}"))
-
-    def test_a_description_of_another_kind_of_number(self) -> None:
-        sent = info()
-        self.fails(
-            "camera/tower/info: not about a camera: rate_hz",
-            Input(sent.key, 0, sent.payload.replace(b"16.0", b"NaN")),
-        )
 
 
 def test_of_a_picture_that_was_missed_it_is_said_why_and_no_track_ends() -> None:

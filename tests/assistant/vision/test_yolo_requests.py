@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
@@ -129,14 +128,3 @@ def test_a_model_that_fails_while_it_looks_or_loads_is_named(
     monkeypatch.setattr(yolo, "_load", unreadable)
     with pytest.raises(VisionError, match=r"does not load: .*no pickle"):
         YoloDetector(tmp_path / "small.pt")
-
-
-def test_the_environment_is_as_before_once_a_model_is_loaded(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.setenv("YOLO_OFFLINE", "maybe")
-    monkeypatch.delenv("YOLO_VERBOSE", raising=False)
-    with yolo._environment({"YOLO_OFFLINE": "true", "YOLO_VERBOSE": "false"}):
-        assert (os.environ["YOLO_OFFLINE"], os.environ["YOLO_VERBOSE"]) == ("true", "false")
-    assert os.environ["YOLO_OFFLINE"] == "maybe"
-    assert "YOLO_VERBOSE" not in os.environ

@@ -17,28 +17,34 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from airhilt.assistant.asr.alternatives import WordCurve, log_odds, same_units, with_same
 from airhilt.assistant.asr.beam_search import BeamSearch, aligned
+from airhilt.assistant.asr.confidences import (
+    SILENCE,
+    Gap,
+    LossCurve,
+    WordCurve,
+    gaps,
+    log_odds,
+    log_odds_of,
+    probability,
+    same_units,
+    with_same,
+)
 from airhilt.assistant.asr.engine import Recognised
 from airhilt.assistant.asr.features import BINS, mel_power, normalised
 from airhilt.assistant.asr.language import Language
-from airhilt.assistant.asr.logistic import log_odds_of, probability
-from airhilt.assistant.asr.lost_words import SILENCE, Gap, LossCurve, gaps
 from airhilt.assistant.asr.pieces import Pieces
 from airhilt.assistant.asr.spotting import Odds, Spotted, Spotter, is_same
 from airhilt.audio.pcm import Audio
 from airhilt.engines import Engine
 from airhilt.errors import SpeechError, first_line, first_problem
-from airhilt.host.files import read_file
-from airhilt.host.onnx import first_look, open_network
+from airhilt.host.onnx import open_network
 from airhilt.messages import Confidence
 
 MODEL = Path(__file__).parents[1] / "model"
 """The model that ships with AIRHILT."""
 FILES = ("ctc.onnx", "pieces.txt", "language.npz", "card.json")
 """Files of a model's folder."""
-LARGEST_TEXT_BYTES = 1_000_000
-"""Size of the largest file of words or numbers that is read."""
 EXPECTED = "a network of tools/asr/train_asr.py: features [1, n, 64] to logits [1, n/3, pieces + 1]"
 LEAST_SAMPLES = 1_600
 """Least number of samples that can hold a word: a tenth of a second."""
@@ -129,29 +135,27 @@ class Ctc:
                 f"recogniser {self.name}: {where} lacks {', '.join(missing)}; expected "
                 f"{', '.join(FILES)}, as tools/asr/train_asr.py writes them"
             )
+        self._pieces = Pieces((where / "pieces.txt").read_text(errors="replace").split())
         try:
-            written = read_file(where / "pieces.txt", LARGEST_TEXT_BYTES)
-            self._pieces = Pieces(written.decode(errors="replace").split())
-            card = Card.model_validate_json(read_file(where / "card.json", LARGEST_TEXT_BYTES))
-        except OSError as error:
-            raise SpeechError(
-                f"recogniser {self.name}: {error.filename}: cannot be read: {error.strerror}"
-            ) from None
+            self._card = card = Card.model_validate_json((where / "card.json").read_bytes())
         except ValidationError as error:
             raise SpeechError(
                 f"recogniser {self.name}: {where / 'card.json'} is no model card: "
                 f"{first_problem(error)}; expected it as tools/asr/train_asr.py writes it"
             ) from None
         self._same = same_units(self._pieces)
-        self._word, self._call = card.word_curve, card.call_calibration
-        self._lost = card.lost_words
-        self._odds = card.callsign_odds
-        self._least = card.least_word_confidence
-        self._best_word_threshold = card.best_word_threshold
         self._roster: tuple[tuple[str, ...], Spotter] | None = None
         network = where / "ctc.onnx"
         self._session = open_network(network, f"recogniser {self.name}: {network}", EXPECTED)
-        units, self._step_frames = self._trial(network)
+        trial = {"features": np.zeros((1, TRIAL_FRAMES, BINS), np.float32)}
+        try:
+            _, steps, units = self._session.run(None, trial)[0].shape
+        except Exception as error:  # onnxruntime raises classes of its own that share no base
+            raise SpeechError(
+                f"recogniser {self.name}: {network} is of another kind: {first_line(error)}; "
+                f"expected {EXPECTED}"
+            ) from None
+        self._step_frames = TRIAL_FRAMES // steps
         if units != len(self._pieces) + 1:
             raise SpeechError(
                 f"recogniser {self.name}: {where} does not fit together: ctc.onnx tells {units} "
@@ -165,18 +169,17 @@ class Ctc:
         """Return the words of a call; see `AsrEngine.recognise`."""
         if len(audio) < LEAST_SAMPLES:
             return Recognised("", (), 1.0)
-        if not np.isfinite(audio).all():
-            raise SpeechError(f"recogniser {self.name}: the audio has samples that are no numbers")
         words = [
-            (each.word, confidence_of(each, self._word, self._lost))
+            (each.word, confidence_of(each, self._card.word_curve, self._card.lost_words))
             for each in self.path(self.posteriors(audio), callsigns)
         ]
         best = max((confidence for _, confidence in words), default=0.0)
-        kept = tuple(each for each in words if each[1] >= self._least)
-        if not kept or best < self._best_word_threshold:
+        kept = tuple(each for each in words if each[1] >= self._card.least_word_confidence)
+        if not kept or best < self._card.best_word_threshold:
             return Recognised("", (), 1.0 - best)
         whole = float(np.prod([confidence for _, confidence in words]))
-        return Recognised(" ".join(word for word, _ in kept), kept, self._call(whole))
+        confidence = self._card.call_calibration(whole)
+        return Recognised(" ".join(word for word, _ in kept), kept, confidence)
 
     def path(self, posteriors: NDArray[np.float32], callsigns: Sequence[str]) -> list[Emission]:
         """Return the likeliest words, with the callsign of the roster that is among them."""
@@ -206,7 +209,8 @@ class Ctc:
 
     def _spotter(self, callsigns: tuple[str, ...]) -> Spotter:
         if self._roster is None or self._roster[0] != callsigns:
-            self._roster = (callsigns, Spotter(self._pieces, callsigns, self._odds))
+            spotter = Spotter(self._pieces, callsigns, self._card.callsign_odds)
+            self._roster = (callsigns, spotter)
         return self._roster[1]
 
     def posteriors(self, audio: Audio) -> NDArray[np.float32]:
@@ -217,29 +221,7 @@ class Ctc:
         ]
         return np.concatenate(windows)
 
-    def _trial(self, network: Path) -> tuple[int, int]:
-        """Return the number of units of the network, and the frames of a step.
-
-        Raises
-        ------
-        SpeechError
-            It is a network of another kind.
-        """
-        features = np.zeros((1, TRIAL_FRAMES, BINS), np.float32)
-        try:
-            shape = first_look(self._session, {"features": features})[0].shape
-        except Exception as error:  # onnxruntime raises classes of its own that share no base
-            found = first_line(error)
-        else:
-            if len(shape) == 3 and shape[0] == 1 and shape[1] > 1 and TRIAL_FRAMES % shape[1] == 0:
-                return int(shape[2]), TRIAL_FRAMES // int(shape[1])
-            found = f"it makes {list(shape)} of {list(features.shape)}"
-        raise SpeechError(
-            f"recogniser {self.name}: {network} is of another kind: {found}; expected {EXPECTED}"
-        )
-
     def _window(self, features: NDArray[np.float32], begin: int) -> NDArray[np.float32]:
-        """Return the posteriors of the window that begins at a frame."""
         first = max(begin - CONTEXT_FRAMES, 0)
         seen = features[first : begin + WINDOW_FRAMES + CONTEXT_FRAMES]
         logits = self._session.run(None, {"features": seen[None]})[0][0]

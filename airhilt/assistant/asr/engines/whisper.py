@@ -21,8 +21,6 @@ MODEL_FILES = ("config.json", "model.bin", "tokenizer.json")
 
 It was called with ``--copy_files tokenizer.json preprocessor_config.json``: without tokenizer.json,
 faster-whisper would look for one on the network."""
-VOCABULARIES = ("vocabulary.json", "vocabulary.txt")
-"""Vocabularies, one of which must be there too."""
 LANGUAGE = "en"
 LEAST_SPEECH_S = 0.3
 """Least duration of speech in a call, in s: two syllables."""
@@ -64,9 +62,8 @@ class Whisper:
             raise SpeechError(f"ASR whisper: {model}: no folder; expected {_expected()}")
         self.name = f"whisper:{folder.resolve().name if folder.is_dir() else model}"
         try:
+            from faster_whisper import WhisperModel
             from faster_whisper.vad import get_speech_timestamps
-
-            from airhilt.assistant.asr.windows import WindowedModel
         except ImportError as error:
             raise SpeechError(
                 "ASR whisper: the package faster-whisper is missing or does not load "
@@ -74,19 +71,24 @@ class Whisper:
             ) from None
         self._speech_of: Any = get_speech_timestamps
         try:
-            self._model: Any = WindowedModel(model, compute_type="auto")
+            self._model: Any = WhisperModel(model, compute_type="auto")
         except Exception as error:  # the network's, the disk's, CTranslate2's
             raise SpeechError(
                 f"ASR whisper: {model}: does not load: {first_line(error)}; expected "
                 f"{_expected()}, or the name of a model that can be downloaded"
             ) from None
         _require_features(model, self._model)
+        # faster-whisper 1.2 pads every window to the 3000 frames of Whisper's own models.
+        encode, frames = self._model.encode, self._model.feature_extractor.nb_max_frames
+        self._model.encode = lambda features: encode(features[..., :frames])
 
     def recognise(self, audio: Audio, callsigns: Sequence[str]) -> Recognised:
         """Return what was said; nothing if nobody speaks."""
-        if not np.isfinite(audio).all():
-            raise SpeechError("ASR whisper: audio that is not finite; expected [-1, 1]")
-        if self._speech_s(audio) < LEAST_SPEECH_S:
+        if audio.size < LEAST_SPEECH_S * SAMPLE_RATE_HZ:
+            return Recognised("", (), 1.0)
+        speech = self._speech_of(audio, threshold=SPEECH_PROBABILITY, speech_pad_ms=0)
+        samples = sum(each["end"] - each["start"] for each in speech)
+        if samples < LEAST_SPEECH_S * SAMPLE_RATE_HZ:
             return Recognised("", (), 1.0)
         try:
             segments, _ = self._model.transcribe(
@@ -114,12 +116,6 @@ class Whisper:
         by_model = min(_probability(math.exp(segment.avg_logprob)) for segment in found)
         return Recognised(" ".join(word for word, _ in words), words, min(by_word, by_model))
 
-    def _speech_s(self, audio: Audio) -> float:
-        if audio.size < LEAST_SPEECH_S * SAMPLE_RATE_HZ:
-            return 0.0
-        intervals = self._speech_of(audio, threshold=SPEECH_PROBABILITY, speech_pad_ms=0)
-        return float(sum(each["end"] - each["start"] for each in intervals)) / SAMPLE_RATE_HZ
-
 
 def hot_words(callsigns: Sequence[str]) -> str:
     """Return the text that stands before each window, in Whisper's own spelling.
@@ -143,14 +139,11 @@ def _probability(number: float) -> float:
 
 
 def _expected() -> str:
-    return f"a folder with {', '.join(MODEL_FILES)} and {' or '.join(VOCABULARIES)}"
+    return f"a folder with {', '.join(MODEL_FILES)}"
 
 
 def _require_files(folder: Path) -> None:
-    missing = [name for name in MODEL_FILES if not (folder / name).is_file()]
-    if not any((folder / name).is_file() for name in VOCABULARIES):
-        missing.append(" or ".join(VOCABULARIES))
-    if missing:
+    if missing := [name for name in MODEL_FILES if not (folder / name).is_file()]:
         raise SpeechError(
             f"ASR whisper: {folder}: without {', '.join(missing)}; expected {_expected()}, as "
             "`ct2-transformers-converter --copy_files tokenizer.json preprocessor_config.json` "

@@ -16,10 +16,6 @@ LOOK_AHEAD_S = 120.0
 (EUROCONTROL-GUID-159, edition 1.0)."""
 
 
-HEARS_NOTHING = ConfidenceGuard(1.0)
-"""Guard of transcripts, of which there are none."""
-
-
 class ConflictAlertEngine:
     """Warns the controller alone where two will lose separation within two minutes.
 
@@ -36,7 +32,7 @@ class ConflictAlertEngine:
         config = SeparationConfig(
             advisory_s=LOOK_AHEAD_S, caution_s=LOOK_AHEAD_S, warning_s=LOOK_AHEAD_S
         )
-        self._watch = SeparationWatch(config, HEARS_NOTHING)
+        self._watch = SeparationWatch(config, ConfidenceGuard())
 
     def receive(self, received: ReceivedMessage) -> None:
         """Update tracks with a report, or the minima with the briefing."""

@@ -50,13 +50,7 @@ class HttpAssistant:
         self._due_ns = due_ns if self._due_ns is None else min(self._due_ns, due_ns)
 
     def decide(self, t_ns: int) -> Decision:
-        """Return what the service says that is new, has changed, or is over.
-
-        Raises
-        ------
-        WorkerError
-            It does not answer in time, or what it answers is not of the schema.
-        """
+        """Return what the service says that is new, has changed, or is over."""
         if self._due_ns is None or t_ns < self._due_ns:
             return Decision(again_ns=self._due_ns)
         self._due_ns, self._earliest_ns = None, t_ns + PERIOD_NS

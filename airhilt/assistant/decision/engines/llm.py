@@ -45,8 +45,6 @@ class LanguageModelAssistant:
         self._ledger = AlertLedger()
         self._model: LanguageModel | None = None
         self._open: dict[str, Alert] = {}
-        self._told: dict[str, Severity] = {}
-        """Severity of the open alerts that were published, which does not fall."""
         self._reviewed = Reviewed({}, (), ())
         self._reviewed_ns = 0
         self._asked_ns: int | None = None
@@ -80,7 +78,6 @@ class LanguageModelAssistant:
             for each in self._ledger.update(self._holding(), again)
         ]
         alerts = [*told, *questions]
-        self._told = {name: alert.severity for name, alert in self._ledger.holding().items()}
         wakes = [each for each in (ruled.again_ns, due_ns) if each is not None]
         earliest_ns = t_ns + AFTER_WARNING_NS
         again_ns = max(min(wakes), earliest_ns) if wakes else None
@@ -97,7 +94,6 @@ class LanguageModelAssistant:
         return any(alert.active and alert.severity is Severity.WARNING for alert in alerts)
 
     def _due_ns(self, t_ns: int) -> int | None:
-        """Return when the model is to be asked; None if nothing is to be asked."""
         if self._model is None or not (self._has_news or self._open):
             return None
         if self._asked_ns is None:
@@ -106,7 +102,6 @@ class LanguageModelAssistant:
         return max(self._asked_ns + period_ns, t_ns)
 
     def _ask(self, t_ns: int) -> tuple[ModelExchange, ...]:
-        """Ask the model, and take in what the rules accept of its answer."""
         callsigns = self._slices.callsigns()
         request = self._slices.request(t_ns)
         self._has_news, self._asked_ns = False, t_ns
@@ -129,22 +124,21 @@ class LanguageModelAssistant:
         return (exchange.model_copy(update={"rejections": self._reviewed.rejections}),)
 
     def _holding(self) -> list[Alert]:
-        """Return all alerts that hold now: those of the rules as judged, and the model's own."""
-        holding: list[Alert] = []
-        for alert in self._open.values():
-            severity = self._severity_of(alert)
-            if severity is Severity.INFO:
-                continue
-            holding.append(alert if severity is alert.severity else judged(alert, severity))
-        return [*holding, *self._reviewed.advisories]
+        """Return all alerts that hold now: those of the rules as judged, and the model's own.
 
-    def _severity_of(self, alert: Alert) -> Severity:
-        """Return the severity of an alert of the rules; what was told does not fall."""
-        if alert.severity is Severity.WARNING:
-            return alert.severity
-        severity = self._reviewed.severities.get(alert.id, alert.severity)
-        told = self._told.get(alert.id)
-        return severity if told is None or severity.rank >= told.rank else told
+        A WARNING stays one, and a severity that was told does not fall.
+        """
+        holding: list[Alert] = []
+        told = self._ledger.holding()
+        for alert in self._open.values():
+            severity = self._reviewed.severities.get(alert.id, alert.severity)
+            if alert.id in told and severity.rank < told[alert.id].severity.rank:
+                severity = told[alert.id].severity
+            if alert.severity is Severity.WARNING:
+                holding.append(alert)
+            elif severity is not Severity.INFO:
+                holding.append(alert if severity is alert.severity else judged(alert, severity))
+        return [*holding, *self._reviewed.advisories]
 
 
 ENGINE = Engine(

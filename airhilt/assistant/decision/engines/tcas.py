@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import Decision, ReceivedMessage
-from airhilt.assistant.decision.tcas_unit import Coordination, TcasUnit
+from airhilt.assistant.decision.tcas_unit import Senses, TcasUnit
 from airhilt.engines import Engine
 from airhilt.errors import WorkerError
 from airhilt.messages import CockpitInstruments, Message, TcasReply
@@ -14,20 +14,14 @@ MISS_DISTANCE_FILTER = "hmd"
 
 
 class TcasEngine:
-    """TCAS II of each aircraft that interrogates others; equipped aircraft coordinate.
-
-    Parameters
-    ----------
-    filters_misses
-        True for the horizontal miss distance filter.
-    """
+    """TCAS II of each aircraft that interrogates others; equipped aircraft coordinate."""
 
     name = "tcas"
     reads: tuple[type[Message], ...] = (CockpitInstruments, TcasReply)
 
     def __init__(self, *, filters_misses: bool = False) -> None:
         self._filters_misses = filters_misses
-        self._coordination = Coordination()
+        self._senses: Senses = {}
         self._units: dict[str, TcasUnit] = {}
         self._instruments: dict[str, CockpitInstruments] = {}
 
@@ -51,13 +45,12 @@ class TcasEngine:
         return Decision(alerts, again_ns=min(due, default=None))
 
     def _unit(self, reply: TcasReply) -> TcasUnit:
-        """Return the unit of the aircraft that has interrogated."""
         unit = self._units.get(reply.callsign)
         if unit is None:
             unit = self._units[reply.callsign] = TcasUnit(
                 reply.callsign,
                 reply.own_icao24,
-                self._coordination,
+                self._senses,
                 filters_misses=self._filters_misses,
             )
             if reply.callsign in self._instruments:
@@ -66,7 +59,6 @@ class TcasEngine:
 
 
 def _create(argument: str) -> TcasEngine:
-    """Return the engine, with the filter if it is asked for."""
     if argument not in ("", MISS_DISTANCE_FILTER):
         raise WorkerError(
             f"assistant 'tcas:{argument}': expected tcas or tcas:{MISS_DISTANCE_FILTER}"

@@ -1,7 +1,15 @@
-"""The baseline of unmanned aviation: detect and avoid by DO-365B, for crews with ADS-B In."""
+"""The baseline of unmanned aviation: detect and avoid by DO-365B, for crews with ADS-B In.
+
+DO-365B asks a system for bands of tracks that lead to a violation, and leaves the choice among the
+others to the pilot. The choice here is an assumption: the smallest turn that stays well clear for
+the look-ahead, to the right rather than to the left, as both turn that meet head-on (ICAO Annex 2,
+3.2.2.2). The other one is taken to fly straight on. The turn is begun after the response time, and
+its duration is part of that.
+"""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
@@ -11,30 +19,24 @@ from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import Decision, ReceivedMessage
 from airhilt.assistant.decision.escalation import Escalation
 from airhilt.assistant.decision.findings import Announcement
-from airhilt.assistant.decision.remaining_clear import smallest_turn
 from airhilt.assistant.decision.tracks import Track
 from airhilt.engines import Engine
 from airhilt.geodesy.relative_motion import Relative, relative
-from airhilt.messages import (
-    AdsbReport,
-    Briefing,
-    Evidence,
-    Message,
-    Recommendation,
-    Severity,
-    Turn,
-)
+from airhilt.messages import AdsbReport, Briefing, Evidence, Message, Recommendation, Severity, Turn
 from airhilt.surveillance.well_clear import (
+    CORRECTIVE,
     HYSTERESIS_S,
+    LOOK_AHEAD_S,
     PREVENTIVE,
     WARNING,
     AlertLevel,
     AlertName,
     Gap,
+    Volume,
     level_of,
     time_to_violation_s,
 )
-from airhilt.units import SECOND_NS
+from airhilt.units import DEGREE, SECOND_NS
 
 SEVERITIES: dict[AlertName, Severity] = {
     "preventive": Severity.ADVISORY,
@@ -47,8 +49,8 @@ AURALS = {
     Severity.WARNING: "traffic, maneuver now, traffic, maneuver now",
 }
 """Aural alerts (DO-365B, table 2-21)."""
-STALE_NS = 15 * SECOND_NS
-"""Silence after which a track is dropped, in ns; an assumption."""
+STALE_S = 15.0
+"""Silence after which a track is dropped, in s; an assumption."""
 CYCLE_NS = SECOND_NS
 """Time without a report after which a pair with an alert is judged again, in ns."""
 REACH = Reach(
@@ -58,6 +60,13 @@ REACH = Reach(
 )
 """The farthest volume. A violation begins within the time of an alert, and two that fly straight on
 are within DMOD after tau more at most."""
+TURNS_DEG = tuple(sign * degrees for degrees in range(10, 100, 10) for sign in (1, -1))
+"""Turns that are tried, to the right if positive, the smallest first; steps are an assumption."""
+RESPONSE_S = 15.0
+"""Time for the pilot's decision and the turn, in s; an assumption."""
+
+Velocity = tuple[float, float]
+"""North and east, in m/s."""
 
 
 @dataclass(slots=True)
@@ -97,25 +106,31 @@ class WellClearEngine:
     def decide(self, t_ns: int) -> Decision:
         """Return the alerts that are new, have risen, or are over."""
         tracks = self._tracks
-        tracks.begin_step(t_ns - STALE_NS, self._encounters)
-        silent = [pair for pair in self._encounters if tracks.silent_ns(pair, t_ns) >= CYCLE_NS]
+        pairs = tracks.pairs_with_news(t_ns, REACH, STALE_S, self._encounters)
+        silent = tracks.silent(self._encounters, t_ns, CYCLE_NS)
         alerts = [
-            alert
-            for pair in dict.fromkeys([*tracks.pairs_with_news(REACH, self._encounters), *silent])
-            for alert in self._judge(pair, t_ns)
+            alert for pair in dict.fromkeys([*pairs, *silent]) for alert in self._judge(pair, t_ns)
         ]
         tracks.end_step()
         return Decision(alerts, again_ns=t_ns + CYCLE_NS if self._encounters else None)
 
     def _judge(self, pair: Pair, t_ns: int) -> Iterator[Alert]:
-        """Yield the alert about one pair if it is new or has changed."""
         first, second = (self._tracks.present(icao24, t_ns) for icao24 in pair)
-        motion, gap = relative(first, second), _gap(first, second)
-        level = None if self._is_exempt(first, second) else level_of(motion, gap)
+        motion, zone = relative(first, second), self._zone
+        own, other = first.profile(), second.profile()
+        gap = Gap(other.altitude_m - own.altitude_m, other.rate_m_s - own.rate_m_s)
+        is_exempt = (
+            self._tracks.is_grounded(first)
+            or self._tracks.is_grounded(second)
+            or (zone is not None and zone.contains(first) and zone.contains(second))
+        )
+        level = None if is_exempt else level_of(motion, gap)
         encounter = self._encounters.get(pair)
         if level is None:
-            if encounter is not None:
-                yield from self._calm(pair, encounter, motion, t_ns)
+            if encounter is not None and self._is_over(encounter, motion, t_ns):
+                del self._encounters[pair]
+                evidence = Evidence(sources=("adsb",), note="well clear", tracks=pair)
+                yield _alert(encounter, first, second, evidence, is_active=False)
             return
         if encounter is None:
             self._count += 1
@@ -126,50 +141,63 @@ class WellClearEngine:
                 encounter.recommendations = _turns(first, second, gap)
             yield _alert(encounter, first, second, _evidence(pair, motion, gap, level))
 
-    def _is_exempt(self, first: Track, second: Track) -> bool:
-        """Return whether either is on the ground, or both are in a terminal area."""
-        if self._tracks.is_grounded(first) or self._tracks.is_grounded(second):
-            return True
-        zone = self._zone
-        return zone is not None and zone.contains(first) and zone.contains(second)
-
-    def _calm(
-        self, pair: Pair, encounter: _Encounter, motion: Relative, t_ns: int
-    ) -> Iterator[Alert]:
-        """Yield the end of an alert.
+    def _is_over(self, encounter: _Encounter, motion: Relative, t_ns: int) -> bool:
+        """Note that nothing is wrong now, and return whether an alert is over.
 
         Once crews were told to turn, it does not end before the two are past each other: going
         back would bring it back.
         """
-        must_pass = bool(encounter.recommendations)
-        if must_pass and motion.time_to_closest_approach_s() > 0.0:
+        if encounter.recommendations and motion.time_to_closest_approach_s() > 0.0:
             encounter.escalation.stays()
-            return
-        if not encounter.escalation.is_over(t_ns, HYSTERESIS_S):
-            return
-        del self._encounters[pair]
-        first, second = (self._tracks.present(icao24, t_ns) for icao24 in pair)
-        evidence = Evidence(sources=("adsb",), note="well clear", tracks=pair)
-        yield _alert(encounter, first, second, evidence, is_active=False)
+            return False
+        return encounter.escalation.is_over(t_ns, HYSTERESIS_S)
 
 
-def _gap(first: Track, second: Track) -> Gap:
-    own, other = first.profile(), second.profile()
-    return Gap(other.altitude_m - own.altitude_m, other.rate_m_s - own.rate_m_s)
+def smallest_turn(motion: Relative, own: Velocity, gap: Gap) -> Turn | None:
+    """Return the smallest turn of the own aircraft that remains well clear; None if none does.
+
+    There is none either if the two are past each other before a turn is made.
+
+    Parameters
+    ----------
+    motion
+        The other one relative to the own aircraft.
+    own
+        Own velocity over the ground.
+    """
+    if motion.time_to_closest_approach_s() <= RESPONSE_S:
+        return None
+    for degrees in TURNS_DEG:
+        if _stays_clear(motion, own, gap, degrees * DEGREE):
+            return Turn(degrees=degrees)
+    return None
+
+
+def _stays_clear(motion: Relative, own: Velocity, gap: Gap, turn_rad: float) -> bool:
+    cosine, sine = math.cos(turn_rad), math.sin(turn_rad)
+    north, east = own
+    later = motion.at(RESPONSE_S)
+    turned = Relative(
+        later.north_m,
+        later.east_m,
+        later.velocity_north_m_s + north - (north * cosine - east * sine),
+        later.velocity_east_m_s + east - (north * sine + east * cosine),
+    )
+    gap_later = Gap(gap.gap_m + gap.rate_m_s * RESPONSE_S, gap.rate_m_s)
+    volume: Volume = CORRECTIVE.volume
+    violation_s = time_to_violation_s(turned, gap_later, volume)
+    return violation_s is None or violation_s > LOOK_AHEAD_S
 
 
 def _turns(first: Track, second: Track, gap: Gap) -> dict[str, Recommendation]:
-    """Return the turn of each crew, where there is one."""
     opposite = Gap(-gap.gap_m, -gap.rate_m_s)
-    turns: dict[str, Turn | None] = {
-        first.callsign: smallest_turn(relative(first, second), _velocity(first), gap),
-        second.callsign: smallest_turn(relative(second, first), _velocity(second), opposite),
+    turns = {
+        own.callsign: smallest_turn(
+            relative(own, other), (own.velocity_north_m_s, own.velocity_east_m_s), seen
+        )
+        for own, other, seen in ((first, second, gap), (second, first, opposite))
     }
     return {callsign: turn for callsign, turn in turns.items() if turn is not None}
-
-
-def _velocity(track: Track) -> tuple[float, float]:
-    return track.velocity_north_m_s, track.velocity_east_m_s
 
 
 def _evidence(pair: Pair, motion: Relative, gap: Gap, level: AlertLevel) -> Evidence:

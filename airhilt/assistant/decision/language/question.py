@@ -7,7 +7,7 @@ the model instructions by radio: a call that means nothing to the phraseology is
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
@@ -15,7 +15,7 @@ from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.service_messages import AssistantRequest, RadioTurn
 from airhilt.assistant.decision.slices import SECOND_MS
 from airhilt.messages import CONTROLLER, Severity
-from airhilt.phraseology import Action, Call, Instruction, parse_call
+from airhilt.phraseology import Call, Instruction, parse_call
 
 MOST_TURNS = 12
 """Number of calls that are given, the last ones."""
@@ -34,53 +34,29 @@ INSTRUCTIONS = (
 
 
 class Turn(NamedTuple):
-    """One call, as the phraseology understands it.
-
-    Attributes
-    ----------
-    name
-        Name of the call in the question, which says nothing about it.
-    callsign
-        Callsign that is called, or that speaks.
-    """
+    """One call, as the phraseology understands it."""
 
     name: str
+    """Name of the call in the question, which says nothing about it."""
     turn: RadioTurn
     call: Call
     callsign: str
-
-    @property
-    def instructions(self) -> Sequence[Instruction]:
-        """Actions of the call."""
-        return self.call.instructions
-
-    @property
-    def actions(self) -> frozenset[Action]:
-        """Names of the actions."""
-        return frozenset(each.action for each in self.instructions)
+    """Callsign that is called, or that speaks."""
 
 
 @dataclass(frozen=True)
 class QuestionContext:
-    """Situation as a language model is given it.
-
-    Attributes
-    ----------
-    callsigns
-        All who may be concerned.
-    runways
-        Designators of the airport's runways.
-    turns
-        Calls by their names.
-    alerts
-        Alerts of the rules that are open, by their ids.
-    """
+    """Situation as a language model is given it."""
 
     request: AssistantRequest
     callsigns: tuple[str, ...]
+    """All who may be concerned."""
     runways: tuple[str, ...]
+    """Designators of the airport's runways."""
     turns: Mapping[str, Turn]
+    """Calls by their names."""
     alerts: Mapping[str, Alert]
+    """Alerts of the rules that are open, by their ids."""
 
     @classmethod
     def of(
@@ -186,7 +162,7 @@ def _said(turn: Turn, now_ms: int) -> dict[str, Any]:
         "age_s": round((now_ms - turn.turn.ts_ms) / SECOND_MS),
         ("to" if turn.call.addressed_first else "by"): turn.callsign,
         "kind": turn.call.kind,
-        "says": [_action(each) for each in turn.instructions],
+        "says": [_action(each) for each in turn.call.instructions],
         "confidence": round(min(turn.call.confidence, turn.turn.confidence), 2),
     }
 

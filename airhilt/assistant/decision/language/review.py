@@ -13,23 +13,21 @@ assumptions of this project; the model may
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import itertools
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from pydantic import BaseModel, ConfigDict
 
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.language.question import ACTIONS, KINDS, QuestionContext, Turn
-from airhilt.assistant.decision.language.support import is_airborne_conflict, misread_turns
-from airhilt.messages import (
-    CONTROLLER,
-    AdvisoryKind,
-    Evidence,
-    Recommendation,
-    Rejection,
-    Severity,
-)
+from airhilt.assistant.decision.service_messages import AssistantRequest
+from airhilt.assistant.decision.slices import MS_NS
+from airhilt.assistant.decision.tracks import Track
+from airhilt.geodesy.relative_motion import Minima, relative, time_to_loss_s
+from airhilt.messages import CONTROLLER, AdvisoryKind, Evidence, Recommendation, Rejection, Severity
 from airhilt.phraseology import TAU_ASR, Action
+from airhilt.units import FOOT, NAUTICAL_MILE
 
 RESOLVING: frozenset[Action] = frozenset(
     {"go_around", "hold_short", "hold_position", "cancel_takeoff", "cancel_landing", "vacate",
@@ -38,29 +36,36 @@ RESOLVING: frozenset[Action] = frozenset(
 """Actions by which a conflict may be resolved."""
 RESOLVED_MS = 30_000
 """Age up to which a readback may resolve a conflict that is new, in ms."""
+NEAR = 1.5
+"""Multiple of the separation minima: two tracks that stay farther apart are in no conflict."""
+LOOK_AHEAD_S = 180.0
+"""Time within which they must do so, in s: that of the rules' ADVISORY."""
+ANSWERED_MS = 30_000
+"""Longest time from an instruction to its readback, in ms: that of the rules."""
 
 
-class Judgement(BaseModel):
+class _Answered(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Judgement(_Answered):
     """Judgement of the model about an alert of the rules."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
     alert: str
     severity: Severity
     radio: tuple[str, ...] = ()
 
 
-class Recommended(BaseModel):
+class Recommended(_Answered):
     """An action that the model recommends."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
     callsign: str
     action: str
 
 
-class OwnAdvisory(BaseModel):
+class OwnAdvisory(_Answered):
     """A conflict that the model sees and the rules do not."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
     kind: AdvisoryKind
     severity: Severity
     traffic: tuple[str, ...]
@@ -70,28 +75,21 @@ class OwnAdvisory(BaseModel):
     radio: tuple[str, ...] = ()
 
 
-class Answer(BaseModel):
+class Answer(_Answered):
     """The answer of the model."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True)
     judgements: tuple[Judgement, ...] = ()
     advisories: tuple[OwnAdvisory, ...] = ()
 
 
 @dataclass(frozen=True)
 class Reviewed:
-    """Part of an answer that the rules accept.
-
-    Attributes
-    ----------
-    severities
-        Severity of alerts of the rules, by their ids, as the model judges them.
-    advisories
-        Alerts of the model's own.
-    """
+    """Part of an answer that the rules accept."""
 
     severities: Mapping[str, Severity]
+    """Severity of alerts of the rules, by their ids, as the model judges them."""
     advisories: tuple[Alert, ...]
+    """Alerts of the model's own."""
     rejections: tuple[Rejection, ...]
 
 
@@ -134,7 +132,6 @@ def judged(alert: Alert, severity: Severity) -> Alert:
 
 
 def _against_judgement(judgement: Judgement, situation: QuestionContext) -> str:
-    """Return why a judgement is refused; empty if it is not."""
     alert = situation.alerts.get(judgement.alert)
     if alert is None:
         return "the rules have no such alert"
@@ -156,17 +153,16 @@ def _against_judgement(judgement: Judgement, situation: QuestionContext) -> str:
 
 
 def _resolves(turn: Turn, now_ms: int) -> bool:
-    """Return whether a call is a readback that may have resolved a conflict just now."""
     confidence = min(turn.call.confidence, turn.turn.confidence)
     is_recent = now_ms - turn.turn.end_ms <= RESOLVED_MS
-    resolves = turn.call.kind == "readback" and not RESOLVING.isdisjoint(turn.actions)
+    actions = {each.action for each in turn.call.instructions}
+    resolves = turn.call.kind == "readback" and not RESOLVING.isdisjoint(actions)
     return is_recent and resolves and confidence >= TAU_ASR
 
 
 def _against_advisory(
     advisory: OwnAdvisory, situation: QuestionContext, runway_of: Callable[[str], str | None]
 ) -> str:
-    """Return why an advisory of the model's own is refused; empty if it is not."""
     traffic = set(advisory.traffic)
     unknown = sorted((traffic | set(advisory.recipients)) - {CONTROLLER} - set(situation.callsigns))
     if unknown:
@@ -221,7 +217,7 @@ def _unsupported(
     named = {
         turn.callsign
         for turn in cited
-        if any(each.runway == advisory.runway for each in turn.instructions)
+        if any(each.runway == advisory.runway for each in turn.call.instructions)
     }
     on_runway = {each for each in traffic if runway_of(each) == advisory.runway}
     missing = sorted(traffic - named - on_runway)
@@ -237,7 +233,6 @@ def _ruled(callsign: str, situation: QuestionContext) -> Recommendation | None:
 
 
 def _alert(advisory: OwnAdvisory, situation: QuestionContext) -> Alert:
-    """Return an advisory of the model's own as an alert, in words of this project."""
     traffic = tuple(sorted(advisory.traffic))
     what = advisory.kind.replace("_", " ")
     where = f" on runway {advisory.runway}" if advisory.runway else ""
@@ -267,3 +262,41 @@ def _alert(advisory: OwnAdvisory, situation: QuestionContext) -> Alert:
 
 def _rejection(subject: str, answered: BaseModel, reason: str) -> Rejection:
     return Rejection(subject=subject, answered=answered.model_dump_json(), reason=reason)
+
+
+def is_airborne_conflict(traffic: Sequence[str], request: AssistantRequest) -> bool:
+    """Return whether two of some aircraft come near each other, if they fly on as they do."""
+    if request.context is None:
+        return False
+    near = Minima(
+        NEAR * request.context.horizontal_separation_nm * NAUTICAL_MILE,
+        NEAR * request.context.vertical_separation_ft * FOOT,
+    )
+    flying = [
+        Track.of(each, each.altitude_ft, each.ts_ms * MS_NS).at(request.ts_ms * MS_NS)
+        for each in request.tracks
+        if (each.callsign or each.icao24) in traffic
+        and each.altitude_ft is not None
+        and not each.on_ground
+    ]
+    meetings_s = [
+        time_to_loss_s(relative(first, second), first.profile(), second.profile(), near)
+        for first, second in itertools.combinations(flying, 2)
+    ]
+    is_near = any(each is not None and each <= LOOK_AHEAD_S for each in meetings_s)
+    return is_near and len(flying) == len(set(traffic))
+
+
+def misread_turns(turns: Sequence[Turn]) -> bool:
+    """Return whether one of some calls reads another one back differently, or for another."""
+    given = [turn for turn in turns if turn.call.addressed_first]
+    read = [turn for turn in turns if not turn.call.addressed_first]
+    return any(
+        0 < answer.turn.ts_ms - call.turn.ts_ms <= ANSWERED_MS
+        and (
+            answer.callsign != call.callsign
+            or set(answer.call.instructions).isdisjoint(call.call.instructions)
+        )
+        for call in given
+        for answer in read
+    )

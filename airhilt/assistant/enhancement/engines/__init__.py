@@ -3,11 +3,3 @@
 An enhancer of another package is found by an entry point of the group ``airhilt.enhancers`` that
 names its `airhilt.engines.Engine`, such as ``mine = "my_package.enhancer:ENGINE"``.
 """
-
-from __future__ import annotations
-
-from airhilt.assistant.enhancement.engine import Enhancer
-from airhilt.engine_families import ENHANCERS
-from airhilt.engines import EngineFamily
-
-FAMILY: EngineFamily[Enhancer] = ENHANCERS

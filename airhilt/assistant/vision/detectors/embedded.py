@@ -23,7 +23,7 @@ from airhilt.assistant.vision.tiling import Tile
 from airhilt.engines import Engine
 from airhilt.errors import VisionError, first_line, first_problem
 from airhilt.host.files import read_file, sha256
-from airhilt.host.onnx import open_network, require_end
+from airhilt.host.onnx import open_network
 from airhilt.imaging.boxes import area, moved, size_px, within
 from airhilt.messages import Confidence, VisibleClass
 
@@ -98,18 +98,11 @@ class EmbeddedDetector:
         ONNX file, with its ``card.json`` beside it.
     threshold
         Confidence below which nothing is reported; None: `DOUBTFUL` times the card's.
-    threads
-        Number of threads that share the work.
-
-    Attributes
-    ----------
-    threshold
-        Confidence from which a finding counts by itself: that of the card.
 
     Raises
     ------
     VisionError
-        A file is missing, or is not what it must be, or a network never ends.
+        A file is missing, or is not what it must be.
     """
 
     name = "embedded"
@@ -118,26 +111,23 @@ class EmbeddedDetector:
         self, path: Path | None = None, threshold: float | None = None, threads: int = THREADS
     ) -> None:
         file = path or MODEL
-        card = _card(file.with_name(CARD))
-        self._classes = card.classes
-        self._calibration = card.calibration
+        self._card = card = _card(file.with_name(CARD))
         self.threshold = card.threshold
         self._threshold = DOUBTFUL * card.threshold if threshold is None else threshold
-        if not 0.0 <= self._threshold <= 1.0:
-            raise VisionError(f"the threshold is {threshold}; expected 0 to 1")
         self._files = [file, file.with_name(CARD)]
-        if card.refiner is not None:
-            self._files.append(file.with_name(card.refiner.file))
         self._subject = f"detector {file}"
         self._network = open_network(file, self._subject, EXPECTED, VisionError, threads)
-        _require_shapes(self._network, self._subject)
-        empty = np.zeros((1, SMALLEST_PX, SMALLEST_PX, 3), np.uint8)
-        require_end(self._network, {"picture": empty}, self._subject, VisionError)
-        self._refiner = (
-            None
-            if card.refiner is None
-            else Refiner(card.refiner, file.parent, card.classes, threads)
-        )
+        inputs, outputs = self._network.get_inputs(), self._network.get_outputs()
+        takes = [(each.name, each.type, each.shape[-1]) for each in inputs]
+        gives = [(each.name, each.type, each.shape[-1]) for each in outputs]
+        if takes != [("picture", "tensor(uint8)", 3)] or gives != [("found", "tensor(float)", 6)]:
+            both = (*inputs, *outputs)
+            told = ", ".join(f"{each.name!r} {each.type} {each.shape}" for each in both)
+            raise VisionError(f"{self._subject} has {told}; expected {EXPECTED}")
+        self._refiner: Refiner | None = None
+        if card.refiner is not None:
+            self._files.append(file.with_name(card.refiner.file))
+            self._refiner = Refiner(card.refiner, file.parent, card.classes, threads)
 
     @property
     def identity(self) -> Sequence[str]:
@@ -156,31 +146,23 @@ class EmbeddedDetector:
         picture.
         """
         proposed = self.proposed(part.of(picture))
-        return self._told(
-            picture,
-            [one._replace(box=moved(one.box, part.left, part.top)) for one in proposed],
-        )
+        moved_to_part = [one._replace(box=moved(one.box, part.left, part.top)) for one in proposed]
+        return self._told(picture, moved_to_part)
 
     def _told(self, picture: Picture, proposed: list[Found]) -> Sequence[Found]:
-        found = [
-            one._replace(confidence=self._confidence(one))
-            for one in self._judged(picture, proposed)
-        ]
-        told = sorted(
-            (one for one in found if one.confidence >= self._threshold),
-            key=lambda one: -one.confidence,
-        )
+        found = []
+        for one in self._judged(picture, proposed):
+            odds = self._card.calibration.log_odds(one.label, one.confidence, size_px(one.box))
+            odds = min(max(odds, -MOST_LOG_ODDS), MOST_LOG_ODDS)
+            found.append(one._replace(confidence=1.0 / (1.0 + math.exp(-odds))))
+        told = [one for one in found if one.confidence >= self._threshold]
+        told.sort(key=lambda one: -one.confidence)
         return told if self._refiner is None else once(told)
 
     def uncalibrated(self, picture: Picture) -> list[Found]:
         """Return all findings of the last network, with its scores as confidences.
 
         The refiner may move several onto one body.
-
-        Raises
-        ------
-        VisionError
-            A network has failed, or this is no picture.
         """
         return self._judged(picture, self.proposed(picture))
 
@@ -194,78 +176,29 @@ class EmbeddedDetector:
         return [one for one in inside if area(one.box) > 0.0]
 
     def proposed(self, picture: Picture) -> list[Found]:
-        """Return all findings of the first network, the highest scores first.
-
-        Raises
-        ------
-        VisionError
-            It has failed, or this is no picture.
-        """
-        if picture.dtype != np.uint8 or picture.ndim != 3 or picture.shape[2] != 3:
-            raise VisionError(
-                f"a picture is {picture.dtype} {list(picture.shape)}; expected uint8 "
-                "[rows, columns, 3]"
-            )
+        """Return all findings of the first network, the highest scores first."""
         rows, columns = picture.shape[:2]
-        if not rows or not columns:
-            return []
         try:
             found = self._network.run(["found"], {"picture": _padded(picture)[None]})[0][0]
         except Exception as error:  # onnxruntime raises classes of its own that share no base
             raise VisionError(f"{self._subject} has failed: {first_line(error)}") from None
-        if not np.isfinite(found).all():
-            raise VisionError(f"{self._subject} answers numbers that are not finite")
         boxes = [within(tuple(box), columns, rows) for box in found[:, :4].tolist()]
         proposed = [
-            Found(self._label(number), score, box)
+            Found(self._card.classes[int(number)], score, box)
             for box, (score, number) in zip(boxes, found[:, 4:].tolist(), strict=True)
             if area(box) > 0.0
         ]
         return sorted(proposed, key=lambda one: -one.confidence)
 
-    def _confidence(self, found: Found) -> float:
-        odds = self._calibration.log_odds(found.label, found.confidence, size_px(found.box))
-        return 1.0 / (1.0 + math.exp(-min(max(odds, -MOST_LOG_ODDS), MOST_LOG_ODDS)))
-
-    def _label(self, number: float) -> VisibleClass:
-        index = int(number)
-        if not 0 <= index < len(self._classes):
-            raise VisionError(
-                f"{self._subject} answers class {number:g}; expected one of the "
-                f"{len(self._classes)} of its {CARD}, from 0"
-            )
-        return self._classes[index]
-
 
 def _card(path: Path) -> Card:
     try:
         return Card.model_validate_json(read_file(path, LARGEST_CARD_BYTES))
-    except OSError as error:
+    except (OSError, ValidationError) as error:
+        why = first_problem(error) if isinstance(error, ValidationError) else error.strerror
         raise VisionError(
-            f"{path}: cannot be read: {error.strerror}; "
-            "expected what tools/detector/train_detector.py writes beside a network"
+            f"{path}: {why}; expected what tools/detector/train_detector.py writes beside a network"
         ) from None
-    except ValidationError as error:
-        raise VisionError(
-            f"{path}: {first_problem(error)}; "
-            "expected what tools/detector/train_detector.py writes beside a network"
-        ) from None
-
-
-def _require_shapes(network: onnxruntime.InferenceSession, subject: str) -> None:
-    """Raise an error if a network takes or gives something else.
-
-    Raises
-    ------
-    VisionError
-        It does.
-    """
-    inputs, outputs = network.get_inputs(), network.get_outputs()
-    found = ", ".join(f"{each.name!r} {each.type} {each.shape}" for each in (*inputs, *outputs))
-    takes = [(each.name, each.type, len(each.shape), each.shape[-1]) for each in inputs]
-    gives = [(each.name, each.type, len(each.shape), each.shape[-1]) for each in outputs]
-    if takes != [("picture", "tensor(uint8)", 4, 3)] or gives != [("found", "tensor(float)", 3, 6)]:
-        raise VisionError(f"{subject} has {found}; expected {EXPECTED}")
 
 
 def _padded(picture: Picture) -> Picture:

@@ -69,14 +69,11 @@ class HttpDetector:
 
     def detect(self, picture: Picture) -> Sequence[Found]:
         """Return what the service finds in a picture; see `Detector.detect`."""
-        return self._detect(picture, {})
+        return self.detect_shot(picture, None)
 
-    def detect_shot(self, picture: Picture, shot: Shot) -> Sequence[Found]:
+    def detect_shot(self, picture: Picture, shot: Shot | None) -> Sequence[Found]:
         """Return what the service finds in a picture, and tell it where that comes from."""
-        return self._detect(picture, headers_of(shot))
-
-    def _detect(self, picture: Picture, headers: Mapping[str, str]) -> Sequence[Found]:
-        data = self._post(encode_png(picture), headers)
+        data = self._post(encode_png(picture), {} if shot is None else headers_of(shot))
         answer = self._service.parsed(data, _Answer, EXPECTED)
         placed = [self._placed(each, picture) for each in answer.detections]
         return [found for found in placed if area(found.box)]
@@ -95,7 +92,6 @@ class HttpDetector:
         return answer
 
     def _placed(self, each: _Detection, picture: Picture) -> Found:
-        """Return a detection with its box cut to the picture."""
         rows, columns = picture.shape[:2]
         left, top, right, bottom = each.box
         if left > right or top > bottom:

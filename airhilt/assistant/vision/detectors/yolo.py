@@ -8,19 +8,17 @@ from __future__ import annotations
 
 import ast
 import os
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-import onnxruntime
 
 from airhilt.assistant.vision.detector import Found, Picture
 from airhilt.assistant.vision.detectors.embedded import has_card
 from airhilt.engines import Engine, Package
 from airhilt.errors import VisionError, first_line
-from airhilt.host.onnx import first_look, open_network
+from airhilt.host.onnx import open_network
 from airhilt.messages import VisibleClass
 
 LABELS: Mapping[str, VisibleClass] = {
@@ -41,8 +39,6 @@ THRESHOLD = 0.25
 """Findings with less only continue tracks (``conf`` of ultralytics' predictions)."""
 MOST_FOUND = 300
 STRIDE_PX = 32
-TRIAL_PX = 320
-"""Side of the picture with which a network that takes any is tried, in pixels."""
 EXPECTED = "a model for detection of ultralytics, .pt or .onnx"
 ENVIRONMENT = {"YOLO_OFFLINE": "true", "YOLO_AUTOINSTALL": "false", "YOLO_VERBOSE": "false"}
 """Variables with which ultralytics neither loads nor installs nor prints anything.
@@ -130,35 +126,14 @@ class YoloDetector:
 
 
 def _load(path: Path) -> Any:
-    with _environment(ENVIRONMENT):
-        from ultralytics import YOLO
+    os.environ.update(ENVIRONMENT)
+    from ultralytics import YOLO
 
-        return YOLO(path, task="detect") if path.suffix == ".onnx" else YOLO(path)
-
-
-@contextmanager
-def _environment(settings: Mapping[str, str]) -> Iterator[None]:
-    """Set variables of the environment for a while."""
-    before = {name: os.environ.get(name) for name in settings}
-    os.environ.update(settings)
-    try:
-        yield
-    finally:
-        for name, value in before.items():
-            if value is None:
-                del os.environ[name]
-            else:
-                os.environ[name] = value
+    return YOLO(path, task="detect") if path.suffix == ".onnx" else YOLO(path)
 
 
 def _fixed_sides(path: Path) -> tuple[int, int] | None:
-    """Return rows and columns of the pictures that a network takes; None if it takes any.
-
-    Raises
-    ------
-    VisionError
-        It is no network, or there is code in its metadata.
-    """
+    """Return rows and columns of the pictures that a network takes; None if it takes any."""
     session = open_network(path, f"detector yolo: {path}", EXPECTED, VisionError)
     metadata = session.get_modelmeta().custom_metadata_map
     for name in LITERALS:
@@ -169,37 +144,13 @@ def _fixed_sides(path: Path) -> tuple[int, int] | None:
                 f"detector yolo: {path}: its metadata {name!r} is no plain value, and may be code; "
                 f"expected {EXPECTED}"
             ) from None
-    sides: tuple[int, int] | None = None
     match session.get_inputs()[0].shape:
         case [_, _, int(rows), int(columns)]:
-            sides = rows, columns
+            return rows, columns
         case [_, _, _, _]:
-            pass
+            return None
         case shape:
             raise VisionError(f"detector yolo: {path}: takes {shape}; expected {EXPECTED}")
-    _require_end(session, path, sides or (TRIAL_PX, TRIAL_PX))
-    return sides
-
-
-def _require_end(session: onnxruntime.InferenceSession, path: Path, sides: tuple[int, int]) -> None:
-    """Complain about a network that never ends; ultralytics says what else is wrong with it.
-
-    Raises
-    ------
-    VisionError
-        It does not end.
-    """
-    port = session.get_inputs()[0]
-    channels = port.shape[1] if isinstance(port.shape[1], int) else 3
-    number = np.float16 if port.type == "tensor(float16)" else np.float32
-    try:
-        first_look(session, {port.name: np.zeros((1, channels, *sides), number)})
-    except TimeoutError as error:
-        raise VisionError(
-            f"detector yolo: {path}: the network {error}; expected {EXPECTED}"
-        ) from None
-    except Exception:  # onnxruntime raises classes of its own that share no base
-        return
 
 
 def _is_model(path: Path) -> bool:

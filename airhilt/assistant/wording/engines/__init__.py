@@ -3,11 +3,3 @@
 A wording of another package is found by an entry point of the group ``airhilt.wording`` that names
 its `airhilt.engines.Engine`, such as ``mine = "my_package.wording:ENGINE"``.
 """
-
-from __future__ import annotations
-
-from airhilt.assistant.wording.engine import AdvisoryWording
-from airhilt.engine_families import WORDINGS
-from airhilt.engines import EngineFamily
-
-FAMILY: EngineFamily[AdvisoryWording] = WORDINGS

@@ -11,7 +11,7 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
-from pydantic import BaseModel, ConfigDict, RootModel
+from pydantic import BaseModel, RootModel
 
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.language_model import LanguageModel, LanguageModelSettings
@@ -31,7 +31,6 @@ INSTRUCTIONS = (
 
 
 class _Reworded(BaseModel):
-    model_config = ConfigDict(extra="ignore")
     severity: str
     text: str
 
@@ -46,11 +45,6 @@ class _Asked(NamedTuple):
     alert: Alert
     recipient: str
     text: str
-
-    @property
-    def subject(self) -> str:
-        """Name of it for the log."""
-        return f"{self.alert.id} to {self.recipient}"
 
 
 class LanguageModelWording:
@@ -116,12 +110,12 @@ def _reworded(
             kept[each.alert.id, each.recipient] = reworded.text.strip()
             continue
         answered = "" if reworded is None else f"{reworded.severity}: {reworded.text}"
-        rejections.append(Rejection(subject=each.subject, answered=answered, reason=why))
+        subject = f"{each.alert.id} to {each.recipient}"
+        rejections.append(Rejection(subject=subject, answered=answered, reason=why))
     return kept, exchange.model_copy(update={"rejections": tuple(rejections)})
 
 
 def _refused(asked: _Asked, reworded: _Reworded | None) -> str:
-    """Return why a reworded message is not spoken; empty if it is."""
     severity = asked.alert.severity
     if reworded is None:
         return "it is missing in the answer"
@@ -131,7 +125,6 @@ def _refused(asked: _Asked, reworded: _Reworded | None) -> str:
 
 
 def _schema(asked: Mapping[str, _Asked]) -> dict[str, Any]:
-    """Return the JSON schema of the answer."""
     message = {
         "type": "object",
         "properties": {

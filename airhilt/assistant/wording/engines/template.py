@@ -45,15 +45,12 @@ class Template:
                 turn = alert.recommendations.get(recipient)
                 return f"{aural}, {_action(turn)}" if isinstance(turn, Turn) else aural
             case None:
-                return _on_ground(alert, recipient, alert.evidence.note or _kind(alert))
+                kind = f"{alert.kind.replace('_', ' ')}, {' and '.join(alert.traffic)}"
+                return _on_ground(alert, recipient, alert.evidence.note or kind)
             case Obstruction() as obstruction if recipient not in (obstruction.user, CONTROLLER):
                 return _on_ground(alert, recipient, obstruction.statement_of_use())
             case finding:
                 return _on_ground(alert, recipient, finding.statement())
-
-
-def _kind(alert: Alert) -> str:
-    return f"{alert.kind.replace('_', ' ')}, {' and '.join(alert.traffic)}"
 
 
 def _loss_of_separation(alert: Alert, loss: LossOfSeparation, recipient: str) -> str:
@@ -103,7 +100,6 @@ def _on_ground(alert: Alert, recipient: str, statement: str) -> str:
 
 
 def _action(recommendation: Recommendation) -> str:
-    """Return what somebody is recommended, in words."""
     match recommendation:
         case Climb(sense=sense, altitude_ft=altitude, vertical_rate_fpm=rate, turn_deg=degrees):
             turn = f"{_turn(degrees)} and " if degrees else ""
