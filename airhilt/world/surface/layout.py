@@ -17,10 +17,11 @@ from shapely import LineString, Point
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place, distance_and_azimuth
-from airhilt.units import FOOT
+from airhilt.units import DEGREE, FOOT
 from airhilt.world.surface import path as lines
-from airhilt.world.surface.airport import Airport, HoldShort
-from airhilt.world.surface.path import Local
+from airhilt.world.surface.airport import Airport, Edge, HoldShort
+from airhilt.world.surface.airport import Polygon as Corners
+from airhilt.world.surface.path import Leg, Local
 from airhilt.world.surface.runway import RunwayEnd
 from airhilt.world.surface.strips import RunwayStrip, runway_strip
 from airhilt.world.surface.taxiways import TaxiwayGraph
@@ -44,6 +45,8 @@ CLEAR_OF_HOLD_M = 75.0
 it too."""
 POINT_STEP_M = 4.0
 """Greatest distance between the points of entries and exits, in m."""
+HALF_HOLD_LINE_M = 16.0
+"""Half the length of a hold line, in m: it is drawn wider than its taxiway."""
 
 
 @dataclass(frozen=True)
@@ -273,6 +276,26 @@ class Layout:
     def stands(self) -> tuple[str, ...]:
         """Names of the nodes where aircraft and vehicles stand."""
         return tuple(node.name for node in self.airport.taxiways.nodes if node.kind == "stand")
+
+    # --- shapes in local metres -----------------------------------------------------------
+
+    def leg(self, edge: Edge) -> Leg:
+        """Return both ends of a straight piece of a taxiway."""
+        first, second = edge.nodes
+        return self.taxiways.nodes[first], self.taxiways.nodes[second]
+
+    def hold_line(self, hold: Hold, least_half_m: float = 0.0) -> Leg:
+        """Return both ends of a hold line, along the edge of the area that it protects.
+
+        The line is at least twice ``least_half_m`` long.
+        """
+        along = lines.unit(*self.strips[hold.runway].centreline.coords)
+        middle, half_m = self.taxiways.nodes[hold.name], max(HALF_HOLD_LINE_M, least_half_m)
+        return lines.step(middle, along, -half_m), lines.step(middle, along, half_m)
+
+    def outline(self, corners: Corners) -> list[Local]:
+        """Return the corners of an area that the airport's file has in degrees."""
+        return [self.local_frame.to_local((lat * DEGREE, lon * DEGREE)) for lat, lon in corners]
 
     # --- parts ----------------------------------------------------------------------------
 

@@ -10,6 +10,8 @@ from shapely import LineString
 
 Local = tuple[float, float]
 """East and north in metres."""
+Leg = tuple[Local, Local]
+"""Both ends of a straight line."""
 
 ARC_STEP_M = 3.0
 """Greatest distance between points on a rounded corner, in m."""
