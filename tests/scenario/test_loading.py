@@ -211,10 +211,9 @@ def test_an_unknown_radio_line_is_told_with_the_nearest() -> None:
 
 
 def test_a_pair_is_of_two() -> None:
-    message = complaint(changed(HEAD_ON, "conflict/actors", [FIRST, FIRST]))
-    assert "conflict/actors: found one actor twice" in message
-    message = complaint(changed(HEAD_ON, "end_when/0/actors", [FIRST, FIRST]))
-    assert f"end_when/0/actors: found {FIRST!r} twice" in message
+    for path in ("conflict/actors", "end_when/0/actors"):
+        message = complaint(changed(HEAD_ON, path, [FIRST, FIRST]))
+        assert f"{path}: found {FIRST!r} twice" in message
 
 
 UNIFORM = {"type": "uniform", "limit": 1.0}

@@ -1,15 +1,33 @@
-"""Checks of actors: their types, where aircraft begin in the air, and the wind on the ground."""
+"""Checks of actors: types, starts, altitudes, commands, and the wind on the ground."""
 
 from __future__ import annotations
 
+import typing
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from pydantic import BaseModel
+
+from airhilt.commands import (
+    AircraftCommand,
+    AltitudeCommand,
+    Command,
+    EmergencyDescentCommand,
+    GoAroundCommand,
+    TakeOffCommand,
+)
 from airhilt.errors import AirhiltError
-from airhilt.scenario.models import Airborne, AircraftSpec, Scenario, VehicleSpec, WildlifeSpec
+from airhilt.scenario.models import (
+    ActorSpec,
+    Airborne,
+    AircraftSpec,
+    BoundForAltitude,
+    Scenario,
+    WildlifeSpec,
+)
 from airhilt.scenario.problems import Problem
 from airhilt.units import FOOT, KNOT
-from airhilt.world.checks.altitudes import not_above_ground
+from airhilt.world.checks.walk import commands_of, models_of
 from airhilt.world.flight.aircraft_type import AircraftType, load_aircraft_type
 from airhilt.world.flight.modes import GuidanceModes
 from airhilt.world.site import ScenarioSite
@@ -33,15 +51,11 @@ def unfit_actors(scenario: Scenario, site: ScenarioSite) -> Iterator[Problem]:
         path = f"actors/{index}"
         if isinstance(actor, AircraftSpec):
             yield from _aircraft(path, actor, site, scenario.files)
-        else:
-            yield from _kind(path, actor)
-
-
-def _kind(path: str, actor: VehicleSpec | WildlifeSpec) -> Iterator[Problem]:
-    try:
-        load_kind(actor.kind, actor.type)
-    except AirhiltError as error:
-        yield Problem(f"{path}/kind", str(error))
+            continue
+        try:
+            load_kind(actor.kind, actor.type)
+        except AirhiltError as error:
+            yield Problem(f"{path}/kind", str(error))
 
 
 def _aircraft(
@@ -56,7 +70,7 @@ def _aircraft(
     if not isinstance(initial, Airborne):
         return
     if initial.altitude_ft <= ground_ft:
-        yield not_above_ground(f"{path}/initial/altitude_ft", initial.altitude_ft, site)
+        yield _not_above_ground(f"{path}/initial/altitude_ft", initial.altitude_ft, site)
     if initial.track_deg is None and not actor.route:
         yield Problem(
             f"{path}/initial/track_deg", "missing; it is required where there is no route"
@@ -94,3 +108,67 @@ def surface_wind(scenario: Scenario) -> Iterator[Problem]:
             f"found {speed_kt:g}; expected at most {GREATEST_SURFACE_WIND_KT:g} where aircraft "
             "take off, land or taxi",
         )
+
+
+def altitudes_below_ground(scenario: Scenario, site: ScenarioSite) -> Iterator[Problem]:
+    """Yield altitudes of commands and conditions that are not above the ground."""
+    ground_ft = site.ground_m / FOOT
+    for path, model in models_of(scenario):
+        match model:
+            case (
+                AltitudeCommand(altitude_ft=altitude_ft)
+                | EmergencyDescentCommand(altitude_ft=altitude_ft)
+                | BoundForAltitude(altitude_ft=altitude_ft)
+            ):
+                field = "altitude_ft"
+            case TakeOffCommand(climb_to_ft=altitude_ft) | GoAroundCommand(climb_to_ft=altitude_ft):
+                field = "climb_to_ft"
+            case _:
+                continue
+        if altitude_ft <= ground_ft:
+            yield _not_above_ground(f"{path}/{field}", altitude_ft, site)
+
+
+def _not_above_ground(path: str, altitude_ft: float, site: ScenarioSite) -> Problem:
+    where = "the airport" if site.layout else "scene/terrain_elevation_ft"
+    return Problem(
+        path,
+        f"found {altitude_ft:g}, which is not above the ground; expected more than {where}, "
+        f"{site.ground_m / FOOT:g}",
+    )
+
+
+def misdirected_commands(scenario: Scenario) -> Iterator[Problem]:
+    """Yield commands that actors of this sort do not carry out."""
+    actors = {actor.callsign: actor for actor in scenario.actors}
+    for path, callsign, command in commands_of(scenario):
+        actor = actors.get(callsign)
+        if isinstance(actor, WildlifeSpec):
+            nothing = "nothing: nobody tells an animal what to do"
+            yield _misdirected(path, command, "wildlife", nothing)
+        elif actor is not None:
+            yield from _not_understood(path, command, actor)
+    for index, actor in enumerate(scenario.actors):
+        for number, planned in enumerate(actor.plan if isinstance(actor, WildlifeSpec) else ()):
+            path = f"actors/{index}/plan/{number}/command"
+            yield from _not_understood(path, planned.command, actor)
+
+
+def _not_understood(path: str, command: Command, actor: ActorSpec) -> Iterator[Problem]:
+    understood: tuple[type[BaseModel], ...] = typing.get_args(AircraftCommand)
+    if not isinstance(actor, AircraftSpec):
+        try:
+            understood = load_kind(actor.kind, actor.type).understands
+        except AirhiltError:
+            return  # Named elsewhere.
+    if not isinstance(command, understood):
+        known = ", ".join(
+            str(typing.get_args(model.model_fields["action"].annotation)[0]) for model in understood
+        )
+        yield _misdirected(path, command, actor.type, known or "nothing")
+
+
+def _misdirected(path: str, command: Command, sort: str, expected: str) -> Problem:
+    return Problem(
+        f"{path}/action", f"found {command.action!r}, which no {sort} does; expected {expected}"
+    )
