@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import bisect
-import itertools
 import json
 import types
 import typing
@@ -21,8 +19,6 @@ LONGEST_PATH = 100
 """Number of characters that an error shows of a path."""
 LONGEST_TEXT = 300
 """Number of characters that an error shows of what is wrong there."""
-MOST_CHARACTERS = 400
-"""Number of characters of the mistakes that are told of a file beside a scenario."""
 
 
 M = TypeVar("M", bound=BaseModel)
@@ -62,15 +58,13 @@ def error_for(origin: str, problems: Sequence[Problem]) -> ScenarioError:
     return ScenarioError(lines[0] + more, lines)
 
 
-def validated(model: type[M], kind: str, document: Any, origin: str) -> M:
-    """Return the model of a document in a file beside a scenario.
+def validated(model: type[M], document: Any, origin: str) -> M:
+    """Return the model of a document.
 
     Parameters
     ----------
-    kind
-        What the file should be, such as ``an airport``.
     origin
-        Name of the file in errors.
+        Name of the document in errors.
 
     Raises
     ------
@@ -80,33 +74,21 @@ def validated(model: type[M], kind: str, document: Any, origin: str) -> M:
     try:
         return model.model_validate(document)
     except ValidationError as error:
-        found = error.errors(include_url=False)
-    lines = [
-        f"\n  {Problem('.'.join(map(str, one['loc'])) or 'the file', one['msg'])}"
-        for one in found[:MOST_CHARACTERS]  # A line has more than one character.
-    ]
-    ends = list(itertools.accumulate(map(len, lines)))
-    told = max(bisect.bisect(ends, MOST_CHARACTERS), 1)
-    more = f"\n  and {len(found) - told} more" if len(found) > told else ""
-    raise ScenarioError(f"{origin} is not {kind}:{''.join(lines[:told])}{more}")
+        raise error_for(origin, problems_of(error, model)) from None
 
 
 def problems_of(error: ValidationError, model: type[BaseModel]) -> list[Problem]:
-    """Return what pydantic found wrong, without the errors that only follow from others."""
-    return [_described(one, model) for one in _causes(error)]
+    """Return what pydantic found wrong, without the errors that only follow from others.
 
-
-def _causes(error: ValidationError) -> list[Any]:
-    """Return the errors without those that only follow from others: a list with bad entries."""
+    A list whose entries are wrong counts as too short.
+    """
     errors = error.errors()
+    places = [one["loc"] for one in errors]
     return [
-        one
+        _described(one, model)
         for one in errors
         if one["type"] != "too_short"
-        or not any(
-            len(other["loc"]) > len(one["loc"]) and other["loc"][: len(one["loc"])] == one["loc"]
-            for other in errors
-        )
+        or not any(place[:-1][: len(one["loc"])] == one["loc"] for place in places)
     ]
 
 

@@ -377,8 +377,8 @@ def test_a_file_has_a_greatest_size(tmp_path: Path) -> None:
     path.write_text(" " * 5_000_001, encoding="utf-8")
     with pytest.raises(ScenarioError, match="found over 5,000,000 bytes"):
         load(path)
-    path.write_text(f"[{'0,' * 300_000}0]", encoding="utf-8")
-    with pytest.raises(ScenarioError, match="found over 200,000 values"):
+    path.write_text(f"[{'0,' * 600_000}0]", encoding="utf-8")
+    with pytest.raises(ScenarioError, match="found over 500,000 values"):
         load(path)
 
 

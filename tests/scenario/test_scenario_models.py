@@ -159,3 +159,12 @@ def test_an_azimuth_is_that_at_which_the_way_begins() -> None:
 
 def test_a_scene_has_a_centre() -> None:
     assert EnRouteScene(type="en_route", centre=CENTRE).terrain_elevation_ft == 0.0
+
+
+def test_the_pair_of_a_conflict_is_named_in_the_order_of_the_actors() -> None:
+    scenario = load("s02a_headon")
+    first, second = (actor.callsign for actor in scenario.actors[:2])
+    assert scenario.pair == (first, second)
+    turned = scenario.conflict.model_copy(update={"actors": (second, first)})
+    assert scenario.model_copy(update={"conflict": turned}).pair == (first, second)
+    assert scenario.model_copy(update={"conflict": None}).pair is None

@@ -84,7 +84,7 @@ def test_a_file_elsewhere_is_refused_unless_its_folder_is_allowed(
 def test_a_file_that_is_not_there_or_no_airport_is_named(folder: Path) -> None:
     with pytest.raises(ScenarioError, match=r"scene/airport: found 'none\.json', but there is no"):
         load(changed(folder, "none.json"))
-    with pytest.raises(ScenarioError, match=r"scene/airport: jet\.json is not an airport"):
+    with pytest.raises(ScenarioError, match=r"scene/airport: jet\.json: icao: missing"):
         load(changed(folder, "jet.json"))
     (folder / "deep.json").write_text("[" * 1000)
     with pytest.raises(ScenarioError, match=r"deep\.json"):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from airhilt.errors import AirhiltError
+from airhilt.errors import ScenarioError
 from airhilt.scenario.models import Scenario
 from airhilt.scenario.problems import Problem, error_for
 from airhilt.world.checks.actors import (
@@ -57,8 +57,8 @@ def _problems(scenario: Scenario) -> Iterator[Problem]:
         return
     try:
         site = ScenarioSite.of(scenario)
-    except AirhiltError as error:
-        yield Problem("scene/airport", str(error))
+    except ScenarioError as error:
+        yield from (Problem("scene/airport", text) for text in error.problems)
         return
     yield from unfit_actors(scenario, site)
     yield from altitudes_below_ground(scenario, site)

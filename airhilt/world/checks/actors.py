@@ -16,7 +16,7 @@ from airhilt.commands import (
     GoAroundCommand,
     TakeOffCommand,
 )
-from airhilt.errors import AirhiltError
+from airhilt.errors import AirhiltError, ScenarioError
 from airhilt.scenario.models import (
     ActorSpec,
     Airborne,
@@ -63,8 +63,8 @@ def _aircraft(
 ) -> Iterator[Problem]:
     try:
         kind = load_aircraft_type(actor.aircraft, files)
-    except AirhiltError as error:
-        yield Problem(f"{path}/aircraft", str(error))
+    except ScenarioError as error:
+        yield from (Problem(f"{path}/aircraft", text) for text in error.problems)
         return
     initial, ground_ft = actor.initial, site.ground_m / FOOT
     if not isinstance(initial, Airborne):

@@ -271,7 +271,7 @@ def load_airport(name: str, files: Mapping[str, Any] = MappingProxyType({})) -> 
         what was expected.
     """
     if name in files:
-        return validated(Airport, "an airport", files[name], name)
+        return validated(Airport, files[name], name)
     return read_airport(library.find("airports", name.lower()))
 
 
@@ -283,7 +283,7 @@ def read_airport(path: Path) -> Airport:
     ScenarioError
         The file is wrong.
     """
-    return validated(Airport, "an airport", documents.read(path), str(path))
+    return validated(Airport, documents.read(path), str(path))
 
 
 def _refuse_repeated(what: str, names: Iterable[str]) -> None:

@@ -181,7 +181,7 @@ def test_unknown_fields_are_refused_with_their_place(
     document: dict[str, Any], tmp_path: Path
 ) -> None:
     document["runways"][0]["colour"] = "black"
-    assert "runways.0.colour" in refused(document, tmp_path)
+    assert "runways/0/colour" in refused(document, tmp_path)
 
 
 def test_an_edge_to_a_node_that_does_not_exist_is_refused(
