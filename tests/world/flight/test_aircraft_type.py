@@ -64,7 +64,7 @@ def test_an_unknown_field_is_refused(wrong: Callable[..., Any]) -> None:
 def test_a_value_out_of_range_is_refused(wrong: Callable[..., Any]) -> None:
     wrong(lambda content: content["dimensions"].update(span_m=-1.0))
     with pytest.raises(
-        ScenarioError, match="dimensions/span_m: found -1.0: input should be greater than 0"
+        ScenarioError, match=r"dimensions/span_m: found -1.0: input should be greater than 0"
     ):
         load_aircraft_type("wrong")
 
