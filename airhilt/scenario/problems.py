@@ -120,6 +120,8 @@ def _described(error: Any, model: type[BaseModel]) -> Problem:
             )
         case "tuple_type" | "list_type":
             return Problem(path, f"found {found}, expected a JSON list")
+        case "value_error":
+            return Problem(path, str(context["error"]))
         case "literal_error":
             return Problem(path, f"found {found}, expected {context['expected']}")
         case _:

@@ -294,10 +294,4 @@ def _refuse_repeated(what: str, names: Iterable[str]) -> None:
 def _refuse_unknown(what: str, names: Iterable[str], known: set[str]) -> None:
     for name in names:
         if name not in known:
-            few = len(known) <= library.SHOWN_NAMES
-            hint = (
-                f"; known: {', '.join(sorted(known))}"
-                if few
-                else library.nearest(name, sorted(known))
-            )
-            raise ValueError(f"no {what} named {name!r}{hint}")
+            raise ValueError(f"no {what} named {name!r}{library.nearest(name, sorted(known))}")

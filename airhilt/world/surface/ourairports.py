@@ -6,8 +6,7 @@ The files are ``runways.csv`` and ``airport-frequencies.csv`` of https://ourairp
 
 from __future__ import annotations
 
-import csv
-import itertools
+import io
 import math
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,10 +21,6 @@ from airhilt.world.surface.airport import Frequency, Role, Runway, RunwayThresho
 
 LARGEST_BYTES = 50_000_000
 """Size of the largest file that is read; those of all airports had 4 MB in 2026."""
-MOST_COLUMNS = 100
-"""Greatest number of columns; OurAirports has 20."""
-MOST_ROWS = 200_000
-"""Greatest number of rows; the runways of all airports were 48,000 in 2026."""
 CREDIT = "OurAirports (public domain)"
 RUNWAY_COLUMNS = (
     "airport_ident",
@@ -146,31 +141,24 @@ def read_frequencies(path: Path, ident: str) -> tuple[Frequency, ...]:
 
 
 def _rows(path: Path, columns: tuple[str, ...]) -> list[dict[str, str]]:
+    import pandas
+
     try:
         text = read_file(path, LARGEST_BYTES).decode("utf-8-sig")
+        header, _, _ = text.partition("\n")
+        separator = ";" if header.count(";") > header.count(",") else ","
+        table = pandas.read_csv(io.StringIO(text), sep=separator, dtype=str, na_filter=False)
     except OSError as error:
         raise ScenarioError(f"{path}: cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise ScenarioError(f"{path}: is not UTF-8 text: {error.reason}") from error
-    header, _, _ = text.partition("\n")
-    separator = ";" if header.count(";") > header.count(",") else ","
-    reader = csv.DictReader(text.splitlines(), delimiter=separator)
-    try:
-        found = reader.fieldnames or ()
-        if len(found) > MOST_COLUMNS:
-            raise ScenarioError(f"{path}: found {len(found):,} columns; expected fewer")
-        if missing := [name for name in columns if name not in found]:
-            has = readable(", ".join(found) or "none")
-            raise ScenarioError(f"{path} has no column {', '.join(missing)}; it has {has}")
-        rows = [
-            {name: (row[name] or "").strip() for name in columns}
-            for row in itertools.islice(reader, MOST_ROWS + 1)
-        ]
-    except csv.Error as error:
-        raise ScenarioError(f"{path}:{reader.line_num + 1}: no CSV: {error}") from None
-    if len(rows) > MOST_ROWS:
-        raise ScenarioError(f"{path}: found over {MOST_ROWS:,} rows; expected fewer")
-    return rows
+    except ValueError as error:
+        raise ScenarioError(f"{path}: no CSV: {readable(str(error))}") from None
+    if missing := [name for name in columns if name not in table]:
+        has = readable(", ".join(table))
+        raise ScenarioError(f"{path} has no column {', '.join(missing)}; it has {has}")
+    rows = table[list(columns)].to_dict("records")
+    return [{name: field.strip() for name, field in row.items()} for row in rows]
 
 
 def _unusable(row: dict[str, str]) -> str | None:

@@ -154,7 +154,9 @@ class TaxiwayPlan:
         for number in range(1, STAND_COUNT + 1):
             along = (number - (STAND_COUNT + 1) / 2.0) * STAND_SPACING_M
             joint = self._joint(f"Z/{number}", self.apron.point(along, 0.0))
-            stand = self.draft.stand(f"stand_{number}", self.apron.point(along, STAND_DEPTH_M))
+            stand = self.draft.node(
+                f"stand_{number}", self.apron.point(along, STAND_DEPTH_M), "stand"
+            )
             self.draft.taxiway("ramp", joint, stand)
             names.append(joint)
         for a, b in pairwise(names):
@@ -179,8 +181,8 @@ class TaxiwayPlan:
             joint = self._joint(
                 f"{letter}/{name}", self.draft.beside(strip.name, along, here * self._offset(strip))
             )
-            runway = self.draft.on_runway(
-                f"{strip.name} at {name}", self.draft.beside(strip.name, along, 0.0)
+            runway = self.draft.node(
+                f"{strip.name} at {name}", self.draft.beside(strip.name, along, 0.0), "runway"
             )
             self.draft.entrance(name, joint, runway, strip.name)
             joints[joint] = here
@@ -233,7 +235,7 @@ class TaxiwayPlan:
 
     def _joint(self, name: str, at: Local) -> str:
         self._joined.add_node(name)
-        return self.draft.junction(name, at)
+        return self.draft.node(name, at, "junction")
 
     def _join_all(self) -> None:
         """Join what is not joined yet, by the cheapest legs, and shorten the longest ways."""
@@ -302,12 +304,14 @@ class TaxiwayPlan:
             self.draft.taxiway(taxiway, a, b)
             return
         for crossing, following in zip(crossings, [*crossings[1:], None], strict=True):
-            runway = self.draft.on_runway(f"{crossing.runway} at {taxiway}", crossing.at)
+            runway = self.draft.node(f"{crossing.runway} at {taxiway}", crossing.at, "runway")
             after = b
             if following is not None:
                 middle = (crossing.end_m + following.begin_m) / 2.0
-                after = self.draft.junction(
-                    f"{taxiway} before {following.runway}", lines.step(at[a], ahead, middle)
+                after = self.draft.node(
+                    f"{taxiway} before {following.runway}",
+                    lines.step(at[a], ahead, middle),
+                    "junction",
                 )
             back = (-ahead[0], -ahead[1])
             self.draft.entrance(taxiway, before, runway, crossing.runway, _compass(back))

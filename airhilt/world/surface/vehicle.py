@@ -17,8 +17,7 @@ from airhilt.shapes.sizes import Dimensions, Size
 from airhilt.shapes.vehicles import van
 from airhilt.world.mover import SurfaceState
 from airhilt.world.surface.alignment import Element, aligned
-from airhilt.world.surface.kind import DrivenKind, vehicle_appearance
-from airhilt.world.surface.reach import within_reach
+from airhilt.world.surface.kind import DrivenKind, vehicle_appearance, within_reach
 
 STANDING_M_S = 1e-6
 """Speed below which a vehicle stands, in m/s."""
@@ -35,10 +34,6 @@ class VehicleKind(DrivenKind, BaseModel):
     ----------
     source
         Source of the numbers, and which of them are estimates.
-    mesh
-        Makes its mesh, in its size.
-    label
-        Class that it has in pictures.
     emitter_category
         Category that its transponder sends: C1 for emergency, C2 for service vehicles.
     radar_cross_section_m2
@@ -114,25 +109,12 @@ class Vehicle:
     rigid body that does not slip, and its steering is immediate. That holds for a tug with an
     aircraft in tow as well, which really bends in the middle.
 
-    Parameters
-    ----------
-    kind
-        Its kind, which says what it can do.
-    place, heading_rad
-        Place of its middle, and its true heading.
-    ground_m
-        Height of the ground above WGS84.
-    tick_s
-        Time step of `advance`.
+    The parameters are those of `airhilt.world.surface.kind.Kind.create`.
 
     Attributes
     ----------
-    state
-        Place and movement now.
     phase
         ``standing``, ``driving`` or ``stopping``: braking because of `stop`.
-    ended
-        Why it does not move any more; None while it moves.
 
     Raises
     ------
@@ -166,17 +148,10 @@ class Vehicle:
         self.state = self._state(0.0, 0.0, heading_rad)
 
     def drive(self, path: Sequence[Place], speed_m_s: float | None = None) -> None:
-        """Follow a path from here, and stop exactly at its end.
+        """Follow a path from here, with its corners rounded, and stop exactly at its end.
 
         A vehicle passes a point that is too near to be reached within the limits: it brakes on
-        its heading, turns, and comes back.
-
-        Parameters
-        ----------
-        path
-            Latitudes and longitudes in radians; its corners are rounded (`aligned`).
-        speed_m_s
-            Not exceeded; by default that of the kind, at most the greatest of the kind.
+        its heading, turns, and comes back. The speed is by default that of the kind.
 
         Raises
         ------
@@ -215,7 +190,7 @@ class Vehicle:
         self.phase = "driving"
 
     def advance(self) -> None:
-        """Move on by one tick; do nothing once it has ended.
+        """Move on by one tick.
 
         The new speed is the greatest one from which the braking distance, v2 = exit2 + 2 b d, is
         still long enough after the tick, which is driven at the mean of old and new speed.

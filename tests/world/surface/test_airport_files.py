@@ -195,7 +195,7 @@ def test_a_hold_at_a_runway_that_does_not_exist_is_refused(
     document: dict[str, Any], tmp_path: Path
 ) -> None:
     document["holds"][0]["runway"] = "09/27"
-    assert "no runway named '09/27'; known: 01/19, 04/22, 15/33" in refused(document, tmp_path)
+    assert "(top): no runway named '09/27'; did you mean '04/22'?" in refused(document, tmp_path)
 
 
 def test_two_nodes_of_one_name_are_refused(document: dict[str, Any], tmp_path: Path) -> None:

@@ -149,21 +149,15 @@ def test_a_file_that_is_something_else_is_named(tmp_path: Path) -> None:
         imported("KPAO", tmp_path / "gone.csv")
 
 
-@pytest.mark.parametrize(
-    ("text", "answer"),
-    [
+def test_a_file_that_is_too_large_or_no_table_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "runways.csv"
+    for text, answer in [
         ("\n" * 50_000_001, "has over 50,000,000 bytes"),
-        (f"{','.join(ROWS[0])}\n" + "1\n" * 200_001, "found over 200,000 rows"),
-        (",".join(map(str, range(101))), "found 101 columns"),
-        (f"{','.join(ROWS[0])}\n{'1' * 200_000}", "runways.csv:2: no CSV: field larger"),
-        ("1" * 200_000, "runways.csv:1: no CSV: field larger"),
-    ],
-    ids=["bytes", "rows", "columns", "field", "name"],
-)
-def test_a_file_that_takes_too_much_is_refused(tmp_path: Path, text: str, answer: str) -> None:
-    (tmp_path / "runways.csv").write_text(text)
-    with pytest.raises(ScenarioError, match=answer):
-        imported("KPAO", tmp_path / "runways.csv")
+        ("a\n1,2\n1,2,3", "no CSV"),
+    ]:
+        path.write_text(text)
+        with pytest.raises(ScenarioError, match=rf"runways\.csv: .*{answer}"):
+            imported("KPAO", path)
 
 
 def test_columns_may_be_separated_by_semicolons(tmp_path: Path) -> None:

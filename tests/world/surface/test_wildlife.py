@@ -15,8 +15,8 @@ from airhilt.geodesy.wgs84 import Place
 from airhilt.units import wrap_angle
 from airhilt.world.mover import SurfaceState
 from airhilt.world.surface.animal import GREATEST_SPREAD_RAD, AnimalBody
-from airhilt.world.surface.flocks import flock_aloft
 from airhilt.world.surface.kinds import load_kind
+from airhilt.world.surface.kinds.flock import flock_aloft
 from breadth import examples
 
 HERE: Place = (math.radians(38.8521), math.radians(-77.0377))
