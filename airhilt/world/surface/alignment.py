@@ -12,8 +12,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from airhilt.units import wrap_angle
-
-Local = tuple[float, float]
+from airhilt.world.surface.path import Local
 
 CORNER_CUT_M = 3.0
 """Greatest distance by which a corner is cut, in m, unless the least radius asks for more."""

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, PositiveFloat, PositiveInt
+from pydantic import BaseModel, ConfigDict, Field, PositiveFloat
 
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place
@@ -87,8 +87,6 @@ class AnimalKind(CreatureKind, BaseModel):
     ----------
     source
         Source of the numbers, and which of them are estimates.
-    count
-        Number of animals that move as one.
     dimensions, mesh, acceleration_m_s2, lateral_m_s2, turn_rate_rad_s
         Those on the ground; lateral is the greatest acceleration across, in a turn.
     wander_rad
@@ -107,7 +105,6 @@ class AnimalKind(CreatureKind, BaseModel):
     description: str
     source: str
     label: VisibleClass
-    count: PositiveInt = 1
     dimensions: Dimensions
     mesh: Callable[[Size], Mesh]
     walk_m_s: PositiveFloat
@@ -208,11 +205,6 @@ class AnimalBody:
             self._speed = self._flight.speed_m_s
             self._gait = "flying"
         self.state = self._state()
-
-    @property
-    def count(self) -> int:
-        """Number of animals."""
-        return self.kind.count
 
     @property
     def on_ground(self) -> bool:

@@ -51,7 +51,6 @@ KIND = AnimalKind(
         " 0.5 kg; FAA AC 150/5220-25), by the 2/3 power of the mass."
     ),
     label="bird",
-    count=COUNT,
     dimensions=flock_on_the_ground(BIRD, COUNT, spacing_m=0.5),
     mesh=partial(animals.flock, count=COUNT),
     walk_m_s=0.5,
