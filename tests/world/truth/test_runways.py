@@ -16,7 +16,7 @@ from airhilt.world.flight import load_aircraft_type
 from airhilt.world.mover import SurfaceState
 from airhilt.world.surface.airport import load_airport
 from airhilt.world.surface.layout import Layout
-from airhilt.world.truth.runways import RunwayMonitor, User
+from airhilt.world.truth.runways import RunwayMonitor
 
 B737 = load_aircraft_type("737")
 CAR = Dimensions(length_m=5.0, span_m=2.0, height_m=2.0)
@@ -243,20 +243,6 @@ def test_each_animal_on_each_runway_is_an_incursion_of_its_own() -> None:
     north, crossing = kdca().strip_of("01").name, kdca().strip_of("22").name
     assert found == sorted([(north, "X"), (north, "Y"), (north, "Z"), (crossing, "X")])
     assert set(watch.categories) == {"D"}
-
-
-@pytest.mark.parametrize("ident", ["01", "19", "15", "33", "04", "22"])
-@pytest.mark.parametrize(("past_m", "is_ahead"), [(-200.0, True), (29.0, True), (31.0, False)])
-def test_a_crossing_is_ahead_of_a_user_until_30_m_past_it(
-    ident: str, past_m: float, is_ahead: bool
-) -> None:
-    monitor = Watch({}).monitor
-    threshold = kdca().local_frame.to_local(kdca().runway(ident).threshold)
-    crossings = monitor._crossings[kdca().strip_of(ident).name]
-    assert crossings
-    for _, point in crossings:
-        user = User("A", ident, math.dist(threshold, point) + past_m, 0.0, rolling=True)
-        assert monitor._is_ahead(user, point) is is_ahead
 
 
 def test_wildlife_alone_is_of_category_d_and_so_is_who_was_misled() -> None:
