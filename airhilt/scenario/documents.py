@@ -61,10 +61,7 @@ def read(path: Path) -> Json:
 def parse(text: str, origin: str) -> Json:
     """Return the document in a JSON text.
 
-    Parameters
-    ----------
-    origin
-        Name of the text in errors.
+    ``origin`` is its name in errors.
 
     Raises
     ------
@@ -90,10 +87,7 @@ def parse(text: str, origin: str) -> Json:
 def require_bounded(document: Json, origin: str) -> None:
     """Check depth, numbers and texts of a document.
 
-    Parameters
-    ----------
-    origin
-        Name of the document in errors.
+    ``origin`` is its name in errors.
 
     Raises
     ------

@@ -56,10 +56,7 @@ def read(path: Path, allowed: Sequence[Path] = ()) -> Scenario:
 def parse(text: str, origin: str) -> Scenario:
     """Return the scenario in a JSON text, not checked against the world.
 
-    Parameters
-    ----------
-    origin
-        Name of the text in errors.
+    ``origin`` is its name in errors.
 
     Raises
     ------

@@ -61,10 +61,7 @@ def error_for(origin: str, problems: Sequence[Problem]) -> ScenarioError:
 def validated(model: type[M], document: Any, origin: str) -> M:
     """Return the model of a document.
 
-    Parameters
-    ----------
-    origin
-        Name of the document in errors.
+    ``origin`` is its name in errors.
 
     Raises
     ------

@@ -33,25 +33,17 @@ def _linear(value: float) -> float:
 
 @dataclass(frozen=True)
 class Mesh:
-    """Triangles that share no corners.
-
-    Attributes
-    ----------
-    corners, normals
-        Corners of each triangle and normals there, shape (n, 3, 3).
-    colours
-        Colour of each triangle, shape (n, 3).
-    glow
-        Light that each triangle gives off at night, times its colour; shape (n,).
-    sunlit
-        Share of the direct sun that reaches each triangle, shape (n,).
-    """
+    """Triangles that share no corners."""
 
     corners: Floats
     normals: Floats
+    """Corners of each triangle and normals there, shape (n, 3, 3)."""
     colours: Floats
+    """Colour of each triangle, shape (n, 3)."""
     glow: Floats
+    """Light that each triangle gives off at night, times its colour; shape (n,)."""
     sunlit: Floats
+    """Share of the direct sun that reaches each triangle, shape (n,)."""
 
     @property
     def arrays(self) -> tuple[Floats, Floats, Floats, Floats, Floats]:

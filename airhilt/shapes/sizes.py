@@ -22,11 +22,6 @@ class Size(Protocol):
 class Dimensions:
     """The box around something, lined up with its heading.
 
-    Attributes
-    ----------
-    length_m, span_m, height_m
-        Its extent along the heading, across it, and up.
-
     Raises
     ------
     ValueError
@@ -36,6 +31,7 @@ class Dimensions:
     length_m: float
     span_m: float
     height_m: float
+    """Its extent along the heading, across it, and up."""
 
     def __post_init__(self) -> None:
         for name in ("length_m", "span_m", "height_m"):

@@ -36,10 +36,7 @@ def load(name_or_file: str | Path, allowed: Sequence[Path] = ()) -> Scenario:
 def load_text(text: str, origin: str) -> Scenario:
     """Return the scenario in a JSON text; it is checked.
 
-    Parameters
-    ----------
-    origin
-        Name of the text in errors.
+    ``origin`` is its name in errors.
 
     Raises
     ------

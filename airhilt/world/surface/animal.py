@@ -56,54 +56,32 @@ Gait = Literal["walking", "running", "flying"]
 
 
 class Flight(BaseModel):
-    """Numbers of a bird's flight, and its mesh in the air.
-
-    Attributes
-    ----------
-    mesh
-        Makes the mesh in the air, with the wings in one of `WING_BEATS` positions.
-    lateral_m_s2
-        Greatest acceleration across, in a turn.
-    height_m
-        Height at which it flies from one place on the ground to another, or away from danger.
-    """
+    """Numbers of a bird's flight, and its mesh in the air."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
     dimensions: Dimensions
     mesh: Callable[[Size, int], Mesh]
+    """Makes the mesh in the air, with the wings in one of `WING_BEATS` positions."""
     wing_beats_hz: PositiveFloat
     speed_m_s: PositiveFloat
     acceleration_m_s2: PositiveFloat
     lateral_m_s2: PositiveFloat
+    """Greatest acceleration across, in a turn."""
     climb_m_s: PositiveFloat
     descent_m_s: PositiveFloat
     height_m: PositiveFloat
+    """Height at which it flies from one place on the ground to another, or away from danger."""
 
 
 class AnimalKind(CreatureKind, BaseModel):
-    """A kind of animal, or a flock of birds that moves as one.
-
-    Attributes
-    ----------
-    source
-        Source of the numbers, and which of them are estimates.
-    dimensions, mesh, acceleration_m_s2, lateral_m_s2, turn_rate_rad_s
-        Those on the ground; lateral is the greatest acceleration across, in a turn.
-    wander_rad
-        Standard deviation of its direction on the way to a place.
-    reaction_s
-        Median time from a fright to the first step.
-    flees_for_m
-        Distance after which a flight from danger ends.
-    radar_cross_section_m2
-        Radar cross section of all that move as one.
-    """
+    """A kind of animal, or a flock of birds that moves as one."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
     name: str
     description: str
     source: str
+    """Source of the numbers, and which of them are estimates."""
     label: VisibleClass
     dimensions: Dimensions
     mesh: Callable[[Size], Mesh]
@@ -111,12 +89,17 @@ class AnimalKind(CreatureKind, BaseModel):
     run_m_s: PositiveFloat
     acceleration_m_s2: PositiveFloat
     lateral_m_s2: PositiveFloat
+    """Greatest acceleration across on the ground, in a turn."""
     turn_rate_rad_s: PositiveFloat = math.pi
     wander_rad: float = Field(ge=0.0, le=1.0)
+    """Standard deviation of its direction on the way to a place."""
     reaction_s: PositiveFloat
+    """Median time from a fright to the first step."""
     flees_for_m: PositiveFloat
+    """Distance after which a flight from danger ends."""
     flight: Flight | None = None
     radar_cross_section_m2: PositiveFloat
+    """Radar cross section of all that move as one."""
 
     def appearance(self) -> Appearance:
         """Return its mesh on the ground, and those of a wing beat if it flies."""

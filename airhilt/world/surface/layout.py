@@ -51,55 +51,37 @@ HALF_HOLD_LINE_M = 16.0
 
 @dataclass(frozen=True)
 class Hold:
-    """A point where traffic holds short of a runway.
-
-    Attributes
-    ----------
-    name
-        Name of its node in the taxiway graph.
-    place
-        Place of the hold line, on the centre line of the taxiway: noses stop before it.
-    heading_rad
-        True heading along the taxiway towards the runway.
-    runway
-        Name of the strip, such as ``01/19``.
-    position
-        The taxiway, and the side of the runway where the taxiway has a hold on both: ``J_north``.
-    """
+    """A point where traffic holds short of a runway."""
 
     name: str
+    """Name of its node in the taxiway graph."""
     place: Place
+    """Place of the hold line, on the centre line of the taxiway: noses stop before it."""
     heading_rad: float
+    """True heading along the taxiway towards the runway."""
     runway: str
+    """Name of the strip, such as ``01/19``."""
     taxiway: str
     position: str
+    """The taxiway, and the side of the runway where the taxiway has a hold on both: ``J_north``."""
 
 
 @dataclass(frozen=True)
 class Exit:
-    """A way off a runway.
-
-    Attributes
-    ----------
-    position
-        Position of its hold: the taxiway, and the side of the runway where it leads off on both.
-    along_m
-        Distance from the landing threshold to where ``path`` leaves the centre line.
-    turn_rad
-        Angle by which it turns, positive to the right.
-    path
-        Way from the centre line over a lead-off arc past the hold line, so far that the tail of a
-        747 is clear, where the taxiways allow it.
-    hold
-        Name of the hold whose line it passes.
-    """
+    """A way off a runway."""
 
     taxiway: str
     position: str
+    """Position of its hold: the taxiway, and the side of the runway where it leads off on both."""
     along_m: float
+    """Distance from the landing threshold to where ``path`` leaves the centre line."""
     turn_rad: float
+    """Angle by which it turns, positive to the right."""
     path: tuple[Place, ...]
+    """Way from the centre line over a lead-off arc past the hold line, so far that the tail of a
+    747 is clear, where the taxiways allow it."""
     hold: str
+    """Name of the hold whose line it passes."""
 
 
 class Layout:

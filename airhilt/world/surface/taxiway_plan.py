@@ -48,19 +48,13 @@ DETOUR, DETOUR_M = 3.0, 800.0
 
 @dataclass(frozen=True)
 class Apron:
-    """Stands, terminal and tower around a taxiway.
-
-    Attributes
-    ----------
-    at
-        Middle of the taxiway.
-    along, away
-        Unit vectors along the taxiway, and from it to the stands and the terminal.
-    """
+    """Stands, terminal and tower around a taxiway."""
 
     at: Local
+    """Middle of the taxiway."""
     along: Local
     away: Local
+    """Unit vectors along the taxiway, and from it to the stands and the terminal."""
 
     def point(self, along_m: float, away_m: float) -> Local:
         """Return a point along the taxiway and away from it."""

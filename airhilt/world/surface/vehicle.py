@@ -28,41 +28,31 @@ VehiclePhase = Literal["standing", "driving", "stopping"]
 
 
 class VehicleKind(DrivenKind, BaseModel):
-    """A kind of ground vehicle that differs from others in numbers, looks and labels.
-
-    Attributes
-    ----------
-    source
-        Source of the numbers, and which of them are estimates.
-    emitter_category
-        Category that its transponder sends: C1 for emergency, C2 for service vehicles.
-    radar_cross_section_m2
-        Radar cross section; the default is that of a pickup truck (M. Skolnik, Introduction to
-        Radar Systems, 3rd edition, table 2.2).
-    cruise_m_s
-        Speed at which it is driven by default.
-    lateral_m_s2
-        Greatest acceleration across, in a corner.
-    turning_radius_m
-        Least radius of the path of its middle.
-    """
+    """A kind of ground vehicle that differs from others in numbers, looks and labels."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
     name: str
     description: str
     source: str
+    """Source of the numbers, and which of them are estimates."""
     dimensions: Dimensions
     mesh: Callable[[Size], Mesh] = van
     label: VisibleClass = "truck"
     emitter_category: EmitterCategory = "C2"
+    """Category that its transponder sends: C1 for emergency, C2 for service vehicles."""
     radar_cross_section_m2: PositiveFloat = 200.0
+    """Radar cross section; the default is that of a pickup truck (M. Skolnik, Introduction to Radar
+    Systems, 3rd edition, table 2.2)."""
     cruise_m_s: PositiveFloat
+    """Speed at which it is driven by default."""
     maximum_m_s: PositiveFloat
     acceleration_m_s2: PositiveFloat
     braking_m_s2: PositiveFloat
     lateral_m_s2: PositiveFloat
+    """Greatest acceleration across, in a corner."""
     turning_radius_m: PositiveFloat
+    """Least radius of the path of its middle."""
 
     def appearance(self) -> Appearance:
         """Return its mesh, with a beacon and headlamps."""
