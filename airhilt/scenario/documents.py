@@ -59,9 +59,7 @@ def read(path: Path) -> Json:
 
 
 def parse(text: str, origin: str) -> Json:
-    """Return the document in a JSON text.
-
-    ``origin`` is its name in errors.
+    """Return the document in a JSON text, whose name in errors is ``origin``.
 
     Raises
     ------
@@ -85,9 +83,7 @@ def parse(text: str, origin: str) -> Json:
 
 
 def require_bounded(document: Json, origin: str) -> None:
-    """Check depth, numbers and texts of a document.
-
-    ``origin`` is its name in errors.
+    """Check depth, numbers and texts of a document, whose name in errors is ``origin``.
 
     Raises
     ------

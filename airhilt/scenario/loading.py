@@ -56,8 +56,6 @@ def read(path: Path, allowed: Sequence[Path] = ()) -> Scenario:
 def parse(text: str, origin: str) -> Scenario:
     """Return the scenario in a JSON text, not checked against the world.
 
-    ``origin`` is its name in errors.
-
     Raises
     ------
     ScenarioError

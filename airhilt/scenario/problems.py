@@ -41,12 +41,7 @@ class Problem:
 def unknown(path: str, sort: str, name: str, known: Collection[str], more: str = "") -> Problem:
     """Return the problem of a name that refers to nothing, with the nearest known name.
 
-    Parameters
-    ----------
-    sort
-        What the name should be of, such as ``radio line``.
-    more
-        Further words at the end.
+    ``sort`` is what the name should be of, such as ``radio line``.
     """
     return Problem(path, f"no {sort} {name!r}{library.nearest(name, list(known))}{more}")
 
@@ -59,9 +54,7 @@ def error_for(origin: str, problems: Sequence[Problem]) -> ScenarioError:
 
 
 def validated(model: type[M], document: Any, origin: str) -> M:
-    """Return the model of a document.
-
-    ``origin`` is its name in errors.
+    """Return the model of a document, whose name in errors is ``origin``.
 
     Raises
     ------
@@ -96,8 +89,8 @@ def _described(error: Any, model: type[BaseModel]) -> Problem:
     context = error.get("ctx", {})
     match error["type"]:
         case "extra_forbidden":
-            fields = parent.model_fields.items() if parent else ()
-            known = sorted(field.alias or name for name, field in fields)
+            of_parent = parent.model_fields if parent else {}
+            known = sorted(field.alias or name for name, field in of_parent.items())
             tail = library.nearest(str(error["loc"][-1]), known)
             return Problem(path, f"unknown field{tail}")
         case "missing":
@@ -112,9 +105,9 @@ def _described(error: Any, model: type[BaseModel]) -> Problem:
                 f"{path}/{field}", f"found {context['tag']!r}, expected {', '.join(known)}{tail}"
             )
         case "model_type" | "model_attributes_type" | "dict_type":
-            return Problem(
-                path, f"found {found}, expected a JSON object{_with_fields(path, model)}"
-            )
+            required = [name for name, field in model.model_fields.items() if field.is_required()]
+            fields = f" with the fields {', '.join(required)}" if required and not path else ""
+            return Problem(path, f"found {found}, expected a JSON object{fields}")
         case "tuple_type" | "list_type":
             return Problem(path, f"found {found}, expected a JSON list")
         case "value_error":
@@ -124,12 +117,6 @@ def _described(error: Any, model: type[BaseModel]) -> Problem:
         case _:
             message = str(error["msg"])
             return Problem(path, f"found {found}: {message[0].lower()}{message[1:]}")
-
-
-def _with_fields(path: str, model: type[BaseModel]) -> str:
-    """Return in words which fields a document has to have, if a path is its top."""
-    names = [name for name, field in model.model_fields.items() if field.is_required()]
-    return f" with the fields {', '.join(names)}" if names and not path else ""
 
 
 def short_json(value: Any) -> str:

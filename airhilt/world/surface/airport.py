@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Literal, Self, get_args
 
 import pydantic
 from pydantic import Field
@@ -202,13 +202,11 @@ class Airport(_Section):
 
     @pydantic.model_validator(mode="after")
     def _is_in_one_place(self) -> Self:
-        located = [end for runway in self.runways for end in runway.ends]
-        points = [(one.lat_deg, one.lon_deg) for one in (*located, *self.taxiways.nodes)]
-        points += [(one.lat_deg, one.lon_deg) for one in self.cameras]
+        located: list[_Located] = [end for runway in self.runways for end in runway.ends]
+        located += [*self.taxiways.nodes, *self.cameras, *([self.tower] if self.tower else [])]
+        points = [(one.lat_deg, one.lon_deg) for one in located]
         points += [point for building in self.buildings for point in building.footprint]
         points += [point for water in self.water for point in water.outline]
-        if self.tower is not None:
-            points.append((self.tower.lat_deg, self.tower.lon_deg))
         for lat_deg, lon_deg in points:
             place = lat_deg * DEGREE, lon_deg * DEGREE
             if not are_within_m(FARTHEST_M, self.reference.place, place):
@@ -220,40 +218,27 @@ class Airport(_Section):
 
     @pydantic.model_validator(mode="after")
     def _is_consistent(self) -> Self:
-        nodes = {node.name for node in self.taxiways.nodes}
-        _refuse_repeated(
-            "runway end", (end.ident for runway in self.runways for end in runway.ends)
-        )
-        _refuse_repeated("node", (node.name for node in self.taxiways.nodes))
-        _refuse_repeated("hold", (f"{hold.runway} {hold.position}" for hold in self.holds))
-        _refuse_repeated("camera", (camera.name for camera in self.cameras))
-        used = (node for edge in self.taxiways.edges for node in edge.nodes)
-        _refuse_unknown("node", [*used, *(hold.node for hold in self.holds)], nodes)
+        edges, holds = self.taxiways.edges, self.holds
+        nodes = [node.name for node in self.taxiways.nodes]
+        used = [node for edge in edges for node in edge.nodes]
+        runways = {runway.name for runway in self.runways}
+        ends = [end.ident for runway in self.runways for end in runway.ends]
+        _refuse_repeated("runway end", ends)
+        _refuse_repeated("node", nodes)
+        _refuse_repeated("hold", [f"{hold.runway} {hold.position}" for hold in holds])
+        _refuse_repeated("camera", [camera.name for camera in self.cameras])
+        _refuse_unknown("node", [*used, *(hold.node for hold in holds)], set(nodes))
+        _refuse_unknown("runway", [hold.runway for hold in holds], runways)
         _refuse_unknown(
-            "runway", (hold.runway for hold in self.holds), {runway.name for runway in self.runways}
+            "taxiway", [hold.taxiway for hold in holds], {edge.taxiway for edge in edges}
         )
-        taxiways = {edge.taxiway for edge in self.taxiways.edges}
-        _refuse_unknown("taxiway", (hold.taxiway for hold in self.holds), taxiways)
-        if bare := sorted(set(self.blocks) - set(self.sources)):
+        empty = (None, (), Taxiways())
+        blocks = (block for block in get_args(Block) if getattr(self, block) not in empty)
+        if bare := sorted(set(blocks) - set(self.sources)):
             raise ValueError(
                 f"sources does not say where the numbers of {', '.join(bare)} are from"
             )
         return self
-
-    @property
-    def blocks(self) -> tuple[Block, ...]:
-        """The blocks that hold any numbers."""
-        always: tuple[Block, ...] = ("reference", "elevation_ft", "magnetic_variation", "runways")
-        optional: dict[Block, object] = {
-            "taxiways": self.taxiways.nodes,
-            "holds": self.holds,
-            "tower": self.tower,
-            "buildings": self.buildings,
-            "water": self.water,
-            "frequencies": self.frequencies,
-            "cameras": self.cameras,
-        }
-        return (*always, *(block for block, content in optional.items() if content))
 
 
 def load_airport(name: str, files: Mapping[str, Any] = MappingProxyType({})) -> Airport:
@@ -286,12 +271,12 @@ def read_airport(path: Path) -> Airport:
     return validated(Airport, documents.read(path), str(path))
 
 
-def _refuse_repeated(what: str, names: Iterable[str]) -> None:
+def _refuse_repeated(what: str, names: Sequence[str]) -> None:
     if repeated := sorted(name for name, count in Counter(names).items() if count > 1):
         raise ValueError(f"there is more than one {what} named {', '.join(repeated)}")
 
 
-def _refuse_unknown(what: str, names: Iterable[str], known: set[str]) -> None:
+def _refuse_unknown(what: str, names: Sequence[str], known: set[str]) -> None:
     for name in names:
         if name not in known:
             raise ValueError(f"no {what} named {name!r}{library.nearest(name, sorted(known))}")

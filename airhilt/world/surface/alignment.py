@@ -61,16 +61,8 @@ def aligned(
 
     Corners become arcs, as wide as `CORNER_CUT_M` and half of the legs beside them allow. Where
     not even the least radius fits, the path runs to the corner and turns behind it; a point that
-    it could only reach by a loop is left out, unless it is the last.
-
-    Parameters
-    ----------
-    start, heading_rad
-        Place where the path begins, and its direction there.
-    points
-        The polyline from there on.
-    radius_m
-        The least that any arc has.
+    it could only reach by a loop is left out, unless it is the last. ``radius_m`` is the least that
+    any arc has.
     """
     path = _Path(start, heading_rad, radius_m)
     points = _apart(start, points)

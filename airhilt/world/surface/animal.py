@@ -132,7 +132,6 @@ class AnimalBody:
 
     On its way it wanders: direction and speed are autoregressive draws of its own random streams.
     The same seed and the same orders give the same way, bit by bit. Wind does not carry it off.
-
     One that begins in the air flies straight on. The parameters are those of
     `airhilt.world.surface.kind.Kind.create`.
 

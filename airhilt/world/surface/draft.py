@@ -33,17 +33,7 @@ DECIMALS = 7
 
 
 class Draft:
-    """The taxiways of an airport while they are drawn.
-
-    Parameters
-    ----------
-    reference
-        Origin of the local metres.
-    runways
-        Runways to which the taxiways lead.
-    width_m
-        Width of all taxiways.
-    """
+    """The taxiways of an airport while they are drawn, in metres from its reference point."""
 
     def __init__(
         self, reference: ReferencePoint, runways: Sequence[Runway], width_m: float

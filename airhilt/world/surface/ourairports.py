@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import io
 import math
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -22,23 +23,12 @@ from airhilt.world.surface.airport import Frequency, Role, Runway, RunwayThresho
 LARGEST_BYTES = 50_000_000
 """Size of the largest file that is read; those of all airports had 4 MB in 2026."""
 CREDIT = "OurAirports (public domain)"
+ENDS = ("le", "he")
+"""Beginnings of the columns of both ends of a runway."""
+OF_ENDS = ("ident", "latitude_deg", "longitude_deg", "elevation_ft", "displaced_threshold_ft")
 RUNWAY_COLUMNS = (
-    "airport_ident",
-    "length_ft",
-    "width_ft",
-    "surface",
-    "closed",
-    *(
-        f"{end}_{what}"
-        for end in ("le", "he")
-        for what in (
-            "ident",
-            "latitude_deg",
-            "longitude_deg",
-            "elevation_ft",
-            "displaced_threshold_ft",
-        )
-    ),
+    *("airport_ident", "length_ft", "width_ft", "surface", "closed"),
+    *(f"{end}_{what}" for end in ENDS for what in OF_ENDS),
 )
 FREQUENCY_COLUMNS = ("airport_ident", "type", "description", "frequency_mhz")
 ROLES: dict[str, Role] = {
@@ -58,6 +48,7 @@ ROLES: dict[str, Role] = {
     "CTAF": "unicom",
 }
 """Role by the first word of OurAirports' type; every other is ``other``."""
+DESIGNATOR = re.compile("[0-9]{1,2}[A-Z]{0,2}")
 DECIMALS = 7
 """Decimals of degrees: a centimetre."""
 USUAL_WIDTH_FT = 100.0
@@ -107,7 +98,7 @@ def read_runways(path: Path, ident: str) -> Runways:
     elevations = [
         elevation
         for _, row in usable
-        for end in ("le", "he")
+        for end in ENDS
         if (elevation := _number(row[f"{end}_elevation_ft"])) is not None
     ]
     if not usable:
@@ -167,23 +158,14 @@ def _unusable(row: dict[str, str]) -> str | None:
         return "closed"
     if any(ident.startswith("H") or ident.endswith("H") for ident in idents):
         return "for helicopters"
-    if not all(ident[:1].isdigit() and _is_designator(ident) for ident in idents):
+    if not all(DESIGNATOR.fullmatch(ident) for ident in idents):
         return "has no runway number"
-    numbers = [
-        _number(row[f"{end}_{what}_deg"])
-        for end in ("le", "he")
-        for what in ("latitude", "longitude")
-    ]
+    numbers = [_number(row[f"{end}_{what}"]) for end in ENDS for what in OF_ENDS[1:3]]
     if None in numbers:
         return "has no coordinates"
     if numbers[:2] == numbers[2:]:
         return "has the same coordinates twice"
     return None
-
-
-def _is_designator(ident: str) -> bool:
-    digits = ident.rstrip("ABCDEFGHIJKLMNOPQRSTUVWXYZ")
-    return digits.isdigit() and len(digits) <= 2 and len(ident) - len(digits) <= 2
 
 
 def _runway(name: str, row: dict[str, str], elevation_ft: float, notes: list[str]) -> Runway:

@@ -34,14 +34,9 @@ def turn(before: Local, corner: Local, after: Local) -> float:
 
 
 def rounded(points: Sequence[Local], radius_m: float, first_radius_m: float = 0.0) -> list[Local]:
-    """Return a polyline whose corners are arcs.
+    """Return a polyline whose corners are arcs, smaller where the legs beside one are too short.
 
-    Parameters
-    ----------
-    radius_m
-        Radius of the arcs; smaller where the legs beside a corner are too short for it.
-    first_radius_m
-        Radius of the first arc, if it differs.
+    ``first_radius_m`` is the radius of the first arc, if it differs.
     """
     points = without_straight_points(points)
     path = list(points[:1])

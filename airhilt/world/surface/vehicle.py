@@ -99,12 +99,8 @@ class Vehicle:
     rigid body that does not slip, and its steering is immediate. That holds for a tug with an
     aircraft in tow as well, which really bends in the middle.
 
-    The parameters are those of `airhilt.world.surface.kind.Kind.create`.
-
-    Attributes
-    ----------
-    phase
-        ``standing``, ``driving`` or ``stopping``: braking because of `stop`.
+    The parameters are those of `airhilt.world.surface.kind.Kind.create`. While it brakes because of
+    `stop`, its phase is ``stopping``.
 
     Raises
     ------

@@ -106,16 +106,8 @@ class ConflictMonitor:
 
     Parameters
     ----------
-    aircraft, others
-        Bodies that move, by callsign.
-    minima
-        Separation minima.
-    ground_m
-        Elevation of the ground, in m.
     zone
         Centre of the tower's zone, if there is one.
-    tick_s
-        Time between two ticks, in s.
     transponders
         Callsigns with a transponder. TCAS is aboard of these aircraft only, and sees no others.
     always

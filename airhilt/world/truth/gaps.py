@@ -36,10 +36,7 @@ def gap(first: Mover, second: Mover, at_s: float = 0.0) -> Gap:
     Both are upright prisms: an aircraft's outline is its fuselage, its swept wing and its
     tailplane; that of everything else is a rectangle.
 
-    Parameters
-    ----------
-    at_s
-        Time from now, in s, in straight movement; negative for the past.
+    ``at_s`` is a time from now, in s, in straight movement; negative for the past.
     """
     import shapely
 

@@ -30,11 +30,6 @@ def load_kind(name: str, category: Literal["wildlife"]) -> Kind[Creature]: ...
 def load_kind(name: str, category: Category | None = None) -> Kind[Any]:
     """Return the kind of that name, such as ``follow_me``; one of another package is guarded.
 
-    Parameters
-    ----------
-    category
-        The category that it must have, if given.
-
     Raises
     ------
     ScenarioError
@@ -50,10 +45,7 @@ def load_kind(name: str, category: Category | None = None) -> Kind[Any]:
 def animal_labels(more: Iterable[str] = ()) -> tuple[VisibleClass, ...]:
     """Return the labels that animals have in pictures, sorted.
 
-    Parameters
-    ----------
-    more
-        Names of kinds of wildlife besides those of AIRHILT.
+    ``more`` has the names of kinds of wildlife besides those of AIRHILT.
 
     Raises
     ------
