@@ -41,8 +41,6 @@ LABELLED_AREA_M2 = 4000.0
 """Buildings smaller than this are named only when pointed at."""
 NARROW_RUNWAY_PT = 9.0
 """A runway drawn narrower than this, in points, has no room for numbers on it."""
-CLEAR_OF_CROSSING_PT = 60.0
-"""Least distance of a runway's size from a crossing with another, in points."""
 CAMERA_REACH_PT = 26.0
 """Length of the wedge that shows where a camera looks, in points."""
 VHF_KHZ = (117_975, 137_000)
@@ -190,7 +188,8 @@ class _Diagram:
         dashes = {"linewidth": 0.9, "linestyle": (0, (10, 8))}
         self._line(strip.centreline.coords, color="white", **dashes)
         for end in strip.ends:
-            threshold, ahead = self._local(end), self._ahead(end)
+            threshold = self._layout.local_frame.to_local(end.threshold)
+            ahead = self._ahead(end)
             across, half_m = (-ahead[1], ahead[0]), end.width_m / 2.0
             bar = [lines.step(threshold, across, side * half_m) for side in (-1, 1)]
             self._line(bar, color="white", linewidth=2.0, solid_capstyle="butt")
@@ -206,6 +205,7 @@ class _Diagram:
             ends = layout.hold_line(hold, least_half_m=5.0 * self._point_m)
             self._line(ends, f"hold {hold.name}", **HOLD)
         for first, second, at in layout.intersections:
+            self._taken.append(self._box(at, 18.0, 18.0))
             circle = Circle(at, 9.0 * self._point_m, **CROSSING)
             self._patch(circle, f"{first} crosses {second}")
         for name in layout.stands:
@@ -253,17 +253,11 @@ class _Diagram:
                 along = lines.step(start, ahead, 62.0 * self._point_m)
                 self._text(along, course, _upright_deg(bearing), **white)
         if has_room:
-            line = strip.centreline
-            crossings = [
-                Point(at) for *names, at in self._layout.intersections if strip.name in names
-            ]
-            spots = [line.interpolate(part, normalized=True) for part in (0.3, 0.5, 0.7, 0.4, 0.6)]
-            clear_m = CLEAR_OF_CROSSING_PT * self._point_m
-            free = (at for at in spots if all(at.distance(one) > clear_m for one in crossings))
-            at = next(free, spots[0])
             size = f"{strip.ends[0].length_m:.0f} × {strip.ends[0].width_m:.0f} m"
-            bearing = _bearing_deg(self._ahead(strip.ends[0]))
-            self._text((at.x, at.y), size, _upright_deg(bearing), **white)
+            line = strip.centreline
+            spots = [line.interpolate(part, normalized=True) for part in (0.3, 0.5, 0.7, 0.4, 0.6)]
+            at = self._free([(spot.x, spot.y) for spot in spots], 40.0, 40.0)
+            self._text(at, size, _upright_deg(_bearing_deg(self._ahead(strip.ends[0]))), **white)
 
     def _name_taxiways(self) -> None:
         taxiways: dict[str, list[Leg]] = defaultdict(list)
@@ -302,9 +296,6 @@ class _Diagram:
     def _box(self, at: Local, width_pt: float, height_pt: float) -> Polygon:
         (x, y), half_x, half_y = at, width_pt * self._point_m / 2.0, height_pt * self._point_m / 2.0
         return box(x - half_x, y - half_y, x + half_x, y + half_y)
-
-    def _local(self, end: RunwayEnd) -> Local:
-        return self._layout.local_frame.to_local(end.threshold)
 
     def _ahead(self, end: RunwayEnd) -> Local:
         to_local = self._layout.local_frame.to_local

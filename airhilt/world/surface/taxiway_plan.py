@@ -186,16 +186,13 @@ class TaxiwayPlan:
     def _connectors(self, strip: RunwayStrip, side: int) -> list[float]:
         """Return where connectors can be: at both ends, or near, and at intervals between."""
         length = strip.centreline.length
-        grid = [END_M, *self._steps(END_M + SEARCH_STEP_M, length - END_M), length - END_M]
+        inner = range(1, int((length - 2.0 * END_M) / SEARCH_STEP_M))
+        grid = [END_M, *(END_M + step * SEARCH_STEP_M for step in inner), length - END_M]
         possible = [along for along in grid if self._is_clear(strip, along, side)]
         count = max(2, round(length / BETWEEN_CONNECTORS_M))
         wanted = (END_M + part * (length - 2.0 * END_M) / count for part in range(count + 1))
         chosen = {min(possible, key=lambda along: abs(along - at)) for at in wanted if possible}
         return sorted(chosen)
-
-    @staticmethod
-    def _steps(begin: float, end: float) -> list[float]:
-        return [begin + step * SEARCH_STEP_M for step in range(int((end - begin) / SEARCH_STEP_M))]
 
     def _is_clear(self, strip: RunwayStrip, along: float, side: int) -> bool:
         connector = LineString(
