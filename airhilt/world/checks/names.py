@@ -62,7 +62,7 @@ def dangling_references(scenario: Scenario) -> Iterator[Problem]:
         if isinstance(model, Scenario | AircraftSpec | VehicleSpec | WildlifeSpec):
             continue
         named = {field: getattr(model, field, None) for field in ("actor", "meant", "taken_by")}
-        pair = getattr(model, "actors", ())
+        pair: tuple[str, ...] = getattr(model, "actors", ())
         named |= {f"actors/{number}": callsign for number, callsign in enumerate(pair)}
         for field, callsign in named.items():
             if callsign is not None and callsign not in callsigns:

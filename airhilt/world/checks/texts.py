@@ -173,10 +173,9 @@ def _details(command: Command) -> dict[str, str | float]:
             return {"runway": command.runway, "altitude_ft": command.climb_to_ft}
         case GoAroundCommand():
             return {"altitude_ft": command.climb_to_ft}
-        case AltitudeCommand(vertical_rate_fpm=None):
-            return {"altitude_ft": command.altitude_ft}
-        case AltitudeCommand(vertical_rate_fpm=rate_fpm):
-            return {"altitude_ft": command.altitude_ft, "rate_fpm": rate_fpm}
+        case AltitudeCommand(altitude_ft=altitude_ft, vertical_rate_fpm=rate_fpm):
+            rate = {} if rate_fpm is None else {"rate_fpm": rate_fpm}
+            return {"altitude_ft": altitude_ft, **rate}
         case TaxiCommand(via=via) if via:
             return {"via": ", ".join(via)}
         case TurnCommand():

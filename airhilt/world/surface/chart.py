@@ -6,7 +6,7 @@ import io
 import math
 import re
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import chain, permutations
 from pathlib import Path
 from typing import Any
@@ -47,21 +47,28 @@ VHF_KHZ = (117_975, 137_000)
 """The aeronautical mobile band, in kHz: ICAO Annex 10 volume V, 4.1."""
 SHOWN_ROLES: tuple[Role, ...] = ("tower", "ground", "clearance", "approach", "departure", "atis")
 
+Style = dict[str, Any]
+"""Arguments of matplotlib."""
 INK, RUNWAY, PINK = "#1b2a36", "#3b444c", "#d6336c"
-PROTECTED = {
+PROTECTED: Style = {
     "facecolor": "#d6336c0d",
     "edgecolor": "#d6336cb3",
     "linestyle": (0, (5, 4)),
     "lw": 0.8,
 }
-CROSSING = {"fill": False, "edgecolor": PINK, "linewidth": 1.6}
-CAMERA = {"facecolor": "#6741d94d", "edgecolor": "#6741d9", "linewidth": 0.6}
-HOLD = {"color": "#c92a2a", "linewidth": 2.4, "solid_capstyle": "butt"}
-TOWER = {"color": "#1864ab", "marker": "^", "markersize": 11.0, "markeredgecolor": "white"}
-STAND = {"color": "#2b8a3e", "marker": "o", "markersize": 5.0, "markeredgewidth": 0.0}
-PLATE = {"boxstyle": "round,pad=0.25", "facecolor": "#1b1b1b", "edgecolor": "#f5c518"}
-ON_RUNWAY = {"facecolor": RUNWAY, "edgecolor": "none", "pad": 0.5}
-STYLE = {"svg.fonttype": "none", "svg.hashsalt": "airport", "font.size": 9.5, "text.color": INK}
+CROSSING: Style = {"fill": False, "edgecolor": PINK, "linewidth": 1.6}
+CAMERA: Style = {"facecolor": "#6741d94d", "edgecolor": "#6741d9", "linewidth": 0.6}
+HOLD: Style = {"color": "#c92a2a", "linewidth": 2.4, "solid_capstyle": "butt"}
+TOWER: Style = {"color": "#1864ab", "marker": "^", "markersize": 11.0, "markeredgecolor": "white"}
+STAND: Style = {"color": "#2b8a3e", "marker": "o", "markersize": 5.0, "markeredgewidth": 0.0}
+PLATE: Style = {"boxstyle": "round,pad=0.25", "facecolor": "#1b1b1b", "edgecolor": "#f5c518"}
+ON_RUNWAY: Style = {"facecolor": RUNWAY, "edgecolor": "none", "pad": 0.5}
+STYLE: Any = {
+    "svg.fonttype": "none",
+    "svg.hashsalt": "airport",
+    "font.size": 9.5,
+    "text.color": INK,
+}
 DARK = "<style>@media (prefers-color-scheme: dark) { svg { filter: invert(1) hue-rotate(180deg) } }"
 POINTED_AT = re.compile(r"<g id=([\"'])shown (.*?)\1>")
 """Group of an SVG that has a name; the name is shown when the group is pointed at."""
@@ -78,7 +85,7 @@ def draw(layout: Layout, path: Path) -> Path:
     kind, stream = path.suffix.lower(), io.BytesIO()
     if kind not in (".svg", ".png"):
         raise ScenarioError(f"{path}: expected a name that ends in .svg or .png")
-    with rc_context({**STYLE, "axes.linewidth": 0.0}):
+    with rc_context(STYLE):
         figure = _Diagram(layout).figure
         title = f"{layout.airport.name} ({layout.airport.icao})"
         if kind == ".svg":
@@ -147,7 +154,7 @@ class _Diagram:
         patch.set(gid=f"shown {name}", zorder=self._layer)
         self._map.add_patch(patch)
 
-    def _area(self, shape: Polygon, name: str, style: Mapping[str, Any]) -> None:
+    def _area(self, shape: Polygon, name: str, style: Style) -> None:
         self._patch(PolygonPatch(list(shape.exterior.coords), **style), name)
 
     def _line(self, points: Sequence[Local], name: str = "", **style: Any) -> None:
@@ -155,8 +162,8 @@ class _Diagram:
         self._map.plot(*zip(*points, strict=True), gid=gid, zorder=self._layer, **style)
 
     def _text(self, at: Local, words: str, turn_deg: float = 0.0, **style: Any) -> None:
-        centred = {"ha": "center", "va": "center", "rotation_mode": "anchor", "clip_on": True}
-        self._map.text(*at, words, rotation=turn_deg, zorder=self._layer, **centred, **style)
+        style |= {"ha": "center", "va": "center", "rotation_mode": "anchor", "clip_on": True}
+        self._map.text(at[0], at[1], words, rotation=turn_deg, zorder=self._layer, **style)
 
     @property
     def _layer(self) -> int:
@@ -185,7 +192,7 @@ class _Diagram:
 
     def _draw_runway(self, strip: RunwayStrip) -> None:
         self._area(strip.pavement, strip.name, {"facecolor": RUNWAY})
-        dashes = {"linewidth": 0.9, "linestyle": (0, (10, 8))}
+        dashes: Style = {"linewidth": 0.9, "linestyle": (0, (10, 8))}
         self._line(strip.centreline.coords, color="white", **dashes)
         for end in strip.ends:
             threshold = self._layout.local_frame.to_local(end.threshold)
@@ -242,7 +249,7 @@ class _Diagram:
     def _name_runway(self, strip: RunwayStrip) -> None:
         """Write the number and the course of both ends of a runway, and its size."""
         has_room = strip.ends[0].width_m / self._point_m >= NARROW_RUNWAY_PT
-        white = {"color": "white", "fontsize": 9, "bbox": ON_RUNWAY}
+        white: Style = {"color": "white", "fontsize": 9, "bbox": ON_RUNWAY}
         for end in strip.ends:
             start, ahead = self._layout.local_frame.to_local(end.start), self._ahead(end)
             at, bearing = lines.step(start, ahead, -14.0 * self._point_m), _bearing_deg(ahead)
@@ -274,7 +281,7 @@ class _Diagram:
             if sum(math.dist(*leg) for leg in legs) < SHORT_TAXIWAY_PT * self._point_m:
                 away_m = (width / 2.0 + 6.0) * self._point_m
                 spots = [*self._beyond(legs, away_m), *spots]
-            style = {"color": "#f5c518", "fontsize": 10, "weight": "bold", "bbox": PLATE}
+            style: Style = {"color": "#f5c518", "fontsize": 10, "weight": "bold", "bbox": PLATE}
             self._text(self._free(spots, width, 14.0), name, **style)
 
     def _beyond(self, legs: Sequence[Leg], away_m: float) -> list[Local]:

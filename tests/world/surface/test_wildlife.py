@@ -277,4 +277,3 @@ def test_a_flock_grows_with_its_birds() -> None:
     assert few.length_m < many.length_m
     assert few.span_m < many.span_m
     assert many.height_m < many.length_m < many.span_m
-    assert animal("flock").count > animal("goose").count == 1
