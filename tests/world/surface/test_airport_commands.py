@@ -74,13 +74,6 @@ def test_import_replaces_a_file_only_when_told(airhilt_command: Cli, tmp_path: P
     assert airhilt_command("airport", "import", "KPAO", *FILES, "--overwrite").returncode == 0
 
 
-@pytest.mark.parametrize("command", [("airport",), ("airport", "import"), ("airport", "show")])
-def test_help_shows_examples(airhilt_command: Cli, command: tuple[str, ...]) -> None:
-    assert "airhilt airport show KDCA" in airhilt_command(*command, "--help").stdout or (
-        "airhilt airport import KBOS" in airhilt_command(*command, "--help").stdout
-    )
-
-
 def test_help_does_not_wait_for_the_geometry_libraries() -> None:
     code = (
         "import sys, airhilt.cli.main; "

@@ -147,14 +147,11 @@ def test_a_bird_that_begins_in_the_air_flies_straight_on() -> None:
     assert body.state.height_agl_m == pytest.approx(100.0)
 
 
-def test_a_bird_told_to_stand_lands_first() -> None:
+def test_a_bird_in_the_air_lands_before_it_stands_or_walks() -> None:
     body = animal("goose", height_m=30.0)
     body.stand()
     until_it_stands(body)
     assert body.on_ground
-
-
-def test_a_bird_in_the_air_lands_before_it_walks() -> None:
     body = animal("goose", height_m=30.0)
     body.walk_to(at((0.0, 300.0)))
     until_it_stands(body)

@@ -259,11 +259,6 @@ def test_a_takeoff_without_clearance_is_an_incorrect_presence_by_itself() -> Non
     assert Watch({"D": rolling}, affected={"D"}, uncleared={"D"}).look().categories == ["D"]
 
 
-def test_who_waits_lined_up_under_a_clearance_does_no_wrong_before_it_rolls() -> None:
-    waiting = airliner(40.0, "lined_up")
-    assert Watch({"D": waiting}, affected={"D"}, uncleared={"D"}).look().categories == []
-
-
 @pytest.mark.parametrize(("time_s", "user"), [(20.0, "A"), (40.0, None)])
 def test_a_takeoff_without_clearance_meets_who_comes_on_a_crossing_runway(
     time_s: float, user: str | None
@@ -328,14 +323,6 @@ def test_of_several_incursions_each_is_followed_by_itself(first: str) -> None:
     assert found["X"] == ("D" if first == "alone" else "C")
 
 
-def test_once_the_user_has_stopped_nothing_comes_nearer() -> None:
-    plane, car = airliner(500.0, "rollout", speed_kt=60.0), vehicle(1_400.0)
-    watch = Watch({"A": plane, "OPS": car}).look()
-    plane.body.phase, plane.body.along_m = "vacate", 1_380.0
-    watch.look()
-    assert watch.categories == ["C"]
-
-
 def test_a_collision_is_an_accident() -> None:
     watch = Watch({"A": arrival(5.0), "OPS": vehicle(300.0)}).look()
     watch.monitor.collided("OPS", "A")
@@ -369,25 +356,6 @@ def test_who_comes_a_second_time_is_followed_again() -> None:
     watch.look()
     assert watch.categories == ["A"]
     assert watch.incurred == [("A", "OPS")]
-
-
-def test_a_departure_waiting_on_the_runway_is_in_the_way_of_an_arrival() -> None:
-    waiting = airliner(40.0, "lined_up")
-    assert Watch({"A": arrival(25.0), "D": waiting}).look().incurred == [("A", "D")]
-    assert Watch({"A": arrival(35.0), "D": waiting}).look().incurred == []
-
-
-def test_who_holds_short_is_in_nobodys_way_however_long_the_arrival_rolls() -> None:
-    away = kdca().strip_of("01").hold_distance_m + CAR.length_m / 2.0 + 3.0
-    car = vehicle(800.0, right_m=-away)
-    car.body.turned_deg = 90.0
-    plane = arrival(10.0)
-    watch = Watch({"A": plane, "OPS": car}).look()
-    plane.body.phase, plane.body.on_ground, plane.body.height_m = "rollout", True, 0.0
-    for along_m in (500.0, 800.0, 1_100.0):
-        plane.body.along_m = along_m
-        watch.look()
-    assert watch.incurred == []
 
 
 def test_the_same_runway_from_the_other_side_is_the_same_place() -> None:

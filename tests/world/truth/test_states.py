@@ -35,7 +35,7 @@ def test_the_truth_is_the_state_in_degrees_and_metres(encounter: Scenario) -> No
     assert truth.velocity_down_m_s == state.velocity_down_m_s
 
 
-def test_the_zone_of_a_tower_is_round_the_middle_of_its_airport() -> None:
+def test_the_zone_of_a_tower_is_round_the_middle_of_its_airport(encounter: Scenario) -> None:
     site = ScenarioSite.of(load("s01a_nominal"))
     zone = zone_of(site)
     assert zone is not None
@@ -43,9 +43,6 @@ def test_the_zone_of_a_tower_is_round_the_middle_of_its_airport() -> None:
     middle = site.layout.local_frame.to_local((zone.latitude_rad, zone.longitude_rad))
     assert middle == pytest.approx((0.0, 0.0), abs=1e-3)
     assert zone.altitude_m == site.ground_m
-
-
-def test_in_an_airspace_without_an_airport_there_is_no_zone(encounter: Scenario) -> None:
     assert zone_of(ScenarioSite.of(encounter)) is None
 
 
