@@ -14,16 +14,9 @@ from airhilt.shapes.aircraft.spec import (
     WING_ROOT_SHARE,
     AircraftShape,
 )
-from airhilt.shapes.sizes import Size
 
 Points = npt.NDArray[np.float64]
 """Points right of and ahead of a body, or east and north, in m; shape (n, 2)."""
-
-
-def rectangle_outline(size: Size) -> Points:
-    """Return the corners of the rectangle around a body."""
-    aside, ahead = size.span_m / 2.0, size.length_m / 2.0
-    return np.array([(aside, ahead), (aside, -ahead), (-aside, -ahead), (-aside, ahead)])
 
 
 @functools.lru_cache(maxsize=64)

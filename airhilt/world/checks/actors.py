@@ -28,7 +28,7 @@ from airhilt.scenario.models import (
 from airhilt.scenario.problems import Problem
 from airhilt.units import FOOT, KNOT
 from airhilt.world.checks.walk import commands_of, models_of
-from airhilt.world.flight.aircraft_type import AircraftType, load_aircraft_type
+from airhilt.world.flight.aircraft_type import load_aircraft_type
 from airhilt.world.flight.modes import GuidanceModes
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.kinds import load_kind
@@ -75,26 +75,20 @@ def _aircraft(
         yield Problem(
             f"{path}/initial/track_deg", "missing; it is required where there is no route"
         )
-    yield from _envelope(f"{path}/initial", initial.altitude_ft, initial.cas_kt, kind)
-
-
-def _envelope(
-    path: str, altitude_ft: float, cas_kt: float, kind: AircraftType
-) -> Iterator[Problem]:
     speeds = kind.speeds
-    if altitude_ft > speeds.service_ceiling_ft:
+    if initial.altitude_ft > speeds.service_ceiling_ft:
         yield Problem(
-            f"{path}/altitude_ft",
-            f"found {altitude_ft:g}; expected at most the service ceiling of a {kind.name}, "
-            f"{speeds.service_ceiling_ft:g}",
+            f"{path}/initial/altitude_ft",
+            f"found {initial.altitude_ft:g}; expected at most the service ceiling of a "
+            f"{kind.name}, {speeds.service_ceiling_ft:g}",
         )
-    flown_ft = min(altitude_ft, speeds.service_ceiling_ft)
+    flown_ft = min(initial.altitude_ft, speeds.service_ceiling_ft)
     limits_m_s = GuidanceModes(kind).speed_limits_m_s(flown_ft * FOOT)
     slowest_kt, greatest_kt = (limit / KNOT for limit in limits_m_s)
-    if not slowest_kt <= cas_kt <= greatest_kt:
+    if not slowest_kt <= initial.cas_kt <= greatest_kt:
         yield Problem(
-            f"{path}/cas_kt",
-            f"found {cas_kt:g}; expected {slowest_kt:.4g} to {greatest_kt:.4g}, what a "
+            f"{path}/initial/cas_kt",
+            f"found {initial.cas_kt:g}; expected {slowest_kt:.4g} to {greatest_kt:.4g}, what a "
             f"{kind.name} flies at {flown_ft:g} ft",
         )
 

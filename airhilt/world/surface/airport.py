@@ -17,6 +17,7 @@ from airhilt.host import library
 from airhilt.imaging.lenses import FieldOfView
 from airhilt.quantities import AltitudeFt, Count, Flag, Number
 from airhilt.scenario import documents
+from airhilt.scenario.models.base import Model
 from airhilt.scenario.problems import validated
 from airhilt.units import DEGREE
 
@@ -45,11 +46,7 @@ Block = Literal[
 Role = Literal["tower", "ground", "clearance", "approach", "departure", "atis", "unicom", "other"]
 
 
-class _Section(pydantic.BaseModel):
-    model_config = pydantic.ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
-
-
-class _Located(_Section):
+class _Located(Model):
     lat_deg: Latitude
     lon_deg: Longitude
 
@@ -59,7 +56,7 @@ class _Located(_Section):
         return self.lat_deg * DEGREE, self.lon_deg * DEGREE
 
 
-class Source(_Section):
+class Source(Model):
     """Source of the numbers of a block."""
 
     text: str = Field(min_length=1, max_length=2000)
@@ -73,7 +70,7 @@ class ReferencePoint(_Located):
     """Point at which the airport's local frame touches the ellipsoid."""
 
 
-class MagneticVariation(_Section):
+class MagneticVariation(Model):
     """Angle from true north to magnetic north at the reference point."""
 
     east_deg: Number = Field(ge=-180.0, le=180.0, description="negative is west")
@@ -89,7 +86,7 @@ class RunwayThreshold(_Located):
     heading_magnetic_deg: Bearing | None = None
 
 
-class Runway(_Section):
+class Runway(Model):
     """A strip of pavement that is used in both directions."""
 
     ends: tuple[RunwayThreshold, RunwayThreshold]
@@ -112,7 +109,7 @@ class Node(_Located):
     kind: Literal["junction", "hold", "runway", "stand"] = "junction"
 
 
-class Edge(_Section):
+class Edge(Model):
     """A straight piece of a taxiway, used in both directions."""
 
     nodes: tuple[str, str]
@@ -120,14 +117,14 @@ class Edge(_Section):
     width_m: Number = Field(gt=0.0, le=500.0)
 
 
-class Taxiways(_Section):
+class Taxiways(Model):
     """The graph on which aircraft taxi and vehicles drive."""
 
     nodes: tuple[Node, ...] = Field(default=(), max_length=MOST_PARTS)
     edges: tuple[Edge, ...] = Field(default=(), max_length=MOST_PARTS)
 
 
-class HoldShort(_Section):
+class HoldShort(Model):
     """A node of the taxiways where traffic holds short of a runway."""
 
     node: str
@@ -149,7 +146,7 @@ class Tower(_Located):
     height_m: Number = Field(gt=0.0, le=1000.0, description="of the cab, above the ground")
 
 
-class Building(_Section):
+class Building(Model):
     """A block on the ground."""
 
     name: Text
@@ -157,14 +154,14 @@ class Building(_Section):
     height_m: Number = Field(gt=0.0, le=1000.0)
 
 
-class Water(_Section):
+class Water(Model):
     """A river, a lake or the sea, as far as it can be seen."""
 
     name: Text
     outline: Polygon
 
 
-class Frequency(_Section):
+class Frequency(Model):
     """A radio frequency and the unit that answers on it."""
 
     role: Role
@@ -182,7 +179,7 @@ class Camera(_Located):
     horizontal_fov_deg: FieldOfView
 
 
-class Airport(_Section):
+class Airport(Model):
     """One ``airports/*.json``."""
 
     icao: str = Field(pattern=r"^[A-Z0-9-]{2,10}$")

@@ -12,12 +12,10 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from airhilt.units import wrap_angle
-from airhilt.world.surface.path import Local
+from airhilt.world.surface.path import Local, without_repeats
 
 CORNER_CUT_M = 3.0
 """Greatest distance by which a corner is cut, in m, unless the least radius asks for more."""
-SAME_PLACE_M = 0.01
-"""Distance below which two points are one, in m."""
 SHORTEST_M = 1e-6
 STRAIGHT_RAD = 1e-9
 """Change of heading below which a path is straight, in rad."""
@@ -65,7 +63,7 @@ def aligned(
     any arc has.
     """
     path = _Path(start, heading_rad, radius_m)
-    points = _apart(start, points)
+    points = without_repeats([start, *points])[1:]
     for index, point in enumerate(points):
         if index == len(points) - 1:
             path.turn_towards(point)
@@ -172,14 +170,3 @@ def _polar(a: Local, b: Local) -> tuple[float, float]:
 def _one_less_cosine(angle: float) -> float:
     """Return 1 - cos(angle), above 0 for the least of angles too."""
     return 2.0 * math.sin(0.5 * angle) ** 2
-
-
-def _apart(start: Local, points: Sequence[Local]) -> list[Local]:
-    """Return the points without those that lie where the one before them does."""
-    kept: list[Local] = []
-    last = start
-    for point in points:
-        if math.dist(last, point) > SAME_PLACE_M:
-            kept.append(point)
-            last = point
-    return kept

@@ -117,13 +117,7 @@ class AnimalKind(CreatureKind, BaseModel):
         return f"flying{math.floor(t_s * self.flight.wing_beats_hz * WING_BEATS) % WING_BEATS}"
 
     def create(self, place: Place, heading_rad: float, **start: Any) -> AnimalBody:
-        """Return an animal of this kind; see `airhilt.world.surface.kind.Kind`.
-
-        Raises
-        ------
-        ValueError
-            It was to begin at no place, or in the air and does not fly.
-        """
+        """Return an animal of this kind; see `airhilt.world.surface.kind.Kind`."""
         return AnimalBody(self, place, heading_rad, **start)
 
 

@@ -152,18 +152,11 @@ class DrivenKind:
         return BODY
 
     def carry_out(self, body: Driven, command: Command, site: ScenarioSite) -> bool:
-        """Drive along a taxi way, stop, or go on.
-
-        Raises
-        ------
-        ValueError, ScenarioError
-            There is no such way, or the command is of another class.
-        """
+        """Drive along a taxi way, stop, or go on; errors as of `Kind.carry_out`."""
         match command:
             case TaxiCommand(speed_kt=speed):
-                state, nose_m = body.state, body.dimensions.length_m / 2.0
-                here = (state.latitude_rad, state.longitude_rad)
-                way = taxi_way(site, here, command, nose_m)
+                here = (body.state.latitude_rad, body.state.longitude_rad)
+                way = taxi_way(site, here, command, body.dimensions.length_m / 2.0)
                 body.drive(way, None if speed is None else speed * KNOT)
             case HoldPositionCommand():
                 if body.phase != "driving":
@@ -194,13 +187,7 @@ class CreatureKind:
         return BODY
 
     def carry_out(self, body: Creature, command: Command, site: ScenarioSite) -> bool:
-        """Move to a place, or stand.
-
-        Raises
-        ------
-        ValueError, ScenarioError
-            There is no such place, it cannot move like that, or the command is of another class.
-        """
+        """Move to a place, or stand; errors as of `Kind.carry_out`."""
         match command:
             case StandCommand():
                 body.stand()

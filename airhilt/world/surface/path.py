@@ -38,7 +38,9 @@ def rounded(points: Sequence[Local], radius_m: float, first_radius_m: float = 0.
 
     ``first_radius_m`` is the radius of the first arc, if it differs.
     """
-    points = without_straight_points(points)
+    points = without_repeats(points)
+    if len(points) > 2:
+        points = [(x, y) for x, y in LineString(points).simplify(STRAIGHT_M).coords]
     path = list(points[:1])
     for index in range(1, len(points) - 1):
         before, corner, after = points[index - 1 : index + 2]
@@ -97,14 +99,6 @@ def without_repeats(points: Sequence[Local]) -> list[Local]:
         if not path or math.dist(path[-1], point) > SHORTEST_LEG_M:
             path.append(point)
     return path
-
-
-def without_straight_points(points: Sequence[Local]) -> list[Local]:
-    """Return a polyline without the points at which it does not turn."""
-    points = without_repeats(points)
-    if len(points) <= 2:
-        return points
-    return [(x, y) for x, y in LineString(points).simplify(STRAIGHT_M).coords]
 
 
 def unit(a: Local, b: Local) -> Local:

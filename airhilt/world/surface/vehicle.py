@@ -68,13 +68,7 @@ class VehicleKind(DrivenKind, BaseModel):
         seed: int = 0,  # noqa: ARG002
         height_m: float = 0.0,
     ) -> Vehicle:
-        """Return a vehicle of this kind; see `airhilt.world.surface.kind.Kind`.
-
-        Raises
-        ------
-        ValueError
-            It was to begin above the ground, or at no place.
-        """
+        """Return a vehicle of this kind; see `airhilt.world.surface.kind.Kind`."""
         if height_m != 0.0:
             raise ValueError(f"height_m is {height_m}; a {self.name} does not fly")
         return Vehicle(self, place, heading_rad, ground_m=ground_m, tick_s=tick_s)
