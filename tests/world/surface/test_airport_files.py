@@ -73,20 +73,6 @@ def test_runway_numbers_are_the_magnetic_headings_in_tens_of_degrees(
                     assert abs(away) < 10.5, end.ident
 
 
-def test_magnetic_variation_is_that_of_the_world_magnetic_model(subtests: pytest.Subtests) -> None:
-    for icao, east_deg in [
-        ("KDCA", -10.7),
-        ("KSFO", 12.95),
-        ("EHAM", 2.43),
-        ("RJTT", -7.81),
-        ("LSZH", 3.43),
-    ]:
-        with subtests.test(icao):
-            variation = load_airport(icao).magnetic_variation
-            assert variation.epoch == 2025.0
-            assert variation.east_deg == pytest.approx(east_deg, abs=0.05)
-
-
 def test_what_nobody_surveyed_says_so() -> None:
     for icao in SHIPPED:
         sources = load_airport(icao).sources

@@ -14,7 +14,6 @@ import pytest
 
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.local_frame import LocalFrame
-from airhilt.world.mover import Driven
 from airhilt.world.surface import kinds
 from airhilt.world.surface.kinds import FAMILY, load_kind
 from paths import DOCS
@@ -87,29 +86,6 @@ def test_a_file_is_all_that_a_new_kind_needs(added: Path, bus_and_drone: tuple[s
         bus.advance()
     assert bus.phase == "standing"
     assert (bus.state.latitude_rad, bus.state.longitude_rad) == pytest.approx(THERE, abs=1e-10)
-
-
-def test_another_package_brings_a_kind_with_behaviour_of_its_own(
-    other_package: Path, bus_and_drone: tuple[str, str]
-) -> None:
-    (other_package / "drone.py").write_text(bus_and_drone[1])
-    assert "drone" in FAMILY.names()
-    drone = load_kind("drone", "vehicle").create(HERE, 0.0, ground_m=4.0, tick_s=0.05)
-    assert isinstance(drone, Driven)
-    drone.drive([THERE])
-    for _ in range(100):
-        drone.advance()
-    assert drone.phase == "driving"
-    assert drone.state.ground_speed_m_s == pytest.approx(12.0)
-    drone.stop()
-    drone.advance()
-    assert drone.state.ground_speed_m_s == 0.0
-    drone.resume()
-    for _ in range(100):
-        drone.advance()
-    assert drone.phase == "hovering"
-    assert (drone.state.latitude_rad, drone.state.longitude_rad) == pytest.approx(THERE, abs=1e-10)
-    assert drone.state.altitude_m == 54.0
 
 
 def test_what_is_no_kind_is_refused_with_the_reason(

@@ -8,6 +8,7 @@ import math
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from shapely import LineString, Point
 
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place
@@ -128,22 +129,10 @@ def test_corners_with_room_are_cut_by_no_more_than_the_radius_needs(
     courses = itertools.accumulate(turns, initial=0.0)
     points = chain([(4.0 * body.kind.turning_radius_m, course) for course in courses])
     body.drive(path(*points))
-    line = [(0.0, 0.0), *points]
+    line = LineString([(0.0, 0.0), *points])
     needed = body.kind.turning_radius_m * (1.0 / math.cos(math.pi / 4.0) - 1.0)
     for state in until_it_stands(body)[::5]:
-        assert off(where(state), line) <= max(CORNER_CUT_M, needed) + 0.01
-
-
-def off(point: Local, line: list[Local]) -> float:
-    return min(off_leg(point, a, b) for a, b in itertools.pairwise(line))
-
-
-def off_leg(point: Local, a: Local, b: Local) -> float:
-    along = ((point[0] - a[0]) * (b[0] - a[0]) + (point[1] - a[1]) * (b[1] - a[1])) / (
-        math.dist(a, b) ** 2
-    )
-    along = min(max(along, 0.0), 1.0)
-    return math.dist(point, (a[0] + along * (b[0] - a[0]), a[1] + along * (b[1] - a[1])))
+        assert line.distance(Point(where(state))) <= max(CORNER_CUT_M, needed) + 0.01
 
 
 def test_a_curve_given_as_many_points_is_driven_as_the_curve_that_it_is() -> None:

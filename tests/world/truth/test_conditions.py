@@ -52,12 +52,8 @@ PAIR = ["AA", "BB"]
 
 def test_time_is_reached_from_then_on() -> None:
     case = Case({"type": "time", "at_s": 10.0})
-    assert [case(), case.after(9.9), case.after(0.1), case.after(50.0)] == [
-        False,
-        False,
-        True,
-        True,
-    ]
+    seen = [case(), case.after(9.9), case.after(0.1), case.after(50.0)]
+    assert seen == [False, False, True, True]
 
 
 def test_a_line_begins_before_it_ends() -> None:
@@ -246,13 +242,8 @@ def test_the_threshold_is_within_a_time_of_an_arrival(subtests: pytest.Subtests)
         ("19", 1200.0, False),
     ]:
         with subtests.test(str((runway, within_s, true))):
-            condition = {
-                "type": "threshold_within",
-                "actor": "AA",
-                "runway": runway,
-                "within_s": within_s,
-            }
-            assert Airport(condition)() == true
+            condition = {"type": "threshold_within", "actor": "AA"}
+            assert Airport(condition | {"runway": runway, "within_s": within_s})() == true
 
 
 def test_the_threshold_is_no_matter_of_who_has_passed_it_or_stands_or_has_landed() -> None:
