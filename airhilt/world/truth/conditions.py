@@ -60,14 +60,8 @@ class ConditionCompiler:
                 return lambda _: line in self._begun_lines
             case LineEnded(line=line):
                 return lambda _: line in self._ended_lines
-            case BoundForAltitude(actor=name, altitude_ft=altitude_ft, within_ft=within_ft):
-                altitude_m, within_m = altitude_ft * FOOT, within_ft * FOOT
-                return self._of_actor(
-                    name,
-                    lambda body: (
-                        abs(getattr(body, "target_altitude_m", math.inf) - altitude_m) <= within_m
-                    ),
-                )
+            case BoundForAltitude():
+                return self._bound_for(condition)
             case PredictedLossOfSeparation(actors=pair, within_s=within_s):
                 return self._of_pair(pair, lambda: self._loss_within(pair, within_s))
             case SeparationBelow(actors=pair, horizontal_nm=horizontal_nm, vertical_ft=vertical_ft):
@@ -89,22 +83,11 @@ class ConditionCompiler:
                 return lambda _: self._monitor.collided(pair)
             case InPhase(actor=name, phases=phases):
                 return self._of_actor(name, lambda body: body.phase in phases)
-            case BoundForRunway(actor=name, runway=runway):
-                return self._on_runways(name, lambda each: each.is_bound_for(name, runway))
-            case OnRunway(actor=name, runway=runway):
-                return self._on_runways(name, lambda each: each.is_on(name, runway))
-            case ThresholdWithin(actor=name, runway=runway, within_s=within_s):
-                return self._on_runways(
-                    name,
-                    lambda each: (
-                        (time_s := each.time_to_threshold_s(name, runway)) is not None
-                        and time_s <= within_s
-                    ),
-                )
+            case BoundForRunway() | OnRunway() | ThresholdWithin():
+                return self._of_runway(condition)
             case SpeedAbove(actor=name, speed_kt=speed_kt):
-                return self._of_actor(
-                    name, lambda body: body.state.ground_speed_m_s > speed_kt * KNOT
-                )
+                fast_m_s = speed_kt * KNOT
+                return self._of_actor(name, lambda body: body.state.ground_speed_m_s > fast_m_s)
             case HeightBelow(actor=name, height_ft=height_ft):
                 return self._of_actor(name, lambda body: body.state.height_agl_m < height_ft * FOOT)
             case AllOf(conditions=inner):
@@ -121,10 +104,30 @@ class ConditionCompiler:
         body = self._actors[name].body
         return lambda _: body.ended is None and test(body)
 
-    def _on_runways(self, name: str, test: Callable[[RunwayMonitor], bool]) -> Test:
+    def _bound_for(self, condition: BoundForAltitude) -> Test:
+        altitude_m, within_m = condition.altitude_ft * FOOT, condition.within_ft * FOOT
+        return self._of_actor(
+            condition.actor,
+            lambda body: abs(getattr(body, "target_altitude_m", math.inf) - altitude_m) <= within_m,
+        )
+
+    def _of_runway(self, condition: BoundForRunway | OnRunway | ThresholdWithin) -> Test:
         """Return a test that is false where there is no airport."""
-        runways = self._runways
-        return self._of_actor(name, lambda _: runways is not None and test(runways))
+        name, ident, runways = condition.actor, condition.runway, self._runways
+
+        def test(_: Mover) -> bool:
+            if runways is None:
+                return False
+            match condition:
+                case BoundForRunway():
+                    return runways.is_bound_for(name, ident)
+                case OnRunway():
+                    return runways.is_on(name, ident)
+                case ThresholdWithin(within_s=within_s):
+                    time_s = runways.time_to_threshold_s(name, ident)
+                    return time_s is not None and time_s <= within_s
+
+        return self._of_actor(name, test)
 
     def _loss_within(self, pair: Pair, within_s: float | None) -> bool:
         loss = self._monitor.time_to_loss_s(pair)
