@@ -11,6 +11,7 @@ from typing import Any
 
 from airhilt.errors import ScenarioError
 from airhilt.host import bounded_json
+from airhilt.host.files import read_file
 from airhilt.scenario.problems import Problem, error_for
 
 MOST_BYTES = 5_000_000
@@ -24,36 +25,21 @@ Json = Any
 """JSON document, as `json.load` returns it."""
 
 
-def read_text(path: Path) -> str:
-    """Return the text of a file.
-
-    Raises
-    ------
-    ScenarioError
-        The file cannot be read, is too large, or is not UTF-8.
-    """
-    try:
-        with path.open("rb") as stream:
-            data = stream.read(MOST_BYTES + 1)
-    except OSError as error:
-        raise ScenarioError(f"{path}: cannot be read: {error.strerror}") from None
-    if len(data) > MOST_BYTES:
-        raise ScenarioError(f"{path}: found over {MOST_BYTES:,} bytes; expected a smaller file")
-    try:
-        return data.decode()
-    except UnicodeDecodeError as error:
-        raise ScenarioError(f"{path}: not UTF-8 text (byte {error.start})") from None
-
-
 def read(path: Path) -> Json:
     """Return the document in a JSON file.
 
     Raises
     ------
     ScenarioError
-        As `read_text` and `parse`.
+        The file cannot be read, is too large, or is not UTF-8; or as `parse`.
     """
-    return parse(read_text(path), str(path))
+    try:
+        text = read_file(path, MOST_BYTES).decode()
+    except OSError as error:
+        raise ScenarioError(f"{path}: cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError as error:
+        raise ScenarioError(f"{path}: not UTF-8 text (byte {error.start})") from None
+    return parse(text, str(path))
 
 
 def parse(text: str, origin: str) -> Json:

@@ -351,7 +351,7 @@ def test_conditions_are_nested_in_few_levels(subtests: pytest.Subtests) -> None:
 def test_a_file_has_a_greatest_size(tmp_path: Path) -> None:
     path = tmp_path / "large.json"
     path.write_text(" " * 5_000_001, encoding="utf-8")
-    with pytest.raises(ScenarioError, match="found over 5,000,000 bytes"):
+    with pytest.raises(ScenarioError, match="cannot be read: has over 5,000,000 bytes"):
         load(path)
     path.write_text(f"[{'0,' * 600_000}0]", encoding="utf-8")
     with pytest.raises(ScenarioError, match="found over 500,000 values"):
