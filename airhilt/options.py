@@ -36,7 +36,7 @@ from airhilt.errors import AirhiltError, first_problem, shown
 from airhilt.host.library import nearest
 from airhilt.messages import Modality, RadarKind
 from airhilt.scenario.models import Topology
-from airhilt.scenario.models.weather import Visibility
+from airhilt.scenario.models.scene import Visibility
 
 RUN_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,79}")
 """Names of runs: one chunk of a key of Zenoh, and of a path."""

@@ -24,7 +24,7 @@ NO_NAME = re.compile(r"[^A-Za-z0-9._-]")
 """Character that ends the name at the beginning of a requirement."""
 EMBREE = "embree"
 """Renderer of a plain install."""
-OPTIONAL = {"av": "video", "resvg-py": "plot"}
+OPTIONAL = {"av": "video"}
 """Extras by the package that they bring."""
 
 

@@ -19,7 +19,6 @@ from airhilt.options import Options
 from airhilt.record.pictures import KeyPictures
 from airhilt.record.video import VideoRecorder
 from airhilt.scenario import Scenario
-from airhilt.scenario.conflict_pair import pair_of
 from airhilt.sensors.cameras import AUTO
 from airhilt.sim import Director, StepRecord
 
@@ -100,7 +99,7 @@ class Vision:
         from airhilt.sensors.cameras.shared_pictures import SharedPictures
 
         setup = self._setup
-        actors = pair_of(setup.scenario) or tuple(setup.actors)
+        actors = setup.scenario.pair or tuple(setup.actors)
         pictures_path, video_path = setup.folder.pictures_path, setup.folder.video_path
         self._recorders = [
             KeyPictures(pictures_path, actors=actors, closest_ns=world.closest_approach_ns)

@@ -19,7 +19,6 @@ from airhilt.messages import (
     Message,
     SeatAction,
 )
-from airhilt.scenario.conflict_pair import pair_of
 from airhilt.scenario.models import AircraftSpec, Condition, EngineFailure, WildlifeSpec
 from airhilt.seats import Seats
 from airhilt.sim import Director, Priority
@@ -83,7 +82,7 @@ class WorldLoop:
         self.begun_lines: set[str] = set()
         self.ended_lines: set[str] = set()
         self.ticked_ns = 0
-        self.pair = pair_of(scenario)
+        self.pair = scenario.pair
         self.runways: RunwayMonitor | None = None
         if site.layout is not None:
             self.runways = RunwayMonitor(

@@ -63,7 +63,7 @@ class AdvisoryRecords:
     Parameters
     ----------
     callsigns
-        Callsigns of the actors by all their names, as `callsigns_of` returns them.
+        Callsigns of the actors by all their names, as `Scenario.callsigns` has them.
     pair
         The annotated pair, None if the scenario has no conflict.
     was_seen

@@ -36,9 +36,7 @@ from airhilt.metrics.plans import Plans
 from airhilt.metrics.summary import Summary, WarningParts
 from airhilt.metrics.warning_parts import parts_of, supporting_transcript
 from airhilt.options import MODALITIES
-from airhilt.scenario.conflict_pair import pair_of
 from airhilt.scenario.models import LineBegun, Scenario
-from airhilt.scenario.roster import callsigns_of, roster_of
 from airhilt.sim import StepRecord
 from airhilt.sim.payload import Payload
 from airhilt.units import SECOND_NS, ns_to_seconds
@@ -110,7 +108,7 @@ class Collector:
         self.last_advisory: Advisory | None = None
         self._scenario = scenario
         self._is_on_frequency = is_on_frequency
-        pair = pair_of(scenario)
+        pair = scenario.pair
         self._outcome = Outcome(monitor, runways, pair)
         self._first_warning = FirstWarning(pair, monitor, plans, ground_m)
         self._latencies = StageLatencies()
@@ -120,7 +118,7 @@ class Collector:
         self._language_model = LanguageModelRecords()
         self._people = PeopleRecords(seats, [one.callsign for one in scenario.actors], pace)
         new_records = partial(
-            AdvisoryRecords, callsigns_of(scenario), pair, monitor, self._detections.was_seen
+            AdvisoryRecords, scenario.callsigns, pair, monitor, self._detections.was_seen
         )
         self._advisories = new_records()
         self._equipment = EquipmentRecords(scenario.equipment, new_records)
@@ -200,7 +198,7 @@ class Collector:
         return Summary(
             scenario=self._scenario.name,
             duration_s=now_ns / SECOND_NS,
-            conflict_actors=pair_of(self._scenario) or (),
+            conflict_actors=self._scenario.pair or (),
             **self._warning_fields(now_ns),
             **self._outcome_fields(),
             unassisted_as_declared=self._as_declared(run["assistant"]),
@@ -212,7 +210,7 @@ class Collector:
             equipment=self._equipment.summaries(self._first_warning.t_ns, incursions),
             people=self._people.summaries(now_ns),
             radio=self._calls.statistics(
-                roster_of(self._scenario),
+                self._scenario.roster,
                 is_recognised=self.modalities.get("asr") in ("on", "lost"),
             ),
             vision=vision,

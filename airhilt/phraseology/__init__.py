@@ -3,8 +3,6 @@
 Both use the same vocabulary. `tokens` returns the words that parsing starts from.
 """
 
-from __future__ import annotations
-
 from airhilt.phraseology.alphabet import LETTERS
 from airhilt.phraseology.call import (
     BESIDES,
@@ -27,32 +25,3 @@ from airhilt.phraseology.readbacks import agree, differences
 from airhilt.phraseology.speakers import Speaker, Spoken
 from airhilt.phraseology.telephony import AIRLINES, TELEPHONY, Airline
 from airhilt.phraseology.words import tokens
-
-__all__ = [
-    "AIRLINES",
-    "BESIDES",
-    "CLEARANCES",
-    "DIGITS",
-    "LETTERS",
-    "REPORTS",
-    "TAU_ASR",
-    "TELEPHONY",
-    "Action",
-    "Airline",
-    "Bound",
-    "Call",
-    "CallsignMatch",
-    "Candidate",
-    "Instruction",
-    "Kind",
-    "Sense",
-    "Speaker",
-    "Spoken",
-    "Style",
-    "Turn",
-    "Wind",
-    "agree",
-    "differences",
-    "parse_call",
-    "tokens",
-]

@@ -1,7 +1,5 @@
 """Names of aircraft in callsigns: makers, models, and nationality marks."""
 
-from __future__ import annotations
-
 MAKERS = frozenset({
     "aerocommander", "aeronca", "aerostar", "agusta", "airtractor", "apache", "archer", "arrow",
     "astra", "aviat", "aztec", "baron", "beaver", "beech", "beechcraft", "beechjet", "bell",

@@ -5,6 +5,7 @@ Importing this module brings in Shapely and NetworkX: do so where an airport is 
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
@@ -14,10 +15,10 @@ import numpy as np
 from airhilt.geodesy.wgs84 import Place
 from airhilt.units import NAUTICAL_MILE
 from airhilt.world.surface import path as lines
-from airhilt.world.surface.airport import load_airport
-from airhilt.world.surface.ground_plan import Area, RunwayShape, TaxiwayLeg, ground_plan
+from airhilt.world.surface.airport import Edge, load_airport
 from airhilt.world.surface.layout import Layout
 from airhilt.world.surface.path import Local
+from airhilt.world.surface.strips import RunwayStrip
 
 Json = dict[str, Any]
 
@@ -39,10 +40,8 @@ class ReportAirport:
     """
 
     def __init__(self, name: str, files: Mapping[str, Any] = MappingProxyType({})) -> None:
-        layout = Layout(load_airport(name, files))
-        self._frame = layout.local_frame
-        self._plan = ground_plan(layout)
-        self._variation_deg = layout.airport.magnetic_variation.east_deg
+        self._layout = Layout(load_airport(name, files))
+        self._frame = self._layout.local_frame
 
     def locate(self, place: Place, height_m: float) -> Local:  # noqa: ARG002
         """Return the distance of a place east and north of the reference point, in NM."""
@@ -59,12 +58,14 @@ class ReportAirport:
         float or None
             The time in s; None if the track never crosses it, or there is no such runway.
         """
-        end = self._plan.runway_end(ident)
+        ends = (end for strip in self._layout.strips.values() for end in strip.ends)
+        end = next((end for end in ends if end.ident == ident), None)
         if end is None:
             return None
-        ahead = lines.unit(end.threshold, end.far_end)
-        along = (np.asarray(east_m) - end.threshold[0]) * ahead[0]
-        along += (np.asarray(north_m) - end.threshold[1]) * ahead[1]
+        threshold = self._frame.to_local(end.threshold)
+        ahead = lines.unit(threshold, self._frame.to_local(end.end))
+        along = (np.asarray(east_m) - threshold[0]) * ahead[0]
+        along += (np.asarray(north_m) - threshold[1]) * ahead[1]
         crossings = np.flatnonzero((along[:-1] < 0.0) & (along[1:] >= 0.0))
         if not len(crossings):
             return None
@@ -73,50 +74,58 @@ class ReportAirport:
 
     def as_json(self) -> Json:
         """Return what is drawn, in m east and north of the reference point."""
-        plan = self._plan
+        layout, airport = self._layout, self._layout.airport
+        taxiways: dict[str, list[Edge]] = defaultdict(list)
+        for edge in airport.taxiways.edges:
+            taxiways[edge.taxiway].append(edge)
+        tower = airport.tower and _point(self._frame.to_local(airport.tower.place))
         return {
-            "icao": plan.icao,
-            "name": plan.name,
-            "elevation_m": round(plan.elevation_m, 1),
-            "variation_deg": self._variation_deg,
-            "runways": [_runway(runway) for runway in plan.runways],
-            "taxiways": [_taxiway(name, legs) for name, legs in plan.taxiways.items()],
+            "icao": airport.icao,
+            "name": airport.name,
+            "elevation_m": round(layout.elevation_m, 1),
+            "variation_deg": airport.magnetic_variation.east_deg,
+            "runways": [self._runway(strip) for strip in layout.strips.values()],
+            "taxiways": [
+                {
+                    "name": name,
+                    "width_m": max(edge.width_m for edge in edges),
+                    "legs": [_leg(layout.leg(edge)) for edge in edges],
+                }
+                for name, edges in taxiways.items()
+            ],
             "holds": [
                 {
                     "name": f"{hold.position}, short of {hold.runway}",
-                    "line": _leg(hold.ends()),
+                    "line": _leg(layout.hold_line(hold)),
                 }
-                for hold in plan.holds
+                for hold in layout.holds.values()
             ],
-            "buildings": _areas(plan.buildings),
-            "water": _areas(plan.water),
-            "tower": None if plan.tower is None else _point(plan.tower),
+            "buildings": [
+                {"name": one.name, "outline": _points(layout.outline(one.footprint))}
+                for one in airport.buildings
+            ],
+            "water": [
+                {"name": one.name, "outline": _points(layout.outline(one.outline))}
+                for one in airport.water
+            ],
+            "tower": tower,
         }
 
-
-def _runway(runway: RunwayShape) -> Json:
-    return {
-        "name": runway.name,
-        "width_m": round(runway.width_m, 1),
-        "pavement": _points(runway.pavement),
-        "protected": _points(runway.protected),
-        "ends": [
-            {"ident": end.ident, "start": _point(end.start), "threshold": _point(end.threshold)}
-            for end in runway.ends
-        ],
-    }
-
-
-def _taxiway(name: str, legs: Sequence[TaxiwayLeg]) -> Json:
-    return {
-        "name": name,
-        "width_m": max(leg.width_m for leg in legs),
-        "legs": [_leg(leg.ends) for leg in legs],
-    }
-
-
-def _areas(areas: Iterable[Area]) -> list[Json]:
-    return [{"name": area.name, "outline": _points(area.outline)} for area in areas]
+    def _runway(self, strip: RunwayStrip) -> Json:
+        return {
+            "name": strip.name,
+            "width_m": round(strip.ends[0].width_m, 1),
+            "pavement": _points(strip.pavement.exterior.coords[:-1]),
+            "protected": _points(strip.protected_area.exterior.coords[:-1]),
+            "ends": [
+                {
+                    "ident": end.ident,
+                    "start": _point(self._frame.to_local(end.start)),
+                    "threshold": _point(self._frame.to_local(end.threshold)),
+                }
+                for end in strip.ends
+            ],
+        }
 
 
 def _leg(ends: tuple[Local, Local]) -> list[float]:

@@ -45,14 +45,14 @@ def _answered(scenario: Scenario) -> dict[str, str]:
         before = last.get(line.frequency_khz)
         if line.answers is not None:
             found[line.id] = line.answers
-        elif line.speaker in callsigns and before is not None and _is_readback(line, before):
+        elif (
+            before is not None
+            and line.speaker in callsigns
+            and (before.speaker, before.to) == (line.to, line.speaker)
+        ):
             found[line.id] = before.id
         last[line.frequency_khz] = line
     return found
-
-
-def _is_readback(line: RadioLine, before: RadioLine) -> bool:
-    return (before.speaker, before.to) == (line.to, line.speaker)
 
 
 def unsayable_lines(scenario: Scenario) -> Set[str]:

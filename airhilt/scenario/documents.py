@@ -10,42 +10,19 @@ from pathlib import Path
 from typing import Any
 
 from airhilt.errors import ScenarioError
+from airhilt.host import bounded_json
+from airhilt.host.files import read_file
 from airhilt.scenario.problems import Problem, error_for
 
 MOST_BYTES = 5_000_000
 """Size of the largest file that is read."""
-MOST_VALUES = 200_000
-"""Greatest number of values in a document."""
 GREATEST_DEPTH = 24
 """Greatest number of lists and objects within each other; conditions nest by two a level."""
-MOST_DIGITS = 40
-"""Greatest length of an integer."""
 LONGEST_TEXT = 20_000
 """Greatest number of characters in a text."""
 
 Json = Any
 """JSON document, as `json.load` returns it."""
-
-
-def read_text(path: Path) -> str:
-    """Return the text of a file.
-
-    Raises
-    ------
-    ScenarioError
-        The file cannot be read, is too large, or is not UTF-8.
-    """
-    try:
-        with path.open("rb") as stream:
-            data = stream.read(MOST_BYTES + 1)
-    except OSError as error:
-        raise ScenarioError(f"{path}: cannot be read: {error.strerror}") from None
-    if len(data) > MOST_BYTES:
-        raise ScenarioError(f"{path}: found over {MOST_BYTES:,} bytes; expected a smaller file")
-    try:
-        return data.decode()
-    except UnicodeDecodeError as error:
-        raise ScenarioError(f"{path}: not UTF-8 text (byte {error.start})") from None
 
 
 def read(path: Path) -> Json:
@@ -54,61 +31,51 @@ def read(path: Path) -> Json:
     Raises
     ------
     ScenarioError
-        As `read_text` and `parse`.
+        The file cannot be read, is too large, or is not UTF-8; or as `parse`.
     """
-    return parse(read_text(path), str(path))
+    try:
+        text = read_file(path, MOST_BYTES).decode()
+    except OSError as error:
+        raise ScenarioError(f"{path}: cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError as error:
+        raise ScenarioError(f"{path}: not UTF-8 text (byte {error.start})") from None
+    return parse(text, str(path))
 
 
 def parse(text: str, origin: str) -> Json:
-    """Return the document in a JSON text.
-
-    Parameters
-    ----------
-    origin
-        Name of the text in errors.
+    """Return the document in a JSON text, whose name in errors is ``origin``.
 
     Raises
     ------
     ScenarioError
-        The text is not JSON, repeats a field, or exceeds a limit of this module.
+        The text is not JSON, repeats a field, has too many values, or exceeds a limit of this
+        module.
     """
     try:
-        document = json.loads(text, object_pairs_hook=_object, parse_int=_integer)
+        bounded_json.require_few_values(text.encode(errors="surrogatepass"))
+        document = json.loads(text, object_pairs_hook=_object)
     except json.JSONDecodeError as error:
         raise ScenarioError(
             f"{origin}:{error.lineno}:{error.colno}: not valid JSON: {error.msg}"
         ) from None
     except RecursionError:
         raise error_for(origin, [_too_deep("")]) from None
+    except ValueError as error:
+        raise ScenarioError(f"{origin}: {error}") from None
     require_bounded(document, origin)
     return document
 
 
 def require_bounded(document: Json, origin: str) -> None:
-    """Check depth, number of values, numbers and texts of a document.
-
-    Parameters
-    ----------
-    origin
-        Name of the document in errors.
+    """Check depth, numbers and texts of a document, whose name in errors is ``origin``.
 
     Raises
     ------
     ScenarioError
         The document is beyond a limit of this module.
     """
-    level: list[tuple[str, Json]] = [("", document)]
-    count = 0
-    for _ in range(GREATEST_DEPTH + 1):
-        count += len(level)
-        if count > MOST_VALUES:
-            raise ScenarioError(f"{origin}: found over {MOST_VALUES:,} values; expected fewer")
-        problems = [problem for path, value in level for problem in _problems(path, value)]
-        if problems:
-            raise error_for(origin, problems)
-        level = [inner for path, value in level for inner in _inside(path, value)]
-    if level:
-        raise error_for(origin, [_too_deep(level[0][0])])
+    if problems := list(_problems("", document, 0)):
+        raise error_for(origin, problems)
 
 
 class _Repeated(dict[str, Json]):
@@ -126,35 +93,24 @@ def _object(pairs: list[tuple[str, Json]]) -> dict[str, Json]:
     return repeated
 
 
-def _integer(digits: str) -> int | float:
-    """Return an integer; infinity if it has so many digits that it takes long to read."""
-    return int(digits) if len(digits) <= MOST_DIGITS else math.inf
-
-
-def _inside(path: str, value: Json) -> Iterator[tuple[str, Json]]:
-    prefix = f"{path}/" if path else ""
-    if isinstance(value, dict):
-        for name, inner in value.items():
-            yield f"{prefix}{name}", inner
-    elif isinstance(value, list | tuple):
-        for index, inner in enumerate(value):
-            yield f"{prefix}{index}", inner
-
-
-def _problems(path: str, value: Json) -> Iterator[Problem]:
+def _problems(path: str, value: Json, depth: int) -> Iterator[Problem]:
+    inner: dict[Any, Json] = {}
     match value:
-        case _Repeated(field=field):
-            yield Problem(path, f"found field {field!r} twice; expected it once")
+        case dict() | list() | tuple() if depth == GREATEST_DEPTH:
+            yield _too_deep(path)
+        case dict():
+            inner = value
+        case list() | tuple():
+            inner = dict(enumerate(value))
         case float() if not math.isfinite(value):
-            yield Problem(
-                path, f"found a number that is not finite, or has over {MOST_DIGITS} digits"
-            )
+            yield Problem(path, "found a number that is not finite")
         case str():
             yield from _text_problems(path, value)
-    if isinstance(value, dict):
-        for name in value:
-            if isinstance(name, str):
-                yield from _text_problems(path, name)
+    if isinstance(value, _Repeated):
+        yield Problem(path, f"found field {value.field!r} twice; expected it once")
+    for name, each in inner.items():
+        yield from _text_problems(path, str(name))
+        yield from _problems(f"{path}/{name}" if path else str(name), each, depth + 1)
 
 
 def _text_problems(path: str, text: str) -> Iterator[Problem]:

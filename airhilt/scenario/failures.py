@@ -5,7 +5,6 @@ The lines of a scenario say how everything should go. Only this module changes t
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -21,7 +20,6 @@ from airhilt.scenario.models import (
     RadioLine,
     ReadbackWrong,
     Scenario,
-    ScriptedCommand,
     StuckMicrophone,
 )
 
@@ -68,39 +66,30 @@ def _effective(declared: RadioLine, failures: tuple[Failure, ...]) -> EffectiveL
 def _failed(effective: EffectiveLine, line: RadioLine, failure: LineFailure) -> EffectiveLine:
     """Return a line with one more failure."""
     declared = effective.declared
+    for_whom = {scripted.actor for scripted in declared.commands}
     match failure:
         case ReadbackWrong(text=text, commands=commands):
+            actors = {declared.speaker, *(scripted.actor for scripted in commands)}
             said = line.model_copy(update={"text": text, "commands": commands})
             what = f"{declared.speaker} reads back otherwise"
-            return _uncleared(effective, what, {declared.speaker, *_actors(commands)}, line=said)
+            return _uncleared(effective, what, actors, line=said)
         case NotReceived(actor=actor):
-            return _uncleared(
-                effective,
-                f"{actor} does not receive it",
-                {actor},
-                line=_without(line, actor),
-                deaf=effective.deaf | {actor},
-            )
+            what, deaf = f"{actor} does not receive it", effective.deaf | {actor}
+            return _uncleared(effective, what, {actor}, line=_without(line, actor), deaf=deaf)
         case Ignored(actor=actor):
             return _uncleared(effective, f"{actor} ignores it", {actor}, line=_without(line, actor))
-        case CallsignConfused(meant=meant, taken_by=taken_by, text=text, commands=commands):
-            said = _retarget(line, meant, taken_by, commands)
-            if text is not None:
-                said = said.model_copy(update={"text": text})
+        case CallsignConfused(meant=meant, taken_by=taken_by):
+            said, deaf = _retargeted(line, failure), effective.deaf | {meant}
             what = f"{taken_by} takes it, {meant} was meant"
-            return _uncleared(
-                effective, what, {meant, taken_by}, line=said, deaf=effective.deaf | {meant}
-            )
+            return _uncleared(effective, what, {meant, taken_by}, line=said, deaf=deaf)
         case Delayed(by_s=by_s):
-            what = f"it comes {by_s:g} s late"
-            return _with(
-                effective, what, _actors(declared.commands), late_s=effective.late_s + by_s
-            )
+            late_s = effective.late_s + by_s
+            return _with(effective, f"it comes {by_s:g} s late", for_whom, late_s=late_s)
         case Dropped():
-            return _with(effective, "it is never said", _actors(declared.commands), line=None)
+            return _with(effective, "it is never said", for_whom, line=None)
         case Blocked():
             what = f"{declared.speaker} does not listen before speaking"
-            return _with(effective, what, _actors(declared.commands), listens_first=False)
+            return _with(effective, what, for_whom, listens_first=False)
 
 
 def _uncleared(
@@ -120,31 +109,20 @@ def _with(effective: EffectiveLine, what: str, affected: set[str], **changes: An
     )
 
 
-def _actors(commands: tuple[ScriptedCommand, ...]) -> set[str]:
-    return {scripted.actor for scripted in commands}
-
-
-def _changed(
-    line: RadioLine, change: Callable[[ScriptedCommand], ScriptedCommand | None]
-) -> RadioLine:
-    changed = (change(scripted) for scripted in line.commands)
-    return line.model_copy(update={"commands": tuple(c for c in changed if c is not None)})
-
-
 def _without(line: RadioLine, actor: str) -> RadioLine:
-    return _changed(line, lambda scripted: None if scripted.actor == actor else scripted)
+    kept = tuple(scripted for scripted in line.commands if scripted.actor != actor)
+    return line.model_copy(update={"commands": kept})
 
 
-def _retarget(
-    line: RadioLine, meant: str, taken_by: str, instead: tuple[ScriptedCommand, ...] | None
-) -> RadioLine:
+def _retargeted(line: RadioLine, failure: CallsignConfused) -> RadioLine:
     """Return a line whose commands for one actor another carries out, or does others instead."""
-    if instead is not None:
-        kept = _without(line, meant)
-        return kept.model_copy(update={"commands": (*kept.commands, *instead)})
-    return _changed(
-        line,
-        lambda scripted: (
-            scripted.model_copy(update={"actor": taken_by}) if scripted.actor == meant else scripted
-        ),
+    commands = tuple(
+        scripted.model_copy(update={"actor": failure.taken_by})
+        if scripted.actor == failure.meant
+        else scripted
+        for scripted in line.commands
     )
+    if failure.commands is not None:
+        commands = (*_without(line, failure.meant).commands, *failure.commands)
+    text = line.text if failure.text is None else failure.text
+    return line.model_copy(update={"commands": commands, "text": text})

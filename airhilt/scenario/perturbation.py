@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import copy
+from collections.abc import Iterator
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict
@@ -33,6 +33,20 @@ class PathError(ValueError):
         self.known = known
 
 
+def _steps(document: Json, path: str) -> Iterator[tuple[Json, str | int]]:
+    """Yield each container on the way to the value named by ``path``, and the key that leads on."""
+    value = document
+    for chunk in path.strip("/").split("/"):
+        if isinstance(value, list):
+            key: str | int = _index(value, chunk)
+        elif isinstance(value, dict) and chunk in value:
+            key = chunk
+        else:
+            raise PathError(chunk, sorted(value) if isinstance(value, dict) else [])
+        yield value, key
+        value = value[key]
+
+
 def locate(document: Json, path: str) -> tuple[Json, str | int]:
     """Return the container that holds the value named by ``path``, and its key there.
 
@@ -41,21 +55,7 @@ def locate(document: Json, path: str) -> tuple[Json, str | int]:
     PathError
         There is no such value.
     """
-    container: Json = None
-    key: str | int = ""
-    value = document
-    for chunk in path.strip("/").split("/"):
-        container = value
-        if isinstance(container, dict):
-            if chunk not in container:
-                raise PathError(chunk, sorted(container))
-            key = chunk
-        elif isinstance(container, list):
-            key = _index(container, chunk)
-        else:
-            raise PathError(chunk, [])
-        value = container[key]
-    return container, key
+    return list(_steps(document, path))[-1]
 
 
 def place_of(document: Json, path: str) -> tuple[str | int, ...]:
@@ -66,8 +66,7 @@ def place_of(document: Json, path: str) -> tuple[str | int, ...]:
     PathError
         There is no such value.
     """
-    chunks = path.strip("/").split("/")
-    return tuple(locate(document, "/".join(chunks[: end + 1]))[1] for end in range(len(chunks)))
+    return tuple(key for _, key in _steps(document, path))
 
 
 def _index(entries: list[Json], chunk: str) -> int:
@@ -105,7 +104,7 @@ def realise(scenario: Scenario, seed: int) -> tuple[Scenario, list[Draw]]:
     pydantic.ValidationError
         A draw took a value out of the range that the scenario format allows.
     """
-    document = copy.deepcopy(scenario.model_dump(mode="json"))
+    document = scenario.model_dump(mode="json")
     draws = []
     for perturbation in scenario.perturbations:
         container, key = locate(document, perturbation.path)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import bisect
-import itertools
 import json
 import types
 import typing
@@ -21,8 +19,6 @@ LONGEST_PATH = 100
 """Number of characters that an error shows of a path."""
 LONGEST_TEXT = 300
 """Number of characters that an error shows of what is wrong there."""
-MOST_CHARACTERS = 400
-"""Number of characters of the mistakes that are told of a file beside a scenario."""
 
 
 M = TypeVar("M", bound=BaseModel)
@@ -45,12 +41,7 @@ class Problem:
 def unknown(path: str, sort: str, name: str, known: Collection[str], more: str = "") -> Problem:
     """Return the problem of a name that refers to nothing, with the nearest known name.
 
-    Parameters
-    ----------
-    sort
-        What the name should be of, such as ``radio line``.
-    more
-        Further words at the end.
+    ``sort`` is what the name should be of, such as ``radio line``.
     """
     return Problem(path, f"no {sort} {name!r}{library.nearest(name, list(known))}{more}")
 
@@ -62,15 +53,8 @@ def error_for(origin: str, problems: Sequence[Problem]) -> ScenarioError:
     return ScenarioError(lines[0] + more, lines)
 
 
-def validated(model: type[M], kind: str, document: Any, origin: str) -> M:
-    """Return the model of a document in a file beside a scenario.
-
-    Parameters
-    ----------
-    kind
-        What the file should be, such as ``an airport``.
-    origin
-        Name of the file in errors.
+def validated(model: type[M], document: Any, origin: str) -> M:
+    """Return the model of a document, whose name in errors is ``origin``.
 
     Raises
     ------
@@ -80,33 +64,21 @@ def validated(model: type[M], kind: str, document: Any, origin: str) -> M:
     try:
         return model.model_validate(document)
     except ValidationError as error:
-        found = error.errors(include_url=False)
-    lines = [
-        f"\n  {Problem('.'.join(map(str, one['loc'])) or 'the file', one['msg'])}"
-        for one in found[:MOST_CHARACTERS]  # A line has more than one character.
-    ]
-    ends = list(itertools.accumulate(map(len, lines)))
-    told = max(bisect.bisect(ends, MOST_CHARACTERS), 1)
-    more = f"\n  and {len(found) - told} more" if len(found) > told else ""
-    raise ScenarioError(f"{origin} is not {kind}:{''.join(lines[:told])}{more}")
+        raise error_for(origin, problems_of(error, model)) from None
 
 
 def problems_of(error: ValidationError, model: type[BaseModel]) -> list[Problem]:
-    """Return what pydantic found wrong, without the errors that only follow from others."""
-    return [_described(one, model) for one in _causes(error)]
+    """Return what pydantic found wrong, without the errors that only follow from others.
 
-
-def _causes(error: ValidationError) -> list[Any]:
-    """Return the errors without those that only follow from others: a list with bad entries."""
+    A list whose entries are wrong counts as too short.
+    """
     errors = error.errors()
+    places = [one["loc"] for one in errors]
     return [
-        one
+        _described(one, model)
         for one in errors
         if one["type"] != "too_short"
-        or not any(
-            len(other["loc"]) > len(one["loc"]) and other["loc"][: len(one["loc"])] == one["loc"]
-            for other in errors
-        )
+        or not any(place[:-1][: len(one["loc"])] == one["loc"] for place in places)
     ]
 
 
@@ -117,8 +89,8 @@ def _described(error: Any, model: type[BaseModel]) -> Problem:
     context = error.get("ctx", {})
     match error["type"]:
         case "extra_forbidden":
-            fields = parent.model_fields.items() if parent else ()
-            known = sorted(field.alias or name for name, field in fields)
+            of_parent = parent.model_fields if parent else {}
+            known = sorted(field.alias or name for name, field in of_parent.items())
             tail = library.nearest(str(error["loc"][-1]), known)
             return Problem(path, f"unknown field{tail}")
         case "missing":
@@ -133,22 +105,18 @@ def _described(error: Any, model: type[BaseModel]) -> Problem:
                 f"{path}/{field}", f"found {context['tag']!r}, expected {', '.join(known)}{tail}"
             )
         case "model_type" | "model_attributes_type" | "dict_type":
-            return Problem(
-                path, f"found {found}, expected a JSON object{_with_fields(path, model)}"
-            )
+            required = [name for name, field in model.model_fields.items() if field.is_required()]
+            fields = f" with the fields {', '.join(required)}" if required and not path else ""
+            return Problem(path, f"found {found}, expected a JSON object{fields}")
         case "tuple_type" | "list_type":
             return Problem(path, f"found {found}, expected a JSON list")
+        case "value_error":
+            return Problem(path, str(context["error"]))
         case "literal_error":
             return Problem(path, f"found {found}, expected {context['expected']}")
         case _:
             message = str(error["msg"])
             return Problem(path, f"found {found}: {message[0].lower()}{message[1:]}")
-
-
-def _with_fields(path: str, model: type[BaseModel]) -> str:
-    """Return in words which fields a document has to have, if a path is its top."""
-    names = [name for name, field in model.model_fields.items() if field.is_required()]
-    return f" with the fields {', '.join(names)}" if names and not path else ""
 
 
 def short_json(value: Any) -> str:

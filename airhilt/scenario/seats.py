@@ -18,12 +18,7 @@ ROLES = frozenset((TOWER, GROUND))
 def without_roles(names: Iterable[str], controller: str, known: Iterable[str]) -> tuple[str, ...]:
     """Return names of seats in which the name of a unit stands for its role, each once.
 
-    Parameters
-    ----------
-    controller
-        Name of the unit that is the controller.
-    known
-        Names of all seats.
+    ``known`` has the names of all seats.
     """
     grounds = (name for name in known if name.lower().endswith(f" {GROUND}"))
     units = {TOWER: controller, GROUND: next(grounds, GROUND)}

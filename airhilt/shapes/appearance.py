@@ -11,18 +11,11 @@ from airhilt.shapes.mesh import Mesh
 
 @dataclass(frozen=True)
 class Appearance:
-    """Meshes and lights of the bodies of one kind.
-
-    Attributes
-    ----------
-    meshes
-        All meshes that such a body may show, by their names; it shows one at a time.
-    lights
-        Yields the lights that are on at a time in seconds, with landing lights or without.
-    far
-        Coarser meshes of some of these names, for pictures in which the body is small.
-    """
+    """Meshes and lights of the bodies of one kind."""
 
     meshes: Mapping[str, Mesh]
+    """All meshes that such a body may show, by their names; it shows one at a time."""
     lights: Callable[[float, bool], Iterator[Light]] = no_lights
+    """Yields the lights that are on at a time in seconds, with landing lights or without."""
     far: Mapping[str, Mesh] = field(default_factory=dict)
+    """Coarser meshes of some of these names, for pictures in which the body is small."""

@@ -1,7 +1,5 @@
 """Colours that several bodies share, as linear RGB reflectances."""
 
-from __future__ import annotations
-
 from airhilt.shapes.mesh import srgb
 
 WHITE = srgb(238, 240, 243)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from airhilt.shapes.aircraft import wing_tip_m
+from airhilt.shapes.aircraft.proportions import Proportions
 from airhilt.shapes.aircraft.spec import AircraftShape
 from airhilt.shapes.mesh import Colour, srgb
 from airhilt.shapes.sizes import Size
@@ -56,7 +56,7 @@ def no_lights(_t_s: float, _lit: bool) -> Iterator[Light]:
 
 def aircraft_lights(aircraft: AircraftShape, t_s: float, landing: bool) -> Iterator[Light]:
     """Yield the lights of an aircraft that are on at an instant."""
-    half, at, tip_up = wing_tip_m(aircraft)
+    half, at, tip_up = Proportions.of(aircraft).wing_tip
     length = aircraft.dimensions.length_m
     yield Light((-half, at, tip_up), RED, NAVIGATION_CD, (-0.7, 0.7, 0.0), 0.8)
     yield Light((half, at, tip_up), GREEN, NAVIGATION_CD, (0.7, 0.7, 0.0), 0.8)

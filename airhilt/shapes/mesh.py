@@ -33,25 +33,17 @@ def _linear(value: float) -> float:
 
 @dataclass(frozen=True)
 class Mesh:
-    """Triangles that share no corners.
-
-    Attributes
-    ----------
-    corners, normals
-        Corners of each triangle and normals there, shape (n, 3, 3).
-    colours
-        Colour of each triangle, shape (n, 3).
-    glow
-        Light that each triangle gives off at night, times its colour; shape (n,).
-    sunlit
-        Share of the direct sun that reaches each triangle, shape (n,).
-    """
+    """Triangles that share no corners."""
 
     corners: Floats
     normals: Floats
+    """Corners of each triangle and normals there, shape (n, 3, 3)."""
     colours: Floats
+    """Colour of each triangle, shape (n, 3)."""
     glow: Floats
+    """Light that each triangle gives off at night, times its colour; shape (n,)."""
     sunlit: Floats
+    """Share of the direct sun that reaches each triangle, shape (n,)."""
 
     @property
     def arrays(self) -> tuple[Floats, Floats, Floats, Floats, Floats]:
@@ -117,16 +109,12 @@ class Mesh:
     @property
     def face_normals(self) -> Floats:
         """Normal of each triangle, shape (n, 3)."""
-        across = _cross(self.corners)
-        length = np.linalg.norm(across, axis=1, keepdims=True)
-        return np.asarray(across / np.maximum(length, 1e-12), dtype=np.float32)
+        return _unit(_cross(self.corners))
 
     @property
     def mean_normals(self) -> Floats:
         """Mean of the normals at the corners of each triangle, shape (n, 3)."""
-        total = self.normals.sum(axis=1)
-        length = np.linalg.norm(total, axis=1, keepdims=True)
-        return np.asarray(total / np.maximum(length, 1e-12), dtype=np.float32)
+        return _unit(self.normals.sum(axis=1))
 
 
 def join(meshes: Sequence[Mesh]) -> Mesh:
@@ -139,22 +127,9 @@ def box(
 ) -> Mesh:
     """Return a block that stands on the ground about the origin; ``taper`` narrows its top."""
     x, y = width_m / 2.0, length_m / 2.0
-    ring = [(-x, -y), (x, -y), (x, y), (-x, y)]
-    return _prism(
-        np.array(ring), np.array([(a * taper, b * taper) for a, b in ring]), height_m, colour
-    )
-
-
-def _prism(
-    bottom: npt.NDArray[np.floating],
-    top: npt.NDArray[np.floating],
-    height_m: float,
-    colour: Colour,
-) -> Mesh:
-    count = len(bottom)
-    low = np.column_stack((bottom, np.zeros(count)))
-    high = np.column_stack((top, np.full(count, height_m)))
-    return loft([low, high], colour, closed=True)
+    corners = np.array([(-x, -y, 0.0), (x, -y, 0.0), (x, y, 0.0), (-x, y, 0.0)])
+    top = corners * taper + (0.0, 0.0, height_m)
+    return loft([corners, top], colour, closed=True)
 
 
 def loft(
@@ -244,6 +219,11 @@ def ellipsoid(
 def wheel(colour: Colour, radius_m: float, width_m: float) -> Mesh:
     """Return a wheel on an axle along x, about the origin."""
     return tube((-width_m / 2.0, 0, 0), (width_m / 2.0, 0, 0), (radius_m, radius_m), colour, 12)
+
+
+def _unit(vectors: Floats) -> Floats:
+    length = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return np.asarray(vectors / np.maximum(length, 1e-12), dtype=np.float32)
 
 
 def _cross(corners: Floats) -> Floats:

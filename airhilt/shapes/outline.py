@@ -14,18 +14,9 @@ from airhilt.shapes.aircraft.spec import (
     WING_ROOT_SHARE,
     AircraftShape,
 )
-from airhilt.shapes.sizes import Size
 
 Points = npt.NDArray[np.float64]
 """Points right of and ahead of a body, or east and north, in m; shape (n, 2)."""
-NOSE_SHARE = 0.5
-"""Distance of the nose ahead of the reference point, as a share of the length."""
-
-
-def rectangle_outline(size: Size) -> Points:
-    """Return the corners of the rectangle around a body."""
-    aside, ahead = size.span_m / 2.0, size.length_m / 2.0
-    return np.array([(aside, ahead), (aside, -ahead), (-aside, -ahead), (-aside, ahead)])
 
 
 @functools.lru_cache(maxsize=64)
@@ -34,7 +25,7 @@ def aircraft_outline(aircraft: AircraftShape) -> Points:
     length, half_span = aircraft.dimensions.length_m, aircraft.dimensions.span_m / 2.0
     mesh = aircraft.mesh
     half_width = mesh.fuselage_diameter_m / 2.0
-    nose = NOSE_SHARE * length
+    nose = length / 2.0
     swept = math.tan(math.radians(mesh.wing_sweep_deg)) * (half_span - half_width)
     wing = WING_ROOT_SHARE * length
     tail, chord = TAIL_ROOT_SHARE * length, TAIL_CHORD_SHARE * length

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -20,25 +19,8 @@ class Size(Protocol):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Dimensions:
-    """The box around something, lined up with its heading.
-
-    Attributes
-    ----------
-    length_m, span_m, height_m
-        Its extent along the heading, across it, and up.
-
-    Raises
-    ------
-    ValueError
-        A value is not a finite number above 0.
-    """
+    """The box around something, lined up with its heading: along it, across it, and up."""
 
     length_m: float
     span_m: float
     height_m: float
-
-    def __post_init__(self) -> None:
-        for name in ("length_m", "span_m", "height_m"):
-            value = getattr(self, name)
-            if not 0.0 < value < math.inf:
-                raise ValueError(f"{name} is {value}; expected a finite number above 0")

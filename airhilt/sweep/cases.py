@@ -23,7 +23,7 @@ from airhilt.host import library
 from airhilt.options import Options
 from airhilt.scenario import Scenario, loading
 from airhilt.scenario.documents import require_bounded
-from airhilt.scenario.problems import error_for, problems_of
+from airhilt.scenario.problems import problems_of, validated
 from airhilt.sim import parse_latency
 from airhilt.sweep.axes import listed
 from airhilt.sweep.checks import RunChecks, require_different_places
@@ -273,10 +273,7 @@ def _plan(document: Json, options: Json, combination: Combination, checks: RunCh
 def _scenario(document: Json, *, is_changed: bool) -> Scenario:
     """Return the scenario of a document; one that is changed is checked in its world again."""
     require_bounded(document, document["name"])
-    try:
-        scenario = Scenario.model_validate(document)
-    except ValidationError as error:
-        raise error_for(document["name"], problems_of(error, Scenario)) from None
+    scenario = validated(Scenario, document, document["name"])
     if is_changed:
         check(scenario, scenario.name)
     return scenario

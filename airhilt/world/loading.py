@@ -11,7 +11,7 @@ from airhilt.errors import AirhiltError, ScenarioError, first_problem
 from airhilt.scenario import loading
 from airhilt.scenario.models import Scenario
 from airhilt.scenario.perturbation import Draw, realise
-from airhilt.world.checks import check, check_file
+from airhilt.world.checks import check
 
 
 def load(name_or_file: str | Path, allowed: Sequence[Path] = ()) -> Scenario:
@@ -29,17 +29,14 @@ def load(name_or_file: str | Path, allowed: Sequence[Path] = ()) -> Scenario:
     """
     path = loading.find(name_or_file)
     scenario = loading.read(path, allowed)
-    check_file(scenario, str(path))
+    check(scenario, str(path), is_whole=True)
     return scenario
 
 
 def load_text(text: str, origin: str) -> Scenario:
     """Return the scenario in a JSON text; it is checked.
 
-    Parameters
-    ----------
-    origin
-        Name of the text in errors.
+    ``origin`` is its name in errors.
 
     Raises
     ------
@@ -47,7 +44,7 @@ def load_text(text: str, origin: str) -> Scenario:
         The text is not JSON, or not a valid scenario.
     """
     scenario = loading.parse(text, origin)
-    check_file(scenario, origin)
+    check(scenario, origin, is_whole=True)
     return scenario
 
 

@@ -109,25 +109,19 @@ class ScenarioSite:
             case GeodeticPosition():
                 return position.lat_deg * DEGREE, position.lon_deg * DEGREE
             case RelativePosition():
-                return self._from_centre(position)
+                centre = (self.centre.lat_deg * DEGREE, self.centre.lon_deg * DEGREE)
+                bearing = position.bearing_deg * DEGREE
+                there = onward(centre, bearing, position.distance_nm * NAUTICAL_MILE)
+                if position.distance_nm:
+                    # At the far end the azimuth differs from that at which the geodesic began.
+                    bearing = azimuth(there, centre) + math.pi
+                return beside(there, bearing, position.offset_nm * NAUTICAL_MILE)
             case RunwayPosition():
-                return self._along(position)
+                end = self.airport.runway(position.runway)
+                course = azimuth(end.threshold, end.end)
+                there = onward(end.threshold, course, position.along_m)
+                return beside(there, course, position.offset_m)
             case HoldShortPosition():
                 return self.airport.hold(position.runway, position.taxiway).place
             case NodePosition():
                 return self.airport.node(position.node)
-
-    def _from_centre(self, position: RelativePosition) -> Place:
-        centre = (self.centre.lat_deg * DEGREE, self.centre.lon_deg * DEGREE)
-        bearing = position.bearing_deg * DEGREE
-        there = onward(centre, bearing, position.distance_nm * NAUTICAL_MILE)
-        # At the far end the geodesic's azimuth differs from the bearing at which it began.
-        back = azimuth(there, centre) if position.distance_nm else bearing + math.pi
-        return beside(there, back + math.pi, position.offset_nm * NAUTICAL_MILE)
-
-    def _along(self, position: RunwayPosition) -> Place:
-        end = self.airport.runway(position.runway)
-        threshold = end.threshold
-        azimuth_rad = azimuth(threshold, end.end)
-        there = onward(threshold, azimuth_rad, position.along_m)
-        return beside(there, azimuth_rad, position.offset_m)

@@ -42,28 +42,20 @@ def test_a_line_taken_by_another_makes_the_other_act() -> None:
     hold = effective(
         {"type": "callsign_confused", "line": "hold", "meant": "OPS1", "taken_by": "OPS2"}
     )
-    assert [scripted.actor for scripted in hold.line.commands] == ["OPS2"]
-    assert hold.line.commands[0].command == HOLD.commands[0].command
+    taken = HOLD.commands[0].model_copy(update={"actor": "OPS2"})
+    assert hold.line == HOLD.model_copy(update={"commands": (taken,)})
     assert hold.affected == {"OPS1", "OPS2"}
-    assert hold.line.text == HOLD.text
 
 
-def test_the_taker_may_do_something_else_than_what_was_meant_for_the_other() -> None:
+def test_the_taker_may_act_otherwise_after_other_words() -> None:
     hold = effective(
         {"type": "callsign_confused", "line": "hold", "meant": "OPS1", "taken_by": "OPS2",
+         "text": "Ops two, go on.",
          "commands": [{"actor": "OPS2", "command": {"action": "continue"}}]}
     )  # fmt: skip
-    assert [(each.actor, each.command.action) for each in hold.line.commands] == [
-        ("OPS2", "continue")
-    ]
-
-
-def test_the_wrong_callsign_may_be_said() -> None:
-    hold = effective(
-        {"type": "callsign_confused", "line": "hold", "meant": "OPS1", "taken_by": "OPS2",
-         "text": "Ops two, stop."}
-    )  # fmt: skip
-    assert hold.line.text == "Ops two, stop."
+    assert hold.line.text == "Ops two, go on."
+    (told,) = hold.line.commands
+    assert (told.actor, told.command.action) == ("OPS2", "continue")
 
 
 def test_a_late_line_is_late_by_the_sum_of_its_delays() -> None:
@@ -123,15 +115,6 @@ def test_of_two_that_a_line_tells_something_only_the_one_named_fails(kind: str) 
     (hold,) = apply_failures(scenario)
     assert hold.line == line.model_copy(update={"commands": both[1:]})
     assert hold.affected == {"OPS1"}
-
-
-def test_a_confusion_leaves_when_and_after_how_long_a_line_acts() -> None:
-    hold = effective(
-        {"type": "callsign_confused", "line": "hold", "meant": "OPS1", "taken_by": "OPS2"}
-    )
-    meant = HOLD.commands[0]
-    assert hold.line.commands == (meant.model_copy(update={"actor": "OPS2"}),)
-    assert hold.line.model_copy(update={"commands": HOLD.commands}) == HOLD
 
 
 def test_who_waits_for_a_late_clearance_acts_with_one_and_who_took_anothers_without() -> None:

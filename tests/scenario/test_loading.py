@@ -13,7 +13,6 @@ import pytest
 
 from airhilt.errors import ScenarioError
 from airhilt.host import library
-from airhilt.scenario import Scenario
 from airhilt.world.loading import load, load_text
 
 HEAD_ON = load("s02a_headon").model_dump(mode="json")
@@ -40,10 +39,6 @@ def complaint(document: dict[str, Any]) -> str:
     with pytest.raises(ScenarioError) as caught:
         load_text(json.dumps(document), "test.json")
     return str(caught.value)
-
-
-def test_there_are_shipped_scenarios_of_the_family_s02a() -> None:
-    assert {load(name).family for name in library.names("scenarios")} >= {"S02A"}
 
 
 def test_what_is_wrong_with_a_field_is_told_with_its_path(subtests: pytest.Subtests) -> None:
@@ -105,23 +100,11 @@ def test_a_wrong_discriminator_is_told_with_what_there_is(
     assert what in message
 
 
-def test_a_wrong_action_of_a_command_is_told() -> None:
-    path = "radio/lines/1/commands/0/command/action"
-    message = complaint(changed(VERTICAL, path, "altitud"))
-    assert f"test.json: {path}: found 'altitud'" in message
-    assert "did you mean 'altitude'?" in message
-
-
 @pytest.mark.parametrize("field", ["callsign", "icao24"])
 def test_two_actors_share_neither_callsign_nor_address(field: str) -> None:
     message = complaint(changed(HEAD_ON, f"actors/1/{field}", HEAD_ON["actors"][0][field]))
     assert f"actors/1/{field}: found {HEAD_ON['actors'][0][field]!r}" in message
     assert "which actors/0 has already" in message
-
-
-def test_two_radio_lines_do_not_share_an_id() -> None:
-    message = complaint(changed(VERTICAL, "radio/lines/1/id", VERTICAL["radio"]["lines"][0]["id"]))
-    assert "radio/lines/1/id: found 'clearance', which radio/lines/0 has already" in message
 
 
 def test_an_unknown_aircraft_is_told_with_the_nearest() -> None:
@@ -189,13 +172,6 @@ def test_an_unknown_actor_is_told_with_the_nearest(subtests: pytest.Subtests) ->
             assert f"test.json: {path.split('/')[0]}/" in message
 
 
-def test_an_unknown_actor_deep_in_a_condition_is_told_with_its_whole_path() -> None:
-    inner = {"type": "bound_for_altitude", "actor": MISSPELT, "altitude_ft": 1000}
-    value = {"type": "any_of", "conditions": [{"type": "time", "at_s": 1}, inner]}
-    message = complaint(changed(HEAD_ON, "conflict/opens_when", value))
-    assert "test.json: conflict/opens_when/conditions/1/actor: no actor" in message
-
-
 def test_an_unknown_field_deep_in_a_condition_is_told_with_its_whole_path() -> None:
     inner = {"type": "time", "at_s": 1, "ats": 1}
     value = {"type": "any_of", "conditions": [{"type": "time", "at_s": 1}, inner]}
@@ -211,10 +187,9 @@ def test_an_unknown_radio_line_is_told_with_the_nearest() -> None:
 
 
 def test_a_pair_is_of_two() -> None:
-    message = complaint(changed(HEAD_ON, "conflict/actors", [FIRST, FIRST]))
-    assert "conflict/actors: found one actor twice" in message
-    message = complaint(changed(HEAD_ON, "end_when/0/actors", [FIRST, FIRST]))
-    assert f"end_when/0/actors: found {FIRST!r} twice" in message
+    for path in ("conflict/actors", "end_when/0/actors"):
+        message = complaint(changed(HEAD_ON, path, [FIRST, FIRST]))
+        assert f"{path}: found {FIRST!r} twice" in message
 
 
 UNIFORM = {"type": "uniform", "limit": 1.0}
@@ -376,10 +351,10 @@ def test_conditions_are_nested_in_few_levels(subtests: pytest.Subtests) -> None:
 def test_a_file_has_a_greatest_size(tmp_path: Path) -> None:
     path = tmp_path / "large.json"
     path.write_text(" " * 5_000_001, encoding="utf-8")
-    with pytest.raises(ScenarioError, match="found over 5,000,000 bytes"):
+    with pytest.raises(ScenarioError, match="cannot be read: has over 5,000,000 bytes"):
         load(path)
-    path.write_text(f"[{'0,' * 300_000}0]", encoding="utf-8")
-    with pytest.raises(ScenarioError, match="found over 200,000 values"):
+    path.write_text(f"[{'0,' * 600_000}0]", encoding="utf-8")
+    with pytest.raises(ScenarioError, match="found over 500,000 values"):
         load(path)
 
 
@@ -399,11 +374,6 @@ def test_a_file_loads_from_its_path(tmp_path: Path) -> None:
 def test_a_file_that_is_not_there_is_told_with_the_names_that_are(tmp_path: Path) -> None:
     with pytest.raises(ScenarioError, match=r"none\.json: no such file.*s02a_headon"):
         load(tmp_path / "none.json")
-
-
-def test_a_folder_is_no_scenario(tmp_path: Path) -> None:
-    with pytest.raises(ScenarioError, match="no such file"):
-        load(tmp_path)
 
 
 def test_an_unknown_name_is_told_with_the_nearest() -> None:
@@ -426,10 +396,6 @@ def test_a_file_may_name_its_schema_and_is_the_same_scenario() -> None:
     scenario = load_text(json.dumps(document), "test.json")
     assert "$schema" not in scenario.model_dump_json()
     assert json.loads(scenario.model_dump_json()) == HEAD_ON
-
-
-def test_the_schema_lets_a_file_name_it() -> None:
-    assert "$schema" in Scenario.model_json_schema()["properties"]
 
 
 def test_a_misspelt_schema_field_is_answered_with_its_name() -> None:

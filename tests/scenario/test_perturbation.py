@@ -104,9 +104,3 @@ def test_a_list_entry_is_named_by_callsign_id_or_name_or_by_its_index() -> None:
     for path, value in (("a/X1/v", 1), ("a/line/v", 2), ("a/c/v", 3), ("a/1/v", 2), ("/a/0/v/", 1)):
         container, key = locate(document, path)
         assert container[key] == value
-
-
-def test_the_original_is_left_as_it_was() -> None:
-    before = BOTH.model_dump_json()
-    realise(BOTH, 3)
-    assert BOTH.model_dump_json() == before

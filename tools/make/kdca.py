@@ -24,8 +24,11 @@ from airhilt.world.surface.airport import (
     Water,
 )
 from airhilt.world.surface.draft import Draft, write_airport
-from airhilt.world.surface.magnetism import SOURCE as MAGNETIC_SOURCE
-from airhilt.world.surface.magnetism import magnetic_variation, with_magnetic_headings
+from airhilt.world.surface.importer import (
+    MAGNETIC_SOURCE,
+    magnetic_variation,
+    with_magnetic_headings,
+)
 from airhilt.world.surface.ourairports import CREDIT, read_frequencies, read_runways
 from airhilt.world.surface.path import Local
 
@@ -153,13 +156,13 @@ def along_main(draft: Draft) -> dict[str, float]:
 def draw_crossings(draft: Draft) -> None:
     """Place the points where J and K meet runways and other taxiways."""
     for letter, along in along_main(draft).items():
-        draft.junction(f"J/{letter}", draft.beside(MAIN, along, J))
-        draft.on_runway(f"{MAIN} at {letter}", draft.beside(MAIN, along, 0.0))
+        draft.node(f"J/{letter}", draft.beside(MAIN, along, J), "junction")
+        draft.node(f"{MAIN} at {letter}", draft.beside(MAIN, along, 0.0), "runway")
     j, s = line(draft, MAIN, J), line(draft, SHORT, -BESIDE)
-    draft.junction("J/S", meet(j, s))
-    draft.junction("K/S", meet(line(draft, MAIN, K), s))
-    draft.on_runway(f"{SHORT} at J", meet(j, line(draft, SHORT, 0.0)))
-    draft.on_runway(f"{CROSS} at J", meet(j, line(draft, CROSS, 0.0)))
+    draft.node("J/S", meet(j, s), "junction")
+    draft.node("K/S", meet(line(draft, MAIN, K), s), "junction")
+    draft.node(f"{SHORT} at J", meet(j, line(draft, SHORT, 0.0)), "runway")
+    draft.node(f"{CROSS} at J", meet(j, line(draft, CROSS, 0.0)), "runway")
 
 
 def draw_j(draft: Draft) -> None:
@@ -178,15 +181,15 @@ def draw_k(draft: Draft) -> None:
     stands = {**GATES, **STATIONS}
     junctions = {f"K/{name}": along for name, along in {**stands, **CONNECTORS}.items()}
     for name, along in junctions.items():
-        draft.junction(name, draft.beside(MAIN, along, K))
-    draft.junction("K/north", meet(line(draft, MAIN, K), line(draft, CROSS, BESIDE)))
-    draft.junction("K/G", draft.beside(CROSS, 360.0, BESIDE))
-    draft.junction("K/P", draft.beside(CROSS, 20.0, BESIDE))
+        draft.node(name, draft.beside(MAIN, along, K), "junction")
+    draft.node("K/north", meet(line(draft, MAIN, K), line(draft, CROSS, BESIDE)), "junction")
+    draft.node("K/G", draft.beside(CROSS, 360.0, BESIDE), "junction")
+    draft.node("K/P", draft.beside(CROSS, 20.0, BESIDE), "junction")
     draft.taxiway(
         "K", "K/S", *sorted(junctions, key=junctions.__getitem__), "K/north", "K/G", "K/P"
     )
     for name, along in stands.items():
-        draft.stand(name, draft.beside(MAIN, along, GATE))
+        draft.node(name, draft.beside(MAIN, along, GATE), "stand")
         draft.taxiway("ramp", f"K/{name}", name)
 
 
@@ -198,34 +201,34 @@ def draw_connectors(draft: Draft) -> None:
     for letter in ("A", *CONNECTORS, "N"):
         draft.entrance(letter, f"J/{letter}", f"{MAIN} at {letter}", MAIN)
     for letter in ("B", "M"):
-        draft.junction(f"{letter}/east", draft.beside(MAIN, at[letter], -J))
+        draft.node(f"{letter}/east", draft.beside(MAIN, at[letter], -J), "junction")
         draft.entrance(letter, f"J/{letter}", f"{MAIN} at {letter}", MAIN, "west")
         draft.entrance(letter, f"{letter}/east", f"{MAIN} at {letter}", MAIN, "east")
     for letter, along in (("G", 360.0), ("P", 20.0)):
-        draft.on_runway(f"{CROSS} at {letter}", draft.beside(CROSS, along, 0.0))
+        draft.node(f"{CROSS} at {letter}", draft.beside(CROSS, along, 0.0), "runway")
         draft.entrance(letter, f"K/{letter}", f"{CROSS} at {letter}", CROSS)
 
 
 def draw_s(draft: Draft) -> None:
     """Draw S, which follows 04/22 past the hangars to the end of 04."""
-    draft.junction("S/hangar", draft.beside(SHORT, 320.0, -BESIDE))
-    draft.stand("hangar_south", draft.beside(SHORT, 320.0, -BESIDE - 75.0))
-    draft.junction("S/C", draft.beside(SHORT, 20.0, -BESIDE))
+    draft.node("S/hangar", draft.beside(SHORT, 320.0, -BESIDE), "junction")
+    draft.node("hangar_south", draft.beside(SHORT, 320.0, -BESIDE - 75.0), "stand")
+    draft.node("S/C", draft.beside(SHORT, 20.0, -BESIDE), "junction")
     draft.taxiway("S", "J/S", "K/S", "S/hangar", "S/C")
     draft.taxiway("ramp", "S/hangar", "hangar_south")
-    draft.on_runway(f"{SHORT} at C", draft.beside(SHORT, 20.0, 0.0))
+    draft.node(f"{SHORT} at C", draft.beside(SHORT, 20.0, 0.0), "runway")
     draft.entrance("C", "S/C", f"{SHORT} at C", SHORT)
 
 
 def draw_river_side(draft: Draft) -> None:
     """Draw H to the end of 33, and L to the end of 22."""
     h, river = line(draft, SHORT, BESIDE), line(draft, CROSS, -220.0)
-    draft.junction("H/bend", draft.beside(SHORT, 890.0, BESIDE))
-    draft.on_runway(f"{CROSS} at H", meet(h, line(draft, CROSS, 0.0)))
+    draft.node("H/bend", draft.beside(SHORT, 890.0, BESIDE), "junction")
+    draft.node(f"{CROSS} at H", meet(h, line(draft, CROSS, 0.0)), "runway")
     draft.taxiway("H", "B/east", "H/bend")
     draft.entrance("H", "H/bend", f"{CROSS} at H", CROSS)
-    draft.junction("L/bend", draft.beside(CROSS, 820.0, -220.0))
-    draft.on_runway(f"{SHORT} at L", meet(river, line(draft, SHORT, 0.0)))
+    draft.node("L/bend", draft.beside(CROSS, 820.0, -220.0), "junction")
+    draft.node(f"{SHORT} at L", meet(river, line(draft, SHORT, 0.0)), "runway")
     draft.taxiway("L", "M/east", "L/bend")
     draft.entrance("L", "L/bend", f"{SHORT} at L", SHORT)
 

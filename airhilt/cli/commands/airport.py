@@ -64,12 +64,7 @@ Examples:
 """
 )
 @click.argument("name", metavar="NAME_OR_FILE")
-@click.option(
-    "--out",
-    type=FILE,
-    metavar="FILE",
-    help="Draw it: an .svg, or a .png where resvg-py is installed.",
-)
+@click.option("--out", type=FILE, metavar="FILE", help="Draw it: an .svg or a .png.")
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
 def show(name: str, out: Path | None, as_json: bool) -> None:
     """Say what an airport has: runways, holds, exits, stands; or draw it.

@@ -17,9 +17,7 @@ from airhilt.scenario.models.actors import (
     VehicleSpec,
     WildlifeSpec,
 )
-from airhilt.scenario.models.adsb import Adsb, AdsbReceiver
 from airhilt.scenario.models.base import Callsign, Identifier
-from airhilt.scenario.models.cameras import ActorMount, Camera, CameraName, FixedMount
 from airhilt.scenario.models.conditions import (
     AllOf,
     AnyOf,
@@ -41,7 +39,6 @@ from airhilt.scenario.models.conditions import (
     ThresholdWithin,
     TimeReached,
 )
-from airhilt.scenario.models.conflict import Conflict, Separation, UnassistedOutcome
 from airhilt.scenario.models.failures import (
     Blocked,
     CallsignConfused,
@@ -54,86 +51,33 @@ from airhilt.scenario.models.failures import (
     ReadbackWrong,
     StuckMicrophone,
 )
-from airhilt.scenario.models.perturbations import Normal, Perturbation, Uniform
-from airhilt.scenario.models.radar import Radar
 from airhilt.scenario.models.radio import Radio, RadioLine, ScriptedCommand, StationRadio, Topology
-from airhilt.scenario.models.scenario import Scenario
-from airhilt.scenario.models.scene import AirportScene, EnRouteScene, Scene
-from airhilt.scenario.models.surface import SurfaceSurveillance
-from airhilt.scenario.models.weather import Daylight, Turbulence, Weather, Wind
-
-__all__ = [
-    "ActorMount",
-    "ActorSpec",
-    "Adsb",
-    "AdsbReceiver",
-    "Airborne",
-    "AircraftAction",
-    "AircraftSpec",
-    "AircraftStart",
-    "AirportScene",
-    "AllOf",
-    "AnyOf",
-    "Blocked",
-    "BoundForAltitude",
-    "BoundForRunway",
-    "Callsign",
-    "CallsignConfused",
-    "Camera",
-    "CameraName",
-    "ClosestApproachPassed",
-    "Collided",
-    "Condition",
-    "Conflict",
-    "Daylight",
-    "Delayed",
-    "DistanceBelow",
-    "Dropped",
-    "EnRouteScene",
-    "EngineFailure",
-    "Failure",
-    "FixedMount",
-    "GroundStart",
-    "HeightBelow",
-    "HoldingShort",
-    "Identifier",
-    "Ignored",
-    "InPhase",
-    "LineBegun",
-    "LineEnded",
-    "LinedUp",
-    "Normal",
-    "NotReceived",
-    "OnFinal",
-    "OnRunway",
-    "Pair",
-    "Perturbation",
-    "PlannedAction",
-    "PredictedLossOfSeparation",
-    "Radar",
-    "Radio",
-    "RadioLine",
-    "Reactions",
-    "ReadbackWrong",
-    "Scenario",
-    "Scene",
-    "ScriptedCommand",
-    "Separation",
-    "SeparationBelow",
-    "SpeedAbove",
-    "Standing",
-    "StationRadio",
-    "StuckMicrophone",
-    "SurfaceSurveillance",
-    "ThresholdWithin",
-    "TimeReached",
-    "Topology",
-    "Transponder",
-    "Turbulence",
-    "UnassistedOutcome",
-    "Uniform",
-    "VehicleSpec",
-    "Weather",
-    "WildlifeSpec",
-    "Wind",
-]
+from airhilt.scenario.models.scenario import (
+    Conflict,
+    Normal,
+    Perturbation,
+    Scenario,
+    Separation,
+    UnassistedOutcome,
+    Uniform,
+)
+from airhilt.scenario.models.scene import (
+    AirportScene,
+    Daylight,
+    EnRouteScene,
+    Scene,
+    Turbulence,
+    Visibility,
+    Weather,
+    Wind,
+)
+from airhilt.scenario.models.sensors import (
+    ActorMount,
+    Adsb,
+    AdsbReceiver,
+    Camera,
+    CameraName,
+    FixedMount,
+    Radar,
+    SurfaceSurveillance,
+)

@@ -1,7 +1,5 @@
 """Base class of the models of a scenario file, and the names that they share."""
 
-from __future__ import annotations
-
 from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field

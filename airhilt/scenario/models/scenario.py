@@ -1,25 +1,81 @@
-"""The scenario file as a whole."""
+"""The scenario file as a whole, with its conflict and its perturbations."""
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
 from pydantic import Field, JsonValue
 
 from airhilt.quantities import LONGEST_RUN_S, FileName, Name, Number
-from airhilt.scenario.models.actors import ActorSpec
-from airhilt.scenario.models.adsb import Adsb
+from airhilt.scenario.models.actors import ActorSpec, AircraftSpec, WildlifeSpec
 from airhilt.scenario.models.base import Callsign, Identifier, Model
-from airhilt.scenario.models.cameras import Camera
-from airhilt.scenario.models.conditions import Condition
-from airhilt.scenario.models.conflict import Conflict, Separation
+from airhilt.scenario.models.conditions import Condition, Pair
 from airhilt.scenario.models.failures import Failure
-from airhilt.scenario.models.perturbations import Perturbation
-from airhilt.scenario.models.radar import Radar
 from airhilt.scenario.models.radio import Radio
-from airhilt.scenario.models.scene import Scene
-from airhilt.scenario.models.surface import SurfaceSurveillance
-from airhilt.scenario.models.weather import Daylight, Weather
+from airhilt.scenario.models.scene import Daylight, Scene, Weather
+from airhilt.scenario.models.sensors import Adsb, Camera, Radar, SurfaceSurveillance
+
+UnassistedOutcome = Literal["collision", "nmac", "runway_incursion", "loss_of_separation"]
+GREATEST_DRAW = 1e6
+"""Greatest standard deviation and greatest limit of a draw, in the unit of the number."""
+
+
+class Conflict(Model):
+    """Annotated conflict: its actors, the event that begins it, and its window.
+
+    ``begins`` is t_conflict, from which the time to first warning counts. It is the event by which
+    the conflict comes about, spoken (`LineBegun`) or physical, and no threshold of an assistant.
+    """
+
+    actors: Pair
+    begins: Condition | None = Field(
+        default=None,
+        description="event by which the conflict comes about; null: the opening of its window",
+    )
+    opens_when: Condition = Field(
+        description="opens the window in which the closest approach is taken"
+    )
+    unassisted: UnassistedOutcome = Field(
+        default="loss_of_separation", description="least severe outcome if nobody is warned"
+    )
+
+
+class Separation(Model):
+    """Separation minima: lost when both are infringed.
+
+    5 NM and 1000 ft are ICAO Doc 4444, 8.7.3.1 and 5.3.2. The tolerance allows for aircraft that
+    keep their level within tens of feet.
+    """
+
+    horizontal_nm: Number = Field(default=5.0, gt=0.0, le=100.0)
+    vertical_ft: Number = Field(default=1000.0, gt=0.0, le=10_000.0)
+    level_tolerance_ft: Number = Field(default=100.0, ge=0.0, le=300.0)
+
+
+class Normal(Model):
+    """Normal distribution around zero; draws beyond ``limit`` either side are set to the limit."""
+
+    type: Literal["normal"]
+    sigma: Number = Field(gt=0.0, le=GREATEST_DRAW)
+    limit: Number = Field(gt=0.0, le=GREATEST_DRAW)
+
+
+class Uniform(Model):
+    """Uniform distribution between ``-limit`` and ``limit``."""
+
+    type: Literal["uniform"]
+    limit: Number = Field(gt=0.0, le=GREATEST_DRAW)
+
+
+class Perturbation(Model):
+    """Number in this file to which a seeded draw is added.
+
+    ``path`` leads to it from the top; list entries are named by callsign, id or name, or by index:
+    ``actors/AAL123/initial/cas_kt``.
+    """
+
+    path: str = Field(min_length=1, max_length=200)
+    distribution: Annotated[Normal | Uniform, Field(discriminator="type")]
 
 
 class Scenario(Model):
@@ -88,3 +144,31 @@ class Scenario(Model):
         default=(), max_length=20, description="the run ends when one is true"
     )
     perturbations: tuple[Perturbation, ...] = Field(default=(), max_length=500)
+
+    @property
+    def pair(self) -> Pair | None:
+        """The actors of the conflict, in the order in which the actors are listed."""
+        if self.conflict is None:
+            return None
+        order = [actor.callsign for actor in self.actors]
+        first, second = sorted(self.conflict.actors, key=order.index)
+        return first, second
+
+    @property
+    def roster(self) -> tuple[str, ...]:
+        """Callsigns on the roster of the briefing."""
+        return tuple(
+            actor.callsign
+            for actor in self.actors
+            if not isinstance(actor, WildlifeSpec)
+            and (not isinstance(actor, AircraftSpec) or actor.on_roster)
+        )
+
+    @property
+    def callsigns(self) -> dict[str, str]:
+        """Callsign of each actor by its callsign and by its 24-bit address."""
+        return {actor.callsign: actor.callsign for actor in self.actors} | {
+            actor.icao24: actor.callsign
+            for actor in self.actors
+            if not isinstance(actor, WildlifeSpec)
+        }

@@ -1,14 +1,18 @@
-"""Scene of a scenario: an airport, or airspace without one."""
+"""Scene of a scenario: an airport, or airspace without one; its weather and daylight."""
 
 from __future__ import annotations
 
+import datetime
 from typing import Annotated, Literal
 
 from pydantic import Field
 
-from airhilt.geodesy.positions import GeodeticPosition
-from airhilt.quantities import FileName, Number
+from airhilt.geodesy.positions import Bearing, GeodeticPosition
+from airhilt.quantities import Count, Date, FileName, Number
 from airhilt.scenario.models.base import Model
+
+Visibility = Annotated[Number, Field(gt=0.0, le=100_000.0)]
+"""Meteorological optical range in m."""
 
 
 class EnRouteScene(Model):
@@ -34,3 +38,35 @@ class AirportScene(Model):
 
 
 Scene = Annotated[EnRouteScene | AirportScene, Field(discriminator="type")]
+
+
+class Wind(Model):
+    """A steady wind, the same everywhere."""
+
+    from_deg: Bearing = 0.0
+    speed_kt: Number = Field(default=0.0, ge=0.0, le=250.0)
+
+
+class Turbulence(Model):
+    """MIL-F-8785C turbulence: severity 0 is none, 3 light, 4 moderate, 6 severe."""
+
+    severity: Count = Field(default=0, ge=0, le=7)
+    wind_at_20ft_kt: Number = Field(default=15.0, ge=0.0, le=100.0)
+
+
+class Weather(Model):
+    """Wind, turbulence, visibility and rain."""
+
+    wind: Wind = Wind()
+    turbulence: Turbulence = Turbulence()
+    visibility_m: Visibility = 10_000.0
+    rain_mm_h: Number = Field(default=0.0, ge=0.0, le=150.0, description="rate of rainfall")
+
+
+class Daylight(Model):
+    """Date and time that set the sun's position; it stays there for the whole run."""
+
+    date: Date = datetime.date(2026, 5, 1)
+    solar_time_h: Number = Field(
+        default=10.0, ge=0.0, lt=24.0, description="local solar time: the sun is highest at 12"
+    )

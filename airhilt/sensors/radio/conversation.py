@@ -25,7 +25,6 @@ from airhilt.messages import (
 )
 from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import RadioLine, Scenario
-from airhilt.scenario.roster import callsigns_of, roster_of
 from airhilt.seats import Seats
 from airhilt.sensors.base import Publish
 from airhilt.sensors.radio.advisory_calls import AdvisoryCalls, AdvisoryChannel
@@ -109,7 +108,7 @@ class RadioConversation:
         )
         self._advisories: AdvisoryCalls | None = None
         if advisory_channel is not None:
-            callsigns = callsigns_of(scenario)
+            callsigns = scenario.callsigns
             self._advisories = AdvisoryCalls(
                 director, stations, callsigns, advisory_channel, self._transmissions, publish
             )
@@ -123,7 +122,7 @@ class RadioConversation:
             self._publish,
             began=self._began,
             ended=self._ended,
-            roster=roster_of(self._scenario),
+            roster=self._scenario.roster,
             seats=[state.seat for state in self._seats],
         )
 

@@ -20,18 +20,7 @@ def aircraft_meshes(aircraft: AircraftShape, *, coarse: bool = False) -> dict[st
 
     Coarse ones are for pictures in which it is small.
     """
-    proportions = Proportions.of(aircraft, coarse)
-    clean = _clean(proportions)
-    return {"clean": clean, "gear": join([clean, *gear(proportions)])}
-
-
-def wing_tip_m(aircraft: AircraftShape) -> tuple[float, float, float]:
-    """Return the leading edge of the right wing tip: right, ahead, up."""
-    return Proportions.of(aircraft).wing_tip
-
-
-def _clean(p: Proportions) -> Mesh:
-    """Return an aircraft with its gear up."""
+    p = Proportions.of(aircraft, coarse)
     right = [wing(p), tailplane(p)]
     parts = [fuselage(p), fin(p), *right, *(part.mirrored() for part in right)]
     parts += [engine(p, *place) for place in p.mesh.engines_m]
@@ -41,4 +30,5 @@ def _clean(p: Proportions) -> Mesh:
         parts.append(cabin(p))
     if p.is_high_wing:
         parts += [strut(p), strut(p).mirrored()]
-    return join(parts)
+    clean = join(parts)
+    return {"clean": clean, "gear": join([clean, *gear(p)])}

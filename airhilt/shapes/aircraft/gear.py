@@ -11,17 +11,14 @@ from airhilt.shapes.mesh import Mesh, tube, wheel
 
 def gear(p: Proportions) -> list[Mesh]:
     """Return the legs and wheels of the landing gear."""
-    radius = {True: 0.6, False: 0.55}[p.is_heavy] if p.is_jet else 0.22
+    radius = 0.6 if p.is_heavy else 0.55 if p.is_jet else 0.22
     width = 0.4 if p.is_jet else 0.16
     nose_at = p.length * (0.5 - (0.12 if p.is_jet else 0.16))
     main_at = -0.04 * p.length if p.is_jet else -0.06 * p.length + 0.4
     out = 0.17 * p.half_span if p.is_jet else 0.24 * p.half_span
     legs = [(0.0, nose_at), (out, main_at), (-out, main_at)]
     if p.is_heavy:
-        legs += [
-            (0.06 * p.half_span, main_at - 3.0),
-            (-0.06 * p.half_span, main_at - 3),
-        ]
+        legs += [(side * 0.06 * p.half_span, main_at - 3.0) for side in (1.0, -1.0)]
     parts = []
     for right, at in legs:
         top = p.axis - 0.5 * p.radius
@@ -36,9 +33,8 @@ def gear(p: Proportions) -> list[Mesh]:
         if p.coarse:
             reach = (sides[-1] + width / 2.0, 0.0, 0.0)
             hub = right, at, p.ground + radius
-            parts.append(
-                tube(np.subtract(hub, reach), np.add(hub, reach), (radius, radius), TYRE, 6)
-            )
+            ends = np.subtract(hub, reach), np.add(hub, reach)
+            parts.append(tube(*ends, (radius, radius), TYRE, 6))
             continue
         parts += [
             wheel(TYRE, radius, width).moved(right + side, at + row, p.ground + radius)

@@ -42,37 +42,27 @@ LIVERIES = {
 
 @dataclass(frozen=True)
 class Proportions:
-    """Measures of an aircraft that several of its parts need, in m, and how it is drawn.
-
-    Attributes
-    ----------
-    mesh
-        The free shape parameters of its type.
-    coarse
-        True if it is drawn with few triangles.
-    radius
-        Radius of the fuselage.
-    ground
-        Height of the ground below the reference point, when it stands on its wheels; negative.
-    fin_top
-        Height of the top of the fin above the reference point.
-    axis
-        Height of the fuselage's axis above the reference point: fins of jets stand on top of the
-        fuselage, those of others on the tail cone.
-    """
+    """Measures of an aircraft that several of its parts need, in m, and how it is drawn."""
 
     mesh: AircraftMesh
+    """The free shape parameters of its type."""
     livery: Livery
     coarse: bool
+    """True if it is drawn with few triangles."""
     is_jet: bool
     is_heavy: bool
     is_single: bool
     length: float
     half_span: float
     radius: float
+    """Radius of the fuselage."""
     ground: float
+    """Height of the ground below the reference point, when it stands on its wheels; negative."""
     fin_top: float
+    """Height of the top of the fin above the reference point."""
     axis: float
+    """Height of the fuselage's axis above the reference point: fins of jets stand on top of the
+    fuselage, those of others on the tail cone."""
 
     @classmethod
     def of(cls, aircraft: AircraftShape, coarse: bool = False) -> Proportions:

@@ -11,7 +11,6 @@ from typing import Literal
 from airhilt.host import library
 from airhilt.options import MODALITIES
 from airhilt.scenario import Scenario
-from airhilt.scenario.conflict_pair import pair_of
 from airhilt.scenario.models import WildlifeSpec
 from airhilt.world.loading import load
 
@@ -48,7 +47,7 @@ class Assistant:
         if not fnmatch(scenario.name, self.pattern):
             return False
         specs = {spec.callsign: spec for spec in scenario.actors}
-        return all(_has(specs[callsign], self.equipped) for callsign in pair_of(scenario) or ())
+        return all(_has(specs[callsign], self.equipped) for callsign in scenario.pair or ())
 
 
 def _has(spec: object, equipped: Equipped) -> bool:

@@ -2,61 +2,49 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 
-from airhilt.errors import AirhiltError
+from airhilt.errors import ScenarioError
 from airhilt.scenario.models import Scenario
 from airhilt.scenario.problems import Problem, error_for
-from airhilt.world.checks.actors import surface_wind, unfit_actors
-from airhilt.world.checks.altitudes import altitudes_below_ground
-from airhilt.world.checks.commands import misdirected_commands
-from airhilt.world.checks.duplicates import shared_names
-from airhilt.world.checks.failures import idle_failures
-from airhilt.world.checks.perturbations import misplaced_perturbations
-from airhilt.world.checks.places import missing_airport, unknown_places
-from airhilt.world.checks.radio_lines import impossible_lines, unsaid_lines
-from airhilt.world.checks.references import dangling_references
-from airhilt.world.checks.taxi_ways import missing_ways
+from airhilt.world.checks.actors import (
+    altitudes_below_ground,
+    misdirected_commands,
+    surface_wind,
+    unfit_actors,
+)
+from airhilt.world.checks.names import (
+    dangling_references,
+    misplaced_perturbations,
+    shared_names,
+)
+from airhilt.world.checks.places import missing_ways, unknown_places
+from airhilt.world.checks.radio import idle_failures, impossible_lines, unsaid_lines
 from airhilt.world.site import ScenarioSite
 
-__all__ = ["check", "check_file"]
+__all__ = ["check"]
 
 
-def check(scenario: Scenario, origin: str) -> None:
+def check(scenario: Scenario, origin: str, *, is_whole: bool = False) -> None:
     """Check that the world can hold a scenario.
 
     Parameters
     ----------
     origin
         Name of the scenario in errors.
+    is_whole
+        True to check that all lines are said as well: a draw or a caller may shorten a scenario,
+        so that lines are left out; a file may not.
 
     Raises
     ------
     ScenarioError
-        A reference leads to nothing, or a value is outside the envelope of an aircraft.
+        A reference leads to nothing, a value is outside the envelope of an aircraft, or a line is
+        never said.
     """
-    _require_none(origin, list(_problems(scenario)))
-
-
-def check_file(scenario: Scenario, origin: str) -> None:
-    """Check that the world can hold the scenario of a file, and that all its lines can be said.
-
-    A draw or a caller may shorten a scenario, so that lines are left out; a file may not.
-
-    Parameters
-    ----------
-    origin
-        Name of the scenario in errors.
-
-    Raises
-    ------
-    ScenarioError
-        As `check` raises, or a line is never said.
-    """
-    _require_none(origin, [*_problems(scenario), *unsaid_lines(scenario)])
-
-
-def _require_none(origin: str, problems: Sequence[Problem]) -> None:
+    problems = list(_problems(scenario))
+    if is_whole:
+        problems += unsaid_lines(scenario)
     if problems:
         raise error_for(origin, problems)
 
@@ -69,13 +57,12 @@ def _problems(scenario: Scenario) -> Iterator[Problem]:
         return
     try:
         site = ScenarioSite.of(scenario)
-    except AirhiltError as error:
-        yield Problem("scene/airport", str(error))
+    except ScenarioError as error:
+        yield from (Problem("scene/airport", text) for text in error.problems)
         return
     yield from unfit_actors(scenario, site)
     yield from altitudes_below_ground(scenario, site)
     yield from unknown_places(scenario, site)
-    yield from missing_airport(scenario, site)
     yield from dangling_references(scenario)
     yield from impossible_lines(scenario)
     yield from misdirected_commands(scenario)

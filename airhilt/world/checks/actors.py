@@ -1,16 +1,34 @@
-"""Checks of actors: their types, where aircraft begin in the air, and the wind on the ground."""
+"""Checks of actors: types, starts, altitudes, commands, and the wind on the ground."""
 
 from __future__ import annotations
 
+import typing
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from airhilt.errors import AirhiltError
-from airhilt.scenario.models import Airborne, AircraftSpec, Scenario, VehicleSpec, WildlifeSpec
+from pydantic import BaseModel
+
+from airhilt.commands import (
+    AircraftCommand,
+    AltitudeCommand,
+    Command,
+    EmergencyDescentCommand,
+    GoAroundCommand,
+    TakeOffCommand,
+)
+from airhilt.errors import AirhiltError, ScenarioError
+from airhilt.scenario.models import (
+    ActorSpec,
+    Airborne,
+    AircraftSpec,
+    BoundForAltitude,
+    Scenario,
+    WildlifeSpec,
+)
 from airhilt.scenario.problems import Problem
 from airhilt.units import FOOT, KNOT
-from airhilt.world.checks.altitudes import not_above_ground
-from airhilt.world.flight.aircraft_type import AircraftType, load_aircraft_type
+from airhilt.world.checks.walk import commands_of, models_of
+from airhilt.world.flight.aircraft_type import load_aircraft_type
 from airhilt.world.flight.modes import GuidanceModes
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.kinds import load_kind
@@ -33,15 +51,11 @@ def unfit_actors(scenario: Scenario, site: ScenarioSite) -> Iterator[Problem]:
         path = f"actors/{index}"
         if isinstance(actor, AircraftSpec):
             yield from _aircraft(path, actor, site, scenario.files)
-        else:
-            yield from _kind(path, actor)
-
-
-def _kind(path: str, actor: VehicleSpec | WildlifeSpec) -> Iterator[Problem]:
-    try:
-        load_kind(actor.kind, actor.type)
-    except AirhiltError as error:
-        yield Problem(f"{path}/kind", str(error))
+            continue
+        try:
+            load_kind(actor.kind, actor.type)
+        except AirhiltError as error:
+            yield Problem(f"{path}/kind", str(error))
 
 
 def _aircraft(
@@ -49,38 +63,32 @@ def _aircraft(
 ) -> Iterator[Problem]:
     try:
         kind = load_aircraft_type(actor.aircraft, files)
-    except AirhiltError as error:
-        yield Problem(f"{path}/aircraft", str(error))
+    except ScenarioError as error:
+        yield from (Problem(f"{path}/aircraft", text) for text in error.problems)
         return
     initial, ground_ft = actor.initial, site.ground_m / FOOT
     if not isinstance(initial, Airborne):
         return
     if initial.altitude_ft <= ground_ft:
-        yield not_above_ground(f"{path}/initial/altitude_ft", initial.altitude_ft, site)
+        yield _not_above_ground(f"{path}/initial/altitude_ft", initial.altitude_ft, site)
     if initial.track_deg is None and not actor.route:
         yield Problem(
             f"{path}/initial/track_deg", "missing; it is required where there is no route"
         )
-    yield from _envelope(f"{path}/initial", initial.altitude_ft, initial.cas_kt, kind)
-
-
-def _envelope(
-    path: str, altitude_ft: float, cas_kt: float, kind: AircraftType
-) -> Iterator[Problem]:
     speeds = kind.speeds
-    if altitude_ft > speeds.service_ceiling_ft:
+    if initial.altitude_ft > speeds.service_ceiling_ft:
         yield Problem(
-            f"{path}/altitude_ft",
-            f"found {altitude_ft:g}; expected at most the service ceiling of a {kind.name}, "
-            f"{speeds.service_ceiling_ft:g}",
+            f"{path}/initial/altitude_ft",
+            f"found {initial.altitude_ft:g}; expected at most the service ceiling of a "
+            f"{kind.name}, {speeds.service_ceiling_ft:g}",
         )
-    flown_ft = min(altitude_ft, speeds.service_ceiling_ft)
+    flown_ft = min(initial.altitude_ft, speeds.service_ceiling_ft)
     limits_m_s = GuidanceModes(kind).speed_limits_m_s(flown_ft * FOOT)
     slowest_kt, greatest_kt = (limit / KNOT for limit in limits_m_s)
-    if not slowest_kt <= cas_kt <= greatest_kt:
+    if not slowest_kt <= initial.cas_kt <= greatest_kt:
         yield Problem(
-            f"{path}/cas_kt",
-            f"found {cas_kt:g}; expected {slowest_kt:.4g} to {greatest_kt:.4g}, what a "
+            f"{path}/initial/cas_kt",
+            f"found {initial.cas_kt:g}; expected {slowest_kt:.4g} to {greatest_kt:.4g}, what a "
             f"{kind.name} flies at {flown_ft:g} ft",
         )
 
@@ -94,3 +102,67 @@ def surface_wind(scenario: Scenario) -> Iterator[Problem]:
             f"found {speed_kt:g}; expected at most {GREATEST_SURFACE_WIND_KT:g} where aircraft "
             "take off, land or taxi",
         )
+
+
+def altitudes_below_ground(scenario: Scenario, site: ScenarioSite) -> Iterator[Problem]:
+    """Yield altitudes of commands and conditions that are not above the ground."""
+    ground_ft = site.ground_m / FOOT
+    for path, model in models_of(scenario):
+        match model:
+            case (
+                AltitudeCommand(altitude_ft=altitude_ft)
+                | EmergencyDescentCommand(altitude_ft=altitude_ft)
+                | BoundForAltitude(altitude_ft=altitude_ft)
+            ):
+                field = "altitude_ft"
+            case TakeOffCommand(climb_to_ft=altitude_ft) | GoAroundCommand(climb_to_ft=altitude_ft):
+                field = "climb_to_ft"
+            case _:
+                continue
+        if altitude_ft <= ground_ft:
+            yield _not_above_ground(f"{path}/{field}", altitude_ft, site)
+
+
+def _not_above_ground(path: str, altitude_ft: float, site: ScenarioSite) -> Problem:
+    where = "the airport" if site.layout else "scene/terrain_elevation_ft"
+    return Problem(
+        path,
+        f"found {altitude_ft:g}, which is not above the ground; expected more than {where}, "
+        f"{site.ground_m / FOOT:g}",
+    )
+
+
+def misdirected_commands(scenario: Scenario) -> Iterator[Problem]:
+    """Yield commands that actors of this sort do not carry out."""
+    actors = {actor.callsign: actor for actor in scenario.actors}
+    for path, callsign, command in commands_of(scenario):
+        actor = actors.get(callsign)
+        if isinstance(actor, WildlifeSpec):
+            nothing = "nothing: nobody tells an animal what to do"
+            yield _misdirected(path, command, "wildlife", nothing)
+        elif actor is not None:
+            yield from _not_understood(path, command, actor)
+    for index, actor in enumerate(scenario.actors):
+        for number, planned in enumerate(actor.plan if isinstance(actor, WildlifeSpec) else ()):
+            path = f"actors/{index}/plan/{number}/command"
+            yield from _not_understood(path, planned.command, actor)
+
+
+def _not_understood(path: str, command: Command, actor: ActorSpec) -> Iterator[Problem]:
+    understood: tuple[type[BaseModel], ...] = typing.get_args(AircraftCommand)
+    if not isinstance(actor, AircraftSpec):
+        try:
+            understood = load_kind(actor.kind, actor.type).understands
+        except AirhiltError:
+            return  # Named elsewhere.
+    if not isinstance(command, understood):
+        known = ", ".join(
+            str(typing.get_args(model.model_fields["action"].annotation)[0]) for model in understood
+        )
+        yield _misdirected(path, command, actor.type, known or "nothing")
+
+
+def _misdirected(path: str, command: Command, sort: str, expected: str) -> Problem:
+    return Problem(
+        f"{path}/action", f"found {command.action!r}, which no {sort} does; expected {expected}"
+    )

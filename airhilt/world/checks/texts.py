@@ -5,7 +5,7 @@ The texts are read by the project's own parser, as an assistant or a crew in noi
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from airhilt.commands import (
@@ -155,57 +155,48 @@ def _difference(command: Command, call: Call) -> str | None:
     said = [each for each in call.instructions if each.action in actions]
     if not said:
         return f"does not say to {command.action.replace('_', ' ')}, as its command does"
-    for name, value, detail_of in _details(command):
-        details = [detail for each in call.instructions if (detail := detail_of(each)) is not None]
+    for name, value in _details(command).items():
+        details = [
+            detail for each in call.instructions if (detail := _said(each, name)) is not None
+        ]
         if details and not any(_agree(name, value, detail) for detail in details):
             return f"says {name} {_shown(details[0])}, where its command has {_shown(value)}"
     return None
 
 
-Detail = Callable[[Instruction], str | float | None]
-
-
-def _details(command: Command) -> Iterator[tuple[str, str | float, Detail]]:
-    """Yield name and value of each detail of a command, and where an instruction has it."""
+def _details(command: Command) -> dict[str, str | float]:
+    """Return the details of a command that its words may have, by their names there."""
     match command:
-        case (
-            LandCommand(runway=runway)
-            | LineUpCommand(runway=runway)
-            | SideStepCommand(runway=runway)
-        ):
-            yield "runway", runway, _runway
-        case TakeOffCommand(runway=runway, climb_to_ft=altitude_ft):
-            yield "runway", runway, _runway
-            yield "altitude_ft", altitude_ft, _altitude
-        case GoAroundCommand(climb_to_ft=altitude_ft):
-            yield "altitude_ft", altitude_ft, _altitude
+        case LandCommand() | LineUpCommand() | SideStepCommand():
+            return {"runway": command.runway}
+        case TakeOffCommand():
+            return {"runway": command.runway, "altitude_ft": command.climb_to_ft}
+        case GoAroundCommand():
+            return {"altitude_ft": command.climb_to_ft}
         case AltitudeCommand(altitude_ft=altitude_ft, vertical_rate_fpm=rate_fpm):
-            yield "altitude_ft", altitude_ft, _altitude
-            if rate_fpm is not None:
-                yield "rate_fpm", rate_fpm, lambda each: each.rate_fpm
+            rate = {} if rate_fpm is None else {"rate_fpm": rate_fpm}
+            return {"altitude_ft": altitude_ft, **rate}
         case TaxiCommand(via=via) if via:
-            yield "via", ", ".join(via), lambda each: ", ".join(each.via) or None
-        case TurnCommand(degrees=degrees):
-            yield "turn_deg", degrees, _turn_deg
-        case TrackCommand(track_deg=track_deg):
-            yield "heading_deg", track_deg, lambda each: each.heading_deg
-        case SpeedCommand(cas_kt=cas_kt):
-            yield "speed_kt", cas_kt, lambda each: each.speed_kt
+            return {"via": ", ".join(via)}
+        case TurnCommand():
+            return {"turn_deg": command.degrees}
+        case TrackCommand():
+            return {"heading_deg": command.track_deg}
+        case SpeedCommand():
+            return {"speed_kt": command.cas_kt}
+    return {}
 
 
-def _runway(instruction: Instruction) -> str | None:
-    return instruction.runway
-
-
-def _altitude(instruction: Instruction) -> float | None:
-    return instruction.altitude_ft
-
-
-def _turn_deg(instruction: Instruction) -> float | None:
-    """Return the angle of a turn, positive to the right."""
-    if instruction.turn_deg is None or instruction.turn is None:
-        return None
-    return instruction.turn_deg if instruction.turn == "right" else -instruction.turn_deg
+def _said(instruction: Instruction, name: str) -> str | float | None:
+    """Return a detail of an instruction; a turn to the left is negative."""
+    if name == "via":
+        return ", ".join(instruction.via) or None
+    if name == "turn_deg":
+        if instruction.turn_deg is None or instruction.turn is None:
+            return None
+        return instruction.turn_deg if instruction.turn == "right" else -instruction.turn_deg
+    said: str | float | None = getattr(instruction, name)
+    return said
 
 
 def _shown(value: str | float) -> str:

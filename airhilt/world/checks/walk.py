@@ -1,8 +1,7 @@
-"""Ways through a scenario: all models in it, all commands, all conditions, with their paths."""
+"""Ways through a scenario: all models in it, and all commands, with their paths."""
 
 from __future__ import annotations
 
-import typing
 from collections.abc import Iterator
 from typing import Any
 
@@ -11,14 +10,13 @@ from pydantic import BaseModel
 from airhilt.commands import Command
 from airhilt.scenario.models import (
     CallsignConfused,
-    Condition,
     ReadbackWrong,
     Scenario,
     WildlifeSpec,
 )
 
 
-def models_of(value: Any, path: str) -> Iterator[tuple[str, BaseModel]]:
+def models_of(value: Any, path: str = "") -> Iterator[tuple[str, BaseModel]]:
     """Yield all models inside a value, with their paths."""
     if isinstance(value, BaseModel):
         yield path, value
@@ -44,10 +42,3 @@ def commands_of(scenario: Scenario) -> Iterator[tuple[str, str, Command]]:
             for number, scripted in enumerate(failure.commands or ()):
                 path = f"failures/{index}/commands/{number}/command"
                 yield path, scripted.actor, scripted.command
-
-
-def conditions_of(scenario: Scenario) -> Iterator[tuple[str, Condition]]:
-    """Yield all conditions, with their paths."""
-    for path, model in models_of(scenario, ""):
-        if isinstance(model, typing.get_args(typing.get_args(Condition)[0])):
-            yield path, typing.cast(Condition, model)

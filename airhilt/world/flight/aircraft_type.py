@@ -225,6 +225,6 @@ def load_aircraft_type(name: str, files: Mapping[str, Any] = MappingProxyType({}
         what was expected.
     """
     if name in files:
-        return validated(AircraftType, "an aircraft type", files[name], name)
+        return validated(AircraftType, files[name], name)
     path = library.find("aircraft", name)
-    return validated(AircraftType, "an aircraft type", documents.read(path), str(path))
+    return validated(AircraftType, documents.read(path), str(path))

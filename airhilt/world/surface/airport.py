@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
-from typing import Annotated, Any, Literal, Self
+from typing import Annotated, Any, Literal, Self, get_args
 
 import pydantic
 from pydantic import Field
@@ -17,6 +17,7 @@ from airhilt.host import library
 from airhilt.imaging.lenses import FieldOfView
 from airhilt.quantities import AltitudeFt, Count, Flag, Number
 from airhilt.scenario import documents
+from airhilt.scenario.models.base import Model
 from airhilt.scenario.problems import validated
 from airhilt.units import DEGREE
 
@@ -45,11 +46,7 @@ Block = Literal[
 Role = Literal["tower", "ground", "clearance", "approach", "departure", "atis", "unicom", "other"]
 
 
-class _Section(pydantic.BaseModel):
-    model_config = pydantic.ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
-
-
-class _Located(_Section):
+class _Located(Model):
     lat_deg: Latitude
     lon_deg: Longitude
 
@@ -59,7 +56,7 @@ class _Located(_Section):
         return self.lat_deg * DEGREE, self.lon_deg * DEGREE
 
 
-class Source(_Section):
+class Source(Model):
     """Source of the numbers of a block."""
 
     text: str = Field(min_length=1, max_length=2000)
@@ -73,7 +70,7 @@ class ReferencePoint(_Located):
     """Point at which the airport's local frame touches the ellipsoid."""
 
 
-class MagneticVariation(_Section):
+class MagneticVariation(Model):
     """Angle from true north to magnetic north at the reference point."""
 
     east_deg: Number = Field(ge=-180.0, le=180.0, description="negative is west")
@@ -89,7 +86,7 @@ class RunwayThreshold(_Located):
     heading_magnetic_deg: Bearing | None = None
 
 
-class Runway(_Section):
+class Runway(Model):
     """A strip of pavement that is used in both directions."""
 
     ends: tuple[RunwayThreshold, RunwayThreshold]
@@ -112,7 +109,7 @@ class Node(_Located):
     kind: Literal["junction", "hold", "runway", "stand"] = "junction"
 
 
-class Edge(_Section):
+class Edge(Model):
     """A straight piece of a taxiway, used in both directions."""
 
     nodes: tuple[str, str]
@@ -120,14 +117,14 @@ class Edge(_Section):
     width_m: Number = Field(gt=0.0, le=500.0)
 
 
-class Taxiways(_Section):
+class Taxiways(Model):
     """The graph on which aircraft taxi and vehicles drive."""
 
     nodes: tuple[Node, ...] = Field(default=(), max_length=MOST_PARTS)
     edges: tuple[Edge, ...] = Field(default=(), max_length=MOST_PARTS)
 
 
-class HoldShort(_Section):
+class HoldShort(Model):
     """A node of the taxiways where traffic holds short of a runway."""
 
     node: str
@@ -149,7 +146,7 @@ class Tower(_Located):
     height_m: Number = Field(gt=0.0, le=1000.0, description="of the cab, above the ground")
 
 
-class Building(_Section):
+class Building(Model):
     """A block on the ground."""
 
     name: Text
@@ -157,14 +154,14 @@ class Building(_Section):
     height_m: Number = Field(gt=0.0, le=1000.0)
 
 
-class Water(_Section):
+class Water(Model):
     """A river, a lake or the sea, as far as it can be seen."""
 
     name: Text
     outline: Polygon
 
 
-class Frequency(_Section):
+class Frequency(Model):
     """A radio frequency and the unit that answers on it."""
 
     role: Role
@@ -182,7 +179,7 @@ class Camera(_Located):
     horizontal_fov_deg: FieldOfView
 
 
-class Airport(_Section):
+class Airport(Model):
     """One ``airports/*.json``."""
 
     icao: str = Field(pattern=r"^[A-Z0-9-]{2,10}$")
@@ -202,13 +199,11 @@ class Airport(_Section):
 
     @pydantic.model_validator(mode="after")
     def _is_in_one_place(self) -> Self:
-        located = [end for runway in self.runways for end in runway.ends]
-        points = [(one.lat_deg, one.lon_deg) for one in (*located, *self.taxiways.nodes)]
-        points += [(one.lat_deg, one.lon_deg) for one in self.cameras]
+        located: list[_Located] = [end for runway in self.runways for end in runway.ends]
+        located += [*self.taxiways.nodes, *self.cameras, *([self.tower] if self.tower else [])]
+        points = [(one.lat_deg, one.lon_deg) for one in located]
         points += [point for building in self.buildings for point in building.footprint]
         points += [point for water in self.water for point in water.outline]
-        if self.tower is not None:
-            points.append((self.tower.lat_deg, self.tower.lon_deg))
         for lat_deg, lon_deg in points:
             place = lat_deg * DEGREE, lon_deg * DEGREE
             if not are_within_m(FARTHEST_M, self.reference.place, place):
@@ -220,40 +215,27 @@ class Airport(_Section):
 
     @pydantic.model_validator(mode="after")
     def _is_consistent(self) -> Self:
-        nodes = {node.name for node in self.taxiways.nodes}
-        _refuse_repeated(
-            "runway end", (end.ident for runway in self.runways for end in runway.ends)
-        )
-        _refuse_repeated("node", (node.name for node in self.taxiways.nodes))
-        _refuse_repeated("hold", (f"{hold.runway} {hold.position}" for hold in self.holds))
-        _refuse_repeated("camera", (camera.name for camera in self.cameras))
-        used = (node for edge in self.taxiways.edges for node in edge.nodes)
-        _refuse_unknown("node", [*used, *(hold.node for hold in self.holds)], nodes)
+        edges, holds = self.taxiways.edges, self.holds
+        nodes = [node.name for node in self.taxiways.nodes]
+        used = [node for edge in edges for node in edge.nodes]
+        runways = {runway.name for runway in self.runways}
+        ends = [end.ident for runway in self.runways for end in runway.ends]
+        _refuse_repeated("runway end", ends)
+        _refuse_repeated("node", nodes)
+        _refuse_repeated("hold", [f"{hold.runway} {hold.position}" for hold in holds])
+        _refuse_repeated("camera", [camera.name for camera in self.cameras])
+        _refuse_unknown("node", [*used, *(hold.node for hold in holds)], set(nodes))
+        _refuse_unknown("runway", [hold.runway for hold in holds], runways)
         _refuse_unknown(
-            "runway", (hold.runway for hold in self.holds), {runway.name for runway in self.runways}
+            "taxiway", [hold.taxiway for hold in holds], {edge.taxiway for edge in edges}
         )
-        taxiways = {edge.taxiway for edge in self.taxiways.edges}
-        _refuse_unknown("taxiway", (hold.taxiway for hold in self.holds), taxiways)
-        if bare := sorted(set(self.blocks) - set(self.sources)):
+        empty = (None, (), Taxiways())
+        blocks = (block for block in get_args(Block) if getattr(self, block) not in empty)
+        if bare := sorted(set(blocks) - set(self.sources)):
             raise ValueError(
                 f"sources does not say where the numbers of {', '.join(bare)} are from"
             )
         return self
-
-    @property
-    def blocks(self) -> tuple[Block, ...]:
-        """The blocks that hold any numbers."""
-        always: tuple[Block, ...] = ("reference", "elevation_ft", "magnetic_variation", "runways")
-        optional: dict[Block, object] = {
-            "taxiways": self.taxiways.nodes,
-            "holds": self.holds,
-            "tower": self.tower,
-            "buildings": self.buildings,
-            "water": self.water,
-            "frequencies": self.frequencies,
-            "cameras": self.cameras,
-        }
-        return (*always, *(block for block, content in optional.items() if content))
 
 
 def load_airport(name: str, files: Mapping[str, Any] = MappingProxyType({})) -> Airport:
@@ -271,7 +253,7 @@ def load_airport(name: str, files: Mapping[str, Any] = MappingProxyType({})) -> 
         what was expected.
     """
     if name in files:
-        return validated(Airport, "an airport", files[name], name)
+        return validated(Airport, files[name], name)
     return read_airport(library.find("airports", name.lower()))
 
 
@@ -283,21 +265,15 @@ def read_airport(path: Path) -> Airport:
     ScenarioError
         The file is wrong.
     """
-    return validated(Airport, "an airport", documents.read(path), str(path))
+    return validated(Airport, documents.read(path), str(path))
 
 
-def _refuse_repeated(what: str, names: Iterable[str]) -> None:
+def _refuse_repeated(what: str, names: Sequence[str]) -> None:
     if repeated := sorted(name for name, count in Counter(names).items() if count > 1):
         raise ValueError(f"there is more than one {what} named {', '.join(repeated)}")
 
 
-def _refuse_unknown(what: str, names: Iterable[str], known: set[str]) -> None:
+def _refuse_unknown(what: str, names: Sequence[str], known: set[str]) -> None:
     for name in names:
         if name not in known:
-            few = len(known) <= library.SHOWN_NAMES
-            hint = (
-                f"; known: {', '.join(sorted(known))}"
-                if few
-                else library.nearest(name, sorted(known))
-            )
-            raise ValueError(f"no {what} named {name!r}{hint}")
+            raise ValueError(f"no {what} named {name!r}{library.nearest(name, sorted(known))}")

@@ -12,13 +12,10 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from airhilt.units import wrap_angle
-
-Local = tuple[float, float]
+from airhilt.world.surface.path import Local, without_repeats
 
 CORNER_CUT_M = 3.0
 """Greatest distance by which a corner is cut, in m, unless the least radius asks for more."""
-SAME_PLACE_M = 0.01
-"""Distance below which two points are one, in m."""
 SHORTEST_M = 1e-6
 STRAIGHT_RAD = 1e-9
 """Change of heading below which a path is straight, in rad."""
@@ -62,19 +59,11 @@ def aligned(
 
     Corners become arcs, as wide as `CORNER_CUT_M` and half of the legs beside them allow. Where
     not even the least radius fits, the path runs to the corner and turns behind it; a point that
-    it could only reach by a loop is left out, unless it is the last.
-
-    Parameters
-    ----------
-    start, heading_rad
-        Place where the path begins, and its direction there.
-    points
-        The polyline from there on.
-    radius_m
-        The least that any arc has.
+    it could only reach by a loop is left out, unless it is the last. ``radius_m`` is the least that
+    any arc has.
     """
     path = _Path(start, heading_rad, radius_m)
-    points = _apart(start, points)
+    points = without_repeats([start, *points])[1:]
     for index, point in enumerate(points):
         if index == len(points) - 1:
             path.turn_towards(point)
@@ -181,14 +170,3 @@ def _polar(a: Local, b: Local) -> tuple[float, float]:
 def _one_less_cosine(angle: float) -> float:
     """Return 1 - cos(angle), above 0 for the least of angles too."""
     return 2.0 * math.sin(0.5 * angle) ** 2
-
-
-def _apart(start: Local, points: Sequence[Local]) -> list[Local]:
-    """Return the points without those that lie where the one before them does."""
-    kept: list[Local] = []
-    last = start
-    for point in points:
-        if math.dist(last, point) > SAME_PLACE_M:
-            kept.append(point)
-            last = point
-    return kept

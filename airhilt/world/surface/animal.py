@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from typing import Literal
+from typing import Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, PositiveFloat, PositiveInt
+from pydantic import BaseModel, ConfigDict, Field, PositiveFloat
 
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place
@@ -18,8 +18,7 @@ from airhilt.shapes.sizes import Dimensions, Size
 from airhilt.sim.streams import stream
 from airhilt.units import wrap_angle
 from airhilt.world.mover import Creature, SurfaceState
-from airhilt.world.surface.kind import BODY, CreatureKind
-from airhilt.world.surface.reach import within_reach
+from airhilt.world.surface.kind import BODY, CreatureKind, within_reach
 
 ARRIVED_M = 0.3
 """Distance below which an animal on the ground has arrived, in m."""
@@ -57,86 +56,50 @@ Gait = Literal["walking", "running", "flying"]
 
 
 class Flight(BaseModel):
-    """Numbers of a bird's flight, and its mesh in the air.
-
-    Attributes
-    ----------
-    dimensions
-        Size in the air.
-    mesh
-        Makes the mesh in the air, in that size, with the wings in one of `WING_BEATS` positions.
-    wing_beats_hz
-        Frequency of its wing beats, in Hz.
-    lateral_m_s2
-        Greatest acceleration across, in a turn.
-    height_m
-        Height at which it flies from one place on the ground to another, or away from danger.
-    """
+    """Numbers of a bird's flight, and its mesh in the air."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
     dimensions: Dimensions
     mesh: Callable[[Size, int], Mesh]
+    """Makes the mesh in the air, with the wings in one of `WING_BEATS` positions."""
     wing_beats_hz: PositiveFloat
     speed_m_s: PositiveFloat
     acceleration_m_s2: PositiveFloat
     lateral_m_s2: PositiveFloat
+    """Greatest acceleration across, in a turn."""
     climb_m_s: PositiveFloat
     descent_m_s: PositiveFloat
     height_m: PositiveFloat
+    """Height at which it flies from one place on the ground to another, or away from danger."""
 
 
 class AnimalKind(CreatureKind, BaseModel):
-    """A kind of animal, or a flock of birds that moves as one.
-
-    Attributes
-    ----------
-    source
-        Source of the numbers, and which of them are estimates.
-    label
-        Class that it has in pictures.
-    count
-        Number of animals that move as one.
-    dimensions
-        Size on the ground.
-    mesh
-        Makes its mesh on the ground, in that size.
-    acceleration_m_s2
-        Acceleration on the ground, of getting faster and slower.
-    lateral_m_s2
-        Greatest acceleration across on the ground, in a turn.
-    turn_rate_rad_s
-        Greatest rate of turn on the ground.
-    wander_rad
-        Standard deviation of its direction on the way to a place.
-    reaction_s
-        Median time from a fright to the first step.
-    flees_for_m
-        Distance after which a flight from danger ends.
-    flight
-        Its flight; None if it does not fly.
-    radar_cross_section_m2
-        Radar cross section of all that move as one.
-    """
+    """A kind of animal, or a flock of birds that moves as one."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
     name: str
     description: str
     source: str
+    """Source of the numbers, and which of them are estimates."""
     label: VisibleClass
-    count: PositiveInt = 1
     dimensions: Dimensions
     mesh: Callable[[Size], Mesh]
     walk_m_s: PositiveFloat
     run_m_s: PositiveFloat
     acceleration_m_s2: PositiveFloat
     lateral_m_s2: PositiveFloat
+    """Greatest acceleration across on the ground, in a turn."""
     turn_rate_rad_s: PositiveFloat = math.pi
     wander_rad: float = Field(ge=0.0, le=1.0)
+    """Standard deviation of its direction on the way to a place."""
     reaction_s: PositiveFloat
+    """Median time from a fright to the first step."""
     flees_for_m: PositiveFloat
+    """Distance after which a flight from danger ends."""
     flight: Flight | None = None
     radar_cross_section_m2: PositiveFloat
+    """Radar cross section of all that move as one."""
 
     def appearance(self) -> Appearance:
         """Return its mesh on the ground, and those of a wing beat if it flies."""
@@ -153,32 +116,9 @@ class AnimalKind(CreatureKind, BaseModel):
             return BODY
         return f"flying{math.floor(t_s * self.flight.wing_beats_hz * WING_BEATS) % WING_BEATS}"
 
-    def create(
-        self,
-        place: Place,
-        heading_rad: float,
-        *,
-        ground_m: float,
-        tick_s: float,
-        seed: int = 0,
-        height_m: float = 0.0,
-    ) -> AnimalBody:
-        """Return an animal of this kind; see `airhilt.world.surface.kind.Kind`.
-
-        Raises
-        ------
-        ValueError
-            It was to begin at no place, or in the air and does not fly.
-        """
-        return AnimalBody(
-            self,
-            place,
-            heading_rad,
-            ground_m=ground_m,
-            tick_s=tick_s,
-            seed=seed,
-            height_m=height_m,
-        )
+    def create(self, place: Place, heading_rad: float, **start: Any) -> AnimalBody:
+        """Return an animal of this kind; see `airhilt.world.surface.kind.Kind`."""
+        return AnimalBody(self, place, heading_rad, **start)
 
 
 class AnimalBody:
@@ -186,28 +126,8 @@ class AnimalBody:
 
     On its way it wanders: direction and speed are autoregressive draws of its own random streams.
     The same seed and the same orders give the same way, bit by bit. Wind does not carry it off.
-
-    Parameters
-    ----------
-    kind
-        Its kind, which says what it can do.
-    place, heading_rad
-        Place of its middle, and its true heading.
-    ground_m
-        Height of the ground above WGS84.
-    tick_s
-        Time step of `advance`.
-    seed
-        Seed of its wandering and its reactions.
-    height_m
-        Height above the ground. One that begins in the air flies straight on.
-
-    Attributes
-    ----------
-    state
-        Place and movement now.
-    ended
-        Why it does not move any more; None while it moves.
+    One that begins in the air flies straight on. The parameters are those of
+    `airhilt.world.surface.kind.Kind.create`.
 
     Raises
     ------
@@ -223,7 +143,7 @@ class AnimalBody:
         *,
         ground_m: float,
         tick_s: float,
-        seed: int,
+        seed: int = 0,
         height_m: float = 0.0,
     ) -> None:
         self.kind = kind
@@ -261,11 +181,6 @@ class AnimalBody:
             self._speed = self._flight.speed_m_s
             self._gait = "flying"
         self.state = self._state()
-
-    @property
-    def count(self) -> int:
-        """Number of animals."""
-        return self.kind.count
 
     @property
     def on_ground(self) -> bool:

@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from shapely import LineString, Point
 
@@ -33,17 +33,7 @@ DECIMALS = 7
 
 
 class Draft:
-    """The taxiways of an airport while they are drawn.
-
-    Parameters
-    ----------
-    reference
-        Origin of the local metres.
-    runways
-        Runways to which the taxiways lead.
-    width_m
-        Width of all taxiways.
-    """
+    """The taxiways of an airport while they are drawn, in metres from its reference point."""
 
     def __init__(
         self, reference: ReferencePoint, runways: Sequence[Runway], width_m: float
@@ -70,17 +60,14 @@ class Draft:
         ahead = lines.unit(start, end)
         return lines.step(lines.step(start, ahead, along_m), (ahead[1], -ahead[0]), right_m)
 
-    def junction(self, name: str, at: Local) -> str:
-        """Add a point of the taxiways."""
-        return self._node(name, at, "junction")
-
-    def stand(self, name: str, at: Local) -> str:
-        """Add a point where aircraft or vehicles stand."""
-        return self._node(name, at, "stand")
-
-    def on_runway(self, name: str, at: Local) -> str:
-        """Add a point on the centre line of a runway."""
-        return self._node(name, at, "runway")
+    def node(
+        self, name: str, at: Local, kind: Literal["junction", "hold", "runway", "stand"]
+    ) -> str:
+        """Add a point of the taxiways, and return its name."""
+        latitude, longitude = self.degrees(at)
+        self._nodes.append(Node(name=name, lat_deg=latitude, lon_deg=longitude, kind=kind))
+        self.at[name] = at
+        return name
 
     def taxiway(self, name: str, *nodes: str) -> None:
         """Join nodes, one after the other."""
@@ -101,7 +88,7 @@ class Draft:
             taxiway=taxiway,
             side=side,
         )
-        self._node(hold.node, (edge.x, edge.y), "hold")
+        self.node(hold.node, (edge.x, edge.y), "hold")
         self.taxiway(taxiway, outside, hold.node, on_runway)
         self.holds.append(hold)
         return hold.node
@@ -115,8 +102,16 @@ class Draft:
         latitude, longitude = self.local_frame.to_place(*at)
         return round(latitude / DEGREE, DECIMALS), round(longitude / DEGREE, DECIMALS)
 
-    def camera(self, name: str, at: Local, height_m: float, azimuth_deg: float) -> Camera:
-        """Return a camera that looks slightly down, over a wide angle."""
+    def camera(
+        self,
+        name: str,
+        at: Local,
+        height_m: float,
+        azimuth_deg: float,
+        elevation_deg: float = -4.0,
+        fov_deg: float = 70.0,
+    ) -> Camera:
+        """Return a camera; by default it looks slightly down, over a wide angle."""
         latitude, longitude = self.degrees(at)
         return Camera(
             name=name,
@@ -124,38 +119,25 @@ class Draft:
             lon_deg=longitude,
             height_m=height_m,
             azimuth_deg=round(azimuth_deg % 360.0, 1),
-            elevation_deg=-4.0,
-            horizontal_fov_deg=70.0,
+            elevation_deg=elevation_deg,
+            horizontal_fov_deg=fov_deg,
         )
 
-    def runway_cameras(self, runway: str, right_m: float) -> tuple[Camera, Camera]:
+    def runway_cameras(self, runway: str, right_m: float) -> tuple[Camera, ...]:
         """Return a camera at each end of a runway that looks along it and slightly inwards."""
         strip = self.strips[runway]
-        cameras = []
-        for end, along, right in (
-            (strip.ends[0], 40.0, right_m),
-            (strip.ends[1], strip.centreline.length - 40.0, -right_m),
-        ):
-            latitude, longitude = self.degrees(self.beside(runway, along, right_m))
-            azimuth = math.degrees(end.course_rad) - math.copysign(8.0, right)
-            cameras.append(
-                Camera(
-                    name=f"runway_{end.ident}",
-                    lat_deg=latitude,
-                    lon_deg=longitude,
-                    height_m=8.0,
-                    azimuth_deg=round(azimuth % 360.0, 1),
-                    elevation_deg=-1.0,
-                    horizontal_fov_deg=45.0,
-                )
+        alongs_m = (40.0, strip.centreline.length - 40.0)
+        return tuple(
+            self.camera(
+                f"runway_{end.ident}",
+                self.beside(runway, along_m, right_m),
+                8.0,
+                math.degrees(end.course_rad) - math.copysign(8.0, side * right_m),
+                elevation_deg=-1.0,
+                fov_deg=45.0,
             )
-        return cameras[0], cameras[1]
-
-    def _node(self, name: str, at: Local, kind: Any) -> str:
-        latitude, longitude = self.degrees(at)
-        self._nodes.append(Node(name=name, lat_deg=latitude, lon_deg=longitude, kind=kind))
-        self.at[name] = at
-        return name
+            for end, along_m, side in zip(strip.ends, alongs_m, (1.0, -1.0), strict=True)
+        )
 
 
 def write_airport(airport: Airport, path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import ClassVar, Literal, Protocol, TypeVar, runtime_checkable
 
 from pydantic import BaseModel
@@ -14,6 +15,7 @@ from airhilt.commands import (
     StandCommand,
     TaxiCommand,
 )
+from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place
 from airhilt.messages import EmitterCategory, HoldPosition, Recommendation, VisibleClass
 from airhilt.shapes.appearance import Appearance
@@ -31,6 +33,8 @@ M = TypeVar("M", bound=Mover)
 
 BODY = "body"
 """Name of the mesh of a kind that has only one."""
+REACH_M = 50_000.0
+"""Greatest distance of a place to go to, in m."""
 
 
 @runtime_checkable
@@ -148,18 +152,11 @@ class DrivenKind:
         return BODY
 
     def carry_out(self, body: Driven, command: Command, site: ScenarioSite) -> bool:
-        """Drive along a taxi way, stop, or go on.
-
-        Raises
-        ------
-        ValueError, ScenarioError
-            There is no such way, or the command is of another class.
-        """
+        """Drive along a taxi way, stop, or go on; errors as of `Kind.carry_out`."""
         match command:
             case TaxiCommand(speed_kt=speed):
-                state, nose_m = body.state, body.dimensions.length_m / 2.0
-                here = (state.latitude_rad, state.longitude_rad)
-                way = taxi_way(site, here, command, nose_m)
+                here = (body.state.latitude_rad, body.state.longitude_rad)
+                way = taxi_way(site, here, command, body.dimensions.length_m / 2.0)
                 body.drive(way, None if speed is None else speed * KNOT)
             case HoldPositionCommand():
                 if body.phase != "driving":
@@ -190,13 +187,7 @@ class CreatureKind:
         return BODY
 
     def carry_out(self, body: Creature, command: Command, site: ScenarioSite) -> bool:
-        """Move to a place, or stand.
-
-        Raises
-        ------
-        ValueError, ScenarioError
-            There is no such place, it cannot move like that, or the command is of another class.
-        """
+        """Move to a place, or stand; errors as of `Kind.carry_out`."""
         match command:
             case StandCommand():
                 body.stand()
@@ -218,3 +209,20 @@ class CreatureKind:
 def vehicle_appearance(mesh: Mesh, size: Size) -> Appearance:
     """Return the appearance of a vehicle of one mesh, with a beacon and headlamps."""
     return Appearance({BODY: mesh}, lambda t_s, _: vehicle_lights(size, t_s))
+
+
+def within_reach(local_frame: LocalFrame, place: Place) -> tuple[float, float]:
+    """Return east and north of a place to go to, from the origin of a local frame.
+
+    Raises
+    ------
+    ValueError
+        The place is farther away than `REACH_M`, or is none.
+    """
+    east, north = local_frame.to_local(place)
+    if not math.hypot(east, north) <= REACH_M:
+        raise ValueError(
+            f"({math.degrees(place[0]):.4f}, {math.degrees(place[1]):.4f}) degrees is not "
+            f"within {REACH_M / 1000.0:.0f} km"
+        )
+    return east, north

@@ -17,10 +17,11 @@ from shapely import LineString, Point
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place, distance_and_azimuth
-from airhilt.units import FOOT
+from airhilt.units import DEGREE, FOOT
 from airhilt.world.surface import path as lines
-from airhilt.world.surface.airport import Airport, HoldShort
-from airhilt.world.surface.path import Local
+from airhilt.world.surface.airport import Airport, Edge, HoldShort
+from airhilt.world.surface.airport import Polygon as Corners
+from airhilt.world.surface.path import Leg, Local
 from airhilt.world.surface.runway import RunwayEnd
 from airhilt.world.surface.strips import RunwayStrip, runway_strip
 from airhilt.world.surface.taxiways import TaxiwayGraph
@@ -44,59 +45,43 @@ CLEAR_OF_HOLD_M = 75.0
 it too."""
 POINT_STEP_M = 4.0
 """Greatest distance between the points of entries and exits, in m."""
+HALF_HOLD_LINE_M = 16.0
+"""Half the length of a hold line, in m: it is drawn wider than its taxiway."""
 
 
 @dataclass(frozen=True)
 class Hold:
-    """A point where traffic holds short of a runway.
-
-    Attributes
-    ----------
-    name
-        Name of its node in the taxiway graph.
-    place
-        Place of the hold line, on the centre line of the taxiway: noses stop before it.
-    heading_rad
-        True heading along the taxiway towards the runway.
-    runway
-        Name of the strip, such as ``01/19``.
-    position
-        The taxiway, and the side of the runway where the taxiway has a hold on both: ``J_north``.
-    """
+    """A point where traffic holds short of a runway."""
 
     name: str
+    """Name of its node in the taxiway graph."""
     place: Place
+    """Place of the hold line, on the centre line of the taxiway: noses stop before it."""
     heading_rad: float
+    """True heading along the taxiway towards the runway."""
     runway: str
+    """Name of the strip, such as ``01/19``."""
     taxiway: str
     position: str
+    """The taxiway, and the side of the runway where the taxiway has a hold on both: ``J_north``."""
 
 
 @dataclass(frozen=True)
 class Exit:
-    """A way off a runway.
-
-    Attributes
-    ----------
-    position
-        Position of its hold: the taxiway, and the side of the runway where it leads off on both.
-    along_m
-        Distance from the landing threshold to where ``path`` leaves the centre line.
-    turn_rad
-        Angle by which it turns, positive to the right.
-    path
-        Way from the centre line over a lead-off arc past the hold line, so far that the tail of a
-        747 is clear, where the taxiways allow it.
-    hold
-        Name of the hold whose line it passes.
-    """
+    """A way off a runway."""
 
     taxiway: str
     position: str
+    """Position of its hold: the taxiway, and the side of the runway where it leads off on both."""
     along_m: float
+    """Distance from the landing threshold to where ``path`` leaves the centre line."""
     turn_rad: float
+    """Angle by which it turns, positive to the right."""
     path: tuple[Place, ...]
+    """Way from the centre line over a lead-off arc past the hold line, so far that the tail of a
+    747 is clear, where the taxiways allow it."""
     hold: str
+    """Name of the hold whose line it passes."""
 
 
 class Layout:
@@ -273,6 +258,26 @@ class Layout:
     def stands(self) -> tuple[str, ...]:
         """Names of the nodes where aircraft and vehicles stand."""
         return tuple(node.name for node in self.airport.taxiways.nodes if node.kind == "stand")
+
+    # --- shapes in local metres -----------------------------------------------------------
+
+    def leg(self, edge: Edge) -> Leg:
+        """Return both ends of a straight piece of a taxiway."""
+        first, second = edge.nodes
+        return self.taxiways.nodes[first], self.taxiways.nodes[second]
+
+    def hold_line(self, hold: Hold, least_half_m: float = 0.0) -> Leg:
+        """Return both ends of a hold line, along the edge of the area that it protects.
+
+        The line is at least twice ``least_half_m`` long.
+        """
+        along = lines.unit(*self.strips[hold.runway].centreline.coords)
+        middle, half_m = self.taxiways.nodes[hold.name], max(HALF_HOLD_LINE_M, least_half_m)
+        return lines.step(middle, along, -half_m), lines.step(middle, along, half_m)
+
+    def outline(self, corners: Corners) -> list[Local]:
+        """Return the corners of an area that the airport's file has in degrees."""
+        return [self.local_frame.to_local((lat * DEGREE, lon * DEGREE)) for lat, lon in corners]
 
     # --- parts ----------------------------------------------------------------------------
 

@@ -6,9 +6,9 @@ The files are ``runways.csv`` and ``airport-frequencies.csv`` of https://ourairp
 
 from __future__ import annotations
 
-import csv
-import itertools
+import io
 import math
+import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -22,28 +22,13 @@ from airhilt.world.surface.airport import Frequency, Role, Runway, RunwayThresho
 
 LARGEST_BYTES = 50_000_000
 """Size of the largest file that is read; those of all airports had 4 MB in 2026."""
-MOST_COLUMNS = 100
-"""Greatest number of columns; OurAirports has 20."""
-MOST_ROWS = 200_000
-"""Greatest number of rows; the runways of all airports were 48,000 in 2026."""
 CREDIT = "OurAirports (public domain)"
+ENDS = ("le", "he")
+"""Beginnings of the columns of both ends of a runway."""
+OF_ENDS = ("ident", "latitude_deg", "longitude_deg", "elevation_ft", "displaced_threshold_ft")
 RUNWAY_COLUMNS = (
-    "airport_ident",
-    "length_ft",
-    "width_ft",
-    "surface",
-    "closed",
-    *(
-        f"{end}_{what}"
-        for end in ("le", "he")
-        for what in (
-            "ident",
-            "latitude_deg",
-            "longitude_deg",
-            "elevation_ft",
-            "displaced_threshold_ft",
-        )
-    ),
+    *("airport_ident", "length_ft", "width_ft", "surface", "closed"),
+    *(f"{end}_{what}" for end in ENDS for what in OF_ENDS),
 )
 FREQUENCY_COLUMNS = ("airport_ident", "type", "description", "frequency_mhz")
 ROLES: dict[str, Role] = {
@@ -63,6 +48,7 @@ ROLES: dict[str, Role] = {
     "CTAF": "unicom",
 }
 """Role by the first word of OurAirports' type; every other is ``other``."""
+DESIGNATOR = re.compile("[0-9]{1,2}[A-Z]{0,2}")
 DECIMALS = 7
 """Decimals of degrees: a centimetre."""
 USUAL_WIDTH_FT = 100.0
@@ -112,7 +98,7 @@ def read_runways(path: Path, ident: str) -> Runways:
     elevations = [
         elevation
         for _, row in usable
-        for end in ("le", "he")
+        for end in ENDS
         if (elevation := _number(row[f"{end}_elevation_ft"])) is not None
     ]
     if not usable:
@@ -146,31 +132,24 @@ def read_frequencies(path: Path, ident: str) -> tuple[Frequency, ...]:
 
 
 def _rows(path: Path, columns: tuple[str, ...]) -> list[dict[str, str]]:
+    import pandas
+
     try:
         text = read_file(path, LARGEST_BYTES).decode("utf-8-sig")
+        header, _, _ = text.partition("\n")
+        separator = ";" if header.count(";") > header.count(",") else ","
+        table = pandas.read_csv(io.StringIO(text), sep=separator, dtype=str, na_filter=False)
     except OSError as error:
         raise ScenarioError(f"{path}: cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise ScenarioError(f"{path}: is not UTF-8 text: {error.reason}") from error
-    header, _, _ = text.partition("\n")
-    separator = ";" if header.count(";") > header.count(",") else ","
-    reader = csv.DictReader(text.splitlines(), delimiter=separator)
-    try:
-        found = reader.fieldnames or ()
-        if len(found) > MOST_COLUMNS:
-            raise ScenarioError(f"{path}: found {len(found):,} columns; expected fewer")
-        if missing := [name for name in columns if name not in found]:
-            has = readable(", ".join(found) or "none")
-            raise ScenarioError(f"{path} has no column {', '.join(missing)}; it has {has}")
-        rows = [
-            {name: (row[name] or "").strip() for name in columns}
-            for row in itertools.islice(reader, MOST_ROWS + 1)
-        ]
-    except csv.Error as error:
-        raise ScenarioError(f"{path}:{reader.line_num + 1}: no CSV: {error}") from None
-    if len(rows) > MOST_ROWS:
-        raise ScenarioError(f"{path}: found over {MOST_ROWS:,} rows; expected fewer")
-    return rows
+    except ValueError as error:
+        raise ScenarioError(f"{path}: no CSV: {readable(str(error))}") from None
+    if missing := [name for name in columns if name not in table]:
+        has = readable(", ".join(table))
+        raise ScenarioError(f"{path} has no column {', '.join(missing)}; it has {has}")
+    rows = table[list(columns)].to_dict("records")
+    return [{name: field.strip() for name, field in row.items()} for row in rows]
 
 
 def _unusable(row: dict[str, str]) -> str | None:
@@ -179,23 +158,14 @@ def _unusable(row: dict[str, str]) -> str | None:
         return "closed"
     if any(ident.startswith("H") or ident.endswith("H") for ident in idents):
         return "for helicopters"
-    if not all(ident[:1].isdigit() and _is_designator(ident) for ident in idents):
+    if not all(DESIGNATOR.fullmatch(ident) for ident in idents):
         return "has no runway number"
-    numbers = [
-        _number(row[f"{end}_{what}_deg"])
-        for end in ("le", "he")
-        for what in ("latitude", "longitude")
-    ]
+    numbers = [_number(row[f"{end}_{what}"]) for end in ENDS for what in OF_ENDS[1:3]]
     if None in numbers:
         return "has no coordinates"
     if numbers[:2] == numbers[2:]:
         return "has the same coordinates twice"
     return None
-
-
-def _is_designator(ident: str) -> bool:
-    digits = ident.rstrip("ABCDEFGHIJKLMNOPQRSTUVWXYZ")
-    return digits.isdigit() and len(digits) <= 2 and len(ident) - len(digits) <= 2
 
 
 def _runway(name: str, row: dict[str, str], elevation_ft: float, notes: list[str]) -> Runway:

@@ -10,6 +10,8 @@ from shapely import LineString
 
 Local = tuple[float, float]
 """East and north in metres."""
+Leg = tuple[Local, Local]
+"""Both ends of a straight line."""
 
 ARC_STEP_M = 3.0
 """Greatest distance between points on a rounded corner, in m."""
@@ -32,16 +34,13 @@ def turn(before: Local, corner: Local, after: Local) -> float:
 
 
 def rounded(points: Sequence[Local], radius_m: float, first_radius_m: float = 0.0) -> list[Local]:
-    """Return a polyline whose corners are arcs.
+    """Return a polyline whose corners are arcs, smaller where the legs beside one are too short.
 
-    Parameters
-    ----------
-    radius_m
-        Radius of the arcs; smaller where the legs beside a corner are too short for it.
-    first_radius_m
-        Radius of the first arc, if it differs.
+    ``first_radius_m`` is the radius of the first arc, if it differs.
     """
-    points = without_straight_points(points)
+    points = without_repeats(points)
+    if len(points) > 2:
+        points = [(x, y) for x, y in LineString(points).simplify(STRAIGHT_M).coords]
     path = list(points[:1])
     for index in range(1, len(points) - 1):
         before, corner, after = points[index - 1 : index + 2]
@@ -100,14 +99,6 @@ def without_repeats(points: Sequence[Local]) -> list[Local]:
         if not path or math.dist(path[-1], point) > SHORTEST_LEG_M:
             path.append(point)
     return path
-
-
-def without_straight_points(points: Sequence[Local]) -> list[Local]:
-    """Return a polyline without the points at which it does not turn."""
-    points = without_repeats(points)
-    if len(points) <= 2:
-        return points
-    return [(x, y) for x, y in LineString(points).simplify(STRAIGHT_M).coords]
 
 
 def unit(a: Local, b: Local) -> Local:

@@ -14,35 +14,23 @@ GLIDE_PATH_RAD = math.radians(3.0)
 
 @dataclass(frozen=True, slots=True)
 class RunwayEnd:
-    """One direction of a runway.
-
-    Attributes
-    ----------
-    ident
-        Designator such as ``01`` or ``18C``.
-    start
-        Beginning of the pavement on the centre line: a takeoff may begin here.
-    threshold
-        Beginning of the part for landings: ``start``, or ``displaced_m`` beyond it.
-    end
-        End of the pavement on the centre line.
-    elevation_m
-        Elevation of the threshold.
-    width_m, length_m
-        Width and length of the pavement.
-    displaced_m
-        Distance from ``start`` to ``threshold``.
-    course_rad
-        True course from ``start`` to ``end``, in [0, 2 pi).
-    """
+    """One direction of a runway."""
 
     ident: str
+    """Designator such as ``01`` or ``18C``."""
     start: Place
+    """Beginning of the pavement on the centre line: a takeoff may begin here."""
     threshold: Place
+    """Beginning of the part for landings: ``start``, or ``displaced_m`` beyond it."""
     end: Place
+    """End of the pavement on the centre line."""
     elevation_m: float
+    """Elevation of the threshold."""
     width_m: float
     length_m: float
+    """Width and length of the pavement."""
     displaced_m: float
+    """Distance from ``start`` to ``threshold``."""
     course_rad: float
+    """True course from ``start`` to ``end``, in [0, 2 pi)."""
     glide_path_rad: float = GLIDE_PATH_RAD

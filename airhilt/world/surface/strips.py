@@ -20,30 +20,22 @@ STRIP_BEYOND_END_M = 60.0
 
 @dataclass(frozen=True)
 class RunwayStrip:
-    """A runway with the area around it that its holding positions protect.
-
-    Attributes
-    ----------
-    name
-        Name such as ``01/19``.
-    ends
-        Its two directions, in the order of the name.
-    pavement, protected_area, centreline
-        Shapes in local metres. The protected area reaches to the holding positions on both sides
-        and 60 m beyond both ends of the pavement: ICAO Doc 9870, Manual on the Prevention of Runway
-        Incursions, 1.1, counts an incursion within the area protected by the holding positions.
-    hold_distance_m
-        Distance of the holding positions from the centre line: FAA AC 150/5300-13B, runway design
-        standards matrix (appendix G), 250 ft for approach categories C and D; ICAO Annex 14
-        volume I, table 3-2, 90 m for code number 4 with precision approaches.
-    """
+    """A runway with the area around it that its holding positions protect."""
 
     name: str
+    """Name such as ``01/19``."""
     ends: tuple[RunwayEnd, RunwayEnd]
+    """Its two directions, in the order of the name."""
     pavement: Polygon
     protected_area: Polygon
     centreline: LineString
+    """Shapes in local metres. The protected area reaches to the holding positions on both sides and
+    60 m beyond both ends of the pavement: ICAO Doc 9870, Manual on the Prevention of Runway
+    Incursions, 1.1, counts an incursion within the area protected by the holding positions."""
     hold_distance_m: float
+    """Distance of the holding positions from the centre line: FAA AC 150/5300-13B, runway design
+    standards matrix (appendix G), 250 ft for approach categories C and D; ICAO Annex 14 volume I,
+    table 3-2, 90 m for code number 4 with precision approaches."""
 
 
 def runway_strip(runway: Runway, local_frame: LocalFrame) -> RunwayStrip:

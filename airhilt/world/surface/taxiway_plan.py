@@ -48,19 +48,13 @@ DETOUR, DETOUR_M = 3.0, 800.0
 
 @dataclass(frozen=True)
 class Apron:
-    """Stands, terminal and tower around a taxiway.
-
-    Attributes
-    ----------
-    at
-        Middle of the taxiway.
-    along, away
-        Unit vectors along the taxiway, and from it to the stands and the terminal.
-    """
+    """Stands, terminal and tower around a taxiway."""
 
     at: Local
+    """Middle of the taxiway."""
     along: Local
     away: Local
+    """Unit vectors along the taxiway, and from it to the stands and the terminal."""
 
     def point(self, along_m: float, away_m: float) -> Local:
         """Return a point along the taxiway and away from it."""
@@ -154,7 +148,9 @@ class TaxiwayPlan:
         for number in range(1, STAND_COUNT + 1):
             along = (number - (STAND_COUNT + 1) / 2.0) * STAND_SPACING_M
             joint = self._joint(f"Z/{number}", self.apron.point(along, 0.0))
-            stand = self.draft.stand(f"stand_{number}", self.apron.point(along, STAND_DEPTH_M))
+            stand = self.draft.node(
+                f"stand_{number}", self.apron.point(along, STAND_DEPTH_M), "stand"
+            )
             self.draft.taxiway("ramp", joint, stand)
             names.append(joint)
         for a, b in pairwise(names):
@@ -179,8 +175,8 @@ class TaxiwayPlan:
             joint = self._joint(
                 f"{letter}/{name}", self.draft.beside(strip.name, along, here * self._offset(strip))
             )
-            runway = self.draft.on_runway(
-                f"{strip.name} at {name}", self.draft.beside(strip.name, along, 0.0)
+            runway = self.draft.node(
+                f"{strip.name} at {name}", self.draft.beside(strip.name, along, 0.0), "runway"
             )
             self.draft.entrance(name, joint, runway, strip.name)
             joints[joint] = here
@@ -190,16 +186,13 @@ class TaxiwayPlan:
     def _connectors(self, strip: RunwayStrip, side: int) -> list[float]:
         """Return where connectors can be: at both ends, or near, and at intervals between."""
         length = strip.centreline.length
-        grid = [END_M, *self._steps(END_M + SEARCH_STEP_M, length - END_M), length - END_M]
+        inner = range(1, int((length - 2.0 * END_M) / SEARCH_STEP_M))
+        grid = [END_M, *(END_M + step * SEARCH_STEP_M for step in inner), length - END_M]
         possible = [along for along in grid if self._is_clear(strip, along, side)]
         count = max(2, round(length / BETWEEN_CONNECTORS_M))
         wanted = (END_M + part * (length - 2.0 * END_M) / count for part in range(count + 1))
         chosen = {min(possible, key=lambda along: abs(along - at)) for at in wanted if possible}
         return sorted(chosen)
-
-    @staticmethod
-    def _steps(begin: float, end: float) -> list[float]:
-        return [begin + step * SEARCH_STEP_M for step in range(int((end - begin) / SEARCH_STEP_M))]
 
     def _is_clear(self, strip: RunwayStrip, along: float, side: int) -> bool:
         connector = LineString(
@@ -233,7 +226,7 @@ class TaxiwayPlan:
 
     def _joint(self, name: str, at: Local) -> str:
         self._joined.add_node(name)
-        return self.draft.junction(name, at)
+        return self.draft.node(name, at, "junction")
 
     def _join_all(self) -> None:
         """Join what is not joined yet, by the cheapest legs, and shorten the longest ways."""
@@ -302,12 +295,14 @@ class TaxiwayPlan:
             self.draft.taxiway(taxiway, a, b)
             return
         for crossing, following in zip(crossings, [*crossings[1:], None], strict=True):
-            runway = self.draft.on_runway(f"{crossing.runway} at {taxiway}", crossing.at)
+            runway = self.draft.node(f"{crossing.runway} at {taxiway}", crossing.at, "runway")
             after = b
             if following is not None:
                 middle = (crossing.end_m + following.begin_m) / 2.0
-                after = self.draft.junction(
-                    f"{taxiway} before {following.runway}", lines.step(at[a], ahead, middle)
+                after = self.draft.node(
+                    f"{taxiway} before {following.runway}",
+                    lines.step(at[a], ahead, middle),
+                    "junction",
                 )
             back = (-ahead[0], -ahead[1])
             self.draft.entrance(taxiway, before, runway, crossing.runway, _compass(back))

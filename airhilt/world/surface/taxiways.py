@@ -74,7 +74,17 @@ class TaxiwayGraph:
         if heading_rad is not None:
             ahead = math.sin(heading_rad), math.cos(heading_rad)
             behind = lines.step(graph.nodes[first]["at"], ahead, -1.0)
-        names = self._nodes_of(graph, first, last, via, behind)
+        taxiways = {data["taxiway"] for _, _, data in graph.edges(data=True)}
+        for name in via:
+            if name not in taxiways and name not in graph:
+                nearest = library.nearest(name, sorted(taxiways))
+                raise ScenarioError(f"{self._icao} has no taxiway {name!r}{nearest}")
+        names = _shortest_way(graph, first, [last], via, behind)
+        if names is None:
+            through = f" via {', '.join(via)}" if via else ""
+            raise ScenarioError(
+                f"there is no taxi route from {first!r} to {last!r}{through} at {self._icao}"
+            )
         points = [graph.nodes[name]["at"] for name in names]
         points = self._attach(points[::-1], end)[::-1]
         return self._attach(points, start)
@@ -197,15 +207,12 @@ class TaxiwayGraph:
         here = centreline.project(at)
         foot = centreline.interpolate(here)
         graph.add_node(name, at=(foot.x, foot.y))
-        below = max(
-            (node for node in along if along[node] <= here), key=along.__getitem__, default=None
-        )
-        above = min(
-            (node for node in along if along[node] > here), key=along.__getitem__, default=None
-        )
-        for node in (below, above):
-            if node is not None:
-                self._connect(graph, name, node, strip.name)
+        below = [node for node in along if along[node] <= here]
+        above = [node for node in along if along[node] > here]
+        if below:
+            self._connect(graph, name, max(below, key=along.__getitem__), strip.name)
+        if above:
+            self._connect(graph, name, min(above, key=along.__getitem__), strip.name)
 
     def _attach(self, points: list[Local], where: Place | str) -> list[Local]:
         """Return a way that begins at a place, where it began at the taxiway nearest to it."""
@@ -214,27 +221,6 @@ class TaxiwayGraph:
         at = self._local_frame.to_local(where)
         on_taxiway = math.dist(at, points[0]) < ON_TAXIWAY_M and len(points) > 1
         return [at, *(points[1:] if on_taxiway else points)]
-
-    def _nodes_of(
-        self,
-        graph: networkx.Graph,
-        start: str,
-        end: str,
-        via: Sequence[str],
-        behind: Local | None,
-    ) -> list[str]:
-        taxiways = {data["taxiway"] for _, _, data in graph.edges(data=True)}
-        for name in via:
-            if name not in taxiways and name not in graph:
-                nearest = library.nearest(name, sorted(taxiways))
-                raise ScenarioError(f"{self._icao} has no taxiway {name!r}{nearest}")
-        route = _shortest_way(graph, start, [end], via, behind)
-        if route is None:
-            through = f" via {', '.join(via)}" if via else ""
-            raise ScenarioError(
-                f"there is no taxi route from {start!r} to {end!r}{through} at {self._icao}"
-            )
-        return route
 
 
 def _shortest_way(

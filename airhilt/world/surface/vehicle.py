@@ -17,8 +17,7 @@ from airhilt.shapes.sizes import Dimensions, Size
 from airhilt.shapes.vehicles import van
 from airhilt.world.mover import SurfaceState
 from airhilt.world.surface.alignment import Element, aligned
-from airhilt.world.surface.kind import DrivenKind, vehicle_appearance
-from airhilt.world.surface.reach import within_reach
+from airhilt.world.surface.kind import DrivenKind, vehicle_appearance, within_reach
 
 STANDING_M_S = 1e-6
 """Speed below which a vehicle stands, in m/s."""
@@ -29,45 +28,31 @@ VehiclePhase = Literal["standing", "driving", "stopping"]
 
 
 class VehicleKind(DrivenKind, BaseModel):
-    """A kind of ground vehicle that differs from others in numbers, looks and labels.
-
-    Attributes
-    ----------
-    source
-        Source of the numbers, and which of them are estimates.
-    mesh
-        Makes its mesh, in its size.
-    label
-        Class that it has in pictures.
-    emitter_category
-        Category that its transponder sends: C1 for emergency, C2 for service vehicles.
-    radar_cross_section_m2
-        Radar cross section; the default is that of a pickup truck (M. Skolnik, Introduction to
-        Radar Systems, 3rd edition, table 2.2).
-    cruise_m_s
-        Speed at which it is driven by default.
-    lateral_m_s2
-        Greatest acceleration across, in a corner.
-    turning_radius_m
-        Least radius of the path of its middle.
-    """
+    """A kind of ground vehicle that differs from others in numbers, looks and labels."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, allow_inf_nan=False)
 
     name: str
     description: str
     source: str
+    """Source of the numbers, and which of them are estimates."""
     dimensions: Dimensions
     mesh: Callable[[Size], Mesh] = van
     label: VisibleClass = "truck"
     emitter_category: EmitterCategory = "C2"
+    """Category that its transponder sends: C1 for emergency, C2 for service vehicles."""
     radar_cross_section_m2: PositiveFloat = 200.0
+    """Radar cross section; the default is that of a pickup truck (M. Skolnik, Introduction to Radar
+    Systems, 3rd edition, table 2.2)."""
     cruise_m_s: PositiveFloat
+    """Speed at which it is driven by default."""
     maximum_m_s: PositiveFloat
     acceleration_m_s2: PositiveFloat
     braking_m_s2: PositiveFloat
     lateral_m_s2: PositiveFloat
+    """Greatest acceleration across, in a corner."""
     turning_radius_m: PositiveFloat
+    """Least radius of the path of its middle."""
 
     def appearance(self) -> Appearance:
         """Return its mesh, with a beacon and headlamps."""
@@ -83,13 +68,7 @@ class VehicleKind(DrivenKind, BaseModel):
         seed: int = 0,  # noqa: ARG002
         height_m: float = 0.0,
     ) -> Vehicle:
-        """Return a vehicle of this kind; see `airhilt.world.surface.kind.Kind`.
-
-        Raises
-        ------
-        ValueError
-            It was to begin above the ground, or at no place.
-        """
+        """Return a vehicle of this kind; see `airhilt.world.surface.kind.Kind`."""
         if height_m != 0.0:
             raise ValueError(f"height_m is {height_m}; a {self.name} does not fly")
         return Vehicle(self, place, heading_rad, ground_m=ground_m, tick_s=tick_s)
@@ -114,25 +93,8 @@ class Vehicle:
     rigid body that does not slip, and its steering is immediate. That holds for a tug with an
     aircraft in tow as well, which really bends in the middle.
 
-    Parameters
-    ----------
-    kind
-        Its kind, which says what it can do.
-    place, heading_rad
-        Place of its middle, and its true heading.
-    ground_m
-        Height of the ground above WGS84.
-    tick_s
-        Time step of `advance`.
-
-    Attributes
-    ----------
-    state
-        Place and movement now.
-    phase
-        ``standing``, ``driving`` or ``stopping``: braking because of `stop`.
-    ended
-        Why it does not move any more; None while it moves.
+    The parameters are those of `airhilt.world.surface.kind.Kind.create`. While it brakes because of
+    `stop`, its phase is ``stopping``.
 
     Raises
     ------
@@ -166,17 +128,10 @@ class Vehicle:
         self.state = self._state(0.0, 0.0, heading_rad)
 
     def drive(self, path: Sequence[Place], speed_m_s: float | None = None) -> None:
-        """Follow a path from here, and stop exactly at its end.
+        """Follow a path from here, with its corners rounded, and stop exactly at its end.
 
         A vehicle passes a point that is too near to be reached within the limits: it brakes on
-        its heading, turns, and comes back.
-
-        Parameters
-        ----------
-        path
-            Latitudes and longitudes in radians; its corners are rounded (`aligned`).
-        speed_m_s
-            Not exceeded; by default that of the kind, at most the greatest of the kind.
+        its heading, turns, and comes back. The speed is by default that of the kind.
 
         Raises
         ------
@@ -215,7 +170,7 @@ class Vehicle:
         self.phase = "driving"
 
     def advance(self) -> None:
-        """Move on by one tick; do nothing once it has ended.
+        """Move on by one tick.
 
         The new speed is the greatest one from which the braking distance, v2 = exit2 + 2 b d, is
         still long enough after the tick, which is driven at the mean of old and new speed.

@@ -28,6 +28,7 @@ from airhilt.scenario.models import (
 from airhilt.units import FOOT, KNOT, NAUTICAL_MILE, seconds_to_ns
 from airhilt.world.actors.actor import Actor
 from airhilt.world.actors.triggers import Test
+from airhilt.world.mover import Mover
 from airhilt.world.truth.conflicts import ConflictMonitor, Pair
 from airhilt.world.truth.runways import RunwayMonitor
 
@@ -62,27 +63,33 @@ class ConditionCompiler:
             case BoundForAltitude():
                 return self._bound_for(condition)
             case PredictedLossOfSeparation(actors=pair, within_s=within_s):
-                return self._of_flying(pair, lambda: self._loss_within(pair, within_s))
-            case SeparationBelow():
-                return self._separation(condition)
+                return self._of_pair(pair, lambda: self._loss_within(pair, within_s))
+            case SeparationBelow(actors=pair, horizontal_nm=horizontal_nm, vertical_ft=vertical_ft):
+                horizontal_m, vertical_m = horizontal_nm * NAUTICAL_MILE, vertical_ft * FOOT
+                return self._of_pair(
+                    pair,
+                    lambda: (
+                        self._monitor.vertical_m(pair) < vertical_m
+                        and self._monitor.motion(pair).distance_m < horizontal_m
+                    ),
+                )
             case ClosestApproachPassed(actors=pair, for_s=for_s):
                 return self._passed(pair, for_s)
             case DistanceBelow(actors=pair, distance_m=distance_m):
-                return self._of_flying(
+                return self._of_pair(
                     pair, lambda: self._monitor.motion(pair).distance_m < distance_m
                 )
             case Collided(actors=pair):
                 return lambda _: self._monitor.collided(pair)
-            case InPhase() | BoundForRunway() | OnRunway() | ThresholdWithin():
-                return self._of_actor(condition)
-            case SpeedAbove(actor=actor, speed_kt=speed_kt):
-                body = self._actors[actor].body
-                return lambda _: (
-                    body.ended is None and body.state.ground_speed_m_s > speed_kt * KNOT
-                )
-            case HeightBelow(actor=actor, height_ft=height_ft):
-                body = self._actors[actor].body
-                return lambda _: body.ended is None and body.state.height_agl_m < height_ft * FOOT
+            case InPhase(actor=name, phases=phases):
+                return self._of_actor(name, lambda body: body.phase in phases)
+            case BoundForRunway() | OnRunway() | ThresholdWithin():
+                return self._of_runway(condition)
+            case SpeedAbove(actor=name, speed_kt=speed_kt):
+                fast_m_s = speed_kt * KNOT
+                return self._of_actor(name, lambda body: body.state.ground_speed_m_s > fast_m_s)
+            case HeightBelow(actor=name, height_ft=height_ft):
+                return self._of_actor(name, lambda body: body.state.height_agl_m < height_ft * FOOT)
             case AllOf(conditions=inner):
                 tests = [self.compile(one) for one in inner]
                 return lambda now_ns: all(_each(tests, now_ns))
@@ -90,52 +97,41 @@ class ConditionCompiler:
                 tests = [self.compile(one) for one in inner]
                 return lambda now_ns: any(_each(tests, now_ns))
 
-    def _of_flying(self, pair: Pair, test: Callable[[], bool]) -> Test:
-        """Return a test that is false once one of a pair has ended."""
+    def _of_pair(self, pair: Pair, test: Callable[[], bool]) -> Test:
         return lambda _: self._monitor.flying(pair) and test()
+
+    def _of_actor(self, name: str, test: Callable[[Mover], bool]) -> Test:
+        body = self._actors[name].body
+        return lambda _: body.ended is None and test(body)
+
+    def _bound_for(self, condition: BoundForAltitude) -> Test:
+        altitude_m, within_m = condition.altitude_ft * FOOT, condition.within_ft * FOOT
+        return self._of_actor(
+            condition.actor,
+            lambda body: abs(getattr(body, "target_altitude_m", math.inf) - altitude_m) <= within_m,
+        )
+
+    def _of_runway(self, condition: BoundForRunway | OnRunway | ThresholdWithin) -> Test:
+        """Return a test that is false where there is no airport."""
+        name, ident, runways = condition.actor, condition.runway, self._runways
+
+        def test(_: Mover) -> bool:
+            if runways is None:
+                return False
+            match condition:
+                case BoundForRunway():
+                    return runways.is_bound_for(name, ident)
+                case OnRunway():
+                    return runways.is_on(name, ident)
+                case ThresholdWithin(within_s=within_s):
+                    time_s = runways.time_to_threshold_s(name, ident)
+                    return time_s is not None and time_s <= within_s
+
+        return self._of_actor(name, test)
 
     def _loss_within(self, pair: Pair, within_s: float | None) -> bool:
         loss = self._monitor.time_to_loss_s(pair)
         return loss is not None and (within_s is None or loss <= within_s)
-
-    def _bound_for(self, condition: BoundForAltitude) -> Test:
-        aircraft = self._actors[condition.actor].body
-        altitude_m, within_m = condition.altitude_ft * FOOT, condition.within_ft * FOOT
-        return lambda _: (
-            aircraft.ended is None
-            and abs(getattr(aircraft, "target_altitude_m", math.inf) - altitude_m) <= within_m
-        )
-
-    def _of_actor(self, condition: InPhase | BoundForRunway | OnRunway | ThresholdWithin) -> Test:
-        actor, runways = self._actors[condition.actor], self._runways
-        name = condition.actor
-
-        def true() -> bool:
-            match condition:
-                case InPhase(phases=phases):
-                    return actor.body.phase in phases
-                case BoundForRunway(runway=runway):
-                    return runways is not None and runways.is_bound_for(name, runway)
-                case OnRunway(runway=runway):
-                    return runways is not None and runways.is_on(name, runway)
-                case ThresholdWithin(runway=runway, within_s=within_s):
-                    if runways is None:
-                        return False
-                    time_s = runways.time_to_threshold_s(name, runway)
-                    return time_s is not None and time_s <= within_s
-
-        return lambda _: actor.body.ended is None and true()
-
-    def _separation(self, condition: SeparationBelow) -> Test:
-        pair = condition.actors
-        horizontal_m = condition.horizontal_nm * NAUTICAL_MILE
-        vertical_m = condition.vertical_ft * FOOT
-
-        def below() -> bool:
-            is_level = self._monitor.vertical_m(pair) < vertical_m
-            return is_level and self._monitor.motion(pair).distance_m < horizontal_m
-
-        return self._of_flying(pair, below)
 
     def _passed(self, pair: Pair, for_s: float) -> Test:
         diverging_since_ns: int | None = None

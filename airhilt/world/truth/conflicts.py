@@ -89,9 +89,7 @@ class PairTruth:
 def profile_of(aircraft: Aircraft) -> VerticalProfile:
     """Return the vertical profile that an aircraft is really flying."""
     state, target = aircraft.state, aircraft.target_altitude_m
-    if aircraft.on_ground:
-        return VerticalProfile(state.altitude_m, 0.0)
-    if abs(target - state.altitude_m) < LEVEL_WITHIN_M:
+    if aircraft.on_ground or abs(target - state.altitude_m) < LEVEL_WITHIN_M:
         return VerticalProfile(state.altitude_m, 0.0)
     rate = -state.velocity_down_m_s
     if (target - state.altitude_m) * rate <= 0.0:
@@ -108,16 +106,8 @@ class ConflictMonitor:
 
     Parameters
     ----------
-    aircraft, others
-        Bodies that move, by callsign.
-    minima
-        Separation minima.
-    ground_m
-        Elevation of the ground, in m.
     zone
         Centre of the tower's zone, if there is one.
-    tick_s
-        Time between two ticks, in s.
     transponders
         Callsigns with a transponder. TCAS is aboard of these aircraft only, and sees no others.
     always
@@ -251,11 +241,8 @@ class ConflictMonitor:
 
         Most pairs of many are far apart, and arrays find them out at once.
         """
-        altitudes_m, latitudes_rad = (
-            np.array([(each.state.altitude_m, each.state.latitude_rad) for each in moving])
-            .reshape(-1, 2)
-            .T
-        )
+        altitudes_m = np.array([each.state.altitude_m for each in moving])
+        latitudes_rad = np.array([each.state.latitude_rad for each in moving])
         is_far = np.abs(np.subtract.outer(altitudes_m, altitudes_m)) > far_up_m
         north_rad = np.abs(np.subtract.outer(latitudes_rad, latitudes_rad))
         is_far |= north_rad * LEAST_CURVATURE_RADIUS_M > far_m
@@ -337,9 +324,7 @@ class ConflictMonitor:
 
     def _in_zone(self, body: Mover) -> bool:
         """Return whether a body is in the zone in which the tower separates by sight."""
-        if self._zone is None:
-            return False
-        if body.state.altitude_m - self._ground_m > ZONE_HEIGHT_M:
+        if self._zone is None or body.state.altitude_m - self._ground_m > ZONE_HEIGHT_M:
             return False
         return horizontal_distance_m(self._zone, body.state) < ZONE_RADIUS_M
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from airhilt.geodesy.relative_motion import relative
-from airhilt.shapes.outline import Points, aircraft_outline, rectangle_outline, turned
+from airhilt.shapes.outline import Points, aircraft_outline, turned
 from airhilt.world.flight import AircraftType
 from airhilt.world.mover import Mover
 
@@ -36,10 +36,7 @@ def gap(first: Mover, second: Mover, at_s: float = 0.0) -> Gap:
     Both are upright prisms: an aircraft's outline is its fuselage, its swept wing and its
     tailplane; that of everything else is a rectangle.
 
-    Parameters
-    ----------
-    at_s
-        Time from now, in s, in straight movement; negative for the past.
+    ``at_s`` is a time from now, in s, in straight movement; negative for the past.
     """
     import shapely
 
@@ -73,4 +70,5 @@ def _outline(body: Mover) -> Points:
     kind = getattr(body, "kind", None)
     if isinstance(kind, AircraftType):
         return aircraft_outline(kind)
-    return rectangle_outline(body.dimensions)
+    aside, ahead = body.dimensions.span_m / 2.0, body.dimensions.length_m / 2.0
+    return np.array([(aside, ahead), (aside, -ahead), (-aside, -ahead), (-aside, ahead)])

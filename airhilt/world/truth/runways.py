@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
+import numpy as np
+
 from airhilt.messages import Arrival, RunwayTruth
 from airhilt.units import FOOT
 from airhilt.world.actors.actor import Actor
@@ -86,9 +88,8 @@ class Incursion:
         return "B" if self.closest.slant_m < SIGNIFICANT_M else "C"
 
 
-@dataclass(frozen=True)
-class _Position:
-    """Position of an actor in the airport's frame."""
+class _Position(NamedTuple):
+    """Actor with its position in the airport's frame, in m."""
 
     actor: Actor
     east_m: float
@@ -149,7 +150,11 @@ class RunwayMonitor:
 
     def tick(self, now_ns: int) -> None:
         """Update all runways."""
-        positions = self._positions()
+        positions = {
+            callsign: self._position(actor)
+            for callsign, actor in self._actors.items()
+            if actor.body.ended is None
+        }
         inside = self._inside(positions)
         users = {
             name: list(self._users(strip, positions)) for name, strip in self._layout.strips.items()
@@ -159,8 +164,7 @@ class RunwayMonitor:
             self._publish(now_ns, name, occupants, own)
             for user in own:
                 for intruder in occupants:
-                    position = positions[intruder]
-                    if intruder != user.callsign and self._is_in_way(user, position):
+                    if intruder != user.callsign and self._is_in_way(user, positions[intruder]):
                         self._incur(now_ns, name, user.callsign, intruder)
             if not own:
                 for intruder in filter(self._has_no_business, occupants):
@@ -185,10 +189,8 @@ class RunwayMonitor:
         if actor.body.on_ground or not self.is_bound_for(callsign, runway):
             return None
         ident = self._layout.runway(runway).ident
-        along_m, closing_m_s = self._along(actor, ident, *self._local(actor))
-        if along_m > 0.0 or closing_m_s <= 1.0:
-            return None
-        return -along_m / closing_m_s
+        along_m, closing_m_s = self._along(self._position(actor), ident)
+        return -along_m / closing_m_s if along_m <= 0.0 and closing_m_s > 1.0 else None
 
     def collided(self, first: str, second: str) -> None:
         """Record that two actors have collided."""
@@ -199,58 +201,49 @@ class RunwayMonitor:
 
     # --- positions --------------------------------------------------------------------------
 
-    def _local(self, actor: Actor) -> tuple[float, float]:
+    def _position(self, actor: Actor) -> _Position:
         state = actor.body.state
-        return self._layout.local_frame.to_local((state.latitude_rad, state.longitude_rad))
-
-    def _positions(self) -> dict[str, _Position]:
-        return {
-            callsign: _Position(actor, *self._local(actor))
-            for callsign, actor in self._actors.items()
-            if actor.body.ended is None
-        }
+        place = state.latitude_rad, state.longitude_rad
+        return _Position(actor, *self._layout.local_frame.to_local(place))
 
     def _inside(self, positions: dict[str, _Position]) -> dict[str, tuple[str, ...]]:
         """Return the callsigns in each protected area, by the name of the runway."""
-        low = [
-            (callsign, position)
+        low = {
+            callsign: position
             for callsign, position in positions.items()
-            if position.actor.body.on_ground
-            or (
-                position.actor.category == "wildlife"
-                and position.actor.body.state.height_agl_m < LOW_M
-            )
-        ]
+            if (body := position.actor.body).on_ground
+            or (position.actor.category == "wildlife" and body.state.height_agl_m < LOW_M)
+        }
         return {
-            name: tuple(callsign for callsign, position in low if self._reaches(strip, position))
+            name: tuple(
+                callsign for callsign, position in low.items() if self._reaches(strip, position)
+            )
             for name, strip in self._layout.strips.items()
         }
 
     def _reaches(self, strip: RunwayStrip, position: _Position) -> bool:
         """Return whether any part of an actor is in a protected area."""
-        body, (east, north) = position.actor.body, (position.east_m, position.north_m)
-        margin = radius_m(body)
+        actor, east, north = position
         start_east, start_north, sin, cos = self._axes[strip.ends[0].ident]
         aside = (east - start_east) * cos - (north - start_north) * sin
-        if abs(aside) > strip.hold_distance_m + margin:
+        if abs(aside) > strip.hold_distance_m + radius_m(actor.body):
             return False
         import shapely
 
-        points = corners(body)
-        return bool(
-            shapely.contains_xy(
-                strip.protected_area, points[:, 0] + east, points[:, 1] + north
-            ).any()
-        )
+        points = np.add(corners(actor.body), (east, north))
+        return bool(shapely.contains_xy(strip.protected_area, points).any())
 
-    def _along(
-        self, actor: Actor, runway: str, east_m: float, north_m: float
-    ) -> tuple[float, float]:
+    def _along(self, position: _Position, runway: str) -> tuple[float, float]:
         """Return distance past the threshold (m), and speed along the runway (m/s)."""
-        threshold_east, threshold_north, sin, cos = self._axes[runway]
-        along = (east_m - threshold_east) * sin + (north_m - threshold_north) * cos
+        actor, *place = position
+        _, _, sin, cos = self._axes[runway]
         state = actor.body.state
-        return along, state.velocity_east_m_s * sin + state.velocity_north_m_s * cos
+        speed = state.velocity_east_m_s * sin + state.velocity_north_m_s * cos
+        return self._past_threshold(runway, *place), speed
+
+    def _past_threshold(self, runway: str, east_m: float, north_m: float) -> float:
+        threshold_east, threshold_north, sin, cos = self._axes[runway]
+        return (east_m - threshold_east) * sin + (north_m - threshold_north) * cos
 
     # --- users and intruders ----------------------------------------------------------------
 
@@ -261,7 +254,7 @@ class RunwayMonitor:
             runway, phase = actor.bound_runway, actor.body.phase
             if runway not in idents:
                 continue
-            along, speed = self._along(actor, runway, position.east_m, position.north_m)
+            along, speed = self._along(position, runway)
             if phase in ROLLING or (phase in ROLLING_OUT and speed > 1.0):
                 yield User(callsign, runway, along, 0.0, rolling=True)
             elif phase in LANDING and speed > 1.0:
@@ -271,10 +264,9 @@ class RunwayMonitor:
     def _is_in_way(self, user: User, other: _Position) -> bool:
         if user.time_to_threshold_s > ARRIVAL_WITHIN_S:
             return False
-        actor = other.actor
-        along, _ = self._along(actor, user.runway, other.east_m, other.north_m)
-        if along < user.along_m - BEHIND_M:
+        if self._along(other, user.runway)[0] < user.along_m - BEHIND_M:
             return False
+        actor = other.actor
         follows = actor.bound_runway == user.runway and actor.body.phase in (ROLLING | ROLLING_OUT)
         # An aircraft that rolls ahead in the same direction leaves in time, as a rule: the next may
         # not cross the threshold before (FAA Order JO 7110.65, 3-9-6 and 3-10-3).
@@ -294,16 +286,11 @@ class RunwayMonitor:
         for crossing, point in self._crossings.get(name, ()):
             for other in users[crossing]:
                 if other.time_to_threshold_s <= ARRIVAL_WITHIN_S and all(
-                    self._is_ahead(user, point) for user in (rolling, other)
+                    self._past_threshold(user.runway, *point) > user.along_m - BEHIND_M
+                    for user in (rolling, other)
                 ):
                     self._incur(now_ns, name, other.callsign, rolling.callsign)
         self._incur_alone(now_ns, name, rolling.callsign)
-
-    def _is_ahead(self, user: User, point: tuple[float, float]) -> bool:
-        """Return whether a user of a runway has a point of it still before it."""
-        threshold_east, threshold_north, sin, cos = self._axes[user.runway]
-        along = (point[0] - threshold_east) * sin + (point[1] - threshold_north) * cos
-        return along > user.along_m - BEHIND_M
 
     def _incur_alone(self, now_ns: int, name: str, intruder: str) -> None:
         """Record an incorrect presence in nobody's way, unless it is known from an incursion."""
@@ -330,8 +317,7 @@ class RunwayMonitor:
             if incursion.user is None or incursion.closest is None or incursion.over:
                 continue
             user, intruder = (
-                self._actors[incursion.user].body,
-                self._actors[incursion.intruder].body,
+                self._actors[name].body for name in (incursion.user, incursion.intruder)
             )
             if user.ended or intruder.ended or {user.phase, intruder.phase}.isdisjoint(USING):
                 incursion.over = True

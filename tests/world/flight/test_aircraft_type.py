@@ -51,21 +51,21 @@ def test_a_misspelt_name_gets_the_nearest() -> None:
 
 def test_a_missing_field_is_named_with_its_place(wrong: Callable[..., Any]) -> None:
     wrong(lambda content: content["speeds"].pop("cruise_kt"))
-    with pytest.raises(
-        ScenarioError, match=r"wrong.json is not an aircraft type:\n  speeds.cruise_kt"
-    ):
+    with pytest.raises(ScenarioError, match=r"wrong.json: speeds/cruise_kt: missing"):
         load_aircraft_type("wrong")
 
 
 def test_an_unknown_field_is_refused(wrong: Callable[..., Any]) -> None:
     wrong(lambda content: content["gains"]["pitch"].update(gain=1.0))
-    with pytest.raises(ScenarioError, match=r"gains\.pitch\.gain: Extra inputs are not permitted"):
+    with pytest.raises(ScenarioError, match=r"gains/pitch/gain: unknown field"):
         load_aircraft_type("wrong")
 
 
 def test_a_value_out_of_range_is_refused(wrong: Callable[..., Any]) -> None:
     wrong(lambda content: content["dimensions"].update(span_m=-1.0))
-    with pytest.raises(ScenarioError, match=r"dimensions\.span_m: Input should be greater than 0"):
+    with pytest.raises(
+        ScenarioError, match=r"dimensions/span_m: found -1.0: input should be greater than 0"
+    ):
         load_aircraft_type("wrong")
 
 
@@ -92,7 +92,7 @@ def test_a_number_that_must_be_positive_is_refused_at_zero(
         content[name] = 0.0
 
     wrong(zero)
-    with pytest.raises(ScenarioError, match=re.escape(place)):
+    with pytest.raises(ScenarioError, match=place.replace(".", "/")):
         load_aircraft_type("wrong")
 
 
@@ -118,7 +118,7 @@ def test_every_number_is_strict_and_has_bounds(subtests: pytest.Subtests) -> Non
                 for name in place[:-1]:
                     inner = inner[name]
                 inner[place[-1]] = given
-                with pytest.raises(ScenarioError, match=re.escape(".".join(map(str, place)))):
+                with pytest.raises(ScenarioError, match=re.escape("/".join(map(str, place)))):
                     load_aircraft_type("mine.json", {"mine.json": content})
 
 
@@ -203,16 +203,3 @@ def test_a_file_that_is_nested_too_deeply_is_refused(
     monkeypatch.setattr(library, "folder", lambda kind: tmp_path)
     with pytest.raises(ScenarioError, match="nested too deeply"):
         load_aircraft_type("wrong")
-
-
-@pytest.mark.parametrize("name", ["x{}", "x{}" * 60])
-def test_of_many_mistakes_the_first_are_told_and_how_many_more_there_are(name: str) -> None:
-    document = {name.replace("{}", str(n)): n for n in range(1000)}
-    with pytest.raises(ScenarioError) as caught:
-        load_aircraft_type("mine.json", {"mine.json": document})
-    first, *told, last = str(caught.value).splitlines()
-    assert first == "mine.json is not an aircraft type:"
-    assert told[0] == "  name: Field required"
-    missing = sum(field.is_required() for field in AircraftType.model_fields.values())
-    assert last == f"  and {missing + 1000 - len(told)} more"
-    assert len(str(caught.value)) <= 500

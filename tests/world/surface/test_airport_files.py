@@ -32,13 +32,6 @@ PUBLISHED_FT = {
     "KDCA": {"15": 5204},
 }
 """Lengths that OurAirports gives where its coordinates do not contradict them."""
-TRUE_DEG = {
-    "KSFO": {"28L": 297.8, "19R": 207.8},
-    "EHAM": {"18R": 183.2, "06": 57.9},
-    "LSZH": {"14": 137.2, "34": 335.0},
-    "RJTT": {"05": 42.6, "34L": 329.9},
-    "KDCA": {"01": 355.5, "19": 175.5, "15": 142.7, "22": 205.9},
-}
 
 
 @pytest.fixture
@@ -55,18 +48,8 @@ def refused(document: dict[str, Any], folder: Path) -> str:
     return str(caught.value)
 
 
-def test_the_five_airports_ship() -> None:
-    assert library.names("airports") == [name.lower() for name in SHIPPED]
-
-
-@pytest.mark.parametrize("name", ["KDCA", "kdca", "Kdca"])
-def test_an_airport_is_found_in_upper_and_lower_case(name: str) -> None:
-    assert load_airport(name).icao == "KDCA"
-
-
-def test_an_unknown_airport_gets_the_nearest_name() -> None:
-    with pytest.raises(ScenarioError, match="did you mean 'kdca'"):
-        load_airport("KDCB")
+def test_an_airport_is_found_in_upper_and_lower_case() -> None:
+    assert load_airport("KDCA") == load_airport("kdca")
 
 
 def test_runways_are_as_long_as_published(subtests: pytest.Subtests) -> None:
@@ -75,16 +58,6 @@ def test_runways_are_as_long_as_published(subtests: pytest.Subtests) -> None:
             layout = Layout(load_airport(icao))
             for ident, feet in PUBLISHED_FT[icao].items():
                 assert layout.runway(ident).length_m == pytest.approx(feet * FOOT, abs=8.0), ident
-
-
-def test_courses_come_from_the_coordinates(subtests: pytest.Subtests) -> None:
-    for icao in SHIPPED:
-        with subtests.test(icao):
-            layout = Layout(load_airport(icao))
-            for ident, course in TRUE_DEG[icao].items():
-                assert math.degrees(layout.runway(ident).course_rad) == pytest.approx(
-                    course, abs=0.1
-                )
 
 
 def test_runway_numbers_are_the_magnetic_headings_in_tens_of_degrees(
@@ -100,41 +73,11 @@ def test_runway_numbers_are_the_magnetic_headings_in_tens_of_degrees(
                     assert abs(away) < 10.5, end.ident
 
 
-def test_lengths_that_contradict_the_coordinates_are_noted() -> None:
-    note = load_airport("KDCA").sources["runways"].note
-    assert (
-        "01/19 is 6868 ft long by its coordinates, which are used, and 7169 ft as published" in note
-    )
-
-
-def test_magnetic_variation_is_that_of_the_world_magnetic_model(subtests: pytest.Subtests) -> None:
-    for icao, east_deg in [
-        ("KDCA", -10.7),
-        ("KSFO", 12.95),
-        ("EHAM", 2.43),
-        ("RJTT", -7.81),
-        ("LSZH", 3.43),
-    ]:
-        with subtests.test(icao):
-            variation = load_airport(icao).magnetic_variation
-            assert variation.epoch == 2025.0
-            assert variation.east_deg == pytest.approx(east_deg, abs=0.05)
-
-
 def test_what_nobody_surveyed_says_so() -> None:
     for icao in SHIPPED:
         sources = load_airport(icao).sources
-        assert {name for name in ("taxiways", "holds", "cameras") if sources[name].synthetic} == {
-            "taxiways",
-            "holds",
-            "cameras",
-        }
+        assert all(sources[name].synthetic for name in ("taxiways", "holds", "cameras"))
         assert not sources["runways"].synthetic
-
-
-def test_washington_tower_and_ground_are_on_their_frequencies() -> None:
-    frequencies = {(item.role, item.frequency_khz) for item in load_airport("KDCA").frequencies}
-    assert {("tower", 119_100), ("ground", 121_700), ("atis", 132_650)} <= frequencies
 
 
 def test_imported_airports_are_what_the_importer_makes(subtests: pytest.Subtests) -> None:
@@ -158,12 +101,6 @@ def test_washington_is_what_its_tool_makes(tmp_path: Path) -> None:
     assert out.read_bytes() == library.find("airports", "kdca").read_bytes()
 
 
-def test_a_file_that_is_read_and_written_again_stays_the_same() -> None:
-    for icao in SHIPPED:
-        path = library.find("airports", icao.lower())
-        assert as_text(load_airport(icao)) == path.read_text(encoding="utf-8")
-
-
 def test_the_example_of_the_guide_is_an_airport(tmp_path: Path) -> None:
     guide = (ROOT / "docs" / "airports.md").read_text(encoding="utf-8")
     path = tmp_path / "example.json"
@@ -177,42 +114,35 @@ def test_the_example_of_the_guide_is_an_airport(tmp_path: Path) -> None:
     )
 
 
-def test_unknown_fields_are_refused_with_their_place(
-    document: dict[str, Any], tmp_path: Path
+def test_what_does_not_fit_together_is_refused_with_its_place(
+    document: dict[str, Any], tmp_path: Path, subtests: pytest.Subtests
 ) -> None:
-    document["runways"][0]["colour"] = "black"
-    assert "runways.0.colour" in refused(document, tmp_path)
+    def misname_runway(airport: Any) -> None:
+        airport["runways"][0]["colour"] = "black"
 
+    def misname_node(airport: Any) -> None:
+        airport["taxiways"]["edges"][0]["nodes"][0] = "J/Q"
 
-def test_an_edge_to_a_node_that_does_not_exist_is_refused(
-    document: dict[str, Any], tmp_path: Path
-) -> None:
-    document["taxiways"]["edges"][0]["nodes"][0] = "J/Q"
-    assert "no node named 'J/Q'; did you mean" in refused(document, tmp_path)
+    def misplace_hold(airport: Any) -> None:
+        airport["holds"][0]["runway"] = "09/27"
 
+    def repeat_node(airport: Any) -> None:
+        airport["taxiways"]["nodes"].append(airport["taxiways"]["nodes"][0])
 
-def test_a_hold_at_a_runway_that_does_not_exist_is_refused(
-    document: dict[str, Any], tmp_path: Path
-) -> None:
-    document["holds"][0]["runway"] = "09/27"
-    assert "no runway named '09/27'; known: 01/19, 04/22, 15/33" in refused(document, tmp_path)
+    def forget_source(airport: Any) -> None:
+        del airport["sources"]["runways"]
 
-
-def test_two_nodes_of_one_name_are_refused(document: dict[str, Any], tmp_path: Path) -> None:
-    document["taxiways"]["nodes"].append(document["taxiways"]["nodes"][0])
-    assert "more than one node named J/A" in refused(document, tmp_path)
-
-
-def test_numbers_without_a_source_are_refused(document: dict[str, Any], tmp_path: Path) -> None:
-    del document["sources"]["runways"]
-    assert "sources does not say where the numbers of runways are from" in refused(
-        document, tmp_path
-    )
-
-
-def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
-    with pytest.raises(ScenarioError, match=r"gone\.json: cannot be read: No such file"):
-        read_airport(tmp_path / "gone.json")
+    for change, told in [
+        (misname_runway, "runways/0/colour: unknown field"),
+        (misname_node, "(top): no node named 'J/Q'; did you mean"),
+        (misplace_hold, "(top): no runway named '09/27'; did you mean '04/22'?"),
+        (repeat_node, "more than one node named J/A"),
+        (forget_source, "sources does not say where the numbers of runways are from"),
+    ]:
+        with subtests.test(told):
+            changed = json.loads(json.dumps(document))
+            change(changed)
+            assert told in refused(changed, tmp_path)
 
 
 BOUNDED = (
@@ -243,16 +173,3 @@ def test_an_airport_lies_around_its_reference_point(
     for lat_deg, lon_deg in [(0.0, 0.0), (-38.85, 102.96)]:
         document["runways"][0]["ends"][0] |= {"lat_deg": lat_deg, "lon_deg": lon_deg}
         assert "is not near the reference point" in refused(document, tmp_path)
-
-
-@pytest.mark.parametrize(
-    ("content", "said"),
-    [(b"[" * 100_000, "nested too deeply"), (b'{"icao": "\xff"}', "not UTF-8"), (b"{", "JSON")],
-)
-def test_a_file_that_is_no_json_within_limits_is_refused(
-    tmp_path: Path, content: bytes, said: str
-) -> None:
-    path = tmp_path / "mine.json"
-    path.write_bytes(content)
-    with pytest.raises(ScenarioError, match=said):
-        read_airport(path)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import math
 import re
 import sys
@@ -13,7 +14,6 @@ import pytest
 
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.local_frame import LocalFrame
-from airhilt.world.mover import Creature, Driven
 from airhilt.world.surface import kinds
 from airhilt.world.surface.kinds import FAMILY, load_kind
 from paths import DOCS
@@ -65,22 +65,6 @@ def test_all_kinds_have_a_file_and_say_where_their_numbers_come_from() -> None:
         assert "estimate" in cast(Any, kind).source
 
 
-def test_vehicles_can_be_driven(subtests: pytest.Subtests) -> None:
-    for name in ["follow_me", "fire_truck", "tug_with_aircraft", "snow_plough"]:
-        with subtests.test(name):
-            body = load_kind(name, "vehicle").create(HERE, 0.0, ground_m=0.0, tick_s=0.05)
-            assert isinstance(body, Driven)
-            with pytest.raises(ValueError, match="does not fly"):
-                load_kind(name).create(HERE, 0.0, ground_m=0.0, tick_s=0.05, height_m=10.0)
-
-
-def test_wildlife_has_a_will_of_its_own(subtests: pytest.Subtests) -> None:
-    for name in ["deer", "coyote", "goose", "flock"]:
-        with subtests.test(name):
-            body = load_kind(name, "wildlife").create(HERE, 0.0, ground_m=0.0, tick_s=0.05, seed=1)
-            assert isinstance(body, Creature)
-
-
 def test_an_unknown_kind_is_told_with_the_nearest_that_there_is() -> None:
     with pytest.raises(ScenarioError, match="no kind named 'firetruck'; did you mean 'fire_truck'"):
         load_kind("firetruck")
@@ -104,52 +88,27 @@ def test_a_file_is_all_that_a_new_kind_needs(added: Path, bus_and_drone: tuple[s
     assert (bus.state.latitude_rad, bus.state.longitude_rad) == pytest.approx(THERE, abs=1e-10)
 
 
-def test_another_package_brings_a_kind_with_behaviour_of_its_own(
-    other_package: Path, bus_and_drone: tuple[str, str]
+def test_what_is_no_kind_is_refused_with_the_reason(
+    other_package: Path, subtests: pytest.Subtests
 ) -> None:
-    (other_package / "drone.py").write_text(bus_and_drone[1])
-    assert "drone" in FAMILY.names()
-    drone = load_kind("drone", "vehicle").create(HERE, 0.0, ground_m=4.0, tick_s=0.05)
-    assert isinstance(drone, Driven)
-    drone.drive([THERE])
-    for _ in range(100):
-        drone.advance()
-    assert drone.phase == "driving"
-    assert drone.state.ground_speed_m_s == pytest.approx(12.0)
-    drone.stop()
-    drone.advance()
-    assert drone.state.ground_speed_m_s == 0.0
-    drone.resume()
-    for _ in range(100):
-        drone.advance()
-    assert drone.phase == "hovering"
-    assert (drone.state.latitude_rad, drone.state.longitude_rad) == pytest.approx(THERE, abs=1e-10)
-    assert drone.state.altitude_m == 54.0
-
-
-def test_a_package_that_cannot_be_loaded_is_named_with_the_cause(other_package: Path) -> None:
-    (other_package / "drone.py").write_text("import no_such_module\n")
-    with pytest.raises(ScenarioError, match=r"my_package\.drone:KIND: ModuleNotFoundError"):
-        load_kind("drone")
-
-
-def test_a_kind_that_lacks_something_is_told_what(other_package: Path) -> None:
-    (other_package / "drone.py").write_text(
-        "class Drone:\n"
-        "    name, category, label, emitter_category = 'drone', 'vehicle', 'drone', 'B6'\n"
-        "    radar_cross_section_m2, understands, dimensions = 0.01, (), None\n"
-        "    def create(self): ...\n"
-        "    def mesh_of(self): ...\n"
-        "KIND = Drone()\n"
-    )
-    with pytest.raises(ScenarioError, match=r"has no appearance, carry_out, command_for$"):
-        load_kind("drone")
-
-
-def test_what_is_no_kind_is_refused(other_package: Path) -> None:
-    (other_package / "drone.py").write_text("KIND = 42\n")
-    with pytest.raises(ScenarioError, match="no kind named 'drone': 42"):
-        load_kind("drone")
+    lacking = """
+class Drone:
+    name, category, label, emitter_category = 'drone', 'vehicle', 'drone', 'B6'
+    radar_cross_section_m2, understands, dimensions = 0.01, (), None
+    def create(self): ...
+    def mesh_of(self): ...
+KIND = Drone()
+"""
+    for text, told in [
+        ("import no_such_module\n", r"my_package\.drone:KIND: ModuleNotFoundError"),
+        (lacking, "has no appearance, carry_out, command_for$"),
+        ("KIND = 42\n", "no kind named 'drone': 42"),
+    ]:
+        sys.modules.pop("my_package.drone", None)
+        (other_package / "drone.py").write_text(text)
+        importlib.invalidate_caches()
+        with subtests.test(told), pytest.raises(ScenarioError, match=told):
+            load_kind("drone")
 
 
 def test_a_kind_goes_by_no_other_name_than_its_own(

@@ -17,7 +17,6 @@ from airhilt.errors import AirhiltError, ScenarioError
 from airhilt.messages import (
     AdsbReport,
     Advisory,
-    Briefing,
     CameraTruth,
     Climb,
     Evidence,
@@ -199,12 +198,6 @@ def test_the_briefing_names_the_animals_among_the_labels() -> None:
     given = scenario()
     told = briefing_of(given, ScenarioSite.of(given))
     assert told.animals == ("bird", "coyote", "deer", "moose")
-
-
-def test_a_briefing_from_before_knows_the_animals_of_airhilt(encounter: Scenario) -> None:
-    now = briefing_of(encounter, ScenarioSite.of(encounter))
-    before = now.model_dump(exclude={"animals"})
-    assert Briefing.model_validate(before) == now
 
 
 def broken_drone(folder: Path, method: str, body: str) -> None:

@@ -6,14 +6,12 @@ import math
 from typing import Any
 
 import pytest
-from hypothesis import assume, given
+from hypothesis import given
 from hypothesis import strategies as st
-from shapely import Polygon, affinity, union_all
 
 from airhilt.units import FOOT
 from airhilt.world.flight import load_aircraft_type
-from airhilt.world.flight.aircraft_type import AircraftType
-from airhilt.world.truth.gaps import corners, gap, radius_m
+from airhilt.world.truth.gaps import corners, gap
 from breadth import examples
 from straight import Rolling, Straight
 
@@ -111,16 +109,6 @@ def test_turning_the_whole_scene_changes_nothing(
     assert after == pytest.approx(before, abs=0.05)
 
 
-@examples(60)
-@given(poses)
-def test_the_circles_around_them_bound_the_distance(second: tuple[float, float, float]) -> None:
-    a, b = plane(), plane(*second)
-    between = math.hypot(*second[:2])
-    assume(between > 1.0)
-    found = gap(a, b).horizontal_m
-    assert between - radius_m(a) - radius_m(b) - 0.1 <= found <= between
-
-
 TYPES = [load_aircraft_type(name) for name in ("737", "B747", "c172p", "c310")]
 
 
@@ -137,55 +125,3 @@ def test_an_outline_is_as_long_and_as_wide_as_the_aircraft(subtests: pytest.Subt
                 # A wing tip that is swept back lies aside of the middle: at a slant, it is farther.
                 assert found == pytest.approx(expected, rel=0.01)
                 assert found >= expected - 0.1
-
-
-@examples(60)
-@given(poses, st.floats(0.0, 30.0), st.sampled_from(TYPES))
-def test_two_touch_just_where_their_outlines_and_their_heights_overlap(
-    second: tuple[float, float, float], height: float, kind: AircraftType
-) -> None:
-    a = plane()
-    b: Any = Straight(*second[:2], altitude_ft=height / FOOT, kind=kind,
-                 east_m_s=math.sin(math.radians(second[2])),
-                 north_m_s=math.cos(math.radians(second[2])))  # fmt: skip
-    found = gap(a, b)
-    shapes = [silhouette(a), affinity.translate(silhouette(b), *second[:2])]
-    assume(abs(shapes[0].distance(shapes[1]) - 0.05) > 0.05)
-    overlaps = shapes[0].intersects(shapes[1])
-    assert found.touches == (overlaps and height <= HEIGHT_M)
-    assert found.horizontal_m == pytest.approx(shapes[0].distance(shapes[1]), abs=0.1)
-
-
-def silhouette(body: Any) -> Polygon:
-    """The same shape, made of parts: a fuselage, two wings, two halves of a tailplane."""
-    size, mesh = body.kind.dimensions, body.kind.mesh
-    half, width = size.length_m / 2.0, mesh.fuselage_diameter_m / 2.0
-    tip, span = 0.1 * size.length_m, size.span_m / 2.0
-    back = math.tan(math.radians(mesh.wing_sweep_deg)) * (span - width)
-    tail, chord = -0.38 * size.length_m, 0.1 * size.length_m
-    fuselage = Polygon(
-        [(0, half), (width, half - width), (width, -half), (-width, -half), (-width, half - width)]
-    )
-    wing = Polygon(
-        [(0, tip), (width, tip), (span, tip - back), (span, tip - back - mesh.wing_tip_chord_m),
-         (width, tip - mesh.wing_root_chord_m), (0, tip - mesh.wing_root_chord_m)]
-    )  # fmt: skip
-    tailplane = Polygon(
-        [(0, tail), (width, tail), (mesh.tail_span_m / 2, tail - chord / 2),
-         (mesh.tail_span_m / 2, tail - chord), (0, tail - chord)]
-    )  # fmt: skip
-    halves = [wing, tailplane]
-    mirrored = [affinity.scale(part, -1, 1, origin=(0, 0)) for part in halves]
-    whole = union_all([fuselage, *halves, *mirrored])
-    return affinity.rotate(whole, -body.state.heading_rad, origin=(0, 0), use_radians=True)
-
-
-@examples(30)
-@given(poses, st.floats(-20_000.0, 20_000.0), st.floats(-5_000.0, 5_000.0))
-def test_it_does_not_matter_where_on_the_airport_they_are(
-    second: tuple[float, float, float], east: float, north: float
-) -> None:
-    away_east, away_north, heading = second
-    moved = plane(away_east + east, away_north + north, heading)
-    found = gap(plane(east, north), moved).horizontal_m
-    assert found == pytest.approx(gap(plane(), plane(*second)).horizontal_m, abs=0.1)

@@ -16,7 +16,7 @@ from airhilt.world.flight import load_aircraft_type
 from airhilt.world.mover import SurfaceState
 from airhilt.world.surface.airport import load_airport
 from airhilt.world.surface.layout import Layout
-from airhilt.world.truth.runways import RunwayMonitor, User
+from airhilt.world.truth.runways import RunwayMonitor
 
 B737 = load_aircraft_type("737")
 CAR = Dimensions(length_m=5.0, span_m=2.0, height_m=2.0)
@@ -245,20 +245,6 @@ def test_each_animal_on_each_runway_is_an_incursion_of_its_own() -> None:
     assert set(watch.categories) == {"D"}
 
 
-@pytest.mark.parametrize("ident", ["01", "19", "15", "33", "04", "22"])
-@pytest.mark.parametrize(("past_m", "is_ahead"), [(-200.0, True), (29.0, True), (31.0, False)])
-def test_a_crossing_is_ahead_of_a_user_until_30_m_past_it(
-    ident: str, past_m: float, is_ahead: bool
-) -> None:
-    monitor = Watch({}).monitor
-    threshold = kdca().local_frame.to_local(kdca().runway(ident).threshold)
-    crossings = monitor._crossings[kdca().strip_of(ident).name]
-    assert crossings
-    for _, point in crossings:
-        user = User("A", ident, math.dist(threshold, point) + past_m, 0.0, rolling=True)
-        assert monitor._is_ahead(user, point) is is_ahead
-
-
 def test_wildlife_alone_is_of_category_d_and_so_is_who_was_misled() -> None:
     deer = Performing(Body(1_000.0), category="wildlife")
     assert Watch({"DEER": deer}).look().categories == ["D"]
@@ -271,11 +257,6 @@ def test_a_takeoff_without_clearance_is_an_incorrect_presence_by_itself() -> Non
     assert Watch({"D": rolling}).look().categories == []
     assert Watch({"D": rolling}, affected={"D"}).look().categories == []
     assert Watch({"D": rolling}, affected={"D"}, uncleared={"D"}).look().categories == ["D"]
-
-
-def test_who_waits_lined_up_under_a_clearance_does_no_wrong_before_it_rolls() -> None:
-    waiting = airliner(40.0, "lined_up")
-    assert Watch({"D": waiting}, affected={"D"}, uncleared={"D"}).look().categories == []
 
 
 @pytest.mark.parametrize(("time_s", "user"), [(20.0, "A"), (40.0, None)])
@@ -342,14 +323,6 @@ def test_of_several_incursions_each_is_followed_by_itself(first: str) -> None:
     assert found["X"] == ("D" if first == "alone" else "C")
 
 
-def test_once_the_user_has_stopped_nothing_comes_nearer() -> None:
-    plane, car = airliner(500.0, "rollout", speed_kt=60.0), vehicle(1_400.0)
-    watch = Watch({"A": plane, "OPS": car}).look()
-    plane.body.phase, plane.body.along_m = "vacate", 1_380.0
-    watch.look()
-    assert watch.categories == ["C"]
-
-
 def test_a_collision_is_an_accident() -> None:
     watch = Watch({"A": arrival(5.0), "OPS": vehicle(300.0)}).look()
     watch.monitor.collided("OPS", "A")
@@ -383,25 +356,6 @@ def test_who_comes_a_second_time_is_followed_again() -> None:
     watch.look()
     assert watch.categories == ["A"]
     assert watch.incurred == [("A", "OPS")]
-
-
-def test_a_departure_waiting_on_the_runway_is_in_the_way_of_an_arrival() -> None:
-    waiting = airliner(40.0, "lined_up")
-    assert Watch({"A": arrival(25.0), "D": waiting}).look().incurred == [("A", "D")]
-    assert Watch({"A": arrival(35.0), "D": waiting}).look().incurred == []
-
-
-def test_who_holds_short_is_in_nobodys_way_however_long_the_arrival_rolls() -> None:
-    away = kdca().strip_of("01").hold_distance_m + CAR.length_m / 2.0 + 3.0
-    car = vehicle(800.0, right_m=-away)
-    car.body.turned_deg = 90.0
-    plane = arrival(10.0)
-    watch = Watch({"A": plane, "OPS": car}).look()
-    plane.body.phase, plane.body.on_ground, plane.body.height_m = "rollout", True, 0.0
-    for along_m in (500.0, 800.0, 1_100.0):
-        plane.body.along_m = along_m
-        watch.look()
-    assert watch.incurred == []
 
 
 def test_the_same_runway_from_the_other_side_is_the_same_place() -> None:

@@ -1,7 +1,5 @@
 """A coyote."""
 
-from __future__ import annotations
-
 from airhilt.shapes import animals
 from airhilt.shapes.sizes import Dimensions
 from airhilt.world.surface.animal import AnimalKind

@@ -1,7 +1,5 @@
 """An aircraft rescue and fire fighting vehicle."""
 
-from __future__ import annotations
-
 from airhilt.shapes import vehicles
 from airhilt.shapes.sizes import Dimensions
 from airhilt.world.surface.vehicle import VehicleKind
