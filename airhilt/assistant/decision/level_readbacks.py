@@ -7,9 +7,8 @@ from dataclasses import dataclass, replace
 
 from airhilt.assistant.decision.air_tracks import AirTracks
 from airhilt.assistant.decision.findings import LevelMisread
-from airhilt.assistant.decision.guard import ConfidenceGuard, Doubt, call_of
+from airhilt.assistant.decision.guard import ConfidenceGuard, Doubt, RememberingGuard, call_of
 from airhilt.assistant.decision.loss_prediction import SeparationStandard
-from airhilt.assistant.decision.repeats import RememberingGuard
 from airhilt.assistant.decision.tracks import Track
 from airhilt.geodesy.relative_motion import relative
 from airhilt.messages import RosterEntry, Transcript
@@ -43,7 +42,7 @@ class LevelReadbacks:
 
     def __init__(self, tracks: AirTracks, guard: ConfidenceGuard) -> None:
         self._tracks = tracks
-        self._guard = RememberingGuard(guard)
+        self._guard = RememberingGuard(guard.tau_asr)
         self._ceilings_ft: dict[str, float] = {}
         self._clearances: dict[str, _Clearance] = {}
         self._doubts: dict[str, Doubt] = {}

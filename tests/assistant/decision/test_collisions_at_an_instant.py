@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
+from airhilt.assistant.decision.engines.surf_a import SurfaceAlertConfig, predicted_collisions
 from airhilt.assistant.decision.raised_alerts import Hazard
-from airhilt.assistant.decision.surface_alerts import SurfaceAlertConfig, predicted_collisions
 from airhilt.messages import AdsbReport, CancelTakeoff, GoAround, Severity
 from instants import Field, arrival, at, landed, report
 

@@ -18,7 +18,7 @@ from airfield import (
 )
 from airhilt.assistant.decision.engines.paper import PaperEngine
 from airhilt.assistant.decision.ladder import Score, ScoreConfig
-from airhilt.assistant.decision.paper.config import PaperConfig
+from airhilt.assistant.decision.paper_ladder import PaperConfig
 from airhilt.assistant.decision.visual_tracks import SightConfig
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template

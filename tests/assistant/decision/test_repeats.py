@@ -6,8 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from airhilt.assistant.decision.guard import ConfidenceGuard, Doubt, call_of
-from airhilt.assistant.decision.repeats import RememberingGuard
+from airhilt.assistant.decision.guard import Doubt, RememberingGuard, call_of
 from airhilt.messages import Transcript, Word
 from airhilt.units import SECOND_NS
 
@@ -37,14 +36,14 @@ def doubt(guard: RememberingGuard, transcript: Transcript) -> Doubt | None:
 
 @pytest.fixture
 def guard() -> RememberingGuard:
-    return RememberingGuard(ConfidenceGuard(TAU))
+    return RememberingGuard(TAU)
 
 
 @given(st.floats(0.0, 0.79), st.floats(0.0, 0.79))
 def test_a_value_heard_twice_is_wrong_only_if_both_calls_were_heard_wrongly(
     one: float, other: float
 ) -> None:
-    guard = RememberingGuard(ConfidenceGuard(TAU))
+    guard = RememberingGuard(TAU)
     first = doubt(guard, heard(LANDING, one))
     assert first is not None
     assert (first.slot, first.confidence) == ("runway", pytest.approx(one))

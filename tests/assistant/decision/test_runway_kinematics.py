@@ -12,18 +12,11 @@ from hypothesis import strategies as st
 
 from airfield import BRIEFING, NORTH, SOUTH, Axis, degrees
 from airhilt.assistant.decision.aerodrome import Aerodrome, Direction, Strip, Vector, Way
-from airhilt.assistant.decision.leaving import leaving_s
-from airhilt.assistant.decision.meeting_runways import meeting_uses
-from airhilt.assistant.decision.mobiles import (
-    Kind,
-    Mobile,
-    Use,
-    is_on_pavement,
-    lined_up_on,
-    use_of,
-)
+from airhilt.assistant.decision.assessment import worst_threats
+from airhilt.assistant.decision.findings import RunwayUse
+from airhilt.assistant.decision.mobiles import Mobile, Use, is_on_pavement, lined_up_on, use_of
 from airhilt.assistant.decision.situation import Obstacle, RunwaySituation
-from airhilt.assistant.decision.threats import Outlook, RunwayConfig, Threat
+from airhilt.assistant.decision.threats import RunwayConfig, Threat
 from airhilt.messages import Severity
 from airhilt.units import DEGREE, KNOT, SECOND_NS
 
@@ -52,7 +45,7 @@ def mobile(
     return replace(usual, altitude_m=altitude_m, **given)
 
 
-def use(kind: Kind, along_m: float, speed_m_s: float, ident: str = "01", t_ns: int = 0) -> Use:
+def use(kind: RunwayUse, along_m: float, speed_m_s: float, ident: str = "01", t_ns: int = 0) -> Use:
     height_m = 50.0 if kind == "arrival" else None
     who = mobile(along_m, height_m=height_m, speed_m_s=speed_m_s, t_ns=t_ns)
     return Use(who, *runway(ident), kind, along_m)
@@ -95,7 +88,7 @@ def test_an_arrival_flies_on_evenly_to_its_touchdown_and_brakes_then(
 
 
 @pytest.mark.parametrize("kind", ["arrival", "departure", "rollout"])
-def test_nobody_comes_to_what_is_behind(kind: Kind) -> None:
+def test_nobody_comes_to_what_is_behind(kind: RunwayUse) -> None:
     assert use(kind, 500.0, 60.0).time_to_s(499.0, 0) is None
     assert use(kind, 500.0, 60.0).time_to_s(500.0, 0) == 0.0
 
@@ -119,7 +112,7 @@ def test_the_age_of_a_report_is_taken_from_the_time_that_is_left(t_s: float, lef
 
 
 def leaves_s(who: Mobile, exit_m: float, own: Use | None = None, ident: str = "01") -> float | None:
-    return leaving_s(Obstacle(who, Way(0.0, exit_m)), own, use("arrival", -2000.0, 70.0, ident))
+    return Obstacle(who, Way(0.0, exit_m)).leaving_s(own, use("arrival", -2000.0, 70.0, ident))
 
 
 @pytest.mark.parametrize(("speed_m_s", "exit_m", "left_s"), [(8.0, 120.0, 15.0), (3.0, 6.0, 2.0)])
@@ -272,10 +265,11 @@ def meeting(first: Use, second: Use) -> list[Threat]:
     """Return what is told of two uses, at the time of their reports."""
     assert BRIEFING.airport is not None
     situation = RunwaySituation(BRIEFING.airport, BRIEFING)
-    return list(meeting_uses(Outlook(situation, RunwayConfig(), 0), first, second))
+    situation.uses = {"a": first, "b": second}
+    return list(worst_threats(RunwayConfig(rules=("meeting",)), situation, 0).values())
 
 
-def opposite(kind: Kind, gap_m: float, speed_m_s: float) -> Use:
+def opposite(kind: RunwayUse, gap_m: float, speed_m_s: float) -> Use:
     """Return a use of the other end, so far from 500 m past the threshold of runway 01."""
     who = mobile(500.0 + gap_m, axis=NORTH, off_deg=180.0, speed_m_s=speed_m_s)
     strip, direction = runway("19")

@@ -359,7 +359,7 @@ def test_what_is_seen_on_a_runway_is_in_the_way(
     assert isinstance(told.finding, Obstruction)
     assert (told.finding.how, told.finding.what, told.traffic) == expected
     assert (told.severity, told.sources) == (Severity.WARNING, ("vision", "adsb"))
-    assert (told.parties, told.rules, told.shares) == (("AAL123",), ("occupancy",), {})
+    assert (told.parties, told.rule, told.shares) == (("AAL123",), "occupancy", {})
     assert seen(Field(arrival("AAL123", 61.0)), **how).threats() == []
 
 

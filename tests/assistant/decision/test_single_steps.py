@@ -12,17 +12,17 @@ import pytest
 from airfield import BRIEFING, FIELD, NORTH, charted, degrees
 from airhilt.assistant.decision.aerodrome import Aerodrome, Vector, Way
 from airhilt.assistant.decision.approach import Approach
-from airhilt.assistant.decision.call_order import CallOrder
 from airhilt.assistant.decision.clarifications import Clarifications
 from airhilt.assistant.decision.clearances import Clearances
 from airhilt.assistant.decision.findings import NotReadBack
 from airhilt.assistant.decision.guard import ConfidenceGuard, Doubt
+from airhilt.assistant.decision.input_checks import InputChecks
 from airhilt.assistant.decision.intruder_advice import evasion
 from airhilt.assistant.decision.line_of_sight import GroundFix, PictureGeometry
 from airhilt.assistant.decision.mobiles import Mobile
 from airhilt.assistant.decision.occupancy import velocity_of
 from airhilt.assistant.decision.occupied_runway import _cannot_stop
-from airhilt.assistant.decision.runway_advice import advice
+from airhilt.assistant.decision.runway import advice
 from airhilt.assistant.decision.tcas_tracks import IntruderTrack
 from airhilt.assistant.decision.tracks import Track
 from airhilt.assistant.decision.visual_tracks import Observation
@@ -330,33 +330,29 @@ def began(t_s: float, name: str | None = None) -> Transcript:
     return call("words", t_s).model_copy(update={"id": name or f"at {t_s}"})
 
 
-def ids(transcripts: tuple[Transcript, ...]) -> list[str]:
-    return [each.id for each in transcripts]
-
-
 def test_later_calls_are_acted_upon_again_after_one_that_came_late() -> None:
-    order = CallOrder()
-    assert ids(order.take(began(10.0))) == ["at 10.0"]
-    assert ids(order.take(began(20.0))) == ["at 20.0"]
-    assert ids(order.take(began(15.0))) == ["at 15.0", "at 20.0"]
-    assert ids(order.take(began(5.0))) == ["at 5.0", "at 10.0", "at 15.0", "at 20.0"]
-    assert ids(order.take(began(20.0, "other"))) == ["other"]
+    checks = InputChecks()
+
+    def order(t_s: float, name: str | None = None) -> list[str]:
+        return [each.id for each in checks.in_order(began(t_s, name), 0)]
+
+    assert order(10.0) == ["at 10.0"]
+    assert order(20.0) == ["at 20.0"]
+    assert order(15.0) == ["at 15.0", "at 20.0"]
+    assert order(5.0) == ["at 5.0", "at 10.0", "at 15.0", "at 20.0"]
+    assert order(20.0, "other") == ["other"]
 
 
 @pytest.mark.parametrize(("late_s", "is_taken"), [(60.0, True), (60.1, False)])
 def test_a_call_that_is_over_a_minute_late_is_left_out(late_s: float, is_taken: bool) -> None:
-    order = CallOrder()
-    order.take(began(100.0))
-    assert bool(order.take(began(100.0 - late_s))) is is_taken
+    checks = InputChecks()
+    checks.in_order(began(100.0), 0)
+    assert bool(checks.in_order(began(100.0 - late_s), 0)) is is_taken
 
 
-def test_a_call_is_known_again_for_a_minute_by_its_frequency_and_its_id() -> None:
-    order = CallOrder()
+def test_a_call_is_known_again_by_its_frequency_and_its_id() -> None:
+    checks = InputChecks()
     first = began(10.0)
-    order.take(first)
-    assert order.earlier(first) == first
-    assert order.earlier(first.model_copy(update={"frequency_khz": 121_500})) is None
-    order.take(began(70.0))
-    assert order.earlier(first) == first
-    order.take(began(70.1))
-    assert order.earlier(first) is None
+    assert checks.in_order(first, 0)
+    assert not checks.in_order(first, 0)
+    assert checks.in_order(first.model_copy(update={"frequency_khz": 121_500}), 0)

@@ -9,18 +9,13 @@ import pytest
 
 from airfield import BRIEFING, ELEVATION_M, HOLD_M, NORTH, SOUTHEAST, WIDTH_M, Axis, degrees
 from airhilt.assistant.decision.aerodrome import Aerodrome
-from airhilt.assistant.decision.status_lights import (
-    ACCURATE_NACP,
-    RedLights,
-    StatusLightConfig,
-    StatusLights,
-)
+from airhilt.assistant.decision.status_lights import RedLights, StatusLightConfig, StatusLights
 from airhilt.assistant.decision.surface_traffic import Target
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE, SECOND_NS
 
 assert BRIEFING.airport is not None
 AERODROME = Aerodrome(BRIEFING.airport)
-EDGE_M = HOLD_M - AERODROME.strips[0].margin_m(ACCURATE_NACP)
+EDGE_M = HOLD_M - AERODROME.strips[0].margin_m()
 """Distance from the centre line at which the area of a runway begins."""
 FAST_M_S = 130.0 * KNOT
 

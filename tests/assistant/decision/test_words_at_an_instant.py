@@ -15,9 +15,7 @@ from airhilt.assistant.decision.findings import (
     RunwayMisread,
 )
 from airhilt.assistant.decision.guard import call_of
-from airhilt.assistant.decision.paper.ambiguity import AmbiguousCalls
-from airhilt.assistant.decision.paper.config import PaperConfig
-from airhilt.assistant.decision.paper.ladder import Ladder
+from airhilt.assistant.decision.paper_ladder import Ladder, PaperConfig
 from airhilt.assistant.decision.threats import Threat
 from airhilt.assistant.decision.visual_tracks import VisualTracks
 from airhilt.messages import Severity, TransmissionOpened
@@ -29,7 +27,7 @@ WRONG = "Cleared to land runway one niner, American one two three."
 
 
 def said(field: Field, *rules: str) -> list[Threat]:
-    return [each for each in field.threats(20.0) if set(each.rules) & set(rules)]
+    return [each for each in field.threats(20.0) if each.rule in rules]
 
 
 # --- what does not agree ----------------------------------------------------------------------
@@ -137,19 +135,18 @@ class Paper:
 
     def __init__(self, field: Field, **config: Any) -> None:
         self._field = field
-        self.ambiguous = AmbiguousCalls()
-        self._ladder = Ladder(PaperConfig(**config), VisualTracks(), self.ambiguous)
+        self._ladder = Ladder(PaperConfig(**config), VisualTracks())
 
     def hears(self, end_s: float, text: str, callsigns: tuple[str, ...]) -> Paper:
         given = transcript(f"at {end_s:g}", 119_100, at(end_s - 2.0), at(end_s), text)
-        self.ambiguous.take(call_of(given, callsigns), given)
+        self._ladder.take(call_of(given, callsigns), given)
         return self
 
     def threats(self, t_s: float = 0.0) -> list[Threat]:
         return list(self._ladder.threats(self._field.situation, at(t_s)).values())
 
     def told(self, t_s: float = 0.0) -> list[tuple[str, str]]:
-        return [(each.rules[0], each.severity.value) for each in self.threats(t_s)]
+        return [(each.rule, each.severity.value) for each in self.threats(t_s)]
 
 
 def test_an_arrival_has_a_warning_however_far_it_is_and_others_from_8_s() -> None:
@@ -203,7 +200,7 @@ def test_the_score_is_of_cameras_of_clearances_and_of_who_uses_the_runway(
     if is_cleared:
         field.hears(0.0, "Delta four five six, runway zero one, line up and wait.")
     seen(field, weight=weight, is_certain=False)
-    found = [each for each in Paper(field).threats() if each.rules == ("score",)]
+    found = [each for each in Paper(field).threats() if each.rule == "score"]
     assert [each.severity.value for each in found] == ([severity] if severity else [])
     for told in found:
         users, cleared = ("AAL123",) * uses, ("DAL456",) * is_cleared
@@ -228,7 +225,7 @@ def test_a_call_that_may_be_for_either_of_two_is_a_caution_on_a_runway_in_use(
     assert told.traffic == ("N172SP", "N552SP", "AAL123")
     assert isinstance(told.finding, RecipientUnclear)
     assert (told.severity, told.radio_ids) == (Severity.CAUTION, ("at 5",))
-    assert told.rules == ("recipient_ambiguity",)
+    assert told.rule == "recipient_ambiguity"
 
 
 @pytest.mark.parametrize(

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from airhilt.assistant.decision.engine import Decision, ReceivedMessage
 from airhilt.assistant.decision.guard import ConfidenceGuard
-from airhilt.assistant.decision.paper.ambiguity import AmbiguousCalls
-from airhilt.assistant.decision.paper.config import PaperConfig
-from airhilt.assistant.decision.paper.ladder import Ladder
+from airhilt.assistant.decision.paper_ladder import Ladder, PaperConfig
 from airhilt.assistant.decision.runway import RunwayWatch
 from airhilt.assistant.decision.threats import RunwayConfig
 from airhilt.assistant.decision.visual_tracks import VisualTracks
@@ -31,13 +29,12 @@ class PaperEngine:
     def __init__(self, configuration: PaperConfig | None = None) -> None:
         self.configuration = config = configuration or PaperConfig()
         self.visual_tracks = VisualTracks(config.sight)
-        self.ambiguous = AmbiguousCalls()
-        ladder = Ladder(config, self.visual_tracks, self.ambiguous)
+        self._ladder = Ladder(config, self.visual_tracks)
         timing = RunwayConfig(
             persistence_s=0.0, release_s=config.release_s, recipients=config.recipients
         )
         self.runways = RunwayWatch(
-            timing, self.visual_tracks, ConfidenceGuard(config.tau_asr), ladder.threats
+            timing, self.visual_tracks, ConfidenceGuard(config.tau_asr), self._ladder.threats
         )
 
     def receive(self, received: ReceivedMessage) -> None:
@@ -51,7 +48,7 @@ class PaperEngine:
             case Transcript() as transcript:
                 call = self.runways.take_transcript(transcript)
                 if call is not None:
-                    self.ambiguous.take(call, transcript)
+                    self._ladder.take(call, transcript)
             case Briefing() as briefing:
                 self.runways.take_briefing(briefing)
                 self.visual_tracks.take_briefing(briefing)
