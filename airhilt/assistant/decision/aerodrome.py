@@ -112,15 +112,7 @@ class Direction:
 
 
 class Strip:
-    """A runway with the area that hold-short positions keep clear.
-
-    Attributes
-    ----------
-    name
-        Name such as ``01/19``.
-    directions
-        One or both directions.
-    """
+    """A runway, such as ``01/19``, with the area that hold-short positions keep clear."""
 
     def __init__(self, directions: tuple[Direction, ...], area: shapely.Polygon) -> None:
         self.name = "/".join(direction.ident for direction in directions)
@@ -187,16 +179,11 @@ def way_through(core: shapely.Polygon, point: Vector, heading_rad: float) -> Way
 
 
 class Aerodrome:
-    """The runways of an airport in a local frame.
-
-    Attributes
-    ----------
-    ground_m
-        Altitude of the ground above which cameras give heights.
-    """
+    """The runways of an airport in a local frame."""
 
     def __init__(self, airport: AirportBriefing) -> None:
         self.ground_m = airport.elevation_ft * FOOT
+        """Altitude of the ground above which cameras give heights."""
         self._frame = LocalFrame(_centre(airport))
         self.strips = self._strips(airport)
         self._by_ident = {

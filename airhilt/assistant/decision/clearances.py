@@ -66,6 +66,14 @@ class Unanswered(NamedTuple):
     radio_id: str
 
 
+class AmbiguousCall(NamedTuple):
+    """An instruction about a runway whose addressee may be one of several."""
+
+    transcript: Transcript
+    callsigns: tuple[str, ...]
+    said: Instruction
+
+
 @dataclass(slots=True)
 class _Addressed:
     """The last call to somebody."""
@@ -107,6 +115,7 @@ class Clearances:
         self._in_force: dict[str, tuple[Clearance, ...]] = {}
         self._holding: dict[str, str | None] = {}
         self._discrepancies: dict[str, Discrepancy] = {}
+        self._ambiguous: list[AmbiguousCall] = []
         self._silence = ReadbackSilence()
         self._answered_ns: dict[int, int] = {}
         """Begin of the last call that does not begin with a callsign, by frequency."""
@@ -121,6 +130,7 @@ class Clearances:
         if not call.addressed_first:
             self._answered_ns[transcript.frequency_khz] = transcript.t_tx_ns
         said = tuple(each for each in call.instructions if each.action not in REPORTS | BESIDES)
+        self._take_ambiguous(call, transcript)
         callsign = call.match.callsign
         if callsign is None:
             return
@@ -151,6 +161,15 @@ class Clearances:
         if believed:
             self._act_on(callsign, believed, transcript)
         self._suspect(callsign, doubts.values())
+
+    def _take_ambiguous(self, call: Call, transcript: Transcript) -> None:
+        """Note a call that may be for several; one that names one of them settles it."""
+        if call.callsign is not None:
+            self._ambiguous = [x for x in self._ambiguous if call.callsign not in x.callsigns]
+        said = [x for x in call.instructions if x.action in LIFETIME_S or x.action in RESTRICTING]
+        if call.match.ambiguous and said:
+            callsigns = tuple(each.callsign for each in call.match.candidates)
+            self._ambiguous.append(AmbiguousCall(transcript, callsigns, said[0]))
 
     def _address(self, callsign: str, addressed: _Addressed) -> None:
         """Note a call to somebody, whose readback is awaited.
@@ -205,6 +224,11 @@ class Clearances:
         """Return the discrepancies that nobody has corrected."""
         found = self._discrepancies.values()
         return [each for each in found if t_ns - each.t_end_ns <= DISCREPANCY_NS]
+
+    def ambiguous(self, t_ns: int) -> list[AmbiguousCall]:
+        """Return the calls that may be for several, and that nobody has settled."""
+        found = self._ambiguous
+        return [each for each in found if t_ns - each.transcript.t_end_ns <= DISCREPANCY_NS]
 
     def unanswered(self, t_ns: int) -> Iterator[Unanswered]:
         """Yield the instructions to keep off a runway whose readback is late."""

@@ -45,22 +45,16 @@ def _by_word(transcript: Transcript) -> list[float]:
 
 @dataclass(frozen=True, slots=True)
 class Doubt:
-    """An instruction, or its readback, of which one slot is in doubt.
-
-    Attributes
-    ----------
-    callsign
-        Callsign that was heard, or the likeliest one.
-    is_answered
-        True if no readback that may settle it is expected any more.
-    """
+    """An instruction, or its readback, of which one slot is in doubt."""
 
     callsign: str
+    """Callsign that was heard, or the likeliest one."""
     slot: Slot
     confidence: float
     said: Instruction
     transcript: Transcript
     is_answered: bool
+    """True if no readback that may settle it is expected any more."""
 
 
 def _slots(call: Call, said: Instruction) -> dict[Slot, float]:

@@ -67,15 +67,7 @@ def seen_on_ground(
     aloft: Iterable[SeenAloft],
     animals: Collection[VisibleClass],
 ) -> Iterator[SeenOnGround]:
-    """Yield what is on the ground and not known by ADS-B, by falling belief.
-
-    Parameters
-    ----------
-    aloft
-        Bodies that fly, which are left out.
-    animals
-        Labels of animals.
-    """
+    """Yield what neither flies nor is known by ADS-B, by falling belief."""
     flying = {track for thing in aloft for track in thing.tracks}
     known = [
         (track, fix)

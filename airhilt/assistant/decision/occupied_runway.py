@@ -182,10 +182,7 @@ def _has_entered(outlook: Outlook, obstacle: Obstacle, strip: Strip) -> bool:
 def _cannot_stop(obstacle: Obstacle, strip: Strip, errors: float, travelled_m: float) -> bool:
     """Return whether a mobile cannot stop short of a runway after it has travelled a distance.
 
-    Parameters
-    ----------
-    errors
-        Error of its position to be reckoned with, as a share of the 95 % radius.
+    The error of its position is a share, `errors`, of the 95 % radius.
     """
     mobile = obstacle.mobile
     error_m = NACP_95_PERCENT_M[mobile.nacp] * errors

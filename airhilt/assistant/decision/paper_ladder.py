@@ -16,7 +16,7 @@ from pydantic import Field
 from airhilt.assistant.decision.aerodrome import Strip, Vector
 from airhilt.assistant.decision.assessment import worst
 from airhilt.assistant.decision.clearance_conflicts import activity_of, misread
-from airhilt.assistant.decision.clearances import DISCREPANCY_NS, LIFETIME_S, RESTRICTING
+from airhilt.assistant.decision.clearances import AmbiguousCall
 from airhilt.assistant.decision.findings import Obstructs, Occupied, RecipientUnclear
 from airhilt.assistant.decision.ladder import Score, ScoreConfig
 from airhilt.assistant.decision.occupied_runway import named
@@ -26,7 +26,6 @@ from airhilt.assistant.decision.threats import (
     RecipientGroup,
     Snapshot,
     Threat,
-    cameras_of,
     obstruction,
 )
 from airhilt.assistant.decision.visual_tracks import (
@@ -36,8 +35,8 @@ from airhilt.assistant.decision.visual_tracks import (
     belief_in,
 )
 from airhilt.configuration import Configuration, Seconds, Share
-from airhilt.messages import SPEAK_MIN_LEVEL, Severity, Transcript
-from airhilt.phraseology import TAU_ASR, Call, Instruction
+from airhilt.messages import SPEAK_MIN_LEVEL, Severity
+from airhilt.phraseology import TAU_ASR
 
 Rung = Literal["readback_mismatch", "occupancy", "recipient_ambiguity", "score"]
 """Rungs of the ladder."""
@@ -77,14 +76,6 @@ class PaperConfig(Configuration):
     )
 
 
-class _AmbiguousCall(NamedTuple):
-    """An instruction about a runway whose addressee may be one of several."""
-
-    transcript: Transcript
-    callsigns: tuple[str, ...]
-    said: Instruction
-
-
 class _Occupant(NamedTuple):
     """Somebody or something on a runway, by ADS-B or by cameras alone."""
 
@@ -109,16 +100,6 @@ class Ladder:
     def __init__(self, config: PaperConfig, visual_tracks: VisualTracks) -> None:
         self._config = config
         self._visual_tracks = visual_tracks
-        self._ambiguous: list[_AmbiguousCall] = []
-
-    def take(self, call: Call, transcript: Transcript) -> None:
-        """Note a call that may be for several; one that names one of them settles it."""
-        if call.callsign is not None:
-            self._ambiguous = [x for x in self._ambiguous if call.callsign not in x.callsigns]
-        said = [x for x in call.instructions if x.action in LIFETIME_S or x.action in RESTRICTING]
-        if call.match.ambiguous and said:
-            callsigns = tuple(each.callsign for each in call.match.candidates)
-            self._ambiguous.append(_AmbiguousCall(transcript, callsigns, said[0]))
 
     def threats(self, situation: RunwaySituation, t_ns: int) -> Mapping[tuple[str, ...], Threat]:
         """Return the threats at a time, each by its key."""
@@ -135,11 +116,11 @@ class Ladder:
 
     def _by_words(self, snapshot: Snapshot) -> Iterator[Threat]:
         """Yield the threats of rungs (a) and (c): what was said does not agree, or with whom."""
-        for discrepancy in snapshot.situation.clearances.discrepancies(snapshot.t_ns):
+        clearances = snapshot.situation.clearances
+        for discrepancy in clearances.discrepancies(snapshot.t_ns):
             yield from misread(snapshot, discrepancy)
-        for call in self._ambiguous:
-            if snapshot.t_ns - call.transcript.t_end_ns <= DISCREPANCY_NS:
-                yield from _unclear(snapshot, call)
+        for call in clearances.ambiguous(snapshot.t_ns):
+            yield from _unclear(snapshot, call)
 
     def _by_occupancy(self, snapshot: Snapshot) -> Iterator[Threat]:
         """Yield the threats of rung (b): a runway is occupied, and somebody comes."""
@@ -204,7 +185,7 @@ class Ladder:
                 rule="score",
                 sources=tuple(shares),
                 radio_ids=tuple(each.radio_id for each in cleared),
-                cameras=cameras_of(occupant.tracks),
+                tracks=occupant.tracks,
                 shares=shares,
             )
 
@@ -235,7 +216,7 @@ class Ladder:
             )
 
 
-def _unclear(snapshot: Snapshot, call: _AmbiguousCall) -> Iterator[Threat]:
+def _unclear(snapshot: Snapshot, call: AmbiguousCall) -> Iterator[Threat]:
     """Yield the threat of a call that may be for one of several, about an active runway."""
     active = activity_of(snapshot, None, (call.said,))
     if active is None:

@@ -29,14 +29,8 @@ class Hazard:
 class RaisedAlerts:
     """Turns hazards into alerts: told once they have lasted, again when they rise, and at the end.
 
-    Parameters
-    ----------
-    name
-        First part of the ids of the alerts.
-    persistence_s
-        Time for which a severity must hold before it is told.
-    release_s
-        Time for which a hazard must be gone before that is told.
+    A severity must hold for ``persistence_s`` before it is told, and a hazard be gone for
+    ``release_s``. The ids of the alerts begin with the name.
     """
 
     def __init__(self, name: str, persistence_s: float, release_s: float) -> None:

@@ -19,19 +19,15 @@ from airhilt.assistant.decision.threats import RunwayConfig, Snapshot, Threat
 from airhilt.assistant.decision.visual_tracks import VisualTracks
 from airhilt.messages import (
     CONTROLLER,
-    AdsbReport,
     Briefing,
     CancelTakeoff,
     Evidence,
     GoAround,
     HoldPosition,
-    PartialTranscript,
+    Message,
     Recommendation,
     Severity,
-    Transcript,
-    TransmissionOpened,
 )
-from airhilt.phraseology import Call
 
 FIRM_BRAKING_M_S2 = 2.5
 """Deceleration, in m/s2, within which somebody who can stop short of the pavement is told to."""
@@ -58,12 +54,7 @@ class _Ongoing:
 class RunwayWatch:
     """Watches the runways of the airport in the briefing; without one it has nothing to do.
 
-    Parameters
-    ----------
-    guard
-        Tells what is in doubt.
-    rules
-        Rules that find threats; None: those of the reference engine.
+    Without `rules` of its own, it judges by those of the reference engine.
     """
 
     def __init__(
@@ -101,29 +92,13 @@ class RunwayWatch:
         uses = {} if self._situation is None else self._situation.uses
         return next((use for use in uses.values() if use.mobile.callsign == callsign), None)
 
-    def take_briefing(self, briefing: Briefing) -> None:
-        """Set the airport, and who is expected there."""
-        if briefing.airport is not None and briefing.airport.runways:
-            self._situation = RunwaySituation(briefing.airport, briefing, self._guard)
-
-    def take_report(self, report: AdsbReport, t_ns: int) -> None:
-        """Update the position of an aircraft or a vehicle at a time."""
-        if self._situation is not None:
-            self._situation.take_report(report, t_ns)
-
-    def take_opening(self, opened: TransmissionOpened) -> None:
-        """Note that somebody has begun to transmit."""
-        if self._situation is not None:
-            self._situation.take_opening(opened)
-
-    def take_partial(self, partial: PartialTranscript) -> None:
-        """Update the provisional instructions of a call that goes on."""
-        if self._situation is not None:
-            self._situation.take_partial(partial)
-
-    def take_transcript(self, transcript: Transcript) -> Call | None:
-        """Update clearances with a call, and return its meaning; None without an airport."""
-        return None if self._situation is None else self._situation.take_transcript(transcript)
+    def take(self, message: Message, t_ns: int) -> None:
+        """Update the airport, and who and what is there, with one message at a time."""
+        match message:
+            case Briefing(airport=airport) if airport is not None and airport.runways:
+                self._situation = RunwaySituation(airport, message, self._guard)
+            case _ if self._situation is not None:
+                self._situation.take(message, t_ns)
 
     def judge(self, t_ns: int) -> list[Alert]:
         """Return the alerts that are new, have risen, or are over."""
@@ -247,7 +222,7 @@ class RunwayWatch:
                 time_to_go_s=threat.time_to_go_s,
                 note=threat.finding.statement(),
                 radio_ids=tuple(dict.fromkeys((*threat.radio_ids, *threat.provisional_ids))),
-                camera_ids=threat.cameras,
+                camera_ids=tuple(sorted({track.camera for track in threat.tracks})),
                 tracks=ongoing.tracks,
                 rules=(threat.rule, PROVISIONAL) if threat.provisional_ids else (threat.rule,),
                 shares=dict(threat.shares),

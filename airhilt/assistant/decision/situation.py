@@ -30,6 +30,7 @@ from airhilt.messages import (
     AdsbReport,
     AirportBriefing,
     Briefing,
+    Message,
     PartialTranscript,
     Transcript,
     TransmissionOpened,
@@ -67,14 +68,9 @@ class Obstacle(NamedTuple):
         return self.way.entry_m <= 0.0
 
     def leaving_s(self, own: Use | None, use: Use) -> float | None:
-        """Return the time until it is off the runway or in the air, in s; None if it stays.
+        """Return the time until it is out of the way of a runway's user, in s; None if it stays.
 
-        Parameters
-        ----------
-        own
-            Its own use of a runway; None if it does not use one.
-        use
-            Use of the runway by somebody else, who comes.
+        It is then off the runway, or in the air. Its own use of a runway is None without one.
         """
         mobile, speed = self.mobile, self.mobile.speed_m_s
         if own is not None and own.kind == "departure" and own.strip is use.strip:
@@ -107,15 +103,7 @@ class SeenObstacle(NamedTuple):
 
 
 class RunwaySituation:
-    """The runways of an airport, and everybody near them.
-
-    Attributes
-    ----------
-    uses
-        Uses of runways by address.
-    aloft
-        What only cameras show in the air.
-    """
+    """The runways of an airport, and everybody near them."""
 
     def __init__(
         self, airport: AirportBriefing, briefing: Briefing, guard: ConfidenceGuard | None = None
@@ -125,6 +113,7 @@ class RunwaySituation:
         self.clearances = Clearances(self._guard)
         self._partial_calls = PartialCalls(self._guard)
         self.uses: dict[str, Use] = {}
+        """Uses of runways by address."""
         self._roster = {entry.callsign: entry.category == "vehicle" for entry in briefing.roster}
         """Mark of each callsign that is a vehicle."""
         self._animals = frozenset(briefing.animals)
@@ -138,6 +127,7 @@ class RunwaySituation:
         self._wildlife: dict[str, Transcript] = {}
         """The last report of wildlife, by runway."""
         self.aloft: tuple[SeenAloft, ...] = ()
+        """What only cameras show in the air."""
         self._seen: dict[str, list[SeenObstacle]] = {}
         """Obstacles that only cameras show, by runway."""
 
@@ -191,6 +181,18 @@ class RunwaySituation:
         report = self._wildlife.get(strip.name)
         return report if report is not None and t_ns - report.t_end_ns <= WILDLIFE_NS else None
 
+    def take(self, message: Message, t_ns: int) -> None:
+        """Update what is known with one message at a time."""
+        match message:
+            case AdsbReport():
+                self.take_report(message, t_ns)
+            case TransmissionOpened():
+                self.clearances.take_opening(message)
+            case PartialTranscript():
+                self._partial_calls.take(message, self.callsigns)
+            case Transcript():
+                self.take_transcript(message)
+
     def take_report(self, report: AdsbReport, t_ns: int) -> None:
         """Update the position of an aircraft or a vehicle at a time."""
         self._heard_ns[report.icao24] = t_ns
@@ -236,18 +238,10 @@ class RunwaySituation:
                 for obstacles in self._obstacles.values():
                     obstacles.pop(icao24, None)
 
-    def take_opening(self, opened: TransmissionOpened) -> None:
-        """Note that somebody has begun to transmit."""
-        self.clearances.take_opening(opened)
-
     @property
     def callsigns(self) -> list[str]:
         """Callsigns of all who are expected or known by ADS-B, in order."""
         return sorted(self._roster.keys() | {each.callsign for each in self._mobiles.values()})
-
-    def take_partial(self, partial: PartialTranscript) -> None:
-        """Update the provisional instructions of a call that goes on."""
-        self._partial_calls.take(partial, self.callsigns)
 
     def supposed(self, t_ns: int) -> tuple[RunwaySituation, tuple[str, ...]] | None:
         """Return the situation as it is if calls that go on mean what was heard of them so far.
@@ -263,8 +257,8 @@ class RunwaySituation:
             other.clearances.take(call, heard)
         return other, tuple(heard.id for _, heard in calls)
 
-    def take_transcript(self, transcript: Transcript) -> Call:
-        """Update clearances and reports of wildlife with a call, and return its meaning."""
+    def take_transcript(self, transcript: Transcript) -> None:
+        """Update clearances and reports of wildlife with a call."""
         self._partial_calls.end(transcript.id)
         call = call_of(transcript, self.callsigns)
         for said in call.instructions:
@@ -275,7 +269,6 @@ class RunwaySituation:
                 for strip in self._reported_on(said.runway, call):
                     self._wildlife.pop(strip.name, None)
         self.clearances.take(call, transcript)
-        return call
 
     def _reported_on(self, runway: str | None, call: Call) -> tuple[Strip, ...]:
         """Return the runway named, else the one that the caller uses, else all."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal, get_args
 
@@ -121,7 +121,8 @@ class Threat:
     kind: Literal["runway_conflict", "readback_mismatch"] = "runway_conflict"
     radio_ids: tuple[str, ...] = ()
     """Ids of the transmissions that it rests on."""
-    cameras: tuple[str, ...] = ()
+    tracks: tuple[VisualTrack, ...] = ()
+    """Visual tracks that it rests on."""
     shares: Mapping[str, float] = field(default_factory=dict)
     """Share of each modality in the judgement; empty where it cannot be told."""
     provisional_ids: tuple[str, ...] = ()
@@ -206,11 +207,6 @@ class Outlook(Snapshot):
         return Severity.CAUTION if time_to_go_s <= self.config.caution_s else None
 
 
-def cameras_of(tracks: Iterable[VisualTrack]) -> tuple[str, ...]:
-    """Return the names of the cameras of some visual tracks."""
-    return tuple(sorted({track.camera for track in tracks}))
-
-
 def obstruction(
     use: Use,
     how: Obstructs,
@@ -221,7 +217,7 @@ def obstruction(
     *,
     unnamed: str | None = None,
     where: str | None = None,
-    tracks: Iterable[VisualTrack] = (),
+    tracks: tuple[VisualTrack, ...] = (),
     radio_ids: tuple[str, ...] = (),
     rule: RunwayRule = "occupancy",
     shares: Mapping[str, float] | None = None,
@@ -236,8 +232,6 @@ def obstruction(
         `WILDLIFE` or `UNIDENTIFIED` for what has no callsign.
     where
         Runway on which it is; None: the one that is used.
-    tracks
-        Visual tracks that show it.
     """
     own, other, runway = use.mobile.callsign, unnamed or what, use.direction.ident
     return Threat(
@@ -252,6 +246,6 @@ def obstruction(
         time_to_go_s=time_to_go_s,
         sources=sources,
         radio_ids=radio_ids,
-        cameras=cameras_of(tracks),
+        tracks=tracks,
         shares=shares or {},
     )

@@ -32,16 +32,11 @@ OWN_RANGE_M = 30.0
 
 
 class Traffic:
-    """The last report of everybody with a transponder.
-
-    Attributes
-    ----------
-    ground_m
-        Pressure altitude of the ground, in m; None while it is not known.
-    """
+    """The last report of everybody with a transponder."""
 
     def __init__(self) -> None:
         self.ground_m: float | None = None
+        """Pressure altitude of the ground, in m; None while it is not known."""
         self._reports: dict[str, AdsbReport] = {}
         self._heard_ns: dict[str, int] = {}
 

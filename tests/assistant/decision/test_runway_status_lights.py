@@ -14,7 +14,6 @@ from airfield import (
     SOUTHEAST,
     Mover,
     drives,
-    goes_around,
     lands,
     stands,
     takes_off,
@@ -102,25 +101,6 @@ def arrival(at_s: float = THRESHOLD_S) -> Mover:
 # --- entrance lights ------------------------------------------------------------------------
 
 
-def test_a_departure_lights_them_ahead_from_30_knots_until_it_is_in_the_air() -> None:
-    behind, ahead, far = (
-        Mover(name, NORTH, drives(0.0, along_m=along_m, to_m=-90.0), category="C2")
-        for name, along_m in (("OPS1", -30.0), ("OPS2", 1300.0), ("OPS3", 2050.0))
-    )
-    field = lit(Mover("AAL123", NORTH, takes_off(30.0)), behind, ahead, far)
-    reaches_30_kt_s = 30.0 + 30.0 * KNOT / 2.0
-    assert field.red("OPS2")[0] == pytest.approx(reaches_30_kt_s, abs=1.5)
-    assert not field.red("OPS1")
-    lifts_off_s = 30.0 + 75.0 / 2.0
-    assert field.out("OPS3")[0] == pytest.approx(lifts_off_s, abs=3.5)
-
-
-def test_a_go_around_puts_them_out() -> None:
-    field = lit(Mover("AAL123", NORTH, goes_around(THRESHOLD_S, 900.0)), comes_to_hold(0.0))
-    assert field.red("OPS1")
-    assert field.out("OPS1")[0] < THRESHOLD_S
-
-
 def test_red_before_one_who_stands_is_an_advisory_and_against_it_a_warning() -> None:
     standing = lit(arrival(), comes_to_hold(0.0))
     assert not standing.red("OPS1", "WARNING")
@@ -143,11 +123,6 @@ def test_one_who_cannot_stop_short_of_the_runway_is_left_to_their_judgement() ->
     assert [told.recommendation for told in warnings] == [None]
 
 
-def test_nobody_but_the_one_before_the_lights_is_told() -> None:
-    field = lit(arrival(), comes_to_hold(0.0), Mover("DAL456", NORTH, stands(500.0, 300.0)))
-    assert {told.recipient for _, told in field.told} == {"OPS1"}
-
-
 def test_a_truck_without_a_transponder_is_told_by_the_name_that_no_track_has() -> None:
     truck = comes_to_hold(0.0)
     truck.equipped = False
@@ -168,13 +143,6 @@ def test_who_has_an_address_but_no_callsign_is_not_without_a_name() -> None:
     assert lit(arrival(), truck, other).red("OPS1")
 
 
-def test_entrance_lights_are_none_of_one_who_is_on_the_runway_already() -> None:
-    """It drives on to the pavement just before the arrival is a mile away, and off it again."""
-    on_pavement_s = ONE_MILE_S - 1.5
-    truck = Mover("OPS1", NORTH, drives(on_pavement_s - (250.0 - 22.5) / 8.0), category="C2")
-    assert not lit(arrival(), truck, seconds=60).red("OPS1")
-
-
 def test_the_numbers_of_the_lights_can_be_set() -> None:
     field = SurfaceField([arrival(), comes_to_hold(0.0)])
     field.configuration = {"arrival_m": 3000.0}
@@ -184,15 +152,6 @@ def test_the_numbers_of_the_lights_can_be_set() -> None:
 
 
 # --- take-off hold and intersection lights --------------------------------------------------
-
-
-def test_take_off_hold_lights_are_red_while_somebody_is_on_the_runway_ahead() -> None:
-    truck = Mover("OPS1", NORTH, drives(30.0), category="C2")
-    field = lit(Mover("AAL123", NORTH, takes_off(500.0)), truck)
-    enters_s, leaves_s = 30.0 + (250.0 - 76.0) / 8.0, 30.0 + (250.0 + 22.5) / 8.0
-    assert field.red("AAL123")[0] == pytest.approx(enters_s, abs=2.5)
-    assert field.out("AAL123")[0] == pytest.approx(leaves_s, abs=3.5)
-    assert not field.red("AAL123", "WARNING")
 
 
 def test_a_crew_that_rolls_against_them_rejects_the_take_off() -> None:

@@ -17,7 +17,6 @@ from airhilt.assistant.decision.occupancy import (
     SeenOnGround,
     seen_aloft,
     seen_on_ground,
-    velocity_of,
 )
 from airhilt.assistant.decision.visual_tracks import VisualTracks
 from airhilt.messages import Detections
@@ -129,16 +128,6 @@ def test_what_flies_is_not_on_the_ground() -> None:
     aloft = SeenAloft(True, (), (0.0, 0.0, 0.0), True, 0, (track,))
     assert on_ground(tracks) != []
     assert on_ground(tracks, aloft) == []
-
-
-@pytest.mark.parametrize("velocity", [(6.0, 8.0, 0.0), (-6.0, 8.0, 0.0), (3.0, -9.0, 0.0)])
-def test_the_velocity_is_that_of_the_place_where_it_stands_on_the_ground(
-    velocity: tuple[float, float, float],
-) -> None:
-    (thing,) = on_ground(
-        watched(camera(moves(still("truck", THERE, TRUCK), THERE, velocity)), seconds=2.0)
-    )
-    assert velocity_of(thing, AERODROME) == pytest.approx(velocity[:2], abs=1.5)
 
 
 # --- in the air -------------------------------------------------------------------------------

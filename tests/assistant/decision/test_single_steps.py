@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from airfield import BRIEFING, FIELD, NORTH, charted, degrees
-from airhilt.assistant.decision.aerodrome import Aerodrome, Vector, Way
+from airhilt.assistant.decision.aerodrome import Aerodrome, Vector
 from airhilt.assistant.decision.approach import Approach
 from airhilt.assistant.decision.clarifications import Clarifications
 from airhilt.assistant.decision.clearances import Clearances
@@ -21,7 +21,6 @@ from airhilt.assistant.decision.intruder_advice import evasion
 from airhilt.assistant.decision.line_of_sight import GroundFix, PictureGeometry
 from airhilt.assistant.decision.mobiles import Mobile
 from airhilt.assistant.decision.occupancy import velocity_of
-from airhilt.assistant.decision.occupied_runway import _cannot_stop
 from airhilt.assistant.decision.runway import advice
 from airhilt.assistant.decision.tcas_tracks import IntruderTrack
 from airhilt.assistant.decision.tracks import Track
@@ -305,22 +304,6 @@ def test_who_uses_a_runway_is_told_to_go_around_or_to_stop_only_when_it_is_urgen
     mobile.on_ground = False
     found = advice(*(cast(Any, each) for each in (mobile, given, severity, situation, config)))
     assert found == (told if kind == "arrival" else None)
-
-
-@pytest.mark.parametrize(("margin_m", "cannot"), [(0.5, True), (-0.5, False)])
-def test_an_error_of_position_to_one_side_is_that_of_one_axis(
-    margin_m: float, cannot: bool
-) -> None:
-    """One axis of a circular normal error with a 95 % radius of 30 m errs by more than 20.16 m to
-    one side in 5 % of cases: 1.645 of its standard deviations, of which 30 m are 2.4477."""
-    error_m = 1.645 / 2.4477 * 30.0
-    braking_m = 8.0**2 / (2.0 * 4.0)
-    line_m = braking_m - error_m - margin_m
-    obstacle = SimpleNamespace(
-        mobile=SimpleNamespace(nacp=9, speed_m_s=8.0), way=Way(line_m + 50.0, line_m + 150.0)
-    )
-    strip = SimpleNamespace(margin_m=lambda _: 50.0)
-    assert _cannot_stop(cast(Any, obstacle), cast(Any, strip), 0.67, 0.0) is cannot
 
 
 # --- the order of calls ---------------------------------------------------------------------

@@ -13,10 +13,8 @@ from airfield import (
     TOUCHDOWN_M,
     Airfield,
     Mover,
-    drives,
     lands,
     stands,
-    takes_off,
 )
 from airhilt.assistant.decision.engines import decision_engine
 from airhilt.assistant.decision.worker import DecisionWorker
@@ -41,15 +39,6 @@ def times(field: Airfield) -> list[tuple[str, float]]:
     return [(told.severity.value, TOUCHDOWN_S - t_s) for t_s, told in field.told if told.active]
 
 
-def test_a_crew_that_lands_is_alerted_30_and_15_s_before_the_touchdown() -> None:
-    field = airfield(arrival(), Mover("DAL456", NORTH, stands(30.0), heading_deg=0.0))
-    (first, caution_s), (second, warning_s) = times(field)
-    assert (first, second) == ("CAUTION", "WARNING")
-    # Traffic at the threshold is met 5 s before the touchdown.
-    assert caution_s == pytest.approx(30.0 + 5.0, abs=1.5)
-    assert warning_s == pytest.approx(15.0 + 5.0, abs=1.5)
-
-
 def test_the_crew_is_told_what_is_there_and_nobody_else_is_told() -> None:
     field = airfield(arrival(), Mover("OPS1", NORTH, stands(800.0), category="C2"))
     assert {told.recipient for _, told in field.told} == {"AAL123"}
@@ -68,18 +57,6 @@ def test_the_crew_goes_around_on_the_warning_or_already_on_the_caution() -> None
         assert told.severity == severity
         assert told.recommendation is not None
         assert told.recommendation.action == "go_around"
-
-
-def test_a_truck_without_ads_b_is_not_seen() -> None:
-    assert not airfield(arrival(), Mover("OPS1", NORTH, stands(800.0), equipped=False)).told
-
-
-def test_a_crew_on_its_roll_rejects_the_take_off_for_one_that_crosses() -> None:
-    crosser = Mover("DAL456", NORTH, drives(30.0, along_m=1300.0, speed_m_s=10.0))
-    roller = Mover("AAL123", NORTH, takes_off(20.0))
-    field = airfield(roller, crosser, seconds=55.0)
-    assert field.advice("AAL123") == [("cancel_takeoff", "01")]
-    assert not field.to("DAL456")
 
 
 def test_an_arrival_to_a_crossing_runway_is_not_on_the_runway() -> None:

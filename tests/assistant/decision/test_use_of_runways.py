@@ -18,8 +18,6 @@ from airhilt.assistant.decision.aerodrome import (
 )
 from airhilt.assistant.decision.mobiles import (
     Mobile,
-    Use,
-    is_on_pavement,
     use_of,
 )
 from airhilt.assistant.decision.surface_traffic import SurfaceTraffic, Target
@@ -156,38 +154,7 @@ def test_who_was_a_vehicle_once_is_one_and_keeps_its_callsign() -> None:
     assert other.callsign == "AAL123"
 
 
-@pytest.mark.parametrize(("displaced_m", "along_m", "is_on"), [(0.0, -501.0, False),
-                                                               (300.0, -799.0, True),
-                                                               (300.0, -801.0, False)])  # fmt: skip
-def test_pavement_before_a_displaced_threshold_belongs_to_the_runway(
-    displaced_m: float, along_m: float, is_on: bool
-) -> None:
-    runway = Direction("01", Vector(0.0, 0.0), Vector(0.0, 1.0), 2000.0, displaced_m, 22.5, 0.0)
-    assert is_on_pavement(runway, along_m, 0.0) is is_on
-
-
 # --- when it will be where ----------------------------------------------------------------------
-
-
-def use(kind: Any, along_m: float, speed_m_s: float) -> Use:
-    one = mobile(along_m)
-    one.speed_m_s = speed_m_s
-    return Use(one, strip(), direction(), kind, along_m)
-
-
-def test_the_time_to_the_threshold_is_that_of_its_speed_and_0_beyond() -> None:
-    assert use("arrival", -700.0, 70.0).time_to_threshold_s(SECOND_NS) == pytest.approx(9.0)
-    assert use("arrival", -0.5, 0.2).time_to_threshold_s(0) == pytest.approx(0.5)
-    assert use("arrival", -0.5, 0.2).time_to_s(0.0, 0) == pytest.approx(0.5)
-    assert use("arrival", 20.0, 70.0).time_to_threshold_s(0) == 0.0
-
-
-def test_a_departure_climbs_once_it_is_in_the_air() -> None:
-    rolling = use("departure", 500.0, 60.0)
-    assert not rolling.is_climbing
-    flying = rolling._replace(mobile=mobile(900.0, 0.0, 20.0))
-    assert flying.is_climbing
-    assert not flying._replace(kind="arrival").is_climbing
 
 
 # --- the field ----------------------------------------------------------------------------------

@@ -90,7 +90,7 @@ def test_without_a_runway_any_that_is_active_counts() -> None:
 def test_who_does_not_read_back_to_hold_is_told_with_who_uses_the_runway() -> None:
     field = Field(arrival("AAL123", 100.0))
     opened = TransmissionOpened(id="at 10", frequency_khz=119_100, t_tx_ns=at(8.0))
-    field.situation.take_opening(opened)
+    field.situation.clearances.take_opening(opened)
     field.hears(10.0, "Delta four five six, hold short runway zero one.")
     (told,) = said(field, "readback_missing")
     assert isinstance(told.finding, NotReadBack)
@@ -100,7 +100,7 @@ def test_who_does_not_read_back_to_hold_is_told_with_who_uses_the_runway() -> No
     assert (told.severity, told.kind) == (Severity.CAUTION, "readback_mismatch")
     assert told.radio_ids == ("at 10",)
     alone = Field()
-    alone.situation.take_opening(opened)
+    alone.situation.clearances.take_opening(opened)
     assert said(alone.hears(10.0, "Delta four five six, hold short runway zero one.")) == []
 
 
@@ -139,7 +139,7 @@ class Paper:
 
     def hears(self, end_s: float, text: str, callsigns: tuple[str, ...]) -> Paper:
         given = transcript(f"at {end_s:g}", 119_100, at(end_s - 2.0), at(end_s), text)
-        self._ladder.take(call_of(given, callsigns), given)
+        self._field.situation.clearances.take(call_of(given, callsigns), given)
         return self
 
     def threats(self, t_s: float = 0.0) -> list[Threat]:
@@ -218,7 +218,8 @@ def test_a_call_that_may_be_for_either_of_two_is_a_caution_on_a_runway_in_use(
     field = Field(arrival("AAL123", 100.0))
     names = ("N172SP", "N552SP", "AAL123")
     call = f"November two sierra papa, {runway} line up and wait."
-    assert Paper(Field()).hears(5.0, call, names).threats(6.0) == []
+    holds = f"November two sierra papa, hold short {runway}."
+    assert Paper(Field()).hears(5.0, holds, names).threats(6.0) == []
     (told,) = Paper(field).hears(5.0, call, names).threats(6.0)
     assert told.runway == ident
     assert told.parties == ("N172SP", "N552SP")

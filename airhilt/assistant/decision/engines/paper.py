@@ -29,28 +29,23 @@ class PaperEngine:
     def __init__(self, configuration: PaperConfig | None = None) -> None:
         self.configuration = config = configuration or PaperConfig()
         self.visual_tracks = VisualTracks(config.sight)
-        self._ladder = Ladder(config, self.visual_tracks)
+        ladder = Ladder(config, self.visual_tracks)
         timing = RunwayConfig(
             persistence_s=0.0, release_s=config.release_s, recipients=config.recipients
         )
         self.runways = RunwayWatch(
-            timing, self.visual_tracks, ConfidenceGuard(config.tau_asr), self._ladder.threats
+            timing, self.visual_tracks, ConfidenceGuard(config.tau_asr), ladder.threats
         )
 
     def receive(self, received: ReceivedMessage) -> None:
         """Update positions, visual tracks and clearances with one message."""
+        self.runways.take(received.message, received.t_ns)
         match received.message:
             case AdsbReport() as report:
-                self.runways.take_report(report, received.t_ns)
                 self.visual_tracks.take_report(report, received.t_ns)
             case Detections() as detections:
                 self.visual_tracks.take_detections(detections, received.t_ns)
-            case Transcript() as transcript:
-                call = self.runways.take_transcript(transcript)
-                if call is not None:
-                    self._ladder.take(call, transcript)
             case Briefing() as briefing:
-                self.runways.take_briefing(briefing)
                 self.visual_tracks.take_briefing(briefing)
 
     def decide(self, t_ns: int) -> Decision:

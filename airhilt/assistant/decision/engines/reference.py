@@ -62,7 +62,7 @@ class ReferenceConfig(Configuration):
 
 
 class ReferenceEngine:
-    """Implements `airhilt.assistant.decision.engine.DecisionEngine` by fixed rules.
+    """Decides by fixed rules.
 
     What cameras show goes to the visual tracks. They keep what no transponder explains, and both
     the watch for intruders and the one for runways look at that.
@@ -96,25 +96,25 @@ class ReferenceEngine:
     def receive(self, received: ReceivedMessage) -> None:
         """Update tracks, clearances and belief with one message."""
         self._catch_up(received)
+        t_ns = received.t_ns
         match received.message:
-            case AdsbReport() as report if self.checks.believes_report(report, received.t_ns):
-                for part in (self.separation, self.runways, self.visual_tracks):
-                    part.take_report(report, received.t_ns)
+            case AdsbReport() as report if self.checks.believes_report(report, t_ns):
+                self.separation.take_report(report, t_ns)
+                self.runways.take(report, t_ns)
+                self.visual_tracks.take_report(report, t_ns)
             case CameraInfo() as info:
                 self.checks.take_camera(info)
-            case Detections() as seen if self.checks.believes_detections(seen, received.t_ns):
-                self.visual_tracks.take_detections(seen, received.t_ns)
-            case TransmissionOpened() as opened:
-                self.runways.take_opening(opened)
-            case PartialTranscript() as partial:
-                self.runways.take_partial(partial)
+            case Detections() as seen if self.checks.believes_detections(seen, t_ns):
+                self.visual_tracks.take_detections(seen, t_ns)
+            case TransmissionOpened() | PartialTranscript() as part:
+                self.runways.take(part, t_ns)
             case Transcript() as transcript:
-                for call in self.checks.in_order(transcript, received.t_ns):
-                    self.runways.take_transcript(call)
-                    self.separation.take_transcript(received.t_ns, received.t_in_ns, call)
+                for call in self.checks.in_order(transcript, t_ns):
+                    self.runways.take(call, t_ns)
+                    self.separation.take_transcript(t_ns, received.t_in_ns, call)
             case Briefing() as briefing:
                 self.separation.take_briefing(briefing)
-                self.runways.take_briefing(briefing)
+                self.runways.take(briefing, t_ns)
                 self.visual_tracks.take_briefing(briefing)
 
     def _catch_up(self, received: ReceivedMessage) -> None:

@@ -83,11 +83,7 @@ class SurfaceAlertEngine:
     """Alerts the crew that takes off or lands of traffic on its runway, and nobody else.
 
     All aircraft with a transponder are taken to have the system. What has no ADS-B is not seen.
-
-    Parameters
-    ----------
-    responds_from
-        Severity from which crews respond: WARNING after AC 25.1322-1; an assumption.
+    Crews respond from a severity on: WARNING after AC 25.1322-1; an assumption.
     """
 
     name = "surf_a"
@@ -124,13 +120,7 @@ class SurfaceAlertEngine:
 def predicted_collisions(
     situation: RunwaySituation, config: SurfaceAlertConfig, responds_from: Severity, t_ns: int
 ) -> Iterator[Hazard]:
-    """Yield the collisions that crews are to be told of.
-
-    Parameters
-    ----------
-    responds_from
-        Severity from which crews respond.
-    """
+    """Yield the collisions that crews are to be told of, and respond to from a severity on."""
     for use in situation.uses.values():
         if use.mobile.is_vehicle or use.is_climbing:
             continue
