@@ -6,11 +6,13 @@ from typing import Any
 
 import pytest
 
+from airfield import FIELD
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.input_checks import InputChecks, is_possible
 from airhilt.geodesy.wgs84 import displaced
-from airhilt.messages import AdsbReport, Evidence, Severity, Transcript
+from airhilt.messages import AdsbReport, CameraInfo, Detections, Evidence, Severity, Transcript
 from airhilt.units import DEGREE, KNOT, SECOND_NS
+from projected import Camera, standing
 
 
 def at(t_s: float) -> int:
@@ -157,3 +159,26 @@ def test_a_call_that_comes_twice_or_late_is_told_of_by_what_rests_on_the_radio()
     )  # fmt: skip
     assert said(checks, 82.0, **heard) == ("call a came out of order",)
     assert said(checks, 23.0) == ()
+
+
+def seen(camera: str, t_s: float) -> Detections:
+    return Camera(camera, FIELD, standing((0.0, 0.0, 30.0), 0.0, 0.0), []).detections(at(t_s))
+
+
+def test_pictures_are_of_a_known_camera_and_newer_than_the_last_one() -> None:
+    checks = InputChecks()
+    by_sight = {"evidence": Evidence(sources=("vision", "adsb"))}
+    assert checks.believes_detections(seen("ghost", 0.0), at(0.0))  # None is known yet.
+    checks.take_camera(
+        CameraInfo(camera="c", rate_hz=8.0, width_px=640, height_px=360, horizontal_fov_deg=45.0)
+    )
+    assert checks.believes_detections(seen("c", 2.0), at(2.0))
+    assert said(checks, 3.0, **by_sight) == ()
+    assert not checks.believes_detections(seen("ghost", 3.0), at(3.0))
+    for t_s in (1.9, 2.0):
+        assert not checks.believes_detections(seen("c", t_s), at(4.0))
+    assert said(checks, 4.0, **by_sight) == (
+        "detections of unknown camera ghost not used", "a picture of camera c came out of order",
+    )  # fmt: skip
+    assert said(checks, 4.0) == ()
+    assert checks.believes_detections(seen("c", 2.1), at(4.1))
