@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from airfield import NORTH, Airfield, Mover, drives, lands, takes_off
+from airfield import NORTH, Airfield, Mover, lands, takes_off
 from airhilt.assistant.decision.engines.reference import ReferenceConfig
 from airhilt.assistant.decision.guard import call_of
 from airhilt.messages import Advisory, Confirm, Transcript
@@ -17,8 +17,6 @@ RIGHT = (26.0, "Cleared to land runway zero one, American one two three.")
 WRONG = (26.0, "Cleared to land runway one niner, American one two three.")
 UNSURE_WRONG = (26.0, "Cleared to land runway one? niner, American one two three.")
 UNSURE_NAME = (20.0, "American? one? two? three?, runway zero one, cleared to land.")
-CROSS = "Ops one, cross runway zero one."
-CROSSES = "Crossing runway zero one, Ops one."
 
 
 def field(*calls: tuple[float, str], tau_asr: float = 0.8, is_busy: bool = True) -> Airfield:
@@ -192,74 +190,18 @@ def test_a_crew_that_asks_for_it_again_is_not_overtaken_by_the_question(asking: 
     assert questions(field(UNSURE_CLEARED, asked).run(45)) == []
 
 
-def crossing(*calls: tuple[float, str]) -> Airfield:
-    """A vehicle crosses the runway well before an arrival, cleared or not."""
-    movers = [
-        Mover("AAL123", NORTH, lands(95)),
-        Mover("OPS1", NORTH, drives(30.0), category="C2"),
-    ]
-    return Airfield(movers, list(calls), openings_are_heard=True).run(80)
-
-
-def test_an_unsure_clearance_to_cross_makes_it_right_for_nobody() -> None:
-    assert "WARNING" not in [
-        each.severity for each in crossing((24.0, CROSS), (28.0, CROSSES)).to("ATC")
-    ]
-    unsure = crossing((24.0, "Ops one, cross? runway zero one."))
-    without = crossing()
-    assert [each.severity for each in unsure.to("AAL123")] == [
-        each.severity for each in without.to("AAL123")
-    ]
-
-
-def test_an_unsure_clearance_of_somebody_unseen_is_a_caution_all_the_same() -> None:
-    calls = [(40.0, "Ops one, proceed? onto runway zero one.")]
-    airfield = Airfield([Mover("AAL123", NORTH, lands(95))], calls).run(60)
-    assert airfield.first("CAUTION")[0] >= 40.0
-
-
-def test_an_unsure_instruction_to_hold_withdraws_no_clearance() -> None:
-    def is_over(hold: str) -> bool:
-        calls = [(36.0, "Ops one, proceed onto runway zero one."), (40.0, f"Ops one, {hold}.")]
-        airfield = Airfield([Mover("AAL123", NORTH, lands(95))], calls).run(60)
-        return not airfield.to("AAL123")[-1].active
-
-    assert is_over("hold short of runway zero one")
-    assert not is_over("hold? short? of runway zero one")
-
-
-def test_unsure_news_that_wildlife_is_gone_does_not_clear_a_runway() -> None:
-    def warned(gone: str) -> bool:
-        deer = (30.0, "Tower, Delta four five six, deer on runway zero one.")
-        calls = [deer, (50.0, f"Tower, Delta four five six, {gone}.")]
-        airfield = Airfield([Mover("AAL123", NORTH, lands(110))], calls).run(85)
-        return any(each.severity == "WARNING" for each in airfield.to("AAL123"))
-
-    assert not warned("the deer are gone from runway zero one")
-    assert warned("the deer are gone? from runway zero one")
-
-
-CLIMB = (20.0, 25.0, "American one two three, climb and maintain flight level three three zero.")
-
-
-def climbing(read_back: str, seconds: float = 60.0) -> Encounter:
+def test_a_level_that_is_wrong_where_it_is_unsure_is_asked_for_and_not_told() -> None:
     flights = [
         Flight("AAL123", "a1b2c3", 90.0, 30.7, 31_000),
         Flight("DAL456", "a4d5e6", 270.0, 30.7, 34_000),
     ]
-    text = f"Climb and maintain flight level {read_back}, American one two three."
-    return Encounter(flights, seconds, calls=[CLIMB, (26.0, 31.0, text)]).fly()
-
-
-def test_a_level_that_is_wrong_where_it_is_unsure_is_asked_for_and_not_told() -> None:
-    encounter = climbing("three four? zero")
+    calls = [
+        (20.0, 25.0, "American one two three, climb and maintain flight level three three zero."),
+        (26.0, 31.0, "Climb and maintain flight level three four? zero, American one two three."),
+    ]
+    encounter = Encounter(flights, 60.0, calls=calls).fly()
     assert questions(encounter) == [(31.0, "AAL123", "altitude")]
     assert mismatches(encounter) == []
-
-
-@pytest.mark.parametrize("read_back", ["three three? zero", "three three zero"])
-def test_a_level_that_agrees_is_believed(read_back: str) -> None:
-    assert climbing(read_back).told == []
 
 
 def test_without_words_the_confidence_in_the_whole_stands_for_each() -> None:

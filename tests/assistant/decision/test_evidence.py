@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from airfield import NORTH, Airfield, Mover, drives, lands, stands, takes_off
+from airfield import NORTH, Airfield, Mover, lands, stands, takes_off
 from airhilt.assistant.decision.engines.paper import PaperEngine
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
@@ -51,13 +51,6 @@ def test_a_clearance_on_to_the_runway_names_its_call() -> None:
     _, told = Airfield(movers, calls).run(30).first("CAUTION")
     assert told.evidence.rules == ("cleared_on",)
     assert told.evidence.radio_ids == ("0",)
-
-
-def test_a_vehicle_by_ads_b_alone_rests_on_no_call() -> None:
-    movers = [Mover("AAL123", NORTH, lands(90)), Mover("OPS1", NORTH, drives(40), 90.0, "C2")]
-    evidence = Airfield(movers).run(80).first("CAUTION")[1].evidence
-    assert (evidence.radio_ids, evidence.camera_ids) == ((), ())
-    assert len(evidence.tracks) == 2
 
 
 def test_a_score_tells_the_share_of_each_modality() -> None:

@@ -72,6 +72,15 @@ def test_a_doubt_is_asked_about_for_two_minutes(
     assert [traffic for _, traffic in doubts] == (["DAL456"] if is_asked else [])
 
 
+def test_an_unsure_readback_that_agrees_is_believed(
+    readbacks: LevelReadbacks, tracks: AirTracks
+) -> None:
+    said = "Climb and maintain flight level three three? zero, American one two three."
+    assert not is_misread(readbacks, "readback", said, 26.0)
+    assert list(readbacks.doubts(151 * SECOND_NS, CONFIG)) == []
+    assert [track.cleared_m for track in tracks] == [pytest.approx(33_000.0 * FOOT), None]
+
+
 @pytest.mark.parametrize(
     "senseless",
     [

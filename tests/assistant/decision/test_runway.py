@@ -206,14 +206,6 @@ def test_who_has_not_gone_when_the_arrival_is_near_holds_and_the_arrival_goes_ar
     assert field.advice("AAL123") == [("go_around", "01")]
 
 
-@pytest.mark.parametrize("seed", SEEDS)
-def test_a_takeoff_towards_somebody_on_the_runway_is_cancelled_at_once(seed: int) -> None:
-    field = Airfield([departure(40, seed=seed), vehicle(stands(1500), seed=seed)]).run(60)
-    warning_s, _ = field.first("WARNING")
-    assert 40 < warning_s < 48
-    assert field.advice("DAL456") == [("cancel_takeoff", "01")]
-
-
 def test_an_outage_does_not_clear_a_runway() -> None:
     field = Airfield([arrival(100), vehicle(stands(800))])
     report = field._report
@@ -229,41 +221,7 @@ def test_an_outage_does_not_clear_a_runway() -> None:
 # --- two use runways that meet --------------------------------------------------------------
 
 
-@pytest.mark.parametrize("seed", SEEDS)
-def test_a_takeoff_against_an_arrival_from_the_other_end_is_a_warning_to_both(seed: int) -> None:
-    field = Airfield([arrival(110, SOUTH, seed=seed), departure(45, seed=seed)]).run(75)
-    warning_s, warning = field.first("WARNING")
-    assert 45 < warning_s < 52
-    assert "DAL456 opposite on runway 01/19" in warning.message
-    assert field.advice("AAL123") == [("go_around", "19")]
-    assert field.advice("DAL456") == [("cancel_takeoff", "01")]
-
-
-@pytest.mark.parametrize("seed", SEEDS)
-def test_a_takeoff_that_meets_an_arrival_where_the_runways_cross_is_a_warning_to_both(
-    seed: int,
-) -> None:
-    movers = [arrival(100, seed=seed), departure(85, SOUTHEAST, seed=seed)]
-    field = Airfield(movers).run(112)
-    warning_s, _ = field.first("WARNING")
-    assert 85 < warning_s < 95
-    assert field.advice("AAL123") == [("go_around", "01")]
-    assert field.advice("DAL456")[0] == ("cancel_takeoff", "15")
-    assert len({advisory.id for _, advisory in field.told}) == 1
-
-
 # --- wildlife -------------------------------------------------------------------------------
-
-
-def test_wildlife_reported_on_the_runway_is_a_warning_to_go_around() -> None:
-    calls = [(60.0, "Tower, Ops one, wildlife report, deer on runway zero one near delta.")]
-    field = Airfield([arrival(90)], calls).run(80)
-    warning_s, warning = field.first("WARNING")
-    assert warning_s == pytest.approx(61.0, abs=0.6)
-    assert warning.recipients == ("AAL123", "ATC")
-    assert warning.traffic == ("AAL123", "wildlife")
-    assert warning.evidence.sources == ("adsb", "radio")
-    assert field.advice("AAL123") == [("go_around", "01")]
 
 
 # --- what was said: steps (a) and (c) -------------------------------------------------------

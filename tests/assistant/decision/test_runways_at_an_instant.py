@@ -183,21 +183,6 @@ def test_who_has_left_the_ground_comes_to_nothing_on_it() -> None:
     assert to_point(field, "AAL123", 1500.0) is None
 
 
-@pytest.mark.parametrize(
-    ("to_go_s", "severity"),
-    [(34.9, Severity.WARNING), (35.1, Severity.CAUTION), (59.9, Severity.CAUTION), (60.1, None),
-     (math.inf, None)],
-)  # fmt: skip
-def test_the_sooner_the_graver_for_an_arrival_and_always_grave_for_others(
-    to_go_s: float, severity: Severity | None
-) -> None:
-    field = Field(arrival("AAL123", 50.0), report("DAL456", 300.0, 0.0, 40.0))
-    outlook = Outlook(field.situation, CONFIG, at(0.0))
-    assert outlook.urgency(field.use("AAL123"), to_go_s) is severity
-    others = None if math.isinf(to_go_s) else Severity.WARNING
-    assert outlook.urgency(field.use("DAL456"), to_go_s) is others
-
-
 # --- somebody on the runway -------------------------------------------------------------------
 
 CROSS = "Ops one, cross runway zero one."
@@ -338,6 +323,23 @@ def test_who_takes_off_may_do_so_though_it_was_sent_on_to_the_runway_before() ->
     field.hears(0.0, "Delta four five six, proceed on runway zero one.")
     told = [each for each in field.obstructions() if each[0] == "AAL123"]
     assert told == [("AAL123", "on", "DAL456", "INFO")]
+
+
+def test_what_is_in_doubt_excuses_nobody_and_takes_nothing_away() -> None:
+    field = Field(arrival("AAL123", 30.0), crosses(10.0))
+    field.hears(0.0, "Ops one, cross? runway zero one.")
+    assert field.obstructions() == [("AAL123", "on", "OPS1", "WARNING")]
+    sent = [("AAL123", "cleared on to", "OPS1", "CAUTION")]
+    unseen = Field(arrival("AAL123", 40.0)).hears(-6.0, "Ops one, proceed? onto runway zero one.")
+    assert unseen.obstructions() == sent
+    unseen.hears(-3.0, "Ops one, hold? short? of runway zero one.")
+    assert unseen.obstructions() == sent
+    assert unseen.hears(0.0, "Ops one, hold short of runway zero one.").obstructions() == []
+    deer = [("AAL123", "reported on", "wildlife", "WARNING")]
+    seen_there = Field(arrival("AAL123", 30.0)).hears(-6.0, "Tower, deer on runway zero one.")
+    seen_there.hears(-3.0, "Tower, the deer are gone? from runway zero one.")
+    assert seen_there.obstructions() == deer
+    assert seen_there.hears(0.0, "Tower, the deer are gone from runway zero one.").threats() == []
 
 
 # --- what only cameras show -------------------------------------------------------------------

@@ -13,9 +13,8 @@ from airfield import BRIEFING, FIELD, NORTH, charted, degrees
 from airhilt.assistant.decision.aerodrome import Aerodrome, Vector
 from airhilt.assistant.decision.approach import Approach
 from airhilt.assistant.decision.clarifications import Clarifications
-from airhilt.assistant.decision.clearances import Clearances
 from airhilt.assistant.decision.findings import NotReadBack
-from airhilt.assistant.decision.guard import ConfidenceGuard, Doubt
+from airhilt.assistant.decision.guard import Doubt
 from airhilt.assistant.decision.input_checks import InputChecks
 from airhilt.assistant.decision.intruder_advice import evasion
 from airhilt.assistant.decision.line_of_sight import GroundFix, PictureGeometry
@@ -36,7 +35,7 @@ from airhilt.messages import (
     TcasReply,
     Transcript,
 )
-from airhilt.phraseology import Instruction, parse_call
+from airhilt.phraseology import Instruction
 from airhilt.units import FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
 from projected import TRUCK, Body, Camera, standing
 
@@ -95,26 +94,6 @@ def test_a_callsign_may_be_asked_about_again_after_a_whole_minute() -> None:
         return len(list(questions.ask(round(t_s * SECOND_NS), doubt, "DAL456")))
 
     assert [asked(t_s) for t_s in (10.0, 69.999, 70.0)] == [1, 0, 1]
-
-
-@pytest.mark.parametrize(
-    ("words", "minutes"),
-    [
-        ("cleared to land runway one", 10),
-        ("cleared for takeoff runway one", 3),
-        ("line up and wait runway one", 5),
-        ("cross runway one", 1),
-    ],
-)
-def test_a_clearance_that_nobody_uses_is_in_force_for_whole_minutes(
-    words: str, minutes: int
-) -> None:
-    clearances = Clearances(ConfidenceGuard())
-    given = call(f"American one two three, {words}")
-    clearances.take(parse_call(given.text, ("AAL123",)), given)
-    (known,) = clearances.in_force(minutes * 60 * SECOND_NS)
-    assert known.callsign == "AAL123"
-    assert not list(clearances.in_force(minutes * 60 * SECOND_NS + 1))
 
 
 # --- what is seen ---------------------------------------------------------------------------
