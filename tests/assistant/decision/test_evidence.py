@@ -45,14 +45,6 @@ def test_what_cameras_show_names_them(engine: type) -> None:
     assert told.evidence.time_to_go_s is not None
 
 
-def test_a_clearance_on_to_the_runway_names_its_call() -> None:
-    calls = [(20.0, "Ops one, proceed onto runway zero one for inspection.")]
-    movers = [Mover("AAL123", NORTH, lands(70.0)), silent(stands(800))]
-    _, told = Airfield(movers, calls).run(30).first("CAUTION")
-    assert told.evidence.rules == ("cleared_on",)
-    assert told.evidence.radio_ids == ("0",)
-
-
 def test_a_score_tells_the_share_of_each_modality() -> None:
     """One camera has shown the truck for less than the time after which it is there for sure."""
     truck = silent(stands(800))

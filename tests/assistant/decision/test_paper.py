@@ -45,19 +45,6 @@ def lined_up(axis: Any = NORTH) -> Mover:
 # --- (b) the runway is occupied -------------------------------------------------------------
 
 
-def test_an_occupied_runway_is_a_warning_as_soon_as_somebody_is_on_final() -> None:
-    field = flown(arrival(200.0), lined_up(), seconds=90.0)
-    told_s, told = field.first("WARNING")
-    assert told.evidence.rules == ("occupancy",)
-    assert told.evidence.time_to_go_s == pytest.approx(200.0 - told_s, abs=3.0)
-    assert told.evidence.time_to_go_s > 60.0
-    assert field.advice("AAL123") == [("go_around", "01")]
-
-
-def test_an_empty_runway_is_nothing() -> None:
-    assert flown(arrival(), Mover("OPS1", NORTH, stands(800, -90)), seconds=85.0).told == []
-
-
 LASTING = PaperConfig(sight=SightConfig(persistence_s=1000.0))
 THREE = PaperConfig(sight=SightConfig(persistence_s=1000.0, cameras=3))
 

@@ -7,8 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from airhilt.assistant.decision.guard import Doubt, RememberingGuard, call_of
-from airhilt.messages import Transcript, Word
+from airhilt.messages import Transcript
 from airhilt.units import SECOND_NS
+from decisions import transcript
 
 TAU = 0.8
 ROSTER = ["AAL123", "DAL456"]
@@ -18,14 +19,7 @@ CROSSING = "American one two three, cross? runway zero? one?."
 
 def heard(text: str, confidence: float, name: str = "first", end_s: float = 20.0) -> Transcript:
     """Return a call in which the words before a question mark have a confidence."""
-    words = tuple(
-        Word(text=word.replace("?", ""), confidence=confidence if "?" in word else 1.0)
-        for word in text.split()
-    )
-    return Transcript(
-        id=name, frequency_khz=119_100, t_tx_ns=0, t_end_ns=round(end_s * SECOND_NS),
-        text=text.replace("?", ""), words=words, confidence=1.0, engine="text",
-    )  # fmt: skip
+    return transcript(name, 119_100, 0, round(end_s * SECOND_NS), text, confidence)
 
 
 def doubt(guard: RememberingGuard, transcript: Transcript) -> Doubt | None:

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from airfield import BRIEFING, NORTH, SOUTH, Axis, degrees
-from airhilt.assistant.decision.aerodrome import Aerodrome, Direction, Strip, Vector, Way
+from airhilt.assistant.decision.aerodrome import Vector, Way
 from airhilt.assistant.decision.assessment import worst_threats
 from airhilt.assistant.decision.findings import RunwayUse
 from airhilt.assistant.decision.mobiles import Mobile, Use, is_on_pavement, lined_up_on, use_of
@@ -19,17 +19,10 @@ from airhilt.assistant.decision.situation import Obstacle, RunwaySituation
 from airhilt.assistant.decision.threats import RunwayConfig, Threat
 from airhilt.messages import Severity
 from airhilt.units import DEGREE, KNOT, SECOND_NS
+from instants import AERODROME, runway
 
-assert BRIEFING.airport is not None
-AERODROME = Aerodrome(BRIEFING.airport)
 ACCELERATION_M_S2 = BRAKING_M_S2 = 1.8
 TOUCHDOWN_M = 400.0
-
-
-def runway(ident: str) -> tuple[Strip, Direction]:
-    strip = AERODROME.strip_of(ident)
-    assert strip is not None
-    return strip, next(each for each in strip.directions if each.ident == ident)
 
 
 def mobile(

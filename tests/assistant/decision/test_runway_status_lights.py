@@ -6,45 +6,25 @@ from typing import Any
 
 import pytest
 
-from airfield import BRIEFING, ELEVATION_M, HOLD_M, NORTH, SOUTHEAST, WIDTH_M, Axis, degrees
+from airfield import BRIEFING, HOLD_M, SOUTHEAST, WIDTH_M
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import Decision, ReceivedMessage
 from airhilt.assistant.decision.engines import decision_engine
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.messages import CancelTakeoff, HoldPosition, Message, SurfaceTrack
-from airhilt.units import FOOT, KNOT, SECOND_NS
+from airhilt.units import SECOND_NS
+from instants import surface_track
 
 
-def track(
-    number: int, along_m: float, across_m: float = 0.0, speed_m_s: float = 0.0, *,
-    axis: Axis = NORTH, turned_deg: float = 0.0, height_m: float | None = None,
-    callsign: str | None = None, icao24: str | None = None,
-) -> SurfaceTrack:  # fmt: skip
-    latitude, longitude = degrees(axis.local(along_m, across_m))
-    return SurfaceTrack.model_validate(
-        {
-            "airport": "XFLD", "track": number, "kind": "combined", "accuracy_m": 7.5,
-            "t_track_ns": 0, "latitude_deg": latitude, "longitude_deg": longitude,
-            "altitude_ft": None if height_m is None else (ELEVATION_M + height_m) / FOOT,
-            "on_ground": height_m is None, "ground_speed_kt": speed_m_s / KNOT,
-            "track_deg": (axis.course_deg + turned_deg) % 360.0,
-            "icao24": icao24, "callsign": callsign,
-        }
-    )  # fmt: skip
+def lands(number: int = 1, callsign: str = "AAL123", along_m: float = -900.0, **how: Any) -> Any:
+    return surface_track(along_m, 0.0, 70.0, number=number, height_m=60.0, callsign=callsign, **how)
 
 
-def lands(number: int = 1, callsign: str = "AAL123", **how: Any) -> SurfaceTrack:
-    return track(
-        number, how.pop("along_m", -900.0), 0.0, 70.0, height_m=60.0, callsign=callsign, **how
-    )
-
-
-def truck(
-    before_m: float, speed_m_s: float, number: int = 9, callsign: str | None = "OPS1",
-    along_m: float = 800.0,
-) -> SurfaceTrack:  # fmt: skip
+def truck(before_m: float, speed_m_s: float, **how: Any) -> SurfaceTrack:
     """Return the track of a truck right of the runway, which it looks at, before the hold line."""
-    return track(number, along_m, HOLD_M + before_m, speed_m_s, turned_deg=-90.0, callsign=callsign)
+    usual = {"number": 9, "callsign": "OPS1", "turned_deg": -90.0}
+    along_m = how.pop("along_m", 800.0)
+    return surface_track(along_m, HOLD_M + before_m, speed_m_s, **usual | how)
 
 
 class Lights:
@@ -96,8 +76,11 @@ def test_one_who_cannot_stop_short_of_the_runway_is_left_to_their_judgement() ->
     ("others", "is_told"),
     [
         ([], True),
-        ([truck(5.0, 5.0, 8, None, along_m=900.0)], False),  # A deer: the name may be of either.
-        ([track(7, 500.0, 300.0, icao24="abcdef")], True),
+        (
+            [truck(5.0, 5.0, number=8, callsign=None, along_m=900.0)],
+            False,
+        ),  # A deer: the name may be of either.
+        ([surface_track(500.0, 300.0, number=7, icao24="abcdef")], True),
     ],
 )
 def test_who_has_no_transponder_is_told_by_the_only_name_that_no_track_has(
@@ -109,13 +92,13 @@ def test_who_has_no_transponder_is_told_by_the_only_name_that_no_track_has(
 
 def test_a_crew_that_rolls_against_them_rejects_the_take_off() -> None:
     obstacle = truck(-HOLD_M, 0.0)
-    told = Lights().told(track(1, 300.0, 0.0, 20.0, callsign="AAL123"), obstacle)
+    told = Lights().told(surface_track(300.0, 0.0, 20.0, callsign="AAL123"), obstacle)
     assert [(each.severity, each.recipients) for each in told] == [("WARNING", ("AAL123",))]
     assert told[0].recommendations == {"AAL123": CancelTakeoff(runway="01")}
 
 
 def test_intersection_lights_are_red_before_a_departure_while_somebody_lands_across() -> None:
-    waits = track(2, 50.0, callsign="DAL456")
+    waits = surface_track(50.0, number=2, callsign="DAL456")
     (told,) = Lights().told(waits, lands(axis=SOUTHEAST, along_m=-500.0))
     assert words(told) == "DAL456 intersection lights red for runway 01, traffic AAL123"
 
@@ -130,11 +113,13 @@ def test_red_lights_before_one_are_one_alert_whoever_lights_them() -> None:
     """One arrival after the other; the driver has come up to the line before."""
     lights = Lights()
     assert lights.told(truck(20.0, 4.0)) == []
-    gone = track(1, 5000.0, 900.0, callsign="AAL123")
+    gone = surface_track(5000.0, 900.0, callsign="AAL123")
     told = lights.told(truck(5.0, 0.0), lands())
     told += lights.told(truck(5.0, 0.0), lands(), lands(2, "AAL456"))
     told += lights.told(truck(5.0, 0.0), gone, lands(2, "AAL456"))
     for _ in range(3):
-        told += lights.told(truck(5.0, 0.0), track(2, 5000.0, 900.0, callsign="AAL456"))
+        told += lights.told(
+            truck(5.0, 0.0), surface_track(5000.0, 900.0, number=2, callsign="AAL456")
+        )
     assert [(alert.id, alert.active) for alert in told] == [("lights-1", True), ("lights-1", False)]
     assert told[0].traffic == ("OPS1", "AAL123")

@@ -7,12 +7,12 @@ from typing import Any
 
 import pytest
 
-from airfield import NORTH, SOUTHEAST, Axis
+from airfield import NORTH, SOUTHEAST
 from airhilt.assistant.decision.findings import Obstruction
 from airhilt.assistant.decision.flight_path import _time_abeam_s
 from airhilt.assistant.decision.threats import Outlook, RunwayConfig, Snapshot
 from airhilt.messages import AdsbReport, Severity
-from instants import CONFIG, Field, aloft, arrival, at, landed, report, seen
+from instants import CONFIG, Field, aloft, arrival, at, crossing_m, landed, report, runway, seen
 
 CORE_M = 76.0 - 1.25 * 30.0
 """Where the area begins in which one with NACp 9 is certain to be, from the centre line, in m."""
@@ -52,7 +52,7 @@ def test_who_is_silent_is_forgotten_and_who_stands_later(
         report("AAL123", 500.0, 0.0, speed_m_s, height_m=height_m, rate_fpm=-300.0),
         report("DAL456", 300.0, 0.0, t_s=silent_s),
     )
-    (strip, _) = field.situation.aerodrome.strips
+    strip, _ = runway("01")
     field.situation.forget(at(silent_s))
     known = field.situation.mobile("AAL123") is not None
     on_it = {each.mobile.callsign for each in field.situation.obstacles(strip)}
@@ -87,7 +87,7 @@ def test_an_obstacle_is_on_a_runway_or_has_it_straight_ahead(
     across_m: float, turned_deg: float, is_obstacle: bool, is_inside: bool
 ) -> None:
     field = Field(report("OPS1", 500.0, across_m, 5.0, turned_deg=turned_deg))
-    (strip, _) = field.situation.aerodrome.strips
+    strip, _ = runway("01")
     found = list(field.situation.obstacles(strip))
     assert [each.is_inside for each in found] == ([is_inside] if is_obstacle else [])
     field.situation.take_report(report("OPS1", 500.0, 500.0, 5.0, t_s=1.0), at(1.0))
@@ -581,19 +581,6 @@ def test_birds_matter_neither_to_who_has_landed_nor_to_who_has_taken_off() -> No
 
 
 # --- two that use runways ---------------------------------------------------------------------
-
-
-def crossing_m(axis: Axis) -> float:
-    """Return how far past a threshold the centre lines cross."""
-    situation = Field().situation
-    point = situation.aerodrome.crossing(*situation.aerodrome.strips)
-    assert point is not None
-    return next(
-        direction.along_m(point)
-        for strip in situation.aerodrome.strips
-        for direction in strip.directions
-        if direction.ident == axis.ident
-    )
 
 
 @pytest.mark.parametrize(

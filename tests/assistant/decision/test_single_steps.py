@@ -9,7 +9,7 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from airfield import BRIEFING, FIELD, NORTH, charted, degrees
+from airfield import FIELD, NORTH, charted, degrees
 from airhilt.assistant.decision.aerodrome import Aerodrome, Vector
 from airhilt.assistant.decision.approach import Approach
 from airhilt.assistant.decision.clarifications import Clarifications
@@ -37,10 +37,8 @@ from airhilt.messages import (
 )
 from airhilt.phraseology import Instruction
 from airhilt.units import FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
+from instants import AERODROME
 from projected import TRUCK, Body, Camera, standing
-
-assert BRIEFING.airport is not None
-AERODROME = Aerodrome(BRIEFING.airport)
 
 
 def report(**given: Any) -> AdsbReport:

@@ -7,11 +7,8 @@ from typing import Any
 
 import pytest
 
-from airfield import BRIEFING, ELEVATION_M, NORTH, degrees
+from airfield import ELEVATION_M, NORTH, degrees
 from airhilt.assistant.decision.aerodrome import (
-    Aerodrome,
-    Direction,
-    Strip,
     Vector,
     opposite,
     way_through,
@@ -23,22 +20,11 @@ from airhilt.assistant.decision.mobiles import (
 from airhilt.assistant.decision.surface_traffic import SurfaceTraffic, Target
 from airhilt.assistant.decision.tracks import Track
 from airhilt.messages import SurfaceTrack
-from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
-from instants import report
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, SECOND_NS
+from instants import AERODROME, report, runway, surface_track
 
-assert BRIEFING.airport is not None
-AERODROME = Aerodrome(BRIEFING.airport)
 COURSE = NORTH.course_deg * DEGREE
-
-
-def strip() -> Strip:
-    found = AERODROME.strip_of("01")
-    assert found is not None
-    return found
-
-
-def direction() -> Direction:
-    return next(each for each in strip().directions if each.ident == "01")
+STRIP, DIRECTION = runway("01")
 
 
 def at(along_m: float, across_m: float = 0.0) -> Vector:
@@ -54,7 +40,7 @@ def mobile(
 
 
 def kind(*place: float | None, **given: Any) -> str | None:
-    use = use_of(mobile(*place, **given), (strip(),))  # type: ignore[arg-type]
+    use = use_of(mobile(*place, **given), (STRIP,))  # type: ignore[arg-type]
     return None if use is None else use.kind
 
 
@@ -112,7 +98,7 @@ def test_who_has_landed_rolls_out_until_it_is_in_the_air_again() -> None:
     lands = mobile(300.0, 0.0, 5.0)
     lands.update(report("AAL123", 400.0, 0.0, 60.0, t_s=1.0), at(400.0))
     assert lands.landed
-    use = use_of(lands, (strip(),))
+    use = use_of(lands, (STRIP,))
     assert use is not None
     assert use.kind == "rollout"
     lands.update(report("AAL123", 900.0, 0.0, 60.0, height_m=5.0, t_s=2.0), at(900.0))
@@ -160,32 +146,21 @@ def test_the_room_is_the_distance_straight_on_to_the_pavement(
     across_m: float, heading_deg: float, entry_m: float
 ) -> None:
     heading = COURSE + heading_deg * DEGREE
-    assert strip().room_m(at(1000.0, across_m), heading) == pytest.approx(entry_m, abs=0.1)
+    assert STRIP.room_m(at(1000.0, across_m), heading) == pytest.approx(entry_m, abs=0.1)
 
 
 def test_a_way_through_an_area_ends_where_it_leaves_it() -> None:
-    way = strip().pavement_way(at(1000.0, 100.0), COURSE - math.pi / 2.0)
+    way = STRIP.pavement_way(at(1000.0, 100.0), COURSE - math.pi / 2.0)
     assert way == pytest.approx((77.5, 122.5), abs=0.1)
-    assert way_through(strip().core(11), at(1000.0, 400.0), COURSE) is None
+    assert way_through(STRIP.core(11), at(1000.0, 400.0), COURSE) is None
 
 
 # --- targets of surface surveillance ------------------------------------------------------------
 
 
-def surface(
-    t_s: float, along_m: float, across_m: float = 0.0, *, speed_m_s: float = 0.0,
-    heading_deg: float | None = 0.0, height_m: float | None = None, track: int = 1, **given: Any,
-) -> SurfaceTrack:  # fmt: skip
-    latitude, longitude = degrees(NORTH.local(along_m, across_m))
-    usual = {
-        "airport": "XFLD", "track": track, "kind": "combined", "accuracy_m": 7.5,
-        "t_track_ns": round(t_s * SECOND_NS), "latitude_deg": latitude, "longitude_deg": longitude,
-        "altitude_ft": None if height_m is None else (ELEVATION_M + height_m) / FOOT,
-        "on_ground": height_m is None, "ground_speed_kt": speed_m_s / KNOT,
-        "track_deg": None if heading_deg is None else (NORTH.course_deg + heading_deg) % 360.0,
-        "icao24": "a1b2c3", "callsign": "AAL123",
-    }  # fmt: skip
-    return SurfaceTrack.model_validate(usual | given)
+def surface(t_s: float, along_m: float, speed_m_s: float = 0.0, **given: Any) -> SurfaceTrack:
+    usual = {"icao24": "a1b2c3", "callsign": "AAL123"}
+    return surface_track(along_m, 0.0, speed_m_s, t_s=t_s, **usual | given)
 
 
 def traffic(*tracks: SurfaceTrack) -> SurfaceTraffic:
@@ -202,18 +177,18 @@ def only(*tracks: SurfaceTrack) -> Target:
 
 def test_a_target_keeps_its_direction_and_its_name_where_a_track_has_none() -> None:
     target = only(
-        surface(0.0, 0.0, speed_m_s=5.0, heading_deg=30.0),
-        surface(1.0, 0.0, speed_m_s=1.9, heading_deg=90.0, icao24=None, callsign=None),
-        surface(2.0, 0.0, speed_m_s=5.0, heading_deg=None),
+        surface(0.0, 0.0, 5.0, turned_deg=30.0),
+        surface(1.0, 0.0, 1.9, turned_deg=90.0, icao24=None, callsign=None),
+        surface(2.0, 0.0, 5.0, turned_deg=None),
     )
     assert target.heading_rad == pytest.approx(COURSE + 30.0 * DEGREE)
     assert (target.icao24, target.callsign) == ("a1b2c3", "AAL123")
-    assert only(surface(0.0, 0.0, speed_m_s=1.9)).heading_rad is None
+    assert only(surface(0.0, 0.0, 1.9)).heading_rad is None
 
 
 def test_an_older_track_than_the_last_one_is_ignored() -> None:
     target = only(surface(2.0, 50.0), surface(1.0, 0.0), surface(2.0, 60.0))
-    assert direction().along_m(target.point) == pytest.approx(60.0, abs=0.1)
+    assert DIRECTION.along_m(target.point) == pytest.approx(60.0, abs=0.1)
 
 
 @pytest.mark.parametrize(("silent_s", "is_known"), [(5.0, True), (5.1, False)])
@@ -256,14 +231,14 @@ def test_who_is_100_ft_above_its_lowest_point_climbs(above_ft: float, climbs: bo
 def test_a_target_rolls_if_it_is_fast_or_has_gained_3_m_s_in_4_s(
     speeds_m_s: tuple[float, ...], is_rolling: bool
 ) -> None:
-    tracks = [surface(float(t), 0.0, speed_m_s=speed) for t, speed in enumerate(speeds_m_s)]
+    tracks = [surface(float(t), 0.0, speed) for t, speed in enumerate(speeds_m_s)]
     assert only(*tracks).is_rolling is is_rolling
 
 
 def test_a_target_is_carried_on_by_its_speed() -> None:
-    moving = only(surface(0.0, 100.0, speed_m_s=10.0))
-    assert direction().along_m(moving.point_at(2 * SECOND_NS)) == pytest.approx(120.0, abs=0.1)
-    standing = only(surface(0.0, 100.0, speed_m_s=1.0))
+    moving = only(surface(0.0, 100.0, 10.0))
+    assert DIRECTION.along_m(moving.point_at(2 * SECOND_NS)) == pytest.approx(120.0, abs=0.1)
+    standing = only(surface(0.0, 100.0, 1.0))
     assert standing.point_at(2 * SECOND_NS) == standing.point
 
 
