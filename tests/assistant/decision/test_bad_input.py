@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 import airhilt
-from airfield import NORTH, Airfield, Mover, lands, stands
+from airfield import NORTH, Airfield, Mover, lands
 from airhilt import Scenario
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import Decision, ReceivedMessage
@@ -30,94 +28,28 @@ from airhilt.sim import Input
 from airhilt.surveillance.receivers import Receiver
 from airhilt.units import SECOND_NS
 from decisions import transcript
-from encounters import Encounter, Flight, head_on
-
-INCONSISTENT = "ADS-B of DAL456 inconsistent"
-
-
-# --- ADS-B ----------------------------------------------------------------------------------
-
-
-def changed(encounter: Encounter, change: Callable[[int, list[Input]], list[Input]]) -> Encounter:
-    """Let what the receiver gives out at each step go through a function first."""
-    hear = encounter._reports
-
-    def reports(station: Receiver, t_ns: int, step: int) -> list[Any]:
-        return change(step, hear(station, t_ns, step))
-
-    encounter._reports = reports
-    return encounter
-
-
-def report_of(item: Input) -> AdsbReport:
-    return AdsbReport.model_validate_json(item.payload)
-
-
-def with_report(item: Input, **values: Any) -> Input:
-    false = report_of(item).model_copy(update=values)
-    return replace(item, payload=false.model_dump_json().encode())
-
-
-def far_apart(seconds: float = 100.0) -> Encounter:
-    """Two at one level that pass each other 60 NM apart."""
-    return Encounter(
-        [
-            Flight("AAL123", "a1b2c3", 90.0, 30.7, 35_000),
-            Flight("DAL456", "a4d5e6", 270.0, 30.7, 35_000, offset_nm=60.0),
-        ],
-        seconds,
-    )
-
-
-def ahead_of_the_other(step: int, inputs: list[Input]) -> Input:
-    """Return a false report: the second aircraft is a degree ahead of the first."""
-    first, second = (report_of(item) for item in inputs)
-    return with_report(
-        inputs[1],
-        latitude_deg=first.latitude_deg,
-        longitude_deg=first.longitude_deg + 0.4,
-        altitude_ft=first.altitude_ft,
-        t_adsb_in_ns=second.t_adsb_in_ns,
-    )
-
-
-def test_two_places_of_one_address_are_no_conflict_at_the_false_one() -> None:
-    def spoof(step: int, inputs: list[Input]) -> list[Input]:
-        false = [ahead_of_the_other(step, inputs)] if step >= 60 and len(inputs) == 2 else []
-        return [*inputs, *false]
-
-    assert changed(far_apart(), spoof).fly().told == []
+from encounters import head_on
 
 
 def test_what_is_told_of_an_aircraft_with_two_places_says_so() -> None:
-    def spoof(step: int, inputs: list[Input]) -> list[Input]:
+    """From 30 s on, a false report follows each one of DAL456."""
+    honest, spoofed = head_on(150.0), head_on(150.0)
+    hear = spoofed._reports
+
+    def reports(station: Receiver, t_ns: int, step: int) -> list[Input]:
+        inputs = hear(station, t_ns, step)
         if step < 60 or len(inputs) < 2:
             return inputs
-        return [*inputs, with_report(inputs[1], latitude_deg=30.0)]
+        true = AdsbReport.model_validate_json(inputs[1].payload)
+        false = true.model_copy(update={"latitude_deg": 30.0}).model_dump_json().encode()
+        return [*inputs, replace(inputs[1], payload=false)]
 
-    told = [advisory for _, advisory in changed(head_on(150.0), spoof).fly().told]
-    assert [str(advisory.severity) for advisory in told if advisory.recipient == "DAL456"]
-    assert all(INCONSISTENT in advisory.evidence.inconsistencies for advisory in told)
-    honest = [advisory for _, advisory in head_on(150.0).fly().told]
-    assert [each.severity for each in told] == [each.severity for each in honest]
-    assert all(not advisory.evidence.inconsistencies for advisory in honest)
-
-
-def test_a_jump_on_to_the_runway_sends_nobody_around() -> None:
-    field = Airfield(
-        [Mover("AAL123", NORTH, lands(60.0)), Mover("OPS1", NORTH, stands(800.0, 1500.0))]
-    )
-    on_runway = field.movers[1]
-    hear = field._report
-
-    def report(station: Receiver, mover: Mover, t_ns: int, step: int) -> list[Input]:
-        if mover is on_runway and 40 <= step < 60:
-            mover = replace(mover, spot=stands(1200.0))
-            mover.transponder = on_runway.transponder
-        return hear(station, mover, t_ns, step)
-
-    field._report = report
-    assert field.run(50.0).told == []
+    spoofed._reports = reports
+    told, known = ([each for _, each in one.fly().told] for one in (spoofed, honest))
+    assert [each.severity for each in told] == [each.severity for each in known] != []
+    text = "ADS-B of DAL456 inconsistent"
+    assert all(text in advisory.evidence.inconsistencies for advisory in told)
+    assert all(not advisory.evidence.inconsistencies for advisory in known)
 
 
 # --- transcripts ----------------------------------------------------------------------------

@@ -26,7 +26,9 @@ def paper() -> DecisionWorker:
 @pytest.mark.parametrize("engine", [reference, paper])
 def test_a_wrong_readback_names_both_calls_and_the_tracks(engine: type) -> None:
     movers = [Mover("AAL123", NORTH, lands(400.0)), Mover("DAL456", NORTH, takes_off(999.0))]
-    _, told = Airfield(movers, MISREAD, engine()).run(30).first("CAUTION", "readback_mismatch")
+    field = Airfield(movers, MISREAD, engine()).run(30)
+    told_s, told = field.first("CAUTION", "readback_mismatch")
+    assert (told_s, told.recipients) == (25.0, ("AAL123", "ATC"))
     assert told.evidence.radio_ids == ("0", "1")
     assert told.evidence.tracks == (movers[0].icao24, movers[1].icao24)
     assert told.evidence.rules == ("readback_mismatch",)
