@@ -52,7 +52,6 @@ THREE = PaperConfig(sight=SightConfig(persistence_s=1000.0, cameras=3))
 @pytest.mark.parametrize(
     ("config", "cameras", "is_warned"),
     [
-        pytest.param(PaperConfig(), 2, True, id="two cameras agree"),
         pytest.param(LASTING, 2, True, id="two agree at once"),
         pytest.param(PaperConfig(), 1, True, id="one persists"),
         pytest.param(LASTING, 1, False, id="one does not persist"),

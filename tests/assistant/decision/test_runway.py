@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 
 from airfield import (
     NORTH,
-    NORTHWEST,
     SOUTHEAST,
     Airfield,
     Axis,
@@ -65,7 +64,6 @@ def vehicle(spot: Callable[..., Any], seed: int = 1, **how: Any) -> Mover:
 @pytest.mark.parametrize(
     ("seconds", "movers"),
     {
-        "a landing": (150, lambda s: [arrival(90, seed=s)]),
         "a landing after another has left": (
             200, lambda s: [arrival(30, seed=s), arrival(107, callsign="DAL456", seed=s)],
         ),
@@ -88,9 +86,6 @@ def vehicle(spot: Callable[..., Any], seed: int = 1, **how: Any) -> Mover:
                 vehicle(stands(800, -82), seed=s),
             ],
         ),
-        "a vehicle drives to the hold line and stops": (
-            130, lambda s: [arrival(90, seed=s), vehicle(drives(40, to_m=-82), seed=s)],
-        ),
         "a vehicle on the parallel taxiway": (
             130, lambda s: [
                 arrival(60, seed=s),
@@ -105,14 +100,6 @@ def vehicle(spot: Callable[..., Any], seed: int = 1, **how: Any) -> Mover:
         ),
         "a departure on the crossing runway, long gone": (
             150, lambda s: [arrival(110, seed=s), departure(25, SOUTHEAST, seed=s)],
-        ),
-        "a departure lined up on the crossing runway": (
-            150, lambda s: [arrival(90, seed=s), departure(999, SOUTHEAST, seed=s)],
-        ),
-        "two landings on crossing runways, a minute apart": (
-            200, lambda s: [
-                arrival(60, seed=s), arrival(125, NORTHWEST, callsign="DAL456", seed=s),
-            ],
         ),
         "a go-around": (
             150, lambda s: [

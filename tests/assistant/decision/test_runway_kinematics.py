@@ -277,6 +277,7 @@ def test_two_that_roll_towards_each_other_are_a_warning_at_once(
     """The time is that of their speeds together, 25 kt at least."""
     (threat,) = meeting(use("departure", 500.0, own_m_s), opposite("departure", gap_m, other_m_s))
     assert threat.severity is Severity.WARNING
+    assert threat.finding.statement() == "AAL123 opposite on runway 01/19"
     assert threat.time_to_go_s == pytest.approx(time_s, rel=1e-3)
 
 

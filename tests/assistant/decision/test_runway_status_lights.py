@@ -22,7 +22,7 @@ def lands(number: int = 1, callsign: str = "AAL123", along_m: float = -900.0, **
 
 def truck(before_m: float, speed_m_s: float, **how: Any) -> SurfaceTrack:
     """Return the track of a truck right of the runway, which it looks at, before the hold line."""
-    usual = {"number": 9, "callsign": "OPS1", "turned_deg": -90.0}
+    usual: dict[str, Any] = {"number": 9, "callsign": "OPS1", "turned_deg": -90.0}
     along_m = how.pop("along_m", 800.0)
     return surface_track(along_m, HOLD_M + before_m, speed_m_s, **usual | how)
 
@@ -101,6 +101,8 @@ def test_intersection_lights_are_red_before_a_departure_while_somebody_lands_acr
     waits = surface_track(50.0, number=2, callsign="DAL456")
     (told,) = Lights().told(waits, lands(axis=SOUTHEAST, along_m=-500.0))
     assert words(told) == "DAL456 intersection lights red for runway 01, traffic AAL123"
+    truck = surface_track(50.0, number=2, callsign="OPS1")
+    assert Lights().told(truck, lands(axis=SOUTHEAST, along_m=-500.0)) == []  # It takes off never.
 
 
 def test_the_numbers_of_the_lights_can_be_set() -> None:

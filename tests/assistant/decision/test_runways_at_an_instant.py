@@ -289,6 +289,9 @@ def test_one_that_nobody_sees_may_be_on_the_runway_for_30_s(
 ) -> None:
     field = Field(arrival("AAL123", to_go_s)).hears(t_s, "Ops one, proceed on runway zero one.")
     assert field.obstructions(t_s) == [("AAL123", "cleared on to", "OPS1", "CAUTION")]
+    (threat,) = field.threats(t_s)
+    assert (threat.parties, threat.rule) == (("AAL123", "OPS1"), "cleared_on")
+    assert (threat.sources, threat.radio_ids) == (("adsb", "radio"), (f"at {t_s:g}",))
     field = Field(arrival("AAL123", to_go_s)).hears(t_s, CROSS)
     told = field.obstructions(t_s)
     assert bool(told) is (to_go_s - t_s < 30.0)
@@ -304,8 +307,12 @@ def test_reported_animals_are_in_the_way_of_who_comes_and_not_of_who_has_been_th
         (landed("AAL123", 600.0, 40.0), None),
         ((report("AAL123", 900.0, 0.0, 80.0, height_m=20.0, rate_fpm=1500.0),), None),
     ):
-        told = Field(*comes).hears(0.0, deer).obstructions()
+        field = Field(*comes).hears(0.0, deer)
+        told = field.obstructions()
         assert told == ([("AAL123", "reported on", "wildlife", severity)] if severity else [])
+        for each in field.threats():
+            assert (each.parties, each.traffic) == (("AAL123",), ("AAL123", "wildlife"))
+            assert (each.sources, each.radio_ids) == (("adsb", "radio"), ("at 0",))
 
 
 def test_one_that_is_not_known_does_not_hide_another_that_was_sent_there() -> None:
@@ -602,9 +609,8 @@ def test_two_meet_at_a_crossing_within_10_s(
             pytest.skip("the landing stops before the crossing")
         wanted_s = first_s if axis is NORTH else first_s + later_s
         pair.append(arrival(callsign, 40.0 + wanted_s - at_s, axis=axis))
-    told = [
-        each
-        for *_, how, _, each in ((*o,) for o in Field(*pair).obstructions())
-        if how == "on crossing"
-    ]
-    assert told == ([severity] if severity else [])
+    told = [each for each in Field(*pair).threats() if each.rule == "meeting"]
+    assert [each.severity for each in told] == ([severity] if severity else [])
+    for each in told:
+        assert each.parties == ("AAL123", "DAL456")
+        assert each.finding.statement() == "DAL456 on crossing runway 15"
