@@ -24,12 +24,12 @@ ZONE_HEIGHT_M = 2500.0 * FOOT
 
 Class D reaches up to 2,500 ft (FAA AIM, 3-2-5), by custom within some 5 NM."""
 CERTAINLY_INSIDE = 1.25
-"""Factor on the 95 % position error: who is this far inside an area does not stand outside it."""
+"""Factor on the 95 % position error. Who is this far inside an area is certainly inside it."""
 CLEAR_OF_PAVEMENT_M = 10.0
 """Distance from the pavement, in m, within which a mobile counts as on the runway."""
 RAY_M = 3000.0
 ALIGNED_RAD = 15.0 * DEGREE
-"""Greatest angle, in rad, between a runway and who uses it."""
+"""Greatest angle between the courses of a runway and of who uses it, in rad."""
 ACCURATE_NACP = 11
 """Accuracy category (NACp) for which the protected area is hardly made smaller."""
 

@@ -1,4 +1,4 @@
-"""Alerts of a decision engine: one a conflict, as structure, for all its recipients."""
+"""Alerts of a decision engine. Each holds one conflict, for all its recipients."""
 
 from __future__ import annotations
 

@@ -27,7 +27,7 @@ DISCREPANCY_NS = 120 * SECOND_NS
 RESTRICTING: frozenset[Action] = frozenset(
     {"cancel_takeoff", "go_around", "hold_short", "hold_position"}
 )
-"""Instructions that keep somebody off a runway: who has not received one goes on."""
+"""Instructions to keep off a runway. Who has not received one goes on."""
 
 
 class Clearance(NamedTuple):
@@ -118,7 +118,7 @@ class Clearances:
         self._ambiguous: list[AmbiguousCall] = []
         self._silence = ReadbackSilence()
         self._answered_ns: dict[int, int] = {}
-        """Begin of the last call that does not begin with a callsign, by frequency."""
+        """Beginning of the last call of a crew, by frequency. It does not begin with a callsign."""
 
     def take_opening(self, opened: TransmissionOpened) -> None:
         """Note that somebody has begun to transmit."""

@@ -58,7 +58,7 @@ class Escalation:
         return True
 
     def observe(self, level: Severity | None, t_ns: int) -> None:
-        """Note the level at a time at which nothing is told; None for no conflict.
+        """Update how long each level has held, without telling anything; None for no conflict.
 
         How long a level has held is counted by the times of the evidence, not by those of alerts.
         """

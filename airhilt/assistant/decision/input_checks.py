@@ -60,7 +60,7 @@ class InputChecks:
         self._cameras.add(info.camera)
 
     def believes_report(self, report: AdsbReport, t_ns: int) -> bool:
-        """Return whether a report can be of the aircraft that its address is known of."""
+        """Return whether a report agrees with what is known of its address."""
         known, heard_ns = self._reports.get(report.icao24, (report, t_ns))
         is_kept = t_ns - heard_ns <= KEPT_NS
         is_believed = not is_kept or is_possible(known, report)

@@ -32,7 +32,7 @@ from airhilt.messages import (
 FIRM_BRAKING_M_S2 = 2.5
 """Deceleration, in m/s2, within which somebody who can stop short of the pavement is told to."""
 PROVISIONAL = "provisional_instruction"
-"""Name among the rules of an advisory that rests on an instruction of a call that went on."""
+"""Rule of an advisory that rests on an instruction of an unfinished call."""
 Rules = Callable[[RunwaySituation, int], Mapping[tuple[str, ...], Threat]]
 """Rules of an engine: the threats on the runways at a time, each by its key."""
 
@@ -48,7 +48,7 @@ class _Ongoing:
     tracks: tuple[str, ...] = ()
     """Addresses of those in conflict who are known by ADS-B."""
     is_provisional: bool = True
-    """True while it rests on nothing but calls that go on."""
+    """True while it rests on nothing but unfinished calls."""
 
 
 class RunwayWatch:
@@ -114,7 +114,7 @@ class RunwayWatch:
         return told + self._ask(t_ns, situation)
 
     def observe(self, t_ns: int) -> None:
-        """Note what is wrong at a time at which nothing is told."""
+        """Update how long each severity has held, without telling anything."""
         threats = {} if self._situation is None else self._threats(t_ns, self._situation)
         wrong = {key: each for key, each in threats.items() if each.severity is not Severity.INFO}
         for key, threat in wrong.items():

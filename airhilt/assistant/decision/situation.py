@@ -244,7 +244,7 @@ class RunwaySituation:
         return sorted(self._roster.keys() | {each.callsign for each in self._mobiles.values()})
 
     def supposed(self, t_ns: int) -> tuple[RunwaySituation, tuple[str, ...]] | None:
-        """Return the situation as it is if calls that go on mean what was heard of them so far.
+        """Return the situation that follows if unfinished calls mean what was heard of them so far.
 
         With it come the ids of these calls; None if none has a provisional instruction.
         """

@@ -1,4 +1,4 @@
-"""Runway status lights: which red lights are lit, and who has them before the eyes.
+"""Runway status lights: which red lights are lit, and who has them ahead.
 
 Sources
 -------
@@ -99,11 +99,10 @@ Lights = Literal["entrance", "take-off hold", "intersection"]
 
 
 class RedLights(NamedTuple):
-    """Lights that are lit before somebody's eyes."""
+    """Red lights that a target has ahead."""
 
     lights: Lights
     viewer: Target
-    """The target that has them ahead."""
     because: Target
     """The target for which they are lit."""
     strip: Strip
@@ -129,7 +128,7 @@ class _OnRunway(NamedTuple):
         return (along_m - self.along_m) / max(self.target.speed_m_s, 1.0)
 
     def red(self, lights: Lights, because: Target, *, is_disregarded: bool) -> RedLights:
-        """Return lights that are lit before its eyes."""
+        """Return red lights that it has ahead."""
         ident = self.direction.ident
         return RedLights(lights, self.target, because, self.strip, ident, is_disregarded)
 

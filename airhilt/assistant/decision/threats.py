@@ -23,9 +23,9 @@ from airhilt.phraseology import Action
 PAPER_TIME_TO_GO_S = 8.0
 """Time to go in step (b) of the AIRHILT paper's ladder, in s (arXiv 2511.18718)."""
 BEHIND_M = 30.0
-"""Distance behind the user of a runway, in m, from which nobody is in its way."""
+"""What is farther behind the user of a runway than this, in m, is not in its way."""
 STOPPING_MARGIN_M = 100.0
-"""Nobody farther ahead than a landing's stopping distance and this, in m, is in its way."""
+"""Room beyond the stopping distance of a landing, in m. What is farther ahead is not in its way."""
 WILDLIFE = "wildlife"
 """The other party where it is an animal."""
 UNIDENTIFIED = "unidentified"

@@ -36,9 +36,9 @@ from airhilt.phraseology import TAU_ASR
 from airhilt.units import SECOND_NS
 
 WAITED_NS = SECOND_NS
-"""Time for which evidence has waited for the engine, in ns, from which it is judged by itself."""
+"""Evidence that has waited this long for a busy engine, in ns, is judged by its own time."""
 OBSERVED_EVERY_NS = SECOND_NS // 2
-"""Time between two looks at such evidence, in ns: that between two position reports."""
+"""Least time between two such judgements, in ns: that between two position reports."""
 
 
 class ReferenceConfig(Configuration):
@@ -118,7 +118,7 @@ class ReferenceEngine:
                 self.visual_tracks.take_briefing(briefing)
 
     def _catch_up(self, received: ReceivedMessage) -> None:
-        """Note what was wrong when a message arrived that had to wait, before it is taken in.
+        """Judge what was known when a message arrived that had to wait.
 
         A busy engine gets many messages at once. What they show together has lasted since the
         first of them, although nothing was told meanwhile.
