@@ -148,17 +148,29 @@ def call(t_s: float, name: str, text: str = "wind calm") -> Transcript:
 def test_a_call_that_comes_twice_or_late_is_told_of_by_what_rests_on_the_radio() -> None:
     checks = InputChecks()
     heard = {"evidence": Evidence(sources=("adsb", "radio"))}
-    assert [each.id for each in checks.in_order(call(20.0, "b"), at(20.0))] == ["b"]
-    assert checks.in_order(call(20.0, "b"), at(21.0)) == ()
+    first = call(20.0, "b")
+    assert checks.in_order(first, at(20.0)) == (first,)
+    assert checks.in_order(first, at(21.0)) == ()
     assert said(checks, 22.0, **heard) == ()
+    assert checks.in_order(first.model_copy(update={"frequency_khz": 121_500}), at(21.0)) != ()
     assert checks.in_order(call(20.0, "b", "wind two knots"), at(21.0)) == ()
     assert said(checks, 22.0, **heard) == ("two transcripts of call b differ",)
-    assert [each.id for each in checks.in_order(call(10.0, "a"), at(23.0))] == ["a", "b"]
+    checks.in_order(call(10.0, "a"), at(23.0))
     assert said(checks, 23.0, **heard) == (
         "two transcripts of call b differ", "call a came out of order",
     )  # fmt: skip
     assert said(checks, 82.0, **heard) == ("call a came out of order",)
     assert said(checks, 23.0) == ()
+
+
+def test_later_calls_are_acted_upon_again_after_one_that_came_late() -> None:
+    checks = InputChecks()
+    for begins_s, ids in (
+        (10.0, ["10"]), (70.0, ["70"]), (40.0, ["40", "70"]), (10.5, ["10.5", "40", "70"]),
+        (9.9, []),  # It is over a minute late.
+    ):  # fmt: skip
+        taken = checks.in_order(call(begins_s, f"{begins_s:g}"), at(80.0))
+        assert [each.id for each in taken] == ids
 
 
 def seen(camera: str, t_s: float) -> Detections:

@@ -15,7 +15,6 @@ from airhilt.assistant.decision.approach import Approach
 from airhilt.assistant.decision.clarifications import Clarifications
 from airhilt.assistant.decision.findings import NotReadBack
 from airhilt.assistant.decision.guard import Doubt
-from airhilt.assistant.decision.input_checks import InputChecks
 from airhilt.assistant.decision.intruder_advice import evasion
 from airhilt.assistant.decision.line_of_sight import GroundFix, PictureGeometry
 from airhilt.assistant.decision.mobiles import Mobile
@@ -33,10 +32,10 @@ from airhilt.messages import (
     HoldPosition,
     Severity,
     TcasReply,
-    Transcript,
 )
 from airhilt.phraseology import Instruction
 from airhilt.units import FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
+from decisions import transcript
 from instants import AERODROME
 from projected import TRUCK, Body, Camera, standing
 
@@ -75,21 +74,15 @@ def test_the_local_frame_of_an_airport_begins_in_the_middle_of_its_thresholds(
 # --- calls ----------------------------------------------------------------------------------
 
 
-def call(text: str, t_s: float = 0.0) -> Transcript:
-    t_ns = round(t_s * SECOND_NS)
-    return Transcript(
-        id=f"at {t_s}", frequency_khz=119_100, text=text, confidence=1.0, engine="text",
-        t_tx_ns=t_ns, t_end_ns=t_ns,
-    )  # fmt: skip
-
-
 def test_a_callsign_may_be_asked_about_again_after_a_whole_minute() -> None:
     questions = Clarifications("s")
 
     def asked(t_s: float) -> int:
         said = Instruction("cross", "01")
-        doubt = Doubt("AAL123", "runway", 0.5, said, call("", t_s), is_answered=True)
-        return len(list(questions.ask(round(t_s * SECOND_NS), doubt, "DAL456")))
+        t_ns = round(t_s * SECOND_NS)
+        heard = transcript(f"at {t_s}", 119_100, t_ns, t_ns, "")
+        doubt = Doubt("AAL123", "runway", 0.5, said, heard, is_answered=True)
+        return len(list(questions.ask(t_ns, doubt, "DAL456")))
 
     assert [asked(t_s) for t_s in (10.0, 69.999, 70.0)] == [1, 0, 1]
 
@@ -281,38 +274,3 @@ def test_who_uses_a_runway_is_told_to_go_around_or_to_stop_only_when_it_is_urgen
     mobile.on_ground = False
     found = advice(*(cast(Any, each) for each in (mobile, given, severity, situation, config)))
     assert found == (told if kind == "arrival" else None)
-
-
-# --- the order of calls ---------------------------------------------------------------------
-
-
-def began(t_s: float, name: str | None = None) -> Transcript:
-    return call("words", t_s).model_copy(update={"id": name or f"at {t_s}"})
-
-
-def test_later_calls_are_acted_upon_again_after_one_that_came_late() -> None:
-    checks = InputChecks()
-
-    def order(t_s: float, name: str | None = None) -> list[str]:
-        return [each.id for each in checks.in_order(began(t_s, name), 0)]
-
-    assert order(10.0) == ["at 10.0"]
-    assert order(20.0) == ["at 20.0"]
-    assert order(15.0) == ["at 15.0", "at 20.0"]
-    assert order(5.0) == ["at 5.0", "at 10.0", "at 15.0", "at 20.0"]
-    assert order(20.0, "other") == ["other"]
-
-
-@pytest.mark.parametrize(("late_s", "is_taken"), [(60.0, True), (60.1, False)])
-def test_a_call_that_is_over_a_minute_late_is_left_out(late_s: float, is_taken: bool) -> None:
-    checks = InputChecks()
-    checks.in_order(began(100.0), 0)
-    assert bool(checks.in_order(began(100.0 - late_s), 0)) is is_taken
-
-
-def test_a_call_is_known_again_by_its_frequency_and_its_id() -> None:
-    checks = InputChecks()
-    first = began(10.0)
-    assert checks.in_order(first, 0)
-    assert not checks.in_order(first, 0)
-    assert checks.in_order(first.model_copy(update={"frequency_khz": 121_500}), 0)
