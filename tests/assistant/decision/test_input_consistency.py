@@ -90,7 +90,7 @@ def test_the_place_that_was_known_first_is_kept_while_reports_of_it_arrive() -> 
 def test_an_older_report_that_is_possible_is_believed_and_not_compared_with() -> None:
     checks = InputChecks()
     checks.believes_report(report(1000.0, t_s=10.0), at(10.0))
-    assert checks.believes_report(report(0.0, t_s=8.0), at(10.5))
+    assert checks.believes_report(report(-200.0, t_s=8.0), at(10.5))
     assert checks.believes_report(report(1400.0, t_s=10.5), at(11.0))
     assert not checks.believes_report(report(8000.0, t_s=11.0, callsign=None), at(11.5))
 

@@ -144,6 +144,16 @@ def test_a_level_that_nobody_gave_is_expected_once_it_was_heard_twice(
 # --- who is near a level ----------------------------------------------------------------------
 
 
+def is_told(*others: AdsbReport) -> bool:
+    """Return whether a wrong readback of AAL123 is told because of others."""
+    tracks = AirTracks()
+    for each in (report("AAL123", -78.0, 90.0, 31_000.0), *others):
+        tracks.take_report(each, 0)
+    followed = LevelReadbacks(tracks, ConfidenceGuard())
+    is_misread(followed, "climb", CLIMB, 0.0)
+    return is_misread(followed, "readback", WRONG, 0.0)
+
+
 @pytest.mark.parametrize(
     ("other_ft", "rate_fpm", "is_near"),
     [
@@ -157,13 +167,8 @@ def test_a_level_that_nobody_gave_is_expected_once_it_was_heard_twice(
 def test_traffic_is_near_the_levels_that_a_climb_leads_through(
     other_ft: float, rate_fpm: float, is_near: bool
 ) -> None:
-    tracks = AirTracks()
-    tracks.take_report(report("AAL123", -78.0, 90.0, 31_000.0), 0)
     other = report("DAL456", -76.0, 270.0, other_ft)
-    tracks.take_report(other.model_copy(update={"vertical_rate_fpm": rate_fpm}), 0)
-    followed = LevelReadbacks(tracks, ConfidenceGuard())
-    is_misread(followed, "climb", CLIMB, 0.0)
-    assert is_misread(followed, "readback", WRONG, 0.0) is is_near
+    assert is_told(other.model_copy(update={"vertical_rate_fpm": rate_fpm})) is is_near
 
 
 @pytest.mark.parametrize(
@@ -180,19 +185,9 @@ def test_traffic_is_near_the_levels_that_a_climb_leads_through(
 def test_traffic_comes_within_the_minimum_in_ten_minutes(
     longitude_deg: float, track_deg: float, is_near: bool
 ) -> None:
-    tracks = AirTracks()
-    tracks.take_report(report("AAL123", -78.0, 90.0, 31_000.0), 0)
-    tracks.take_report(report("DAL456", longitude_deg, track_deg, 34_000.0), 0)
-    followed = LevelReadbacks(tracks, ConfidenceGuard())
-    is_misread(followed, "climb", CLIMB, 0.0)
-    assert is_misread(followed, "readback", WRONG, 0.0) is is_near
+    assert is_told(report("DAL456", longitude_deg, track_deg, 34_000.0)) is is_near
 
 
 def test_one_that_is_far_away_does_not_hide_another() -> None:
-    tracks = AirTracks()
-    tracks.take_report(report("AAL123", -78.0, 90.0, 31_000.0), 0)
-    tracks.take_report(report("UAL7", -60.0, 90.0, 34_000.0), 0)
-    tracks.take_report(report("DAL456", -76.0, 270.0, 34_000.0), 0)
-    followed = LevelReadbacks(tracks, ConfidenceGuard())
-    is_misread(followed, "climb", CLIMB, 0.0)
-    assert is_misread(followed, "readback", WRONG, 0.0)
+    far, near = report("UAL7", -60.0, 90.0, 34_000.0), report("DAL456", -76.0, 270.0, 34_000.0)
+    assert is_told(far, near)
