@@ -130,6 +130,17 @@ def test_a_level_that_is_heard_twice_alike_is_believed(
     assert found == misread
 
 
+def test_a_level_that_differs_from_an_unsure_one_is_asked_about_at_once(
+    unheard: LevelReadbacks,
+) -> None:
+    unsure = "American one two three, climb and maintain flight level three four? zero."
+    is_misread(unheard, "climb", unsure, 20.0)
+    other = "Climb and maintain flight level three three zero, American one two three."
+    assert not is_misread(unheard, "readback", other, 26.0)
+    ((doubt, _),) = unheard.doubts(31 * SECOND_NS, CONFIG)
+    assert doubt.transcript.id == "climb"
+
+
 def test_a_level_that_nobody_gave_is_expected_once_it_was_heard_twice(
     unheard: LevelReadbacks, tracks: AirTracks
 ) -> None:

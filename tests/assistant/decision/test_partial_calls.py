@@ -113,6 +113,12 @@ def test_a_value_that_changes_from_one_part_to_the_next_is_not_believed() -> Non
     assert frequency.part("Delta 456, cleared for takeoff runway one niner") == []
 
 
+def test_an_instruction_whose_callsign_changes_is_not_believed() -> None:
+    frequency = Frequency()
+    assert frequency.part("Ops one, runway zero one, cleared for takeoff") == []
+    assert frequency.part(TAKEOFF) == []
+
+
 def test_a_call_that_goes_on_takes_no_threat_away() -> None:
     frequency = Frequency()
     assert frequency.whole(TAKEOFF)
