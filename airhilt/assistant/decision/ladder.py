@@ -46,7 +46,7 @@ class Score(NamedTuple):
 
     def severity(self, config: ScoreConfig) -> Severity | None:
         """Return the severity of the score; None if it does not suffice."""
-        total = sum(self)
+        total = self.vision + self.asr + self.context
         if total >= config.caution_from:
             return Severity.CAUTION
         return Severity.ADVISORY if total >= config.advisory_from else None
