@@ -19,7 +19,9 @@ UNSURE = 0.5
 """Confidence in a word that is followed by a question mark."""
 
 
-def transcript(name: str, frequency_khz: int, t_tx_ns: int, t_end_ns: int, text: str) -> Transcript:
+def transcript(
+    name: str, frequency_khz: int, t_tx_ns: int, t_end_ns: int, text: str, unsure: float = UNSURE
+) -> Transcript:
     """Return a transcript; ``runway one? niner`` is unsure of "one"."""
     return Transcript(
         id=name,
@@ -28,7 +30,7 @@ def transcript(name: str, frequency_khz: int, t_tx_ns: int, t_end_ns: int, text:
         t_end_ns=t_end_ns,
         text=text.replace("?", ""),
         words=tuple(
-            Word(text=word.replace("?", ""), confidence=UNSURE if "?" in word else 1.0)
+            Word(text=word.replace("?", ""), confidence=unsure if "?" in word else 1.0)
             for word in text.split()
         ),
         confidence=1.0,

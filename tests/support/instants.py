@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 from airfield import BRIEFING, ELEVATION_M, NORTH, Axis, degrees
+from airhilt.assistant.decision.aerodrome import Aerodrome, Direction, Strip
 from airhilt.assistant.decision.assessment import worst_threats
 from airhilt.assistant.decision.findings import Obstruction
 from airhilt.assistant.decision.line_of_sight import AirFix, GroundFix
@@ -13,10 +14,12 @@ from airhilt.assistant.decision.mobiles import Mobile, Use
 from airhilt.assistant.decision.occupancy import SeenAloft, SeenOnGround
 from airhilt.assistant.decision.situation import RunwaySituation, SeenObstacle
 from airhilt.assistant.decision.threats import RunwayConfig, Threat
-from airhilt.messages import AdsbReport
+from airhilt.messages import AdsbReport, SurfaceTrack
 from airhilt.units import DEGREE, FOOT, KNOT, SECOND_NS
 from decisions import transcript
 
+assert BRIEFING.airport is not None
+AERODROME = Aerodrome(BRIEFING.airport)
 CONFIG = RunwayConfig()
 BEGIN_S = 100.0
 """Time from which the times of a test count, in s."""
@@ -24,6 +27,37 @@ BEGIN_S = 100.0
 
 def at(t_s: float) -> int:
     return round((BEGIN_S + t_s) * SECOND_NS)
+
+
+def runway(ident: str) -> tuple[Strip, Direction]:
+    strip = AERODROME.strip_of(ident)
+    assert strip is not None
+    return strip, next(each for each in strip.directions if each.ident == ident)
+
+
+def crossing_m(axis: Axis) -> float:
+    """Return how far past a threshold the centre lines cross."""
+    point = AERODROME.crossing(*AERODROME.strips)
+    assert point is not None
+    return runway(axis.ident)[1].along_m(point)
+
+
+def surface_track(
+    along_m: float, across_m: float = 0.0, speed_m_s: float = 0.0, *, t_s: float = 0.0,
+    number: int = 1, axis: Axis = NORTH, turned_deg: float | None = 0.0,
+    height_m: float | None = None, **given: Any,
+) -> SurfaceTrack:  # fmt: skip
+    """Return a track of surface surveillance without a name, unless it is given."""
+    latitude, longitude = degrees(axis.local(along_m, across_m))
+    usual = {
+        "airport": "XFLD", "track": number, "kind": "combined", "accuracy_m": 7.5,
+        "t_track_ns": round(t_s * SECOND_NS), "latitude_deg": latitude, "longitude_deg": longitude,
+        "altitude_ft": None if height_m is None else (ELEVATION_M + height_m) / FOOT,
+        "on_ground": height_m is None, "ground_speed_kt": speed_m_s / KNOT,
+        "track_deg": None if turned_deg is None else (axis.course_deg + turned_deg) % 360.0,
+        "icao24": None, "callsign": None,
+    }  # fmt: skip
+    return SurfaceTrack.model_validate(usual | given)
 
 
 def report(
@@ -111,8 +145,7 @@ def seen(
     **given: Any,
 ) -> Field:  # fmt: skip
     """Let something be seen on runway 01 that stands there for certain, unless given otherwise."""
-    (strip, _) = field.situation.aerodrome.strips
-    direction = next(each for each in strip.directions if each.ident == "01")
+    strip, direction = runway("01")
     fix = GroundFix(direction.point(along_m), 1.0, 1.0, 0.0)
     thing = SeenOnGround(label, is_animal, fix, 0.9, True, ())
     usual: dict[str, Any] = {"speed_m_s": 0.0, "exit_m": 20.0, "weight": 0.9, "is_certain": True}

@@ -4,21 +4,19 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+import shapely
 
 from airhilt.assistant.decision.tracks import Track
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place, offset_m
-from airhilt.messages import AirportBriefing, GeodeticPoint, RunwayBriefing
+from airhilt.messages import AirportBriefing, RunwayBriefing
 from airhilt.surveillance.squitters import NACP_95_PERCENT_M
-from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE
-
-if TYPE_CHECKING:
-    import numpy as np
-    import numpy.typing as npt
-    from shapely import LineString, Polygon
+from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, wrap_angle
 
 ZONE_RADIUS_M = 5.0 * NAUTICAL_MILE
 ZONE_HEIGHT_M = 2500.0 * FOOT
@@ -26,10 +24,14 @@ ZONE_HEIGHT_M = 2500.0 * FOOT
 
 Class D reaches up to 2,500 ft (FAA AIM, 3-2-5), by custom within some 5 NM."""
 CERTAINLY_INSIDE = 1.25
-"""Factor on the 95 % position error: who is this far inside an area does not stand outside it."""
+"""Factor on the 95 % position error. Who is this far inside an area is certainly inside it."""
 CLEAR_OF_PAVEMENT_M = 10.0
 """Distance from the pavement, in m, within which a mobile counts as on the runway."""
 RAY_M = 3000.0
+ALIGNED_RAD = 15.0 * DEGREE
+"""Greatest angle between the courses of a runway and of who uses it, in rad."""
+ACCURATE_NACP = 11
+"""Accuracy category (NACp) for which the protected area is hardly made smaller."""
 
 
 class Vector(NamedTuple):
@@ -37,6 +39,13 @@ class Vector(NamedTuple):
 
     east: float
     north: float
+
+    def moved(self, distance_m: float, heading_rad: float) -> Vector:
+        """Return the point at a distance straight on along a heading."""
+        return Vector(
+            self.east + distance_m * math.sin(heading_rad),
+            self.north + distance_m * math.cos(heading_rad),
+        )
 
 
 class TrafficZone(NamedTuple):
@@ -82,6 +91,10 @@ class Direction:
         """Course towards the end, in rad from north."""
         return math.atan2(self.ahead.east, self.ahead.north)
 
+    def points_along(self, heading_rad: float) -> bool:
+        """Return whether a heading is that of the runway within `ALIGNED_RAD`."""
+        return abs(wrap_angle(heading_rad - self.course_rad)) <= ALIGNED_RAD
+
     def along_m(self, point: Vector) -> float:
         """Return how far past the threshold a point is; negative before it."""
         east, north = point.east - self.threshold.east, point.north - self.threshold.north
@@ -99,27 +112,17 @@ class Direction:
 
 
 class Strip:
-    """A runway with the area that hold-short positions keep clear.
+    """A runway, such as ``01/19``, with the area that hold-short positions keep clear."""
 
-    Attributes
-    ----------
-    name
-        Name such as ``01/19``.
-    directions
-        One or both directions.
-    """
-
-    def __init__(self, directions: tuple[Direction, ...], area: Polygon) -> None:
-        import shapely
-
+    def __init__(self, directions: tuple[Direction, ...], area: shapely.Polygon) -> None:
         self.name = "/".join(direction.ident for direction in directions)
         self.directions = directions
         first = directions[0]
-        self.centreline: LineString = shapely.LineString(
+        self.centreline = shapely.LineString(
             [first.point(-first.displaced_m), first.point(first.length_m)]
         )
         self._area = area
-        self._pavement: Polygon = self.centreline.buffer(first.half_width_m, cap_style="flat")
+        self._pavement = self.centreline.buffer(first.half_width_m, cap_style="flat")
         room_m = float(self._pavement.distance(area.exterior)) - CLEAR_OF_PAVEMENT_M
         self._margins_m = [
             max(min(CERTAINLY_INSIDE * error_m, room_m), 0.0) for error_m in NACP_95_PERCENT_M
@@ -128,7 +131,7 @@ class Strip:
         for core in (area, *self._cores):
             shapely.prepare(core)
 
-    def core(self, nacp: int) -> Polygon:
+    def core(self, nacp: int = ACCURATE_NACP) -> shapely.Polygon:
         """Return the part of the area in which a position is certain to be in the area.
 
         It is the area less a margin for the error of an accuracy category (NACp), but at least the
@@ -136,20 +139,16 @@ class Strip:
         """
         return self._cores[nacp]
 
-    def margin_m(self, nacp: int) -> float:
+    def margin_m(self, nacp: int = ACCURATE_NACP) -> float:
         """Return how far inside the edge of the area that part begins."""
         return self._margins_m[nacp]
 
     def contains(self, point: Vector) -> bool:
         """Return whether a point is in the protected area."""
-        import shapely
-
         return bool(shapely.contains_xy(self._area, point.east, point.north))
 
     def share_inside(self, points: npt.NDArray[np.float64]) -> float:
         """Return the share of some points, shape (n, 2), that is in the protected area."""
-        import shapely
-
         return float(shapely.contains_xy(self._area, points[:, 0], points[:, 1]).mean())
 
     def room_m(self, point: Vector, heading_rad: float) -> float:
@@ -170,15 +169,9 @@ class Way(NamedTuple):
     exit_m: float
 
 
-def way_through(core: Polygon, point: Vector, heading_rad: float) -> Way | None:
+def way_through(core: shapely.Polygon, point: Vector, heading_rad: float) -> Way | None:
     """Return how a straight way leads through an area; None if it does not."""
-    import shapely
-
-    end = (
-        point.east + RAY_M * math.sin(heading_rad),
-        point.north + RAY_M * math.cos(heading_rad),
-    )
-    inside = shapely.LineString([point, end]).intersection(core)
+    inside = shapely.LineString([point, point.moved(RAY_M, heading_rad)]).intersection(core)
     if inside.is_empty:
         return None
     here = shapely.Point(point)
@@ -186,22 +179,21 @@ def way_through(core: Polygon, point: Vector, heading_rad: float) -> Way | None:
 
 
 class Aerodrome:
-    """The runways of an airport in a local frame.
-
-    Attributes
-    ----------
-    ground_m
-        Altitude of the ground above which cameras give heights.
-    """
+    """The runways of an airport in a local frame."""
 
     def __init__(self, airport: AirportBriefing) -> None:
         self.ground_m = airport.elevation_ft * FOOT
+        """Altitude of the ground above which cameras give heights."""
         self._frame = LocalFrame(_centre(airport))
-        self.strips = tuple(self._strips(airport))
+        self.strips = self._strips(airport)
         self._by_ident = {
             direction.ident: strip for strip in self.strips for direction in strip.directions
         }
-        self._crossings = dict(self._all_crossings())
+        self._crossings: dict[frozenset[str], Vector] = {}
+        for first, second in itertools.combinations(self.strips, 2):
+            point = first.centreline.intersection(second.centreline)
+            if not point.is_empty:
+                self._crossings[frozenset((first.name, second.name))] = Vector(point.x, point.y)
 
     def locate(self, latitude_deg: float, longitude_deg: float) -> Vector:
         """Return a position in the local frame."""
@@ -211,53 +203,36 @@ class Aerodrome:
         """Return the runway of a designator, None if there is no such."""
         return self._by_ident.get(ident) if ident else None
 
-    def _strips(self, airport: AirportBriefing) -> list[Strip]:
-        import shapely
+    def crossing(self, first: Strip, second: Strip) -> Vector | None:
+        """Return where the centre lines of two runways cross, None if they do not."""
+        return self._crossings.get(frozenset((first.name, second.name)))
 
+    def _strips(self, airport: AirportBriefing) -> tuple[Strip, ...]:
         by_ident = {runway.ident: runway for runway in airport.runways}
         strips = []
         while by_ident:
             _, runway = by_ident.popitem()
             other = by_ident.pop(opposite(runway.ident), None)
-            both = sorted((each for each in (runway, other) if each), key=lambda each: each.ident)
-            area = shapely.Polygon([self._point(corner) for corner in runway.protected_area])
-            directions = [self._direction(each, opposed) for each, opposed in _with_opposed(both)]
+            area = shapely.Polygon([self.locate(*corner) for corner in runway.protected_area])
+            directions = [self._direction(runway, other)]
+            if other is not None:
+                directions.append(self._direction(other, runway))
+            directions.sort(key=lambda direction: direction.ident)
             strips.append(Strip(tuple(directions), area))
-        return sorted(strips, key=lambda strip: strip.name)
+        return tuple(sorted(strips, key=lambda strip: strip.name))
 
     def _direction(self, runway: RunwayBriefing, opposed: RunwayBriefing | None) -> Direction:
-        threshold, end = self._point(runway.threshold), self._point(runway.end)
+        threshold, end = self.locate(*runway.threshold), self.locate(*runway.end)
         length_m = math.dist(threshold, end)
         return Direction(
             ident=runway.ident,
             threshold=threshold,
             ahead=Vector(*((b - a) / length_m for a, b in zip(threshold, end, strict=True))),
             length_m=length_m,
-            displaced_m=0.0 if opposed is None else math.dist(self._point(opposed.end), threshold),
+            displaced_m=0.0 if opposed is None else math.dist(self.locate(*opposed.end), threshold),
             half_width_m=runway.width_m / 2.0,
             elevation_m=runway.elevation_ft * FOOT,
         )
-
-    def crossing(self, first: Strip, second: Strip) -> Vector | None:
-        """Return where the centre lines of two runways cross, None if they do not."""
-        return self._crossings.get(frozenset((first.name, second.name)))
-
-    def _all_crossings(self) -> Iterator[tuple[frozenset[str], Vector]]:
-        for first, second in itertools.combinations(self.strips, 2):
-            point = first.centreline.intersection(second.centreline)
-            if not point.is_empty:
-                yield frozenset((first.name, second.name)), Vector(point.x, point.y)
-
-    def _point(self, point: GeodeticPoint) -> Vector:
-        return self.locate(*point)
-
-
-def _with_opposed(
-    runways: Sequence[RunwayBriefing],
-) -> Iterator[tuple[RunwayBriefing, RunwayBriefing | None]]:
-    """Yield each direction of a runway with the other one, None if there is no other."""
-    for runway in runways:
-        yield runway, next((other for other in runways if other is not runway), None)
 
 
 def opposite(ident: str) -> str:

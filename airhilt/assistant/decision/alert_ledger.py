@@ -23,10 +23,7 @@ class AlertLedger:
     def update(self, holding: Sequence[Alert], again: Collection[str] = ()) -> list[Alert]:
         """Return what is to be published; the revisions of the alerts are set here.
 
-        Parameters
-        ----------
-        again
-            Ids of alerts that are told even if nothing has changed.
+        Alerts whose ids are in `again` are told even if nothing has changed.
         """
         news: list[Alert] = []
         for alert in holding:
@@ -35,18 +32,10 @@ class AlertLedger:
             if not is_same or alert.id in again:
                 news.append(replace(alert, revision=0 if told is None else told.revision + 1))
         names = {alert.id for alert in holding}
-        news += [
-            replace(
-                told,
-                revision=told.revision + 1,
-                severity=Severity.INFO,
-                active=False,
-                recommendations={},
-                messages={},
-            )
-            for told in self._told.values()
-            if told.active and told.id not in names
-        ]
+        over = [told for told in self._told.values() if told.active and told.id not in names]
+        for told in over:
+            ended = replace(told, active=False, severity=Severity.INFO, recommendations={})
+            news.append(replace(ended, revision=told.revision + 1, messages={}))
         self._told |= {alert.id: alert for alert in news}
         return news
 

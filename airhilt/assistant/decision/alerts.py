@@ -1,4 +1,4 @@
-"""Alerts of a decision engine: one a conflict, as structure, for all its recipients."""
+"""Alerts of a decision engine. Each holds one conflict, for all its recipients."""
 
 from __future__ import annotations
 
@@ -11,42 +11,27 @@ from airhilt.messages import AdvisoryKind, Evidence, Recommendation, Severity
 
 @dataclass(frozen=True)
 class Alert:
-    """One conflict as an engine judges it now. Its worker makes an advisory for each recipient.
-
-    Attributes
-    ----------
-    id
-        Name of the conflict, the same from its first alert to its last. The worker puts its own
-        name before it.
-    revision
-        0 for the first alert of a conflict, and 1 more for each that follows.
-    severity
-        INFO where the conflict is over.
-    recipients
-        Callsigns, and `airhilt.messages.CONTROLLER`.
-    traffic
-        Callsigns of those in conflict.
-    finding
-        The hazard in words. Without it, a wording has kind, traffic and the note of the evidence.
-    recommendations
-        Recommended action of each recipient that should act, by callsign.
-    messages
-        Text of each recipient that has one of the engine's own; a wording words the others.
-    active
-        False where the conflict is over.
-    t_ready_ns
-        Arrival time of the last input that it rests on; None for the last input of all.
-    """
+    """One conflict as an engine judges it now. Its worker makes an advisory for each recipient."""
 
     id: str
+    """Name of the conflict, the same for all its alerts. The worker puts its own name before it."""
     revision: int
+    """0 for the first alert of a conflict, and 1 more for each that follows."""
     kind: AdvisoryKind
     severity: Severity
+    """INFO where the conflict is over."""
     recipients: tuple[str, ...]
+    """Callsigns, and `airhilt.messages.CONTROLLER`."""
     traffic: tuple[str, ...]
+    """Callsigns of those in conflict."""
     evidence: Evidence
     finding: Finding | None = None
+    """The hazard. Without it, a wording has kind, traffic and the note of the evidence."""
     recommendations: Mapping[str, Recommendation] = field(default_factory=dict)
+    """Recommended action of each recipient that should act, by callsign."""
     messages: Mapping[str, str] = field(default_factory=dict)
+    """Text of each recipient that has one of the engine's own; a wording words the others."""
     active: bool = True
+    """False where the conflict is over."""
     t_ready_ns: int | None = None
+    """Arrival time of the last input that it rests on; None for the last input of all."""

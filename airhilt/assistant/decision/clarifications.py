@@ -19,12 +19,7 @@ class Clarifications:
     """Asks once for each slot of a call in doubt.
 
     The controller is asked: one of the two who spoke, and not busy with flying. A question is an
-    ADVISORY, because it tells of no conflict.
-
-    Parameters
-    ----------
-    scope
-        First part of the ids of the alerts.
+    ADVISORY, because it tells of no conflict. The ids of the alerts begin with the scope.
     """
 
     def __init__(self, scope: str) -> None:
@@ -33,28 +28,20 @@ class Clarifications:
         """Ids of calls, and their slots, that were asked for."""
         self._asked_ns: dict[str, int] = {}
         """Time of the last question about a callsign."""
-        self._count = 0
 
     def ask(
         self, t_ns: int, doubt: Doubt, traffic: str, runway: str | None = None
     ) -> Iterator[Alert]:
-        """Yield the question about a doubt, unless it was asked a moment ago.
-
-        Parameters
-        ----------
-        traffic
-            Callsign of somebody because of whom the doubt matters.
-        """
+        """Yield the question about a doubt that matters because of traffic, once a minute."""
         call = (doubt.transcript.id, doubt.slot)
         asked_ns = self._asked_ns.get(doubt.callsign)
         if call in self._asked or (asked_ns is not None and t_ns - asked_ns < ASKED_AGAIN_NS):
             return
         self._asked.add(call)
         self._asked_ns[doubt.callsign] = t_ns
-        self._count += 1
         finding = Unclear(doubt.callsign, doubt.slot, doubt.said, doubt.confidence, traffic)
         yield Alert(
-            id=f"{self._scope}-clarification-{self._count}",
+            id=f"{self._scope}-clarification-{len(self._asked)}",
             revision=0,
             kind="clarification",
             severity=Severity.ADVISORY,

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
+from itertools import combinations
 
 from airhilt.assistant.decision.aerodrome import Strip
 from airhilt.assistant.decision.clearances import Discrepancy, Unanswered
@@ -14,75 +14,75 @@ from airhilt.phraseology import Instruction
 
 
 def clearance_conflicts(outlook: Outlook) -> Iterator[Threat]:
-    """Yield wrong readbacks, and clearances that oppose each other."""
-    for discrepancy in outlook.situation.clearances.discrepancies(outlook.t_ns):
+    """Yield wrong readbacks, missing ones, and clearances that oppose each other."""
+    clearances = outlook.situation.clearances
+    for discrepancy in clearances.discrepancies(outlook.t_ns):
         yield from misread(outlook, discrepancy)
-    for unanswered in outlook.situation.clearances.unanswered(outlook.t_ns):
+    for unanswered in clearances.unanswered(outlook.t_ns):
         yield from _not_read_back(outlook, unanswered)
     yield from _opposed(outlook)
 
 
 def misread(outlook: Snapshot, discrepancy: Discrepancy) -> Iterator[Threat]:
     """Yield the threat of a readback that is wrong, or somebody else's, for an active runway."""
-    said = (discrepancy.read, discrepancy.given)
-    strip, activity = activity_of(outlook, discrepancy.callsign, said)
-    if strip is None or not activity:
+    callsign, addressed = discrepancy.callsign, discrepancy.addressed
+    given, read = discrepancy.given, discrepancy.read
+    active = activity_of(outlook, callsign, (read, given))
+    if active is None:
         return
-    parties = tuple(dict.fromkeys((discrepancy.callsign, discrepancy.addressed)))
+    strip, traffic = active
+    parties = tuple(dict.fromkeys((callsign, addressed)))
     yield Threat(
-        ("readback", discrepancy.callsign, str(discrepancy.t_end_ns)),
-        Severity.CAUTION,
-        strip,
-        discrepancy.read.runway or strip.directions[0].ident,
-        parties,
-        tuple(dict.fromkeys((*parties, activity[0]))),
-        RunwayMisread(
-            callsign=discrepancy.callsign,
-            addressed=discrepancy.addressed,
-            given=discrepancy.given,
-            read=discrepancy.read,
-            traffic=activity[0],
-        ),
+        key=("readback", callsign, str(discrepancy.t_end_ns)),
+        severity=Severity.CAUTION,
+        strip=strip,
+        runway=read.runway or strip.directions[0].ident,
+        parties=parties,
+        traffic=tuple(dict.fromkeys((*parties, traffic))),
+        finding=RunwayMisread(callsign, addressed, given, read, traffic),
+        rule="readback_mismatch" if callsign == addressed else "recipient_ambiguity",
         sources=("radio", "adsb"),
         kind="readback_mismatch",
         radio_ids=discrepancy.radio_ids,
-        rules=("readback_mismatch" if len(parties) == 1 else "recipient_ambiguity",),
     )
 
 
 def _not_read_back(outlook: Outlook, unanswered: Unanswered) -> Iterator[Threat]:
     """Yield the threat that somebody does not know to keep off an active runway."""
     callsign, given = unanswered.callsign, unanswered.given
-    strip, activity = activity_of(outlook, callsign, (given,))
-    if strip is None or not activity:
+    active = activity_of(outlook, callsign, (given,))
+    if active is None:
         return
+    strip, traffic = active
     yield Threat(
-        ("silence", callsign, str(unanswered.t_end_ns)),
-        Severity.CAUTION,
-        strip,
-        given.runway or strip.directions[0].ident,
-        (callsign,),
-        (callsign, activity[0]),
-        NotReadBack(callsign, given, activity[0]),
+        key=("silence", callsign, str(unanswered.t_end_ns)),
+        severity=Severity.CAUTION,
+        strip=strip,
+        runway=given.runway or strip.directions[0].ident,
+        parties=(callsign,),
+        traffic=(callsign, traffic),
+        finding=NotReadBack(callsign, given, traffic),
+        rule="readback_missing",
         sources=("radio", "adsb"),
         kind="readback_mismatch",
         radio_ids=(unanswered.radio_id,),
-        rules=("readback_missing",),
     )
 
 
 def activity_of(
     outlook: Snapshot, callsign: str | None, said: tuple[Instruction | None, ...]
-) -> tuple[Strip | None, list[str]]:
-    """Return the runway that an instruction is about, and who else than a callsign uses it."""
+) -> tuple[Strip, str] | None:
+    """Return the runway that an instruction is about, and who else than a callsign uses it.
+
+    None if nobody else does.
+    """
     aerodrome = outlook.situation.aerodrome
-    named = [each.runway for each in said if each]
-    strips = [strip for ident in named if (strip := aerodrome.strip_of(ident)) is not None]
-    for strip in dict.fromkeys(strips) or aerodrome.strips:
-        activity = [name for name in _active(outlook, strip) if name != callsign]
-        if activity:
-            return strip, list(dict.fromkeys(activity))
-    return None, []
+    named = [aerodrome.strip_of(each.runway) for each in said if each]
+    for strip in [strip for strip in named if strip is not None] or aerodrome.strips:
+        for other in _active(outlook, strip):
+            if other != callsign:
+                return strip, other
+    return None
 
 
 def _active(outlook: Snapshot, strip: Strip) -> Iterator[str]:
@@ -99,33 +99,28 @@ def _active(outlook: Snapshot, strip: Strip) -> Iterator[str]:
 
 def _opposed(outlook: Outlook) -> Iterator[Threat]:
     """Yield the threat of two clearances to use one runway in opposite directions."""
+    strip_of = outlook.situation.aerodrome.strip_of
     using = [
-        clearance
+        (clearance, strip, clearance.runway)
         for clearance in outlook.in_force
         if clearance.action in ("cleared_to_land", "cleared_for_takeoff", "line_up")
         and clearance.is_certain
+        and clearance.runway is not None
+        and (strip := strip_of(clearance.runway)) is not None
     ]
-    for first, second in itertools.combinations(using, 2):
-        strip = outlook.situation.aerodrome.strip_of(first.runway)
-        if (
-            strip is None
-            or first.runway is None
-            or second.runway is None
-            or strip is not outlook.situation.aerodrome.strip_of(second.runway)
-            or first.runway == second.runway
-            or first.callsign == second.callsign
-        ):
-            continue
+    for (first, strip, runway), (second, other_strip, other_runway) in combinations(using, 2):
         parties = (first.callsign, second.callsign)
-        yield Threat(
-            ("clearances", strip.name, *sorted(parties)),
-            Severity.CAUTION,
-            strip,
-            first.runway,
-            parties,
-            parties,
-            OpposedClearances(parties, (first.runway, second.runway)),
-            sources=("radio",),
-            radio_ids=(first.radio_id, second.radio_id),
-            rules=("opposed_clearances",),
-        )
+        is_opposed = strip is other_strip and runway != other_runway
+        if is_opposed and first.callsign != second.callsign:
+            yield Threat(
+                key=("clearances", strip.name, *sorted(parties)),
+                severity=Severity.CAUTION,
+                strip=strip,
+                runway=runway,
+                parties=parties,
+                traffic=parties,
+                finding=OpposedClearances(parties, (runway, other_runway)),
+                rule="opposed_clearances",
+                sources=("radio",),
+                radio_ids=(first.radio_id, second.radio_id),
+            )

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
-from airhilt.assistant.decision.guard import ConfidenceGuard, Doubt
+from airhilt.assistant.decision.guard import ConfidenceGuard, Doubt, RememberingGuard
 from airhilt.assistant.decision.readback_silence import ReadbackSilence
-from airhilt.assistant.decision.repeats import RememberingGuard
 from airhilt.messages import Transcript, TransmissionOpened
-from airhilt.phraseology import BESIDES, Action, Call, Instruction, differences
+from airhilt.phraseology import BESIDES, REPORTS, Action, Call, Instruction, differences
 from airhilt.units import SECOND_NS
 
 LIFETIME_S: dict[Action, float] = {
@@ -27,32 +27,23 @@ DISCREPANCY_NS = 120 * SECOND_NS
 RESTRICTING: frozenset[Action] = frozenset(
     {"cancel_takeoff", "go_around", "hold_short", "hold_position"}
 )
-"""Instructions that keep somebody off a runway: who has not received one goes on."""
-REPORTS: frozenset[Action] = frozenset({"wildlife", "wildlife_gone"})
+"""Instructions to keep off a runway. Who has not received one goes on."""
 
 
-@dataclass(frozen=True, slots=True)
-class Clearance:
-    """A clearance on to a runway, in the words of its readback if there was one.
-
-    Attributes
-    ----------
-    radio_id
-        Id of the transmission.
-    is_certain
-        False if a slot of it is in doubt: it then allows nobody to be on a runway.
-    """
+class Clearance(NamedTuple):
+    """A clearance on to a runway, in the words of its readback if there was one."""
 
     callsign: str
     action: Action
     runway: str | None
     t_end_ns: int
     radio_id: str
+    """Id of the transmission."""
     is_certain: bool = True
+    """False if a slot of it is in doubt: it then allows nobody to be on a runway."""
 
 
-@dataclass(frozen=True, slots=True)
-class Discrepancy:
+class Discrepancy(NamedTuple):
     """A readback that does not agree with what was said, or comes from somebody else."""
 
     callsign: str
@@ -66,14 +57,21 @@ class Discrepancy:
     """Ids of the transmissions: the instruction, and its readback."""
 
 
-@dataclass(frozen=True, slots=True)
-class Unanswered:
+class Unanswered(NamedTuple):
     """An instruction to keep off a runway that nobody has read back in time."""
 
     callsign: str
     given: Instruction
     t_end_ns: int
     radio_id: str
+
+
+class AmbiguousCall(NamedTuple):
+    """An instruction about a runway whose addressee may be one of several."""
+
+    transcript: Transcript
+    callsigns: tuple[str, ...]
+    said: Instruction
 
 
 @dataclass(slots=True)
@@ -96,7 +94,6 @@ class _Addressed:
         return max(self.transcript.t_end_ns, self.asked_again_ns)
 
     def told(self, action: Action) -> Instruction | None:
-        """Return the instruction with an action, None if there was none."""
         return next((each for each in self.instructions if each.action == action), None)
 
 
@@ -109,7 +106,7 @@ class Clearances:
     """
 
     def __init__(self, guard: ConfidenceGuard) -> None:
-        self._guard = RememberingGuard(guard)
+        self._guard = RememberingGuard(guard.tau_asr)
         self._doubts: dict[str, Doubt] = {}
         """The doubt about the last call of or to each callsign."""
         self._addressed: dict[str, _Addressed] = {}
@@ -118,9 +115,10 @@ class Clearances:
         self._in_force: dict[str, tuple[Clearance, ...]] = {}
         self._holding: dict[str, str | None] = {}
         self._discrepancies: dict[str, Discrepancy] = {}
+        self._ambiguous: list[AmbiguousCall] = []
         self._silence = ReadbackSilence()
         self._answered_ns: dict[int, int] = {}
-        """Begin of the last call that does not begin with a callsign, by frequency."""
+        """Beginning of the last call of a crew, by frequency. It does not begin with a callsign."""
 
     def take_opening(self, opened: TransmissionOpened) -> None:
         """Note that somebody has begun to transmit."""
@@ -132,6 +130,7 @@ class Clearances:
         if not call.addressed_first:
             self._answered_ns[transcript.frequency_khz] = transcript.t_tx_ns
         said = tuple(each for each in call.instructions if each.action not in REPORTS | BESIDES)
+        self._take_ambiguous(call, transcript)
         callsign = call.match.callsign
         if callsign is None:
             return
@@ -162,6 +161,15 @@ class Clearances:
         if believed:
             self._act_on(callsign, believed, transcript)
         self._suspect(callsign, doubts.values())
+
+    def _take_ambiguous(self, call: Call, transcript: Transcript) -> None:
+        """Note a call that may be for several; one that names one of them settles it."""
+        if call.callsign is not None:
+            self._ambiguous = [x for x in self._ambiguous if call.callsign not in x.callsigns]
+        said = [x for x in call.instructions if x.action in LIFETIME_S or x.action in RESTRICTING]
+        if call.match.ambiguous and said:
+            callsigns = tuple(each.callsign for each in call.match.candidates)
+            self._ambiguous.append(AmbiguousCall(transcript, callsigns, said[0]))
 
     def _address(self, callsign: str, addressed: _Addressed) -> None:
         """Note a call to somebody, whose readback is awaited.
@@ -199,22 +207,28 @@ class Clearances:
             for known in self._in_force.get(callsign, ())
         )
 
-    def in_force(self, t_ns: int) -> Iterator[Clearance]:
-        """Yield the clearances that were not used, withdrawn or forgotten."""
-        for clearances in self._in_force.values():
-            for clearance in clearances:
-                if t_ns - clearance.t_end_ns <= LIFETIME_S[clearance.action] * SECOND_NS:
-                    yield clearance
+    def in_force(self, t_ns: int) -> list[Clearance]:
+        """Return the clearances that were not used, withdrawn or forgotten."""
+        return [
+            clearance
+            for clearances in self._in_force.values()
+            for clearance in clearances
+            if t_ns - clearance.t_end_ns <= LIFETIME_S[clearance.action] * SECOND_NS
+        ]
 
     def is_holding(self, callsign: str, runways: tuple[str, ...]) -> bool:
         """Return whether the last instruction was to hold, short of one of these runways."""
         return callsign in self._holding and self._holding[callsign] in (None, *runways)
 
-    def discrepancies(self, t_ns: int) -> Iterator[Discrepancy]:
-        """Yield the discrepancies that nobody has corrected."""
-        for discrepancy in self._discrepancies.values():
-            if t_ns - discrepancy.t_end_ns <= DISCREPANCY_NS:
-                yield discrepancy
+    def discrepancies(self, t_ns: int) -> list[Discrepancy]:
+        """Return the discrepancies that nobody has corrected."""
+        found = self._discrepancies.values()
+        return [each for each in found if t_ns - each.t_end_ns <= DISCREPANCY_NS]
+
+    def ambiguous(self, t_ns: int) -> list[AmbiguousCall]:
+        """Return the calls that may be for several, and that nobody has settled."""
+        found = self._ambiguous
+        return [each for each in found if t_ns - each.transcript.t_end_ns <= DISCREPANCY_NS]
 
     def unanswered(self, t_ns: int) -> Iterator[Unanswered]:
         """Yield the instructions to keep off a runway whose readback is late."""
@@ -300,46 +314,40 @@ class Clearances:
         if len(doubts) < len(read):
             self._settle(callsign)
         for each in read:
-            match = given and given.told(each.action)
+            match = given.told(each.action) if given else None
             full = each if each.runway or not match else replace(each, runway=match.runway)
             complete.append(full)
             other = None if match else self._unanswered(each.action, callsign, transcript.t_tx_ns)
             own = doubts.pop(each.action, None)
-            wrong: tuple[str, Instruction | None]
+            addressed, told = callsign, match
             if other is not None:
-                doubt = self._doubt_of_name(each.action, other, own)
-                wrong = (other, each)
+                addressed, told = other, each
+                heard = (own, self._addressed[other].doubts.get(each.action))
+                doubt = next((one for one in heard if one and one.slot == "callsign"), None)
             elif given and match:
                 if "runway" not in differences(match, each):
                     continue
                 doubt = self._guard.doubt_of_value(call, each, transcript)
                 doubt = doubt or given.values[each.action]
-                wrong = (callsign, match)
             elif given and each.action in LIFETIME_S:
-                doubt = own or self._doubt_of_rest(given, callsign, each)
-                wrong = (callsign, next(iter(given.instructions), None))
+                told = next(iter(given.instructions), None)
+                doubt = own or next(iter(given.doubts.values()), None)
+                doubt = doubt or self._guard.doubt_of_rest(callsign, each, given.transcript)
             else:
                 if own is not None:
                     doubts[each.action] = own
                 continue
-            if doubt is None:
-                self._note(callsign, *wrong, each, transcript)
-            else:
+            if doubt is not None:
                 doubts[each.action] = replace(doubt, is_answered=True)
+                continue
+            radio_ids = (self._addressed[addressed].transcript.id, transcript.id)
+            self._discrepancies[callsign] = Discrepancy(
+                callsign, addressed, told, each, transcript.t_end_ns, radio_ids
+            )
         if given:
             given.answered = True
             self._read_back[callsign] = given
         return tuple(complete)
-
-    def _doubt_of_name(self, action: Action, addressed: str, own: Doubt | None) -> Doubt | None:
-        """Return the doubt about the callsign of a readback, or of its instruction to another."""
-        given = self._addressed[addressed].doubts.get(action)
-        return next((each for each in (own, given) if each and each.slot == "callsign"), None)
-
-    def _doubt_of_rest(self, given: _Addressed, callsign: str, read: Instruction) -> Doubt | None:
-        """Return the doubt that a call had an instruction that was read back and not heard."""
-        heard = next(iter(given.doubts.values()), None)
-        return heard or self._guard.doubt_of_rest(callsign, read, given.transcript)
 
     def _recent(self, callsign: str, t_ns: int) -> _Addressed | None:
         given = self._addressed.get(callsign)
@@ -354,23 +362,6 @@ class Clearances:
             if any(each.action == action for each in given.instructions):
                 return callsign
         return None
-
-    def _note(
-        self,
-        callsign: str,
-        addressed: str,
-        given: Instruction | None,
-        read: Instruction,
-        transcript: Transcript,
-    ) -> None:
-        self._discrepancies[callsign] = Discrepancy(
-            callsign,
-            addressed,
-            given,
-            read,
-            transcript.t_end_ns,
-            (self._addressed[addressed].transcript.id, transcript.id),
-        )
 
     def _settle(self, callsign: str) -> None:
         """Drop the discrepancy of somebody's last readback, because there is a new call."""

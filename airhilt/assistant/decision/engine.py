@@ -16,38 +16,25 @@ from airhilt.messages import Message, ModelExchange
 
 
 class ReceivedMessage(NamedTuple):
-    """One message as it reaches a decision engine.
-
-    Attributes
-    ----------
-    t_in_ns
-        Time of arrival at the assistant.
-    t_ns
-        Time now: later than that if the worker was busy.
-    payload
-        The raw bytes that the message is the header of; empty for other messages.
-    """
+    """One message as it reaches a decision engine."""
 
     message: Message
     t_in_ns: int
+    """Time of arrival at the assistant."""
     t_ns: int
+    """Time now: later than that if the worker was busy."""
     payload: bytes = b""
+    """The raw bytes that the message is the header of; empty for other messages."""
 
 
 class Decision(NamedTuple):
-    """The alerts of an engine after all that it has received.
-
-    Attributes
-    ----------
-    again_ns
-        Time to ask it again even if nothing more arrives; None: not before something does.
-    exchanges
-        Questions to a language model, with their answers, that the alerts rest on.
-    """
+    """The alerts of an engine after all that it has received."""
 
     alerts: Sequence[Alert] = ()
     again_ns: int | None = None
+    """Time to ask it again even if nothing more arrives; None: not before something does."""
     exchanges: Sequence[ModelExchange] = ()
+    """Questions to a language model, with their answers, that the alerts rest on."""
 
 
 @runtime_checkable

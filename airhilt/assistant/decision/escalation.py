@@ -13,18 +13,12 @@ from airhilt.units import SECOND_NS
 
 @dataclass(slots=True)
 class Escalation:
-    """The severity and the alerts of one conflict, from first suspicion to its end.
-
-    Attributes
-    ----------
-    id
-        Id of its alerts.
-    severity
-        Severity of its last alert; None before the first one.
-    """
+    """The severity and the alerts of one conflict, from first suspicion to its end."""
 
     id: str
+    """Id of its alerts."""
     severity: Severity | None = None
+    """Severity of its last alert; None before the first one."""
     _revision: int = 0
     _since_ns: dict[Severity, int] = field(default_factory=dict)
     """Time since which the level has been that or higher, by severity."""
@@ -49,10 +43,13 @@ class Escalation:
         """
         self._quiet_since_ns = None
         self.observe(level, t_ns)
+        told_rank = -1 if self.severity is None or self._tells_again else self.severity.rank
         held = [
             severity
             for severity, since_ns in self._since_ns.items()
-            if self._is_news(severity) and t_ns - since_ns >= persistence_s * SECOND_NS
+            if severity is not Severity.INFO
+            and severity.rank > told_rank
+            and t_ns - since_ns >= persistence_s * SECOND_NS
         ]
         if not held:
             return False
@@ -61,7 +58,7 @@ class Escalation:
         return True
 
     def observe(self, level: Severity | None, t_ns: int) -> None:
-        """Note the level at a time at which nothing is told; None for no conflict.
+        """Update how long each level has held, without telling anything; None for no conflict.
 
         How long a level has held is counted by the times of the evidence, not by those of alerts.
         """
@@ -70,10 +67,6 @@ class Escalation:
                 self._since_ns.pop(severity, None)
             else:
                 self._since_ns.setdefault(severity, t_ns)
-
-    def _is_news(self, severity: Severity) -> bool:
-        is_higher = self.severity is None or severity.rank > self.severity.rank
-        return severity is not Severity.INFO and (is_higher or self._tells_again)
 
     def stays(self) -> None:
         """Note that nothing is wrong now, but that the conflict is not over."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from airhilt.phraseology import Action, Instruction
+from airhilt.phraseology import Instruction
 
 RunwayUse = Literal["arrival", "departure", "rollout"]
 """Use of a runway by an aircraft."""
@@ -47,31 +47,15 @@ _USES: dict[RunwayUse, str] = {
     "departure": "takes off from",
     "rollout": "rolls out on",
 }
-_ACTIONS: dict[Action, str] = {
-    "cleared_to_land": "cleared to land",
-    "cleared_for_takeoff": "cleared for takeoff",
-    "line_up": "line up",
-    "cross": "cross",
-    "proceed": "proceed",
-    "hold_short": "hold short",
-    "hold_position": "hold position",
-    "cancel_takeoff": "cancel takeoff",
-    "go_around": "go around",
-}
 
 
 @dataclass(frozen=True, slots=True)
 class LossOfSeparation:
-    """Two aircraft in flight will lose separation.
-
-    Attributes
-    ----------
-    time_to_loss_s
-        Time until then, if nobody reacts; None if it is not foreseen any more.
-    """
+    """Two aircraft in flight will lose separation."""
 
     callsigns: tuple[str, str]
     time_to_loss_s: float | None
+    """Time until then, if nobody reacts; None if it is not foreseen any more."""
 
     def statement(self) -> str:
         """Return the finding in a few words."""
@@ -81,21 +65,15 @@ class LossOfSeparation:
 
 @dataclass(frozen=True, slots=True)
 class LevelMisread:
-    """An aircraft has read back another level than it was given, and traffic is there.
-
-    Attributes
-    ----------
-    traffic
-        Callsign of an aircraft that it would lose separation from.
-    radio_ids
-        Ids of the transmissions: the instruction, and its readback.
-    """
+    """An aircraft has read back another level than it was given, and traffic is there."""
 
     callsign: str
     read_ft: float
     cleared_ft: float
     traffic: str
+    """Callsign of an aircraft that it would lose separation from."""
     radio_ids: tuple[str, str]
+    """Ids of the transmissions: the instruction, and its readback."""
 
     def statement(self) -> str:
         """Return the finding in a few words, without the callsign."""
@@ -107,25 +85,17 @@ class LevelMisread:
 
 @dataclass(frozen=True, slots=True)
 class RunwayMisread:
-    """A readback about a runway is wrong, or somebody else's, and the runway is in use.
-
-    Attributes
-    ----------
-    callsign
-        Speaker of the readback.
-    addressed
-        Callsign that was meant.
-    given
-        The instruction; None if there was none of the kind.
-    traffic
-        Callsign of somebody else who uses the runway.
-    """
+    """A readback about a runway is wrong, or somebody else's, and the runway is in use."""
 
     callsign: str
+    """Speaker of the readback."""
     addressed: str
+    """Callsign that was meant."""
     given: Instruction | None
+    """The instruction; None if there was none of the kind."""
     read: Instruction
     traffic: str
+    """Callsign of somebody else who uses the runway."""
 
     def statement(self) -> str:
         """Return the finding in a few words."""
@@ -138,17 +108,12 @@ class RunwayMisread:
 
 @dataclass(frozen=True, slots=True)
 class NotReadBack:
-    """Somebody has not read back an instruction to keep off a runway that is in use.
-
-    Attributes
-    ----------
-    traffic
-        Callsign of somebody else who uses the runway.
-    """
+    """Somebody has not read back an instruction to keep off a runway that is in use."""
 
     callsign: str
     given: Instruction
     traffic: str
+    """Callsign of somebody else who uses the runway."""
 
     def statement(self) -> str:
         """Return the finding in a few words."""
@@ -159,19 +124,12 @@ class NotReadBack:
 
 @dataclass(frozen=True, slots=True)
 class RecipientUnclear:
-    """A call about a runway in use names a callsign that may be one of several.
-
-    Attributes
-    ----------
-    callsigns
-        Callsigns that it may be.
-    traffic
-        Callsign of somebody who uses the runway.
-    """
+    """A call about a runway in use names a callsign that may be one of several."""
 
     callsigns: tuple[str, ...]
     said: Instruction
     traffic: str
+    """Callsign of somebody who uses the runway."""
 
     def statement(self) -> str:
         """Return the finding in a few words."""
@@ -193,23 +151,16 @@ class Occupied:
 
 @dataclass(frozen=True, slots=True)
 class Unclear:
-    """A slot of an instruction or a readback was heard with too little confidence.
-
-    Attributes
-    ----------
-    slot
-        ``callsign``, ``action``, ``runway`` or ``altitude``.
-    confidence
-        Confidence in that slot.
-    traffic
-        Callsign of somebody because of whom it matters.
-    """
+    """A slot of an instruction or a readback was heard with too little confidence."""
 
     callsign: str
     slot: str
+    """``callsign``, ``action``, ``runway`` or ``altitude``."""
     said: Instruction
     confidence: float
+    """Confidence in that slot."""
     traffic: str
+    """Callsign of somebody because of whom it matters."""
 
     def statement(self) -> str:
         """Return the finding in a few words."""
@@ -219,26 +170,18 @@ class Unclear:
 
 @dataclass(frozen=True, slots=True)
 class Obstruction:
-    """Somebody or something is, or will be, in the way of the user of a runway.
-
-    Attributes
-    ----------
-    user
-        Callsign of the aircraft that uses the runway.
-    runway
-        Direction in which it does.
-    what
-        Callsign, or a word such as ``deer``, of what is in its way.
-    where
-        Runway on which that is.
-    """
+    """Somebody or something is, or will be, in the way of the user of a runway."""
 
     user: str
+    """Callsign of the aircraft that uses the runway."""
     use: RunwayUse
     runway: str
+    """Direction in which it does."""
     how: Obstructs
     what: str
+    """Callsign, or a word such as ``deer``, of what is in its way."""
     where: str
+    """Runway on which that is."""
 
     def statement(self) -> str:
         """Return what is in the way, in a few words."""
@@ -269,25 +212,17 @@ Where = Literal[
 
 @dataclass(frozen=True, slots=True)
 class Intruder:
-    """Something comes nearer to an aircraft in flight whose camera sees it.
-
-    Attributes
-    ----------
-    carrier
-        Callsign of the aircraft with the camera.
-    is_birds
-        True if it is birds, and not an aircraft.
-    callsign
-        Callsign that it has on ADS-B; None if it has no transponder.
-    contact_s
-        Time until the two meet; None if that cannot be told yet.
-    """
+    """Something comes nearer to an aircraft in flight whose camera sees it."""
 
     carrier: str
+    """Callsign of the aircraft with the camera."""
     is_birds: bool
+    """True if it is birds, and not an aircraft."""
     callsign: str | None
+    """Callsign that it has on ADS-B; None if it has no transponder."""
     where: Where
     contact_s: float | None
+    """Time until the two meet; None if that cannot be told yet."""
 
     def statement(self) -> str:
         """Return the finding in a few words, without the carrier."""
@@ -299,15 +234,10 @@ class Intruder:
 
 @dataclass(frozen=True, slots=True)
 class Announcement:
-    """A system aboard announces something of traffic in words of its own.
-
-    Attributes
-    ----------
-    aural
-        Words, such as ``climb, climb``.
-    """
+    """A system aboard announces something of traffic in words of its own."""
 
     aural: str
+    """Words, such as ``climb, climb``."""
 
     def statement(self) -> str:
         """Return the announcement."""
@@ -333,4 +263,4 @@ def _instruction(instruction: Instruction) -> str:
     about = f" runway {instruction.runway}" if instruction.runway else ""
     if instruction.altitude_ft is not None:
         about = f" {instruction.altitude_ft:.0f} ft"
-    return f"{_ACTIONS.get(instruction.action, instruction.action.replace('_', ' '))}{about}"
+    return f"{instruction.action.replace('_', ' ')}{about}"

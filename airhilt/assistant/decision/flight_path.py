@@ -40,43 +40,40 @@ BIRDS_LIKELY = 0.3
 
 def in_flight_path(outlook: Outlook, use: Use) -> Iterator[Threat]:
     """Yield what is, or will be, in the air where a runway's user flies."""
-    for thing in outlook.situation.aloft:
-        yield from _aloft(outlook, use, thing)
-
-
-def _aloft(outlook: Outlook, use: Use, thing: SeenAloft) -> Iterator[Threat]:
-    """Yield the threat of something in the air that a runway's user will meet."""
     if use.kind == "rollout" or use.is_climbing:
         return
+    how: Obstructs = "airborne on final for" if use.kind == "arrival" else "airborne over"
+    for thing in outlook.situation.aloft:
+        severity, time_to_go_s = _urgency(outlook, use, thing)
+        if severity is not None:
+            yield obstruction(
+                use,
+                how,
+                "birds" if thing.are_birds else "unidentified aircraft",
+                severity,
+                time_to_go_s,
+                ("vision", "adsb"),
+                unnamed=WILDLIFE if thing.are_birds else UNIDENTIFIED,
+                tracks=thing.tracks,
+                rule="flight_path",
+            )
+
+
+def _urgency(outlook: Outlook, use: Use, thing: SeenAloft) -> tuple[Severity | None, float | None]:
+    """Return how severe it is that something is in the air, and the time until it is met."""
     times = (_meets_s(outlook, use, thing, place) for place in thing.places)
     met = [time_s for time_s in times if time_s is not None]
-    time_to_go_s = min(met, default=None)
-    is_in_path = len(met) >= max(BIRDS_LIKELY * len(thing.places), 1.0)
-    severity = None
-    if is_in_path and time_to_go_s is not None:
+    if met and len(met) >= BIRDS_LIKELY * len(thing.places):
+        time_to_go_s = min(met)
         severity = outlook.urgency(use, time_to_go_s)
         if severity is Severity.WARNING and not thing.is_located:
             severity = Severity.CAUTION
-    elif thing.is_located:
-        time_to_go_s = _time_abeam_s(outlook, use, thing.places[0])
-        if time_to_go_s is not None and _are_beside(outlook, use, thing.places[0]):
-            severity = outlook.urgency(use, time_to_go_s) and Severity.CAUTION
-    if severity is not None:
-        how: Obstructs = "airborne on final for" if use.kind == "arrival" else "airborne over"
-        what, unnamed = "unidentified aircraft", UNIDENTIFIED
-        if thing.are_birds:
-            what, unnamed = "birds", WILDLIFE
-        yield obstruction(
-            use,
-            how,
-            what,
-            severity,
-            time_to_go_s,
-            ("vision", "adsb"),
-            unnamed=unnamed,
-            tracks=thing.tracks,
-            rule="flight_path",
-        )
+        return severity, time_to_go_s
+    if thing.is_located:
+        abeam_s = _time_abeam_s(outlook, use, thing.places[0])
+        if abeam_s is not None and _are_beside(outlook, use, thing.places[0]):
+            return outlook.urgency(use, abeam_s) and Severity.CAUTION, abeam_s
+    return None, None
 
 
 def _meets_s(outlook: Outlook, use: Use, thing: SeenAloft, place: AirFix) -> float | None:

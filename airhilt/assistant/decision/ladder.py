@@ -44,16 +44,12 @@ class Score(NamedTuple):
             config.context_weight * context,
         )
 
-    @property
-    def total(self) -> float:
-        """The score S."""
-        return self.vision + self.asr + self.context
-
     def severity(self, config: ScoreConfig) -> Severity | None:
         """Return the severity of the score; None if it does not suffice."""
-        if self.total >= config.caution_from:
+        total = self.vision + self.asr + self.context
+        if total >= config.caution_from:
             return Severity.CAUTION
-        return Severity.ADVISORY if self.total >= config.advisory_from else None
+        return Severity.ADVISORY if total >= config.advisory_from else None
 
     def shares(self, **modalities: float) -> dict[str, float]:
         """Return the share of each modality that has one, from the terms that rest on each."""

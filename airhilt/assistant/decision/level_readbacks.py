@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import NamedTuple
 
 from airhilt.assistant.decision.air_tracks import AirTracks
 from airhilt.assistant.decision.findings import LevelMisread
-from airhilt.assistant.decision.guard import ConfidenceGuard, Doubt, call_of
+from airhilt.assistant.decision.guard import ConfidenceGuard, Doubt, RememberingGuard, call_of
 from airhilt.assistant.decision.loss_prediction import SeparationStandard
-from airhilt.assistant.decision.repeats import RememberingGuard
 from airhilt.assistant.decision.tracks import Track
 from airhilt.geodesy.relative_motion import relative
 from airhilt.messages import RosterEntry, Transcript
@@ -22,15 +22,13 @@ DOUBTED_NS = 120 * SECOND_NS
 """Time for which a level in doubt matters, in ns."""
 
 
-@dataclass(slots=True)
-class _Clearance:
+class _Clearance(NamedTuple):
     """The last level that the controller gave to an aircraft."""
 
     said: Instruction
-    t_end_ns: int
+    transcript: Transcript
     doubt: Doubt | None
     """Doubt about the level."""
-    radio_id: str
 
 
 class LevelReadbacks:
@@ -43,7 +41,7 @@ class LevelReadbacks:
 
     def __init__(self, tracks: AirTracks, guard: ConfidenceGuard) -> None:
         self._tracks = tracks
-        self._guard = RememberingGuard(guard)
+        self._guard = RememberingGuard(guard.tau_asr)
         self._ceilings_ft: dict[str, float] = {}
         self._clearances: dict[str, _Clearance] = {}
         self._doubts: dict[str, Doubt] = {}
@@ -66,8 +64,7 @@ class LevelReadbacks:
             return None
         if call.distress or call.emergency_descent:
             if not call.match.ambiguous:
-                track.in_distress = True
-                track.cleared_m = None
+                track.in_distress, track.cleared_m = True, None
                 if call.emergency_descent and not call.addressed_first:
                     track.announce_descent(t_ns, transcript.id)
             return None
@@ -80,13 +77,12 @@ class LevelReadbacks:
             return None
         if call.addressed_first:
             value = self._guard.doubt_of_value(call, said, transcript)
-            told = _Clearance(said, transcript.t_end_ns, value, transcript.id)
-            self._clearances[track.callsign] = told
+            self._clearances[track.callsign] = _Clearance(said, transcript, value)
             self._set_doubt(track, doubt)
             return None
         given = self._clearances.get(track.callsign)
         window_ns = config.readback_window_s * SECOND_NS
-        if given is not None and transcript.t_tx_ns - given.t_end_ns > window_ns:
+        if given is not None and transcript.t_tx_ns - given.transcript.t_end_ns > window_ns:
             given = None
         if given is not None:
             doubt = self._guard.doubt_of_value(call, said, transcript)
@@ -122,7 +118,7 @@ class LevelReadbacks:
             read_ft=altitude_ft,
             cleared_ft=given.said.altitude_ft or 0.0,
             traffic=threatened.callsign,
-            radio_ids=(given.radio_id, radio_id),
+            radio_ids=(given.transcript.id, radio_id),
         )
 
     def _set_doubt(self, track: Track, doubt: Doubt | None) -> None:

@@ -7,11 +7,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Literal, NamedTuple
+from typing import NamedTuple
 
 from airhilt.assistant.decision.aerodrome import Direction, Strip, Vector
+from airhilt.assistant.decision.findings import RunwayUse
 from airhilt.messages import AdsbReport
-from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE, SECOND_NS, wrap_angle
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE, SECOND_NS
 
 SPEED_MEMORY = 0.6
 """Weight of the earlier speed in the exponential mean; about 1 s at two reports a second."""
@@ -19,7 +20,6 @@ MEMORY_NS = 2 * SECOND_NS
 """Silence after which the mean begins anew, in ns."""
 FINAL_M = 5.0 * NAUTICAL_MILE
 """Length of the final approach that is looked at, in m."""
-ALIGNED_RAD = 15.0 * DEGREE
 FINAL_WIDTH_M = 120.0
 FINAL_WIDENING = 0.08
 """Largest distance from the centre line on final: a width in m plus a share of the distance to the
@@ -124,10 +124,7 @@ class Mobile:
         fresh = Mobile.of(report, point)
         recent = fresh.t_ns - self.t_ns < MEMORY_NS
         keep, keep_slow = (SPEED_MEMORY, SLOW_SPEED_MEMORY) if recent else (0.0, 0.0)
-        if fresh.on_ground:
-            self.landed = self.landed or not self.on_ground
-        else:
-            self.landed = False
+        self.landed = fresh.on_ground and (self.landed or not self.on_ground)
         self.callsign = report.callsign or self.callsign
         self.t_ns, self.point, self.altitude_m = fresh.t_ns, point, fresh.altitude_m
         self.speed_m_s = keep * self.speed_m_s + (1.0 - keep) * fresh.speed_m_s
@@ -138,16 +135,13 @@ class Mobile:
         self.is_vehicle = self.is_vehicle or fresh.is_vehicle
 
 
-Kind = Literal["arrival", "departure", "rollout"]
-
-
 class Use(NamedTuple):
     """Use of a runway by an aircraft, as of the last report."""
 
     mobile: Mobile
     strip: Strip
     direction: Direction
-    kind: Kind
+    kind: RunwayUse
     along_m: float
 
     @property
@@ -188,32 +182,23 @@ def use_of(mobile: Mobile, strips: tuple[Strip, ...]) -> Use | None:
     found: list[tuple[float, Use]] = []
     for strip in strips:
         for direction in strip.directions:
-            across_m = abs(direction.across_m(mobile.point))
-            along_m = direction.along_m(mobile.point)
-            if abs(wrap_angle(mobile.heading_rad - direction.course_rad)) > ALIGNED_RAD:
-                continue
-            kind = (
-                _rolling(mobile, direction, along_m, across_m)
-                if mobile.altitude_m is None
-                else _flying(mobile, mobile.altitude_m, direction, along_m, across_m)
-            )
+            kind = _kind(mobile, direction) if direction.points_along(mobile.heading_rad) else None
             if kind is not None:
-                found.append((across_m, Use(mobile, strip, direction, kind, along_m)))
+                use = Use(mobile, strip, direction, kind, direction.along_m(mobile.point))
+                found.append((abs(direction.across_m(mobile.point)), use))
     return min(found, key=lambda each: each[0])[1] if found else None
 
 
-def _rolling(mobile: Mobile, direction: Direction, along_m: float, across_m: float) -> Kind | None:
-    if mobile.is_vehicle or not mobile.is_rolling:
-        return None
-    if not is_on_pavement(direction, along_m, across_m):
-        return None
-    return "rollout" if mobile.landed else "departure"
-
-
-def _flying(
-    mobile: Mobile, altitude_m: float, direction: Direction, along_m: float, across_m: float
-) -> Kind | None:
-    height_m = altitude_m - direction.elevation_m
+def _kind(mobile: Mobile, direction: Direction) -> RunwayUse | None:
+    """Return how an aircraft uses a runway that it points along; None if it does not."""
+    along_m, across_m = direction.along_m(mobile.point), abs(direction.across_m(mobile.point))
+    if mobile.altitude_m is None:
+        if mobile.is_vehicle or not mobile.is_rolling:
+            return None
+        if not is_on_pavement(direction, along_m, across_m):
+            return None
+        return "rollout" if mobile.landed else "departure"
+    height_m = mobile.altitude_m - direction.elevation_m
     rate = mobile.vertical_rate_m_s
     width_m = FINAL_WIDTH_M + FINAL_WIDENING * max(-along_m, along_m - direction.length_m, 0.0)
     if across_m > width_m or along_m < -FINAL_M:
@@ -240,8 +225,8 @@ def lined_up_on(mobile: Mobile, strip: Strip) -> Direction | None:
     if mobile.is_vehicle or mobile.landed or not mobile.on_ground:
         return None
     for direction in strip.directions:
-        aligned = abs(wrap_angle(mobile.heading_rad - direction.course_rad)) <= ALIGNED_RAD
-        across_m = abs(direction.across_m(mobile.point))
-        if aligned and is_on_pavement(direction, direction.along_m(mobile.point), across_m):
+        along_m, across_m = direction.along_m(mobile.point), abs(direction.across_m(mobile.point))
+        is_aligned = direction.points_along(mobile.heading_rad)
+        if is_aligned and is_on_pavement(direction, along_m, across_m):
             return direction
     return None

@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Collection, Iterable, Iterator, Sequence
-from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -49,19 +48,12 @@ class SeenOnGround(NamedTuple):
     """Its visual tracks, the one with the highest belief first."""
 
 
-@dataclass(frozen=True, slots=True)
-class SeenAloft:
-    """Birds in the air, or an aircraft without transponder.
-
-    Attributes
-    ----------
-    places
-        Positions that it may have; one if cameras tell the distance.
-    """
+class SeenAloft(NamedTuple):
+    """Birds in the air, or an aircraft without transponder."""
 
     are_birds: bool
-
     places: tuple[AirFix, ...]
+    """Positions that it may have; one if cameras tell the distance."""
     velocity: tuple[float, float, float]
     """East, north and up, in m/s; 0 where it is not known."""
     is_located: bool
@@ -75,23 +67,15 @@ def seen_on_ground(
     aloft: Iterable[SeenAloft],
     animals: Collection[VisibleClass],
 ) -> Iterator[SeenOnGround]:
-    """Yield what is on the ground and not known by ADS-B, by falling belief.
-
-    Parameters
-    ----------
-    aloft
-        Bodies that fly, which are left out.
-    animals
-        Labels of animals.
-    """
-    flying = {id(track) for thing in aloft for track in thing.tracks}
-    known: list[tuple[VisualTrack, GroundFix]] = []
-    for track in visual_tracks:
-        if id(track) in flying:
-            continue
-        fix = _ground_fix(track.last, aerodrome)
-        if track.explained_by is None and fix is not None:
-            known.append((track, fix))
+    """Yield what neither flies nor is known by ADS-B, by falling belief."""
+    flying = {track for thing in aloft for track in thing.tracks}
+    known = [
+        (track, fix)
+        for track in visual_tracks
+        if track not in flying
+        and track.explained_by is None
+        and (fix := _ground_fix(track.last, aerodrome)) is not None
+    ]
     known.sort(key=lambda pair: -pair[0].belief)
     while known:
         (first, fix), *known = known
@@ -106,14 +90,8 @@ def seen_on_ground(
             else:
                 rest.append((other, place))
         known = rest
-        yield SeenOnGround(
-            first.label,
-            is_animal,
-            fix,
-            belief_in(together),
-            visual_tracks.shows(together),
-            tuple(together),
-        )
+        belief, is_established = belief_in(together), visual_tracks.shows(together)
+        yield SeenOnGround(first.label, is_animal, fix, belief, is_established, tuple(together))
 
 
 def _ground_fix(observation: Observation, aerodrome: Aerodrome) -> GroundFix | None:
@@ -162,15 +140,15 @@ def seen_aloft(visual_tracks: VisualTracks, aerodrome: Aerodrome) -> Iterator[Se
     flying = [
         s for s in visual_tracks if s.label in ("bird", "airplane") and s.explained_by is None
     ]
-    located: set[int] = set()
+    located: set[VisualTrack] = set()
     for first, second in itertools.combinations(flying, 2):
         if first.camera != second.camera and visual_tracks.shows((first, second)):
             flock = _flock(first, second, aerodrome)
             if flock is not None:
-                located |= {id(first), id(second)}
+                located |= {first, second}
                 yield flock
-    for bird in (track for track in flying if track.label == "bird"):
-        if id(bird) not in located and visual_tracks.shows([bird]):
+    for bird in flying:
+        if bird.label == "bird" and bird not in located and visual_tracks.shows([bird]):
             line = _line(bird.last, aerodrome, bird.last.geometry.foot(bird.last.box))
             if line.ray.up > 2.0 * line.error_rad:
                 places = tuple(_along(bird.last, aerodrome))

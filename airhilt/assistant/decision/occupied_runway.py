@@ -11,14 +11,14 @@ from airhilt.assistant.decision.aerodrome import Strip
 from airhilt.assistant.decision.clearances import Clearance
 from airhilt.assistant.decision.findings import Obstructs
 from airhilt.assistant.decision.ladder import Score
-from airhilt.assistant.decision.leaving import leaving_s
-from airhilt.assistant.decision.mobiles import Mobile, Use
+from airhilt.assistant.decision.mobiles import Use
 from airhilt.assistant.decision.occupancy import SeenOnGround
-from airhilt.assistant.decision.situation import Obstacle, SeenObstacle, WildlifeReport
+from airhilt.assistant.decision.situation import Obstacle, SeenObstacle
 from airhilt.assistant.decision.threats import (
     UNIDENTIFIED,
     WILDLIFE,
     Outlook,
+    RunwayRule,
     Threat,
     obstruction,
 )
@@ -46,26 +46,32 @@ def occupied(outlook: Outlook, use: Use) -> Iterator[Threat]:
         yield from _in_way(outlook, use, obstacle)
     for seen in situation.seen(use.strip):
         yield from _seen_in_way(outlook, use, seen)
-    yield from _unseen(outlook, use)
-    yield from _wildlife(outlook, use)
+    if not use.is_climbing:
+        yield from _unseen(outlook, use)
+        if use.kind != "rollout":
+            yield from _wildlife(outlook, use)
 
 
 def _in_way(outlook: Outlook, use: Use, obstacle: Obstacle) -> Iterator[Threat]:
     """Yield the threat of a mobile on a runway before its user, or about to enter it."""
     other = obstacle.mobile
-    enters = not obstacle.is_inside
     coming = None if other is use.mobile else outlook.coming(use, other.point)
-    if coming is None or (enters and not _enters(outlook, obstacle, use.strip)):
+    if coming is None or not (obstacle.is_inside or _enters(outlook, obstacle, use.strip)):
         return
-    enters = enters and not _has_entered(outlook, obstacle, use.strip)
+    enters = not (obstacle.is_inside or _has_entered(outlook, obstacle, use.strip))
     severity, time_to_go_s = coming
-    clear_s, is_allowed = _clear_s(outlook, obstacle, use), _is_allowed(outlook, other, use.strip)
-    if _is_harmless(outlook, clear_s, is_allowed, severity, time_to_go_s):
+    cleared_to, own = outlook.cleared_to(other.callsign, use.strip), outlook.situation.use(other)
+    is_allowed = other.landed or own is not None or "cross" in cleared_to
+    takes_off = own is not None and own.kind == "departure" and own.strip is use.strip
+    stays = "proceed" in cleared_to and not takes_off
+    leaving_s = None if stays else obstacle.leaving_s(own, use)
+    if leaving_s is not None:
+        leaving_s = max(leaving_s - (outlook.t_ns - other.t_ns) / SECOND_NS, 0.0)
+    if _is_harmless(outlook, leaving_s, is_allowed, severity, time_to_go_s):
         severity = Severity.INFO
     if enters and severity is Severity.WARNING:
         severity = Severity.CAUTION
-    how: Obstructs = "entering" if enters else "on"
-    yield obstruction(use, how, other.callsign, severity, time_to_go_s)
+    yield obstruction(use, "entering" if enters else "on", other.callsign, severity, time_to_go_s)
 
 
 def _seen_in_way(outlook: Outlook, use: Use, seen: SeenObstacle) -> Iterator[Threat]:
@@ -77,49 +83,45 @@ def _seen_in_way(outlook: Outlook, use: Use, seen: SeenObstacle) -> Iterator[Thr
     severity, time_to_go_s = coming
     clearance = _sent_there(outlook, use.strip, thing)
     callsign = None if clearance is None else clearance.callsign
+    radio_ids = () if clearance is None else (clearance.radio_id,)
     sources: tuple[str, ...] = ("vision", "adsb")
-    told: Clearance | WildlifeReport | None = clearance
-    score = None
+    rule: RunwayRule = "occupancy"
+    shares: dict[str, float] = {}
     if seen.is_certain:
         cleared_to = outlook.cleared_to(callsign, use.strip)
         clear_s = None if "proceed" in cleared_to else seen.clear_s
         if _is_harmless(outlook, clear_s, "cross" in cleared_to, severity, time_to_go_s):
             severity = Severity.INFO
-    else:
-        sources = ("adsb", "vision")
-        if thing.is_animal:
-            told = outlook.situation.wildlife_report(use.strip, outlook.t_ns)
-        score = _hint(outlook, seen, told is not None)
-        hinted = score.severity(outlook.config.score)
+    else:  # It is one hint among others: W_A is that somebody uses the runway, W_C that a call
+        # tells of the thing.
+        report = outlook.situation.wildlife_report(use.strip, outlook.t_ns)
+        if thing.is_animal and report is not None:
+            radio_ids = (report.id,)
+        config = outlook.config.score
+        score = Score.of(config, vision=seen.weight, asr=1.0, context=float(bool(radio_ids)))
+        hinted = score.severity(config)
         if hinted is None:
             return
         severity = min(severity, hinted, key=lambda each: each.rank)
-    how, what, unnamed = _named(thing, callsign)
+        sources, rule = ("adsb", "vision"), "score"
+        shares = score.shares(vision=score.vision, adsb=score.asr, radio=score.context)
+    how, what, unnamed = named(thing, callsign)
     yield obstruction(
         use,
         how,
         what,
         severity,
         time_to_go_s,
-        sources if told is None else (*sources, "radio"),
+        (*sources, "radio") if radio_ids else sources,
         unnamed=unnamed,
         tracks=thing.tracks,
-        radio_ids=() if told is None else (told.radio_id,),
-        rule="occupancy" if score is None else "score",
-        shares=score and score.shares(vision=score.vision, adsb=score.asr, radio=score.context),
+        radio_ids=radio_ids,
+        rule=rule,
+        shares=shares,
     )
 
 
-def _hint(outlook: Outlook, seen: SeenObstacle, is_told: bool) -> Score:
-    """Return the score of something that is not certain: one hint among others.
-
-    W_A is that somebody uses the runway, by ADS-B; W_C that a call tells of the thing.
-    """
-    config = outlook.config.score
-    return Score.of(config, vision=seen.weight, asr=1.0, context=float(is_told))
-
-
-def _named(thing: SeenOnGround, callsign: str | None) -> tuple[Obstructs, str, str | None]:
+def named(thing: SeenOnGround, callsign: str | None) -> tuple[Obstructs, str, str | None]:
     """Return how something is in the way, what it is, and a word if it has no callsign."""
     if thing.is_animal:
         return "animal on", str(thing.label), WILDLIFE
@@ -180,10 +182,7 @@ def _has_entered(outlook: Outlook, obstacle: Obstacle, strip: Strip) -> bool:
 def _cannot_stop(obstacle: Obstacle, strip: Strip, errors: float, travelled_m: float) -> bool:
     """Return whether a mobile cannot stop short of a runway after it has travelled a distance.
 
-    Parameters
-    ----------
-    errors
-        Error of its position to be reckoned with, as a share of the 95 % radius.
+    The error of its position is a share, `errors`, of the 95 % radius.
     """
     mobile = obstacle.mobile
     error_m = NACP_95_PERCENT_M[mobile.nacp] * errors
@@ -192,38 +191,14 @@ def _cannot_stop(obstacle: Obstacle, strip: Strip, errors: float, travelled_m: f
     return mobile.speed_m_s > LEAST_ENTRY_M_S and to_line_m + error_m <= braking_m
 
 
-def _clear_s(outlook: Outlook, obstacle: Obstacle, use: Use) -> float | None:
-    """Return the time until a mobile is off the runway or in the air, in s; None if it stays."""
-    mobile = obstacle.mobile
-    own = outlook.situation.use(mobile)
-    takes_off = own is not None and own.kind == "departure" and own.strip is use.strip
-    if not takes_off and "proceed" in outlook.cleared_to(mobile.callsign, use.strip):
-        return None
-    clear_s = leaving_s(obstacle, own, use)
-    if clear_s is None:
-        return None
-    return max(clear_s - (outlook.t_ns - mobile.t_ns) / SECOND_NS, 0.0)
-
-
-def _is_allowed(outlook: Outlook, mobile: Mobile, strip: Strip) -> bool:
-    """Return whether a mobile has landed, takes off, or was cleared to cross a runway."""
-    return (
-        mobile.landed
-        or outlook.situation.use(mobile) is not None
-        or "cross" in outlook.cleared_to(mobile.callsign, strip)
-    )
-
-
 def _unseen(outlook: Outlook, use: Use) -> Iterator[Threat]:
     """Yield the threat of an unseen mobile that was cleared on to the runway."""
-    if use.is_climbing:
+    time_to_go_s = outlook.time_to_go_s(use, use.direction.length_m)
+    if outlook.urgency(use, time_to_go_s) is None:
         return
     for clearance in outlook.cleared_on(use.strip):
         callsign = clearance.callsign
         if clearance.action not in ("cross", "proceed") or outlook.situation.mobile(callsign):
-            continue
-        time_to_go_s = outlook.time_to_go_s(use, use.direction.length_m)
-        if outlook.urgency(use, time_to_go_s) is None:
             continue
         left_ns = clearance.t_end_ns + CROSSING_NS - outlook.t_ns
         if clearance.action == "cross" and left_ns / SECOND_NS <= time_to_go_s:
@@ -243,13 +218,9 @@ def _unseen(outlook: Outlook, use: Use) -> Iterator[Threat]:
 def _wildlife(outlook: Outlook, use: Use) -> Iterator[Threat]:
     """Yield the threat of wildlife that was reported on the runway."""
     report = outlook.situation.wildlife_report(use.strip, outlook.t_ns)
-    if report is None:
-        return
-    if use.kind == "rollout" or use.is_climbing:
-        return
     time_to_go_s = outlook.time_to_go_s(use, use.along_m)
     severity = outlook.urgency(use, time_to_go_s)
-    if severity is not None:
+    if report is not None and severity is not None:
         yield obstruction(
             use,
             "reported on",
@@ -258,6 +229,6 @@ def _wildlife(outlook: Outlook, use: Use) -> Iterator[Threat]:
             time_to_go_s,
             ("adsb", "radio"),
             unnamed=WILDLIFE,
-            radio_ids=(report.radio_id,),
+            radio_ids=(report.id,),
             rule="reported_wildlife",
         )

@@ -13,15 +13,10 @@ from airhilt.messages import AdvisoryKind, Evidence, Recommendation, Severity
 
 @dataclass(frozen=True)
 class Hazard:
-    """Something that is wrong at one instant, and who is to be told.
-
-    Attributes
-    ----------
-    key
-        The same for the same hazard, from one instant to the next.
-    """
+    """Something that is wrong at one instant, and who is to be told."""
 
     key: tuple[str, ...]
+    """The same for the same hazard, from one instant to the next."""
     severity: Severity
     kind: AdvisoryKind
     recipients: tuple[str, ...]
@@ -31,45 +26,19 @@ class Hazard:
     recommendations: Mapping[str, Recommendation] = field(default_factory=dict)
 
 
-@dataclass
-class _Ongoing:
-    """One hazard from first suspicion to its end."""
-
-    hazard: Hazard
-    escalation: Escalation
-
-    def alert(self, *, active: bool) -> Alert:
-        """Return the next alert of it."""
-        hazard = self.hazard
-        return self.escalation.alert(
-            hazard.kind,
-            hazard.recipients,
-            hazard.traffic,
-            hazard.evidence,
-            hazard.finding,
-            hazard.recommendations,
-            active=active,
-        )
-
-
 class RaisedAlerts:
     """Turns hazards into alerts: told once they have lasted, again when they rise, and at the end.
 
-    Parameters
-    ----------
-    name
-        First part of the ids of the alerts.
-    persistence_s
-        Time for which a severity must hold before it is told.
-    release_s
-        Time for which a hazard must be gone before that is told.
+    A severity must hold for ``persistence_s`` before it is told, and a hazard be gone for
+    ``release_s``. The ids of the alerts begin with the name.
     """
 
     def __init__(self, name: str, persistence_s: float, release_s: float) -> None:
         self._name = name
         self._persistence_s = persistence_s
         self._release_s = release_s
-        self._ongoing: dict[tuple[str, ...], _Ongoing] = {}
+        self._ongoing: dict[tuple[str, ...], tuple[Escalation, Hazard]] = {}
+        """Each hazard from first suspicion to its end, as it was last."""
         self._count = 0
 
     @property
@@ -81,33 +50,35 @@ class RaisedAlerts:
         """Return the alerts that are new, have risen, or are over at a time."""
         present: dict[tuple[str, ...], Hazard] = {}
         for hazard in hazards:
-            known = present.get(hazard.key)
-            if known is None or hazard.severity.rank > known.severity.rank:
+            known = present.setdefault(hazard.key, hazard)
+            if hazard.severity.rank > known.severity.rank:
                 present[hazard.key] = hazard
         alerts = []
         for key, hazard in present.items():
-            alerts += self._raise(t_ns, key, hazard)
+            if key not in self._ongoing:
+                self._count += 1
+                self._ongoing[key] = Escalation(f"{self._name}-{self._count}"), hazard
+            escalation, _ = self._ongoing[key]
+            self._ongoing[key] = escalation, hazard
+            if escalation.rises(hazard.severity, t_ns, self._persistence_s):
+                alerts.append(_alert(escalation, hazard, active=True))
         for key in [key for key in self._ongoing if key not in present]:
-            alerts += self._calm(t_ns, key)
+            escalation, hazard = self._ongoing[key]
+            if escalation.severity is None:
+                del self._ongoing[key]
+            elif escalation.is_over(t_ns, self._release_s):
+                del self._ongoing[key]
+                alerts.append(_alert(escalation, hazard, active=False))
         return alerts
 
-    def _raise(self, t_ns: int, key: tuple[str, ...], hazard: Hazard) -> list[Alert]:
-        ongoing = self._ongoing.get(key)
-        if ongoing is None:
-            self._count += 1
-            ongoing = _Ongoing(hazard, Escalation(f"{self._name}-{self._count}"))
-            self._ongoing[key] = ongoing
-        ongoing.hazard = hazard
-        if not ongoing.escalation.rises(hazard.severity, t_ns, self._persistence_s):
-            return []
-        return [ongoing.alert(active=True)]
 
-    def _calm(self, t_ns: int, key: tuple[str, ...]) -> list[Alert]:
-        ongoing = self._ongoing[key]
-        if ongoing.escalation.severity is None:
-            del self._ongoing[key]
-            return []
-        if not ongoing.escalation.is_over(t_ns, self._release_s):
-            return []
-        del self._ongoing[key]
-        return [ongoing.alert(active=False)]
+def _alert(escalation: Escalation, hazard: Hazard, *, active: bool) -> Alert:
+    return escalation.alert(
+        hazard.kind,
+        hazard.recipients,
+        hazard.traffic,
+        hazard.evidence,
+        hazard.finding,
+        hazard.recommendations,
+        active=active,
+    )

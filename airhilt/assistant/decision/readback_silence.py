@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from airhilt.messages import Transcript, TransmissionOpened
 from airhilt.units import SECOND_NS
 
@@ -16,32 +14,23 @@ REMEMBERED_NS = 180 * SECOND_NS
 """Time for which transmissions are remembered, in ns."""
 
 
-@dataclass(slots=True)
-class _Heard:
-    """A transmission: when it began, and when it ended if its words are known."""
-
-    frequency_khz: int
-    t_tx_ns: int
-    t_end_ns: int | None = None
-
-
 class ReadbackSilence:
     """Follows who transmits when; without the openings of transmissions it says nothing."""
 
     def __init__(self) -> None:
-        self._heard: dict[str, _Heard] = {}
+        self._opened: dict[str, TransmissionOpened] = {}
+        self._understood_ns: dict[str, int] = {}
+        """End of each transmission whose words are known."""
 
     def take_opening(self, opened: TransmissionOpened) -> None:
         """Note that a transmission has begun."""
         oldest_ns = opened.t_tx_ns - REMEMBERED_NS
-        self._heard = {name: h for name, h in self._heard.items() if h.t_tx_ns >= oldest_ns}
-        self._heard[opened.id] = _Heard(opened.frequency_khz, opened.t_tx_ns)
+        self._opened = {name: o for name, o in self._opened.items() if o.t_tx_ns >= oldest_ns}
+        self._opened[opened.id] = opened
 
     def take_transcript(self, transcript: Transcript) -> None:
         """Note that the words of a transmission are known."""
-        heard = self._heard.get(transcript.id)
-        if heard is not None:
-            heard.t_end_ns = transcript.t_end_ns
+        self._understood_ns[transcript.id] = transcript.t_end_ns
 
     def is_late(self, instruction: Transcript, t_ns: int) -> bool:
         """Return whether an instruction that nobody has read back should have been by now.
@@ -49,14 +38,15 @@ class ReadbackSilence:
         It is not while somebody transmits, or has transmitted what is not understood yet: that may
         be the readback. Calls between others put it off.
         """
-        if instruction.id not in self._heard:
+        if instruction.id not in self._opened:
             return False
         quiet_since_ns = instruction.t_end_ns
-        for heard in self._heard.values():
-            is_later = heard.t_tx_ns >= instruction.t_end_ns
-            if not is_later or heard.frequency_khz != instruction.frequency_khz:
+        for opened in self._opened.values():
+            is_later = opened.t_tx_ns >= instruction.t_end_ns
+            if not is_later or opened.frequency_khz != instruction.frequency_khz:
                 continue
-            if heard.t_end_ns is None and t_ns - heard.t_tx_ns < UNDECIDED_NS:
+            end_ns = self._understood_ns.get(opened.id)
+            if end_ns is None and t_ns - opened.t_tx_ns < UNDECIDED_NS:
                 return False
-            quiet_since_ns = max(quiet_since_ns, heard.t_end_ns or heard.t_tx_ns)
+            quiet_since_ns = max(quiet_since_ns, end_ns or opened.t_tx_ns)
         return t_ns - quiet_since_ns >= DUE_NS

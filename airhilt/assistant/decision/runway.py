@@ -11,27 +11,28 @@ from airhilt.assistant.decision.assessment import worst, worst_threats
 from airhilt.assistant.decision.clarifications import Clarifications
 from airhilt.assistant.decision.clearance_conflicts import activity_of
 from airhilt.assistant.decision.escalation import Escalation
+from airhilt.assistant.decision.findings import NotReadBack
 from airhilt.assistant.decision.guard import ConfidenceGuard
-from airhilt.assistant.decision.mobiles import Use
-from airhilt.assistant.decision.runway_advice import advice
+from airhilt.assistant.decision.mobiles import Mobile, Use, lined_up_on
 from airhilt.assistant.decision.situation import RunwaySituation
 from airhilt.assistant.decision.threats import RunwayConfig, Snapshot, Threat
 from airhilt.assistant.decision.visual_tracks import VisualTracks
 from airhilt.messages import (
     CONTROLLER,
-    AdsbReport,
     Briefing,
+    CancelTakeoff,
     Evidence,
-    PartialTranscript,
+    GoAround,
+    HoldPosition,
+    Message,
     Recommendation,
     Severity,
-    Transcript,
-    TransmissionOpened,
 )
-from airhilt.phraseology import Call
 
+FIRM_BRAKING_M_S2 = 2.5
+"""Deceleration, in m/s2, within which somebody who can stop short of the pavement is told to."""
 PROVISIONAL = "provisional_instruction"
-"""Name among the rules of an advisory that rests on an instruction of a call that went on."""
+"""Rule of an advisory that rests on an instruction of an unfinished call."""
 Rules = Callable[[RunwaySituation, int], Mapping[tuple[str, ...], Threat]]
 """Rules of an engine: the threats on the runways at a time, each by its key."""
 
@@ -47,18 +48,13 @@ class _Ongoing:
     tracks: tuple[str, ...] = ()
     """Addresses of those in conflict who are known by ADS-B."""
     is_provisional: bool = True
-    """True while it rests on nothing but calls that go on."""
+    """True while it rests on nothing but unfinished calls."""
 
 
 class RunwayWatch:
     """Watches the runways of the airport in the briefing; without one it has nothing to do.
 
-    Parameters
-    ----------
-    guard
-        Tells what is in doubt.
-    rules
-        Rules that find threats; None: those of the reference engine.
+    Without `rules` of its own, it judges by those of the reference engine.
     """
 
     def __init__(
@@ -93,33 +89,16 @@ class RunwayWatch:
         return None if use is None else use.direction.ident
 
     def _use(self, callsign: str) -> Use | None:
-        situation = self._situation
-        mobile = None if situation is None else situation.mobile(callsign)
-        return None if situation is None or mobile is None else situation.use(mobile)
+        uses = {} if self._situation is None else self._situation.uses
+        return next((use for use in uses.values() if use.mobile.callsign == callsign), None)
 
-    def take_briefing(self, briefing: Briefing) -> None:
-        """Set the airport, and who is expected there."""
-        if briefing.airport is not None and briefing.airport.runways:
-            self._situation = RunwaySituation(briefing.airport, briefing, self._guard)
-
-    def take_report(self, report: AdsbReport, t_ns: int) -> None:
-        """Update the position of an aircraft or a vehicle at a time."""
-        if self._situation is not None:
-            self._situation.take_report(report, t_ns)
-
-    def take_opening(self, opened: TransmissionOpened) -> None:
-        """Note that somebody has begun to transmit."""
-        if self._situation is not None:
-            self._situation.take_opening(opened)
-
-    def take_partial(self, partial: PartialTranscript) -> None:
-        """Update the provisional instructions of a call that goes on."""
-        if self._situation is not None:
-            self._situation.take_partial(partial)
-
-    def take_transcript(self, transcript: Transcript) -> Call | None:
-        """Update clearances with a call, and return its meaning; None without an airport."""
-        return None if self._situation is None else self._situation.take_transcript(transcript)
+    def take(self, message: Message, t_ns: int) -> None:
+        """Update the airport, and who and what is there, with one message at a time."""
+        match message:
+            case Briefing(airport=airport) if airport is not None and airport.runways:
+                self._situation = RunwaySituation(airport, message, self._guard)
+            case _ if self._situation is not None:
+                self._situation.take(message, t_ns)
 
     def judge(self, t_ns: int) -> list[Alert]:
         """Return the alerts that are new, have risen, or are over."""
@@ -129,22 +108,19 @@ class RunwayWatch:
         situation.forget(t_ns)
         situation.look(self._visual_tracks)
         threats = self._threats(t_ns, situation)
-        alerts: list[Alert] = []
-        for key, threat in threats.items():
-            alerts += self._raise(t_ns, key, threat, situation)
-        for key in [key for key in self._ongoing if key not in threats]:
-            alerts += self._calm(t_ns, key)
-        return alerts + self._ask(t_ns, situation)
+        raised = [self._raise(t_ns, key, each, situation) for key, each in threats.items()]
+        calmed = [self._calm(t_ns, key) for key in list(self._ongoing) if key not in threats]
+        told = [alert for alert in (*raised, *calmed) if alert is not None]
+        return told + self._ask(t_ns, situation)
 
     def observe(self, t_ns: int) -> None:
-        """Note what is wrong at a time at which nothing is told."""
+        """Update how long each severity has held, without telling anything."""
         threats = {} if self._situation is None else self._threats(t_ns, self._situation)
-        for key, threat in threats.items():
-            if threat.severity is not Severity.INFO:
-                self._ongoing_of(key, threat).escalation.observe(threat.severity, t_ns)
-        for key, ongoing in self._ongoing.items():
-            if key not in threats or threats[key].severity is Severity.INFO:
-                ongoing.escalation.observe(None, t_ns)
+        wrong = {key: each for key, each in threats.items() if each.severity is not Severity.INFO}
+        for key, threat in wrong.items():
+            self._ongoing_of(key, threat).escalation.observe(threat.severity, t_ns)
+        for key in self._ongoing.keys() - wrong.keys():
+            self._ongoing[key].escalation.observe(None, t_ns)
 
     def _threats(self, t_ns: int, situation: RunwaySituation) -> dict[tuple[str, ...], Threat]:
         """Return what is wrong now, by what it is and the addresses of those who are in it.
@@ -160,10 +136,9 @@ class RunwayWatch:
         found = list(self._rules(situation, t_ns).values())
         supposed = situation.supposed(t_ns)
         if supposed is not None:
-            found += [
-                replace(threat, provisional_ids=supposed.radio_ids)
-                for threat in self._rules(supposed.situation, t_ns).values()
-            ]
+            other, radio_ids = supposed
+            threats = self._rules(other, t_ns).values()
+            found += [replace(threat, provisional_ids=radio_ids) for threat in threats]
         return {tuple(sorted(map(address, threat.key))): threat for threat in worst(found).values()}
 
     def _ongoing_of(self, key: tuple[str, ...], threat: Threat) -> _Ongoing:
@@ -179,11 +154,11 @@ class RunwayWatch:
 
     def _raise(
         self, t_ns: int, key: tuple[str, ...], threat: Threat, situation: RunwaySituation
-    ) -> list[Alert]:
+    ) -> Alert | None:
         if threat.severity is Severity.INFO:
             if key in self._ongoing:
                 self._ongoing[key].escalation.stays()
-            return []
+            return None
         ongoing = self._ongoing_of(key, threat)
         if "adsb" in threat.sources:
             known = (situation.mobile(callsign) for callsign in threat.traffic)
@@ -193,7 +168,7 @@ class RunwayWatch:
         has_risen = ongoing.escalation.rises(threat.severity, t_ns, persistence_s)
         is_renamed = bool(ongoing.told) and not ongoing.told.issuperset(threat.parties)
         if not has_risen and not is_renamed:
-            return []
+            return None
         ongoing.told = frozenset(threat.parties)
         severity = ongoing.escalation.severity or threat.severity
         recommendations = {
@@ -203,28 +178,27 @@ class RunwayWatch:
             and (recommended := advice(mobile, threat, severity, situation, self.config))
             is not None
         }
-        return [self._alert(ongoing, recommendations)]
+        return self._alert(ongoing, recommendations)
 
-    def _calm(self, t_ns: int, key: tuple[str, ...]) -> list[Alert]:
+    def _calm(self, t_ns: int, key: tuple[str, ...]) -> Alert | None:
         ongoing = self._ongoing[key]
-        if ongoing.escalation.severity is None:
-            del self._ongoing[key]
-            return []
         # What a call seemed to say, and does not say as a whole, is withdrawn at once.
         release_s = 0.0 if ongoing.is_provisional else self.config.release_s
-        if not ongoing.escalation.is_over(t_ns, release_s):
-            return []
+        was_told = ongoing.escalation.severity is not None
+        if was_told and not ongoing.escalation.is_over(t_ns, release_s):
+            return None
         del self._ongoing[key]
-        return [self._alert(ongoing, {}, active=False)]
+        return self._alert(ongoing, {}, active=False) if was_told else None
 
     def _ask(self, t_ns: int, situation: RunwaySituation) -> list[Alert]:
         """Return questions for what is in doubt about a runway that somebody else uses."""
         snapshot = Snapshot(situation, t_ns)
         alerts: list[Alert] = []
         for doubt in situation.clearances.doubts(t_ns):
-            strip, active = activity_of(snapshot, doubt.callsign, (doubt.said,))
-            if strip is not None and active:
-                alerts += self._clarifications.ask(t_ns, doubt, active[0], strip.name)
+            active = activity_of(snapshot, doubt.callsign, (doubt.said,))
+            if active is not None:
+                strip, traffic = active
+                alerts += self._clarifications.ask(t_ns, doubt, traffic, strip.name)
         return alerts
 
     def _alert(
@@ -236,10 +210,8 @@ class RunwayWatch:
         """Return the alert about a threat; crews and drivers are told from CAUTION on."""
         threat, groups = ongoing.threat, self.config.recipients
         is_for_crews = "concerned" in groups and ongoing.escalation.is_for_crews
-        recipients = (
-            *(threat.parties if is_for_crews else ()),
-            *((CONTROLLER,) if "controller" in groups else ()),
-        )
+        crews = threat.parties if is_for_crews else ()
+        recipients = (*crews, CONTROLLER) if "controller" in groups else crews
         return ongoing.escalation.alert(
             kind=threat.kind,
             recipients=recipients,
@@ -250,12 +222,45 @@ class RunwayWatch:
                 time_to_go_s=threat.time_to_go_s,
                 note=threat.finding.statement(),
                 radio_ids=tuple(dict.fromkeys((*threat.radio_ids, *threat.provisional_ids))),
-                camera_ids=threat.cameras,
+                camera_ids=tuple(sorted({track.camera for track in threat.tracks})),
                 tracks=ongoing.tracks,
-                rules=(*threat.rules, PROVISIONAL) if threat.provisional_ids else threat.rules,
+                rules=(threat.rule, PROVISIONAL) if threat.provisional_ids else (threat.rule,),
                 shares=dict(threat.shares),
             ),
             finding=threat.finding,
             recommendations=recommendations,
             active=active,
         )
+
+
+def advice(
+    mobile: Mobile,
+    threat: Threat,
+    severity: Severity,
+    situation: RunwaySituation,
+    config: RunwayConfig,
+) -> Recommendation | None:
+    """Return what a mobile should do to stay clear.
+
+    On final and while rolling, something is recommended for a WARNING only; on final also if a
+    readback was wrong and time is short, and to whoever was told so and has not answered. One on
+    the ground that does not use a runway stops, unless it is on the pavement or leaves it.
+    """
+    use = situation.use(mobile)
+    if use is not None:
+        is_urgent = severity is Severity.WARNING or isinstance(threat.finding, NotReadBack)
+        if use.kind == "arrival":
+            time_to_go_s = use.time_to_threshold_s(mobile.t_ns)
+            misread = threat.kind == "readback_mismatch" and time_to_go_s <= config.caution_s
+            return GoAround(runway=use.direction.ident) if is_urgent or misread else None
+        if use.kind == "departure" and mobile.on_ground and is_urgent:
+            return CancelTakeoff(runway=use.direction.ident)
+        return None
+    if not mobile.on_ground:
+        return None
+    lined_up = lined_up_on(mobile, threat.strip)
+    if lined_up is not None:
+        return CancelTakeoff(runway=lined_up.ident)
+    braking_m = mobile.speed_m_s**2 / (2.0 * FIRM_BRAKING_M_S2)
+    room_m = threat.strip.room_m(mobile.point, mobile.heading_rad)
+    return HoldPosition(runway=threat.runway) if room_m > braking_m else None

@@ -4,13 +4,19 @@ from __future__ import annotations
 
 import copy
 import math
-from collections.abc import Iterator
 from typing import NamedTuple
 
 from airhilt.assistant.decision.aerodrome import Aerodrome, Strip, Way, way_through
 from airhilt.assistant.decision.clearances import Clearances
 from airhilt.assistant.decision.guard import ConfidenceGuard, call_of
-from airhilt.assistant.decision.mobiles import STANDING_M_S, Mobile, Use, use_of
+from airhilt.assistant.decision.mobiles import (
+    BRAKING_M_S2,
+    STANDING_M_S,
+    TAKEOFF_M_S2,
+    Mobile,
+    Use,
+    use_of,
+)
 from airhilt.assistant.decision.occupancy import (
     SeenAloft,
     SeenOnGround,
@@ -24,6 +30,7 @@ from airhilt.messages import (
     AdsbReport,
     AirportBriefing,
     Briefing,
+    Message,
     PartialTranscript,
     Transcript,
     TransmissionOpened,
@@ -41,14 +48,12 @@ LEAST_CHANCE = 0.2
 """Probability below which something is beside a protected area."""
 CERTAIN_CHANCE = 0.8
 """Probability from which it counts as certain that something is in the area."""
-ACCURATE_NACP = 11
-
-
-class WildlifeReport(NamedTuple):
-    """A call that reports wildlife on a runway."""
-
-    radio_id: str
-    t_end_ns: int
+LIFT_OFF_M_S = 75.0
+"""Speed at which a departure has left the ground, in m/s."""
+TURN_OFF_M_S = 8.0
+"""Speed to which a landing brakes before it turns off, in m/s."""
+TURN_OFF_S = 12.0
+"""Time from then until it has left the runway, in s."""
 
 
 class Obstacle(NamedTuple):
@@ -62,43 +67,39 @@ class Obstacle(NamedTuple):
         """True if it is in the area now."""
         return self.way.entry_m <= 0.0
 
+    def leaving_s(self, own: Use | None, use: Use) -> float | None:
+        """Return the time until it is out of the way of a runway's user, in s; None if it stays.
+
+        It is then off the runway, or in the air. Its own use of a runway is None without one.
+        """
+        mobile, speed = self.mobile, self.mobile.speed_m_s
+        if own is not None and own.kind == "departure" and own.strip is use.strip:
+            follows = own.direction is use.direction
+            return max(LIFT_OFF_M_S - speed, 0.0) / TAKEOFF_M_S2 if follows else None
+        if speed < STANDING_M_S:
+            return None
+        straight_s = self.way.exit_m / speed
+        if not mobile.landed:
+            return straight_s
+        return min(straight_s, max(speed - TURN_OFF_M_S, 0.0) / BRAKING_M_S2 + TURN_OFF_S)
+
 
 class SeenObstacle(NamedTuple):
-    """Something in a protected area that only cameras show.
-
-    Attributes
-    ----------
-    exit_m
-        Distance straight on to where it leaves the area, in m.
-    weight
-        Probability that it is there and in the area.
-    is_certain
-        True if both count as certain.
-    """
+    """Something in a protected area that only cameras show."""
 
     thing: SeenOnGround
     speed_m_s: float
     exit_m: float
+    """Distance straight on to where it leaves the area, in m."""
     weight: float
+    """Probability that it is there and in the area."""
     is_certain: bool
+    """True if both count as certain."""
 
     @property
     def clear_s(self) -> float | None:
         """Time until it has left the area, in s; None if it stands."""
         return self.exit_m / self.speed_m_s if self.speed_m_s >= STANDING_M_S else None
-
-
-class Supposed(NamedTuple):
-    """A situation that rests on calls that go on.
-
-    Attributes
-    ----------
-    radio_ids
-        Ids of the transmissions of these calls.
-    """
-
-    situation: RunwaySituation
-    radio_ids: tuple[str, ...]
 
 
 class RunwaySituation:
@@ -123,9 +124,10 @@ class RunwaySituation:
             strip.name: {} for strip in self.aerodrome.strips
         }
         """Obstacles by runway and address."""
-        self._wildlife: dict[str, WildlifeReport] = {}
+        self._wildlife: dict[str, Transcript] = {}
         """The last report of wildlife, by runway."""
         self.aloft: tuple[SeenAloft, ...] = ()
+        """What only cameras show in the air."""
         self._seen: dict[str, list[SeenObstacle]] = {}
         """Obstacles that only cameras show, by runway."""
 
@@ -141,24 +143,20 @@ class RunwaySituation:
         """Return how a mobile uses a runway, None if it does not."""
         return self.uses.get(mobile.icao24)
 
-    def obstacles(self, strip: Strip) -> Iterator[Obstacle]:
-        """Yield the mobiles on a runway, or with it straight ahead."""
-        yield from self._obstacles[strip.name].values()
+    def obstacles(self, strip: Strip) -> list[Obstacle]:
+        """Return the mobiles on a runway, or with it straight ahead."""
+        return list(self._obstacles[strip.name].values())
 
-    def seen(self, strip: Strip) -> Iterator[SeenObstacle]:
-        """Yield what only cameras show on a runway."""
-        yield from self._seen.get(strip.name, ())
+    def seen(self, strip: Strip) -> list[SeenObstacle]:
+        """Return what only cameras show on a runway."""
+        return self._seen.get(strip.name, [])
 
     def look(self, visual_tracks: VisualTracks) -> None:
         """Update what cameras show on the ground and in the air."""
         self.aloft = tuple(seen_aloft(visual_tracks, self.aerodrome))
         things = list(seen_on_ground(visual_tracks, self.aerodrome, self.aloft, self._animals))
         self._seen = {
-            strip.name: [
-                obstacle
-                for thing in things
-                if (obstacle := self._seen_on(strip, thing)) is not None
-            ]
+            strip.name: [seen for thing in things if (seen := self._seen_on(strip, thing))]
             for strip in self.aerodrome.strips
         }
 
@@ -169,9 +167,7 @@ class RunwaySituation:
             return None
         # Nobody knows where an animal will go: it stands.
         east, north = (0.0, 0.0) if thing.is_animal else velocity_of(thing, self.aerodrome)
-        ahead = way_through(
-            strip.core(ACCURATE_NACP), thing.fix.point, heading_rad=math.atan2(east, north)
-        )
+        ahead = way_through(strip.core(), thing.fix.point, math.atan2(east, north))
         return SeenObstacle(
             thing,
             speed_m_s=math.hypot(east, north),
@@ -180,10 +176,22 @@ class RunwaySituation:
             is_certain=thing.is_established and chance >= CERTAIN_CHANCE,
         )
 
-    def wildlife_report(self, strip: Strip, t_ns: int) -> WildlifeReport | None:
+    def wildlife_report(self, strip: Strip, t_ns: int) -> Transcript | None:
         """Return the report of wildlife on a runway within `WILDLIFE_NS`, None without one."""
         report = self._wildlife.get(strip.name)
         return report if report is not None and t_ns - report.t_end_ns <= WILDLIFE_NS else None
+
+    def take(self, message: Message, t_ns: int) -> None:
+        """Update what is known with one message at a time."""
+        match message:
+            case AdsbReport():
+                self.take_report(message, t_ns)
+            case TransmissionOpened():
+                self.clearances.take_opening(message)
+            case PartialTranscript():
+                self._partial_calls.take(message, self.callsigns)
+            case Transcript():
+                self.take_transcript(message)
 
     def take_report(self, report: AdsbReport, t_ns: int) -> None:
         """Update the position of an aircraft or a vehicle at a time."""
@@ -196,7 +204,7 @@ class RunwaySituation:
             return
         else:
             mobile.update(report, point)
-        mobile.is_vehicle = mobile.is_vehicle or self._roster.get(mobile.callsign, False)
+        mobile.is_vehicle = mobile.is_vehicle or self.is_vehicle(mobile.callsign)
         self._place(mobile)
 
     def _place(self, mobile: Mobile) -> None:
@@ -230,24 +238,15 @@ class RunwaySituation:
                 for obstacles in self._obstacles.values():
                     obstacles.pop(icao24, None)
 
-    def take_opening(self, opened: TransmissionOpened) -> None:
-        """Note that somebody has begun to transmit."""
-        self.clearances.take_opening(opened)
-
     @property
     def callsigns(self) -> list[str]:
         """Callsigns of all who are expected or known by ADS-B, in order."""
-        known = {mobile.callsign for mobile in self._mobiles.values()} | self._roster.keys()
-        return sorted(known)
+        return sorted(self._roster.keys() | {each.callsign for each in self._mobiles.values()})
 
-    def take_partial(self, partial: PartialTranscript) -> None:
-        """Update the provisional instructions of a call that goes on."""
-        self._partial_calls.take(partial, self.callsigns)
+    def supposed(self, t_ns: int) -> tuple[RunwaySituation, tuple[str, ...]] | None:
+        """Return the situation that follows if unfinished calls mean what was heard of them so far.
 
-    def supposed(self, t_ns: int) -> Supposed | None:
-        """Return the situation as it is if calls that go on mean what was heard of them so far.
-
-        None if no such call has a provisional instruction.
+        With it come the ids of these calls; None if none has a provisional instruction.
         """
         calls = self._partial_calls.provisional(t_ns)
         if not calls:
@@ -256,21 +255,20 @@ class RunwaySituation:
         other.clearances = copy.deepcopy(self.clearances)
         for call, heard in calls:
             other.clearances.take(call, heard)
-        return Supposed(other, tuple(heard.id for _, heard in calls))
+        return other, tuple(heard.id for _, heard in calls)
 
-    def take_transcript(self, transcript: Transcript) -> Call:
-        """Update clearances and reports of wildlife with a call, and return its meaning."""
+    def take_transcript(self, transcript: Transcript) -> None:
+        """Update clearances and reports of wildlife with a call."""
         self._partial_calls.end(transcript.id)
         call = call_of(transcript, self.callsigns)
         for said in call.instructions:
             if said.action == "wildlife":
                 for strip in self._reported_on(said.runway, call):
-                    self._wildlife[strip.name] = WildlifeReport(transcript.id, transcript.t_end_ns)
+                    self._wildlife[strip.name] = transcript
             elif said.action == "wildlife_gone" and self._guard.is_certain(said):
                 for strip in self._reported_on(said.runway, call):
                     self._wildlife.pop(strip.name, None)
         self.clearances.take(call, transcript)
-        return call
 
     def _reported_on(self, runway: str | None, call: Call) -> tuple[Strip, ...]:
         """Return the runway named, else the one that the caller uses, else all."""

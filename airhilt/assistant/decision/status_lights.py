@@ -1,4 +1,4 @@
-"""Runway status lights: which red lights are lit, and who has them before the eyes.
+"""Runway status lights: which red lights are lit, and who has them ahead.
 
 Sources
 -------
@@ -17,32 +17,28 @@ every way on to a runway is taken to have entrance lights, and every runway to h
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import Annotated, Literal, NamedTuple
 
 from pydantic import Field
 
 from airhilt.assistant.decision.aerodrome import Aerodrome, Direction, Strip, Vector, way_through
+from airhilt.assistant.decision.findings import RunwayUse
 from airhilt.assistant.decision.mobiles import (
-    ALIGNED_RAD,
     FINAL_WIDENING,
     FINAL_WIDTH_M,
     HEIGHT_ALLOWANCE_M,
     OVERRUN_M,
     STEEPEST,
-    Kind,
 )
 from airhilt.assistant.decision.surface_traffic import MOVING_M_S, SurfaceTraffic, Target
 from airhilt.configuration import Configuration, Seconds
-from airhilt.units import FOOT, KNOT, NAUTICAL_MILE, wrap_angle
+from airhilt.units import FOOT, KNOT, NAUTICAL_MILE
 
 BESIDE_M = 10.0
 """Distance beside the pavement, in m, that still counts as on it: an assumption."""
 Amount = Annotated[float, Field(ge=0.0)]
 """Distance in m, or speed in m/s."""
-ACCURATE_NACP = 11
-"""Accuracy category for which the area of a runway is hardly made smaller."""
 
 
 class StatusLightConfig(Configuration):
@@ -103,29 +99,19 @@ Lights = Literal["entrance", "take-off hold", "intersection"]
 
 
 class RedLights(NamedTuple):
-    """Lights that are lit before somebody's eyes.
-
-    Attributes
-    ----------
-    viewer
-        The target that has them ahead.
-    because
-        The target for which they are lit.
-    runway
-        Direction of the runway that must not be entered or used.
-    is_disregarded
-        True if the viewer moves on against them.
-    can_stop
-        False if the viewer is too near the pavement to stop short of it.
-    """
+    """Red lights that a target has ahead."""
 
     lights: Lights
     viewer: Target
     because: Target
+    """The target for which they are lit."""
     strip: Strip
     runway: str
+    """Direction of the runway that must not be entered or used."""
     is_disregarded: bool
+    """True if the viewer moves on against them."""
     can_stop: bool = True
+    """False if the viewer is too near the pavement to stop short of it."""
 
 
 class _OnRunway(NamedTuple):
@@ -135,11 +121,16 @@ class _OnRunway(NamedTuple):
     strip: Strip
     direction: Direction
     along_m: float
-    kind: Kind
+    kind: RunwayUse
 
     def time_to_s(self, along_m: float) -> float:
         """Return the time until it is somewhere ahead at its present speed, in s."""
         return (along_m - self.along_m) / max(self.target.speed_m_s, 1.0)
+
+    def red(self, lights: Lights, because: Target, *, is_disregarded: bool) -> RedLights:
+        """Return red lights that it has ahead."""
+        ident = self.direction.ident
+        return RedLights(lights, self.target, because, self.strip, ident, is_disregarded)
 
 
 class StatusLights:
@@ -172,62 +163,51 @@ class StatusLights:
         point = target.point_at(t_ns)
         for strip in self._aerodrome.strips:
             for direction in strip.directions:
-                along_m, across_m = direction.along_m(point), abs(direction.across_m(point))
-                if target.is_aloft:
-                    if self._is_on_final(target, direction, along_m, across_m):
-                        yield _OnRunway(target, strip, direction, along_m, "arrival")
-                elif _is_on_pavement(direction, along_m, across_m) and self._points_along(
-                    target, direction, along_m
-                ):
-                    kind: Kind = "rollout" if target.has_landed else "departure"
-                    yield _OnRunway(target, strip, direction, along_m, kind)
+                kind = self._use(target, point, direction)
+                if kind is not None:
+                    yield _OnRunway(target, strip, direction, direction.along_m(point), kind)
 
-    def _points_along(self, target: Target, direction: Direction, along_m: float) -> bool:
-        """Return whether a target on the pavement points down the runway.
+    def _use(self, target: Target, point: Vector, direction: Direction) -> RunwayUse | None:
+        """Return how a target uses a runway; None if it does not.
 
-        One that has not moved yet points down the runway at whose beginning it stands.
+        One on the pavement that has not moved yet points down the runway at whose beginning it
+        stands. One in the air uses it if it is so near before landing that it lights REL.
         """
-        if target.heading_rad is None:
-            return along_m <= self._config.hold_lights_end_m
-        return abs(wrap_angle(target.heading_rad - direction.course_rad)) <= ALIGNED_RAD
-
-    def _is_on_final(
-        self, target: Target, direction: Direction, along_m: float, across_m: float
-    ) -> bool:
-        """Return whether a target in the air is so near before landing that it lights REL."""
-        if target.heading_rad is None or target.altitude_m is None:
-            return False
-        if target.climbs or target.has_taken_off:
-            return False
-        config = self._config
+        along_m, across_m = direction.along_m(point), abs(direction.across_m(point))
+        heading_rad, config = target.heading_rad, self._config
+        if heading_rad is not None and not direction.points_along(heading_rad):
+            return None
+        if target.altitude_m is None:
+            is_at_begin = along_m <= config.hold_lights_end_m
+            if not _is_on_pavement(direction, along_m, across_m):
+                return None
+            if heading_rad is None and not is_at_begin:
+                return None
+            return "rollout" if target.has_landed else "departure"
+        if heading_rad is None or target.climbs or target.has_taken_off:
+            return None
         is_slow = target.speed_m_s < config.slow_arrival_m_s
         within_m = config.slow_arrival_m if is_slow else config.arrival_m
-        height_m = target.altitude_m - direction.elevation_m
-        return (
-            abs(wrap_angle(target.heading_rad - direction.course_rad)) <= ALIGNED_RAD
-            and -within_m <= along_m <= direction.length_m
-            and across_m <= FINAL_WIDTH_M + FINAL_WIDENING * max(-along_m, 0.0)
-            and height_m <= HEIGHT_ALLOWANCE_M + STEEPEST * max(-along_m, 0.0)
+        left_m, height_m = max(-along_m, 0.0), target.altitude_m - direction.elevation_m
+        is_on_final = (
+            -within_m <= along_m <= direction.length_m
+            and across_m <= FINAL_WIDTH_M + FINAL_WIDENING * left_m
+            and height_m <= HEIGHT_ALLOWANCE_M + STEEPEST * left_m
         )
+        return "arrival" if is_on_final else None
 
     def _latch(self, users: list[_OnRunway]) -> None:
         """Update which departures are at speed: from one speed on, until they fall below another.
 
         A rejected take-off is known by that it has been faster.
         """
-        config, present = self._config, set()
+        config, before, self._fastest_m_s = self._config, self._fastest_m_s, {}
         for user in users:
-            if user.kind != "departure":
-                continue
             number, speed = user.target.number, user.target.speed_m_s
-            fastest = self._fastest_m_s.get(number, 0.0)
+            fastest = before.get(number, 0.0)
             is_rejected = speed < config.taxi_m_s < fastest
-            if speed >= config.departure_m_s and not is_rejected:
+            if user.kind == "departure" and speed >= config.departure_m_s and not is_rejected:
                 self._fastest_m_s[number] = max(fastest, speed)
-                present.add(number)
-        self._fastest_m_s = {
-            number: fastest for number, fastest in self._fastest_m_s.items() if number in present
-        }
 
     def _is_fast(self, user: _OnRunway) -> bool:
         if user.kind == "departure":
@@ -242,26 +222,25 @@ class StatusLights:
         """Yield the REL ahead of a target beside a runway."""
         if viewer.heading_rad is None or not fast:
             return
+        config, speed = self._config, viewer.speed_m_s
         point, heading_rad = viewer.point_at(t_ns), viewer.heading_rad
+        needed_m = speed * config.reaction_s + self._braking_m(viewer)
         for strip in self._aerodrome.strips:
             to_pavement_m = strip.room_m(point, heading_rad)
-            area = way_through(strip.core(ACCURATE_NACP), point, heading_rad)
-            if to_pavement_m <= 0.0 or area is None or area.entry_m > self._config.seen_from_m:
+            area = way_through(strip.core(), point, heading_rad)
+            if to_pavement_m <= 0.0 or area is None or area.entry_m > config.seen_from_m:
                 continue
-            entry = Vector(
-                point.east + to_pavement_m * math.sin(heading_rad),
-                point.north + to_pavement_m * math.cos(heading_rad),
-            )
+            entry = point.moved(to_pavement_m, heading_rad)
+            is_disregarded = speed >= MOVING_M_S and area.entry_m <= needed_m
             for user in fast:
                 if user.strip is strip and user.target is not viewer and self._lights(user, entry):
-                    needed_m = self._stopping_m(viewer)
                     yield RedLights(
                         "entrance",
                         viewer,
                         user.target,
                         strip,
                         user.direction.ident,
-                        viewer.speed_m_s >= MOVING_M_S and area.entry_m <= needed_m,
+                        is_disregarded,
                         can_stop=to_pavement_m > needed_m,
                     )
 
@@ -274,10 +253,8 @@ class StatusLights:
         is_slow = user.kind == "rollout" and user.target.speed_m_s < config.rollout_m_s
         return not is_slow or left_s <= config.path_s
 
-    def _stopping_m(self, viewer: Target) -> float:
-        """Return the distance in which somebody reacts and stops, in m."""
-        speed = viewer.speed_m_s
-        return speed * self._config.reaction_s + speed**2 / (2.0 * self._config.braking_m_s2)
+    def _braking_m(self, target: Target) -> float:
+        return target.speed_m_s**2 / (2.0 * self._config.braking_m_s2)
 
     # --- take-off hold lights ---------------------------------------------------------------
 
@@ -291,35 +268,23 @@ class StatusLights:
             if other is user.target or other.is_aloft:
                 continue
             point = other.point_at(t_ns)
-            along_m = user.direction.along_m(point)
-            if along_m > user.along_m and self._obstructs(other, point, user):
-                yield RedLights(
-                    "take-off hold",
-                    user.target,
-                    other,
-                    user.strip,
-                    user.direction.ident,
-                    user.target.is_rolling,
-                )
+            is_ahead = user.direction.along_m(point) > user.along_m
+            if is_ahead and self._obstructs(other, point, user):
+                yield user.red("take-off hold", other, is_disregarded=user.target.is_rolling)
 
     def _obstructs(self, other: Target, point: Vector, user: _OnRunway) -> bool:
         """Return whether a target is on a runway, and stays for a while, or is about to enter."""
         direction, strip = user.direction, user.strip
         along_m, across_m = direction.along_m(point), abs(direction.across_m(point))
-        if _is_on_pavement(direction, along_m, across_m):
-            if other.heading_rad is None or other.speed_m_s < MOVING_M_S:
-                return True
-            way = strip.pavement_way(point, other.heading_rad)
-            return way is not None and way.exit_m / other.speed_m_s > self._config.off_ahead_s
+        is_on = _is_on_pavement(direction, along_m, across_m)
         if other.heading_rad is None or other.speed_m_s < MOVING_M_S:
-            return False
-        area = way_through(strip.core(ACCURATE_NACP), point, other.heading_rad)
-        braking_m = other.speed_m_s**2 / (2.0 * self._config.braking_m_s2)
-        return (
-            area is not None
-            and area.entry_m <= braking_m
-            and strip.room_m(point, other.heading_rad) > 0.0
-        )
+            return is_on
+        way = strip.pavement_way(point, other.heading_rad)
+        if is_on:
+            return way is not None and way.exit_m / other.speed_m_s > self._config.off_ahead_s
+        area = way_through(strip.core(), point, other.heading_rad)
+        is_ahead = way is not None and way.entry_m > 0.0
+        return is_ahead and area is not None and area.entry_m <= self._braking_m(other)
 
     # --- intersection lights ----------------------------------------------------------------
 
@@ -333,20 +298,12 @@ class StatusLights:
             other_m = other.direction.along_m(crossing)
             if own_m <= user.along_m or other_m <= other.along_m:
                 continue
+            rolls_out = user.kind == "rollout"
             apart_s = abs(user.time_to_s(own_m) - other.time_to_s(other_m))
-            if user.kind == "rollout" and not (
-                self._is_fast(user) and apart_s <= self._config.meeting_s
-            ):
+            if rolls_out and (not self._is_fast(user) or apart_s > self._config.meeting_s):
                 continue
-            disregards = user.kind == "rollout" or user.target.is_rolling
-            yield RedLights(
-                "intersection",
-                user.target,
-                other.target,
-                user.strip,
-                user.direction.ident,
-                disregards,
-            )
+            is_disregarded = rolls_out or user.target.is_rolling
+            yield user.red("intersection", other.target, is_disregarded=is_disregarded)
 
 
 def _is_on_pavement(direction: Direction, along_m: float, across_m: float) -> bool:

@@ -86,10 +86,7 @@ class Target:
         if self.heading_rad is None:
             return self.point
         ahead_m = self.speed_m_s * (t_ns - self.t_ns) / SECOND_NS
-        return Vector(
-            self.point.east + ahead_m * math.sin(self.heading_rad),
-            self.point.north + ahead_m * math.cos(self.heading_rad),
-        )
+        return self.point.moved(ahead_m, self.heading_rad)
 
 
 class SurfaceTraffic:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal, get_args
 
@@ -11,15 +11,7 @@ from pydantic import Field, model_validator
 
 from airhilt.assistant.decision.aerodrome import Strip, Vector
 from airhilt.assistant.decision.clearances import Clearance
-from airhilt.assistant.decision.findings import (
-    NotReadBack,
-    Obstruction,
-    Obstructs,
-    Occupied,
-    OpposedClearances,
-    RecipientUnclear,
-    RunwayMisread,
-)
+from airhilt.assistant.decision.findings import Finding, Obstruction, Obstructs
 from airhilt.assistant.decision.ladder import ScoreConfig
 from airhilt.assistant.decision.mobiles import BRAKING_M_S2, Use
 from airhilt.assistant.decision.situation import RunwaySituation
@@ -31,21 +23,13 @@ from airhilt.phraseology import Action
 PAPER_TIME_TO_GO_S = 8.0
 """Time to go in step (b) of the AIRHILT paper's ladder, in s (arXiv 2511.18718)."""
 BEHIND_M = 30.0
-"""Distance behind the user of a runway, in m, from which nobody is in its way."""
+"""What is farther behind the user of a runway than this, in m, is not in its way."""
 STOPPING_MARGIN_M = 100.0
-"""Nobody farther ahead than a landing's stopping distance and this, in m, is in its way."""
+"""Room beyond the stopping distance of a landing, in m. What is farther ahead is not in its way."""
 WILDLIFE = "wildlife"
 """The other party where it is an animal."""
 UNIDENTIFIED = "unidentified"
 """The other party where only cameras show it."""
-
-
-RunwayFinding = (
-    Obstruction | RunwayMisread | NotReadBack | OpposedClearances | RecipientUnclear | Occupied
-)
-"""Findings about runways."""
-
-
 RunwayRule = Literal[
     "readback_mismatch",
     "recipient_ambiguity",
@@ -59,12 +43,8 @@ RunwayRule = Literal[
     "score",
 ]
 """Rules that find threats on runways."""
-RUNWAY_RULES: tuple[RunwayRule, ...] = get_args(RunwayRule)
-
-
 RecipientGroup = Literal["concerned", "controller"]
 """Groups of recipients: the crews and drivers concerned, and the controller."""
-RECIPIENT_GROUPS: tuple[RecipientGroup, ...] = get_args(RecipientGroup)
 
 
 class RunwayConfig(Configuration):
@@ -76,10 +56,11 @@ class RunwayConfig(Configuration):
     """
 
     rules: tuple[RunwayRule, ...] = Field(
-        RUNWAY_RULES, description="rules that are applied, by the names that evidence gives them"
+        get_args(RunwayRule),
+        description="rules that are applied, by the names that evidence gives them",
     )
     recipients: tuple[RecipientGroup, ...] = Field(
-        RECIPIENT_GROUPS,
+        get_args(RecipientGroup),
         min_length=1,
         description="who is told: the crews and drivers concerned, from a CAUTION on, and the "
         "controller; chosen",
@@ -119,49 +100,33 @@ class RunwayConfig(Configuration):
 
 @dataclass(frozen=True, slots=True)
 class Threat:
-    """Something that is wrong on a runway at one instant.
-
-    Attributes
-    ----------
-    key
-        The same for the same conflict, from step to step.
-    severity
-        INFO if the situation is expected to resolve itself, but has not yet.
-    runway
-        The direction that is used.
-    parties
-        Callsigns of those whom it concerns.
-    traffic
-        The parties, and what else is in the way.
-    sources
-        Modalities that it rests on, the decisive one first.
-    radio_ids
-        Ids of the transmissions that it rests on.
-    cameras
-        Names of the cameras that it rests on.
-    rules
-        Names of the rules that were triggered.
-    shares
-        Share of each modality in the judgement; empty where it cannot be told.
-    provisional_ids
-        Ids of unfinished transmissions whose words so far cause the threat or make it more severe.
-    """
+    """Something that is wrong on a runway at one instant."""
 
     key: tuple[str, ...]
+    """The same for the same conflict, from step to step."""
     severity: Severity
+    """INFO if the situation is expected to resolve itself, but has not yet."""
     strip: Strip
     runway: str
+    """The direction that is used."""
     parties: tuple[str, ...]
+    """Callsigns of those whom it concerns."""
     traffic: tuple[str, ...]
-    finding: RunwayFinding
+    """The parties, and what else is in the way."""
+    finding: Finding
+    rule: RunwayRule
     time_to_go_s: float | None = None
     sources: tuple[str, ...] = ("adsb",)
+    """Modalities that it rests on, the decisive one first."""
     kind: Literal["runway_conflict", "readback_mismatch"] = "runway_conflict"
     radio_ids: tuple[str, ...] = ()
-    cameras: tuple[str, ...] = ()
-    rules: tuple[RunwayRule, ...] = ()
+    """Ids of the transmissions that it rests on."""
+    tracks: tuple[VisualTrack, ...] = ()
+    """Visual tracks that it rests on."""
     shares: Mapping[str, float] = field(default_factory=dict)
+    """Share of each modality in the judgement; empty where it cannot be told."""
     provisional_ids: tuple[str, ...] = ()
+    """Ids of unfinished transmissions whose words so far cause it or make it more severe."""
 
 
 class Snapshot:
@@ -197,11 +162,10 @@ class Snapshot:
         time_s = use.time_to_s(max(along_m, use.along_m), self.t_ns)
         return math.inf if time_s is None else time_s
 
-    def cleared_on(self, strip: Strip) -> Iterator[Clearance]:
-        """Yield the clearances in force on to a runway."""
-        for clearance in self.in_force:
-            if self.situation.aerodrome.strip_of(clearance.runway) is strip:
-                yield clearance
+    def cleared_on(self, strip: Strip) -> list[Clearance]:
+        """Return the clearances in force on to a runway."""
+        strip_of = self.situation.aerodrome.strip_of
+        return [each for each in self.in_force if strip_of(each.runway) is strip]
 
     def cleared_to(self, callsign: str | None, strip: Strip) -> set[Action]:
         """Return what somebody is cleared to do on a runway; to cross it, only if that is certain.
@@ -229,8 +193,10 @@ class Outlook(Snapshot):
         None if the user does not come there, or not soon.
         """
         time_to_go_s = self.time_to_point_s(use, point)
-        severity = None if time_to_go_s is None else self.urgency(use, time_to_go_s)
-        return None if severity is None or time_to_go_s is None else (severity, time_to_go_s)
+        if time_to_go_s is None:
+            return None
+        severity = self.urgency(use, time_to_go_s)
+        return None if severity is None else (severity, time_to_go_s)
 
     def urgency(self, use: Use, time_to_go_s: float) -> Severity | None:
         """Return how severe it is that the runway's user finds it occupied."""
@@ -239,11 +205,6 @@ class Outlook(Snapshot):
         if use.kind != "arrival" or time_to_go_s <= self.config.warning_s:
             return Severity.WARNING
         return Severity.CAUTION if time_to_go_s <= self.config.caution_s else None
-
-
-def cameras_of(tracks: Iterable[VisualTrack]) -> tuple[str, ...]:
-    """Return the names of the cameras of some visual tracks."""
-    return tuple(sorted({track.camera for track in tracks}))
 
 
 def obstruction(
@@ -256,7 +217,7 @@ def obstruction(
     *,
     unnamed: str | None = None,
     where: str | None = None,
-    tracks: Iterable[VisualTrack] = (),
+    tracks: tuple[VisualTrack, ...] = (),
     radio_ids: tuple[str, ...] = (),
     rule: RunwayRule = "occupancy",
     shares: Mapping[str, float] | None = None,
@@ -271,14 +232,6 @@ def obstruction(
         `WILDLIFE` or `UNIDENTIFIED` for what has no callsign.
     where
         Runway on which it is; None: the one that is used.
-    tracks
-        Visual tracks that show it.
-    radio_ids
-        Ids of the transmissions that tell of it.
-    rule
-        Rule that found it.
-    shares
-        Share of each modality; empty where it cannot be told.
     """
     own, other, runway = use.mobile.callsign, unnamed or what, use.direction.ident
     return Threat(
@@ -289,10 +242,10 @@ def obstruction(
         parties=(own,) if unnamed else (own, other),
         traffic=(own, other),
         finding=Obstruction(own, use.kind, runway, how, what, where or runway),
+        rule=rule,
         time_to_go_s=time_to_go_s,
         sources=sources,
         radio_ids=radio_ids,
-        cameras=cameras_of(tracks),
-        rules=(rule,),
+        tracks=tracks,
         shares=shares or {},
     )

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import itertools
 import math
-from collections.abc import Iterator
 
 from airhilt.assistant.decision.line_of_sight import BOX_ERROR_PX, PictureGeometry, Ray
 from airhilt.geodesy.wgs84 import offset_m
@@ -34,34 +32,25 @@ OWN_RANGE_M = 30.0
 
 
 class Traffic:
-    """The last report of everybody with a transponder.
-
-    Attributes
-    ----------
-    ground_m
-        Pressure altitude of the ground, in m; None while it is not known.
-    """
+    """The last report of everybody with a transponder."""
 
     def __init__(self) -> None:
         self.ground_m: float | None = None
+        """Pressure altitude of the ground, in m; None while it is not known."""
         self._reports: dict[str, AdsbReport] = {}
         self._heard_ns: dict[str, int] = {}
-        """Time of the last report of each, the longest silent first."""
 
     def take_report(self, report: AdsbReport, t_ns: int) -> None:
         """Keep the last report of an aircraft or a vehicle, which arrived at a time."""
-        self._heard_ns.pop(report.icao24, None)
         self._heard_ns[report.icao24] = t_ns
         self._reports[report.icao24] = report
 
     def forget(self, t_ns: int) -> None:
         """Forget those of whom nothing arrived for a while."""
-        heard_ns = self._heard_ns
-        silent = list(itertools.takewhile(lambda who: t_ns - heard_ns[who] > STALE_NS, heard_ns))
-        for icao24 in silent:
-            stale_ns = STALE_ON_GROUND_NS if self._reports[icao24].on_ground else STALE_NS
-            if t_ns - heard_ns[icao24] > stale_ns:
-                del self._reports[icao24], heard_ns[icao24]
+        for icao24, report in list(self._reports.items()):
+            stale_ns = STALE_ON_GROUND_NS if report.on_ground else STALE_NS
+            if t_ns - self._heard_ns[icao24] > stale_ns:
+                del self._reports[icao24], self._heard_ns[icao24]
 
     def carrier(self, view: CameraView) -> AdsbReport | None:
         """Return the last report of the carrier of a camera, None if there is none."""
@@ -80,15 +69,11 @@ class Traffic:
 
     def explaining(self, geometry: PictureGeometry, box: Box, t_ns: int) -> str | None:
         """Return the callsign of whoever should be seen where a box is; None if nobody."""
-        for report in self._others(geometry.view):
-            if self._fits(report, geometry, box, t_ns):
+        for report in self._reports.values():
+            is_carrier = _name(report) == geometry.view.carrier
+            if not is_carrier and self._fits(report, geometry, box, t_ns):
                 return _name(report)
         return None
-
-    def _others(self, view: CameraView) -> Iterator[AdsbReport]:
-        for report in self._reports.values():
-            if view.carrier is None or _name(report) != view.carrier:
-                yield report
 
     def _fits(self, report: AdsbReport, geometry: PictureGeometry, box: Box, t_ns: int) -> bool:
         view, age_s = geometry.view, _age_s(report, t_ns)
@@ -104,9 +89,10 @@ class Traffic:
         range_m = math.hypot(north_m, east_m, up_m or 0.0)
         if range_m < OWN_RANGE_M:
             return False
-        # Without a height, the direction alone counts.
-        level_up = up_m if up_m is not None else math.hypot(north_m, east_m) * _slope(geometry, box)
-        place = geometry.pixel(Ray.towards(east_m, north_m, level_up))
+        if up_m is None:  # The direction alone counts.
+            slope = math.tan(geometry.middle(box).elevation_rad)
+            up_m = math.hypot(north_m, east_m) * slope
+        place = geometry.pixel(Ray.towards(east_m, north_m, up_m))
         if place is None:
             return False
         half_size_m = HALF_SIZE_M.get(report.emitter_category, UNKNOWN_HALF_SIZE_M)
@@ -131,10 +117,6 @@ class Traffic:
             return None
         climbed_m = report.vertical_rate_fpm * FOOT_PER_MINUTE * age_s
         return report.altitude_ft * FOOT + climbed_m - self.ground_m
-
-
-def _slope(geometry: PictureGeometry, box: Box) -> float:
-    return math.tan(geometry.middle(box).elevation_rad)
 
 
 def _age_s(report: AdsbReport, t_ns: int) -> float:

@@ -6,7 +6,6 @@ from airfield import NORTH, Airfield, Mover, drives, lands
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.engine_families import ASSISTANTS
-from encounters import head_on
 
 
 def adsb_only() -> DecisionWorker:
@@ -16,13 +15,6 @@ def adsb_only() -> DecisionWorker:
 def test_it_hears_and_sees_nothing() -> None:
     keys = {wanted.key for wanted in adsb_only().description.inputs}
     assert keys == {"briefing", "adsb/*"}
-
-
-def test_it_warns_of_a_loss_of_separation_as_reference_does() -> None:
-    encounter = head_on(240.0)
-    told = head_on(240.0).fly().severities("ATC")
-    encounter.worker = adsb_only()
-    assert encounter.fly().severities("ATC") == told
 
 
 def test_it_warns_of_a_vehicle_on_the_runway_of_an_arrival() -> None:

@@ -25,24 +25,6 @@ def test_an_alert_that_holds_is_told_once() -> None:
     assert not ledger.update([later])
 
 
-def test_what_changes_is_told_with_a_higher_revision() -> None:
-    ledger = AlertLedger()
-    ledger.update([ALERT])
-    worse = replace(ALERT, severity=Severity.WARNING)
-    advised = replace(worse, recommendations={"AAL1": GoAround(runway="01")})
-    assert ledger.update([worse]) == [replace(worse, revision=1)]
-    assert ledger.update([advised]) == [replace(advised, revision=2)]
-
-
-def test_what_is_missing_is_over_and_may_come_back() -> None:
-    ledger = AlertLedger()
-    ledger.update([ALERT])
-    (over,) = ledger.update([])
-    assert (over.active, over.revision, over.severity) == (False, 1, Severity.INFO)
-    assert not ledger.update([])
-    assert ledger.update([ALERT]) == [replace(ALERT, revision=2)]
-
-
 def test_what_holds_may_be_told_again_though_nothing_has_changed() -> None:
     ledger = AlertLedger()
     ledger.update([ALERT])
@@ -53,19 +35,23 @@ def test_what_holds_may_be_told_again_though_nothing_has_changed() -> None:
 @pytest.mark.parametrize(
     "changed",
     [
+        {"severity": Severity.WARNING},
         {"kind": "readback_mismatch"},
         {"recipients": ("AAL1",)},
         {"traffic": ("AAL1", "DAL2")},
         {"recommendations": {"AAL1": GoAround(runway="01")}},
     ],
 )
-def test_whoever_or_whatever_it_concerns_is_news(changed: dict[str, Any]) -> None:
+def test_whoever_or_whatever_it_concerns_is_told_with_a_higher_revision(
+    changed: dict[str, Any],
+) -> None:
     ledger = AlertLedger()
     ledger.update([ALERT])
-    assert len(ledger.update([replace(ALERT, **changed)])) == 1
+    news = replace(ALERT, **changed)
+    assert ledger.update([news]) == [replace(news, revision=1)]
 
 
-def test_what_is_over_is_told_without_recommendations_and_holds_no_more() -> None:
+def test_what_is_over_is_told_without_recommendations_and_may_come_back() -> None:
     ledger = AlertLedger()
     other = replace(ALERT, id="b")
     advised = replace(
@@ -73,9 +59,11 @@ def test_what_is_over_is_told_without_recommendations_and_holds_no_more() -> Non
     )
     ledger.update([advised, other])
     assert set(ledger.holding()) == {"a", "b"}
-    (over,) = ledger.update([other])
-    assert (over.id, over.recommendations, over.messages) == ("a", {}, {})
+    over = replace(ALERT, revision=1, severity=Severity.INFO, active=False)
+    assert ledger.update([other]) == [over]
     assert set(ledger.holding()) == {"b"}
+    assert not ledger.update([other])
+    assert ledger.update([advised, other]) == [replace(advised, revision=2)]
 
 
 # --- hazards that are judged anew each time -------------------------------------------------

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from airfield import NORTH, Airfield, Mover, drives, lands, stands, takes_off
+from airfield import NORTH, Airfield, Mover, lands, takes_off
 from airhilt.assistant.decision.engines.reference import ReferenceConfig
 from airhilt.assistant.decision.guard import call_of
 from airhilt.messages import Advisory, Confirm, Transcript
@@ -17,8 +17,6 @@ RIGHT = (26.0, "Cleared to land runway zero one, American one two three.")
 WRONG = (26.0, "Cleared to land runway one niner, American one two three.")
 UNSURE_WRONG = (26.0, "Cleared to land runway one? niner, American one two three.")
 UNSURE_NAME = (20.0, "American? one? two? three?, runway zero one, cleared to land.")
-CROSS = "Ops one, cross runway zero one."
-CROSSES = "Crossing runway zero one, Ops one."
 
 
 def field(*calls: tuple[float, str], tau_asr: float = 0.8, is_busy: bool = True) -> Airfield:
@@ -75,10 +73,6 @@ def test_what_is_read_back_as_it_was_heard_needs_no_question(unsure: tuple[float
     assert field(unsure, RIGHT).run(45).told == []
 
 
-def test_an_unsure_instruction_that_nobody_reads_back_is_asked_for() -> None:
-    assert questions(field(UNSURE_CLEARED).run(45)) == [(25.0, "AAL123", "runway")]
-
-
 def test_an_instruction_of_which_only_the_name_is_unsure_is_not_misaddressed() -> None:
     other = (26.0, "Cleared to land runway zero one, Delta four five six.")
     airfield = field(UNSURE_NAME, other).run(40)
@@ -103,12 +97,6 @@ def test_the_same_wrong_runway_heard_again_is_told_though_each_call_is_unsure() 
     airfield = field(CLEARED, UNSURE_WRONG, SAY_AGAIN, again, tau_asr=TWICE_IS_ENOUGH).run(50)
     assert {each.t_ready_ns for each in mismatches(airfield)} == {36 * 10**9}
     assert questions(airfield) == [(26.0, "AAL123", "runway")]
-
-
-def test_two_wrong_runways_do_not_confirm_each_other() -> None:
-    other = (36.0, "Cleared to land runway one? five, American one two three.")
-    airfield = field(CLEARED, UNSURE_WRONG, SAY_AGAIN, other, tau_asr=TWICE_IS_ENOUGH).run(50)
-    assert mismatches(airfield) == []
 
 
 @pytest.mark.parametrize("first", [UNSURE_CLEARED[1], CLEARED[1]], ids=["unsure", "sure"])
@@ -141,24 +129,6 @@ def test_each_time_it_is_asked_for_a_readback_has_half_a_minute(asked_s: tuple[f
 
 HOLD = (20.0, "American one two three, hold short of runway zero one.")
 HOLDS = (26.0, "Holding short of runway zero one, American one two three.")
-
-
-@pytest.mark.parametrize(
-    "between",
-    [
-        [(60.0, "Ground, American one two three, request taxi via alpha.")],
-        [(60.0, "American one two three, request taxi via alpha.")],
-        [(60.0, "American one two three, wind two seven zero at eight.")],
-        [],
-    ],
-    ids=["request", "request that begins with the callsign", "information", "nothing"],
-)
-def test_say_again_of_something_else_is_no_missing_readback(
-    between: list[tuple[float, str]],
-) -> None:
-    answer = (70.0, "American one two three, request taxi via alpha.")
-    airfield = field(HOLD, HOLDS, *between, (64.0, SAY_AGAIN[1]), answer).run(100)
-    assert mismatches(airfield) == []
 
 
 LINES_UP = "Lining up runway zero one, American one two three."
@@ -204,11 +174,6 @@ def test_a_readback_that_was_asked_for_again_belongs_to_the_instruction_before(
     assert "01" in told.message
 
 
-def test_the_right_readback_that_was_asked_for_again_is_no_cause_for_alarm() -> None:
-    airfield = field(CLEARED, UNSURE_WRONG, SAY_AGAIN, (36.0, RIGHT[1])).run(60)
-    assert mismatches(airfield) == []
-
-
 def test_after_a_new_instruction_a_readback_belongs_to_that() -> None:
     changed = (34.0, "American one two three, runway one niner, cleared to land.")
     airfield = field(CLEARED, UNSURE_WRONG, SAY_AGAIN, changed, (40.0, WRONG[1])).run(60)
@@ -225,74 +190,18 @@ def test_a_crew_that_asks_for_it_again_is_not_overtaken_by_the_question(asking: 
     assert questions(field(UNSURE_CLEARED, asked).run(45)) == []
 
 
-def crossing(*calls: tuple[float, str]) -> Airfield:
-    """A vehicle crosses the runway well before an arrival, cleared or not."""
-    movers = [
-        Mover("AAL123", NORTH, lands(95)),
-        Mover("OPS1", NORTH, drives(30.0), category="C2"),
-    ]
-    return Airfield(movers, list(calls), openings_are_heard=True).run(80)
-
-
-def test_an_unsure_clearance_to_cross_makes_it_right_for_nobody() -> None:
-    assert "WARNING" not in [
-        each.severity for each in crossing((24.0, CROSS), (28.0, CROSSES)).to("ATC")
-    ]
-    unsure = crossing((24.0, "Ops one, cross? runway zero one."))
-    without = crossing()
-    assert [each.severity for each in unsure.to("AAL123")] == [
-        each.severity for each in without.to("AAL123")
-    ]
-
-
-def test_an_unsure_clearance_of_somebody_unseen_is_a_caution_all_the_same() -> None:
-    calls = [(40.0, "Ops one, proceed? onto runway zero one.")]
-    airfield = Airfield([Mover("AAL123", NORTH, lands(95))], calls).run(60)
-    assert airfield.first("CAUTION")[0] >= 40.0
-
-
-def test_an_unsure_instruction_to_hold_withdraws_no_clearance() -> None:
-    def is_over(hold: str) -> bool:
-        calls = [(36.0, "Ops one, proceed onto runway zero one."), (40.0, f"Ops one, {hold}.")]
-        airfield = Airfield([Mover("AAL123", NORTH, lands(95))], calls).run(60)
-        return not airfield.to("AAL123")[-1].active
-
-    assert is_over("hold short of runway zero one")
-    assert not is_over("hold? short? of runway zero one")
-
-
-def test_unsure_news_that_wildlife_is_gone_does_not_clear_a_runway() -> None:
-    def warned(gone: str) -> bool:
-        deer = (30.0, "Tower, Delta four five six, deer on runway zero one.")
-        calls = [deer, (50.0, f"Tower, Delta four five six, {gone}.")]
-        airfield = Airfield([Mover("AAL123", NORTH, lands(110))], calls).run(85)
-        return any(each.severity == "WARNING" for each in airfield.to("AAL123"))
-
-    assert not warned("the deer are gone from runway zero one")
-    assert warned("the deer are gone? from runway zero one")
-
-
-CLIMB = (20.0, 25.0, "American one two three, climb and maintain flight level three three zero.")
-
-
-def climbing(read_back: str, seconds: float = 60.0) -> Encounter:
+def test_a_level_that_is_wrong_where_it_is_unsure_is_asked_for_and_not_told() -> None:
     flights = [
         Flight("AAL123", "a1b2c3", 90.0, 30.7, 31_000),
         Flight("DAL456", "a4d5e6", 270.0, 30.7, 34_000),
     ]
-    text = f"Climb and maintain flight level {read_back}, American one two three."
-    return Encounter(flights, seconds, calls=[CLIMB, (26.0, 31.0, text)]).fly()
-
-
-def test_a_level_that_is_wrong_where_it_is_unsure_is_asked_for_and_not_told() -> None:
-    encounter = climbing("three four? zero")
+    calls = [
+        (20.0, 25.0, "American one two three, climb and maintain flight level three three zero."),
+        (26.0, 31.0, "Climb and maintain flight level three four? zero, American one two three."),
+    ]
+    encounter = Encounter(flights, 60.0, calls=calls).fly()
     assert questions(encounter) == [(31.0, "AAL123", "altitude")]
     assert mismatches(encounter) == []
-
-
-@pytest.mark.parametrize("read_back", ["three three? zero", "three three zero"])
-def test_a_level_that_agrees_is_believed(read_back: str) -> None:
-    assert climbing(read_back).told == []
 
 
 def test_without_words_the_confidence_in_the_whole_stands_for_each() -> None:
@@ -302,10 +211,3 @@ def test_without_words_the_confidence_in_the_whole_stands_for_each() -> None:
     )  # fmt: skip
     call = call_of(heard, ["AAL123"])
     assert call.match.score == call.instructions[0].confidence == 0.3
-
-
-def test_standing_traffic_is_no_reason_to_ask_about_what_is_known_already() -> None:
-    movers = [Mover("AAL123", NORTH, lands(160)), Mover("DAL456", NORTH, stands(50.0))]
-    again = (34.0, UNSURE_CLEARED[1])
-    airfield = Airfield(movers, [CLEARED, RIGHT, again], openings_are_heard=True).run(50)
-    assert questions(airfield) == []

@@ -98,9 +98,14 @@ def test_each_has_clearances_of_their_own_until_they_are_used() -> None:
     assert [name for name, *_ in heard.in_force(9.0)] == ["DAL456"]
 
 
-def test_a_report_of_animals_leaves_clearances_as_they_are() -> None:
-    heard = Frequency((3.0, CLEARED), (9.0, "American one two three, deer on runway zero one."))
-    assert [name for name, *_ in heard.in_force(10.0)] == ["AAL123"]
+@pytest.mark.parametrize(
+    "words",
+    ["deer on runway zero one", "ident, maintain visual separation",
+     "expect departure runway one niner"],
+)  # fmt: skip
+def test_what_is_no_clearance_leaves_clearances_as_they_are(words: str) -> None:
+    heard = Frequency((3.0, CLEARED), (9.0, f"American one two three, {words}."))
+    assert heard.in_force(10.0) == [("AAL123", "cleared_to_land", "01", True)]
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,13 @@ from typing import Any
 
 import pytest
 
+from airfield import NORTH, Airfield, Mover, lands, stands
+from airhilt.assistant.decision.engines.surf_a import SurfaceAlertConfig, predicted_collisions
 from airhilt.assistant.decision.raised_alerts import Hazard
-from airhilt.assistant.decision.surface_alerts import SurfaceAlertConfig, predicted_collisions
+from airhilt.assistant.decision.worker import DecisionWorker
+from airhilt.assistant.wording.engines.template import Template
+from airhilt.engine_families import ASSISTANTS
+from airhilt.errors import AirhiltError
 from airhilt.messages import AdsbReport, CancelTakeoff, GoAround, Severity
 from instants import Field, arrival, at, landed, report
 
@@ -177,3 +182,33 @@ def test_the_hazard_names_the_two_and_where_the_other_is() -> None:
     assert len(set(found.evidence.tracks)) == 2
     (enters,) = collisions(departure(), truck(500.0, CORE_M + 10.0, 10.0))
     assert enters.evidence.note == "OPS1 is about to enter runway 01"
+
+
+# --- the engine -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("name", "from_severity"), [("surf_a", 1), ("surf_a:caution", 0)])
+def test_the_crew_alone_is_told_what_is_there_and_goes_around_from_a_severity_on(
+    name: str, from_severity: int
+) -> None:
+    movers = [
+        Mover("AAL123", NORTH, lands(90.0)),
+        Mover("OPS1", NORTH, stands(800.0), category="C2"),
+    ]
+    worker = DecisionWorker(ASSISTANTS.create(name), Template())
+    field = Airfield(movers, worker=worker).run(95.0)
+    assert {told.recipient for _, told in field.told} == {"AAL123"}
+    told = [told for _, told in field.told]
+    assert [each.severity for each in told] == ["CAUTION", "WARNING"]
+    for number, each in enumerate(told):
+        action = "go around, " if number >= from_severity else ""
+        assert each.message.startswith(f"AAL123 {action}OPS1 is on runway 01")
+        assert each.evidence.sources == ("adsb",)
+        assert len(each.evidence.tracks) == 2
+
+
+def test_thresholds_out_of_order_and_severities_without_alerts_are_refused_by_name() -> None:
+    with pytest.raises(AirhiltError, match="warning_s is 15; expected at most caution_s, 10"):
+        ASSISTANTS.create("surf_a", configuration={"caution_s": 10.0})
+    with pytest.raises(AirhiltError, match="'surf_a:info': expected surf_a:caution or surf_a:warn"):
+        ASSISTANTS.create("surf_a:info")

@@ -8,17 +8,15 @@ from typing import Any, cast
 
 import pytest
 
-from airfield import BRIEFING, ELEVATION_M, HOLD_M, NORTH, degrees
 from airhilt.assistant.decision.alerts import Alert
 from airhilt.assistant.decision.engine import Decision, ReceivedMessage
 from airhilt.assistant.decision.engines.llm import LanguageModelAssistant
-from airhilt.assistant.decision.engines.runway_status_lights import RunwayStatusLightEngine
 from airhilt.assistant.decision.engines.well_clear import WellClearEngine
 from airhilt.assistant.language_model import LanguageModel
 from airhilt.errors import LanguageModelError
 from airhilt.geodesy.local_frame import LocalFrame
-from airhilt.messages import AdsbReport, Message, Severity, SurfaceTrack, Transcript, Turn
-from airhilt.units import DEGREE, FOOT, KNOT, SECOND_NS
+from airhilt.messages import AdsbReport, Message, Severity, Transcript, Turn
+from airhilt.units import DEGREE, KNOT, SECOND_NS
 
 FRAME = LocalFrame((38.9 * DEGREE, -77.0 * DEGREE))
 
@@ -92,52 +90,6 @@ def test_a_pair_with_an_alert_is_judged_again_each_second_without_news() -> None
     told = [alert for t_s in range(121, 160) for alert in engine.decide(at(float(t_s))).alerts]
     assert [alert.severity for alert in told] == [Severity.WARNING]
     assert told[0].revision == 1
-
-
-# --- runway status lights ---------------------------------------------------------------------
-
-
-def surface(
-    track: int, along_m: float, across_m: float, *, speed_m_s: float = 0.0, turned_deg: float = 0.0,
-    height_m: float | None = None, t_s: float = 0.0, callsign: str | None = None,
-) -> SurfaceTrack:  # fmt: skip
-    latitude, longitude = degrees(NORTH.local(along_m, across_m))
-    return SurfaceTrack.model_validate(
-        {
-            "airport": "XFLD", "track": track, "kind": "combined", "accuracy_m": 7.5,
-            "t_track_ns": at(t_s), "latitude_deg": latitude, "longitude_deg": longitude,
-            "altitude_ft": None if height_m is None else (ELEVATION_M + height_m) / FOOT,
-            "on_ground": height_m is None, "ground_speed_kt": speed_m_s / KNOT,
-            "track_deg": (NORTH.course_deg + turned_deg) % 360.0,
-            "icao24": None, "callsign": callsign,
-        }
-    )  # fmt: skip
-
-
-def test_red_lights_before_one_are_one_alert_whoever_lights_them() -> None:
-    """One arrival after the other; the driver has come up to the line before."""
-    engine = RunwayStatusLightEngine()
-    assert engine.decide(0) == Decision()
-    give(engine, 0.0, BRIEFING)
-    waits: Any = {"callsign": "OPS1", "turned_deg": -90.0}
-    give(engine, 0.0, surface(9, 800.0, HOLD_M + 20.0, speed_m_s=4.0, **waits))
-    told: list[Alert] = []
-    before: set[int] = set()
-    for t_s, arrivals in ((1.0, (1,)), (2.0, (1, 2)), (3.0, (2,)), (9.0, ())):
-        lands = [
-            surface(n, -900.0, 0.0, speed_m_s=70.0, height_m=60.0, t_s=t_s, callsign=f"AAL{n}")
-            for n in arrivals
-        ]
-        gone = [
-            surface(n, 5000.0, 900.0, t_s=t_s, callsign=f"AAL{n}") for n in before - {*arrivals}
-        ]
-        give(engine, t_s, surface(9, 800.0, HOLD_M + 5.0, t_s=t_s, **waits), *lands, *gone)
-        told += engine.decide(at(t_s)).alerts
-        before |= {*arrivals}
-    told += engine.decide(at(10.0)).alerts
-    assert [(alert.id, alert.active) for alert in told] == [("lights-1", True), ("lights-1", False)]
-    assert told[0].recipients == ("OPS1",)
-    assert told[0].traffic == ("OPS1", "AAL1")
 
 
 # --- a language model -------------------------------------------------------------------------

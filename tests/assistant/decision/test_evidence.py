@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from airfield import NORTH, Airfield, Mover, drives, lands, stands, takes_off
+from airfield import NORTH, Airfield, Mover, lands, stands, takes_off
 from airhilt.assistant.decision.engines.paper import PaperEngine
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
@@ -26,7 +26,9 @@ def paper() -> DecisionWorker:
 @pytest.mark.parametrize("engine", [reference, paper])
 def test_a_wrong_readback_names_both_calls_and_the_tracks(engine: type) -> None:
     movers = [Mover("AAL123", NORTH, lands(400.0)), Mover("DAL456", NORTH, takes_off(999.0))]
-    _, told = Airfield(movers, MISREAD, engine()).run(30).first("CAUTION", "readback_mismatch")
+    field = Airfield(movers, MISREAD, engine()).run(30)
+    told_s, told = field.first("CAUTION", "readback_mismatch")
+    assert (told_s, told.recipients) == (25.0, ("AAL123", "ATC"))
     assert told.evidence.radio_ids == ("0", "1")
     assert told.evidence.tracks == (movers[0].icao24, movers[1].icao24)
     assert told.evidence.rules == ("readback_mismatch",)
@@ -43,21 +45,6 @@ def test_what_cameras_show_names_them(engine: type) -> None:
     assert told.evidence.tracks == (movers[0].icao24,)
     assert told.evidence.rules == ("occupancy",)
     assert told.evidence.time_to_go_s is not None
-
-
-def test_a_clearance_on_to_the_runway_names_its_call() -> None:
-    calls = [(20.0, "Ops one, proceed onto runway zero one for inspection.")]
-    movers = [Mover("AAL123", NORTH, lands(70.0)), silent(stands(800))]
-    _, told = Airfield(movers, calls).run(30).first("CAUTION")
-    assert told.evidence.rules == ("cleared_on",)
-    assert told.evidence.radio_ids == ("0",)
-
-
-def test_a_vehicle_by_ads_b_alone_rests_on_no_call() -> None:
-    movers = [Mover("AAL123", NORTH, lands(90)), Mover("OPS1", NORTH, drives(40), 90.0, "C2")]
-    evidence = Airfield(movers).run(80).first("CAUTION")[1].evidence
-    assert (evidence.radio_ids, evidence.camera_ids) == ((), ())
-    assert len(evidence.tracks) == 2
 
 
 def test_a_score_tells_the_share_of_each_modality() -> None:

@@ -6,12 +6,13 @@ from typing import Any
 
 import pytest
 
-from airhilt.assistant.decision.adsb_consistency import AdsbConsistency, is_possible
+from airfield import FIELD
 from airhilt.assistant.decision.alerts import Alert
-from airhilt.assistant.decision.input_checks import InputChecks
+from airhilt.assistant.decision.input_checks import InputChecks, is_possible
 from airhilt.geodesy.wgs84 import displaced
-from airhilt.messages import AdsbReport, Evidence, Severity, Transcript
+from airhilt.messages import AdsbReport, CameraInfo, Detections, Evidence, Severity, Transcript
 from airhilt.units import DEGREE, KNOT, SECOND_NS
+from projected import Camera, standing
 
 
 def at(t_s: float) -> int:
@@ -72,36 +73,35 @@ def test_nobody_climbs_or_descends_faster_than_32_576_ft_min(apart_s: float) -> 
     assert is_possible(report(altitude_ft=None), report(altitude_ft=40_000.0))
 
 
+ELSEWHERE: dict[str, Any] = {"north_m": 50_000.0, "callsign": "DAL456"}
+
+
 def test_the_place_that_was_known_first_is_kept_while_reports_of_it_arrive() -> None:
-    known = AdsbConsistency()
-    elsewhere: dict[str, Any] = {"north_m": 50_000.0, "callsign": "DAL456"}
-    assert known.contradiction(report(), at(0.0)) == ()
+    checks = InputChecks()
+    assert checks.believes_report(report(), at(0.0))
     for t_s in (0.5, 6.0, 12.0):
-        assert known.contradiction(report(t_s=t_s, **elsewhere), at(t_s)) == (
-            "a1b2c3", "AAL123", "DAL456",
-        )  # fmt: skip
-    assert known.contradiction(report(t_s=12.1, **elsewhere), at(12.1)) == ()
-    assert known.contradiction(report(t_s=12.2), at(12.2)) != ()
+        assert not checks.believes_report(report(t_s=t_s, **ELSEWHERE), at(t_s))
+    for name in ("a1b2c3", "AAL123", "DAL456"):
+        assert said(checks, 13.0, traffic=(name,)) == ("ADS-B of DAL456 inconsistent",)
+    assert checks.believes_report(report(t_s=12.1, **ELSEWHERE), at(12.1))
+    assert not checks.believes_report(report(t_s=12.2), at(12.2))
 
 
 def test_an_older_report_that_is_possible_is_believed_and_not_compared_with() -> None:
-    known = AdsbConsistency()
-    known.contradiction(report(1000.0, t_s=10.0), at(10.0))
-    assert known.contradiction(report(0.0, t_s=8.0), at(10.5)) == ()
-    assert known.contradiction(report(1400.0, t_s=10.5), at(11.0)) == ()
-    assert known.contradiction(report(8000.0, t_s=11.0, callsign=None), at(11.5)) == (
-        "a1b2c3", "AAL123",
-    )  # fmt: skip
+    checks = InputChecks()
+    checks.believes_report(report(1000.0, t_s=10.0), at(10.0))
+    assert checks.believes_report(report(-200.0, t_s=8.0), at(10.5))
+    assert checks.believes_report(report(1400.0, t_s=10.5), at(11.0))
+    assert not checks.believes_report(report(8000.0, t_s=11.0, callsign=None), at(11.5))
 
 
 @pytest.mark.parametrize(("t_s", "is_shared"), [(12.0, True), (12.1, False)])
 def test_a_callsign_is_shared_by_two_addresses_within_12_s(t_s: float, is_shared: bool) -> None:
-    known = AdsbConsistency()
-    assert known.shared_callsign(report(), at(0.0)) is None
-    assert known.shared_callsign(report(), at(0.0)) is None
-    other = report(icao24="abcdef", t_s=t_s)
-    assert known.shared_callsign(other, at(t_s)) == ("AAL123" if is_shared else None)
-    assert known.shared_callsign(report(icao24="bbbbbb", callsign=None), at(t_s)) is None
+    checks = InputChecks()
+    assert checks.believes_report(report(), at(0.0))
+    assert checks.believes_report(report(90_000.0, icao24="abcdef", t_s=t_s), at(t_s))
+    told = ("callsign AAL123 sent by two addresses",) if is_shared else ()
+    assert said(checks, t_s, traffic=("AAL123",)) == told
 
 
 # --- what alerts say --------------------------------------------------------------------------
@@ -138,13 +138,6 @@ def test_an_alert_about_whose_reports_disagree_says_so_for_a_minute(
     assert said(checks, t_s, **changed) == (("ADS-B of AAL123 inconsistent",) if is_told else ())
 
 
-def test_two_addresses_with_one_callsign_are_believed_and_told_of() -> None:
-    checks = InputChecks()
-    assert checks.believes_report(report(), at(0.0))
-    assert checks.believes_report(report(90_000.0, icao24="abcdef"), at(1.0))
-    assert said(checks, 2.0, traffic=("AAL123",)) == ("callsign AAL123 sent by two addresses",)
-
-
 def call(t_s: float, name: str, text: str = "wind calm") -> Transcript:
     return Transcript(
         id=name, frequency_khz=119_100, t_tx_ns=at(t_s), t_end_ns=at(t_s), text=text,
@@ -155,14 +148,49 @@ def call(t_s: float, name: str, text: str = "wind calm") -> Transcript:
 def test_a_call_that_comes_twice_or_late_is_told_of_by_what_rests_on_the_radio() -> None:
     checks = InputChecks()
     heard = {"evidence": Evidence(sources=("adsb", "radio"))}
-    assert [each.id for each in checks.in_order(call(20.0, "b"), at(20.0))] == ["b"]
-    assert checks.in_order(call(20.0, "b"), at(21.0)) == ()
+    first = call(20.0, "b")
+    assert checks.in_order(first, at(20.0)) == (first,)
+    assert checks.in_order(first, at(21.0)) == ()
     assert said(checks, 22.0, **heard) == ()
+    assert checks.in_order(first.model_copy(update={"frequency_khz": 121_500}), at(21.0)) != ()
     assert checks.in_order(call(20.0, "b", "wind two knots"), at(21.0)) == ()
     assert said(checks, 22.0, **heard) == ("two transcripts of call b differ",)
-    assert [each.id for each in checks.in_order(call(10.0, "a"), at(23.0))] == ["a", "b"]
+    checks.in_order(call(10.0, "a"), at(23.0))
     assert said(checks, 23.0, **heard) == (
         "two transcripts of call b differ", "call a came out of order",
     )  # fmt: skip
     assert said(checks, 82.0, **heard) == ("call a came out of order",)
     assert said(checks, 23.0) == ()
+
+
+def test_later_calls_are_acted_upon_again_after_one_that_came_late() -> None:
+    checks = InputChecks()
+    for begins_s, ids in (
+        (10.0, ["10"]), (70.0, ["70"]), (40.0, ["40", "70"]), (10.5, ["10.5", "40", "70"]),
+        (9.9, []),  # It is over a minute late.
+    ):  # fmt: skip
+        taken = checks.in_order(call(begins_s, f"{begins_s:g}"), at(80.0))
+        assert [each.id for each in taken] == ids
+
+
+def seen(camera: str, t_s: float) -> Detections:
+    return Camera(camera, FIELD, standing((0.0, 0.0, 30.0), 0.0, 0.0), []).detections(at(t_s))
+
+
+def test_pictures_are_of_a_known_camera_and_newer_than_the_last_one() -> None:
+    checks = InputChecks()
+    by_sight = {"evidence": Evidence(sources=("vision", "adsb"))}
+    assert checks.believes_detections(seen("ghost", 0.0), at(0.0))  # None is known yet.
+    checks.take_camera(
+        CameraInfo(camera="c", rate_hz=8.0, width_px=640, height_px=360, horizontal_fov_deg=45.0)
+    )
+    assert checks.believes_detections(seen("c", 2.0), at(2.0))
+    assert said(checks, 3.0, **by_sight) == ()
+    assert not checks.believes_detections(seen("ghost", 3.0), at(3.0))
+    for t_s in (1.9, 2.0):
+        assert not checks.believes_detections(seen("c", t_s), at(4.0))
+    assert said(checks, 4.0, **by_sight) == (
+        "detections of unknown camera ghost not used", "a picture of camera c came out of order",
+    )  # fmt: skip
+    assert said(checks, 4.0) == ()
+    assert checks.believes_detections(seen("c", 2.1), at(4.1))

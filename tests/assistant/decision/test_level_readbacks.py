@@ -72,6 +72,15 @@ def test_a_doubt_is_asked_about_for_two_minutes(
     assert [traffic for _, traffic in doubts] == (["DAL456"] if is_asked else [])
 
 
+def test_an_unsure_readback_that_agrees_is_believed(
+    readbacks: LevelReadbacks, tracks: AirTracks
+) -> None:
+    said = "Climb and maintain flight level three three? zero, American one two three."
+    assert not is_misread(readbacks, "readback", said, 26.0)
+    assert list(readbacks.doubts(151 * SECOND_NS, CONFIG)) == []
+    assert [track.cleared_m for track in tracks] == [pytest.approx(33_000.0 * FOOT), None]
+
+
 @pytest.mark.parametrize(
     "senseless",
     [
@@ -121,6 +130,17 @@ def test_a_level_that_is_heard_twice_alike_is_believed(
     assert found == misread
 
 
+def test_a_level_that_differs_from_an_unsure_one_is_asked_about_at_once(
+    unheard: LevelReadbacks,
+) -> None:
+    unsure = "American one two three, climb and maintain flight level three four? zero."
+    is_misread(unheard, "climb", unsure, 20.0)
+    other = "Climb and maintain flight level three three zero, American one two three."
+    assert not is_misread(unheard, "readback", other, 26.0)
+    ((doubt, _),) = unheard.doubts(31 * SECOND_NS, CONFIG)
+    assert doubt.transcript.id == "climb"
+
+
 def test_a_level_that_nobody_gave_is_expected_once_it_was_heard_twice(
     unheard: LevelReadbacks, tracks: AirTracks
 ) -> None:
@@ -133,6 +153,16 @@ def test_a_level_that_nobody_gave_is_expected_once_it_was_heard_twice(
 
 
 # --- who is near a level ----------------------------------------------------------------------
+
+
+def is_told(*others: AdsbReport) -> bool:
+    """Return whether a wrong readback of AAL123 is told because of others."""
+    tracks = AirTracks()
+    for each in (report("AAL123", -78.0, 90.0, 31_000.0), *others):
+        tracks.take_report(each, 0)
+    followed = LevelReadbacks(tracks, ConfidenceGuard())
+    is_misread(followed, "climb", CLIMB, 0.0)
+    return is_misread(followed, "readback", WRONG, 0.0)
 
 
 @pytest.mark.parametrize(
@@ -148,13 +178,8 @@ def test_a_level_that_nobody_gave_is_expected_once_it_was_heard_twice(
 def test_traffic_is_near_the_levels_that_a_climb_leads_through(
     other_ft: float, rate_fpm: float, is_near: bool
 ) -> None:
-    tracks = AirTracks()
-    tracks.take_report(report("AAL123", -78.0, 90.0, 31_000.0), 0)
     other = report("DAL456", -76.0, 270.0, other_ft)
-    tracks.take_report(other.model_copy(update={"vertical_rate_fpm": rate_fpm}), 0)
-    followed = LevelReadbacks(tracks, ConfidenceGuard())
-    is_misread(followed, "climb", CLIMB, 0.0)
-    assert is_misread(followed, "readback", WRONG, 0.0) is is_near
+    assert is_told(other.model_copy(update={"vertical_rate_fpm": rate_fpm})) is is_near
 
 
 @pytest.mark.parametrize(
@@ -171,19 +196,9 @@ def test_traffic_is_near_the_levels_that_a_climb_leads_through(
 def test_traffic_comes_within_the_minimum_in_ten_minutes(
     longitude_deg: float, track_deg: float, is_near: bool
 ) -> None:
-    tracks = AirTracks()
-    tracks.take_report(report("AAL123", -78.0, 90.0, 31_000.0), 0)
-    tracks.take_report(report("DAL456", longitude_deg, track_deg, 34_000.0), 0)
-    followed = LevelReadbacks(tracks, ConfidenceGuard())
-    is_misread(followed, "climb", CLIMB, 0.0)
-    assert is_misread(followed, "readback", WRONG, 0.0) is is_near
+    assert is_told(report("DAL456", longitude_deg, track_deg, 34_000.0)) is is_near
 
 
 def test_one_that_is_far_away_does_not_hide_another() -> None:
-    tracks = AirTracks()
-    tracks.take_report(report("AAL123", -78.0, 90.0, 31_000.0), 0)
-    tracks.take_report(report("UAL7", -60.0, 90.0, 34_000.0), 0)
-    tracks.take_report(report("DAL456", -76.0, 270.0, 34_000.0), 0)
-    followed = LevelReadbacks(tracks, ConfidenceGuard())
-    is_misread(followed, "climb", CLIMB, 0.0)
-    assert is_misread(followed, "readback", WRONG, 0.0)
+    far, near = report("UAL7", -60.0, 90.0, 34_000.0), report("DAL456", -76.0, 270.0, 34_000.0)
+    assert is_told(far, near)

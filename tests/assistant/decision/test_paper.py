@@ -17,8 +17,7 @@ from airfield import (
     takes_off,
 )
 from airhilt.assistant.decision.engines.paper import PaperEngine
-from airhilt.assistant.decision.ladder import Score, ScoreConfig
-from airhilt.assistant.decision.paper.config import PaperConfig
+from airhilt.assistant.decision.paper_ladder import PaperConfig
 from airhilt.assistant.decision.visual_tracks import SightConfig
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
@@ -46,29 +45,6 @@ def lined_up(axis: Any = NORTH) -> Mover:
 # --- (b) the runway is occupied -------------------------------------------------------------
 
 
-def test_an_occupied_runway_is_a_warning_as_soon_as_somebody_is_on_final() -> None:
-    field = flown(arrival(200.0), lined_up(), seconds=90.0)
-    told_s, told = field.first("WARNING")
-    assert told.evidence.rules == ("occupancy",)
-    assert told.evidence.time_to_go_s == pytest.approx(200.0 - told_s, abs=3.0)
-    assert told.evidence.time_to_go_s > 60.0
-    assert field.advice("AAL123") == [("go_around", "01")]
-
-
-def test_it_is_one_to_a_departure_from_8_s_before_it_is_there() -> None:
-    def movers() -> tuple[Mover, Mover]:
-        return Mover("DAL456", NORTH, takes_off(10.0)), Mover("OPS1", NORTH, stands(1200))
-
-    told_s, told = flown(*movers(), seconds=50.0).first("WARNING")
-    assert told.evidence.time_to_go_s == pytest.approx(8.0, abs=1.0)
-    later = paper(PaperConfig(time_to_go_s=4.0))
-    assert flown(*movers(), seconds=50.0, worker=later).first("WARNING")[0] > told_s
-
-
-def test_an_empty_runway_is_nothing() -> None:
-    assert flown(arrival(), Mover("OPS1", NORTH, stands(800, -90)), seconds=85.0).told == []
-
-
 LASTING = PaperConfig(sight=SightConfig(persistence_s=1000.0))
 THREE = PaperConfig(sight=SightConfig(persistence_s=1000.0, cameras=3))
 
@@ -76,7 +52,6 @@ THREE = PaperConfig(sight=SightConfig(persistence_s=1000.0, cameras=3))
 @pytest.mark.parametrize(
     ("config", "cameras", "is_warned"),
     [
-        pytest.param(PaperConfig(), 2, True, id="two cameras agree"),
         pytest.param(LASTING, 2, True, id="two agree at once"),
         pytest.param(PaperConfig(), 1, True, id="one persists"),
         pytest.param(LASTING, 1, False, id="one does not persist"),
@@ -95,29 +70,6 @@ def test_cameras_show_that_a_runway_is_occupied_if_enough_agree_or_one_persists(
 
 
 # --- (a) and (c) what was said --------------------------------------------------------------
-
-MISREAD = [
-    (20.0, "American 123, runway zero one, cleared to land."),
-    (25.0, "Cleared to land runway one niner, American 123."),
-]
-
-
-def test_a_wrong_readback_is_a_caution_while_the_runway_is_in_use() -> None:
-    field = flown(arrival(400.0), lined_up(), seconds=30.0, calls=MISREAD)
-    told_s, told = field.first("CAUTION", "readback_mismatch")
-    assert told_s == 25.0
-    assert told.evidence.rules == ("readback_mismatch",)
-
-
-def test_it_is_nothing_on_a_runway_of_nobody() -> None:
-    assert flown(arrival(400.0), seconds=30.0, calls=MISREAD).told == []
-
-
-def test_a_call_that_somebody_else_takes_is_a_caution() -> None:
-    calls = [(50.0, "American one two three, go around."), (53.0, "Going around, Delta 456.")]
-    movers = (arrival(98.0), Mover("DAL456", NORTH, lands(190.0)))
-    _, told = flown(*movers, seconds=55.0, calls=calls).first("CAUTION", "readback_mismatch")
-    assert told.evidence.rules == ("recipient_ambiguity",)
 
 
 ALIKE = BRIEFING.model_copy(
@@ -151,16 +103,6 @@ def test_of_several_who_use_the_runway_the_one_on_it_is_named_first() -> None:
     assert "AAL123" not in told.message
 
 
-def test_it_is_over_when_one_of_them_is_named() -> None:
-    calls = [
-        (20.0, "November two sierra papa, runway zero one, line up and wait."),
-        (25.0, "Line up and wait runway zero one, November one seven two sierra papa."),
-    ]
-    movers = (arrival(), Mover("N172SP", NORTH, stands(40, -100)))
-    field = flown(*movers, seconds=35.0, calls=calls, briefing=ALIKE)
-    assert [a.active for a in field.to("ATC") if a.kind == "readback_mismatch"] == [True, False]
-
-
 @pytest.mark.parametrize("release_s", [None, 2.0, 12.0])
 def test_a_conflict_is_over_once_it_has_been_for_5_s_unless_told_otherwise(
     release_s: float | None,
@@ -176,29 +118,6 @@ def test_a_conflict_is_over_once_it_has_been_for_5_s_unless_told_otherwise(
 
 
 # --- the score ------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    ("terms", "severity"),
-    [
-        ((1.0, 1.0, 0.0), Severity.CAUTION),
-        ((1.0, 0.0, 1.0), Severity.ADVISORY),
-        ((0.5, 1.0, 1.0), Severity.CAUTION),
-        ((0.4, 1.0, 1.0), Severity.ADVISORY),
-        ((0.0, 1.0, 1.0), Severity.ADVISORY),
-        ((0.9, 0.0, 0.0), None),
-    ],
-)
-def test_the_score_has_the_papers_weights(
-    terms: tuple[float, float, float], severity: Severity | None
-) -> None:
-    assert Score.of(ScoreConfig(), *terms).severity(ScoreConfig()) is severity
-
-
-def test_shares_add_up_to_one() -> None:
-    score = Score.of(ScoreConfig(), 0.5, 1.0, 0.0)
-    shares = score.shares(vision=score.vision, radio=score.asr, adsb=score.context)
-    assert shares == {"vision": pytest.approx(0.25 / 0.6), "radio": pytest.approx(0.35 / 0.6)}
 
 
 def test_who_is_told_is_a_matter_of_configuration() -> None:

@@ -5,81 +5,61 @@ from __future__ import annotations
 import pytest
 
 from airfield import BRIEFING
-from airhilt.messages import Advisory, PartialTranscript, Word
-from airhilt.sim import Input
+from airhilt.assistant.decision.alerts import Alert
+from airhilt.assistant.decision.engine import ReceivedMessage
+from airhilt.assistant.decision.engines.reference import ReferenceEngine
+from airhilt.messages import Message, PartialTranscript
 from airhilt.units import SECOND_NS
-from decisions import UNSURE, reference, transcript
+from decisions import transcript
 
 KHZ = 119_100
-HALF_SECOND_NS = SECOND_NS // 2
 BEGINS_NS = 20 * SECOND_NS
 LANDING = "American 123, runway one niner, cleared to land."
 TAKEOFF = "Delta 456, runway zero one, cleared for takeoff"
 
 
 class Frequency:
-    """A worker that has heard AAL123 being cleared to land on runway 19, and hears a call to DAL456
-    word for word."""
+    """An engine that has heard AAL123 being cleared to land on runway 19, and hears a call to
+    DAL456 word for word."""
 
     def __init__(self) -> None:
-        self.worker = reference()
-        self.told: list[Advisory] = []
+        self.engine = ReferenceEngine()
         self.t_ns = 10 * SECOND_NS
-        self._give("briefing", BRIEFING.model_dump_json())
-        landing = transcript("landing", KHZ, 7 * SECOND_NS, self.t_ns, LANDING)
-        self._give(f"asr/{KHZ}", landing.model_dump_json())
+        self._told(BRIEFING, transcript("landing", KHZ, 7 * SECOND_NS, self.t_ns, LANDING))
         self.t_ns = BEGINS_NS
 
-    def part(self, text: str, name: str = "takeoff") -> list[Advisory]:
+    def part(self, text: str, name: str = "takeoff") -> list[Alert]:
         """Hear half a second more of a call; return what is told because of that."""
-        self.t_ns += HALF_SECOND_NS
-        partial = PartialTranscript(
-            id=name,
-            frequency_khz=KHZ,
-            t_tx_ns=BEGINS_NS,
-            t_heard_ns=self.t_ns,
-            text=text.replace("?", ""),
-            words=tuple(
-                Word(text=word.replace("?", ""), confidence=UNSURE if "?" in word else 1.0)
-                for word in text.split()
-            ),
-            confidence=1.0,
-            stable_words=0,
-            engine="text",
-        )
-        return self._give(f"asr/{KHZ}/partial", partial.model_dump_json())
+        self.t_ns += SECOND_NS // 2
+        heard = transcript(name, KHZ, BEGINS_NS, self.t_ns, text)
+        same = {"id", "frequency_khz", "t_tx_ns", "text", "words", "confidence", "engine"}
+        given = heard.model_dump(include=same) | {"t_heard_ns": self.t_ns, "stable_words": 0}
+        return self._told(PartialTranscript.model_validate(given))
 
-    def whole(self, text: str) -> list[Advisory]:
+    def whole(self, text: str) -> list[Alert]:
         """Hear the whole call; return what is told because of that."""
-        self.t_ns += HALF_SECOND_NS
-        heard = transcript("takeoff", KHZ, BEGINS_NS, self.t_ns, text)
-        return self._give(f"asr/{KHZ}", heard.model_dump_json())
+        self.t_ns += SECOND_NS // 2
+        return self._told(transcript("takeoff", KHZ, BEGINS_NS, self.t_ns, text))
 
-    def passes(self, seconds: float) -> list[Advisory]:
+    def passes(self, seconds: float) -> list[Alert]:
         """Let time pass; return what is told because of that."""
         self.t_ns += round(seconds * SECOND_NS)
-        return self._told([])
+        return self._told()
 
-    def _give(self, key: str, payload: str) -> list[Advisory]:
-        return self._told([Input(key, self.t_ns, payload.encode())])
-
-    def _told(self, inputs: list[Input]) -> list[Advisory]:
-        outputs = self.worker.step(self.t_ns, inputs).outputs
-        return [
-            advisory
-            for output in outputs
-            if (advisory := Advisory.model_validate_json(output.payload)).recipient == "ATC"
-        ]
+    def _told(self, *messages: Message) -> list[Alert]:
+        for each in messages:
+            self.engine.receive(ReceivedMessage(each, self.t_ns, self.t_ns))
+        return list(self.engine.decide(self.t_ns).alerts)
 
 
 def test_an_instruction_that_is_certain_in_two_parts_of_a_call_warns_before_its_end() -> None:
     frequency = Frequency()
     assert frequency.part("Delta 456, runway zero one") == []
     assert frequency.part(TAKEOFF) == []
-    (advisory,) = frequency.part(f"{TAKEOFF}, wind")
-    assert (advisory.severity, advisory.active) == ("CAUTION", True)
-    assert advisory.evidence.rules == ("opposed_clearances", "provisional_instruction")
-    assert set(advisory.evidence.radio_ids) == {"landing", "takeoff"}
+    (alert,) = frequency.part(f"{TAKEOFF}, wind")
+    assert (alert.severity, alert.active) == ("CAUTION", True)
+    assert alert.evidence.rules == ("opposed_clearances", "provisional_instruction")
+    assert set(alert.evidence.radio_ids) == {"landing", "takeoff"}
 
 
 def test_the_whole_call_confirms_it_and_nothing_is_said_twice() -> None:
@@ -89,7 +69,7 @@ def test_the_whole_call_confirms_it_and_nothing_is_said_twice() -> None:
     assert frequency.whole(f"{TAKEOFF}, wind calm.") == []
     assert frequency.passes(1.0) == []
     whole = Frequency().whole(TAKEOFF)
-    assert [advisory.evidence.rules for advisory in whole] == [("opposed_clearances",)]
+    assert [alert.evidence.rules for alert in whole] == [("opposed_clearances",)]
 
 
 @pytest.mark.parametrize(
@@ -131,6 +111,12 @@ def test_a_value_that_changes_from_one_part_to_the_next_is_not_believed() -> Non
     assert frequency.part("Delta 456, cleared for takeoff runway zero one") == []
     assert frequency.part("Delta 456, cleared for takeoff runway one niner") == []
     assert frequency.part("Delta 456, cleared for takeoff runway one niner") == []
+
+
+def test_an_instruction_whose_callsign_changes_is_not_believed() -> None:
+    frequency = Frequency()
+    assert frequency.part("Ops one, runway zero one, cleared for takeoff") == []
+    assert frequency.part(TAKEOFF) == []
 
 
 def test_a_call_that_goes_on_takes_no_threat_away() -> None:

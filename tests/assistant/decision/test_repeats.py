@@ -6,10 +6,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from airhilt.assistant.decision.guard import ConfidenceGuard, Doubt, call_of
-from airhilt.assistant.decision.repeats import RememberingGuard
-from airhilt.messages import Transcript, Word
+from airhilt.assistant.decision.guard import Doubt, RememberingGuard, call_of
+from airhilt.messages import Transcript
 from airhilt.units import SECOND_NS
+from decisions import transcript
 
 TAU = 0.8
 ROSTER = ["AAL123", "DAL456"]
@@ -19,14 +19,7 @@ CROSSING = "American one two three, cross? runway zero? one?."
 
 def heard(text: str, confidence: float, name: str = "first", end_s: float = 20.0) -> Transcript:
     """Return a call in which the words before a question mark have a confidence."""
-    words = tuple(
-        Word(text=word.replace("?", ""), confidence=confidence if "?" in word else 1.0)
-        for word in text.split()
-    )
-    return Transcript(
-        id=name, frequency_khz=119_100, t_tx_ns=0, t_end_ns=round(end_s * SECOND_NS),
-        text=text.replace("?", ""), words=words, confidence=1.0, engine="text",
-    )  # fmt: skip
+    return transcript(name, 119_100, 0, round(end_s * SECOND_NS), text, confidence)
 
 
 def doubt(guard: RememberingGuard, transcript: Transcript) -> Doubt | None:
@@ -37,14 +30,14 @@ def doubt(guard: RememberingGuard, transcript: Transcript) -> Doubt | None:
 
 @pytest.fixture
 def guard() -> RememberingGuard:
-    return RememberingGuard(ConfidenceGuard(TAU))
+    return RememberingGuard(TAU)
 
 
 @given(st.floats(0.0, 0.79), st.floats(0.0, 0.79))
 def test_a_value_heard_twice_is_wrong_only_if_both_calls_were_heard_wrongly(
     one: float, other: float
 ) -> None:
-    guard = RememberingGuard(ConfidenceGuard(TAU))
+    guard = RememberingGuard(TAU)
     first = doubt(guard, heard(LANDING, one))
     assert first is not None
     assert (first.slot, first.confidence) == ("runway", pytest.approx(one))

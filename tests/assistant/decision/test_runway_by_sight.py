@@ -14,12 +14,10 @@ from airfield import (
     SOUTH,
     Airfield,
     Mover,
-    drives,
     lands,
     stands,
-    takes_off,
 )
-from airhilt.messages import Severity
+from airhilt.messages import Severity, VisibleClass
 from airhilt.units import DEGREE
 from breadth import mostly_slow
 from field_cameras import at, beside_threshold, camera, on_tower, silent
@@ -37,9 +35,8 @@ def look_at(
     *movers: Mover,
     cameras: Sequence[Camera],
     seconds: float = LANDS_S - 5.0,
-    calls: list[tuple[float, str]] | tuple[Any, ...] = (),
 ) -> Airfield:
-    return Airfield(list(movers), list(calls), cameras=list(cameras)).run(seconds)
+    return Airfield(list(movers), cameras=list(cameras)).run(seconds)
 
 
 @pytest.mark.parametrize("seed", SEEDS)
@@ -62,7 +59,7 @@ def test_a_silent_truck_on_the_runway_sends_the_arrival_around(
     assert len({advisory.id for _, advisory in field.told}) == 1
 
 
-@pytest.mark.parametrize("across_m", [-130.0, -90.0, 110.0])
+@pytest.mark.parametrize("across_m", [-90.0, 110.0])
 @pytest.mark.parametrize("look", [beside_threshold, on_tower])
 def test_one_beside_the_runway_does_not(look: Callable[..., Any], across_m: float) -> None:
     truck = silent(stands(500, across_m))
@@ -88,53 +85,21 @@ def test_a_flicker_is_not_there() -> None:
     assert look_at(arrival(), truck, cameras=[flicker]).worst.rank <= Severity.ADVISORY.rank
 
 
-@pytest.mark.parametrize("label", mostly_slow(["truck", "bus"], "truck"))
-def test_the_vehicle_that_was_sent_there_is_named_and_told(label: str) -> None:
-    truck = silent(stands(800))
-    calls = [(3.0, "Ops one, proceed onto runway zero one for inspection.")]
-    field = look_at(arrival(), truck, cameras=[on_tower(truck.body(label, TRUCK))], calls=calls)
-    _, warning = field.first("WARNING")
-    assert warning.recipients == ("AAL123", "OPS1", "ATC")
-    assert warning.evidence.sources == ("vision", "adsb", "radio")
-    assert "OPS1 is on runway 01, seen by camera" in warning.message
-    assert field.to("OPS1")[-1].message.startswith("OPS1 AAL123 on final for runway 01")
-    assert len({advisory.id for _, advisory in field.told}) == 1
-
-
-def test_a_silent_vehicle_that_crosses_with_a_clearance_long_before_is_harmless() -> None:
-    truck = silent(drives(12.0, along_m=800.0))
-    calls = [(8.0, "Ops one, cross runway zero one."), (10.0, "Cross runway zero one, ops one.")]
-    field = look_at(
-        Mover("AAL123", NORTH, lands(95.0)), truck,
-        cameras=[on_tower(truck.body("truck", TRUCK))], calls=calls, seconds=60.0,
-    )  # fmt: skip
-    seen = [a for _, a in field.told if a.severity is Severity.WARNING]
-    assert seen == []
-
-
-def test_a_deer_is_seen_by_a_camera_that_is_near_enough() -> None:
-    deer = still("deer", at(760.0, 0.0), DEER)
+@pytest.mark.parametrize("label", ["deer", "moose"])
+def test_an_animal_of_the_briefing_is_announced_by_a_camera_that_is_near_enough(
+    label: VisibleClass,
+) -> None:
+    animal = still(label, at(760.0, 0.0), DEER)
     look = {"width_px": 1280, "height_px": 720, "smallest_px": 8.0}
-    near = camera("side", (600.0, 110.0, 8.0), -35.0, [deer], **look)
-    far = camera("far", (0.0, 110.0, 8.0), -8.0, [deer], **look)
-    field = look_at(arrival(), cameras=[near])
-    _, warning = field.first("WARNING")
-    assert "deer on runway 01" in warning.message
-    assert warning.traffic == ("AAL123", "wildlife")
-    assert field.advice("AAL123") == [("go_around", "01")]
-    assert look_at(arrival(), cameras=[far]).told == []
-
-
-def test_an_animal_that_only_the_briefing_knows_is_announced_as_one() -> None:
-    moose = still("moose", at(760.0, 0.0), DEER)
-    look = {"width_px": 1280, "height_px": 720, "smallest_px": 8.0}
-    near = camera("side", (600.0, 110.0, 8.0), -35.0, [moose], **look)
+    near = camera("side", (600.0, 110.0, 8.0), -35.0, [animal], **look)
+    far = camera("far", (0.0, 110.0, 8.0), -8.0, [animal], **look)
     briefing = BRIEFING.model_copy(update={"animals": (*BRIEFING.animals, "moose")})
     field = Airfield([arrival()], cameras=[near], briefing=briefing).run(LANDS_S - 5.0)
     _, warning = field.first("WARNING")
-    assert "moose on runway 01" in warning.message
-    assert "unidentified" not in warning.message
+    assert f", {label} on runway 01" in warning.message
     assert warning.traffic == ("AAL123", "wildlife")
+    assert field.advice("AAL123") == [("go_around", "01")]
+    assert look_at(arrival(), cameras=[far]).told == []
 
 
 def test_the_nose_camera_of_the_arrival_itself_sees_what_is_on_its_runway() -> None:
@@ -152,18 +117,6 @@ def test_the_nose_camera_of_the_arrival_itself_sees_what_is_on_its_runway() -> N
     warning_s, _ = field.first("WARNING")
     assert 15.0 < LANDS_S - warning_s < 36.0
     assert field.advice("AAL123") == [("go_around", "01")]
-
-
-def test_a_takeoff_towards_something_seen_is_cancelled() -> None:
-    truck = silent(stands(1500))
-    departure = Mover("DAL456", NORTH, takes_off(10.0))
-    field = look_at(
-        departure,
-        truck,
-        cameras=[on_tower(truck.body("truck", TRUCK), fov_deg=100.0)],
-        seconds=25.0,
-    )
-    assert field.advice("DAL456") == [("cancel_takeoff", "01")]
 
 
 def test_a_camera_that_gives_no_more_pictures_clears_nothing_at_once_but_in_time() -> None:
@@ -227,14 +180,6 @@ def test_heights_of_cameras_are_above_the_airport_and_not_above_the_end_of_a_run
         update={"airport": airport.model_copy(update={"runways": tuple(lower)})}
     )
     assert field.run(LANDS_S - 5.0).told == []
-
-
-def test_of_birds_seen_by_one_camera_the_distance_is_not_known_and_so_it_is_a_caution() -> None:
-    bird = flock(lambda _: 0.0, lambda _: 55.0)
-    west, _ = approach_cameras(bird)
-    field = look_at(arrival(), cameras=[west])
-    assert field.worst is Severity.CAUTION
-    assert field.advice("AAL123") == []
 
 
 # --- hints that are not enough alone --------------------------------------------------------

@@ -11,32 +11,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from airfield import BRIEFING, NORTH, SOUTH, Axis, degrees
-from airhilt.assistant.decision.aerodrome import Aerodrome, Direction, Strip, Vector, Way
-from airhilt.assistant.decision.leaving import leaving_s
-from airhilt.assistant.decision.meeting_runways import meeting_uses
-from airhilt.assistant.decision.mobiles import (
-    Kind,
-    Mobile,
-    Use,
-    is_on_pavement,
-    lined_up_on,
-    use_of,
-)
+from airhilt.assistant.decision.aerodrome import Vector, Way
+from airhilt.assistant.decision.assessment import worst_threats
+from airhilt.assistant.decision.findings import RunwayUse
+from airhilt.assistant.decision.mobiles import Mobile, Use, is_on_pavement, lined_up_on, use_of
 from airhilt.assistant.decision.situation import Obstacle, RunwaySituation
-from airhilt.assistant.decision.threats import Outlook, RunwayConfig, Threat
+from airhilt.assistant.decision.threats import RunwayConfig, Threat
 from airhilt.messages import Severity
 from airhilt.units import DEGREE, KNOT, SECOND_NS
+from instants import AERODROME, runway
 
-assert BRIEFING.airport is not None
-AERODROME = Aerodrome(BRIEFING.airport)
 ACCELERATION_M_S2 = BRAKING_M_S2 = 1.8
 TOUCHDOWN_M = 400.0
-
-
-def runway(ident: str) -> tuple[Strip, Direction]:
-    strip = AERODROME.strip_of(ident)
-    assert strip is not None
-    return strip, next(each for each in strip.directions if each.ident == ident)
 
 
 def mobile(
@@ -52,7 +38,7 @@ def mobile(
     return replace(usual, altitude_m=altitude_m, **given)
 
 
-def use(kind: Kind, along_m: float, speed_m_s: float, ident: str = "01", t_ns: int = 0) -> Use:
+def use(kind: RunwayUse, along_m: float, speed_m_s: float, ident: str = "01", t_ns: int = 0) -> Use:
     height_m = 50.0 if kind == "arrival" else None
     who = mobile(along_m, height_m=height_m, speed_m_s=speed_m_s, t_ns=t_ns)
     return Use(who, *runway(ident), kind, along_m)
@@ -95,7 +81,7 @@ def test_an_arrival_flies_on_evenly_to_its_touchdown_and_brakes_then(
 
 
 @pytest.mark.parametrize("kind", ["arrival", "departure", "rollout"])
-def test_nobody_comes_to_what_is_behind(kind: Kind) -> None:
+def test_nobody_comes_to_what_is_behind(kind: RunwayUse) -> None:
     assert use(kind, 500.0, 60.0).time_to_s(499.0, 0) is None
     assert use(kind, 500.0, 60.0).time_to_s(500.0, 0) == 0.0
 
@@ -119,7 +105,7 @@ def test_the_age_of_a_report_is_taken_from_the_time_that_is_left(t_s: float, lef
 
 
 def leaves_s(who: Mobile, exit_m: float, own: Use | None = None, ident: str = "01") -> float | None:
-    return leaving_s(Obstacle(who, Way(0.0, exit_m)), own, use("arrival", -2000.0, 70.0, ident))
+    return Obstacle(who, Way(0.0, exit_m)).leaving_s(own, use("arrival", -2000.0, 70.0, ident))
 
 
 @pytest.mark.parametrize(("speed_m_s", "exit_m", "left_s"), [(8.0, 120.0, 15.0), (3.0, 6.0, 2.0)])
@@ -197,21 +183,24 @@ def test_who_slows_down_may_be_about_to_stop_and_has_travelled_no_further(
 
 
 @pytest.mark.parametrize(
-    ("along_m", "across_m", "is_on"),
+    ("along_m", "across_m", "displaced_m", "is_on"),
     [
-        (0.0, 0.0, True),
-        (1000.0, 47.5, True),  # Half of 45 m, and 25 m for the error.
-        (1000.0, 47.6, False),
-        (-500.0, 0.0, True),  # There may be pavement before the threshold and past the end.
-        (-501.0, 0.0, False),
-        (2600.0, 0.0, True),
-        (2601.0, 0.0, False),
+        (1000.0, 47.5, 0.0, True),  # Half of 45 m, and 25 m for the error.
+        (1000.0, 47.6, 0.0, False),
+        (-500.0, 0.0, 0.0, True),  # There may be pavement before the threshold and past the end.
+        (-501.0, 0.0, 0.0, False),
+        (-799.0, 0.0, 300.0, True),
+        (-801.0, 0.0, 300.0, False),
+        (2600.0, 0.0, 0.0, True),
+        (2601.0, 0.0, 0.0, False),
     ],
 )
 def test_a_runway_reaches_to_the_sides_and_beyond_its_ends(
-    along_m: float, across_m: float, is_on: bool
+    along_m: float, across_m: float, displaced_m: float, is_on: bool
 ) -> None:
-    direction = replace(runway("01")[1], length_m=2100.0, half_width_m=22.5)
+    direction = replace(
+        runway("01")[1], length_m=2100.0, half_width_m=22.5, displaced_m=displaced_m
+    )
     assert is_on_pavement(direction, along_m, across_m) is is_on
 
 
@@ -239,14 +228,9 @@ def test_who_does_not_wait_to_take_off_is_not_lined_up(how: dict[str, Any]) -> N
         (NORTH, {"speed_m_s": 40.0, "landed": True}, ("01", "rollout")),
         (NORTH, {"speed_m_s": 40.0, "is_vehicle": True}, None),
         (NORTH, {"speed_m_s": 10.0}, None),
-        (NORTH, {"speed_m_s": 80.0, "height_m": 300.0, "vertical_rate_m_s": 9.0},
-         ("01", "departure")),
-        (NORTH, {"speed_m_s": 80.0, "height_m": 301.0, "vertical_rate_m_s": 9.0}, None),
-        (NORTH, {"speed_m_s": 70.0, "height_m": 60.0}, ("01", "arrival")),
-        (NORTH, {"speed_m_s": 70.0, "height_m": 61.0}, None),
     ],
 )  # fmt: skip
-def test_a_runway_is_used_by_who_rolls_flies_low_or_climbs_out(
+def test_a_runway_is_used_on_the_ground_by_aircraft_that_roll(
     axis: Axis, how: dict[str, Any], expected: tuple[str, str] | None
 ) -> None:
     found = use_of(mobile(300.0, axis=axis, **how), AERODROME.strips)
@@ -272,10 +256,11 @@ def meeting(first: Use, second: Use) -> list[Threat]:
     """Return what is told of two uses, at the time of their reports."""
     assert BRIEFING.airport is not None
     situation = RunwaySituation(BRIEFING.airport, BRIEFING)
-    return list(meeting_uses(Outlook(situation, RunwayConfig(), 0), first, second))
+    situation.uses = {"a": first, "b": second}
+    return list(worst_threats(RunwayConfig(rules=("meeting",)), situation, 0).values())
 
 
-def opposite(kind: Kind, gap_m: float, speed_m_s: float) -> Use:
+def opposite(kind: RunwayUse, gap_m: float, speed_m_s: float) -> Use:
     """Return a use of the other end, so far from 500 m past the threshold of runway 01."""
     who = mobile(500.0 + gap_m, axis=NORTH, off_deg=180.0, speed_m_s=speed_m_s)
     strip, direction = runway("19")
@@ -292,6 +277,7 @@ def test_two_that_roll_towards_each_other_are_a_warning_at_once(
     """The time is that of their speeds together, 25 kt at least."""
     (threat,) = meeting(use("departure", 500.0, own_m_s), opposite("departure", gap_m, other_m_s))
     assert threat.severity is Severity.WARNING
+    assert threat.finding.statement() == "AAL123 opposite on runway 01/19"
     assert threat.time_to_go_s == pytest.approx(time_s, rel=1e-3)
 
 

@@ -1,213 +1,127 @@
-"""The runway status lights: which are lit when, who is told, and what is done on red."""
+"""The engine of the runway status lights: who is told of red lights, and what is done on red."""
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, field
+from typing import Any
 
 import pytest
 
-from airfield import (
-    APPROACH_M_S,
-    BRIEFING,
-    NORTH,
-    SOUTHEAST,
-    Mover,
-    drives,
-    goes_around,
-    lands,
-    stands,
-    takes_off,
-)
-from airhilt.assistant.decision.worker import DecisionWorker
+from airfield import BRIEFING, HOLD_M, SOUTHEAST, WIDTH_M
+from airhilt.assistant.decision.alerts import Alert
+from airhilt.assistant.decision.engine import Decision, ReceivedMessage
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.engine_families import ASSISTANTS
-from airhilt.messages import Advisory, SurfaceTrack
-from airhilt.sim import Input
-from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE, SECOND_NS, bearing_degrees
-
-THRESHOLD_S = 60.0
-ONE_MILE_S = THRESHOLD_S - NAUTICAL_MILE / APPROACH_M_S
-AIRPORT = "XFLD"
+from airhilt.messages import CancelTakeoff, HoldPosition, Message, SurfaceTrack
+from airhilt.units import SECOND_NS
+from instants import surface_track
 
 
-@dataclass
-class SurfaceField:
-    """Feeds exact tracks of some movers to the lights, once a second."""
-
-    movers: list[Mover]
-    told: list[tuple[float, Advisory]] = field(default_factory=list)
-    configuration: dict[str, float] = field(default_factory=dict)
-
-    def run(self, seconds: int) -> SurfaceField:
-        engine = ASSISTANTS.create("runway_status_lights", configuration=self.configuration)
-        worker = DecisionWorker(engine, Template())
-        worker.step(0, [Input("briefing", 0, BRIEFING.model_dump_json().encode())])
-        for t_s in range(seconds):
-            t_ns = t_s * SECOND_NS
-            inputs = [
-                Input(f"surface/{AIRPORT}", t_ns, self.track(number, mover, t_s))
-                for number, mover in enumerate(self.movers, start=1)
-            ]
-            for output in worker.step(t_ns, inputs).outputs:
-                self.told.append((t_s, Advisory.model_validate_json(output.payload)))
-        return self
-
-    @staticmethod
-    def track(number: int, mover: Mover, t_s: float) -> bytes:
-        state, grounded = mover.state(t_s), mover.is_on_ground(t_s)
-        speed = math.hypot(state.velocity_north_m_s, state.velocity_east_m_s)
-        named = mover.equipped
-        track = SurfaceTrack(
-            airport=AIRPORT, track=number, kind="combined" if named else "primary",
-            t_track_ns=round(t_s * SECOND_NS), accuracy_m=7.5,
-            latitude_deg=state.latitude_rad / DEGREE, longitude_deg=state.longitude_rad / DEGREE,
-            altitude_ft=state.altitude_m / FOOT if named and not grounded else None,
-            on_ground=grounded if named else None,
-            ground_speed_kt=speed / KNOT,
-            track_deg=bearing_degrees(state.heading_rad) if speed > 0.2 else None,
-            icao24=mover.icao24 if named else None,
-            callsign=mover.callsign or None if named else None,
-        )  # fmt: skip
-        return track.model_dump_json().encode()
-
-    def red(self, recipient: str, severity: str | None = None) -> list[float]:
-        """Return when somebody was told of red lights."""
-        return [
-            t_s
-            for t_s, told in self.told
-            if told.recipient == recipient
-            and told.active
-            and severity in (None, told.severity.value)
-        ]
-
-    def out(self, recipient: str) -> list[float]:
-        """Return when somebody was told that lights are out."""
-        return [t_s for t_s, told in self.told if told.recipient == recipient and not told.active]
+def lands(number: int = 1, callsign: str = "AAL123", along_m: float = -900.0, **how: Any) -> Any:
+    return surface_track(along_m, 0.0, 70.0, number=number, height_m=60.0, callsign=callsign, **how)
 
 
-def lit(*movers: Mover, seconds: int = 100) -> SurfaceField:
-    return SurfaceField(list(movers)).run(seconds)
+def truck(before_m: float, speed_m_s: float, **how: Any) -> SurfaceTrack:
+    """Return the track of a truck right of the runway, which it looks at, before the hold line."""
+    usual: dict[str, Any] = {"number": 9, "callsign": "OPS1", "turned_deg": -90.0}
+    along_m = how.pop("along_m", 800.0)
+    return surface_track(along_m, HOLD_M + before_m, speed_m_s, **usual | how)
 
 
-def comes_to_hold(at_s: float, along_m: float = 800.0) -> Mover:
-    """A truck that drives up to a hold line, stands there, and has seen the runway ahead."""
-    return Mover("OPS1", NORTH, drives(at_s, along_m=along_m, to_m=-90.0), category="C2")
+class Lights:
+    """The engine, to which tracks come once a second."""
+
+    def __init__(self, **configuration: float) -> None:
+        self.engine = ASSISTANTS.create("runway_status_lights", configuration=configuration)
+        self._t_s = 0
+        self.told(BRIEFING)
+
+    def told(self, *messages: Message) -> list[Alert]:
+        """Return what is told a second later because of some messages."""
+        self._t_s += 1
+        t_ns = self._t_s * SECOND_NS
+        for each in messages:
+            if isinstance(each, SurfaceTrack):
+                each = each.model_copy(update={"t_track_ns": t_ns})
+            self.engine.receive(ReceivedMessage(each, t_ns, t_ns))
+        return list(self.engine.decide(t_ns).alerts)
 
 
-def arrival(at_s: float = THRESHOLD_S) -> Mover:
-    return Mover("AAL123", NORTH, lands(at_s))
+def words(alert: Alert) -> str:
+    return Template().message(alert, alert.recipients[0])
 
 
-# --- entrance lights ------------------------------------------------------------------------
+def test_without_an_airport_there_is_nothing_to_say() -> None:
+    assert ASSISTANTS.create("runway_status_lights").decide(0) == Decision()
 
 
-def test_a_departure_lights_them_ahead_from_30_knots_until_it_is_in_the_air() -> None:
-    behind, ahead, far = (
-        Mover(name, NORTH, drives(0.0, along_m=along_m, to_m=-90.0), category="C2")
-        for name, along_m in (("OPS1", -30.0), ("OPS2", 1300.0), ("OPS3", 2050.0))
-    )
-    field = lit(Mover("AAL123", NORTH, takes_off(30.0)), behind, ahead, far)
-    reaches_30_kt_s = 30.0 + 30.0 * KNOT / 2.0
-    assert field.red("OPS2")[0] == pytest.approx(reaches_30_kt_s, abs=1.5)
-    assert not field.red("OPS1")
-    lifts_off_s = 30.0 + 75.0 / 2.0
-    assert field.out("OPS3")[0] == pytest.approx(lifts_off_s, abs=3.5)
-
-
-def test_a_go_around_puts_them_out() -> None:
-    field = lit(Mover("AAL123", NORTH, goes_around(THRESHOLD_S, 900.0)), comes_to_hold(0.0))
-    assert field.red("OPS1")
-    assert field.out("OPS1")[0] < THRESHOLD_S
-
-
-def test_red_before_one_who_stands_is_an_advisory_and_against_it_a_warning() -> None:
-    standing = lit(arrival(), comes_to_hold(0.0))
-    assert not standing.red("OPS1", "WARNING")
-    assert all(told.recommendation is None for _, told in standing.told)
-    driving = lit(arrival(), Mover("OPS1", NORTH, drives(20.0), category="C2"))
-    assert driving.red("OPS1", "WARNING")
-
-
-def test_on_red_a_driver_stops_short_of_the_runway() -> None:
-    truck = Mover("OPS1", NORTH, drives(20.0, from_m=-220.0), category="C2")
-    told = next(t for _, t in lit(arrival(), truck).told if t.severity == "WARNING")
-    assert told.recommendation is not None
-    assert told.recommendation.action == "hold_position"
-    assert told.message == ("OPS1 hold position, entrance lights red for runway 01, traffic AAL123")
+def test_red_before_one_who_stands_is_an_advisory_and_against_it_a_warning_to_hold() -> None:
+    lights = Lights()
+    lights.told(truck(20.0, 4.0))
+    (stands,) = lights.told(truck(5.0, 0.0), lands())
+    assert (stands.severity, stands.recipients, stands.recommendations) == (
+        "ADVISORY", ("OPS1",), {},
+    )  # fmt: skip
+    (drives,) = Lights().told(truck(5.0, 5.0), lands())
+    assert (drives.severity, drives.recipients) == ("WARNING", ("OPS1",))
+    assert drives.recommendations == {"OPS1": HoldPosition(runway="01")}
+    assert words(drives) == "OPS1 hold position, entrance lights red for runway 01, traffic AAL123"
 
 
 def test_one_who_cannot_stop_short_of_the_runway_is_left_to_their_judgement() -> None:
-    truck = Mover("OPS1", NORTH, drives(ONE_MILE_S - 24.0), category="C2")
-    warnings = [t for _, t in lit(arrival(), truck).told if t.severity == "WARNING"]
-    assert [told.recommendation for told in warnings] == [None]
+    (told,) = Lights().told(truck(WIDTH_M / 2.0 + 20.0 - HOLD_M, 8.0), lands())
+    assert (told.severity, told.recommendations) == ("WARNING", {})
 
 
-def test_nobody_but_the_one_before_the_lights_is_told() -> None:
-    field = lit(arrival(), comes_to_hold(0.0), Mover("DAL456", NORTH, stands(500.0, 300.0)))
-    assert {told.recipient for _, told in field.told} == {"OPS1"}
-
-
-def test_a_truck_without_a_transponder_is_told_by_the_name_that_no_track_has() -> None:
-    truck = comes_to_hold(0.0)
-    truck.equipped = False
-    assert lit(arrival(), truck).red("OPS1")
-
-
-def test_nobody_is_named_where_two_tracks_have_no_name() -> None:
-    """A deer beside the truck: the name that no track has may be that of either."""
-    truck, deer = comes_to_hold(0.0), comes_to_hold(0.0, along_m=900.0)
-    truck.equipped = deer.equipped = False
-    assert not lit(arrival(), truck, deer).red("OPS1")
-
-
-def test_who_has_an_address_but_no_callsign_is_not_without_a_name() -> None:
-    truck, other = comes_to_hold(0.0), Mover("DAL456", NORTH, stands(500.0, 300.0))
-    truck.equipped = False
-    other.callsign = ""
-    assert lit(arrival(), truck, other).red("OPS1")
-
-
-def test_entrance_lights_are_none_of_one_who_is_on_the_runway_already() -> None:
-    """It drives on to the pavement just before the arrival is a mile away, and off it again."""
-    on_pavement_s = ONE_MILE_S - 1.5
-    truck = Mover("OPS1", NORTH, drives(on_pavement_s - (250.0 - 22.5) / 8.0), category="C2")
-    assert not lit(arrival(), truck, seconds=60).red("OPS1")
-
-
-def test_the_numbers_of_the_lights_can_be_set() -> None:
-    field = SurfaceField([arrival(), comes_to_hold(0.0)])
-    field.configuration = {"arrival_m": 3000.0}
-    assert field.run(100).red("OPS1")[0] == pytest.approx(
-        THRESHOLD_S - 3000.0 / APPROACH_M_S, abs=1.5
-    )
-
-
-# --- take-off hold and intersection lights --------------------------------------------------
-
-
-def test_take_off_hold_lights_are_red_while_somebody_is_on_the_runway_ahead() -> None:
-    truck = Mover("OPS1", NORTH, drives(30.0), category="C2")
-    field = lit(Mover("AAL123", NORTH, takes_off(500.0)), truck)
-    enters_s, leaves_s = 30.0 + (250.0 - 76.0) / 8.0, 30.0 + (250.0 + 22.5) / 8.0
-    assert field.red("AAL123")[0] == pytest.approx(enters_s, abs=2.5)
-    assert field.out("AAL123")[0] == pytest.approx(leaves_s, abs=3.5)
-    assert not field.red("AAL123", "WARNING")
+@pytest.mark.parametrize(
+    ("others", "is_told"),
+    [
+        ([], True),
+        (
+            [truck(5.0, 5.0, number=8, callsign=None, along_m=900.0)],
+            False,
+        ),  # A deer: the name may be of either.
+        ([surface_track(500.0, 300.0, number=7, icao24="abcdef")], True),
+    ],
+)
+def test_who_has_no_transponder_is_told_by_the_only_name_that_no_track_has(
+    others: list[SurfaceTrack], is_told: bool
+) -> None:
+    told = Lights().told(truck(5.0, 5.0, callsign=None), lands(), *others)
+    assert [each.recipients for each in told] == ([("OPS1",)] if is_told else [])
 
 
 def test_a_crew_that_rolls_against_them_rejects_the_take_off() -> None:
-    truck = Mover("OPS1", NORTH, stands(1500.0), category="C2")
-    field = lit(Mover("AAL123", NORTH, takes_off(20.0)), truck, seconds=40)
-    told = next(t for _, t in field.told if t.severity == "WARNING")
-    assert told.recommendation is not None
-    assert told.recommendation.action == "cancel_takeoff"
-    assert field.red("AAL123", "WARNING")[0] <= 25.0
+    obstacle = truck(-HOLD_M, 0.0)
+    told = Lights().told(surface_track(300.0, 0.0, 20.0, callsign="AAL123"), obstacle)
+    assert [(each.severity, each.recipients) for each in told] == [("WARNING", ("AAL123",))]
+    assert told[0].recommendations == {"AAL123": CancelTakeoff(runway="01")}
 
 
 def test_intersection_lights_are_red_before_a_departure_while_somebody_lands_across() -> None:
-    crossing = Mover("AAL123", SOUTHEAST, lands(THRESHOLD_S))
-    field = lit(crossing, Mover("DAL456", NORTH, takes_off(500.0)))
-    told = next(told for _, told in field.told)
-    assert told.recipient == "DAL456"
-    assert told.message == "DAL456 intersection lights red for runway 01, traffic AAL123"
-    assert field.out("DAL456")
+    waits = surface_track(50.0, number=2, callsign="DAL456")
+    (told,) = Lights().told(waits, lands(axis=SOUTHEAST, along_m=-500.0))
+    assert words(told) == "DAL456 intersection lights red for runway 01, traffic AAL123"
+    truck = surface_track(50.0, number=2, callsign="OPS1")
+    assert Lights().told(truck, lands(axis=SOUTHEAST, along_m=-500.0)) == []  # It takes off never.
+
+
+def test_the_numbers_of_the_lights_can_be_set() -> None:
+    for arrival_m, is_lit in ((2900.0, False), (3100.0, True)):
+        told = Lights(arrival_m=arrival_m).told(truck(5.0, 5.0), lands(along_m=-3000.0))
+        assert bool(told) is is_lit
+
+
+def test_red_lights_before_one_are_one_alert_whoever_lights_them() -> None:
+    """One arrival after the other; the driver has come up to the line before."""
+    lights = Lights()
+    assert lights.told(truck(20.0, 4.0)) == []
+    gone = surface_track(5000.0, 900.0, callsign="AAL123")
+    told = lights.told(truck(5.0, 0.0), lands())
+    told += lights.told(truck(5.0, 0.0), lands(), lands(2, "AAL456"))
+    told += lights.told(truck(5.0, 0.0), gone, lands(2, "AAL456"))
+    for _ in range(3):
+        told += lights.told(
+            truck(5.0, 0.0), surface_track(5000.0, 900.0, number=2, callsign="AAL456")
+        )
+    assert [(alert.id, alert.active) for alert in told] == [("lights-1", True), ("lights-1", False)]
+    assert told[0].traffic == ("OPS1", "AAL123")

@@ -7,12 +7,12 @@ from typing import Any
 
 import pytest
 
-from airfield import NORTH, SOUTHEAST, Axis
+from airfield import NORTH, SOUTHEAST
 from airhilt.assistant.decision.findings import Obstruction
 from airhilt.assistant.decision.flight_path import _time_abeam_s
 from airhilt.assistant.decision.threats import Outlook, RunwayConfig, Snapshot
 from airhilt.messages import AdsbReport, Severity
-from instants import CONFIG, Field, aloft, arrival, at, landed, report, seen
+from instants import CONFIG, Field, aloft, arrival, at, crossing_m, landed, report, runway, seen
 
 CORE_M = 76.0 - 1.25 * 30.0
 """Where the area begins in which one with NACp 9 is certain to be, from the centre line, in m."""
@@ -52,7 +52,7 @@ def test_who_is_silent_is_forgotten_and_who_stands_later(
         report("AAL123", 500.0, 0.0, speed_m_s, height_m=height_m, rate_fpm=-300.0),
         report("DAL456", 300.0, 0.0, t_s=silent_s),
     )
-    (strip, _) = field.situation.aerodrome.strips
+    strip, _ = runway("01")
     field.situation.forget(at(silent_s))
     known = field.situation.mobile("AAL123") is not None
     on_it = {each.mobile.callsign for each in field.situation.obstacles(strip)}
@@ -87,7 +87,7 @@ def test_an_obstacle_is_on_a_runway_or_has_it_straight_ahead(
     across_m: float, turned_deg: float, is_obstacle: bool, is_inside: bool
 ) -> None:
     field = Field(report("OPS1", 500.0, across_m, 5.0, turned_deg=turned_deg))
-    (strip, _) = field.situation.aerodrome.strips
+    strip, _ = runway("01")
     found = list(field.situation.obstacles(strip))
     assert [each.is_inside for each in found] == ([is_inside] if is_obstacle else [])
     field.situation.take_report(report("OPS1", 500.0, 500.0, 5.0, t_s=1.0), at(1.0))
@@ -181,21 +181,6 @@ def test_a_landing_comes_as_far_as_it_brakes_and_100_m(
 def test_who_has_left_the_ground_comes_to_nothing_on_it() -> None:
     field = Field(report("AAL123", 900.0, 0.0, 80.0, height_m=20.0, rate_fpm=1500.0))
     assert to_point(field, "AAL123", 1500.0) is None
-
-
-@pytest.mark.parametrize(
-    ("to_go_s", "severity"),
-    [(34.9, Severity.WARNING), (35.1, Severity.CAUTION), (59.9, Severity.CAUTION), (60.1, None),
-     (math.inf, None)],
-)  # fmt: skip
-def test_the_sooner_the_graver_for_an_arrival_and_always_grave_for_others(
-    to_go_s: float, severity: Severity | None
-) -> None:
-    field = Field(arrival("AAL123", 50.0), report("DAL456", 300.0, 0.0, 40.0))
-    outlook = Outlook(field.situation, CONFIG, at(0.0))
-    assert outlook.urgency(field.use("AAL123"), to_go_s) is severity
-    others = None if math.isinf(to_go_s) else Severity.WARNING
-    assert outlook.urgency(field.use("DAL456"), to_go_s) is others
 
 
 # --- somebody on the runway -------------------------------------------------------------------
@@ -304,6 +289,9 @@ def test_one_that_nobody_sees_may_be_on_the_runway_for_30_s(
 ) -> None:
     field = Field(arrival("AAL123", to_go_s)).hears(t_s, "Ops one, proceed on runway zero one.")
     assert field.obstructions(t_s) == [("AAL123", "cleared on to", "OPS1", "CAUTION")]
+    (threat,) = field.threats(t_s)
+    assert (threat.parties, threat.rule) == (("AAL123", "OPS1"), "cleared_on")
+    assert (threat.sources, threat.radio_ids) == (("adsb", "radio"), (f"at {t_s:g}",))
     field = Field(arrival("AAL123", to_go_s)).hears(t_s, CROSS)
     told = field.obstructions(t_s)
     assert bool(told) is (to_go_s - t_s < 30.0)
@@ -319,8 +307,12 @@ def test_reported_animals_are_in_the_way_of_who_comes_and_not_of_who_has_been_th
         (landed("AAL123", 600.0, 40.0), None),
         ((report("AAL123", 900.0, 0.0, 80.0, height_m=20.0, rate_fpm=1500.0),), None),
     ):
-        told = Field(*comes).hears(0.0, deer).obstructions()
+        field = Field(*comes).hears(0.0, deer)
+        told = field.obstructions()
         assert told == ([("AAL123", "reported on", "wildlife", severity)] if severity else [])
+        for each in field.threats():
+            assert (each.parties, each.traffic) == (("AAL123",), ("AAL123", "wildlife"))
+            assert (each.sources, each.radio_ids) == (("adsb", "radio"), ("at 0",))
 
 
 def test_one_that_is_not_known_does_not_hide_another_that_was_sent_there() -> None:
@@ -338,6 +330,23 @@ def test_who_takes_off_may_do_so_though_it_was_sent_on_to_the_runway_before() ->
     field.hears(0.0, "Delta four five six, proceed on runway zero one.")
     told = [each for each in field.obstructions() if each[0] == "AAL123"]
     assert told == [("AAL123", "on", "DAL456", "INFO")]
+
+
+def test_what_is_in_doubt_excuses_nobody_and_takes_nothing_away() -> None:
+    field = Field(arrival("AAL123", 30.0), crosses(10.0))
+    field.hears(0.0, "Ops one, cross? runway zero one.")
+    assert field.obstructions() == [("AAL123", "on", "OPS1", "WARNING")]
+    sent = [("AAL123", "cleared on to", "OPS1", "CAUTION")]
+    unseen = Field(arrival("AAL123", 40.0)).hears(-6.0, "Ops one, proceed? onto runway zero one.")
+    assert unseen.obstructions() == sent
+    unseen.hears(-3.0, "Ops one, hold? short? of runway zero one.")
+    assert unseen.obstructions() == sent
+    assert unseen.hears(0.0, "Ops one, hold short of runway zero one.").obstructions() == []
+    deer = [("AAL123", "reported on", "wildlife", "WARNING")]
+    seen_there = Field(arrival("AAL123", 30.0)).hears(-6.0, "Tower, deer on runway zero one.")
+    seen_there.hears(-3.0, "Tower, the deer are gone? from runway zero one.")
+    assert seen_there.obstructions() == deer
+    assert seen_there.hears(0.0, "Tower, the deer are gone from runway zero one.").threats() == []
 
 
 # --- what only cameras show -------------------------------------------------------------------
@@ -359,7 +368,7 @@ def test_what_is_seen_on_a_runway_is_in_the_way(
     assert isinstance(told.finding, Obstruction)
     assert (told.finding.how, told.finding.what, told.traffic) == expected
     assert (told.severity, told.sources) == (Severity.WARNING, ("vision", "adsb"))
-    assert (told.parties, told.rules, told.shares) == (("AAL123",), ("occupancy",), {})
+    assert (told.parties, told.rule, told.shares) == (("AAL123",), "occupancy", {})
     assert seen(Field(arrival("AAL123", 61.0)), **how).threats() == []
 
 
@@ -581,19 +590,6 @@ def test_birds_matter_neither_to_who_has_landed_nor_to_who_has_taken_off() -> No
 # --- two that use runways ---------------------------------------------------------------------
 
 
-def crossing_m(axis: Axis) -> float:
-    """Return how far past a threshold the centre lines cross."""
-    situation = Field().situation
-    point = situation.aerodrome.crossing(*situation.aerodrome.strips)
-    assert point is not None
-    return next(
-        direction.along_m(point)
-        for strip in situation.aerodrome.strips
-        for direction in strip.directions
-        if direction.ident == axis.ident
-    )
-
-
 @pytest.mark.parametrize(
     ("first_s", "later_s", "severity"),
     [
@@ -613,9 +609,8 @@ def test_two_meet_at_a_crossing_within_10_s(
             pytest.skip("the landing stops before the crossing")
         wanted_s = first_s if axis is NORTH else first_s + later_s
         pair.append(arrival(callsign, 40.0 + wanted_s - at_s, axis=axis))
-    told = [
-        each
-        for *_, how, _, each in ((*o,) for o in Field(*pair).obstructions())
-        if how == "on crossing"
-    ]
-    assert told == ([severity] if severity else [])
+    told = [each for each in Field(*pair).threats() if each.rule == "meeting"]
+    assert [each.severity for each in told] == ([severity] if severity else [])
+    for each in told:
+        assert each.parties == ("AAL123", "DAL456")
+        assert each.finding.statement() == "DAL456 on crossing runway 15"

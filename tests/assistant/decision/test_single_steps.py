@@ -9,18 +9,15 @@ from typing import Any, cast
 import numpy as np
 import pytest
 
-from airfield import BRIEFING, FIELD, NORTH, charted, degrees
-from airhilt.assistant.decision.aerodrome import Aerodrome, Vector, Way
-from airhilt.assistant.decision.call_order import CallOrder
+from airfield import FIELD, NORTH, charted, degrees
+from airhilt.assistant.decision.aerodrome import Aerodrome, Vector
 from airhilt.assistant.decision.clarifications import Clarifications
-from airhilt.assistant.decision.clearances import Clearances
 from airhilt.assistant.decision.findings import NotReadBack
-from airhilt.assistant.decision.guard import ConfidenceGuard, Doubt
+from airhilt.assistant.decision.guard import Doubt
 from airhilt.assistant.decision.line_of_sight import GroundFix, PictureGeometry
 from airhilt.assistant.decision.mobiles import Mobile
 from airhilt.assistant.decision.occupancy import velocity_of
-from airhilt.assistant.decision.occupied_runway import _cannot_stop
-from airhilt.assistant.decision.runway_advice import advice
+from airhilt.assistant.decision.runway import advice
 from airhilt.assistant.decision.tcas_tracks import IntruderTrack
 from airhilt.assistant.decision.tracks import Track
 from airhilt.assistant.decision.visual_tracks import Observation
@@ -32,14 +29,12 @@ from airhilt.messages import (
     HoldPosition,
     Severity,
     TcasReply,
-    Transcript,
 )
-from airhilt.phraseology import Instruction, parse_call
+from airhilt.phraseology import Instruction
 from airhilt.units import FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
+from decisions import transcript
+from instants import AERODROME
 from projected import TRUCK, Body, Camera, standing
-
-assert BRIEFING.airport is not None
-AERODROME = Aerodrome(BRIEFING.airport)
 
 
 def report(**given: Any) -> AdsbReport:
@@ -76,43 +71,17 @@ def test_the_local_frame_of_an_airport_begins_in_the_middle_of_its_thresholds(
 # --- calls ----------------------------------------------------------------------------------
 
 
-def call(text: str, t_s: float = 0.0) -> Transcript:
-    t_ns = round(t_s * SECOND_NS)
-    return Transcript(
-        id=f"at {t_s}", frequency_khz=119_100, text=text, confidence=1.0, engine="text",
-        t_tx_ns=t_ns, t_end_ns=t_ns,
-    )  # fmt: skip
-
-
 def test_a_callsign_may_be_asked_about_again_after_a_whole_minute() -> None:
     questions = Clarifications("s")
 
     def asked(t_s: float) -> int:
         said = Instruction("cross", "01")
-        doubt = Doubt("AAL123", "runway", 0.5, said, call("", t_s), is_answered=True)
-        return len(list(questions.ask(round(t_s * SECOND_NS), doubt, "DAL456")))
+        t_ns = round(t_s * SECOND_NS)
+        heard = transcript(f"at {t_s}", 119_100, t_ns, t_ns, "")
+        doubt = Doubt("AAL123", "runway", 0.5, said, heard, is_answered=True)
+        return len(list(questions.ask(t_ns, doubt, "DAL456")))
 
     assert [asked(t_s) for t_s in (10.0, 69.999, 70.0)] == [1, 0, 1]
-
-
-@pytest.mark.parametrize(
-    ("words", "minutes"),
-    [
-        ("cleared to land runway one", 10),
-        ("cleared for takeoff runway one", 3),
-        ("line up and wait runway one", 5),
-        ("cross runway one", 1),
-    ],
-)
-def test_a_clearance_that_nobody_uses_is_in_force_for_whole_minutes(
-    words: str, minutes: int
-) -> None:
-    clearances = Clearances(ConfidenceGuard())
-    given = call(f"American one two three, {words}")
-    clearances.take(parse_call(given.text, ("AAL123",)), given)
-    (known,) = clearances.in_force(minutes * 60 * SECOND_NS)
-    assert known.callsign == "AAL123"
-    assert not list(clearances.in_force(minutes * 60 * SECOND_NS + 1))
 
 
 # --- what is seen ---------------------------------------------------------------------------
@@ -280,58 +249,3 @@ def test_who_uses_a_runway_is_told_to_go_around_or_to_stop_only_when_it_is_urgen
     mobile.on_ground = False
     found = advice(*(cast(Any, each) for each in (mobile, given, severity, situation, config)))
     assert found == (told if kind == "arrival" else None)
-
-
-@pytest.mark.parametrize(("margin_m", "cannot"), [(0.5, True), (-0.5, False)])
-def test_an_error_of_position_to_one_side_is_that_of_one_axis(
-    margin_m: float, cannot: bool
-) -> None:
-    """One axis of a circular normal error with a 95 % radius of 30 m errs by more than 20.16 m to
-    one side in 5 % of cases: 1.645 of its standard deviations, of which 30 m are 2.4477."""
-    error_m = 1.645 / 2.4477 * 30.0
-    braking_m = 8.0**2 / (2.0 * 4.0)
-    line_m = braking_m - error_m - margin_m
-    obstacle = SimpleNamespace(
-        mobile=SimpleNamespace(nacp=9, speed_m_s=8.0), way=Way(line_m + 50.0, line_m + 150.0)
-    )
-    strip = SimpleNamespace(margin_m=lambda _: 50.0)
-    assert _cannot_stop(cast(Any, obstacle), cast(Any, strip), 0.67, 0.0) is cannot
-
-
-# --- the order of calls ---------------------------------------------------------------------
-
-
-def began(t_s: float, name: str | None = None) -> Transcript:
-    return call("words", t_s).model_copy(update={"id": name or f"at {t_s}"})
-
-
-def ids(transcripts: tuple[Transcript, ...]) -> list[str]:
-    return [each.id for each in transcripts]
-
-
-def test_later_calls_are_acted_upon_again_after_one_that_came_late() -> None:
-    order = CallOrder()
-    assert ids(order.take(began(10.0))) == ["at 10.0"]
-    assert ids(order.take(began(20.0))) == ["at 20.0"]
-    assert ids(order.take(began(15.0))) == ["at 15.0", "at 20.0"]
-    assert ids(order.take(began(5.0))) == ["at 5.0", "at 10.0", "at 15.0", "at 20.0"]
-    assert ids(order.take(began(20.0, "other"))) == ["other"]
-
-
-@pytest.mark.parametrize(("late_s", "is_taken"), [(60.0, True), (60.1, False)])
-def test_a_call_that_is_over_a_minute_late_is_left_out(late_s: float, is_taken: bool) -> None:
-    order = CallOrder()
-    order.take(began(100.0))
-    assert bool(order.take(began(100.0 - late_s))) is is_taken
-
-
-def test_a_call_is_known_again_for_a_minute_by_its_frequency_and_its_id() -> None:
-    order = CallOrder()
-    first = began(10.0)
-    order.take(first)
-    assert order.earlier(first) == first
-    assert order.earlier(first.model_copy(update={"frequency_khz": 121_500})) is None
-    order.take(began(70.0))
-    assert order.earlier(first) == first
-    order.take(began(70.1))
-    assert order.earlier(first) is None

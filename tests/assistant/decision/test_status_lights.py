@@ -7,20 +7,13 @@ from typing import Any, cast
 
 import pytest
 
-from airfield import BRIEFING, ELEVATION_M, HOLD_M, NORTH, SOUTHEAST, WIDTH_M, Axis, degrees
-from airhilt.assistant.decision.aerodrome import Aerodrome
-from airhilt.assistant.decision.status_lights import (
-    ACCURATE_NACP,
-    RedLights,
-    StatusLightConfig,
-    StatusLights,
-)
+from airfield import ELEVATION_M, HOLD_M, NORTH, SOUTHEAST, WIDTH_M, Axis, degrees
+from airhilt.assistant.decision.status_lights import RedLights, StatusLightConfig, StatusLights
 from airhilt.assistant.decision.surface_traffic import Target
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE, SECOND_NS
+from instants import AERODROME, crossing_m
 
-assert BRIEFING.airport is not None
-AERODROME = Aerodrome(BRIEFING.airport)
-EDGE_M = HOLD_M - AERODROME.strips[0].margin_m(ACCURATE_NACP)
+EDGE_M = HOLD_M - AERODROME.strips[0].margin_m()
 """Distance from the centre line at which the area of a runway begins."""
 FAST_M_S = 130.0 * KNOT
 
@@ -247,18 +240,6 @@ def test_they_are_red_while_somebody_is_ahead_for_more_than_3_s_or_cannot_but_en
 
 
 # --- intersection lights -------------------------------------------------------------------
-
-
-def crossing_m(axis: Axis) -> float:
-    first, second = AERODROME.strips
-    point = AERODROME.crossing(first, second)
-    assert point is not None
-    return next(
-        direction.along_m(point)
-        for strip in AERODROME.strips
-        for direction in strip.directions
-        if direction.ident == axis.ident
-    )
 
 
 def intersection(user: Target, other: Target) -> list[bool]:

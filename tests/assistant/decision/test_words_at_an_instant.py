@@ -15,9 +15,7 @@ from airhilt.assistant.decision.findings import (
     RunwayMisread,
 )
 from airhilt.assistant.decision.guard import call_of
-from airhilt.assistant.decision.paper.ambiguity import AmbiguousCalls
-from airhilt.assistant.decision.paper.config import PaperConfig
-from airhilt.assistant.decision.paper.ladder import Ladder
+from airhilt.assistant.decision.paper_ladder import Ladder, PaperConfig
 from airhilt.assistant.decision.threats import Threat
 from airhilt.assistant.decision.visual_tracks import VisualTracks
 from airhilt.messages import Severity, TransmissionOpened
@@ -29,7 +27,7 @@ WRONG = "Cleared to land runway one niner, American one two three."
 
 
 def said(field: Field, *rules: str) -> list[Threat]:
-    return [each for each in field.threats(20.0) if set(each.rules) & set(rules)]
+    return [each for each in field.threats(20.0) if each.rule in rules]
 
 
 # --- what does not agree ----------------------------------------------------------------------
@@ -92,7 +90,7 @@ def test_without_a_runway_any_that_is_active_counts() -> None:
 def test_who_does_not_read_back_to_hold_is_told_with_who_uses_the_runway() -> None:
     field = Field(arrival("AAL123", 100.0))
     opened = TransmissionOpened(id="at 10", frequency_khz=119_100, t_tx_ns=at(8.0))
-    field.situation.take_opening(opened)
+    field.situation.clearances.take_opening(opened)
     field.hears(10.0, "Delta four five six, hold short runway zero one.")
     (told,) = said(field, "readback_missing")
     assert isinstance(told.finding, NotReadBack)
@@ -102,8 +100,9 @@ def test_who_does_not_read_back_to_hold_is_told_with_who_uses_the_runway() -> No
     assert (told.severity, told.kind) == (Severity.CAUTION, "readback_mismatch")
     assert told.radio_ids == ("at 10",)
     alone = Field()
-    alone.situation.take_opening(opened)
-    assert said(alone.hears(10.0, "Delta four five six, hold short runway zero one.")) == []
+    alone.situation.clearances.take_opening(opened)
+    alone.hears(10.0, "Delta four five six, hold short runway zero one.")
+    assert alone.threats(20.0) == []
 
 
 @pytest.mark.parametrize(
@@ -137,19 +136,18 @@ class Paper:
 
     def __init__(self, field: Field, **config: Any) -> None:
         self._field = field
-        self.ambiguous = AmbiguousCalls()
-        self._ladder = Ladder(PaperConfig(**config), VisualTracks(), self.ambiguous)
+        self._ladder = Ladder(PaperConfig(**config), VisualTracks())
 
     def hears(self, end_s: float, text: str, callsigns: tuple[str, ...]) -> Paper:
         given = transcript(f"at {end_s:g}", 119_100, at(end_s - 2.0), at(end_s), text)
-        self.ambiguous.take(call_of(given, callsigns), given)
+        self._field.situation.clearances.take(call_of(given, callsigns), given)
         return self
 
     def threats(self, t_s: float = 0.0) -> list[Threat]:
         return list(self._ladder.threats(self._field.situation, at(t_s)).values())
 
     def told(self, t_s: float = 0.0) -> list[tuple[str, str]]:
-        return [(each.rules[0], each.severity.value) for each in self.threats(t_s)]
+        return [(each.rule, each.severity.value) for each in self.threats(t_s)]
 
 
 def test_an_arrival_has_a_warning_however_far_it_is_and_others_from_8_s() -> None:
@@ -203,7 +201,7 @@ def test_the_score_is_of_cameras_of_clearances_and_of_who_uses_the_runway(
     if is_cleared:
         field.hears(0.0, "Delta four five six, runway zero one, line up and wait.")
     seen(field, weight=weight, is_certain=False)
-    found = [each for each in Paper(field).threats() if each.rules == ("score",)]
+    found = [each for each in Paper(field).threats() if each.rule == "score"]
     assert [each.severity.value for each in found] == ([severity] if severity else [])
     for told in found:
         users, cleared = ("AAL123",) * uses, ("DAL456",) * is_cleared
@@ -221,14 +219,15 @@ def test_a_call_that_may_be_for_either_of_two_is_a_caution_on_a_runway_in_use(
     field = Field(arrival("AAL123", 100.0))
     names = ("N172SP", "N552SP", "AAL123")
     call = f"November two sierra papa, {runway} line up and wait."
-    assert Paper(Field()).hears(5.0, call, names).threats(6.0) == []
+    holds = f"November two sierra papa, hold short {runway}."
+    assert Paper(Field()).hears(5.0, holds, names).threats(6.0) == []
     (told,) = Paper(field).hears(5.0, call, names).threats(6.0)
     assert told.runway == ident
     assert told.parties == ("N172SP", "N552SP")
     assert told.traffic == ("N172SP", "N552SP", "AAL123")
     assert isinstance(told.finding, RecipientUnclear)
     assert (told.severity, told.radio_ids) == (Severity.CAUTION, ("at 5",))
-    assert told.rules == ("recipient_ambiguity",)
+    assert told.rule == "recipient_ambiguity"
 
 
 @pytest.mark.parametrize(

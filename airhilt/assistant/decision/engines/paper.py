@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from airhilt.assistant.decision.engine import Decision, ReceivedMessage
 from airhilt.assistant.decision.guard import ConfidenceGuard
-from airhilt.assistant.decision.paper.ambiguity import AmbiguousCalls
-from airhilt.assistant.decision.paper.config import PaperConfig
-from airhilt.assistant.decision.paper.ladder import Ladder
+from airhilt.assistant.decision.paper_ladder import Ladder, PaperConfig
 from airhilt.assistant.decision.runway import RunwayWatch
 from airhilt.assistant.decision.threats import RunwayConfig
 from airhilt.assistant.decision.visual_tracks import VisualTracks
@@ -31,8 +29,7 @@ class PaperEngine:
     def __init__(self, configuration: PaperConfig | None = None) -> None:
         self.configuration = config = configuration or PaperConfig()
         self.visual_tracks = VisualTracks(config.sight)
-        self.ambiguous = AmbiguousCalls()
-        ladder = Ladder(config, self.visual_tracks, self.ambiguous)
+        ladder = Ladder(config, self.visual_tracks)
         timing = RunwayConfig(
             persistence_s=0.0, release_s=config.release_s, recipients=config.recipients
         )
@@ -42,18 +39,13 @@ class PaperEngine:
 
     def receive(self, received: ReceivedMessage) -> None:
         """Update positions, visual tracks and clearances with one message."""
+        self.runways.take(received.message, received.t_ns)
         match received.message:
             case AdsbReport() as report:
-                self.runways.take_report(report, received.t_ns)
                 self.visual_tracks.take_report(report, received.t_ns)
             case Detections() as detections:
                 self.visual_tracks.take_detections(detections, received.t_ns)
-            case Transcript() as transcript:
-                call = self.runways.take_transcript(transcript)
-                if call is not None:
-                    self.ambiguous.take(call, transcript)
             case Briefing() as briefing:
-                self.runways.take_briefing(briefing)
                 self.visual_tracks.take_briefing(briefing)
 
     def decide(self, t_ns: int) -> Decision:

@@ -36,9 +36,9 @@ from airhilt.phraseology import TAU_ASR
 from airhilt.units import SECOND_NS
 
 WAITED_NS = SECOND_NS
-"""Time for which evidence has waited for the engine, in ns, from which it is judged by itself."""
+"""Evidence that has waited this long for a busy engine, in ns, is judged by its own time."""
 OBSERVED_EVERY_NS = SECOND_NS // 2
-"""Time between two looks at such evidence, in ns: that between two position reports."""
+"""Least time between two such judgements, in ns: that between two position reports."""
 
 
 class ReferenceConfig(Configuration):
@@ -62,7 +62,7 @@ class ReferenceConfig(Configuration):
 
 
 class ReferenceEngine:
-    """Implements `airhilt.assistant.decision.engine.DecisionEngine` by fixed rules.
+    """Decides by fixed rules.
 
     What cameras show goes to the visual tracks. They keep what no transponder explains, and both
     the watch for intruders and the one for runways look at that.
@@ -96,29 +96,29 @@ class ReferenceEngine:
     def receive(self, received: ReceivedMessage) -> None:
         """Update tracks, clearances and belief with one message."""
         self._catch_up(received)
+        t_ns = received.t_ns
         match received.message:
-            case AdsbReport() as report if self.checks.believes_report(report, received.t_ns):
-                for part in (self.separation, self.runways, self.visual_tracks):
-                    part.take_report(report, received.t_ns)
+            case AdsbReport() as report if self.checks.believes_report(report, t_ns):
+                self.separation.take_report(report, t_ns)
+                self.runways.take(report, t_ns)
+                self.visual_tracks.take_report(report, t_ns)
             case CameraInfo() as info:
                 self.checks.take_camera(info)
-            case Detections() as seen if self.checks.believes_detections(seen, received.t_ns):
-                self.visual_tracks.take_detections(seen, received.t_ns)
-            case TransmissionOpened() as opened:
-                self.runways.take_opening(opened)
-            case PartialTranscript() as partial:
-                self.runways.take_partial(partial)
+            case Detections() as seen if self.checks.believes_detections(seen, t_ns):
+                self.visual_tracks.take_detections(seen, t_ns)
+            case TransmissionOpened() | PartialTranscript() as part:
+                self.runways.take(part, t_ns)
             case Transcript() as transcript:
-                for call in self.checks.in_order(transcript, received.t_ns):
-                    self.runways.take_transcript(call)
-                    self.separation.take_transcript(received.t_ns, received.t_in_ns, call)
+                for call in self.checks.in_order(transcript, t_ns):
+                    self.runways.take(call, t_ns)
+                    self.separation.take_transcript(t_ns, received.t_in_ns, call)
             case Briefing() as briefing:
                 self.separation.take_briefing(briefing)
-                self.runways.take_briefing(briefing)
+                self.runways.take(briefing, t_ns)
                 self.visual_tracks.take_briefing(briefing)
 
     def _catch_up(self, received: ReceivedMessage) -> None:
-        """Note what was wrong when a message arrived that had to wait, before it is taken in.
+        """Judge what was known when a message arrived that had to wait.
 
         A busy engine gets many messages at once. What they show together has lasted since the
         first of them, although nothing was told meanwhile.

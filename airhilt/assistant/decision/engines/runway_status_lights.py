@@ -78,13 +78,16 @@ class RunwayStatusLightEngine:
     def _hazards(self, red: RedLights, traffic: SurfaceTraffic) -> Iterator[Hazard]:
         """Yield the hazard for the viewer of lit lights; none if nobody can be told."""
         viewer, because = self._name(red.viewer, traffic), self._name(red.because, traffic)
-        takes_off = red.lights != "entrance"
-        if viewer is None or (takes_off and viewer in self._vehicles):
+        is_entrance = red.lights == "entrance"
+        if viewer is None or (not is_entrance and viewer in self._vehicles):
             return
         other = because or UNIDENTIFIED
-        numbers = tuple(str(target.number) for target in (red.viewer, red.because))
+        # Who does not move on against the lights, or cannot stop short, has nothing to do.
+        response: Recommendation = (HoldPosition if is_entrance else CancelTakeoff)(
+            runway=red.runway
+        )
         yield Hazard(
-            key=(red.lights, numbers[0], red.strip.name),
+            key=(red.lights, str(red.viewer.number), red.strip.name),
             severity=Severity.WARNING if red.is_disregarded else Severity.ADVISORY,
             kind="runway_conflict",
             recipients=(viewer,),
@@ -99,7 +102,7 @@ class RunwayStatusLightEngine:
                 ),
                 rules=(f"{red.lights} lights",),
             ),
-            recommendations=_response(red, viewer),
+            recommendations={viewer: response} if red.is_disregarded and red.can_stop else {},
         )
 
     def _name(self, target: Target, traffic: SurfaceTraffic) -> str | None:
@@ -109,18 +112,6 @@ class RunwayStatusLightEngine:
         unnamed = [each for each in traffic if not (each.callsign or each.icao24)]
         missing = self._vehicles - {each.callsign for each in traffic}
         return next(iter(missing)) if len(missing) == len(unnamed) == 1 else None
-
-
-def _response(red: RedLights, viewer: str) -> dict[str, Recommendation]:
-    """Return what the viewer does on red: stop short of the runway, or break off the take-off.
-
-    Who does not move on against the lights has nothing to do.
-    """
-    if not (red.is_disregarded and red.can_stop):
-        return {}
-    if red.lights == "entrance":
-        return {viewer: HoldPosition(runway=red.runway)}
-    return {viewer: CancelTakeoff(runway=red.runway)}
 
 
 ENGINE = Engine(
