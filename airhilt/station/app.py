@@ -52,8 +52,10 @@ def debrief_app(debrief: Debrief) -> FastAPI:
     return app
 
 
-def two_debriefs_app(debriefs: Sequence[Debrief]) -> FastAPI:
-    """Return the application that shows two recorded runs side by side, on one clock."""
+def recorded_app(debriefs: Sequence[Debrief]) -> FastAPI:
+    """Return the application that shows a recorded run, or two side by side on one clock."""
+    if len(debriefs) == 1:
+        return debrief_app(debriefs[0])
     app = page_app("together.html")
     for number, debrief in enumerate(debriefs):
         app.mount(f"/{number}", debrief_app(debrief))

@@ -67,8 +67,9 @@ def home_app(
 
     @app.post("/api/debriefs")
     def debrief(wish: DebriefWish) -> dict[str, str]:
-        return {"url": debriefs.open(wish.runs)}
+        return {"url": f"debriefs{debriefs.open(wish.runs)}"}
 
+    app.mount("/debriefs", debriefs.router)
     refuse_in_words(app)
     return app
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from airhilt.host.text import readable
 from airhilt.messages import (
@@ -13,18 +13,10 @@ from airhilt.messages import (
     Detections,
     Message,
     Transcript,
-    bus_message,
 )
-from airhilt.record import Logged, RunFolder
-from airhilt.report.sections import Content
 from airhilt.units import SECOND_NS
 
-if TYPE_CHECKING:
-    from airhilt.report.data import RunData
-
 Json = list[Any]
-KEYS = ("asr/", "vision/", "adsb/", "advisory/", "tts/")
-"""Beginnings of the keys of the messages that have latencies."""
 LEAST_GAP_NS = SECOND_NS // 2
 """Least time between two bars of what comes often, in ns."""
 OFTEN = ("vision", "adsb")
@@ -72,7 +64,9 @@ class LatencyBars:
         self._told: set[tuple[str, int, str]] = set()
 
     def bar(self, message: Message) -> Json | None:
-        """Return the bar of a message of a stage, None if it has none of its own."""
+        """Return the bar of a message, None if it has none of its own."""
+        if type(message) not in STAGES:
+            return None
         stage, make = STAGES[type(message)]
         if stage in OFTEN:
             if message.t_ns - self._last_ns.get(stage, -LEAST_GAP_NS) < LEAST_GAP_NS:
@@ -89,24 +83,3 @@ class LatencyBars:
         times = (begin_ns, end_ns, *more)
         begin_s, end_s, *others = (round(t_ns / SECOND_NS, 3) for t_ns in times)
         return [stage, begin_s, end_s, what, *others]
-
-
-class Latencies(Content):
-    """The bars of a recorded run."""
-
-    def __init__(self, folder: RunFolder) -> None:
-        super().__init__(folder)
-        self._bars = LatencyBars()
-        self._found: list[Json] = []
-
-    def take(self, logged: Logged) -> None:
-        """Receive a message."""
-        model = bus_message(logged.key)
-        if model is None or model not in STAGES:
-            return
-        if (bar := self._bars.bar(model.model_validate_json(logged.data))) is not None:
-            self._found.append(bar)
-
-    def as_json(self, run: RunData) -> list[Json]:  # noqa: ARG002
-        """Return the bars in the order of their ends."""
-        return self._found

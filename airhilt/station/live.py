@@ -44,7 +44,7 @@ from airhilt.station.audiences import NOBODY, Audience, audience_of
 from airhilt.station.calls import call_as_json, spoken_as_json
 from airhilt.station.cameras import found_as_json, view_as_json
 from airhilt.station.changes import Changes
-from airhilt.station.latencies import STAGES, LatencyBars
+from airhilt.station.latencies import LatencyBars
 from airhilt.station.seat_views import SeatViews
 from airhilt.station.subscription import sound_name
 from airhilt.surveillance.radar import plot_place
@@ -112,7 +112,7 @@ class LiveRun:
                 self._changes.add(*change, audience=audience)
             if (row := event_row(logged._replace(t_ns=message.t_ns))) is not None:
                 self._changes.add("event", self._without_engine(row), audience=audience)
-            if model in STAGES and (bar := self._bars.bar(message)) is not None:
+            if (bar := self._bars.bar(message)) is not None:
                 # Bars name engines, and are thinned over all who send: no seat is told any.
                 self._changes.add("latency", bar, audience=NOBODY)
         except ValidationError as error:

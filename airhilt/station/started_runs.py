@@ -66,7 +66,7 @@ class StartedRuns:
 
     def __init__(self, folder: Path, page: Sequence[str] = PAGE_OF_THIS_MACHINE) -> None:
         self.folder = folder
-        self.page = page
+        self._page = page
         self._children: list[subprocess.Popen[bytes]] = []
 
     def start(self, scenario: Path, options: Options, name: str | None = None) -> str:
@@ -98,7 +98,7 @@ class StartedRuns:
             }
         )
         command = [sys.executable, "-m", "airhilt", "cosim", f"--scenario={scenario}"]
-        command += ["--view", *self.page, *arguments_of(given)]
+        command += ["--view", *self._page, *arguments_of(given)]
         try:
             make_folder(self.folder / KEPT)
             replace_file(self._output(name), b"")

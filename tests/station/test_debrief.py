@@ -20,7 +20,7 @@ from airhilt.record.frequency import read_frequency
 from airhilt.record.pictures import PictureName
 from airhilt.station.app import debrief_app
 from airhilt.station.debrief import Debrief
-from airhilt.station.kept_pictures import kept_pictures
+from airhilt.station.pictures import kept_pictures
 from camera_run import camera_run
 from stations import asked
 

@@ -157,13 +157,10 @@ def test_runs_and_debriefs_of_a_station_admit_those_whom_it_admits(
         name = answer(client, "api/runs", scenario="own/mine.json", options={"speech": False})[
             "name"
         ]
-        pages = [
-            started(client, "running")["url"],
-            answer(client, "api/debriefs", runs=["one"])["url"],
-        ]
-        for page in pages:
-            url = httpx.URL(page).copy_with(host="127.0.0.1")
-            assert (url.scheme, url.params["token"]) == ("https", TOKEN)
+        debrief = client.base_url.join(answer(client, "api/debriefs", runs=["one"])["url"])
+        run = httpx.URL(started(client, "running")["url"]).copy_with(host="127.0.0.1")
+        assert (run.scheme, run.params["token"]) == ("https", TOKEN)
+        for url in (run, debrief.copy_with(query=f"token={TOKEN}".encode())):
             with httpx.Client(verify=False, trust_env=False, follow_redirects=True) as other:
                 assert other.get(url.copy_with(query=None)).status_code == 403
                 assert "AIRHILT" in other.get(url).text
