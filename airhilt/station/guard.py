@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hmac
+from collections import Counter
 from collections.abc import Callable
 from http.cookies import CookieError, SimpleCookie
 from urllib.parse import parse_qs, urlsplit
@@ -13,9 +14,10 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from airhilt.host.text import readable
 from airhilt.station.address import Address
-from airhilt.station.refusals import Refusals
 
 COOKIE = "airhilt_token"
+MOST_NOTICES = 20
+"""Largest number of refusals of one source that are told."""
 POLICY = "; ".join(
     (
         "default-src 'none'",
@@ -39,6 +41,28 @@ HEADERS = {
     "X-Content-Type-Options": "nosniff",
     "Cache-Control": "no-store",
 }
+
+
+class Refusals:
+    """Tells what is refused: the first `MOST_NOTICES` of each source.
+
+    Parameters
+    ----------
+    notice
+        Is told of it.
+    """
+
+    def __init__(self, notice: Callable[[str], None]) -> None:
+        self._notice = notice
+        self._told: Counter[str] = Counter()
+
+    def tell(self, what: str, source: str) -> None:
+        """Tell of a refusal, and with the last one of a source that no more of it are told."""
+        self._told[source] += 1
+        if self._told[source] > MOST_NOTICES:
+            return
+        is_last = self._told[source] == MOST_NOTICES
+        self._notice(f"refused {what}{f'; further ones {source} are not told' * is_last}")
 
 
 class Guard:
