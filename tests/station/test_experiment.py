@@ -32,10 +32,9 @@ from airhilt.record import RunFolder
 from airhilt.station.conductor import Conductor
 from airhilt.station.experiment_tables import write_tables
 from airhilt.station.participant_progress import Asked, Progress
-from airhilt.station.plan import Plan, plan_of
+from airhilt.station.plan import Plan, balanced_latin_square, plan_of
 from airhilt.station.questionnaires import NASA_TLX, Answers
 from airhilt.station.started_runs import StartedRun, StartedRuns
-from airhilt.station.trial_order import balanced_latin_square, order_of
 
 Cli = Callable[..., subprocess.CompletedProcess[str]]
 ANSWERS: Answers = {
@@ -187,11 +186,11 @@ def test_a_finished_trial_is_not_run_again_and_has_a_row(
     conductor = Conductor([progress])
     assert conductor.state()["step"] == "ready"
     first, second = progress.trials
-    stopped = shutil.copytree(recorded_run, progress.runs.folder / f"01-{first.name}") / "run.json"
+    stopped = shutil.copytree(recorded_run, progress.folder / f"01-{first.name}") / "run.json"
     stopped.write_text(json.dumps(json.loads(stopped.read_text()) | {"phase": "stopped"}))
     assert conductor.state()["step"] == "ready"
-    assert progress.runs.new_run(first) == f"01-{first.name}-2"
-    shutil.copytree(recorded_run, progress.runs.folder / f"01-{first.name}-2")
+    assert progress.new_run(first) == f"01-{first.name}-2"
+    shutil.copytree(recorded_run, progress.folder / f"01-{first.name}-2")
     assert conductor.state()["step"] == "questions"
     with pytest.raises(StationError, match="not time"):
         conductor.begin()
@@ -220,7 +219,7 @@ def test_the_row_of_a_trial_has_the_totals_of_its_person(
     unadvised = ignored.model_copy(update={"t_seen_s": None, "t_heard_s": 5.0, "followed": None})
     person = PERSON.model_copy(update={"reactions": [REACTION, ignored, unadvised]})
     name = f"01-{progress.trials[0].name}"
-    finished(recorded_run, progress.runs.folder / name, [person.model_dump(mode="json")])
+    finished(recorded_run, progress.folder / name, [person.model_dump(mode="json")])
     write_tables(experiment, tmp_path)
     row = table(tmp_path / "experiment.parquet")[0]
     own = {key.removeprefix("person."): row[key] for key in row if key.startswith("person.")}
@@ -253,7 +252,7 @@ def test_a_reaction_and_a_call_have_a_row_with_their_trial(
     experiment = plan(participants=["P01"])
     progress = Progress(experiment, tmp_path, "P01")
     for position, trial in enumerate(progress.trials, 1):
-        folder = progress.runs.folder / f"{position:02d}-{trial.name}"
+        folder = progress.folder / f"{position:02d}-{trial.name}"
         people = [PERSON.model_dump(mode="json")] if position == 2 else []
         finished(recorded_run, folder, people)
     assert write_tables(experiment, tmp_path) == (2, 1, 1)
@@ -282,7 +281,7 @@ def test_the_page_of_a_trial_that_is_over_is_not_that_of_the_next_one(
 ) -> None:
     progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
     name = f"01-{progress.trials[0].name}"
-    shutil.copytree(recorded_run, progress.runs.folder / name)
+    shutil.copytree(recorded_run, progress.folder / name)
     progress.answer(Asked(NASA_TLX, name), ANSWERS)
     still_there = StartedRun(
         name=name,
@@ -291,7 +290,7 @@ def test_the_page_of_a_trial_that_is_over_is_not_that_of_the_next_one(
         process=os.getpid(),
         created_s=psutil.Process().create_time(),
     )
-    kept = progress.runs.folder / ".station"
+    kept = progress.folder / ".station"
     kept.mkdir()
     (kept / f"{name}.json").write_text(still_there.model_dump_json())
     state = Conductor([progress]).state()
@@ -330,7 +329,7 @@ def test_numbers_that_a_run_did_not_write_do_not_enter_the_table(
     experiment = plan(participants=["P01"])
     progress = Progress(experiment, tmp_path, "P01")
     name = f"01-{progress.trials[0].name}"
-    numbers = shutil.copytree(recorded_run, progress.runs.folder / name) / "summary.json"
+    numbers = shutil.copytree(recorded_run, progress.folder / name) / "summary.json"
     numbers.write_text(numbers.read_text().replace('"duration_s": 8.0', '"duration_s": 80.0'))
     with pytest.raises(RunFolderError, match=r"summary\.json: damaged or changed"):
         write_tables(experiment, tmp_path)
@@ -344,9 +343,9 @@ def test_a_trial_whose_record_cannot_be_read_is_begun_again(
 ) -> None:
     progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
     first = progress.trials[0]
-    folder = shutil.copytree(recorded_run, progress.runs.folder / f"01-{first.name}")
+    folder = shutil.copytree(recorded_run, progress.folder / f"01-{first.name}")
     (folder / "run.json").write_bytes(b"[" * 100_000)
-    assert progress.runs.finished_run(first) is None
+    assert progress.finished_run(first) is None
 
 
 @pytest.mark.parametrize("content", [None, b"{", b'{"people": [{}]}'])
@@ -355,7 +354,7 @@ def test_a_finished_trial_whose_seats_cannot_be_read_is_neither_done_nor_begun_a
 ) -> None:
     progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
     name = f"01-{progress.trials[0].name}"
-    folder = shutil.copytree(recorded_run, progress.runs.folder / name)
+    folder = shutil.copytree(recorded_run, progress.folder / name)
     if content is None:
         RunFolder(folder).summary_path.unlink()
     else:
@@ -366,7 +365,7 @@ def test_a_finished_trial_whose_seats_cannot_be_read_is_neither_done_nor_begun_a
 
 def test_a_break_has_to_be_taken(recorded_run: Path, tmp_path: Path) -> None:
     progress = Progress(plan(break_after=1), tmp_path, "P01")
-    shutil.copytree(recorded_run, progress.runs.folder / f"01-{progress.trials[0].name}")
+    shutil.copytree(recorded_run, progress.folder / f"01-{progress.trials[0].name}")
     assert Conductor([progress]).state()["rest_s"] == 0.0
     conductor = Conductor([progress])
     conductor.answer("nasa_tlx", ANSWERS)
@@ -423,7 +422,7 @@ def test_own_questions_are_asked_before_after_each_trial_and_at_the_end(
     conductor.answer("before", {"licence": "private"})
     assert conductor.state()["step"] == "ready"
     for position, trial in enumerate(progress.trials, 1):
-        finished(recorded_run, progress.runs.folder / f"{position:02d}-{trial.name}", [])
+        finished(recorded_run, progress.folder / f"{position:02d}-{trial.name}", [])
         assert names_asked(conductor) == list(ANSWERS)
         conductor.answer("nasa_tlx", ANSWERS)
         assert names_asked(conductor) == ["trust"]
@@ -439,7 +438,7 @@ def test_own_questions_are_asked_before_after_each_trial_and_at_the_end(
         ["private", 25.0, 1.0, "with"],
         ["private", 25.0, 2.0, "with"],
     ]
-    kept = json.loads((progress.runs.folder / "before.json").read_text())
+    kept = json.loads((progress.folder / "before.json").read_text())
     assert kept == {"licence": "private"}
 
 
@@ -450,7 +449,7 @@ def test_ratings_that_were_given_at_the_seat_are_not_asked_again(
     progress = Progress(experiment, tmp_path, "P01")
     workload = PERSON.workload.model_copy(update={"nasa_tlx": NasaTlx.model_validate(ANSWERS)})
     person = PERSON.model_copy(update={"workload": workload}).model_dump(mode="json")
-    finished(recorded_run, progress.runs.folder / f"01-{progress.trials[0].name}", [person])
+    finished(recorded_run, progress.folder / f"01-{progress.trials[0].name}", [person])
     assert names_asked(Conductor([progress])) == ["trust"]
     write_tables(experiment, tmp_path)
     assert table(tmp_path / "experiment.parquet")[0]["nasa_tlx.raw_tlx"] == 25.0
@@ -480,8 +479,8 @@ def test_answers_that_the_items_do_not_take_are_refused_in_words(
 def test_answers_that_no_page_wrote_are_refused_in_words(tmp_path: Path, content: str) -> None:
     """They are not asked again by themselves: the answers of a person would be lost."""
     progress = Progress(plan(participants=["P01"], questions={"before": [TRUST]}), tmp_path, "P01")
-    progress.runs.folder.mkdir()
-    (progress.runs.folder / "before.json").write_text(content)
+    progress.folder.mkdir()
+    (progress.folder / "before.json").write_text(content)
     with pytest.raises(RunFolderError, match=r"before\.json: .*move the file away to ask again"):
         Conductor([progress]).state()
 
@@ -492,7 +491,7 @@ def test_an_item_that_came_into_the_plan_later_or_is_not_answered_yet_leaves_a_g
     progress = Progress(plan(participants=["P01"], questions={"before": [TRUST]}), tmp_path, "P01")
     Conductor([progress]).answer("before", {"trust": 3})
     later = plan(participants=["P01"], questions={"before": [TRUST, LICENCE]})
-    finished(recorded_run, progress.runs.folder / f"01-{progress.trials[0].name}", [])
+    finished(recorded_run, progress.folder / f"01-{progress.trials[0].name}", [])
     write_tables(later, tmp_path)
     row = table(tmp_path / "experiment.parquet")[0]
     names = ("before.trust", "before.licence", "nasa_tlx.effort")
@@ -513,7 +512,7 @@ def test_the_scales_of_nasa_tlx_are_those_that_the_run_takes() -> None:
 
 def test_a_team_has_one_order_of_trials_and_the_next_team_another() -> None:
     experiment = team_plan()
-    order = {name: [trial.name for trial in order_of(experiment, name)] for name in
+    order = {name: [trial.name for trial in experiment.order_of(name)] for name in
              ("P01", "P02", "P03", "P04")}  # fmt: skip
     assert order["P01"] == order["P02"] == ["s01b_nominal-1", "s01b_nominal-2"]
     assert order["P03"] == order["P04"] == ["s01b_nominal-2", "s01b_nominal-1"]
@@ -544,9 +543,9 @@ def test_a_run_that_was_moved_away_hides_no_other_one(recorded_run: Path, tmp_pa
     progress = Progress(plan(participants=["P01"]), tmp_path, "P01")
     trial = progress.trials[0]
     name = f"01-{trial.name}-2"
-    finished(recorded_run, progress.runs.folder / name, [PERSON.model_dump(mode="json")])
-    assert progress.runs.finished_run(trial) == name
-    assert progress.runs.new_run(trial) == f"01-{trial.name}-3"
+    finished(recorded_run, progress.folder / name, [PERSON.model_dump(mode="json")])
+    assert progress.finished_run(trial) == name
+    assert progress.new_run(trial) == f"01-{trial.name}-3"
 
 
 def test_a_run_with_seats_begins_when_they_are_taken(
@@ -570,7 +569,7 @@ def test_a_run_with_seats_begins_when_they_are_taken(
 def goes_on(progress: Progress) -> None:
     """Let the first trial of a team go on, in the process of the tests."""
     name = f"01-{progress.trials[0].name}"
-    kept = progress.runs.folder / ".station"
+    kept = progress.folder / ".station"
     kept.mkdir(parents=True)
     started = StartedRun(
         name=name,
@@ -641,17 +640,17 @@ def test_a_trial_of_a_team_of_which_one_never_sat_is_not_finished(
 ) -> None:
     team = led(team_plan(), tmp_path, "P01")
     trial = team[0].trials[0]
-    finished(recorded_run, team[0].runs.folder / f"01-{trial.name}", two_people(seat_time_s=0.0))
-    assert [one.runs.finished_run(trial) for one in team] == [None, None]
-    finished(recorded_run, team[0].runs.folder / f"01-{trial.name}-2", two_people(seat_time_s=0.5))
-    assert [one.runs.finished_run(trial) for one in team] == [f"01-{trial.name}-2"] * 2
+    finished(recorded_run, team[0].folder / f"01-{trial.name}", two_people(seat_time_s=0.0))
+    assert [one.finished_run(trial) for one in team] == [None, None]
+    finished(recorded_run, team[0].folder / f"01-{trial.name}-2", two_people(seat_time_s=0.5))
+    assert [one.finished_run(trial) for one in team] == [f"01-{trial.name}-2"] * 2
 
 
 def test_a_trial_that_had_other_seats_is_refused(recorded_run: Path, tmp_path: Path) -> None:
     """The plan was changed: who is a pilot in it now had the seat of the controller then."""
     team = led(team_plan(), tmp_path, "P01")
     name = f"01-{team[0].trials[0].name}"
-    finished(recorded_run, team[0].runs.folder / name, two_people())
+    finished(recorded_run, team[0].folder / name, two_people())
     changed = team_plan(seats=["AAL123", "tower"])
     said = "its seats were Washington Tower, AAL123; expected AAL123, Washington Tower, as the plan"
     with pytest.raises(RunFolderError, match=rf"P01\+P02/{name}: .*{said}"):
@@ -665,7 +664,7 @@ def test_a_trial_of_a_participant_who_had_another_seat_is_refused(
 ) -> None:
     progress = Progress(plan(participants=["P01"], scenarios=["s01b_nominal"]), tmp_path, "P01")
     name = f"01-{progress.trials[0].name}"
-    finished(recorded_run, progress.runs.folder / name, [PERSON.model_dump(mode="json")])
+    finished(recorded_run, progress.folder / name, [PERSON.model_dump(mode="json")])
     changed = plan(participants=["P01"], scenarios=["s01b_nominal"], seat="tower")
     with pytest.raises(RunFolderError, match="its seat was AAL123; expected Washington Tower"):
         write_tables(changed, tmp_path)
