@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from airhilt.errors import AirhiltError
 from airhilt.host.text import readable
 from airhilt.options import Options, options_of
-from airhilt.station.app import page_app, refuse_in_words
+from airhilt.station.app import page_app
 from airhilt.station.debriefs import Debriefs
 from airhilt.station.scenario_choices import ScenarioChoices
 from airhilt.station.started_runs import StartedRuns
@@ -70,7 +70,6 @@ def home_app(
         return {"url": f"debriefs{debriefs.open(wish.runs)}"}
 
     app.mount("/debriefs", debriefs.router)
-    refuse_in_words(app)
     return app
 
 

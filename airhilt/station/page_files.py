@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from functools import cache
 from importlib import resources
 
@@ -13,15 +14,10 @@ MEDIA_TYPES = {
     "svg": "image/svg+xml",
 }
 """Media type of the files, by the end of their names."""
-SHARED = {
-    "series": ("at", "before", "headingAt", "niceStep"),
-    "words": (
-        "METRE_PER_FT", "METRE_PER_NM", "SEVERITIES",
-        "bearing", "capital", "counted", "decibels", "feet", "fixed", "instruction", "known",
-        "megahertz", "metres", "miles", "minus", "percent", "seconds", "whole", "words",
-    ),
-}  # fmt: skip
-"""Names that the page takes from scripts of a report, by script."""
+SHARED = ("series", "words")
+"""Scripts of a report that the page takes, as modules."""
+DECLARED = re.compile(r"^(?:const|function) (\w+)", re.MULTILINE)
+"""Names that such a script declares."""
 
 
 def media_type(name: str) -> str:
@@ -45,7 +41,8 @@ def page_files() -> dict[str, bytes]:
         if path.name.rpartition(".")[2] in MEDIA_TYPES
     }
     shared = resources.files("airhilt.report").joinpath("shared")
-    for name, functions in SHARED.items():
+    for name in SHARED:
         script = shared.joinpath(f"{name}.js").read_text("utf-8")
-        files[f"{name}.js"] = f"{script}\nexport {{ {', '.join(functions)} }};\n".encode()
+        exported = ", ".join(DECLARED.findall(script))
+        files[f"{name}.js"] = f"{script}\nexport {{ {exported} }};\n".encode()
     return files

@@ -190,7 +190,7 @@ def test_a_picture_or_a_camera_that_is_not_there_is_named(filmed: Debrief) -> No
 
 def test_the_server_answers_a_mistake_in_words(debrief: Debrief) -> None:
     answer = asked(debrief_app(debrief), "/api/sounds/nothing.wav")
-    assert answer.status_code == 404
+    assert answer.status_code == 400
     assert "expected" in answer.json()["error"]
 
 
