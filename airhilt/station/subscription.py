@@ -193,8 +193,9 @@ class Subscription:
         At seats calls are heard while they last, each at its own receiver.
         """
         model = bus_message(key)
-        has_sound = model is AdvisoryAudio or (model is Transmission and not self._has_seats)
-        if model is None or not has_sound or not pcm:
+        if not pcm or (model is Transmission and self._has_seats):
+            return
+        if model is not Transmission and model is not AdvisoryAudio:
             return
         with suppress(ValidationError):  # The receiver of the message tells it.
             message = model.model_validate_json(header)

@@ -54,7 +54,7 @@ from airhilt.station.changes import Changes
 from airhilt.station.pictures import Picture
 from airhilt.station.seat_views import SeatViews
 from airhilt.station.server import serve
-from airhilt.station.subscription import Sound
+from airhilt.station.subscription import Sound, Subscription
 from devtools import Page
 from seats import state_of
 
@@ -378,8 +378,9 @@ def seat_page(
     """Serve the page of a pretended run in this process; yield the run and the URL."""
     run = run or PretendedRun()
     views = run.views if has_seats else SeatViews()
-    browsers = Browsers(run.changes, run, views, run.sounds, run.told.append)
-    with serving(live_app(run, browsers)) as url:  # type: ignore[arg-type]
+    subscription = cast("Subscription", run)
+    browsers = Browsers(run.changes, subscription, views, run.sounds, run.told.append)
+    with serving(live_app(subscription, browsers)) as url:
         yield run, url
 
 
