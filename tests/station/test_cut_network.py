@@ -44,7 +44,6 @@ def seated(microphone: Path) -> Iterator[tuple[PretendedRun, Network, Page]]:
         press_again(page)
         assert run.next().do == "press"
         yield run, network, page
-        page.open("about:blank")
         forgive(page)
 
 
@@ -84,7 +83,6 @@ def test_who_has_the_seat_of_a_server_that_has_ended_is_told_what_becomes_of_it(
     with seat_page() as (_, url):
         sit_down(page, url)
     page.wait_for(f"{WARNING}.includes('your seat may have been given back')")
-    page.open("about:blank")
     forgive(page)
 
 
@@ -142,7 +140,6 @@ def test_a_network_that_is_cut_is_not_taken_for_a_run_that_does_not_keep_up(
         page.evaluate(observed)
         page.wait_for(f"{WARNING}.includes('Nothing comes')")
         assert page.evaluate("lags.length") == 0
-        page.open("about:blank")
         forgive(page)
 
 
@@ -164,7 +161,6 @@ def test_a_page_whose_scripts_are_busy_for_longer_than_the_patience_keeps_its_se
         page.wait_for("document.getElementById('state').textContent === 'running, 4x'")
         assert page.evaluate(HAS_SEAT)
         assert run.presence.empty()
-        page.open("about:blank")
 
 
 @pytest.mark.slow

@@ -86,7 +86,6 @@ def test_a_flooded_page_shows_the_newest_of_all_and_can_be_used(page: Page, mess
             time.sleep(0.05)
         assert words == "American 123, hold."
         assert page.evaluate("document.documentElement.scrollHeight <= innerHeight")
-        page.open("about:blank")
 
 
 def test_the_words_that_are_listed_of_calls_have_a_bound(page: Page) -> None:
@@ -108,4 +107,3 @@ def test_the_words_that_are_listed_of_calls_have_a_bound(page: Page) -> None:
         assert page.evaluate(f"{listed}.childElementCount") == CALLS
         letters = page.evaluate(f"{listed}.textContent.length")
         assert letters <= (CALLS + MOST_TRANSCRIPTS) * (MOST_LETTERS + 100)
-        page.open("about:blank")

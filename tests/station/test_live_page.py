@@ -119,7 +119,6 @@ def test_the_page_follows_the_run_until_somebody_goes_back(
         page.wait_for(
             "document.getElementById('slider').value === document.getElementById('slider').max"
         )
-        page.open("about:blank")
 
 
 def selected_altitude_ft(own: Any) -> int | None:
@@ -232,7 +231,6 @@ def test_a_person_takes_a_seat_and_says_what_the_script_has(
         page.evaluate(SAY)
         page.wait_for("document.querySelector('#calls button')")
         page.wait_for("!document.querySelector('#tasks button')")
-        page.open("about:blank")
 
 
 def seated(page: Page, url: str, seat: str) -> None:
@@ -271,7 +269,6 @@ def test_a_pilot_flies_by_the_mode_panel_and_sees_instruments_and_traffic(
         page.evaluate("document.activeElement.form.requestSubmit()")
         page.wait_for(f"{said} === 'Set: altitude 36000 ft.'")
         page.wait_for("document.getElementById('instruments').textContent.includes('36,000 ft')")
-        page.open("about:blank")
     commands = [one.data for one in open_run(out).messages() if one.key.startswith("command/")]
     assert json.loads(commands[0])["command"]["altitude_ft"] == 36000
 
@@ -293,4 +290,3 @@ def test_a_controller_orders_strips_by_keys(
         assert page.evaluate(f"{names}.join()") == "DAL456,AAL123"
         page.press("x", 88)
         assert page.evaluate("document.querySelector('.cocked').dataset.callsign") == "AAL123"
-        page.open("about:blank")

@@ -83,7 +83,6 @@ def opened(browser: Page) -> Iterator[None]:
         browser.open(url)
         browser.wait_for("document.body.dataset.ready")
         yield
-        browser.open("about:blank")
 
 
 @pytest.fixture

@@ -129,7 +129,6 @@ def seated(
         page.wait_for("!document.getElementById('words').disabled")
         page.evaluate("document.activeElement.blur()")
         yield run
-        page.open("about:blank")
 
 
 def commands(run: PretendedRun, page: Page) -> list[str]:
@@ -234,7 +233,6 @@ def test_a_callsign_has_the_colour_of_the_severity(page: Page) -> None:
         callsigns, badges = page.evaluate(COLOURS)
         assert callsigns == badges
         assert len(set(badges)) == 2
-        page.open("about:blank")
 
 
 BOXES = """['isa', 'plan'].map((id) => {
@@ -565,7 +563,6 @@ def test_who_watches_a_run_without_seats_is_told_what_was_refused(page: Page) ->
         run.changes.add("event", refused)
         told = "document.getElementById('refused').textContent"
         page.wait_for(f'{told} === "Refused at 1.0 s: a stranger\'s origin"')
-        page.open("about:blank")
 
 
 def test_a_screen_reader_is_told_of_an_advisory_to_others_while_nobody_has_a_seat(
@@ -578,7 +575,6 @@ def test_a_screen_reader_is_told_of_an_advisory_to_others_while_nobody_has_a_sea
         advise(run, "ATC", "Both lose separation.")
         told = "document.getElementById('alert').textContent"
         page.wait_for(f"{told} === 'WARNING: Both lose separation.'")
-        page.open("about:blank")
 
 
 NOTE_RINGS = """(() => {
@@ -614,7 +610,6 @@ def test_range_rings_are_drawn_alike_and_have_their_names_where_they_are_seen(pa
         page.wait_for("window.texts.length && window.rings.length > 2")
         assert all(0 < x < wide and 0 < y < high for x, y, wide, high in page.evaluate("texts"))
         assert page.evaluate("new Set(window.rings).size") == 1
-        page.open("about:blank")
 
 
 @pytest.mark.parametrize(("seat", "view"), [("OPS1", "airport"), ("TOWER", "all")])
@@ -692,7 +687,6 @@ def test_a_page_shows_once_what_its_seat_sees_and_nothing_of_a_former_seat(page:
             page.evaluate("document.getElementById('seat-take').click()")
             page.wait_for("document.getElementById('talk').hidden")
             page.wait_for(f"{LISTED} === '[[],[],[]]'")
-        page.open("about:blank")
 
 
 DOCUMENT = """[...document.querySelectorAll('*')].flatMap((one) => [
@@ -899,4 +893,3 @@ def test_who_has_no_seat_is_not_told_that_nobody_has_said_anything(page: Page) -
         assert page.evaluate(calls) == "Take a seat to see what is said there."
         take_seat(page)
         page.wait_for(f"{calls} === 'Nobody has said anything so far.'")
-        page.open("about:blank")

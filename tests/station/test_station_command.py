@@ -143,7 +143,6 @@ def test_a_person_opens_a_debrief_from_the_page(
         page.evaluate("document.querySelector('#recorded button').click()")
         page.wait_for("document.getElementById('traffic') && document.body.dataset.ready")
         assert "AAL123" in page.evaluate("document.getElementById('traffic').textContent")
-        page.open("about:blank")
 
 
 @pytest.mark.slow
@@ -188,7 +187,6 @@ def test_pages_are_linked_by_the_name_under_which_the_station_was_opened(
         page.evaluate("document.querySelector('#recorded button').click()")
         page.wait_for("document.getElementById('traffic') && document.body.dataset.ready")
         assert page.evaluate("location.hostname") == "127.0.0.1"
-        page.open("about:blank")
 
 
 @pytest.mark.parametrize(
@@ -239,7 +237,6 @@ def test_a_person_chooses_radar_equipment_and_that_voices_are_not_kept(
         page.click("start")
         page.wait_for("window.asked")
         asked = page.evaluate("window.asked")
-        page.open("about:blank")
     options = options_of_page(asked["options"])
     assert options.seat == ("AAL123",)
     assert (options.radar, options.equipment) == ("en_route", ("tcas",))
