@@ -126,24 +126,6 @@ def test_the_seat_of_who_stays_away_is_given_back_and_the_page_returns_by_itself
 
 
 @pytest.mark.slow
-def test_a_network_that_is_cut_is_not_taken_for_a_run_that_does_not_keep_up(
-    page: Page, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(server, "PATIENCE_S", 60.0)
-    observed = """(window.lags = [], new MutationObserver(() => lags.push(1)).observe(
-        document.getElementById('behind'), { childList: true }))"""
-    with seat_page() as (run, url), through_network(url) as (network, url_through):
-        page.open(url_through)
-        run.changes.add("clock", 1.0, "running", "1x")
-        page.wait_for("document.getElementById('state').textContent === 'running, 1x'")
-        network.cut()
-        page.evaluate(observed)
-        page.wait_for(f"{WARNING}.includes('Nothing comes')")
-        assert page.evaluate("lags.length") == 0
-        forgive(page)
-
-
-@pytest.mark.slow
 def test_a_page_whose_scripts_are_busy_for_longer_than_the_patience_keeps_its_seat(
     page: Page, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -70,28 +70,6 @@ def test_the_run_goes_on_when_its_page_is_killed(brief_file: Path, tmp_path: Pat
     )
 
 
-@pytest.mark.slow
-def test_strangers_and_garbage_are_refused_and_the_page_stays(
-    encounter_file: Path, tmp_path: Path
-) -> None:
-    out = tmp_path / "run"
-    with running(encounter_file, out) as (_, url):
-        with pytest.raises(InvalidStatus, match="403"):
-            listening(url, origin="http://evil.example")
-        with listening(url, version="0") as stale:
-            assert how_closed(stale) == 4426
-        for garbage in ("", "{", '{"watch": "../*"}', '{"command": 1}', "[" * 100_000):
-            with listening(url) as socket:
-                socket.send(garbage)
-                assert how_closed(socket) == 1008
-        with listening(url) as socket:
-            assert states(socket)
-    refused = [one["text"] for one in events(out) if one["kind"] == "refused"]
-    assert "evil.example" in refused[0]
-    assert "another version" in refused[1]
-    assert len(refused) == 7
-
-
 def events(out: Path) -> list[dict[str, Any]]:
     messages = open_run(out).messages()
     return [json.loads(one.data) for one in messages if one.key == "truth/event"]
@@ -189,25 +167,6 @@ def test_a_run_that_waits_for_its_seat_stands_at_its_start_until_somebody_has_it
 def clock_of(changes: list[Any]) -> list[Any] | None:
     """Return the last clock among some changes, None if they have none."""
     return next((one for one in reversed(changes) if one[0] == "clock"), None)
-
-
-@pytest.mark.slow
-def test_who_may_take_a_seat_sees_nothing_of_the_truth(
-    encounter_file: Path, tmp_path: Path
-) -> None:
-    options = ("--seat", "tower", "--share-truth")
-    with running(encounter_file, tmp_path / "run", *options) as (_, url), opened(url) as socket:
-        seen: set[str] = set()
-        (seat,) = answer(socket, "seats")
-        assert do(socket, "take", seat) == ""
-        for _ in range(30):
-            for kind, *rest in json.loads(socket.recv(timeout=PATIENCE_S)).get("changes", ()):
-                seen.add(kind)
-                if kind == "state":
-                    assert rest[-1] == ""  # The phase is known to nobody else.
-                if kind == "call":
-                    assert rest[0]["said"] is None
-        assert "state" in seen
 
 
 @pytest.mark.browser

@@ -287,37 +287,3 @@ def test_a_microphone_that_is_granted_and_not_heard_yet_is_closed(
         page.wait_for("!document.getElementById('talk-button').disabled")
         page.click("talk-button")
         page.wait_for(f"{BUTTON} === 'Hold to talk'")
-
-
-@pytest.mark.browser
-def test_a_microphone_that_is_denied_late_is_not_told_to_the_next_person(
-    page: Page,
-    seat: tuple[PretendedRun, str],
-) -> None:
-    _, url = seat
-    sit_down(page, url)
-    page.evaluate("""navigator.mediaDevices.getUserMedia = () => new Promise((_, fail) => {
-        window.deny = () => fail(new DOMException('', 'NotAllowedError'));
-    }); null""")
-    page.click("talk-button")
-    page.wait_for("Boolean(window.deny)")
-    change_person(page)
-    page.evaluate("window.deny(); new Promise((done) => setTimeout(done, 100))")
-    assert page.evaluate(TALK_STATE) == ""
-
-
-@pytest.mark.browser
-def test_a_microphone_that_is_granted_late_does_not_open_if_the_voice_may_not_be_used_any_more(
-    page: Page,
-    seat: tuple[PretendedRun, str],
-) -> None:
-    _, url = seat
-    sit_down(page, url)
-    page.evaluate(GRANTED)
-    page.click("talk-button")
-    page.wait_for(f"{TALK_STATE} === 'Opening the microphone.'")
-    page.evaluate(CHOOSE % "words")
-    page.wait_for("document.getElementById('talk-button').disabled")
-    page.evaluate("window.grant()")
-    page.wait_for("window.granted.length && window.granted.every((one) => one !== 'live')")
-    assert page.evaluate(BUTTON) == "Open the microphone"

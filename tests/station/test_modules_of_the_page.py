@@ -77,17 +77,12 @@ LONG = """import(new URL('page/model.js', location)).then(({ LiveTrack, Run }) =
 
 
 @pytest.fixture(scope="module")
-def opened(browser: Page) -> Iterator[None]:
+def station(browser: Page) -> Iterator[Page]:
     """The page of a run, which is opened once: its modules are all that is asked."""
     with seat_page() as (_, url):
         browser.open(url)
         browser.wait_for("document.body.dataset.ready")
-        yield
-
-
-@pytest.fixture
-def station(page: Page, opened: None) -> Page:
-    return page
+        yield browser
 
 
 def frames(page: Page, messages: Sequence[tuple[float, float]], until_ms: int) -> list[float]:
@@ -300,3 +295,31 @@ def test_what_people_perceived_did_and_answered_are_moments_of_the_debrief(
         [22.0, "AAL123 answers: workload 4"],
         [40.0, "AAL123 does not answer for the workload"],
     ]
+
+
+SOUNDS = """import(new URL('page/sounds.js', location)).then(({ Sounds }) => {
+    const clock = { t: 0, rate: 1, playing: false },
+        sounds = new Sounds({ sounds: ['119100', '119100@AAL123'] }, clock),
+        shown = () => [...document.querySelectorAll('#sounds label')].map((one) =>
+            [one.textContent, one.querySelector('input').checked]);
+    const before = shown();
+    sounds.mute();
+    sounds.mute();
+    return [before, shown()];
+})"""
+
+
+def test_what_a_seat_heard_by_its_own_receiver_is_off_until_it_is_switched_on(
+    station: Page,
+) -> None:
+    at_first = [["119.100 MHz", True], ["119.100 MHz at AAL123", False]]
+    assert station.evaluate(SOUNDS) == [at_first, at_first]
+
+
+def test_a_page_is_linked_by_the_name_under_which_this_one_was_opened(station: Page) -> None:
+    """A station that listens at all addresses does not know the name that others have for it."""
+    linked = station.evaluate(
+        "import(new URL('page/neighbours.js', location)).then(({ onThisHost }) =>"
+        "onThisHost('https://machine.example:8421/?token=a', 'Ops 1'))"
+    )
+    assert linked == "https://127.0.0.1:8421/?token=a#Ops%201"

@@ -206,22 +206,6 @@ def test_the_sound_of_a_frequency_can_be_played_from_any_time(page: Page, spoken
     assert duration == 3
 
 
-def test_what_a_seat_heard_by_its_own_receiver_can_be_switched_on(
-    page: Page, noisy_seat: Path
-) -> None:
-    boxes = "[...document.querySelectorAll('#sounds label')].map((one) => "
-    boxes += "[one.textContent, one.querySelector('input').checked])"
-    with viewed(noisy_seat) as url:
-        opened(page, url)
-        at_first = [["119.100 MHz", True], ["119.100 MHz at AAL123", False]]
-        assert page.evaluate(boxes) == at_first
-        for _ in range(2):
-            page.press("m", 77)
-        assert page.evaluate(boxes) == at_first
-        sound = page.evaluate("fetch('api/sounds/119100%40AAL123.wav').then((one) => one.status)")
-        assert sound == 200
-
-
 def test_an_airport_and_vehicles_are_shown(page: Page, airport_url: str) -> None:
     opened(page, airport_url, dark=True)
     names = "[...document.querySelectorAll('#traffic tbody th')].map((one) => one.textContent)"

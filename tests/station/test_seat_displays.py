@@ -156,23 +156,29 @@ def test_a_key_of_the_cockpit_does_nothing_at_another_seat(
         assert commands(run, page) == actions
 
 
-def test_a_crew_is_offered_to_go_around_near_the_airport_alone(page: Page) -> None:
-    phrases = "document.getElementById('phrase-list').innerText"
+def test_a_crew_is_offered_to_go_around_near_the_airport_and_its_heading_by_the_compass(
+    page: Page,
+) -> None:
+    """An aircraft at Washington flies 270 degrees true, which are 281 magnetic."""
+    phrases = "[...document.querySelectorAll('#phrase-list button')].map((one) => one.title).join()"
     with seated(page, "AAL123") as run:
         run.changes.add("briefing", "TOWER", ReportAirport("kdca").as_json(), CATEGORIES)
-        for t_s, altitude_ft in ((1.0, 35_000), (2.0, 2_000)):
-            place = (t_s, 9_000.0, 0.0, altitude_ft, [0.0, 80.0], 10.0, False, "")
+        for t_s, altitude_ft, text in (
+            (1.0, 35_000, "heading two eight zero"),
+            (2.0, 2_000, "going around"),
+        ):
+            assert "going around" not in page.evaluate(phrases)
+            place = (t_s, 9_000.0, 0.0, altitude_ft, [-80.0, 0.0], 270.0, False, "")
             run.changes.add("state", "AAL123", "aircraft", "B738", *place)
-            if altitude_ft == 35_000:
-                page.wait_for(f"{phrases}.includes('Report level')")
-                assert "Going around" not in page.evaluate(phrases)
-        page.wait_for(f"{phrases}.includes('Going around')")
+            run.changes.add("call", CALL)  # The phrases are renewed at once.
+            page.wait_for(f"{phrases}.includes('{text}')")
 
 
 def test_a_seat_has_the_displays_of_its_category_whoever_is_in_the_roster(page: Page) -> None:
     phrases = "document.getElementById('phrase-list').innerText"
     with seated(page, "AAL123", roster={"DAL456": "aircraft"}) as run:
         fly(run)
+        run.changes.add("call", CALL)  # The phrases are renewed at once.
         page.wait_for(f"{INSTRUMENT}.startsWith('Primary flight display')")
         page.wait_for(f"{phrases}.includes('Report level')")
         for repeats in (False, True, True):  # A key that is held gives its command once.
@@ -505,23 +511,6 @@ def test_what_is_wished_without_a_connection_is_told_not_to_be_done_and_not_done
         assert page.evaluate("document.body.dataset.seat") == "pilot"
 
 
-def test_words_that_were_lost_come_before_those_that_are_typed_meanwhile(
-    page: Page, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    words = "document.getElementById('words').value"
-    with seated(page, "AAL123") as run:
-        page.evaluate(f"{words} = 'Delta 45.'; {SAY}")
-        page.press("g", 71)  # It is answered after them.
-        page.wait_for("document.getElementById('panel-state').textContent === 'Set: Go around.'")
-        assert run.next() == SayText(text="Delta 45.")
-        assert next_command(run).action == "go_around"
-        with lost_at("text", monkeypatch):
-            page.evaluate(f"{words} = 'American 123, hold.'; {SAY}; {words} = 'Delta 45'")
-            page.wait_for(f"{words} !== 'Delta 45'")
-            assert page.evaluate(words) == "American 123, hold. Delta 45"
-            assert run.done.empty()
-
-
 def test_a_person_is_told_by_how_much_the_run_is_behind_the_clock(page: Page) -> None:
     told = "document.getElementById('behind').textContent"
     announced = "document.getElementById('behind-told').textContent"
@@ -645,48 +634,9 @@ def test_an_alert_of_the_equipment_sounds_once_while_aircraft_get_their_names(pa
         page.wait_for("window.pulses === 2")
 
 
-LISTED = """JSON.stringify(['#traffic tbody th', '#calls .who', '#camera option'].map((rows) =>
-    [...document.querySelectorAll(rows)].map((one) => one.textContent)))"""
-"""Aircraft, speakers and cameras that the page lists."""
 MAST = {
     "name": "mast", "carrier": None, "width_px": 64, "height_px": 48, "horizontal_fov_deg": 60.0,
 }  # fmt: skip
-
-
-def test_a_page_shows_once_what_its_seat_sees_and_nothing_of_a_former_seat(page: Page) -> None:
-    infos = [
-        TOWER.model_copy(update={"category": "unit"}),
-        TOWER.model_copy(
-            update={
-                "seat": "OPS1",
-                "category": "vehicle",
-                "frequencies_khz": (121_700,),
-                "tuned_khz": (121_700,),
-            }
-        ),
-    ]
-    with seat_page(PretendedRun(infos)) as (run, url):
-        run.changes.add("briefing", "TOWER", None, CATEGORIES)
-        run.changes.add("clock", 1.0, "running", "realtime")
-        place = (1.0, 0.0, 0.0, 3_000, [70.0, 0.0], 90.0, False, "")
-        seen = Audience("adsb", "d4e5f6")
-        run.changes.add("state", "DAL456", "aircraft", "B737", *place, audience=seen)
-        for khz, speaker in ((119_100, "Delta 456"), (121_700, "Operations 1")):
-            call = CALL | {"id": f"c-{khz}", "frequency_khz": khz, "speaker": speaker}
-            run.changes.add("call", call, audience=Audience("frequency", khz))
-        run.changes.add("camera", MAST, audience=Audience("camera", None))
-        page.open(url, width=1280, height=720)
-        page.wait_for("document.getElementById('state').textContent.startsWith('running')")
-        of_tower = '[["DAL456"],["Delta 456"],["mast"]]'
-        of_driver = '[[],["Operations 1"],[]]'
-        for seat, listed in (("TOWER", of_tower), ("TOWER", of_tower), ("OPS1", of_driver)):
-            page.evaluate(f"document.getElementById('seat-name').value = '{seat}'")
-            take_seat(page)
-            page.wait_for(f"document.body.dataset.seat === '{KIND[seat]}'")
-            page.wait_for(f"{LISTED} === '{listed}'")
-            page.evaluate("document.getElementById('seat-take').click()")
-            page.wait_for("document.getElementById('talk').hidden")
-            page.wait_for(f"{LISTED} === '[[],[],[]]'")
 
 
 DOCUMENT = """[...document.querySelectorAll('*')].flatMap((one) => [
@@ -824,16 +774,6 @@ def test_a_call_that_came_while_the_page_had_no_sound_is_not_played_later(
         page.wait_for("window.pieces.length")
         assert page.evaluate(PIECES) == [0.3]
     page.complaints.clear()
-
-
-def test_headings_are_offered_as_the_compass_of_the_crew_shows_them(page: Page) -> None:
-    """An aircraft at Washington flies 270 degrees true, which are 281 magnetic."""
-    report = "[...document.querySelectorAll('#phrase-list button')].map((one) => one.title)"
-    with seated(page, "AAL123") as run:
-        run.changes.add("briefing", "TOWER", ReportAirport("kdca").as_json(), CATEGORIES)
-        place = (1.0, 9_000.0, 0.0, 9_000, [-80.0, 0.0], 270.0, False, "")
-        run.changes.add("state", "AAL123", "aircraft", "B738", *place)
-        page.wait_for(f"{report}.some((text) => text.includes('heading two eight zero'))")
 
 
 SET = """(() => {{

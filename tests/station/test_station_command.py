@@ -18,7 +18,6 @@ from airhilt.scenario import Scenario
 from airhilt.station.home import options_of_page
 from airhilt.station.started_runs import StartedRuns
 from devtools import Page
-from microphone import page_with_microphone
 from stations import TOKEN, reachable, stationed
 
 PATIENCE_S = 90.0
@@ -168,25 +167,6 @@ def test_runs_and_debriefs_of_a_station_admit_those_whom_it_admits(
         assert kept.stat().st_mode & 0o077 == 0
         client.post(f"api/runs/{name}/stop", json={})
         started(client, "ended")
-
-
-@pytest.mark.slow
-@pytest.mark.browser
-def test_pages_are_linked_by_the_name_under_which_the_station_was_opened(
-    recorded_run: Path, tmp_path: Path
-) -> None:
-    """A station that listens at all addresses does not know the name that others have for it."""
-    runs = tmp_path / "runs"
-    shutil.copytree(recorded_run, runs / "one")
-    with (
-        stationed(runs, *reachable(tmp_path)) as (_, client),
-        page_with_microphone("--ignore-certificate-errors") as page,
-    ):
-        page.open(f"{client.base_url}?token={TOKEN}")
-        page.wait_for("document.body.dataset.ready")
-        page.evaluate("document.querySelector('#recorded button').click()")
-        page.wait_for("document.getElementById('traffic') && document.body.dataset.ready")
-        assert page.evaluate("location.hostname") == "127.0.0.1"
 
 
 @pytest.mark.parametrize(
