@@ -7,6 +7,8 @@ import re
 from functools import cache
 from importlib import resources
 
+from jinja2 import Environment, PackageLoader
+
 MEDIA_TYPES = {
     "css": "text/css; charset=utf-8",
     "html": "text/html; charset=utf-8",
@@ -14,6 +16,8 @@ MEDIA_TYPES = {
     "svg": "image/svg+xml",
 }
 """Media type of the files, by the end of their names."""
+PAGES = ("index.html", "together.html", "home.html", "experiment.html")
+"""Pages, which are put together of their parts."""
 SHARED = ("series", "words")
 """Scripts of a report that the page takes, as modules."""
 DECLARED = re.compile(r"^(?:const|function) (\w+)", re.MULTILINE)
@@ -40,6 +44,9 @@ def page_files() -> dict[str, bytes]:
         for path in folder.iterdir()
         if path.name.rpartition(".")[2] in MEDIA_TYPES
     }
+    pages = Environment(loader=PackageLoader(__package__, "page"), autoescape=True)
+    for name in PAGES:
+        files[name] = pages.get_template(name).render().encode()
     shared = resources.files("airhilt.report").joinpath("shared")
     for name in SHARED:
         script = shared.joinpath(f"{name}.js").read_text("utf-8")

@@ -151,27 +151,14 @@ def test_no_two_ticks_of_the_time_axis_have_the_same_label(station: Page) -> Non
 KEPT = """import(new URL('page/model.js', location)).then(({ Run }) => {
     const none = { tracks: [], calls: [], events: [], advisories: [], spoken: [], cameras: [] };
     const run = new Run({ ...none, scenario: { name: '' } });
-    for (let i = 0; i < 20000; i += 1) {
-        const state = [i, 0, 0, 1000, [1, 0], 90, i % 2 === 0, `phase ${i}`];
-        run.apply([
-            ['state', 'AAL123', 'aircraft', '', ...state],
-            ['state', `${i}`, 'aircraft', '', ...state],
-            ['camera', { name: `${i}` }],
-        ]);
-    }
-    const own = run.track('AAL123');
-    return [run.tracks.length, own.phases.length, own.on_ground.length, run.cameras.length,
-        Boolean(run.track('19999')), own.phases.at(-1).what];
+    for (let i = 0; i < 2000; i += 1)
+        run.apply([['state', `${i}`, 'aircraft', '', i, 0, 0, 1000, [1, 0], 90, false, '']]);
+    return [run.tracks.length, Boolean(run.track('1999'))];
 })"""
 
 
-def test_the_actors_and_cameras_that_are_kept_of_a_run_have_a_bound(station: Page) -> None:
-    tracks, phases, on_ground, cameras, has_newest, phase = station.evaluate(KEPT)
-    assert tracks <= 200
-    assert max(phases, on_ground) <= 1000
-    assert cameras <= 100
-    assert has_newest
-    assert phase == "phase 19999"
+def test_the_actors_that_are_kept_of_a_run_have_a_bound(station: Page) -> None:
+    assert station.evaluate(KEPT) == [200, True]
 
 
 PLOTS = """import(new URL('page/model.js', location)).then(({ Run }) => {
