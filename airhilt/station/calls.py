@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ
 from airhilt.host.text import readable
-from airhilt.messages import AdvisoryAudio, Transcript, Word
+from airhilt.messages import AdvisoryAudio, Transcript
 from airhilt.metrics.calls import CallRecord
 from airhilt.units import SECOND_NS
 
 Json = dict[str, Any]
 MOST_TRANSCRIPTS = 8
 """Number of transcripts of a call that are shown, the newest: each recogniser makes one."""
-MOST_LETTERS = 1_500
-"""Number of characters of the words of a transcript that are shown: a minute of quick speech."""
 
 
 def call_as_json(call: CallRecord, *, names_engines: bool = True) -> Json | None:
@@ -58,20 +55,10 @@ def _transcript(transcript: Transcript, *, names_engine: bool) -> Json:
         "confidence": transcript.confidence,
         "text": readable(transcript.text),
         "words": [
-            {"text": text, "confidence": word.confidence} for word, text in _first_words(transcript)
+            {"text": readable(word.text), "confidence": word.confidence}
+            for word in transcript.words
         ],
     }
-
-
-def _first_words(transcript: Transcript) -> Iterator[tuple[Word, str]]:
-    """Yield the words of a transcript for which there is room, each with its text as shown."""
-    letters = 0
-    for word in transcript.words:
-        text = readable(word.text)
-        letters += len(text) + 1
-        if letters > MOST_LETTERS:
-            return
-        yield word, text
 
 
 def spoken_as_json(audio: AdvisoryAudio) -> Json:

@@ -71,8 +71,6 @@ class Progress:
         self.folder = folder / TOGETHER.join(team)
         self._number = team.index(participant)
         self._answers_folder = self.folder if len(team) == 1 else self.folder / participant
-        self._answered: dict[Path, Answers] = {}
-        """Answers that were read, by the path of their file."""
         self._finished: dict[str, str] = {}
         """Names of the run folders of trials that are done, by the names of the trials."""
 
@@ -167,10 +165,23 @@ class Progress:
             The file of the answers cannot be read, or has an answer that the item does not take. An
             item without an answer is none: it may have come into the plan later.
         """
-        path = self._path(asked)
-        if path not in self._answered and (found := self._read(asked)) is not None:
-            self._answered[path] = found
-        return self._answered.get(path)
+        path, questionnaire = self._path(asked), asked.questionnaire
+        try:
+            found = KEPT_ANSWERS.validate_json(
+                read_inside(self.folder, path, LARGEST_ANSWERS_BYTES)
+            )
+            items = [item for item in questionnaire.items if item.name in found]
+            for item in items:
+                item.check(found[item.name])
+        except FileNotFoundError:
+            return self._rated_at_seat(asked.run) if questionnaire == NASA_TLX else None
+        except (OSError, ValueError) as error:
+            problem = first_problem(error) if isinstance(error, ValidationError) else str(error)
+            raise RunFolderError(
+                f"{path}: {problem}; expected answers to the questions of the plan, as the page "
+                "writes them; move the file away to ask again"
+            ) from None
+        return {item.name: found[item.name] for item in items}
 
     def answer(self, asked: Asked, answers: Answers) -> None:
         """Keep what was answered.
@@ -193,25 +204,6 @@ class Progress:
     def _path(self, asked: Asked) -> Path:
         parts = (asked.run, asked.questionnaire.name, "json")
         return self._answers_folder / ".".join(filter(None, parts))
-
-    def _read(self, asked: Asked) -> Answers | None:
-        path, questionnaire = self._path(asked), asked.questionnaire
-        try:
-            found = KEPT_ANSWERS.validate_json(
-                read_inside(self.folder, path, LARGEST_ANSWERS_BYTES)
-            )
-            items = [item for item in questionnaire.items if item.name in found]
-            for item in items:
-                item.check(found[item.name])
-        except FileNotFoundError:
-            return self._rated_at_seat(asked.run) if questionnaire == NASA_TLX else None
-        except (OSError, ValueError) as error:
-            problem = first_problem(error) if isinstance(error, ValidationError) else str(error)
-            raise RunFolderError(
-                f"{path}: {problem}; expected answers to the questions of the plan, as the page "
-                "writes them; move the file away to ask again"
-            ) from None
-        return {item.name: found[item.name] for item in items}
 
     def _rated_at_seat(self, run: str) -> Answers | None:
         """Return the NASA-TLX ratings that were given at the seat, None if there are none.
