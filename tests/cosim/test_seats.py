@@ -449,14 +449,6 @@ def test_advice_to_climb_is_followed_by_who_climbs_and_can(
     assert found is followed
 
 
-@pytest.mark.parametrize(("track_deg", "followed"), [(300.0, False), (60.0, True)])
-def test_the_side_of_a_selected_track_is_that_from_the_present_one(
-    tmp_path: Path, track_deg: float, followed: bool
-) -> None:
-    right, track = {"action": "turn", "degrees": 30.0}, {"action": "track", "track_deg": track_deg}
-    assert is_followed(tmp_path / "run", right, track) is followed
-
-
 @pytest.mark.parametrize(("pace", "reaction_s"), [("realtime", 0.5), ("4x", None)])
 def test_a_reaction_is_measured_in_a_run_that_begins_in_real_time_alone(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, pace: str, reaction_s: float | None

@@ -11,7 +11,6 @@ import pytest
 from airhilt.station import browsers, server
 from cut_network import Network, forgive, through_network
 from devtools import Page
-from loudspeaker import COUNT_PIECES, PIECES, piece
 from microphone import (
     BUTTON,
     microphone_file,
@@ -84,28 +83,6 @@ def test_who_has_the_seat_of_a_server_that_has_ended_is_told_what_becomes_of_it(
         sit_down(page, url)
     page.wait_for(f"{WARNING}.includes('your seat may have been given back')")
     forgive(page)
-
-
-@pytest.mark.slow
-def test_a_call_that_came_while_the_network_was_cut_is_not_played_later(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(server, "PATIENCE_S", 60.0)
-    with seated(tmp_path / "said.wav") as (run, network, page):
-        page.key("keyUp", " ", 32)  # Nothing is heard while one transmits.
-        page.evaluate(COUNT_PIECES)
-        run.call_on_air("before", piece(0.5))
-        page.wait_for("window.pieces.length")
-        network.cut()
-        run.call_on_air("meanwhile", *[piece(0.4)] * 3)
-        page.wait_for(f"{WARNING}.includes('nobody hears you')")
-        network.mend()
-        page.wait_for(f"{WARNING} === ''")
-        assert is_heard(run, page)
-        page.key("keyUp", " ", 32)
-        run.call_on_air("after", piece(0.3))
-        page.wait_for("window.pieces.at(-1) < 0.35")
-        assert page.evaluate(PIECES) == [0.5, 0.3]
 
 
 @pytest.mark.slow

@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import json
 import shutil
-import time
 from base64 import b64decode
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,7 +12,6 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
-import httpx
 import numpy as np
 import pytest
 from PIL import Image
@@ -25,7 +23,7 @@ from devtools import Page
 from microphone import page_with_microphone
 from seats import contents
 from shortened import shortened
-from stations import PATIENCE_S, TOKEN, commanded, experiment_page, reachable
+from stations import commanded, experiment_page
 
 LOW_CONTRAST = Path(__file__).with_name("contrast.js").read_text()
 PLAN: dict[str, Any] = {
@@ -170,64 +168,12 @@ def test_a_slider_shows_no_answer_before_there_is_one(page: Page, tmp_path: Path
     assert json.loads((tmp_path / "out" / "P01" / "before.json").read_text()) == {"trust": 51}
 
 
-@pytest.mark.browser
-def test_the_page_says_which_answers_cannot_be_read(page: Page, tmp_path: Path) -> None:
-    (tmp_path / "plan.json").write_text(json.dumps(PLAN))
-    with experiment_page(tmp_path / "plan.json", tmp_path / "out") as url:
-        page.open(url)
-        heading(page, "Questions before the first trial")
-        kept = tmp_path / "out" / "P01" / "before.json"
-        kept.parent.mkdir(parents=True, exist_ok=True)
-        kept.write_text('{"rested": 9}')
-        page.wait_for(f"{NOTES}.includes('before.json: rested: found 9')")
-        told = page.evaluate(NOTES)
-        assert told.endswith("move the file away to ask again. Please tell the experimenter.")
-    page.complaints.clear()  # A browser complains of each answer that is an error.
-
-
-@pytest.mark.slow
-def test_a_trial_admits_those_whom_the_page_of_the_experiment_admits(tmp_path: Path) -> None:
-    file, out = tmp_path / "plan.json", tmp_path / "out"
-    file.write_text(json.dumps(PLAN | {"questions": {}, "options": {"speech": False}}))
-    options = ["--participant", "P01", "--out", str(out), *reachable(tmp_path)]
-    with commanded("experiment", file, *options) as shown, ended(out / "P01", "01-s02a_headon-1"):
-        url = httpx.URL(shown).copy_with(host="127.0.0.1")
-        page = url.copy_with(query=None)
-        with httpx.Client(base_url=page, verify=False, trust_env=False) as client:
-            assert client.get("api/experiment").status_code == 403
-            client.get(url)
-            client.post("api/begin", json={})
-            due = time.monotonic() + PATIENCE_S
-            while not (trial := client.get("api/experiment").json()["url"]):
-                assert time.monotonic() < due
-                time.sleep(0.2)
-            seat = httpx.URL(trial).copy_with(host="127.0.0.1")
-            assert (seat.scheme, seat.params["token"]) == ("https", TOKEN)
-            assert "AIRHILT" in client.get(seat).text
-
-
 def go(page: Page, url: str, participant: str) -> None:
     """Open the page of a participant of a team, as by its link."""
     page.open(f"{url}#{participant}", width=1280, height=720)
     page.wait_for(f"document.getElementById('title').textContent === 'Experiment, {participant}'")
 
 
-HELD = """
-    window.held = [];
-    window.answering = fetch;
-    window.fetch = async (path, ...more) => {
-        const answer = await answering(path, ...more);
-        if (path.includes('P02')) await new Promise((release) => held.push(release));
-        return answer;
-    };
-"""
-"""Script that keeps answers of the server to P02 until `held` releases them."""
-REFUSING = """
-    window.answering = fetch;
-    window.fetch = async (path, ...more) => path.includes('api/begin')
-        ? new Response('{"error": "it is not time for a trial"}', { status: 400 })
-        : answering(path, ...more);
-"""
 WRITTEN = """
     window.written = 0;
     const observer = new MutationObserver((records) => { written += records.length; });
@@ -281,42 +227,6 @@ def test_answers_that_are_chosen_stay_with_their_participant(page: Page, tmp_pat
     page.complaints.clear()  # A browser complains of each answer that is an error.
     kept = json.loads((tmp_path / "out" / "P01+P02" / "P01" / "before.json").read_text())
     assert kept == {"licence": "private", "rested": 4}
-
-
-@pytest.mark.slow
-@pytest.mark.browser
-def test_a_slow_answer_is_not_shown_on_the_page_of_another_participant(
-    page: Page, tmp_path: Path
-) -> None:
-    with experiment_page(team_file(tmp_path), tmp_path / "out") as url:
-        go(page, url, "P01")
-        page.evaluate(HELD)
-        page.evaluate("location.hash = '#P02'")
-        page.wait_for("held.length")
-        assert not page.evaluate(ASKS)
-        turn_to(page, "P01")
-        page.evaluate("held.forEach((release) => release())")
-        page.evaluate("new Promise((done) => setTimeout(done, 100))")
-        assert page.evaluate(TITLE) == "Experiment, P01"
-
-
-@pytest.mark.slow
-@pytest.mark.browser
-def test_a_refusal_goes_when_the_step_changes(
-    page: Page, recorded_run: Path, tmp_path: Path
-) -> None:
-    (tmp_path / "plan.json").write_text(json.dumps(PLAN | {"questions": {}}))
-    with experiment_page(tmp_path / "plan.json", tmp_path / "out") as url:
-        page.open(url)
-        heading(page, "Trial 1 of 1")
-        page.evaluate(REFUSING)
-        page.click("begin")
-        page.wait_for(f"{NOTES} === 'it is not time for a trial'")
-        page.evaluate(SOME_SECONDS)
-        assert page.evaluate(NOTES) == "it is not time for a trial"
-        shutil.copytree(recorded_run, tmp_path / "out" / "P01" / "01-s02a_headon-1")
-        heading(page, "Questions after trial 1 of 1")
-        assert page.evaluate(NOTES) == ""
 
 
 @pytest.mark.slow

@@ -251,23 +251,3 @@ def test_two_runs_follow_one_clock(page: Page, spoken_run: Path, airport_run: Pa
         page.evaluate(f"{shown}[0].querySelector('#calls button').click()")
         assert time_shown(page) < 20.0
         assert page.evaluate("document.documentElement.scrollHeight <= innerHeight")
-
-
-@pytest.mark.slow
-def test_the_colours_of_two_runs_are_chosen_in_one_place(
-    page: Page, spoken_run: Path, airport_run: Path
-) -> None:
-    background = """[...document.querySelectorAll('iframe')].map((frame) => {
-        const plan = frame.contentDocument.getElementById('plan');
-        const copy = Object.assign(document.createElement('canvas'), { width: 1, height: 1 });
-        const pen = copy.getContext('2d', { willReadFrequently: true });
-        pen.drawImage(plan, -2, -2);
-        return pen.getImageData(0, 0, 1, 1).data[0];
-    })"""
-    with viewed(spoken_run, airport_run) as url:
-        opened(page, url, width=1280, height=720)
-        page.wait_for(f"{background}.every((red) => red > 200)")
-        page.evaluate("document.getElementById('theme').value = 'dark'")
-        page.evaluate("document.getElementById('theme').dispatchEvent(new Event('change'))")
-        page.wait_for(f"{background}.every((red) => red < 60)")
-        page.evaluate("localStorage.clear()")

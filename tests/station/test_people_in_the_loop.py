@@ -23,7 +23,6 @@ from airhilt.assistant.asr.engines import asr_engine
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.cosim.replay import replay
 from airhilt.host.library import find
-from airhilt.phraseology import TAU_ASR, parse_call
 from airhilt.record import open_run
 from devtools import Page
 from loudspeaker import given_out, tap
@@ -126,37 +125,6 @@ def test_a_spoken_clearance_is_recognised_read_back_and_flown(tmp_path: Path) ->
     assert replay(out).identical
 
 
-def test_of_calls_spoken_in_noise_those_in_doubt_are_asked_for_again(tmp_path: Path) -> None:
-    """The noise of a live call depends on its time, so no single call is sure to be in doubt."""
-    out, file = tmp_path / "run", microphone_file(tmp_path / "said.wav", GO_AROUND)
-    options = ("--seat", "tower", "--assistant", "none", "--snr", "0")
-    with (
-        running(out, "s01b_nominal", 75.0, *options) as url,
-        page_with_microphone(*playing(file)) as page,
-    ):
-        sit_down(page, url)
-        open_microphone(page)
-        for count in range(2, 7, 2):  # Each call, and what the crew answers.
-            talk(page)
-            page.wait_for(f"{CALL_COUNT} >= {count}")
-    callsigns = ("AAL123", "OPS1", "OPS2")
-    heard = {one["id"]: one for one in contents(out, "truth/hearing/AAL123")}
-    is_certain = []
-    for transcript in contents(out, "asr/"):
-        if not transcript["id"].startswith("microphone.") or transcript["id"] not in heard:
-            continue
-        confidences = [word["confidence"] for word in transcript["words"]]
-        meant = parse_call(transcript["text"], callsigns, confidences)
-        is_certain.append(meant.confidence >= TAU_ASR and meant.callsign is not None)
-        outcome = heard[transcript["id"]]["outcome"]
-        assert outcome == ("understood" if is_certain[-1] else "unsure")
-    answers = [
-        one["text"] for one in contents(out, "truth/radio/seat.") if one["speaker"] == "AAL123"
-    ]
-    assert not all(is_certain)
-    assert sum(text.startswith("Say again") for text in answers) >= is_certain.count(False)
-
-
 def test_two_people_hear_each_other_and_block_each_other_when_both_talk(tmp_path: Path) -> None:
     said_by_tower = microphone_file(tmp_path / "tower.wav", GO_AROUND)
     said_by_pilot = microphone_file(tmp_path / "pilot.wav", UNABLE)
@@ -228,30 +196,6 @@ def loudness(audio: Audio) -> float:
     """Return the root mean square of the loudest half second."""
     pieces = audio[: len(audio) // HALF_SECOND * HALF_SECOND].reshape(-1, HALF_SECOND)
     return float(np.sqrt(np.mean(pieces**2, axis=1)).max(initial=0.0))
-
-
-@pytest.mark.parametrize(
-    ("scenario", "duration_s", "seat"),
-    [("s01b_nominal", 60.0, "OPS1"), ("s01b_ground_nominal", 115.0, "DAL456")],
-)
-def test_who_drives_or_is_at_a_stand_sets_off_by_the_button_of_the_call(
-    tmp_path: Path, scenario: str, duration_s: float, seat: str
-) -> None:
-    out = tmp_path / "run"
-    button = "document.querySelector('#offers button')"
-    with (
-        running(out, scenario, duration_s, "--seat", seat) as url,
-        page_with_microphone() as page,
-    ):
-        sit_down(page, url)
-        page.wait_for(f"{button}?.textContent.includes('to the hold short of runway 01 on D')")
-        page.evaluate(f"{button}.click()")
-        page.wait_for(f"!{button}")
-        page.wait_for("document.getElementById('state').textContent === 'finished'")
-    states = contents(out, f"truth/state/{seat}")
-    assert states[0]["latitude_deg"] != states[-1]["latitude_deg"]
-    assert json.loads((out / "summary.json").read_text())["people"][0]["commands"] == 1
-    assert replay(out).identical
 
 
 def test_a_pilot_who_is_warned_goes_around(tmp_path: Path) -> None:

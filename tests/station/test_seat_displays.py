@@ -241,21 +241,6 @@ def test_a_callsign_has_the_colour_of_the_severity(page: Page) -> None:
         assert len(set(badges)) == 2
 
 
-BOXES = """['isa', 'plan'].map((id) => {
-    const { top, bottom } = document.getElementById(id).getBoundingClientRect();
-    return [top, bottom];
-}).concat([[0, innerHeight]])"""
-
-
-def test_a_question_has_room_of_its_own_below_the_plan(page: Page) -> None:
-    with seated(page, "TOWER") as run:
-        run.seats.ask("TOWER", WorkloadQuestion(number=1, scale="isa", asked_ns=0))
-        page.wait_for("!document.getElementById('isa').hidden")
-        question, plan, window = page.evaluate(BOXES)
-        assert plan[1] <= question[0] < question[1] < window[1]
-        assert plan[1] - plan[0] > 200
-
-
 def test_enter_ticks_a_box_where_the_space_bar_is_to_talk(page: Page) -> None:
     ticked = "document.getElementById('plan-rings').checked"
     with seated(page, "TOWER"):
@@ -566,41 +551,6 @@ def test_a_screen_reader_is_told_of_an_advisory_to_others_while_nobody_has_a_sea
         page.wait_for(f"{told} === 'WARNING: Both lose separation.'")
 
 
-NOTE_RINGS = """(() => {
-    const pen = CanvasRenderingContext2D.prototype, { fillText, arc, stroke } = pen;
-    const texts = window.texts = [], rings = window.rings = [];
-    pen.fillText = function (text, x, y) {
-        if (this.canvas.id === 'plan' && text.endsWith(' NM') && y < this.canvas.height - 20)
-            texts.push([x, y, this.canvas.width, this.canvas.height]);
-        fillText.call(this, text, x, y);
-    };
-    pen.arc = function (x, y, radius, ...more) {
-        this.isRing = this.canvas.id === 'plan' && radius > 60;
-        arc.call(this, x, y, radius, ...more);
-    };
-    pen.stroke = function () {
-        if (this.isRing) rings.push(`${this.strokeStyle} ${this.lineWidth}`);
-        this.isRing = false;
-        stroke.call(this);
-    };
-})()"""
-
-
-def test_range_rings_are_drawn_alike_and_have_their_names_where_they_are_seen(page: Page) -> None:
-    with seat_page(has_seats=False) as (run, url):
-        page.open(url, width=1280, height=720)
-        fly(run)
-        page.wait_for("document.getElementById('plan').ariaLabel.includes('DAL456')")
-        page.evaluate("document.getElementById('plan').focus()")
-        for _ in range(4):
-            page.press("ArrowDown", 40)  # The middle of the rings leaves the plan at its top.
-        page.evaluate(NOTE_RINGS)
-        page.press("ArrowDown", 40)
-        page.wait_for("window.texts.length && window.rings.length > 2")
-        assert all(0 < x < wide and 0 < y < high for x, y, wide, high in page.evaluate("texts"))
-        assert page.evaluate("new Set(window.rings).size") == 1
-
-
 @pytest.mark.parametrize(("seat", "view"), [("OPS1", "airport"), ("TOWER", "all")])
 def test_a_driver_begins_with_the_airport_and_a_controller_with_all_traffic(
     page: Page, seat: str, view: str
@@ -723,6 +673,7 @@ def test_a_page_keeps_its_seat_when_it_is_loaded_again_and_a_duplicate_of_its_ta
         page.wait_for("duplicate.document.getElementById('seat-state')?.textContent")
         page.call("Page.reload")
         page.wait_for("!window.duplicate && document.body?.dataset.seat === 'controller'")
+        page.wait_for("document.getElementById('seat-uses').value === 'voice'")
         own, *others = (
             httpx.get(place, params={"browser": identity}, trust_env=False).status_code
             for identity in identities
@@ -833,3 +784,17 @@ def test_who_has_no_seat_is_not_told_that_nobody_has_said_anything(page: Page) -
         assert page.evaluate(calls) == "Take a seat to see what is said there."
         take_seat(page)
         page.wait_for(f"{calls} === 'Nobody has said anything so far.'")
+
+
+def test_a_controller_orders_strips_by_keys(page: Page) -> None:
+    names = "[...document.querySelectorAll('.flight-strip')].map((one) => one.dataset.callsign)"
+    with seated(page, "TOWER") as run:
+        fly(run)
+        page.wait_for(f"{names}.join() === 'AAL123,DAL456,OPS1'")
+        assert page.evaluate("document.getElementById('pfd').getClientRects().length") == 0
+        page.evaluate("document.querySelector('.flight-strip').focus()")
+        moved = "new KeyboardEvent('keydown', {key: 'ArrowDown', altKey: true, bubbles: true})"
+        page.evaluate(f"document.activeElement.dispatchEvent({moved})")
+        assert page.evaluate(f"{names}.join()") == "DAL456,AAL123,OPS1"
+        page.press("x", 88)
+        assert page.evaluate("document.querySelector('.cocked').dataset.callsign") == "AAL123"

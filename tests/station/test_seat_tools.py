@@ -141,22 +141,6 @@ def test_words_that_the_run_may_not_have_heard_are_given_back(
 
 
 @pytest.mark.browser
-def test_a_page_that_is_loaded_again_goes_on_at_its_seat_with_all_that_was_chosen(
-    page: Page, seat: tuple[PretendedRun, str]
-) -> None:
-    run, url = seat
-    sit_down(page, url, uses="words")
-    run.deeds.clear()
-    page.evaluate("location.reload()")
-    page.wait_for("document.getElementById('seat-take')?.textContent === 'Leave the seat'")
-    page.wait_for("document.getElementById('seat-uses')?.value === 'words'")
-    page.click("seat-take")
-    page.wait_for("document.getElementById('seat-take').textContent === 'Take the seat'")
-    assert page.evaluate("document.getElementById('seat-uses').value") == ""
-    assert run.deeds[-1] == "leave"
-
-
-@pytest.mark.browser
 def test_nobody_talks_or_types_once_the_run_is_over(page: Page) -> None:
     with seat_page() as (run, url):
         sit_down(page, url)

@@ -255,13 +255,6 @@ def test_a_role_is_known_once_the_run_has_begun_and_a_name_is_taken_before_that(
     assert told == ["the run has not begun; until then nobody knows the seat of 'tower'"]
 
 
-def test_a_role_in_a_run_that_is_over_is_refused() -> None:
-    with begun("finished") as bus, closing(RunConnection(bus.endpoint)) as connection:
-        with pytest.raises(StationError, match=r"--seat 'tower': .*\(finished\); expected a run"):
-            connection.seats(["tower"], pytest.fail)
-        assert connection.seats(["Tower"], pytest.fail) == ("Tower",)
-
-
 def test_a_role_that_waits_for_a_run_is_refused_once_the_run_is_gone() -> None:
     with ExitStack() as run:
         connection = RunConnection(run.enter_context(begun("waiting")).endpoint)
