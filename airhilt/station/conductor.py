@@ -93,13 +93,7 @@ class Conductor:
             progress.answer(asked, answers)
 
     def _progress(self, participant: str) -> Progress:
-        """Return the progress of a participant; empty: of who alone is led.
-
-        Raises
-        ------
-        StationError
-            Nobody of that name is led.
-        """
+        """Return the progress of a participant; empty: of who alone is led."""
         found = self._team.get(participant)
         if found is None and not participant and len(self._team) == 1:
             (found,) = self._team.values()

@@ -148,10 +148,7 @@ def _rows(progress: Progress) -> Iterator[_Rows]:
 
 
 def _of_summary(summary: Mapping[str, Any], seat: str) -> _Rows:
-    """Return what the rows of a trial have of its summary, and of the person at one of its seats.
-
-    It is nothing of a person where the summary has none.
-    """
+    """Return what the rows of a trial have of its summary, and of the person at a seat."""
     rows = _Rows(OF_RUNS.values(summary), [], [])
     for person in (one for one in summary.get("people", ()) if one["seat"] == seat):
         at = {"seat": seat}

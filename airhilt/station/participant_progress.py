@@ -206,13 +206,7 @@ class Progress:
         return self._answers_folder / ".".join(filter(None, parts))
 
     def _rated_at_seat(self, run: str) -> Answers | None:
-        """Return the NASA-TLX ratings that were given at the seat, None if there are none.
-
-        Raises
-        ------
-        RunFolderError
-            The summary of the run cannot be read.
-        """
+        """Return the NASA-TLX ratings that were given at the seat, None if there are none."""
         summary: dict[str, Any] = RunFolder(self.folder / run).summary() or {}
         # A finished run has the seats of the plan, in its order.
         people = [person["workload"] for person in summary.get("people", ())]
