@@ -3,8 +3,7 @@
 import { Pane } from "./pane.js";
 import { byId, colour, html, on } from "./dom.js";
 import { NOWHERE, widened } from "./model.js";
-import { box, copyOf, onSize } from "./pen.js";
-import { drawCamera } from "./plan_camera.js";
+import { box, copyOf, line, onSize } from "./pen.js";
 import { drawAirport } from "./plan_map.js";
 import { drawPlots, inWords } from "./plan_radar.js";
 import { drawRings, drawScale } from "./plan_ranges.js";
@@ -254,5 +253,26 @@ export class Plan extends Pane {
       rest = parts.length - MOST_NAMED;
     if (rest > 0) parts.splice(MOST_NAMED, rest, `and ${rest} more`);
     this.#canvas.ariaLabel = `Plan view: ${parts.join(", ") || "no traffic"}`;
+  }
+}
+
+/** Draws the field of view of a camera, and the bearings of what it has detected. */
+function drawCamera(view, { place, heading, fov, bearings }) {
+  const { pen } = view,
+    [x, y] = view.pixel(place),
+    reach = Math.max(3000 * view.scale, 40),
+    from = heading - fov / 2 - Math.PI / 2;
+  pen.beginPath();
+  pen.moveTo(x, y);
+  pen.arc(x, y, reach, from, from + fov);
+  pen.closePath();
+  pen.strokeStyle = colour("--accent");
+  pen.setLineDash([5, 4]);
+  pen.lineWidth = 1.2;
+  pen.stroke();
+  pen.setLineDash([]);
+  for (const bearing of bearings) {
+    const end = [x + 1.5 * reach * Math.sin(bearing), y - 1.5 * reach * Math.cos(bearing)];
+    line(pen, colour("--warn"), 1.2, [x, y], end);
   }
 }
