@@ -210,7 +210,8 @@ class Progress:
         summary: dict[str, Any] = RunFolder(self.folder / run).summary() or {}
         # A finished run has the seats of the plan, in its order.
         people = [person["workload"] for person in summary.get("people", ())]
-        return people[self._number]["nasa_tlx"] if people else None
+        asked = people[self._number] if people else None
+        return asked["nasa_tlx"] if asked else None  # Nothing may have been asked there.
 
 
 @lru_cache(maxsize=100)

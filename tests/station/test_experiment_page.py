@@ -240,7 +240,9 @@ def test_a_page_writes_again_only_what_has_changed(page: Page, tmp_path: Path) -
         page.evaluate(WRITTEN)
         page.evaluate(SOME_SECONDS)
         assert page.evaluate("written") == 0
-        page.evaluate("window.answering = fetch; window.fetch = () => Promise.reject(new Error())")
+        page.evaluate(
+            "window.answering = fetch; window.fetch = () => Promise.reject(new TypeError())"
+        )
         page.wait_for(f"{NOTES}.startsWith('The experiment does not answer.')")
         page.evaluate("written = 0")
         page.evaluate(SOME_SECONDS)
