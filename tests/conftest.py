@@ -72,7 +72,7 @@ def run_copy(recorded_run: Path, tmp_path: Path) -> Path:
     return Path(shutil.copytree(recorded_run, tmp_path / "run"))
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="session")
 def browser() -> Iterator[Page]:
     """A browser; where there is none, its tests are skipped."""
     executable = next((found for name in BROWSERS if (found := shutil.which(name))), None)
@@ -85,6 +85,7 @@ def browser() -> Iterator[Page]:
 @pytest.fixture
 def page(browser: Page) -> Iterator[Page]:
     """A page that must have nothing to complain of."""
+    browser.open("about:blank")
     browser.complaints.clear()
     yield browser
     assert browser.complaints == []

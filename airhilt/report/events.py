@@ -60,16 +60,10 @@ def _with_line(row: Json, lines: dict[str, Json]) -> Json:
     return row | {"speaker": line["speaker"], "line": readable(line["text"])}
 
 
-def event_row(logged: Logged, message: Json | None = None) -> Json | None:
-    """Return the row of a message, or None if it is no event.
-
-    Parameters
-    ----------
-    message
-        Its content, if that is known already.
-    """
+def event_row(logged: Logged) -> Json | None:
+    """Return the row of a message, or None if it is no event."""
     make = _maker(logged.key)
-    row = None if make is None else make(message or json.loads(logged.data), logged)
+    row = None if make is None else make(json.loads(logged.data), logged)
     if row is None:
         return None
     short = {

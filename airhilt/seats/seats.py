@@ -7,26 +7,33 @@ from typing import Any
 
 from airhilt.commands import Command
 from airhilt.messages import (
+    SHORTEST_SECRET,
     AgreeToUses,
     AnswerQuestion,
     CommandOffer,
+    FlyCommand,
     LeaveSeat,
     Message,
     PressToTalk,
     ReleaseToTalk,
+    SayText,
+    SayVoice,
+    SeatAct,
     SeatAction,
     SeatNotice,
     SeatState,
+    SetPace,
     TakeSeat,
     TaskCard,
     TuneFrequencies,
     WorkloadQuestion,
     key_chunk,
 )
-from airhilt.seats.rules import PAUSED, why_not_done, why_not_taken, why_not_theirs
 from airhilt.sim import Director
 from airhilt.sim.payload import Payload
 
+PAUSED = "paused"
+"""Name of the pace at which the time stands still."""
 MOST_OFFERS = 5
 """Number of commands that are offered at a seat at a time: the newest."""
 
@@ -98,10 +105,42 @@ class Seats:
         if action.holder in self._gone:
             return "the liveliness token of the holder has ended; declare another one"
         secret = self._secrets.get(state.seat)
-        why = why_not_taken if isinstance(action.act, TakeSeat) else why_not_theirs
-        return why(state, action, secret) or why_not_done(
-            state, action.act, is_pressed=state.seat in self._pressed
-        )
+        if isinstance(action.act, TakeSeat):
+            if len(action.secret) < SHORTEST_SECRET:
+                return f"the secret is too short; expected at least {SHORTEST_SECRET} characters"
+            if secret not in (None, action.secret):
+                return f"somebody has the seat {state.seat} already"
+        elif secret is None:
+            return f"nobody has the seat {state.seat}; take it first"
+        elif (action.holder, action.secret) != (state.holder, secret):
+            return f"somebody else has the seat {state.seat}"
+        return self._why_not_now(state, action.act)
+
+    def _why_not_now(self, state: SeatState, act: SeatAct) -> str:
+        """Return why the holder of a seat may not do something now; empty if that is allowed."""
+        match act:
+            case TuneFrequencies(frequencies_khz=tuned) if set(tuned) - set(state.frequencies_khz):
+                return "your seat does not have that frequency"
+            case PressToTalk() | SayVoice() if "voice" not in state.uses:
+                return "you have not agreed to the use of your voice"
+            case PressToTalk() if state.pace == PAUSED:
+                return "the run is paused; nobody hears you"
+            case PressToTalk() if not state.has_sound:
+                return "this run has no sound; type what you want to say"
+            case SayVoice() if state.seat not in self._pressed:
+                return "your call was cut"
+            case SayText() if not state.uses:
+                return "you have not agreed to the use of what you type"
+            case FlyCommand() if state.category == "unit":
+                return "the seat of a unit flies and drives nothing"
+            case AnswerQuestion(question=number):
+                open_number = None if state.question is None else state.question.number
+                return (
+                    "" if number == open_number else f"question {number} is not open at this seat"
+                )
+            case SetPace() if not state.may_pause:
+                return "this run has no pause and no slow motion"
+        return ""
 
     def held_by(self, holder: str) -> list[str]:
         """Return the keys of the acts at the seats of a holder whose token has ended."""

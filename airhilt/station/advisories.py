@@ -2,20 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from airhilt.host.text import readable
-from airhilt.messages import Advisory, EquipmentAlert, Evidence
-from airhilt.record import Logged, RunFolder
-from airhilt.report.sections import Content
+from airhilt.messages import Advisory, EquipmentAlert
 from airhilt.units import SECOND_NS
 
-if TYPE_CHECKING:
-    from airhilt.report.data import RunData
-
 Json = dict[str, Any]
-KEYS = ("advisory/", "equipment/")
-"""Beginnings of the keys of advisories."""
 
 
 class AdvisoryRows:
@@ -48,23 +41,6 @@ class AdvisoryRows:
         return list(self._rows.values())
 
 
-class Advisories(Content):
-    """The advisories of a recorded run."""
-
-    def __init__(self, folder: RunFolder) -> None:
-        super().__init__(folder)
-        self._rows = AdvisoryRows()
-
-    def take(self, logged: Logged) -> None:
-        """Receive an advisory, or an alert of equipment."""
-        model = EquipmentAlert if logged.key.startswith("equipment/") else Advisory
-        self._rows.add(model.model_validate_json(logged.data))
-
-    def as_json(self, run: RunData) -> list[Json]:  # noqa: ARG002
-        """Return the rows in the order of their times."""
-        return self._rows.as_json()
-
-
 def _row(source: str, advisory: Advisory, t_ns: int) -> Json:
     return {
         "t": round(t_ns / SECOND_NS, 3),
@@ -76,14 +52,8 @@ def _row(source: str, advisory: Advisory, t_ns: int) -> Json:
         "kind": advisory.kind,
         "traffic": [readable(name) for name in advisory.traffic],
         "texts": [],
-        "evidence": evidence_as_json(advisory.evidence),
+        "evidence": _readable(advisory.evidence.model_dump(mode="json")),
     }
-
-
-def evidence_as_json(evidence: Evidence) -> Json:
-    """Return evidence with all texts readable."""
-    shown: Json = _readable(evidence.model_dump(mode="json"))
-    return shown
 
 
 def _readable(value: Any) -> Any:

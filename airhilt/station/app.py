@@ -52,8 +52,10 @@ def debrief_app(debrief: Debrief) -> FastAPI:
     return app
 
 
-def two_debriefs_app(debriefs: Sequence[Debrief]) -> FastAPI:
-    """Return the application that shows two recorded runs side by side, on one clock."""
+def recorded_app(debriefs: Sequence[Debrief]) -> FastAPI:
+    """Return the application that shows a recorded run, or two side by side on one clock."""
+    if len(debriefs) == 1:
+        return debrief_app(debriefs[0])
     app = page_app("together.html")
     for number, debrief in enumerate(debriefs):
         app.mount(f"/{number}", debrief_app(debrief))
@@ -102,27 +104,11 @@ def live_app(subscription: Subscription, browsers: Browsers) -> FastAPI:
     def phrases(situation: Situation) -> list[dict[str, str]]:
         return offered(situation)
 
-    refuse_in_words(app)
-
     return app
 
 
-def refuse_in_words(app: FastAPI) -> None:
-    """Let an application answer what it refuses with the reason."""
-
-    @app.exception_handler(AirhiltError)
-    def failed(_: Request, error: AirhiltError) -> Response:
-        return _refusal(str(error))
-
-    @app.exception_handler(RequestValidationError)
-    def garbage(_: Request, error: RequestValidationError) -> Response:
-        problem = error.errors()[0]
-        place = "/".join(str(part) for part in problem["loc"][1:])
-        return _refusal(f"{place or 'request'}: {problem['msg']}")
-
-
 def page_app(first: str = "index.html") -> FastAPI:
-    """Return an application that has the files of the pages alone.
+    """Return an application that has the files of the pages alone, and refuses in words.
 
     Parameters
     ----------
@@ -143,8 +129,14 @@ def page_app(first: str = "index.html") -> FastAPI:
         return Response(files[name], media_type=media_type(name))
 
     @app.exception_handler(AirhiltError)
-    def failed(_: Request, error: AirhiltError) -> JSONResponse:
-        return JSONResponse({"error": readable(str(error), LONGEST_LINE)}, status_code=404)
+    def failed(_: Request, error: AirhiltError) -> Response:
+        return _refusal(str(error))
+
+    @app.exception_handler(RequestValidationError)
+    def garbage(_: Request, error: RequestValidationError) -> Response:
+        problem = error.errors()[0]
+        place = "/".join(str(part) for part in problem["loc"][1:])
+        return _refusal(f"{place or 'request'}: {problem['msg']}")
 
     return app
 

@@ -9,10 +9,10 @@ from base64 import b64encode
 from collections import deque
 from collections.abc import Callable
 from contextlib import suppress
-from typing import Any, Protocol
+from typing import Any
 
 from fastapi import WebSocket, WebSocketDisconnect
-from pydantic import ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from airhilt.bus.seat_client import SeatClient
 from airhilt.errors import first_problem
@@ -20,15 +20,13 @@ from airhilt.host.text import readable
 from airhilt.messages import LeaveSeat, PressToTalk, ReleaseToTalk, SayVoice, SeatAct, TakeSeat
 from airhilt.station.audiences import Audience
 from airhilt.station.changes import MOST_AT_ONCE, Changes
+from airhilt.station.guard import Refusals
 from airhilt.station.page_files import page_version
-from airhilt.station.page_messages import PageMessage
-from airhilt.station.refusals import Refusals
 from airhilt.station.seat_views import SeatViews
+from airhilt.station.subscription import Subscription
 
 PERIOD_S = 0.05
 """Time between two messages to a browser, in s."""
-MOST_BROWSERS = 20
-"""Largest number of browsers at a time."""
 MOST_ACTS = 200
 """Largest number of acts of a browser that wait for the run."""
 HOLD_S = 5.0
@@ -37,8 +35,8 @@ STALLED_S = 5.0
 """Time after which a browser is gone that takes nothing of what is sent to it, in s."""
 ENDINGS = (asyncio.CancelledError, TimeoutError, WebSocketDisconnect, RuntimeError)
 """Exceptions with which a connection ends: Starlette raises the last one on a closed connection."""
-POLICY_VIOLATION, TRY_LATER = 1008, 1013
-"""Codes with which a WebSocket is closed (RFC 6455, 7.4.1, and IANA's registry)."""
+POLICY_VIOLATION = 1008
+"""Code with which a WebSocket is closed (RFC 6455, 7.4.1)."""
 OLD_PAGE, REPLACED = 4426, 4409
 """Likewise, of those that applications choose: the page has to be loaded again, or has another
 connection."""
@@ -47,22 +45,31 @@ LONGEST_REASON = 100
 NO_SEAT = "you have no seat; take one first"
 
 
-class RunLink(Protocol):
-    """Run as browsers see it.
+class PageMessage(BaseModel):
+    """Message of a page: exactly one of ``watch``, ``act`` and ``echo``.
 
-    Attributes
-    ----------
-    run
-        Its name.
+    Acts are answered in their order with ``{"answer": reason}``, which is empty if the run has
+    accepted the act. The voice comes in binary messages of PCM while the button is held.
     """
 
-    run: str
+    model_config = ConfigDict(extra="forbid")
+    watch: str | None = Field(
+        default=None,
+        max_length=80,
+        pattern=r"^[A-Za-z0-9_.-]+$",
+        description="the camera whose pictures are shown, null for none",
+    )
+    act: SeatAct | None = Field(default=None, description="an act at a seat")
+    seat: str = Field(default="", max_length=80, description="the seat to take, with that act")
+    echo: float | None = Field(
+        default=None, allow_inf_nan=False, description="a number that is sent back"
+    )
 
-    def watch(self, cameras: set[str]) -> None:
-        """Let the pictures of these cameras come, and no others."""
-
-    def seat_client(self, seat: str, secret: str) -> SeatClient:
-        """Return a client for a seat, which is not taken yet."""
+    @model_validator(mode="after")
+    def _is_one(self) -> PageMessage:
+        if len({"watch", "act", "echo"} & self.model_fields_set) != 1:
+            raise ValueError("expected exactly one of watch, act, echo")
+        return self
 
 
 class _Browser:
@@ -110,7 +117,7 @@ class Browsers:
     def __init__(
         self,
         changes: Changes,
-        run: RunLink,
+        run: Subscription,
         views: SeatViews,
         sounds: Changes,
         notice: Callable[[str], None],
@@ -122,9 +129,8 @@ class Browsers:
         self._run = run
         self._clients: dict[str, SeatClient] = {}
         """Clients of the seats that browsers have, by identity."""
-        self._left_s: dict[str, float] = {}
-        """Time at which a browser with a seat was gone, by identity."""
-        self._expiring: set[asyncio.Task[None]] = set()
+        self._expiring: dict[str, asyncio.Task[None]] = {}
+        """Tasks that give up the seats of browsers that are gone, by identity."""
         self._browsers: list[_Browser] = []
         self._empty_since_s: float | None = time.monotonic()
 
@@ -174,10 +180,9 @@ class Browsers:
             self._refused("a page of another version or run")
             await socket.close(OLD_PAGE, "This page is of another version or run. Load it again.")
             return
-        if len(self._browsers) >= MOST_BROWSERS:
-            await socket.close(TRY_LATER, f"{MOST_BROWSERS} browsers look already")
-            return
         await self._replace(identity)
+        if (expiring := self._expiring.pop(identity, None)) is not None:
+            expiring.cancel()
         browser = _Browser(socket, identity, shown_seat)
         browser.heard = self._sounds.next_number
         self._browsers.append(browser)
@@ -185,8 +190,8 @@ class Browsers:
         tasks = [
             asyncio.create_task(doing)
             for doing in (
-                self._send(socket, browser, begin),
-                self._listen(socket, browser),
+                self._send(browser, begin),
+                self._listen(browser),
                 self._do(browser),
             )
         ]
@@ -196,7 +201,8 @@ class Browsers:
             self._browsers.remove(browser)
             if not self._browsers:
                 self._empty_since_s = time.monotonic()
-            self._expire_later(identity)
+            if identity in self._clients and not self._has_browser(identity):
+                self._expiring[identity] = asyncio.create_task(self._expire(identity))
             for task in tasks:
                 task.cancel()
                 with suppress(*ENDINGS):
@@ -212,9 +218,9 @@ class Browsers:
                 with suppress(*ENDINGS):
                     await other.socket.close(REPLACED, "This page has another connection.")
 
-    async def _listen(self, socket: WebSocket, browser: _Browser) -> None:
+    async def _listen(self, browser: _Browser) -> None:
         """Take in what a browser wishes until it leaves, or sends what is no message."""
-        while (received := await socket.receive())["type"] != "websocket.disconnect":
+        while (received := await browser.socket.receive())["type"] != "websocket.disconnect":
             pcm: bytes | None = received.get("bytes")
             try:
                 if pcm is not None:
@@ -224,12 +230,13 @@ class Browsers:
             except ValidationError as error:
                 wrong = readable(first_problem(error), LONGEST_REASON)
                 self._refused(f"a message of a browser: {wrong}", self._seat_of(browser.identity))
-                await socket.close(POLICY_VIOLATION, wrong)
+                await browser.socket.close(POLICY_VIOLATION, wrong)
                 return
             if "watch" in wish.model_fields_set:
                 await self._show(browser, wish.watch)
             elif wish.echo is not None:
-                await socket.send_text(json.dumps({"echo": wish.echo}))  # At once: it is timed.
+                # At once: it is timed.
+                await browser.socket.send_text(json.dumps({"echo": wish.echo}))
             elif wish.act is not None:
                 await browser.acts.put((wish.seat, wish.act))
 
@@ -294,20 +301,14 @@ class Browsers:
         if client is not None:
             await asyncio.to_thread(client.close)
 
-    def _expire_later(self, identity: str) -> None:
-        """Leave the seat of a browser that does not come back."""
-        if identity in self._clients:
-            self._left_s[identity] = time.monotonic()
-            task = asyncio.create_task(self._expire(identity))
-            self._expiring.add(task)
-            task.add_done_callback(self._expiring.discard)
-
     async def _expire(self, identity: str) -> None:
+        """Leave the seat of a browser that does not come back."""
         await asyncio.sleep(HOLD_S)
-        is_back = any(one.identity == identity for one in self._browsers)
-        if not is_back and time.monotonic() - self._left_s[identity] >= HOLD_S:
-            del self._left_s[identity]
-            await self._give_up(identity)
+        del self._expiring[identity]
+        await self._give_up(identity)
+
+    def _has_browser(self, identity: str) -> bool:
+        return any(one.identity == identity for one in self._browsers)
 
     def _seat_of(self, identity: str) -> str | None:
         """Return the seat that the browser of an identity has, as the run says."""
@@ -329,7 +330,7 @@ class Browsers:
 
     # --- what browsers are sent -------------------------------------------------------------
 
-    async def _send(self, socket: WebSocket, browser: _Browser, number: int) -> None:
+    async def _send(self, browser: _Browser, number: int) -> None:
         """Send all changes to a browser.
 
         Raises
@@ -341,7 +342,7 @@ class Browsers:
 
         async def send(text: str) -> None:
             async with asyncio.timeout(STALLED_S):
-                await socket.send_text(text)
+                await browser.socket.send_text(text)
 
         def is_seen(audience: Audience) -> bool:
             return self._views.sees(browser.shown_seat, audience)

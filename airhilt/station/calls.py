@@ -2,65 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ
 from airhilt.host.text import readable
-from airhilt.messages import AdvisoryAudio, Transcript, Word
-from airhilt.metrics.calls import CallRecord, CallRecords, call_message
-from airhilt.record import Logged, RunFolder
-from airhilt.report.sections import Content
+from airhilt.messages import AdvisoryAudio, Transcript
+from airhilt.metrics.calls import CallRecord
 from airhilt.units import SECOND_NS
 
-if TYPE_CHECKING:
-    from airhilt.report.data import RunData
-
 Json = dict[str, Any]
-KEYS = ("radio/", "asr/", "tts/", "truth/radio/", "truth/hearing/")
-"""Beginnings of the keys of the messages about calls."""
 MOST_TRANSCRIPTS = 8
 """Number of transcripts of a call that are shown, the newest: each recogniser makes one."""
-MOST_LETTERS = 1_500
-"""Number of characters of the words of a transcript that are shown: a minute of quick speech."""
-
-
-class Calls(Content):
-    """The calls of a run, and the advisories that the assistant spoke."""
-
-    def __init__(self, folder: RunFolder) -> None:
-        super().__init__(folder)
-        self._calls = CallRecords()
-        self._spoken: list[AdvisoryAudio] = []
-
-    @property
-    def frequencies_khz(self) -> tuple[int, ...]:
-        """Frequencies on which something was heard."""
-        received = (call.received for call in self._calls)
-        return tuple(sorted({one.frequency_khz for one in received if one and one.samples}))
-
-    @property
-    def spoken(self) -> tuple[AdvisoryAudio, ...]:
-        """The advisories that were spoken, in the order of their beginnings."""
-        return tuple(self._spoken)
-
-    def take(self, logged: Logged) -> None:
-        """Receive a message about a call, or the audio of an advisory."""
-        model = call_message(logged.key)
-        if model is AdvisoryAudio:
-            self._spoken.append(AdvisoryAudio.model_validate_json(logged.data))
-        elif model is not None:
-            self._calls.take(model.model_validate_json(logged.data))
-
-    def as_json(self, run: RunData) -> Json:  # noqa: ARG002
-        """Return calls and spoken advisories, each in the order in which they began."""
-        calls = [call_as_json(call) for call in self._calls]
-        return {
-            "calls": sorted(
-                (call for call in calls if call is not None), key=lambda call: call["from"]
-            ),
-            "spoken": [spoken_as_json(audio) for audio in self._spoken],
-        }
 
 
 def call_as_json(call: CallRecord, *, names_engines: bool = True) -> Json | None:
@@ -103,20 +55,10 @@ def _transcript(transcript: Transcript, *, names_engine: bool) -> Json:
         "confidence": transcript.confidence,
         "text": readable(transcript.text),
         "words": [
-            {"text": text, "confidence": word.confidence} for word, text in _first_words(transcript)
+            {"text": readable(word.text), "confidence": word.confidence}
+            for word in transcript.words
         ],
     }
-
-
-def _first_words(transcript: Transcript) -> Iterator[tuple[Word, str]]:
-    """Yield the words of a transcript for which there is room, each with its text as shown."""
-    letters = 0
-    for word in transcript.words:
-        text = readable(word.text)
-        letters += len(text) + 1
-        if letters > MOST_LETTERS:
-            return
-        yield word, text
 
 
 def spoken_as_json(audio: AdvisoryAudio) -> Json:

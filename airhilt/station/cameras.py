@@ -4,21 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from airhilt.host.text import readable
 from airhilt.messages import CameraFrame, CameraInfo, CameraTruth, CameraView, Detections
-from airhilt.record import Logged, RunFolder
-from airhilt.report.sections import Content
 from airhilt.report.tracks import Locate
 from airhilt.units import DEGREE, NAUTICAL_MILE, SECOND_NS
 
-if TYPE_CHECKING:
-    from airhilt.report.data import RunData
-
 Json = dict[str, Any]
-KEYS = ("camera/", "vision/", "truth/camera/")
-"""Beginnings of the keys of the messages about cameras."""
 
 
 @dataclass
@@ -43,6 +36,27 @@ class CameraRecord:
     found: dict[int, Json] = field(default_factory=dict)
     there: dict[int, list[Json]] = field(default_factory=dict)
 
+    def take(self, message: CameraFrame | CameraTruth | Detections) -> None:
+        """Receive a picture, what is true of it, or what a detector found in it."""
+        match message:
+            case CameraFrame() if message.encoding != "none":
+                self.exposures[message.seq] = message.t_frame_ns
+                self.views[message.seq] = message.view
+            case CameraTruth():
+                self.there[message.seq] = [
+                    {"actor": readable(one.actor), "label": one.label, "box": _rounded(one.box)}
+                    for one in message.sightings
+                    if one.pixels > 0.0
+                ]
+            case Detections() if not message.missed:
+                self.found[message.seq] = found_as_json(message)
+
+    def summary(self) -> Json:
+        """Return what the page lists of the camera; `as_json` has its pictures."""
+        shown = {"carrier", "width_px", "height_px", "rate_hz", "horizontal_fov_deg"}
+        info = self.info.model_dump(include=shown)
+        return {"name": readable(self.info.camera), **info, "pictures": len(self.exposures)}
+
     def as_json(self, locate: Locate) -> Json:
         """Return pictures in their order, with boxes, and where the camera looked.
 
@@ -59,52 +73,6 @@ class CameraRecord:
             "found": [self.found.get(seq) for seq in numbers],
             "there": [self.there.get(seq, []) for seq in numbers],
         }
-
-
-class Cameras(Content):
-    """The cameras of a run."""
-
-    def __init__(self, folder: RunFolder) -> None:
-        super().__init__(folder)
-        self.records: dict[str, CameraRecord] = {}
-
-    def take(self, logged: Logged) -> None:
-        """Receive a message about a camera, what is true of its pictures, or vision."""
-        match logged.key.split("/"):
-            case ["camera", name, "info"]:
-                self.records[name] = CameraRecord(CameraInfo.model_validate_json(logged.data))
-            case ["camera", name, "frame"] if name in self.records:
-                frame = CameraFrame.model_validate_json(logged.data)
-                if frame.encoding != "none":
-                    self.records[name].exposures[frame.seq] = frame.t_frame_ns
-                    self.records[name].views[frame.seq] = frame.view
-            case ["truth", "camera", name] if name in self.records:
-                truth = CameraTruth.model_validate_json(logged.data)
-                self.records[name].there[truth.seq] = [
-                    {"actor": readable(one.actor), "label": one.label, "box": _rounded(one.box)}
-                    for one in truth.sightings
-                    if one.pixels > 0.0
-                ]
-            case ["vision", name] if name in self.records:
-                seen = Detections.model_validate_json(logged.data)
-                if not seen.missed:
-                    self.records[name].found[seen.seq] = found_as_json(seen)
-
-    def as_json(self, run: RunData) -> list[Json]:  # noqa: ARG002
-        """Return the cameras that took pictures; `CameraRecord.as_json` has their pictures."""
-        return [
-            {
-                "name": name,
-                "carrier": record.info.carrier,
-                "width_px": record.info.width_px,
-                "height_px": record.info.height_px,
-                "rate_hz": record.info.rate_hz,
-                "horizontal_fov_deg": record.info.horizontal_fov_deg,
-                "pictures": len(record.exposures),
-            }
-            for name, record in self.records.items()
-            if record.exposures
-        ]
 
 
 def view_as_json(view: CameraView, locate: Locate) -> list[float]:

@@ -1,26 +1,20 @@
 """The changes of a run that goes on, in their order, for browsers that come and go.
 
-A browser that comes late gets all changes from the first one on, and so sees the whole run. All but
-the newest are compressed, and once there are too many, the oldest are forgotten: a long run needs
-little more memory than a short one.
+A browser that comes late gets all changes from the first one on, and so sees the whole run. Once
+there are too many, the oldest are forgotten.
 """
 
 from __future__ import annotations
 
 import json
 import threading
-import zlib
-from collections import deque
-from collections.abc import Callable, Sequence
-from itertools import islice
+from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from airhilt.station.audiences import EVERYBODY, Audience
 
 MOST_CHANGES = 400_000
 """Largest number of changes that are kept: an hour of 20 aircraft, five states a second each."""
-MOST_IN_BLOCK = 1_000
-"""Largest number of changes that are compressed together."""
 MOST_AT_ONCE = 5_000
 """Largest number of changes in one message to a browser."""
 
@@ -41,20 +35,6 @@ class _Change(NamedTuple):
     audience: Audience
 
 
-class _Block:
-    """Changes that are compressed: texts of the same kind differ in few places."""
-
-    def __init__(self, changes: Sequence[_Change]) -> None:
-        texts = "\n".join(change.text for change in changes)
-        self._texts = zlib.compress(texts.encode(), level=1)
-        each_once: dict[Audience, Audience] = {}
-        self._audiences = [each_once.setdefault(one.audience, one.audience) for one in changes]
-
-    def changes(self) -> list[_Change]:
-        texts = zlib.decompress(self._texts).decode().split("\n")
-        return [*map(_Change, texts, self._audiences)]
-
-
 class Changes:
     """Keeps changes, each a JSON value, numbered from 0.
 
@@ -66,9 +46,7 @@ class Changes:
 
     def __init__(self, most: int = MOST_CHANGES) -> None:
         self._most = most
-        self._in_block = min(max(most // 10, 1), MOST_IN_BLOCK)
-        self._blocks: deque[_Block] = deque()
-        self._newest: list[_Change] = []
+        self._kept: list[_Change] = []
         self._forgotten = 0
         self._lock = threading.Lock()
 
@@ -76,11 +54,7 @@ class Changes:
     def next_number(self) -> int:
         """Number of the change that is added next."""
         with self._lock:
-            return self._forgotten + self._count
-
-    @property
-    def _count(self) -> int:
-        return len(self._blocks) * self._in_block + len(self._newest)
+            return self._forgotten + len(self._kept)
 
     def add(self, *change: Any, audience: Audience = EVERYBODY) -> None:
         """Add a change (any thread): its kind, and what belongs to it.
@@ -92,13 +66,10 @@ class Changes:
         """
         text = json.dumps(change, separators=(",", ":"), allow_nan=False)
         with self._lock:
-            self._newest.append(_Change(text, audience))
-            if len(self._newest) == 2 * self._in_block:
-                self._blocks.append(_Block(self._newest[: self._in_block]))
-                del self._newest[: self._in_block]
-            if self._count - self._in_block >= self._most:
-                self._blocks.popleft()
-                self._forgotten += self._in_block
+            self._kept.append(_Change(text, audience))
+            if (surplus := len(self._kept) - self._most) > self._most // 10:
+                del self._kept[:surplus]
+                self._forgotten += surplus
 
     def since(
         self, number: int, end: int | None = None, admits: Admits = lambda _: True
@@ -114,24 +85,15 @@ class Changes:
         """
         with self._lock:
             begin = max(number - self._forgotten, 0)
-            most = begin + MOST_AT_ONCE
-            stop = most if end is None else min(most, max(end - self._forgotten, 0))
-            kept = self._between(begin, stop)
-            next_number = self._forgotten + begin + len(kept)
-        if not kept:
+            stop = begin + MOST_AT_ONCE
+            if end is not None:
+                stop = max(min(stop, end - self._forgotten), 0)
+            wanted = self._kept[begin:stop]
+            next_number = self._forgotten + begin + len(wanted)
+        if not wanted:
             return None
-        texts = (change.text for change in kept if admits(change.audience))
+        texts = (change.text for change in wanted if admits(change.audience))
         return Batch(f"[{','.join(texts)}]", next_number)
-
-    def _between(self, begin: int, stop: int) -> list[_Change]:
-        """Return the changes between two places, counted from the oldest that is kept."""
-        first = min(begin // self._in_block, len(self._blocks))
-        last = min(-(-stop // self._in_block), len(self._blocks))
-        found = [one for block in islice(self._blocks, first, last) for one in block.changes()]
-        if last == len(self._blocks):
-            found += self._newest
-        before = first * self._in_block
-        return found[begin - before : max(stop - before, 0)]
 
 
 class Newest:

@@ -33,7 +33,7 @@ class Conductor:
     ) -> None:
         self._team = {progress.participant: progress for progress in team}
         self._plan, self._trials = team[0].plan, team[0].trials
-        self._started = StartedRuns(team[0].runs.folder, page)
+        self._started = StartedRuns(team[0].folder, page)
         self._done = self._trials_done()
         self._rested_since_s = time.monotonic() if self._done else None
         self._lock = threading.Lock()
@@ -73,7 +73,7 @@ class Conductor:
             given["pause"] = plan.pause
             given["nasa_tlx"] = plan.nasa_tlx
             given["run_name"] = f"Trial-{state['trial']}"  # It tells a participant nothing.
-            name = self._progress(participant).runs.new_run(trial)
+            name = self._progress(participant).new_run(trial)
             scenario = loading.find(trial.scenario)
             self._started.start(scenario, options_of(given), name)
 
@@ -93,13 +93,7 @@ class Conductor:
             progress.answer(asked, answers)
 
     def _progress(self, participant: str) -> Progress:
-        """Return the progress of a participant; empty: of who alone is led.
-
-        Raises
-        ------
-        StationError
-            Nobody of that name is led.
-        """
+        """Return the progress of a participant; empty: of who alone is led."""
         found = self._team.get(participant)
         if found is None and not participant and len(self._team) == 1:
             (found,) = self._team.values()
@@ -142,7 +136,7 @@ class Conductor:
         if any(other.asked() is not None for other in self._team.values()):
             return shown | {"step": "waiting"}
         run = next(iter(self._started.runs()), None)
-        if run is not None and run.name in progress.runs.attempts(trials[done]):
+        if run is not None and run.name in progress.attempts(trials[done]):
             if (doing := self._started.state(run)) != "ended":
                 own = readable(progress.seat(trials[done]))
                 url = self._started.url(run) if doing == "running" else ""

@@ -8,9 +8,11 @@ from airhilt.errors import StationError
 from airhilt.host.text import readable
 from airhilt.record import Run
 from airhilt.report.data import read_run
-from airhilt.report.sections import Content, GuardedContent, Section
-from airhilt.station import advisories, calls, cameras, latencies, redrawing, seat_sounds
-from airhilt.station.kept_pictures import kept_pictures
+from airhilt.report.sections import GuardedContent, Section
+from airhilt.station.cameras import CameraRecord
+from airhilt.station.pictures import kept_pictures
+from airhilt.station.recorded import KEYS, RecordedMessages
+from airhilt.station.redrawing import RedrawnPictures
 from airhilt.station.sounds import Sounds
 
 Json = dict[str, Any]
@@ -19,6 +21,8 @@ SHARED = (
     "events", "summary",
 )  # fmt: skip
 """Parts of `airhilt.report.data.RunData.as_json` that the page shows, as a report does."""
+OWN = ("calls", "spoken", "advisories", "cameras", "latencies")
+"""Parts that `RecordedMessages` gives."""
 
 
 class Debrief:
@@ -38,35 +42,21 @@ class Debrief:
     """
 
     def __init__(self, run: Run) -> None:
-        folder = run.folder
-        said, advised = calls.Calls(folder), advisories.Advisories(folder)
-        at_seats = seat_sounds.SeatSounds(folder)
-        self._cameras, states = cameras.Cameras(folder), redrawing.States(folder)
-        contents = [
-            _content("calls", said, calls.KEYS),
-            _content("seat_sounds", at_seats, seat_sounds.KEYS),
-            _content("advisories", advised, advisories.KEYS),
-            _content("cameras", self._cameras, cameras.KEYS),
-            _content("states", states, redrawing.KEYS),
-            _content("latencies", latencies.Latencies(folder), latencies.KEYS),
-        ]
-        data = read_run(run, folder.report_path, contents)
-        self._locate = data.locate
-        parts = {content.section.name: content.as_json(data) for content in contents}
-        notes = [readable(note) for content in contents for note in content.notes]
-        self.sounds = Sounds(run, said.frequencies_khz, said.spoken, at_seats.heard)
+        log = RecordedMessages(run.folder)
+        section = Section("debrief", order=0, module=__file__, content=lambda _: log, keys=KEYS)
+        content = GuardedContent(section, run.folder)
+        data = read_run(run, run.folder.report_path, [content])
+        own = content.as_json(data) or dict.fromkeys(OWN, ())
+        self._locate, self._cameras = data.locate, log.cameras
+        self.sounds = Sounds(run, log.frequencies_khz, log.spoken, log.heard_at_seats)
         self._kept, damaged = kept_pictures(run)
-        self._redrawn = redrawing.RedrawnPictures(run.info, states.by_actor())
+        self._redrawn = RedrawnPictures(run.info, log.states)
         shared = data.as_json()
         self.document: Json = {
             **{name: shared[name] for name in SHARED},
-            "notes": [*shared["notes"], *notes, *damaged],
-            "folder": str(folder.path),
-            "calls": (parts["calls"] or {}).get("calls", []),
-            "spoken": (parts["calls"] or {}).get("spoken", []),
-            "advisories": parts["advisories"] or [],
-            "cameras": parts["cameras"] or [],
-            "latencies": parts["latencies"] or [],
+            **own,
+            "notes": [*shared["notes"], *map(readable, content.notes), *damaged],
+            "folder": str(run.folder.path),
             "sounds": self.sounds.names,
         }
 
@@ -95,10 +85,10 @@ class Debrief:
             raise StationError(f"camera {name!r}: no picture {seq} in this run")
         return self._kept.get((name, seq)) or self._redrawn.jpeg(name, t_ns)
 
-    def _camera(self, name: str) -> cameras.CameraRecord:
-        record = self._cameras.records.get(name)
+    def _camera(self, name: str) -> CameraRecord:
+        record = self._cameras.get(name)
         if record is None:
-            known = ", ".join(self._cameras.records) or "none: the run has no pictures"
+            known = ", ".join(self._cameras) or "none: the run has no pictures"
             raise StationError(f"camera {readable(name)!r}: not in this run; expected {known}")
         return record
 
@@ -106,8 +96,3 @@ class Debrief:
         """End what draws, and delete the sounds."""
         self._redrawn.close()
         self.sounds.close()
-
-
-def _content(name: str, content: Content, keys: tuple[str, ...]) -> GuardedContent:
-    section = Section(name, order=0, module=__file__, content=lambda _: content, keys=keys)
-    return GuardedContent(section, content.folder)

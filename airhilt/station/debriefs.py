@@ -1,20 +1,24 @@
-"""Debriefs that a station has opened: each is a process of its own, which ends with the station."""
+"""The debriefs that a station has opened, as parts of its own page."""
 
 from __future__ import annotations
 
-import subprocess
-import sys
+import itertools
 import threading
-from collections import OrderedDict
+from collections.abc import Sequence
 from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
+
+from starlette.routing import Router
 
 from airhilt.errors import RunFolderError, StationError
-from airhilt.host.text import LONGEST_LINE, readable
-from airhilt.record import RunFolder
-from airhilt.station.started_runs import StartedRuns, is_address
+from airhilt.host.text import readable
+from airhilt.record import RunFolder, open_run
+from airhilt.record.damage import untold
+from airhilt.station.app import recorded_app
+from airhilt.station.debrief import Debrief
+from airhilt.station.started_runs import StartedRuns
 
 MOST_OPEN = 4
 """Largest number of debriefs; the one that was opened first is closed for the next."""
@@ -28,13 +32,21 @@ class Debriefs:
     Parameters
     ----------
     started
-        Runs that were started in the folder; debriefs have pages as these have.
+        Runs that were started in the folder.
+
+    Attributes
+    ----------
+    router
+        Application with the pages of the debriefs.
     """
 
     def __init__(self, started: StartedRuns) -> None:
+        self.router = Router()
         self._folder = started.folder
         self._runs = started
-        self._open: OrderedDict[tuple[str, ...], tuple[subprocess.Popen[str], str]] = OrderedDict()
+        self._open: dict[tuple[str, ...], tuple[str, list[Debrief]]] = {}
+        """Path and content, by the names of the runs."""
+        self._numbers = itertools.count(1)
         self._lock = threading.Lock()
 
     def rows(self) -> list[dict[str, Any]]:
@@ -50,7 +62,7 @@ class Debriefs:
         return rows
 
     def open(self, names: tuple[str, ...]) -> str:
-        """Return the address of the debrief of one run, or of two side by side.
+        """Return the path of the debrief of one run, or of two side by side, below `router`.
 
         Raises
         ------
@@ -69,45 +81,25 @@ class Debriefs:
                     "killed"
                 )
         with self._lock:
-            if names in self._open and self._open[names][0].poll() is None:
-                return self._open[names][1]
-            process, url = self._started(names)
-            self._open[names] = process, url
-            while len(self._open) > MOST_OPEN:
-                _end(self._open.popitem(last=False)[1][0])
-        return url
+            if names not in self._open:
+                debriefs = [Debrief(open_run(self._folder / name, untold)) for name in names]
+                path = f"/{next(self._numbers)}"
+                self.router.mount(path, recorded_app(debriefs))
+                self._open[names] = path, debriefs
+                if len(self._open) > MOST_OPEN:
+                    del self.router.routes[0]
+                    _close(self._open.pop(next(iter(self._open)))[1])
+            return f"{self._open[names][0]}/"
 
     def _goes_on(self, row: dict[str, Any]) -> bool:
         """Return true if a run has not ended; its folder tells where its process is not known."""
         state = self._runs.state_of(row["name"])
         return row["phase"] == "running" if state is None else state != "ended"
 
-    def _started(self, names: tuple[str, ...]) -> tuple[subprocess.Popen[str], str]:
-        folders = [str(self._folder / name) for name in names]
-        process = subprocess.Popen(  # noqa: S603 - our own command
-            [sys.executable, "-m", "airhilt", "view", *self._runs.page, "--", *folders],
-            stdin=subprocess.DEVNULL,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            start_new_session=True,
-        )
-        assert process.stdout is not None
-        said = ""
-        for line in process.stdout:
-            if is_address(line):
-                threading.Thread(target=_drain, args=(process.stdout,), daemon=True).start()
-                return process, line.split()[0]
-            said = line.removeprefix("airhilt: ").strip() or said
-        process.wait()
-        raise StationError(f"the debrief ended: {readable(said, LONGEST_LINE)}")
-
     def close(self) -> None:
-        """End all debriefs."""
-        with self._lock:
-            for process, _ in self._open.values():
-                _end(process)
-            self._open.clear()
+        """Close all debriefs."""
+        for _, debriefs in self._open.values():
+            _close(debriefs)
 
 
 @lru_cache(maxsize=2 * MOST_RUNS)
@@ -125,12 +117,6 @@ def _row(folder: Path, _written_ns: int) -> dict[str, Any]:
     }
 
 
-def _drain(printed: IO[str]) -> None:
-    """Read away what a process prints until its end, so that it never waits for that."""
-    with printed:
-        printed.read()
-
-
-def _end(process: subprocess.Popen[str]) -> None:
-    process.terminate()
-    process.wait()
+def _close(debriefs: Sequence[Debrief]) -> None:
+    for debrief in debriefs:
+        debrief.close()

@@ -7,7 +7,7 @@ from typing import Annotated, Any
 from fastapi import FastAPI, Query
 from pydantic import BaseModel, ConfigDict, Field
 
-from airhilt.station.app import page_app, refuse_in_words
+from airhilt.station.app import page_app
 from airhilt.station.conductor import Conductor
 from airhilt.station.questionnaires import Answers
 
@@ -41,5 +41,4 @@ def experiment_app(conductor: Conductor) -> FastAPI:
         conductor.answer(given.questionnaire, given.answers, participant)
         return conductor.state(participant)
 
-    refuse_in_words(app)
     return app

@@ -120,7 +120,7 @@ def _answers(progress: Progress, run: str) -> dict[str, Any]:
 def _rows(progress: Progress) -> Iterator[_Rows]:
     """Yield the rows of the finished trials of a participant."""
     for position, trial in enumerate(progress.trials, 1):
-        name = progress.runs.finished_run(trial)
+        name = progress.finished_run(trial)
         if name is None:
             continue
         identity = {
@@ -128,10 +128,10 @@ def _rows(progress: Progress) -> Iterator[_Rows]:
             "trial": trial.name,
             "scenario": trial.scenario,
             "position": position,
-            "run": f"{progress.runs.folder.name}/{name}",
+            "run": f"{progress.folder.name}/{name}",
             **{f"condition.{key}": _text(value) for key, value in trial.conditions.items()},
         }
-        folder = progress.runs.folder / name
+        folder = progress.folder / name
         try:
             rows = _of_summary(open_run(folder, untold).summary(), progress.seat(trial))
         except CANNOT_READ as error:
@@ -148,10 +148,7 @@ def _rows(progress: Progress) -> Iterator[_Rows]:
 
 
 def _of_summary(summary: Mapping[str, Any], seat: str) -> _Rows:
-    """Return what the rows of a trial have of its summary, and of the person at one of its seats.
-
-    It is nothing of a person where the summary has none.
-    """
+    """Return what the rows of a trial have of its summary, and of the person at a seat."""
     rows = _Rows(OF_RUNS.values(summary), [], [])
     for person in (one for one in summary.get("people", ()) if one["seat"] == seat):
         at = {"seat": seat}

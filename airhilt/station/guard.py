@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 import hmac
+from collections import Counter
 from collections.abc import Callable
-from http.cookies import CookieError, SimpleCookie
-from urllib.parse import parse_qs, urlsplit
+from urllib.parse import urlsplit
 
-from starlette.datastructures import Headers, MutableHeaders
+from starlette.datastructures import MutableHeaders
+from starlette.requests import HTTPConnection
 from starlette.responses import PlainTextResponse, RedirectResponse, Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from airhilt.host.text import readable
 from airhilt.station.address import Address
-from airhilt.station.refusals import Refusals
 
 COOKIE = "airhilt_token"
+MOST_NOTICES = 20
+"""Largest number of refusals of one source that are told."""
 POLICY = "; ".join(
     (
         "default-src 'none'",
@@ -39,6 +41,28 @@ HEADERS = {
     "X-Content-Type-Options": "nosniff",
     "Cache-Control": "no-store",
 }
+
+
+class Refusals:
+    """Tells what is refused: the first `MOST_NOTICES` of each source.
+
+    Parameters
+    ----------
+    notice
+        Is told of it.
+    """
+
+    def __init__(self, notice: Callable[[str], None]) -> None:
+        self._notice = notice
+        self._told: Counter[str] = Counter()
+
+    def tell(self, what: str, source: str) -> None:
+        """Tell of a refusal, and with the last one of a source that no more of it are told."""
+        self._told[source] += 1
+        if self._told[source] > MOST_NOTICES:
+            return
+        is_last = self._told[source] == MOST_NOTICES
+        self._notice(f"refused {what}{f'; further ones {source} are not told' * is_last}")
 
 
 class Guard:
@@ -80,8 +104,8 @@ class Guard:
 
     def _answer(self, scope: Scope) -> Response | None:
         """Return what is answered in the application's place, None if the request may pass."""
-        headers = Headers(scope=scope)
-        host, origin = headers.get("host", ""), headers.get("origin")
+        request = HTTPConnection(scope)
+        host, origin = request.headers.get("host", ""), request.headers.get("origin")
         name = _hostname(host)
         if not self._address.knows(name):
             return self._refuse(
@@ -90,10 +114,9 @@ class Guard:
         if origin is not None and origin != f"{self._address.scheme}://{host}":
             return self._refuse(f"origin {origin!r}: a page of another site may not ask here")
         token = self._address.token
-        if not token or _is_same(_cookie(headers), token):
+        if not token or _is_same(request.cookies.get(COOKIE, ""), token):
             return None
-        query = parse_qs(scope.get("query_string", b"").decode("latin-1"))
-        if not _is_same(query.get("token", [""])[0], token):
+        if not _is_same(request.query_params.get("token", ""), token):
             return self._refuse("no token, or a wrong one; open the address that was printed")
         if scope["type"] == "websocket":
             return None
@@ -118,14 +141,6 @@ def _hostname(host: str) -> str:
         return (urlsplit(f"//{host}").hostname or "").lower()
     except ValueError:
         return ""
-
-
-def _cookie(headers: Headers) -> str:
-    try:
-        found = SimpleCookie(headers.get("cookie", "")).get(COOKIE)
-    except CookieError:
-        return ""
-    return "" if found is None else found.value
 
 
 def _is_same(given: str, token: str) -> bool:

@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from airhilt.errors import AirhiltError
 from airhilt.host.text import readable
 from airhilt.options import Options, options_of
-from airhilt.station.app import page_app, refuse_in_words
+from airhilt.station.app import page_app
 from airhilt.station.debriefs import Debriefs
 from airhilt.station.scenario_choices import ScenarioChoices
 from airhilt.station.started_runs import StartedRuns
@@ -67,9 +67,9 @@ def home_app(
 
     @app.post("/api/debriefs")
     def debrief(wish: DebriefWish) -> dict[str, str]:
-        return {"url": debriefs.open(wish.runs)}
+        return {"url": f"debriefs{debriefs.open(wish.runs)}"}
 
-    refuse_in_words(app)
+    app.mount("/debriefs", debriefs.router)
     return app
 
 

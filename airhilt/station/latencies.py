@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from airhilt.host.text import readable
 from airhilt.messages import (
@@ -13,52 +12,12 @@ from airhilt.messages import (
     Detections,
     Message,
     Transcript,
-    bus_message,
 )
-from airhilt.record import Logged, RunFolder
-from airhilt.report.sections import Content
 from airhilt.units import SECOND_NS
 
-if TYPE_CHECKING:
-    from airhilt.report.data import RunData
-
 Json = list[Any]
-KEYS = ("asr/", "vision/", "adsb/", "advisory/", "tts/")
-"""Beginnings of the keys of the messages that have latencies."""
 LEAST_GAP_NS = SECOND_NS // 2
 """Least time between two bars of what comes often, in ns."""
-OFTEN = ("vision", "adsb")
-"""Stages of which not every step has a bar."""
-
-
-def _of_call(call: Transcript) -> Json:
-    return [call.t_tx_ns, call.t_ns, readable(call.engine), call.t_end_ns]
-
-
-def _of_picture(seen: Detections) -> Json | None:
-    return None if seen.missed else [seen.t_frame_ns, seen.t_ns, readable(seen.camera)]
-
-
-def _of_report(report: AdsbReport) -> Json:
-    return [report.t_adsb_in_ns, report.t_adsb_out_ns, readable(report.callsign or report.icao24)]
-
-
-def _of_advisory(advisory: Advisory) -> Json:
-    return [advisory.t_ready_ns, advisory.t_ns, f"{advisory.severity} {readable(advisory.id)}"]
-
-
-def _of_voice(audio: AdvisoryAudio) -> Json:
-    return [audio.t_dec_ns, audio.t_ns, readable(audio.id)]
-
-
-STAGES: Mapping[type[Message], tuple[str, Callable[[Any], Json | None]]] = {
-    Transcript: ("asr", _of_call),
-    Detections: ("vision", _of_picture),
-    AdsbReport: ("adsb", _of_report),
-    Advisory: ("decision", _of_advisory),
-    AdvisoryAudio: ("tts", _of_voice),
-}
-"""Stage and bar of a message, by its class."""
 
 
 class LatencyBars:
@@ -72,41 +31,38 @@ class LatencyBars:
         self._told: set[tuple[str, int, str]] = set()
 
     def bar(self, message: Message) -> Json | None:
-        """Return the bar of a message of a stage, None if it has none of its own."""
-        stage, make = STAGES[type(message)]
-        if stage in OFTEN:
-            if message.t_ns - self._last_ns.get(stage, -LEAST_GAP_NS) < LEAST_GAP_NS:
-                return None
-            self._last_ns[stage] = message.t_ns
-        found = make(message)
-        if found is None:
-            return None
-        begin_ns, end_ns, what, *more = found
+        """Return the bar of a message, None if it has none of its own."""
+        match message:
+            case Transcript():
+                what = readable(message.engine)
+                return self._once("asr", message.t_tx_ns, message.t_ns, what, message.t_end_ns)
+            case Detections() if not message.missed:
+                what = readable(message.camera)
+                return self._seldom("vision", message.t_frame_ns, message.t_ns, what)
+            case AdsbReport():
+                what = readable(message.callsign or message.icao24)
+                return self._seldom("adsb", message.t_adsb_in_ns, message.t_adsb_out_ns, what)
+            case Advisory():
+                what = f"{message.severity} {readable(message.id)}"
+                return self._once("decision", message.t_ready_ns, message.t_ns, what)
+            case AdvisoryAudio():
+                return self._once("tts", message.t_dec_ns, message.t_ns, readable(message.id))
+        return None
+
+    def _once(self, stage: str, begin_ns: int, end_ns: int, what: str, *more: int) -> Json | None:
+        """Return a bar, None for the same one to another recipient."""
         if (stage, begin_ns, what) in self._told:
-            return None  # The same for another recipient.
-        if stage not in OFTEN:
-            self._told.add((stage, begin_ns, what))
-        times = (begin_ns, end_ns, *more)
-        begin_s, end_s, *others = (round(t_ns / SECOND_NS, 3) for t_ns in times)
-        return [stage, begin_s, end_s, what, *others]
+            return None
+        self._told.add((stage, begin_ns, what))
+        return [stage, _seconds(begin_ns), _seconds(end_ns), what, *map(_seconds, more)]
+
+    def _seldom(self, stage: str, begin_ns: int, end_ns: int, what: str) -> Json | None:
+        """Return a bar of what comes often, None too soon after the last one."""
+        if end_ns - self._last_ns.get(stage, -LEAST_GAP_NS) < LEAST_GAP_NS:
+            return None
+        self._last_ns[stage] = end_ns
+        return [stage, _seconds(begin_ns), _seconds(end_ns), what]
 
 
-class Latencies(Content):
-    """The bars of a recorded run."""
-
-    def __init__(self, folder: RunFolder) -> None:
-        super().__init__(folder)
-        self._bars = LatencyBars()
-        self._found: list[Json] = []
-
-    def take(self, logged: Logged) -> None:
-        """Receive a message."""
-        model = bus_message(logged.key)
-        if model is None or model not in STAGES:
-            return
-        if (bar := self._bars.bar(model.model_validate_json(logged.data))) is not None:
-            self._found.append(bar)
-
-    def as_json(self, run: RunData) -> list[Json]:  # noqa: ARG002
-        """Return the bars in the order of their ends."""
-        return self._found
+def _seconds(t_ns: int) -> float:
+    return round(t_ns / SECOND_NS, 3)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any, NamedTuple
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from typing import Any
 
 from pydantic import ValidationError
 
@@ -12,26 +13,21 @@ from airhilt.errors import AirhiltError, first_line, first_problem
 from airhilt.geodesy.wgs84 import Place
 from airhilt.host.text import readable
 from airhilt.messages import (
-    ActorCommand,
     ActorTruth,
     AdsbReport,
     Advisory,
     AdvisoryAudio,
     Briefing,
-    CameraView,
     Clock,
     CockpitInstruments,
-    ConflictTruth,
     Detections,
     EquipmentAlert,
-    Event,
     HearingTruth,
     Message,
     RadarInfo,
     RadarPlot,
     SeatState,
     SpokenTruth,
-    Status,
     SurfaceTrack,
     Transcript,
     Transmission,
@@ -55,17 +51,8 @@ from airhilt.surveillance.radar import plot_place
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, NAUTICAL_MILE, SECOND_NS
 
 Json = dict[str, Any]
-
-
-class Received(NamedTuple):
-    """A message of the run, parsed, and who may see what it says."""
-
-    logged: Logged
-    message: Any
-    audience: Audience
-
-
-Maker = Callable[[Received], None]
+Change = tuple[Any, ...]
+"""Kind of a change, and what belongs to it."""
 
 
 class LiveRun:
@@ -112,46 +99,22 @@ class LiveRun:
         """Callsigns by icao24, as far as ADS-B has told."""
         self._radars: dict[str, RadarInfo] = {}
         self._cameras: set[str] = set()
-        self._makers = self._makers_of_kinds()
-
-    def _makers_of_kinds(self) -> dict[type[Message], tuple[Maker, ...]]:
-        """Return the methods that make the changes of each kind of message, in their order."""
-        return {
-            Clock: (self._clock,),
-            Briefing: (self._briefing,),
-            ActorTruth: (self._truth,),
-            AdsbReport: (self._adsb, self._latency),
-            SurfaceTrack: (self._surface,),
-            RadarInfo: (self._radar,),
-            RadarPlot: (self._plot,),
-            SpokenTruth: (self._call, self._event),
-            Transmission: (self._call,),
-            HearingTruth: (self._call,),
-            Transcript: (self._call, self._event, self._latency),
-            Advisory: (self._advisory, self._event, self._latency),
-            EquipmentAlert: (self._advisory, self._event),
-            AdvisoryAudio: (self._spoken, self._latency),
-            Status: (self._event,),
-            ActorCommand: (self._event,),
-            ConflictTruth: (self._event,),
-            Event: (self._event,),
-            Detections: (self._vision, self._latency),
-            SeatState: (self._seat,),
-            CockpitInstruments: (self._cockpit,),
-            VehiclePosition: (self._own_position,),
-        }
 
     def take(self, logged: Logged) -> None:
         """Receive a message; one that is not as this version writes it is left out, and told."""
         model = bus_message(logged.key)
-        if model is None or (makers := self._makers.get(model)) is None:
+        if model is None:
             return
         try:
             message = model.model_validate_json(logged.data)
             audience = audience_of(logged.key, message)
-            received = Received(logged._replace(t_ns=message.t_ns), message, audience)
-            for make in makers:
-                make(received)
+            for change in self._changes_by(message):
+                self._changes.add(*change, audience=audience)
+            if (row := event_row(logged._replace(t_ns=message.t_ns))) is not None:
+                self._changes.add("event", self._without_engine(row), audience=audience)
+            if (bar := self._bars.bar(message)) is not None:
+                # Bars name engines, and are thinned over all who send: no seat is told any.
+                self._changes.add("latency", bar, audience=NOBODY)
         except ValidationError as error:
             self._leave_out(logged.key, first_problem(error))
         except (ValueError, LookupError, OverflowError) as error:
@@ -170,104 +133,103 @@ class LiveRun:
             self.is_over = True
             self._changes.add("clock", None, "gone", "")
 
-    def _clock(self, received: Received) -> None:
-        clock: Clock = received.message
-        self.is_over = clock.phase in ("finished", "stopped")
-        shown = _seconds(clock.t_ns), clock.phase, readable(clock.pace), clock.behind_s
-        self._changes.add("clock", *shown)
+    def _changes_by(self, message: Message) -> Iterator[Change]:
+        """Yield the changes by a message; those of a seat alone go there."""
+        match message:
+            case Clock():
+                self.is_over = message.phase in ("finished", "stopped")
+                pace = readable(message.pace)
+                yield "clock", _seconds(message.t_ns), message.phase, pace, message.behind_s
+            case Briefing():
+                yield self._briefing(message)
+            case ActorTruth():
+                self._has_truth = True
+                yield self._truth(message)
+            case AdsbReport():
+                yield from self._adsb(message)
+            case SurfaceTrack():
+                yield from self._surface(message)
+            case RadarInfo():
+                self._radars[message.site] = message
+            case RadarPlot() if message.site in self._radars:
+                yield "plot", self._plot(message, self._radars[message.site])
+            case SpokenTruth() | Transmission() | HearingTruth() | Transcript():
+                yield from self._call(message)
+            case Advisory() | EquipmentAlert():
+                row = self._advisories.add(message)
+                # What others are told is not for who has a seat.
+                yield "advisory", row | {"texts": row["texts"][-1:]} if self._has_seats else row
+            case AdvisoryAudio():
+                sound = sound_name(message) if message.samples else None
+                yield "spoken", spoken_as_json(message) | {"sound": sound}
+            case Detections():
+                yield from self._picture(message)
+            case SeatState():
+                self._views.learn(message)
+            case CockpitInstruments():
+                shown = message.model_dump(mode="json") | {"mode": readable(message.mode)}
+                self._views.own[message.callsign].put("cockpit", shown)
+            case VehiclePosition():
+                self._views.own[message.callsign].put(*self._own_position(message))
 
-    def _briefing(self, received: Received) -> None:
-        briefing: Briefing = received.message
+    def _briefing(self, briefing: Briefing) -> Change:
         self._types = {one.callsign: one.type for one in briefing.roster}
         airport = None
         if briefing.airport is not None:
             self._ground_m = briefing.airport.elevation_ft * FOOT
-            try:
+            # An airport that this machine does not have: the traffic is drawn without it.
+            with suppress(AirhiltError):
                 found = ReportAirport(briefing.airport.icao.lower())
-            except AirhiltError:
-                pass  # It is not one of this machine's: the traffic is drawn without it.
-            else:
                 airport, self._locate = found.as_json(), found.locate
         categories = {readable(one.callsign): one.category for one in briefing.roster}
-        self._changes.add("briefing", readable(briefing.controller), airport, categories)
+        return "briefing", readable(briefing.controller), airport, categories
 
     # --- positions --------------------------------------------------------------------------
 
-    def _truth(self, received: Received) -> None:
-        truth: ActorTruth = received.message
-        self._has_truth = True
-        self._changes.add(
-            "state",
-            *self._state(
-                truth.actor,
-                truth.category,
-                truth.t_ns,
-                (truth.latitude_deg, truth.longitude_deg, truth.altitude_m),
-                (
-                    truth.velocity_east_m_s,
-                    truth.velocity_north_m_s,
-                    -truth.velocity_down_m_s / FOOT_PER_MINUTE,
-                ),
-                truth.heading_deg,
-                truth.on_ground,
-                truth.phase,
+    def _truth(self, truth: ActorTruth) -> Change:
+        return self._state(
+            truth.actor,
+            truth.category,
+            truth.t_ns,
+            (truth.latitude_deg, truth.longitude_deg, truth.altitude_m),
+            (
+                truth.velocity_east_m_s,
+                truth.velocity_north_m_s,
+                -truth.velocity_down_m_s / FOOT_PER_MINUTE,
             ),
-            audience=received.audience,
+            truth.heading_deg,
+            truth.on_ground,
+            truth.phase,
         )
 
-    def _adsb(self, received: Received) -> None:
-        report: AdsbReport = received.message
+    def _own_position(self, shown: VehiclePosition) -> Change:
+        """Return where the vehicle of a driver is; nobody else learns it from this."""
+        return self._state(
+            shown.callsign,
+            "vehicle",
+            shown.t_ns,
+            (shown.latitude_deg, shown.longitude_deg, self._ground_m),
+            _velocity_m_s(shown.heading_deg, shown.ground_speed_kt),
+            shown.heading_deg,
+            on_ground=True,
+        )
+
+    def _adsb(self, report: AdsbReport) -> Iterator[Change]:
         if report.callsign is not None and report.icao24 not in self._callsigns:
             self._callsigns[report.icao24] = report.callsign
-            self._changes.add(
-                "name", report.icao24, readable(report.callsign), audience=received.audience
-            )
-        category = (report.emitter_category or "A0")[0]
-        self._observed(
-            self._callsigns.get(report.icao24, report.icao24),
-            "vehicle" if category == "C" else "aircraft",
-            report,
-            report.t_adsb_in_ns,
-            report.on_ground,
-            received.audience,
-        )
+            yield "name", report.icao24, readable(report.callsign)
+        name = self._callsigns.get(report.icao24, report.icao24)
+        category = "vehicle" if (report.emitter_category or "A0")[0] == "C" else "aircraft"
+        on_ground, climb_fpm = report.on_ground, (report.vertical_rate_fpm,)
+        yield from self._observed(name, category, report, report.t_adsb_in_ns, on_ground, climb_fpm)
 
-    def _surface(self, received: Received) -> None:
-        track: SurfaceTrack = received.message
+    def _surface(self, track: SurfaceTrack) -> Iterator[Change]:
         known = track.icao24 in self._callsigns or track.callsign in self._types
         name = track.callsign or self._callsigns.get(track.icao24 or "") or f"track {track.track}"
         category = "aircraft" if known else "vehicle"
-        on_ground = track.on_ground is not False
-        self._observed(name, category, track, track.t_track_ns, on_ground, received.audience)
-
-    def _radar(self, received: Received) -> None:
-        info: RadarInfo = received.message
-        self._radars[info.site] = info
-
-    def _plot(self, received: Received) -> None:
-        """Add a plot of a radar whose place is known."""
-        plot: RadarPlot = received.message
-        info = self._radars.get(plot.site)
-        if info is None:
-            return
-        east_m, north_m = self._on_plan(*plot_place(info, plot))
-        shown = {
-            "t": _seconds(plot.t_plot_ns),
-            "kind": plot.kind,
-            "east": east_m,
-            "north": north_m,
-            "code": plot.mode_a,
-            "altitude_ft": plot.mode_c_ft,
-            "turn_s": info.rotation_s,
-        }
-        self._changes.add("plot", shown, audience=received.audience)
-
-    def _on_plan(self, place: Place, height_m: float) -> tuple[float, float]:
-        """Return how far east and north of the centre of the plan a place is, in m."""
-        if self._locate is None:
-            self._locate = Projection(*place).locate
-        east_nm, north_nm = self._locate(place, height_m)
-        return round(east_nm * NAUTICAL_MILE, 1), round(north_nm * NAUTICAL_MILE, 1)
+        yield from self._observed(
+            name, category, track, track.t_track_ns, track.on_ground is not False
+        )
 
     def _observed(
         self,
@@ -276,33 +238,20 @@ class LiveRun:
         seen: AdsbReport | SurfaceTrack,
         t_ns: int,
         on_ground: bool,
-        audience: Audience,
-    ) -> None:
-        """Add a state as a sensor has it, unless the truth is known."""
-        if self._has_truth:
-            return
-        track_rad = (seen.track_deg or 0.0) * DEGREE
-        speed_m_s = seen.ground_speed_kt * KNOT
-        velocity: tuple[float, ...] = (
-            speed_m_s * math.sin(track_rad),
-            speed_m_s * math.cos(track_rad),
-        )
-        if isinstance(seen, AdsbReport):
-            velocity = (*velocity, seen.vertical_rate_fpm)
-        self._changes.add(
-            "state",
-            *self._state(
+        climb_fpm: tuple[float, ...] = (),
+    ) -> Iterator[Change]:
+        """Yield a state as a sensor has it, unless the truth is known."""
+        if not self._has_truth:
+            track_deg = seen.track_deg or 0.0
+            yield self._state(
                 name,
                 category,
                 t_ns,
                 (seen.latitude_deg, seen.longitude_deg, (seen.altitude_ft or 0.0) * FOOT),
-                velocity,
-                seen.track_deg or 0.0,
+                (*_velocity_m_s(track_deg, seen.ground_speed_kt), *climb_fpm),
+                track_deg,
                 on_ground,
-                "",
-            ),
-            audience=audience,
-        )
+            )
 
     def _state(
         self,
@@ -313,17 +262,20 @@ class LiveRun:
         velocity: tuple[float, ...],
         heading_deg: float,
         on_ground: bool,
-        phase: str,
-    ) -> tuple[Any, ...]:
-        """Return a state as the page has it.
+        phase: str = "",
+    ) -> Change:
+        """Return the change of a state.
 
         Parameters
         ----------
+        place
+            Latitude and longitude in degrees, and altitude in m.
         velocity
             East and north in m/s, and the vertical rate in ft/min if it is reported.
         """
         east_m, north_m = self._on_plan((place[0] * DEGREE, place[1] * DEGREE), place[2])
         return (
+            "state",
             readable(name),
             category,
             readable(self._types.get(name, "")),
@@ -337,104 +289,63 @@ class LiveRun:
             readable(phase),
         )
 
-    # --- radio, advisories, events ----------------------------------------------------------
+    def _plot(self, plot: RadarPlot, info: RadarInfo) -> Json:
+        east_m, north_m = self._on_plan(*plot_place(info, plot))
+        return {
+            "t": _seconds(plot.t_plot_ns),
+            "kind": plot.kind,
+            "east": east_m,
+            "north": north_m,
+            "code": plot.mode_a,
+            "altitude_ft": plot.mode_c_ft,
+            "turn_s": info.rotation_s,
+        }
 
-    def _call(self, received: Received) -> None:
-        message = received.message
+    def _on_plan(self, place: Place, height_m: float) -> tuple[float, float]:
+        """Return how far east and north of the centre of the plan a place is, in m."""
+        if self._locate is None:
+            self._locate = Projection(*place).locate
+        east_nm, north_nm = self._locate(place, height_m)
+        return round(east_nm * NAUTICAL_MILE, 1), round(north_nm * NAUTICAL_MILE, 1)
+
+    # --- radio, events, cameras -------------------------------------------------------------
+
+    def _call(
+        self, message: SpokenTruth | Transmission | HearingTruth | Transcript
+    ) -> Iterator[Change]:
         self._calls.take(message)
         record = self._calls.get(message.id)
         row = None if record is None else call_as_json(record, names_engines=not self._has_seats)
         if record is not None and row is not None:
             # At a seat a call is heard while it lasts, and nobody else hears it.
             has_sound = bool(record.received and record.received.samples) and not self._has_seats
-            self._changes.add("call", row | {"has_sound": has_sound}, audience=received.audience)
+            yield "call", row | {"has_sound": has_sound}
 
-    def _spoken(self, received: Received) -> None:
-        audio: AdvisoryAudio = received.message
-        sound = sound_name(audio) if audio.samples else None
-        row = spoken_as_json(audio) | {"sound": sound}
-        self._changes.add("spoken", row, audience=received.audience)
+    def _without_engine(self, row: Json) -> Json:
+        """Return an event; with seats no engine is named, which tells which condition there is."""
+        return row | {"engine": None} if self._has_seats and "engine" in row else row
 
-    def _advisory(self, received: Received) -> None:
-        row = self._advisories.add(received.message)
-        if self._has_seats:  # What others are told is not for who has a seat.
-            row = row | {"texts": row["texts"][-1:]}
-        self._changes.add("advisory", row, audience=received.audience)
-
-    def _event(self, received: Received) -> None:
-        row = event_row(received.logged, received.message.model_dump(mode="json"))
-        if row is None:
-            return
-        if (
-            self._has_seats and "engine" in row
-        ):  # It would tell participants which condition they have.
-            row = row | {"engine": None}
-        self._changes.add("event", row, audience=received.audience)
-
-    def _latency(self, received: Received) -> None:
-        if (bar := self._bars.bar(received.message)) is not None:
-            # Bars name engines, and are thinned over all who send: no seat is told any.
-            self._changes.add("latency", bar, audience=NOBODY)
-
-    def _seat(self, received: Received) -> None:
-        state: SeatState = received.message
-        self._views.learn(state)
-
-    def _own_position(self, received: Received) -> None:
-        """Tell a driver where the own vehicle is; nobody else learns it from this."""
-        shown: VehiclePosition = received.message
-        heading_rad, speed_m_s = shown.heading_deg * DEGREE, shown.ground_speed_kt * KNOT
-        self._views.own[shown.callsign].put(
-            "state",
-            *self._state(
-                shown.callsign,
-                "vehicle",
-                shown.t_ns,
-                (shown.latitude_deg, shown.longitude_deg, self._ground_m),
-                (speed_m_s * math.sin(heading_rad), speed_m_s * math.cos(heading_rad)),
-                shown.heading_deg,
-                True,
-                "",
-            ),
-        )
-
-    def _cockpit(self, received: Received) -> None:
-        shown: CockpitInstruments = received.message
-        self._views.own[shown.callsign].put(
-            "cockpit", shown.model_dump(mode="json") | {"mode": readable(shown.mode)}
-        )
-
-    # --- cameras ----------------------------------------------------------------------------
-
-    def _vision(self, received: Received) -> None:
-        seen: Detections = received.message
-        self._camera(seen.camera, seen.view, received.audience)
+    def _picture(self, seen: Detections) -> Iterator[Change]:
+        if seen.camera not in self._cameras:
+            self._cameras.add(seen.camera)
+            self._views.learn_camera(seen.camera, Audience("camera", seen.view.carrier))
+            shown = {"carrier", "width_px", "height_px", "horizontal_fov_deg"}
+            yield "camera", {"name": readable(seen.camera)} | seen.view.model_dump(include=shown)
         if not seen.missed and self._locate is not None:
-            self._changes.add(
+            yield (
                 "picture",
                 seen.camera,
                 seen.seq,
                 _seconds(seen.t_frame_ns),
                 view_as_json(seen.view, self._locate),
                 found_as_json(seen),
-                audience=received.audience,
             )
 
-    def _camera(self, name: str, view: CameraView, audience: Audience) -> None:
-        if name not in self._cameras:
-            self._cameras.add(name)
-            self._views.learn_camera(name, audience)
-            self._changes.add(
-                "camera",
-                {
-                    "name": readable(name),
-                    "carrier": view.carrier,
-                    "width_px": view.width_px,
-                    "height_px": view.height_px,
-                    "horizontal_fov_deg": view.horizontal_fov_deg,
-                },
-                audience=audience,
-            )
+
+def _velocity_m_s(heading_deg: float, speed_kt: float) -> tuple[float, float]:
+    """Return the velocity east and north."""
+    heading_rad, speed_m_s = heading_deg * DEGREE, speed_kt * KNOT
+    return speed_m_s * math.sin(heading_rad), speed_m_s * math.cos(heading_rad)
 
 
 def _seconds(t_ns: int) -> float:

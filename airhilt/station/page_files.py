@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from functools import cache
 from importlib import resources
+
+from jinja2 import Environment, PackageLoader
 
 MEDIA_TYPES = {
     "css": "text/css; charset=utf-8",
@@ -13,15 +16,12 @@ MEDIA_TYPES = {
     "svg": "image/svg+xml",
 }
 """Media type of the files, by the end of their names."""
-SHARED = {
-    "series": ("at", "before", "headingAt", "niceStep"),
-    "words": (
-        "METRE_PER_FT", "METRE_PER_NM", "SEVERITIES",
-        "bearing", "capital", "counted", "decibels", "feet", "fixed", "instruction", "known",
-        "megahertz", "metres", "miles", "minus", "percent", "seconds", "whole", "words",
-    ),
-}  # fmt: skip
-"""Names that the page takes from scripts of a report, by script."""
+PAGES = ("index.html", "together.html", "home.html", "experiment.html")
+"""Pages, which are put together of their parts."""
+SHARED = ("series", "words")
+"""Scripts of a report that the page takes, as modules."""
+DECLARED = re.compile(r"^(?:const|function) (\w+)", re.MULTILINE)
+"""Names that such a script declares."""
 
 
 def media_type(name: str) -> str:
@@ -44,8 +44,12 @@ def page_files() -> dict[str, bytes]:
         for path in folder.iterdir()
         if path.name.rpartition(".")[2] in MEDIA_TYPES
     }
+    pages = Environment(loader=PackageLoader(__package__, "page"), autoescape=True)
+    for name in PAGES:
+        files[name] = pages.get_template(name).render().encode()
     shared = resources.files("airhilt.report").joinpath("shared")
-    for name, functions in SHARED.items():
+    for name in SHARED:
         script = shared.joinpath(f"{name}.js").read_text("utf-8")
-        files[f"{name}.js"] = f"{script}\nexport {{ {', '.join(functions)} }};\n".encode()
+        exported = ", ".join(DECLARED.findall(script))
+        files[f"{name}.js"] = f"{script}\nexport {{ {exported} }};\n".encode()
     return files

@@ -191,6 +191,24 @@ class Plan(BaseModel):
             for number, combination in enumerate(combinations, 1)
         ]
 
+    def order_of(self, participant: str) -> list[Trial]:
+        """Return the trials of a participant, in their order.
+
+        Raises
+        ------
+        AirhiltError
+            There is no such participant.
+        """
+        trials = self.trials()
+        rows = balanced_latin_square(len(trials))
+        row = rows[self.teams.index(self.team_of(participant)) % len(rows)]
+        return [trials[index] for index in row]
+
+    @property
+    def balance(self) -> int:
+        """Number of teams of which any multiple makes the order balanced."""
+        return len(balanced_latin_square(len(self.trials())))
+
     def check(self) -> None:
         """Complain about a trial that cannot be run.
 
@@ -221,3 +239,16 @@ def plan_of(document: Any, origin: str) -> Plan:
         return Plan.model_validate(document)
     except ValidationError as error:
         raise AirhiltError(f"{origin}: {first_problem(error)}") from None
+
+
+def balanced_latin_square(size: int) -> list[list[int]]:
+    """Return rows of 0 to ``size`` - 1 in which each number follows each other equally often.
+
+    There are ``size`` rows, twice as many if ``size`` is odd (Williams 1949, Aust. J. Chem. 2,
+    149).
+    """
+    first = [0]
+    for step in range(1, size):
+        first.append((step + 1) // 2 if step % 2 else size - step // 2)
+    rows = [[(number + shift) % size for number in first] for shift in range(size)]
+    return rows if size % 2 == 0 else [*rows, *(row[::-1] for row in rows)]

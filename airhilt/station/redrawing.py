@@ -6,9 +6,9 @@ are interpolated, so that a picture is close to the one that the run had, and no
 
 from __future__ import annotations
 
-import json
+import math
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,8 +18,8 @@ from pydantic import ValidationError
 
 from airhilt.errors import RendererError, RendererLost, RunFolderError, first_problem
 from airhilt.geodesy.local_frame import LocalFrame
-from airhilt.record import Logged, RunFolder, RunInfo
-from airhilt.report.sections import Content
+from airhilt.messages import ActorTruth
+from airhilt.record import RunInfo
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import ActorSpec, AircraftSpec
 from airhilt.sensors.cameras import AUTO
@@ -32,8 +32,6 @@ from airhilt.world.actors.crew import mesh_at
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.kinds import load_kind
 
-KEYS = ("truth/state/",)
-"""Beginnings of the keys of the true states."""
 FLYING_ABOVE_M = 0.5
 """Height above the ground from which an animal is drawn flying, in m."""
 INTERPOLATED = (
@@ -43,47 +41,33 @@ INTERPOLATED = (
 """Fields of a state besides its time."""
 STATE = np.dtype([("t_ns", np.int64), *((name, np.float64) for name in INTERPOLATED)])
 """Data type of the part of an actor's true state that a picture shows."""
+StateRow = tuple[float, ...]
 Table = npt.NDArray[Any]
 """States of one actor, of type `STATE`."""
 ANGLES = ("longitude_rad", "heading_rad", "roll_rad")
 """Fields that may jump by a full turn."""
 
 
-class States(Content):
-    """The true states of the actors."""
+def state_row(state: ActorTruth) -> StateRow:
+    """Return a true state as a row of the type `STATE`."""
+    return (
+        state.t_ns,
+        state.latitude_deg * DEGREE,
+        state.longitude_deg * DEGREE,
+        state.altitude_m,
+        state.height_agl_m,
+        math.hypot(state.velocity_north_m_s, state.velocity_east_m_s),
+        state.heading_deg * DEGREE,
+        state.pitch_deg * DEGREE,
+        state.roll_deg * DEGREE,
+    )
 
-    def __init__(self, folder: RunFolder) -> None:
-        super().__init__(folder)
-        self._rows: dict[str, list[tuple[float, ...]]] = {}
 
-    def take(self, logged: Logged) -> None:
-        """Receive a state."""
-        truth = json.loads(logged.data)
-        row = (
-            logged.t_ns,
-            truth["latitude_deg"] * DEGREE,
-            truth["longitude_deg"] * DEGREE,
-            truth["altitude_m"],
-            truth["height_agl_m"],
-            np.hypot(truth["velocity_north_m_s"], truth["velocity_east_m_s"]),
-            truth["heading_deg"] * DEGREE,
-            truth["pitch_deg"] * DEGREE,
-            truth["roll_deg"] * DEGREE,
-        )
-        self._rows.setdefault(truth["actor"], []).append(row)
-
-    def as_json(self, run: object) -> None:
-        """Return nothing: the page has the tracks."""
-
-    def by_actor(self) -> dict[str, Table]:
-        """Return the states of each actor, in the order of their times, of type `STATE`."""
-        found = {}
-        for actor, rows in self._rows.items():
-            states = np.array(rows, STATE)
-            for name in ANGLES:
-                states[name] = np.unwrap(states[name])
-            found[actor] = states
-        return found
+def _table(rows: Sequence[StateRow]) -> Table:
+    table = np.array(rows, STATE)
+    for name in ANGLES:
+        table[name] = np.unwrap(table[name])
+    return table
 
 
 class RedrawnPictures:
@@ -94,12 +78,12 @@ class RedrawnPictures:
     info
         Content of ``run.json``: what is drawn, and by which renderer.
     states
-        True states of the actors, as `States.by_actor` returns them.
+        Rows of the true states of each actor, in the order of their times.
     """
 
-    def __init__(self, info: RunInfo, states: dict[str, Table]) -> None:
+    def __init__(self, info: RunInfo, states: Mapping[str, Sequence[StateRow]]) -> None:
         self._info = info
-        self._states = states
+        self._states = {actor: _table(of_actor) for actor, of_actor in states.items()}
         self._lock = threading.Lock()
         self._scene: _Scene | None = None
 

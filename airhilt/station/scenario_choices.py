@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -71,15 +70,9 @@ class ScenarioChoices:
 
 def _row(path: Path) -> Json:
     try:
-        return _row_of(path, path.stat().st_mtime_ns)
+        scenario = loading.read(path)
     except (OSError, ScenarioError) as error:
         return {"title": path.stem, "problem": readable(str(error))}
-
-
-@lru_cache(maxsize=2 * MOST_FILES)
-def _row_of(path: Path, _written_ns: int) -> Json:
-    """Return what a page shows of a scenario, read again once its file was written again."""
-    scenario = loading.read(path)
     return {
         "title": readable(scenario.title or scenario.name),
         "description": readable(scenario.description),

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import socket
 import threading
 import time
 import webbrowser
@@ -11,16 +10,14 @@ from collections.abc import Callable
 from contextlib import suppress
 
 import uvicorn
-from starlette.datastructures import Headers
-from starlette.exceptions import HTTPException
 from starlette.responses import PlainTextResponse
-from starlette.types import ASGIApp, Message, Receive, Scope, Send
+from starlette.types import ASGIApp, Receive, Scope, Send
 
 from airhilt.station.address import Address
 from airhilt.station.guard import Guard
 
 LARGEST_MESSAGE_BYTES = 1 << 20
-"""Greatest size of a message from a browser, and of the body of a request, in bytes."""
+"""Greatest size of a message from a browser, in bytes."""
 MOST_CONNECTIONS = 200
 """Largest number of connections at a time."""
 PING_S, PATIENCE_S = 2.0, 5.0
@@ -29,7 +26,6 @@ GRACE_S = 2
 """Time that open connections have to end with the server, in s."""
 CHECK_PERIOD_S = 0.1
 """Time between two questions if nobody needs the server any more, in s."""
-TOO_LARGE = f"the body of the request has more than {LARGEST_MESSAGE_BYTES:,} bytes"
 
 
 class _Interruptible:
@@ -39,60 +35,12 @@ class _Interruptible:
         self._app = app
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        has_begun = False
-
-        async def note_and_send(message: Message) -> None:
-            nonlocal has_begun
-            has_begun = True
-            await send(message)
-
         try:
-            await self._app(scope, receive, note_and_send)
+            await self._app(scope, receive, send)
         except asyncio.CancelledError:
             # Nobody waits for this task but uvicorn, which would print a traceback.
-            if scope["type"] == "http" and not has_begun:
+            with suppress(RuntimeError):  # Its answer has begun.
                 await PlainTextResponse("the station has ended", 503)(scope, receive, send)
-
-
-class _Bounded:
-    """Application that answers 413 to a request whose body is too large, and does not read it."""
-
-    def __init__(self, app: ASGIApp) -> None:
-        self._app = app
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["type"] != "http":
-            await self._app(scope, receive, send)
-            return
-        told = Headers(scope=scope).get("content-length", "")
-        if told.isdecimal() and int(told) > LARGEST_MESSAGE_BYTES:
-            closing = {"Connection": "close"}
-            await PlainTextResponse(TOO_LARGE, 413, closing)(scope, receive, send)
-            return
-        received_bytes = 0
-
-        async def receive_bounded() -> Message:
-            """Receive a piece of a body that may not tell its size."""
-            nonlocal received_bytes
-            message = await receive()
-            received_bytes += len(message.get("body", b""))
-            if received_bytes > LARGEST_MESSAGE_BYTES:
-                raise HTTPException(413, TOO_LARGE, {"Connection": "close"})
-            return message
-
-        await self._app(scope, receive_bounded, send)
-
-
-class _Server(uvicorn.Server):
-    """Server that tells when it listens, and an interruption ends it in order from then on."""
-
-    def __init__(self, config: uvicorn.Config, started: Callable[[], None]) -> None:
-        super().__init__(config)
-        self._tell_started = started
-
-    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        await super().startup(sockets)
-        self._tell_started()
 
 
 def serve(
@@ -125,7 +73,7 @@ def serve(
     listening = address.bound()
     url = address.url(listening.getsockname()[1])
     config = uvicorn.Config(
-        Guard(_Bounded(_Interruptible(app)), address, notice),
+        Guard(_Interruptible(app), address, notice),
         log_level="warning",
         access_log=False,
         lifespan="off",
@@ -139,13 +87,11 @@ def serve(
         ws_ping_timeout=PATIENCE_S,
     )
 
-    def started() -> None:
-        opened(url)
+    server = uvicorn.Server(config)
+    with listening, suppress(KeyboardInterrupt):
+        opened(url)  # The system keeps who comes before the server runs.
         if browser:
             threading.Thread(target=webbrowser.open, args=(url,), daemon=True).start()
-
-    with listening, suppress(KeyboardInterrupt):
-        server = _Server(config, started)
         if is_over is not None:
             threading.Thread(target=_end_when, args=(is_over, server), daemon=True).start()
         server.run(sockets=[listening])

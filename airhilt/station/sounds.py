@@ -6,7 +6,6 @@ import tempfile
 import threading
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from types import MappingProxyType
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ
 from airhilt.audio.wav import write_wav_pieces
@@ -40,7 +39,7 @@ class Sounds:
         run: Run,
         frequencies_khz: Sequence[int],
         spoken: Sequence[AdvisoryAudio],
-        at_seats: Mapping[str, Sequence[SeatAudioClosed]] = MappingProxyType({}),
+        at_seats: Mapping[str, Sequence[SeatAudioClosed]],
     ) -> None:
         self._run = run
         self._frequencies_khz = tuple(frequencies_khz)

@@ -66,7 +66,7 @@ class StartedRuns:
 
     def __init__(self, folder: Path, page: Sequence[str] = PAGE_OF_THIS_MACHINE) -> None:
         self.folder = folder
-        self.page = page
+        self._page = page
         self._children: list[subprocess.Popen[bytes]] = []
 
     def start(self, scenario: Path, options: Options, name: str | None = None) -> str:
@@ -90,15 +90,10 @@ class StartedRuns:
         if len([run for run in self.runs() if self.state(run) != "ended"]) >= MOST_AT_A_TIME:
             raise StationError(f"{MOST_AT_A_TIME} runs go on already; stop one of them first")
         name = name or _new_name(self.folder, loaded.name, options.seed)
-        given = options.model_copy(
-            update={
-                "out": self.folder / name,
-                "pace": "realtime",
-                "wait_for_seats": bool(seats),
-            }
-        )
+        own = {"out": self.folder / name, "pace": "realtime", "wait_for_seats": bool(seats)}
+        given = options.model_copy(update=own)
         command = [sys.executable, "-m", "airhilt", "cosim", f"--scenario={scenario}"]
-        command += ["--view", *self.page, *arguments_of(given)]
+        command += ["--view", *self._page, *arguments_of(given)]
         try:
             make_folder(self.folder / KEPT)
             replace_file(self._output(name), b"")
@@ -174,7 +169,9 @@ class StartedRuns:
             state = self.state(run)
             ended += state == "ended"
             if state != "ended" or ended <= MOST_ENDED:
-                lines = [line for line in self._lines(run) if _is_for_page(line)]
+                # Nobody has a terminal at a page.
+                lines = [line for line in self._lines(run) if not is_address(line)]
+                lines = [line for line in lines if "Ctrl+C" not in line]
                 rows.append(
                     {
                         "name": readable(run.name),
@@ -207,11 +204,6 @@ class StartedRuns:
 def is_address(line: str) -> bool:
     """Return true if a command says in a line where its page is."""
     return line.startswith(("http://", "https://"))
-
-
-def _is_for_page(line: str) -> bool:
-    """Return true if a line of a command is of use at a page, where nobody has a terminal."""
-    return not is_address(line) and "Ctrl+C" not in line
 
 
 def _new_name(folder: Path, scenario: str, seed: int) -> str:

@@ -1,6 +1,6 @@
 """The subscription of a station to a run: it listens, and passes on what people at seats do.
 
-What comes faster than the station can take is dropped and counted, so that the run never waits.
+What comes faster than the station can take is dropped, so that the run never waits.
 """
 
 from __future__ import annotations
@@ -10,7 +10,8 @@ import queue
 import threading
 from base64 import b64encode
 from collections import OrderedDict
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from typing import Any, NamedTuple
 
 import zenoh
@@ -19,14 +20,11 @@ from pydantic import ValidationError
 from airhilt.bus.seat_client import SeatClient
 from airhilt.host.text import readable
 from airhilt.messages import (
-    ActorCommand,
     AdvisoryAudio,
-    Message,
     PageRefusal,
     Transmission,
     bus_message,
     key_chunk,
-    worker_output,
 )
 from airhilt.record import Logged
 from airhilt.station.audiences import Audience, audience_of, heard_by
@@ -39,28 +37,14 @@ SUBSCRIBED = (
     "advisory/*", "equipment/**", "tts/*", "vision/*", "command/*",
 )  # fmt: skip
 """Keys below the run of what everybody may see."""
-TRUTH = ("truth/**",)
+TRUTH = "truth/**"
 """Keys of the truth, for observers alone; of it comes what the run shares."""
-OF_SEATS = (
-    "cockpit/{seat}",
-    "cockpit/{seat}/position",
-    "seat/{seat}",
-)
-"""Keys of what only the person at a seat sees."""
 ASKED = ("briefing", "clock", "radar/*/info")
 """Keys that the run answers, for who comes late."""
-ASKED_OF_SEATS = ("seat/{seat}",)
-"""Keys that it answers for the person at a seat."""
 STREAMED = "radio/*/audio"
-"""Keys of the sound of transmissions while they last."""
-STREAMED_TO_SEATS = ("seat/{seat}/audio",)
-"""Keys of the sound that the receiver of a seat gets, of which each seat has its own."""
-HEARD: Mapping[str, type[Message]] = {"command": ActorCommand}
-"""Messages of programs besides what workers publish, by the first part of their key."""
-MOST_WAITING = 20_000
-"""Largest number of messages that wait for the station."""
+"""Keys of the sound of transmissions while they last; the receiver of a seat has its own."""
 MOST_WAITING_BYTES = 32_000_000
-"""Largest size of the messages that wait, in bytes."""
+"""Largest size of the messages that wait for the station, in bytes."""
 MOST_SOUNDS = 60
 """Largest number of transmissions and spoken advisories whose sound is kept."""
 MOST_SOUND_BYTES = 64_000_000
@@ -96,9 +80,6 @@ class Subscription:
     ----------
     run
         Name of the run.
-    dropped
-        Number of messages for which there was no room, or that are larger than their limit or not
-        as a run writes them.
     """
 
     def __init__(
@@ -110,14 +91,12 @@ class Subscription:
         seats: Sequence[str] = (),
         sounds: Changes | None = None,
     ) -> None:
-        self.dropped = 0
         self._streamed = sounds
         self._take = take
         self._lost = lost
-        self._connection = connection
         self._session, self._prefix = connection.session, connection.prefix
         self.run = connection.run
-        self._waiting: queue.Queue[Logged | None] = queue.Queue(MOST_WAITING)
+        self._waiting: queue.Queue[Logged | None] = queue.Queue()
         self._waiting_bytes = 0
         self._sounds: OrderedDict[str, Sound] = OrderedDict()
         self._has_seats = bool(seats)
@@ -126,29 +105,25 @@ class Subscription:
         self._watching = threading.Lock()
         """Held while it is changed which cameras are watched."""
         self._lock = threading.Lock()
+        own = [f"seat/{key_chunk(seat)}" for seat in seats]
+        cockpits = [f"cockpit/{key_chunk(seat)}{of}" for seat in seats for of in ("", "/position")]
+        heard = [*SUBSCRIBED, *own, *cockpits] if seats else [*SUBSCRIBED, TRUTH]
+        streamed = [] if sounds is None else [STREAMED, *(f"{key}/audio" for key in own)]
         self._kept: list[Any] = [
-            self._session.declare_subscriber(f"{self._prefix}/{key}", self._hear)
-            for key in _keys(seats)
+            self._session.declare_subscriber(f"{self._prefix}/{key}", receive)
+            for keys, receive in ((heard, self._hear), (streamed, self._stream))
+            for key in keys
         ]
-        if sounds is not None:
-            self._kept += [
-                self._session.declare_subscriber(f"{self._prefix}/{key}", self._stream)
-                for key in (STREAMED, *_of(seats, STREAMED_TO_SEATS))
-            ]
         self._kept.append(
             self._session.liveliness().declare_subscriber(
                 f"{self._prefix}/run", self._ended, history=True
             )
         )
-        self._ask((*ASKED, *_of(seats, ASKED_OF_SEATS)))
+        for key in (*ASKED, *own):  # What the run has told before.
+            for sample in connection.answers(key):
+                self._hear(sample)
         self._thread = threading.Thread(target=self._work, name="station", daemon=True)
         self._thread.start()
-
-    def _ask(self, keys: Iterable[str]) -> None:
-        """Take in what the run has told before."""
-        for key in keys:
-            for sample in self._connection.answers(key):
-                self._hear(sample)
 
     def sound(self, name: str) -> Sound | None:
         """Return the sound of a transmission or a spoken advisory, None if it is not kept."""
@@ -192,67 +167,46 @@ class Subscription:
         self._thread.join()
 
     def _hear(self, sample: zenoh.Sample) -> None:
-        """Receive a message on a thread of Zenoh."""
+        """Receive a message on a thread of Zenoh; one above its limit is dropped."""
         key = str(sample.key_expr)[len(self._prefix) + 1 :]
-        attachment = sample.attachment
-        header_size = 0 if attachment is None else len(attachment)
-        model = worker_output(key) or HEARD.get(key.partition("/")[0])
-        limit = None if model is None else model.limit
-        if limit is not None and len(sample.payload) + header_size > limit.size_bytes:
-            self._drop()
-            return
         data = sample.payload.to_bytes()
-        if attachment is not None:
-            header = attachment.to_bytes()
-            if not self._keep_sound(key, header, data):
-                self._drop()
-                return
-            data = header
-        self._post(Logged(key, "", 0, data))
+        header = b"" if sample.attachment is None else sample.attachment.to_bytes()
+        model = bus_message(key)
+        limit = None if model is None else model.limit
+        if limit is not None and len(data) + len(header) > limit.size_bytes:
+            return
+        if header:
+            self._keep_sound(key, header, data)
+        self._post(Logged(key, "", 0, header or data))
 
     def _post(self, logged: Logged) -> None:
+        """Let a message wait for the station; without room it is dropped."""
         with self._lock:
-            has_room = self._waiting_bytes + len(logged.data) <= MOST_WAITING_BYTES
-            if has_room:
-                self._waiting_bytes += len(logged.data)
-        try:
-            if has_room:
-                self._waiting.put_nowait(logged)
+            if self._waiting_bytes + _size_bytes(logged) > MOST_WAITING_BYTES:
                 return
-        except queue.Full:
-            self._taken(logged)
-        self._drop()
+            self._waiting_bytes += _size_bytes(logged)
+        self._waiting.put(logged)
 
-    def _drop(self) -> None:
-        """Count a message that is dropped; subscribers call from threads of their own."""
-        with self._lock:
-            self.dropped += 1
+    def _keep_sound(self, key: str, header: bytes, pcm: bytes) -> None:
+        """Keep the sound of a spoken advisory; without seats also that of a transmission.
 
-    def _taken(self, logged: Logged) -> None:
-        """Take note that a message does not wait any more."""
-        with self._lock:
-            self._waiting_bytes -= len(logged.data)
-
-    def _keep_sound(self, key: str, header: bytes, pcm: bytes) -> bool:
-        """Keep the sound of a message, if it has one; return false if nobody can name it."""
+        At seats calls are heard while they last, each at its own receiver.
+        """
         model = bus_message(key)
-        if not pcm or model not in (Transmission, AdvisoryAudio):
-            return True
-        if model is Transmission and self._has_seats:
-            return True  # At seats calls are heard while they last, each at its own receiver.
-        try:
+        if not pcm or (model is Transmission and self._has_seats):
+            return
+        if model is not Transmission and model is not AdvisoryAudio:
+            return
+        with suppress(ValidationError):  # The receiver of the message tells it.
             message = model.model_validate_json(header)
-        except ValidationError:
-            return False
-        name, audience = sound_name(message), audience_of(key, message)
-        with self._lock:
-            self._sounds[name] = Sound(pcm, audience)
-            while (
-                len(self._sounds) > MOST_SOUNDS
-                or sum(len(sound.pcm) for sound in self._sounds.values()) > MOST_SOUND_BYTES
-            ):
-                self._sounds.popitem(last=False)
-        return True
+            sound = Sound(pcm, audience_of(key, message))
+            with self._lock:
+                self._sounds[sound_name(message)] = sound
+                while (
+                    len(self._sounds) > MOST_SOUNDS
+                    or sum(len(one.pcm) for one in self._sounds.values()) > MOST_SOUND_BYTES
+                ):
+                    self._sounds.popitem(last=False)
 
     def _stream(self, sample: zenoh.Sample) -> None:
         """Receive a piece of a transmission, its beginning or its end, on a thread of Zenoh."""
@@ -290,7 +244,8 @@ class Subscription:
 
     def _work(self) -> None:
         while (logged := self._waiting.get()) is not None:
-            self._taken(logged)
+            with self._lock:
+                self._waiting_bytes -= _size_bytes(logged)
             if logged.key:
                 self._take(logged)
             else:
@@ -304,11 +259,5 @@ def sound_name(header: Transmission | AdvisoryAudio) -> str:
     return header.id
 
 
-def _keys(seats: Sequence[str]) -> list[str]:
-    """Return the keys of what is shown: no truth where there are seats."""
-    return [*SUBSCRIBED, *(_of(seats, OF_SEATS) if seats else TRUTH)]
-
-
-def _of(seats: Sequence[str], keys: Sequence[str]) -> list[str]:
-    """Return keys for each of some seats."""
-    return [key.format(seat=key_chunk(seat)) for seat in seats for key in keys]
+def _size_bytes(logged: Logged) -> int:
+    return len(logged.key) + len(logged.data)

@@ -141,29 +141,17 @@ def test_nobody_speaks_or_acts_for_the_person_in_an_aircraft(tmp_path: Path) -> 
     assert not [one for one in commands if one["subject"] == "AAL123"]
 
 
-def test_who_has_no_line_in_the_script_selects_from_all_its_frequencies(tmp_path: Path) -> None:
-    log = logged(tower(2.0), tmp_path / "run", ["OPS2"])
-    assert states(log, "OPS2")[0]["frequencies_khz"] == [119_100]
-
-
 def test_a_seat_is_told_what_it_sees(tmp_path: Path) -> None:
     log = logged(tower(2.0), tmp_path / "run", ["tower", "AAL123", "OPS2"])
     seats = ("Washington_Tower", "AAL123", "OPS2")
     shown = {one["seat"]: one for seat in seats for one in states(log, seat)}
+    assert shown["OPS2"]["frequencies_khz"] == [119_100]  # It has no line in the script.
     parts = ("category", "has_adsb_in", "recipients")
     assert {seat: tuple(one[part] for part in parts) for seat, one in shown.items()} == {
         "Washington Tower": ("unit", False, ["Washington Tower", "ATC"]),
         "AAL123": ("aircraft", True, ["AAL123", shown["AAL123"]["icao24"]]),
         "OPS2": ("vehicle", False, ["OPS2", shown["OPS2"]["icao24"]]),
     }
-
-
-def test_a_person_flies_by_commands(tmp_path: Path) -> None:
-    command = {"action": "go_around", "climb_to_ft": 3000.0}
-    given = [act("AAL123", 5.0, "fly", command=command)]
-    log = logged(tower(60.0), tmp_path / "run", ["AAL123"], given)
-    states = contents(log, "truth/state/AAL123")
-    assert states[-1]["altitude_m"] > states[0]["altitude_m"]
 
 
 def test_words_on_a_frequency_that_nobody_has_reach_nobody(tmp_path: Path) -> None:
@@ -197,15 +185,6 @@ def test_the_script_goes_on_once_the_person_has_left_until_somebody_comes(tmp_pa
     assert [(one["subject"], one["text"].split()[0]) for one in told] == [
         ("Washington Tower", "a"), ("Washington Tower", "nobody"), ("Washington Tower", "a"),
     ]  # fmt: skip
-
-
-def test_a_crew_flies_again_by_itself_once_its_person_has_left(tmp_path: Path) -> None:
-    given = [
-        act("AAL123", 2.0, "take"),
-        act("AAL123", 3.0, "leave"),
-    ]
-    log = logged(tower(), tmp_path / "run", ["AAL123"], given)
-    assert "AAL123" in [call["speaker"] for call in calls(log)]
 
 
 @pytest.mark.parametrize("words", ["Say again, American one two three", "American one two three"])
@@ -262,15 +241,6 @@ def test_who_reads_calls_gets_none_of_a_frequency_that_is_switched_off(tmp_path:
     assert outcomes == ["missed", "understood"]
 
 
-def test_who_takes_the_seat_after_somebody_hears_all_frequencies(tmp_path: Path) -> None:
-    given = [
-        taken("OPS1"), listening(2.0), act("OPS1", 3.0, "leave"),
-        act("OPS1", 4.0, "take"),
-    ]  # fmt: skip
-    log = logged(tower(45.0), tmp_path / "run", ["OPS1"], given)
-    assert offers(log, "OPS1")
-
-
 def test_an_aircraft_that_was_not_told_to_land_goes_around_and_says_so(tmp_path: Path) -> None:
     log = logged(tower(110.0), tmp_path / "run", ["AAL123"], [taken("AAL123")])
     (told,) = notices(log, "AAL123")
@@ -325,10 +295,11 @@ def test_a_pause_and_slow_motion_are_events_and_replay(tmp_path: Path) -> None:
     assert replay(tmp_path / "run").identical
 
 
-def test_the_wait_for_the_seats_is_in_the_log_and_replays(tmp_path: Path) -> None:
+@pytest.mark.parametrize("pause", [True, False])
+def test_the_wait_for_the_seats_is_in_the_log_and_replays(tmp_path: Path, pause: bool) -> None:
     given = [act("Washington_Tower", 1e-9, "take")]
-    out = tmp_path / "run"
-    log = logged(tower(5.0), out, ["tower"], given, wait_for_seats=True)
+    out, options = tmp_path / "run", {"wait_for_seats": True, "pause": pause}
+    log = logged(tower(5.0), out, ["tower"], given, **options)
     events = [one for one in contents(log, "truth/event") if one["kind"] == "pace"]
     assert [(one["t_ns"], one["text"]) for one in events] == [(0, "paused"), (1, "realtime")]
     assert replay(out).identical
@@ -378,12 +349,6 @@ def test_time_passes_again_once_the_last_person_has_left(tmp_path: Path, factor:
     assert replay(tmp_path / "run").identical
 
 
-def test_a_seat_is_told_whether_the_run_has_a_pause(tmp_path: Path) -> None:
-    for may_pause in (True, False):
-        log = logged(tower(1.0), tmp_path / f"{may_pause}", ["tower"], pause=may_pause)
-        assert states(log, "Washington_Tower")[0]["may_pause"] is may_pause
-
-
 def spoken_from(log: Sequence[Logged]) -> list[str | None]:
     """Return what the person in AAL123 is told of the voice of the assistant, one after another."""
     return once(one["spoken_from"] for one in states(log, "AAL123"))
@@ -408,14 +373,6 @@ def test_a_seat_is_told_when_the_voice_of_the_assistant_is_lost(
     short = encounter.model_copy(update={"duration_s": 5.0})
     log = logged(short, tmp_path / "run", ["AAL123"], assistant="reference", speech=True)
     assert spoken_from(log) == ["CAUTION", None]
-
-
-def test_a_run_that_waits_for_its_seats_begins_where_nobody_may_pause(tmp_path: Path) -> None:
-    given = [act("Washington_Tower", 1e-9, "take")]
-    options = {"wait_for_seats": True, "pause": False}
-    log = logged(tower(2.0), tmp_path / "run", ["tower"], given, **options)
-    events = [one["text"] for one in contents(log, "truth/event") if one["kind"] == "pace"]
-    assert events == ["paused", "realtime"]
 
 
 def test_a_person_is_told_what_the_aircraft_cannot_do(tmp_path: Path) -> None:
@@ -490,14 +447,6 @@ def test_advice_to_climb_is_followed_by_who_climbs_and_can(
     command = {"action": "altitude", "altitude_ft": altitude_ft}
     found = is_followed(tmp_path / "run", {"action": "altitude", **climb}, command)
     assert found is followed
-
-
-@pytest.mark.parametrize(("track_deg", "followed"), [(300.0, False), (60.0, True)])
-def test_the_side_of_a_selected_track_is_that_from_the_present_one(
-    tmp_path: Path, track_deg: float, followed: bool
-) -> None:
-    right, track = {"action": "turn", "degrees": 30.0}, {"action": "track", "track_deg": track_deg}
-    assert is_followed(tmp_path / "run", right, track) is followed
 
 
 @pytest.mark.parametrize(("pace", "reaction_s"), [("realtime", 0.5), ("4x", None)])

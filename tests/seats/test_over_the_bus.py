@@ -146,21 +146,6 @@ def test_a_seat_is_free_again_when_its_holder_is_gone(tmp_path: Path) -> None:
         other.close()
 
 
-def test_who_connects_again_with_the_secret_goes_on(tmp_path: Path) -> None:
-    secret = "the secret of one person"
-    with beside_a_run(tmp_path / "run") as station:
-        first = station.client(secret=secret)
-        assert first.take() == ""
-        assert first.act(AgreeToUses(uses=("words",))) == ""
-        second = station.client(secret=secret)
-        assert second.take() == ""
-        first.close()
-        time.sleep(0.3)
-        assert station.state().uses == ("words",)
-        assert second.act(WORDS) == ""
-        second.close()
-
-
 def test_a_seat_without_a_liveliness_token_is_not_given(tmp_path: Path) -> None:
     with beside_a_run(tmp_path / "run") as station:
         content = {

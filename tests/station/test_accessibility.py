@@ -16,7 +16,7 @@ import pytest
 
 from airhilt import load
 from devtools import Page
-from stations import experimenting, running, seat_page, stationed, take_seat, viewed
+from stations import experiment_page, running, seat_page, stationed, take_seat, viewed
 
 AXE = Path(os.environ.get("AXE_CORE", "node_modules/axe-core/axe.min.js"))
 pytestmark = [
@@ -62,7 +62,6 @@ def test_the_first_page(page: Page, recorded_run: Path, tmp_path: Path) -> None:
     shutil.copytree(recorded_run, tmp_path / "runs" / "one")
     with stationed(tmp_path / "runs") as (_, client):
         assert serious(opened(page, str(client.base_url))) == []
-        page.open("about:blank")
 
 
 def test_the_debrief(page: Page, spoken_run: Path) -> None:
@@ -83,7 +82,6 @@ def test_the_seats(page: Page, encounter_file: Path, tmp_path: Path, seat: str) 
         seated(page, url)
         page.wait_for("!document.getElementById('own-advisories').hidden")
         assert serious(page) == []
-        page.open("about:blank")
 
 
 def test_the_seat_of_a_driver(page: Page, tmp_path: Path) -> None:
@@ -94,7 +92,6 @@ def test_the_seat_of_a_driver(page: Page, tmp_path: Path) -> None:
         seated(page, url)
         page.wait_for("document.querySelector('#panel-actions button')")
         assert serious(page) == []
-        page.open("about:blank")
 
 
 @pytest.mark.parametrize("dialog", ["help", "tlx-dialog"])
@@ -104,7 +101,6 @@ def test_the_dialogs(page: Page, dialog: str) -> None:
         page.evaluate(SHOW_TLX)
         page.evaluate(f"document.getElementById('{dialog}').showModal()")
         assert serious(page) == []
-        page.open("about:blank")
 
 
 @pytest.mark.parametrize("done", [0, 1], ids=["ready", "questions"])
@@ -114,11 +110,10 @@ def test_an_experiment(page: Page, recorded_run: Path, tmp_path: Path, done: int
     file.write_text(json.dumps(plan))
     for number in range(1, done + 1):
         shutil.copytree(recorded_run, out / "P01" / f"{number:02d}-s02a_headon-{number}")
-    with experimenting(file, "--participant", "P01", "--out", str(out)) as url:
+    with experiment_page(file, out) as url:
         opened(page, url)
         page.wait_for("document.getElementById('step').textContent")
         assert serious(page) == []
-        page.open("about:blank")
 
 
 def seated(page: Page, url: str) -> None:

@@ -11,7 +11,6 @@ import pytest
 from airhilt.station import browsers, server
 from cut_network import Network, forgive, through_network
 from devtools import Page
-from loudspeaker import COUNT_PIECES, PIECES, piece
 from microphone import (
     BUTTON,
     microphone_file,
@@ -44,7 +43,6 @@ def seated(microphone: Path) -> Iterator[tuple[PretendedRun, Network, Page]]:
         press_again(page)
         assert run.next().do == "press"
         yield run, network, page
-        page.open("about:blank")
         forgive(page)
 
 
@@ -84,30 +82,7 @@ def test_who_has_the_seat_of_a_server_that_has_ended_is_told_what_becomes_of_it(
     with seat_page() as (_, url):
         sit_down(page, url)
     page.wait_for(f"{WARNING}.includes('your seat may have been given back')")
-    page.open("about:blank")
     forgive(page)
-
-
-@pytest.mark.slow
-def test_a_call_that_came_while_the_network_was_cut_is_not_played_later(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(server, "PATIENCE_S", 60.0)
-    with seated(tmp_path / "said.wav") as (run, network, page):
-        page.key("keyUp", " ", 32)  # Nothing is heard while one transmits.
-        page.evaluate(COUNT_PIECES)
-        run.call_on_air("before", piece(0.5))
-        page.wait_for("window.pieces.length")
-        network.cut()
-        run.call_on_air("meanwhile", *[piece(0.4)] * 3)
-        page.wait_for(f"{WARNING}.includes('nobody hears you')")
-        network.mend()
-        page.wait_for(f"{WARNING} === ''")
-        assert is_heard(run, page)
-        page.key("keyUp", " ", 32)
-        run.call_on_air("after", piece(0.3))
-        page.wait_for("window.pieces.at(-1) < 0.35")
-        assert page.evaluate(PIECES) == [0.5, 0.3]
 
 
 @pytest.mark.slow
@@ -128,25 +103,6 @@ def test_the_seat_of_who_stays_away_is_given_back_and_the_page_returns_by_itself
 
 
 @pytest.mark.slow
-def test_a_network_that_is_cut_is_not_taken_for_a_run_that_does_not_keep_up(
-    page: Page, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(server, "PATIENCE_S", 60.0)
-    observed = """(window.lags = [], new MutationObserver(() => lags.push(1)).observe(
-        document.getElementById('behind'), { childList: true }))"""
-    with seat_page() as (run, url), through_network(url) as (network, url_through):
-        page.open(url_through)
-        run.changes.add("clock", 1.0, "running", "1x")
-        page.wait_for("document.getElementById('state').textContent === 'running, 1x'")
-        network.cut()
-        page.evaluate(observed)
-        page.wait_for(f"{WARNING}.includes('Nothing comes')")
-        assert page.evaluate("lags.length") == 0
-        page.open("about:blank")
-        forgive(page)
-
-
-@pytest.mark.slow
 def test_a_page_whose_scripts_are_busy_for_longer_than_the_patience_keeps_its_seat(
     page: Page, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -164,7 +120,6 @@ def test_a_page_whose_scripts_are_busy_for_longer_than_the_patience_keeps_its_se
         page.wait_for("document.getElementById('state').textContent === 'running, 4x'")
         assert page.evaluate(HAS_SEAT)
         assert run.presence.empty()
-        page.open("about:blank")
 
 
 @pytest.mark.slow

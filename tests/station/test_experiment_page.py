@@ -5,7 +5,6 @@ from __future__ import annotations
 import csv
 import json
 import shutil
-import time
 from base64 import b64decode
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -13,7 +12,6 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any
 
-import httpx
 import numpy as np
 import pytest
 from PIL import Image
@@ -25,7 +23,7 @@ from devtools import Page
 from microphone import page_with_microphone
 from seats import contents
 from shortened import shortened
-from stations import PATIENCE_S, TOKEN, experimenting, reachable
+from stations import commanded, experiment_page
 
 LOW_CONTRAST = Path(__file__).with_name("contrast.js").read_text()
 PLAN: dict[str, Any] = {
@@ -76,7 +74,7 @@ def test_a_participant_answers_the_questions_of_the_plan(
 ) -> None:
     file, out = tmp_path / "plan.json", tmp_path / "out"
     file.write_text(json.dumps(PLAN))
-    with experimenting(file, "--participant", "P01", "--out", str(out)) as url:
+    with experiment_page(file, out) as url:
         for dark in (True, False):
             page.open(url, width=1280, height=720, dark=dark)
             heading(page, "Questions before the first trial")
@@ -101,7 +99,6 @@ def test_a_participant_answers_the_questions_of_the_plan(
         page.evaluate(ANSWER_ALL)
         page.evaluate(SUBMIT)
         heading(page, "All trials are done")
-        page.open("about:blank")
     kept = [json.loads(path.read_text()) for path in sorted((out / "P01").glob("*.json"))]
     assert {"licence": "private", "rested": 4} in kept
     assert {"trust": 50} in kept
@@ -129,13 +126,11 @@ def test_no_answer_of_a_scale_touches_another_one(page: Page, tmp_path: Path, wi
         "high": "Much more than in all that I have seen so far",
     }  # fmt: skip
     (tmp_path / "plan.json").write_text(json.dumps(PLAN | {"questions": {"before": [scale]}}))
-    options = ["--participant", "P01", "--out", str(tmp_path / "out")]
-    with experimenting(tmp_path / "plan.json", *options) as url:
+    with experiment_page(tmp_path / "plan.json", tmp_path / "out") as url:
         page.open(url, width=width, height=720)
         heading(page, "Questions before the first trial")
         assert page.evaluate("document.querySelectorAll('#items label').length") == 11
         assert page.evaluate(CRAMPED) == []
-        page.open("about:blank")
 
 
 SLIDER = "document.querySelector('#items input')"
@@ -156,8 +151,7 @@ def places(page: Page) -> int:
 def test_a_slider_shows_no_answer_before_there_is_one(page: Page, tmp_path: Path) -> None:
     asked = {"before": PLAN["questions"]["after_trial"]}
     (tmp_path / "plan.json").write_text(json.dumps(PLAN | {"questions": asked}))
-    options = ["--participant", "P01", "--out", str(tmp_path / "out")]
-    with experimenting(tmp_path / "plan.json", *options) as url:
+    with experiment_page(tmp_path / "plan.json", tmp_path / "out") as url:
         for dark in (True, False):
             page.open(url, dark=dark)
             heading(page, "Questions before the first trial")
@@ -171,46 +165,7 @@ def test_a_slider_shows_no_answer_before_there_is_one(page: Page, tmp_path: Path
         assert page.evaluate(f"{SLIDER}.getAttribute('aria-valuetext')") is None
         page.evaluate(SUBMIT)
         heading(page, "Trial 1 of 1")
-        page.open("about:blank")
     assert json.loads((tmp_path / "out" / "P01" / "before.json").read_text()) == {"trust": 51}
-
-
-@pytest.mark.browser
-def test_the_page_says_which_answers_cannot_be_read(page: Page, tmp_path: Path) -> None:
-    (tmp_path / "plan.json").write_text(json.dumps(PLAN))
-    options = ["--participant", "P01", "--out", str(tmp_path / "out")]
-    with experimenting(tmp_path / "plan.json", *options) as url:
-        page.open(url)
-        heading(page, "Questions before the first trial")
-        kept = tmp_path / "out" / "P01" / "before.json"
-        kept.parent.mkdir(parents=True, exist_ok=True)
-        kept.write_text('{"rested": 9}')
-        page.wait_for(f"{NOTES}.includes('before.json: rested: found 9')")
-        told = page.evaluate(NOTES)
-        assert told.endswith("move the file away to ask again. Please tell the experimenter.")
-        page.open("about:blank")
-    page.complaints.clear()  # A browser complains of each answer that is an error.
-
-
-@pytest.mark.slow
-def test_a_trial_admits_those_whom_the_page_of_the_experiment_admits(tmp_path: Path) -> None:
-    file, out = tmp_path / "plan.json", tmp_path / "out"
-    file.write_text(json.dumps(PLAN | {"questions": {}, "options": {"speech": False}}))
-    options = ["--participant", "P01", "--out", str(out), *reachable(tmp_path)]
-    with experimenting(file, *options) as shown, ended(out / "P01", "01-s02a_headon-1"):
-        url = httpx.URL(shown).copy_with(host="127.0.0.1")
-        page = url.copy_with(query=None)
-        with httpx.Client(base_url=page, verify=False, trust_env=False) as client:
-            assert client.get("api/experiment").status_code == 403
-            client.get(url)
-            client.post("api/begin", json={})
-            due = time.monotonic() + PATIENCE_S
-            while not (trial := client.get("api/experiment").json()["url"]):
-                assert time.monotonic() < due
-                time.sleep(0.2)
-            seat = httpx.URL(trial).copy_with(host="127.0.0.1")
-            assert (seat.scheme, seat.params["token"]) == ("https", TOKEN)
-            assert "AIRHILT" in client.get(seat).text
 
 
 def go(page: Page, url: str, participant: str) -> None:
@@ -219,22 +174,6 @@ def go(page: Page, url: str, participant: str) -> None:
     page.wait_for(f"document.getElementById('title').textContent === 'Experiment, {participant}'")
 
 
-HELD = """
-    window.held = [];
-    window.answering = fetch;
-    window.fetch = async (path, ...more) => {
-        const answer = await answering(path, ...more);
-        if (path.includes('P02')) await new Promise((release) => held.push(release));
-        return answer;
-    };
-"""
-"""Script that keeps answers of the server to P02 until `held` releases them."""
-REFUSING = """
-    window.answering = fetch;
-    window.fetch = async (path, ...more) => path.includes('api/begin')
-        ? new Response('{"error": "it is not time for a trial"}', { status: 400 })
-        : answering(path, ...more);
-"""
 WRITTEN = """
     window.written = 0;
     const observer = new MutationObserver((records) => { written += records.length; });
@@ -265,8 +204,7 @@ def turn_to(page: Page, participant: str) -> None:
 @pytest.mark.slow
 @pytest.mark.browser
 def test_answers_that_are_chosen_stay_with_their_participant(page: Page, tmp_path: Path) -> None:
-    options = ["--participant", "P01", "--out", str(tmp_path / "out")]
-    with experimenting(team_file(tmp_path), *options) as url:
+    with experiment_page(team_file(tmp_path), tmp_path / "out") as url:
         go(page, url, "P01")
         page.evaluate("document.querySelector('[name=licence][value=private]').click()")
         page.evaluate("document.querySelector('[name=rested][value=\"4\"]').click()")
@@ -286,7 +224,6 @@ def test_answers_that_are_chosen_stay_with_their_participant(page: Page, tmp_pat
                  for name in ("title", "step", "step-text")]  # fmt: skip
         assert texts == ["Experiment", "", ""]
         assert not page.evaluate(ASKS)
-        page.open("about:blank")
     page.complaints.clear()  # A browser complains of each answer that is an error.
     kept = json.loads((tmp_path / "out" / "P01+P02" / "P01" / "before.json").read_text())
     assert kept == {"licence": "private", "rested": 4}
@@ -294,64 +231,24 @@ def test_answers_that_are_chosen_stay_with_their_participant(page: Page, tmp_pat
 
 @pytest.mark.slow
 @pytest.mark.browser
-def test_a_slow_answer_is_not_shown_on_the_page_of_another_participant(
-    page: Page, tmp_path: Path
-) -> None:
-    options = ["--participant", "P01", "--out", str(tmp_path / "out")]
-    with experimenting(team_file(tmp_path), *options) as url:
-        go(page, url, "P01")
-        page.evaluate(HELD)
-        page.evaluate("location.hash = '#P02'")
-        page.wait_for("held.length")
-        assert not page.evaluate(ASKS)
-        turn_to(page, "P01")
-        page.evaluate("held.forEach((release) => release())")
-        page.evaluate("new Promise((done) => setTimeout(done, 100))")
-        assert page.evaluate(TITLE) == "Experiment, P01"
-        page.open("about:blank")
-
-
-@pytest.mark.slow
-@pytest.mark.browser
-def test_a_refusal_goes_when_the_step_changes(
-    page: Page, recorded_run: Path, tmp_path: Path
-) -> None:
-    (tmp_path / "plan.json").write_text(json.dumps(PLAN | {"questions": {}}))
-    options = ["--participant", "P01", "--out", str(tmp_path / "out")]
-    with experimenting(tmp_path / "plan.json", *options) as url:
-        page.open(url)
-        heading(page, "Trial 1 of 1")
-        page.evaluate(REFUSING)
-        page.click("begin")
-        page.wait_for(f"{NOTES} === 'it is not time for a trial'")
-        page.evaluate(SOME_SECONDS)
-        assert page.evaluate(NOTES) == "it is not time for a trial"
-        shutil.copytree(recorded_run, tmp_path / "out" / "P01" / "01-s02a_headon-1")
-        heading(page, "Questions after trial 1 of 1")
-        assert page.evaluate(NOTES) == ""
-        page.open("about:blank")
-
-
-@pytest.mark.slow
-@pytest.mark.browser
 def test_a_page_writes_again_only_what_has_changed(page: Page, tmp_path: Path) -> None:
     """A screen reader reads aloud what is written where it listens."""
     (tmp_path / "plan.json").write_text(json.dumps(PLAN))
-    options = ["--participant", "P01", "--out", str(tmp_path / "out")]
-    with experimenting(tmp_path / "plan.json", *options) as url:
+    with experiment_page(tmp_path / "plan.json", tmp_path / "out") as url:
         page.open(url)
         heading(page, "Questions before the first trial")
         page.evaluate(WRITTEN)
         page.evaluate(SOME_SECONDS)
         assert page.evaluate("written") == 0
-        page.evaluate("window.answering = fetch; window.fetch = () => Promise.reject(new Error())")
+        page.evaluate(
+            "window.answering = fetch; window.fetch = () => Promise.reject(new TypeError())"
+        )
         page.wait_for(f"{NOTES}.startsWith('The experiment does not answer.')")
         page.evaluate("written = 0")
         page.evaluate(SOME_SECONDS)
         assert page.evaluate("written") == 0
         page.evaluate("window.fetch = answering")
         page.wait_for(f"{NOTES} === ''")
-        page.open("about:blank")
 
 
 @pytest.mark.slow
@@ -369,7 +266,7 @@ def test_a_controller_and_a_pilot_have_a_trial_together(tmp_path: Path) -> None:
     file.write_text(json.dumps(PLAN | team))
     folder, run, offered = out / "P01+P02", "01-short-1", "document.getElementById('seat-name')"
     with (
-        experimenting(file, "--participant", "P02", "--out", str(out)) as url,
+        commanded("experiment", file, "--participant", "P02", "--out", str(out)) as url,
         ended(folder, run),
         page_with_microphone() as tower,
         page_with_microphone() as pilot,
@@ -401,7 +298,6 @@ def test_a_controller_and_a_pilot_have_a_trial_together(tmp_path: Path) -> None:
             page.evaluate(SUBMIT)
         for page, *_ in people:
             heading(page, "All trials are done")
-            page.open("about:blank")
     with (out / "experiment.csv").open() as table:
         rows = list(csv.DictReader(table))
     names = ("participant", "seat", "run", "after_trial.rested")

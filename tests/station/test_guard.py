@@ -11,8 +11,7 @@ from starlette.responses import PlainTextResponse
 from starlette.types import Message, Receive, Scope, Send
 
 from airhilt.station.address import Address
-from airhilt.station.guard import Guard
-from airhilt.station.refusals import MOST_NOTICES
+from airhilt.station.guard import MOST_NOTICES, Guard
 from stations import asked
 
 TOKEN = "correct horse battery"

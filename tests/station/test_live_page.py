@@ -70,28 +70,6 @@ def test_the_run_goes_on_when_its_page_is_killed(brief_file: Path, tmp_path: Pat
     )
 
 
-@pytest.mark.slow
-def test_strangers_and_garbage_are_refused_and_the_page_stays(
-    encounter_file: Path, tmp_path: Path
-) -> None:
-    out = tmp_path / "run"
-    with running(encounter_file, out) as (_, url):
-        with pytest.raises(InvalidStatus, match="403"):
-            listening(url, origin="http://evil.example")
-        with listening(url, version="0") as stale:
-            assert how_closed(stale) == 4426
-        for garbage in ("", "{", '{"watch": "../*"}', '{"command": 1}', "[" * 100_000):
-            with listening(url) as socket:
-                socket.send(garbage)
-                assert how_closed(socket) == 1008
-        with listening(url) as socket:
-            assert states(socket)
-    refused = [one["text"] for one in events(out) if one["kind"] == "refused"]
-    assert "evil.example" in refused[0]
-    assert "another version" in refused[1]
-    assert len(refused) == 7
-
-
 def events(out: Path) -> list[dict[str, Any]]:
     messages = open_run(out).messages()
     return [json.loads(one.data) for one in messages if one.key == "truth/event"]
@@ -119,7 +97,6 @@ def test_the_page_follows_the_run_until_somebody_goes_back(
         page.wait_for(
             "document.getElementById('slider').value === document.getElementById('slider').max"
         )
-        page.open("about:blank")
 
 
 def selected_altitude_ft(own: Any) -> int | None:
@@ -165,52 +142,6 @@ def test_a_seat_has_one_person_and_what_it_says_is_said(brief_file: Path, tmp_pa
     assert replay(out).identical
 
 
-@pytest.mark.slow
-def test_a_run_that_waits_for_its_seat_stands_at_its_start_until_somebody_has_it(
-    brief_file: Path, tmp_path: Path
-) -> None:
-    out, options = tmp_path / "run", ("--seat", "AAL123", "--wait-for-seats")
-    with running(brief_file, out, *options) as (process, url):
-        with opened(url) as socket:
-            while (clock := clock_of(answer(socket, "changes"))) is None or clock[2] == "waiting":
-                pass
-            assert clock[1:4] == [0.0, "running", "paused"]
-            assert do(socket, "take", "AAL123") == ""
-            while (clock := clock_of(answer(socket, "changes"))) is None or clock[1] == 0.0:
-                pass
-            assert clock[3] == "realtime"
-        page_process(process).kill()
-        process.wait(timeout=PATIENCE_S)
-    log = open_run(out).messages()
-    taken = next(json.loads(one.data) for one in log if one.key == "seat/AAL123/do")
-    assert (taken["act"]["do"], taken["t_ns"]) == ("take", 1)  # The first nanosecond of the run.
-    assert open_run(out).summary()["people"][0]["seat_time_s"] > 0.0
-
-
-def clock_of(changes: list[Any]) -> list[Any] | None:
-    """Return the last clock among some changes, None if they have none."""
-    return next((one for one in reversed(changes) if one[0] == "clock"), None)
-
-
-@pytest.mark.slow
-def test_who_may_take_a_seat_sees_nothing_of_the_truth(
-    encounter_file: Path, tmp_path: Path
-) -> None:
-    options = ("--seat", "tower", "--share-truth")
-    with running(encounter_file, tmp_path / "run", *options) as (_, url), opened(url) as socket:
-        seen: set[str] = set()
-        (seat,) = answer(socket, "seats")
-        assert do(socket, "take", seat) == ""
-        for _ in range(30):
-            for kind, *rest in json.loads(socket.recv(timeout=PATIENCE_S)).get("changes", ()):
-                seen.add(kind)
-                if kind == "state":
-                    assert rest[-1] == ""  # The phase is known to nobody else.
-                if kind == "call":
-                    assert rest[0]["said"] is None
-        assert "state" in seen
-
-
 @pytest.mark.browser
 def test_a_person_takes_a_seat_and_says_what_the_script_has(
     page: Page, encounter_file: Path, tmp_path: Path
@@ -232,65 +163,3 @@ def test_a_person_takes_a_seat_and_says_what_the_script_has(
         page.evaluate(SAY)
         page.wait_for("document.querySelector('#calls button')")
         page.wait_for("!document.querySelector('#tasks button')")
-        page.open("about:blank")
-
-
-def seated(page: Page, url: str, seat: str) -> None:
-    """Open the page of a run and take its only seat."""
-    page.open(url, width=1280, height=720)
-    page.wait_for("document.getElementById('state').textContent.startsWith('running')")
-    take_seat(page)
-    page.wait_for(f"document.body.dataset.seat === '{seat}'")
-
-
-def is_seen(page: Page, name: str) -> bool:
-    seen: bool = page.evaluate(f"document.getElementById('{name}').getClientRects().length > 0")
-    return seen
-
-
-@pytest.mark.slow
-@pytest.mark.browser
-def test_a_pilot_flies_by_the_mode_panel_and_sees_instruments_and_traffic(
-    page: Page, encounter_file: Path, tmp_path: Path
-) -> None:
-    out = tmp_path / "run"
-    with running(encounter_file, out, "--seat", "AAL123") as (_, url):
-        seated(page, url, "pilot")
-        assert is_seen(page, "pfd")
-        assert not is_seen(page, "plan")
-        page.wait_for("document.getElementById('nd').ariaLabel.includes('DAL456')")
-        page.wait_for("!document.getElementById('own-advisories').hidden")
-        assert page.evaluate("document.documentElement.scrollHeight <= innerHeight")
-        page.evaluate("document.activeElement.blur()")
-        page.press("a", 65)
-        page.evaluate("document.activeElement.value = 'high'")
-        page.evaluate("document.activeElement.form.requestSubmit()")
-        said = "document.getElementById('panel-state').textContent"
-        assert "expected 0 to 60000 ft" in page.evaluate(said)
-        page.evaluate("document.activeElement.value = '36000'")
-        page.evaluate("document.activeElement.form.requestSubmit()")
-        page.wait_for(f"{said} === 'Set: altitude 36000 ft.'")
-        page.wait_for("document.getElementById('instruments').textContent.includes('36,000 ft')")
-        page.open("about:blank")
-    commands = [one.data for one in open_run(out).messages() if one.key.startswith("command/")]
-    assert json.loads(commands[0])["command"]["altitude_ft"] == 36000
-
-
-@pytest.mark.slow
-@pytest.mark.browser
-def test_a_controller_orders_strips_by_keys(
-    page: Page, encounter_file: Path, tmp_path: Path
-) -> None:
-    names = "[...document.querySelectorAll('.flight-strip')].map((one) => one.dataset.callsign)"
-    with running(encounter_file, tmp_path / "run", "--seat", "tower") as (_, url):
-        seated(page, url, "controller")
-        assert is_seen(page, "plan")
-        assert not is_seen(page, "pfd")
-        page.wait_for(f"{names}.join() === 'AAL123,DAL456'")
-        page.evaluate("document.querySelector('.flight-strip').focus()")
-        moved = "new KeyboardEvent('keydown', {key: 'ArrowDown', altKey: true, bubbles: true})"
-        page.evaluate(f"document.activeElement.dispatchEvent({moved})")
-        assert page.evaluate(f"{names}.join()") == "DAL456,AAL123"
-        page.press("x", 88)
-        assert page.evaluate("document.querySelector('.cocked').dataset.callsign") == "AAL123"
-        page.open("about:blank")

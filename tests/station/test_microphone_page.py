@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
 
@@ -75,6 +76,13 @@ VOLUME = """(() => {
 BUSY = "document.getElementById('frequencies').innerText.includes('busy')"
 
 
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Page]:
+    """A browser whose microphone beeps."""
+    with page_with_microphone(*FAKE) as page:
+        yield page
+
+
 @pytest.mark.browser
 def test_what_is_said_while_the_space_bar_is_held_comes_at_the_seat(
     seat: tuple[PretendedRun, str], tmp_path: Path
@@ -101,56 +109,56 @@ def test_what_is_said_while_the_space_bar_is_held_comes_at_the_seat(
 
 @pytest.mark.browser
 def test_an_advisory_to_the_seat_is_shown_sounded_and_reported_to_the_run(
+    page: Page,
     seat: tuple[PretendedRun, str],
 ) -> None:
     run, url = seat
     run.changes.add("briefing", "TOWER", None, {})
-    with page_with_microphone() as page:
-        sit_down(page, url)
-        run.changes.add("advisory", ADVISORY)
-        assert run.next().way == "seen"
-        shown = page.evaluate("document.getElementById('own-advisories').innerText")
-        assert "WARNING" in shown
-        assert "Runway occupied." in shown
-        assert "rests on adsb 80" in shown
-        run.changes.add("spoken", {**SPOKEN, "recipient": "AAL123"})
-        run.changes.add("spoken", SPOKEN)
-        heard = run.next()
+    sit_down(page, url)
+    run.changes.add("advisory", ADVISORY)
+    assert run.next().way == "seen"
+    shown = page.evaluate("document.getElementById('own-advisories').innerText")
+    assert "WARNING" in shown
+    assert "Runway occupied." in shown
+    assert "rests on adsb 80" in shown
+    run.changes.add("spoken", {**SPOKEN, "recipient": "AAL123"})
+    run.changes.add("spoken", SPOKEN)
+    heard = run.next()
     assert (heard.way, heard.id, heard.revision, heard.recipient) == ("heard", "a-1", 1, "ATC")
 
 
 @pytest.mark.browser
 def test_the_run_is_told_when_the_first_sample_of_a_transmission_is_audible(
+    page: Page,
     seat: tuple[PretendedRun, str],
 ) -> None:
     """It is not told of what is not heard from its beginning."""
     run, url = seat
-    with page_with_microphone(*FAKE) as page:
-        sit_down(page, url)
-        page.evaluate(SLOW_LOUDSPEAKER)
-        page.evaluate(COUNT_PIECES)
-        run.call_on_air("first", piece(0.3), piece(0.5))
-        heard = run.heard.get(timeout=PATIENCE_S)
-        assert heard.id == "first"
-        assert heard.after_s > 4.0  # All but the way to the station.
-        page.evaluate(VOLUME % 0)
-        run.call_on_air("not audible", piece(0.3))
-        page.wait_for("window.pieces.length === 3")
-        page.evaluate(VOLUME % 0.8)
-        run.stream("samples", id="begun before", frequency_khz=119_100, pcm=piece(0.5))
-        page.wait_for("window.pieces.length === 4")
-        open_microphone(page)
-        page.key("keyDown", " ", 32)
-        page.wait_for(f"{BUTTON} === 'On the air'")
-        run.stream("opened", id="while talking", frequency_khz=119_100)
-        page.wait_for(BUSY)
-        page.key("keyUp", " ", 32)
-        run.stream("samples", id="while talking", frequency_khz=119_100, pcm=piece(0.5))
-        page.wait_for("window.pieces.length === 5")
-        run.call_on_air("microphone.TOWER.1", piece(0.3))
-        run.call_on_air("last", piece(0.3))
-        assert run.heard.get(timeout=PATIENCE_S).id == "last"
-        run.call()
+    sit_down(page, url)
+    page.evaluate(SLOW_LOUDSPEAKER)
+    page.evaluate(COUNT_PIECES)
+    run.call_on_air("first", piece(0.3), piece(0.5))
+    heard = run.heard.get(timeout=PATIENCE_S)
+    assert heard.id == "first"
+    assert heard.after_s > 4.0  # All but the way to the station.
+    page.evaluate(VOLUME % 0)
+    run.call_on_air("not audible", piece(0.3))
+    page.wait_for("window.pieces.length === 3")
+    page.evaluate(VOLUME % 0.8)
+    run.stream("samples", id="begun before", frequency_khz=119_100, pcm=piece(0.5))
+    page.wait_for("window.pieces.length === 4")
+    open_microphone(page)
+    page.key("keyDown", " ", 32)
+    page.wait_for(f"{BUTTON} === 'On the air'")
+    run.stream("opened", id="while talking", frequency_khz=119_100)
+    page.wait_for(BUSY)
+    page.key("keyUp", " ", 32)
+    run.stream("samples", id="while talking", frequency_khz=119_100, pcm=piece(0.5))
+    page.wait_for("window.pieces.length === 5")
+    run.call_on_air("microphone.TOWER.1", piece(0.3))
+    run.call_on_air("last", piece(0.3))
+    assert run.heard.get(timeout=PATIENCE_S).id == "last"
+    run.call()
 
 
 @pytest.mark.browser
@@ -182,21 +190,21 @@ def test_what_is_no_sound_is_refused_in_words(seat: tuple[PretendedRun, str], so
 
 @pytest.mark.browser
 def test_who_lets_only_words_be_used_has_no_microphone_until_the_voice_may_be_used_too(
+    page: Page,
     seat: tuple[PretendedRun, str],
 ) -> None:
     run, url = seat
     run.deeds.clear()
-    with page_with_microphone(*FAKE) as page:
-        sit_down(page, url, uses="words")
-        assert page.evaluate("document.getElementById('talk-button').disabled")
-        assert "that your voice may be used" in page.evaluate(TALK_STATE)
-        page.evaluate(CHOOSE % "voice")
-        page.wait_for("!document.getElementById('talk-button').disabled")
-        open_microphone(page)
-        page.evaluate(CHOOSE % "none")
-        page.wait_for("document.getElementById('words').disabled")
-        page.wait_for("document.getElementById('talk-button').disabled")
-        assert page.evaluate("document.getElementById('talk-level').hidden")
+    sit_down(page, url, uses="words")
+    assert page.evaluate("document.getElementById('talk-button').disabled")
+    assert "that your voice may be used" in page.evaluate(TALK_STATE)
+    page.evaluate(CHOOSE % "voice")
+    page.wait_for("!document.getElementById('talk-button').disabled")
+    open_microphone(page)
+    page.evaluate(CHOOSE % "none")
+    page.wait_for("document.getElementById('words').disabled")
+    page.wait_for("document.getElementById('talk-button').disabled")
+    assert page.evaluate("document.getElementById('talk-level').hidden")
     assert run.deeds[:4] == ["take", "agree", "agree", "agree"]
 
 
@@ -213,105 +221,69 @@ def change_person(page: Page) -> None:
 @pytest.mark.browser
 @pytest.mark.parametrize("is_late", mostly_slow([False, True], True), ids=["open", "being opened"])
 def test_who_leaves_the_seat_has_no_open_microphone(
-    seat: tuple[PretendedRun, str], is_late: bool
+    page: Page, seat: tuple[PretendedRun, str], is_late: bool
 ) -> None:
     _, url = seat
-    with page_with_microphone(*FAKE) as page:
-        sit_down(page, url)
-        page.evaluate(GRANTED)
-        if is_late:
-            page.click("talk-button")
-            page.wait_for(f"{TALK_STATE} === 'Opening the microphone.'")
-        else:
-            page.evaluate("window.grant()")
-            open_microphone(page)
-        page.click("seat-take")
-        page.wait_for("document.getElementById('talk').hidden")
+    sit_down(page, url)
+    page.evaluate(GRANTED)
+    if is_late:
+        page.click("talk-button")
+        page.wait_for(f"{TALK_STATE} === 'Opening the microphone.'")
+    else:
         page.evaluate("window.grant()")
-        page.wait_for("window.granted.length && window.granted.every((one) => one !== 'live')")
+        open_microphone(page)
+    page.click("seat-take")
+    page.wait_for("document.getElementById('talk').hidden")
+    page.evaluate("window.grant()")
+    page.wait_for("window.granted.length && window.granted.every((one) => one !== 'live')")
 
 
 @pytest.mark.browser
 def test_a_microphone_that_is_granted_late_does_not_open_for_the_next_person(
+    page: Page,
     seat: tuple[PretendedRun, str],
 ) -> None:
     _, url = seat
-    with page_with_microphone(*FAKE) as page:
-        sit_down(page, url)
-        page.evaluate(GRANTED)
-        page.click("talk-button")
-        change_person(page)
-        page.evaluate("window.grant()")
-        page.wait_for("window.granted.length && window.granted.every((one) => one !== 'live')")
-        assert page.evaluate(BUTTON) == "Open the microphone"
-        assert page.evaluate(TALK_STATE) == ""  # Nothing is told that somebody else has done.
+    sit_down(page, url)
+    page.evaluate(GRANTED)
+    page.click("talk-button")
+    change_person(page)
+    page.evaluate("window.grant()")
+    page.wait_for("window.granted.length && window.granted.every((one) => one !== 'live')")
+    assert page.evaluate(BUTTON) == "Open the microphone"
+    assert page.evaluate(TALK_STATE) == ""  # Nothing is told that somebody else has done.
 
 
 @pytest.mark.browser
 @pytest.mark.parametrize("is_broken", [True, False], ids=["cannot be", "is being"])
 def test_a_microphone_that_is_granted_and_not_heard_yet_is_closed(
-    seat: tuple[PretendedRun, str], is_broken: bool
+    page: Page, seat: tuple[PretendedRun, str], is_broken: bool
 ) -> None:
     """Its reader cannot be loaded, or is not there when the voice may not be used any more."""
     _, url = seat
     reading = "Promise.reject(new Error('no network'))" if is_broken else "new Promise(() => {})"
     ended = "window.granted.length && window.granted.every((one) => one === 'ended')"
-    with page_with_microphone(*FAKE) as page:
-        sit_down(page, url)
-        page.evaluate(GRANTED)
-        page.evaluate(f"""window.contexts = 0;
-            const close = AudioContext.prototype.close;
-            AudioContext.prototype.close = function () {{
-                window.contexts++;
-                return close.call(this);
-            }};
-            window.read = AudioWorklet.prototype.addModule;
-            AudioWorklet.prototype.addModule = () => {reading};
-            window.grant()""")
-        page.click("talk-button")
-        if is_broken:
-            page.wait_for(f"{TALK_STATE}.includes('no network')")
-        else:
-            page.wait_for("window.granted.length")
-            page.evaluate(CHOOSE % "words")
-        page.wait_for(f"{ended} && window.contexts === 1")
-        page.evaluate("AudioWorklet.prototype.addModule = read")  # It can be opened after that.
-        if not is_broken:
-            page.evaluate(CHOOSE % "voice")
-            page.wait_for("!document.getElementById('talk-button').disabled")
-            page.click("talk-button")
-            page.wait_for(f"{BUTTON} === 'Hold to talk'")
-
-
-@pytest.mark.browser
-def test_a_microphone_that_is_denied_late_is_not_told_to_the_next_person(
-    seat: tuple[PretendedRun, str],
-) -> None:
-    _, url = seat
-    with page_with_microphone(*FAKE) as page:
-        sit_down(page, url)
-        page.evaluate("""navigator.mediaDevices.getUserMedia = () => new Promise((_, fail) => {
-            window.deny = () => fail(new DOMException('', 'NotAllowedError'));
-        }); null""")
-        page.click("talk-button")
-        page.wait_for("Boolean(window.deny)")
-        change_person(page)
-        page.evaluate("window.deny(); new Promise((done) => setTimeout(done, 100))")
-        assert page.evaluate(TALK_STATE) == ""
-
-
-@pytest.mark.browser
-def test_a_microphone_that_is_granted_late_does_not_open_if_the_voice_may_not_be_used_any_more(
-    seat: tuple[PretendedRun, str],
-) -> None:
-    _, url = seat
-    with page_with_microphone(*FAKE) as page:
-        sit_down(page, url)
-        page.evaluate(GRANTED)
-        page.click("talk-button")
-        page.wait_for(f"{TALK_STATE} === 'Opening the microphone.'")
+    sit_down(page, url)
+    page.evaluate(GRANTED)
+    page.evaluate(f"""window.contexts = 0;
+        const close = AudioContext.prototype.close;
+        AudioContext.prototype.close = function () {{
+            window.contexts++;
+            return close.call(this);
+        }};
+        window.read = AudioWorklet.prototype.addModule;
+        AudioWorklet.prototype.addModule = () => {reading};
+        window.grant()""")
+    page.click("talk-button")
+    if is_broken:
+        page.wait_for(f"{TALK_STATE}.includes('no network')")
+    else:
+        page.wait_for("window.granted.length")
         page.evaluate(CHOOSE % "words")
-        page.wait_for("document.getElementById('talk-button').disabled")
-        page.evaluate("window.grant()")
-        page.wait_for("window.granted.length && window.granted.every((one) => one !== 'live')")
-        assert page.evaluate(BUTTON) == "Open the microphone"
+    page.wait_for(f"{ended} && window.contexts === 1")
+    page.evaluate("AudioWorklet.prototype.addModule = read")  # It can be opened after that.
+    if not is_broken:
+        page.evaluate(CHOOSE % "voice")
+        page.wait_for("!document.getElementById('talk-button').disabled")
+        page.click("talk-button")
+        page.wait_for(f"{BUTTON} === 'Hold to talk'")

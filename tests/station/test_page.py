@@ -206,22 +206,6 @@ def test_the_sound_of_a_frequency_can_be_played_from_any_time(page: Page, spoken
     assert duration == 3
 
 
-def test_what_a_seat_heard_by_its_own_receiver_can_be_switched_on(
-    page: Page, noisy_seat: Path
-) -> None:
-    boxes = "[...document.querySelectorAll('#sounds label')].map((one) => "
-    boxes += "[one.textContent, one.querySelector('input').checked])"
-    with viewed(noisy_seat) as url:
-        opened(page, url)
-        at_first = [["119.100 MHz", True], ["119.100 MHz at AAL123", False]]
-        assert page.evaluate(boxes) == at_first
-        for _ in range(2):
-            page.press("m", 77)
-        assert page.evaluate(boxes) == at_first
-        sound = page.evaluate("fetch('api/sounds/119100%40AAL123.wav').then((one) => one.status)")
-        assert sound == 200
-
-
 def test_an_airport_and_vehicles_are_shown(page: Page, airport_url: str) -> None:
     opened(page, airport_url, dark=True)
     names = "[...document.querySelectorAll('#traffic tbody th')].map((one) => one.textContent)"
@@ -267,23 +251,3 @@ def test_two_runs_follow_one_clock(page: Page, spoken_run: Path, airport_run: Pa
         page.evaluate(f"{shown}[0].querySelector('#calls button').click()")
         assert time_shown(page) < 20.0
         assert page.evaluate("document.documentElement.scrollHeight <= innerHeight")
-
-
-@pytest.mark.slow
-def test_the_colours_of_two_runs_are_chosen_in_one_place(
-    page: Page, spoken_run: Path, airport_run: Path
-) -> None:
-    background = """[...document.querySelectorAll('iframe')].map((frame) => {
-        const plan = frame.contentDocument.getElementById('plan');
-        const copy = Object.assign(document.createElement('canvas'), { width: 1, height: 1 });
-        const pen = copy.getContext('2d', { willReadFrequently: true });
-        pen.drawImage(plan, -2, -2);
-        return pen.getImageData(0, 0, 1, 1).data[0];
-    })"""
-    with viewed(spoken_run, airport_run) as url:
-        opened(page, url, width=1280, height=720)
-        page.wait_for(f"{background}.every((red) => red > 200)")
-        page.evaluate("document.getElementById('theme').value = 'dark'")
-        page.evaluate("document.getElementById('theme').dispatchEvent(new Event('change'))")
-        page.wait_for(f"{background}.every((red) => red < 60)")
-        page.evaluate("localStorage.clear()")

@@ -10,7 +10,6 @@ import json
 import signal
 import subprocess
 import sys
-from base64 import b64decode
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -24,12 +23,7 @@ from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.cosim.replay import replay
 from airhilt.engine_families import RECOGNISERS
 from airhilt.host.library import find
-from airhilt.messages import SeatAudioClosed
-from airhilt.phraseology import TAU_ASR, parse_call
 from airhilt.record import open_run
-from airhilt.record.audio import recorded_pcm
-from airhilt.units import SECOND_NS
-from cut_network import forgive, through_network
 from devtools import Page
 from loudspeaker import given_out, tap
 from microphone import (
@@ -41,7 +35,7 @@ from microphone import (
     sit_down,
     talk,
 )
-from stations import do, opened, sit, url_of
+from stations import url_of
 
 pytestmark = [pytest.mark.slow, pytest.mark.browser]
 PATIENCE_S = 300.0
@@ -57,7 +51,6 @@ APPROACH = """(() => {
 })()"""
 A_SECOND = "new Promise((done) => setTimeout(done, 1000))"
 """Time that the person in the tests takes to think, or to hear all of a call."""
-TAKEN = "document.getElementById('seat-hint').textContent.includes('is taken')"
 CALL_COUNT = "document.querySelectorAll('#calls > li').length"
 LAST_CALL = "document.querySelector('#calls > li:last-child').textContent"
 RECOGNISED_COUNT = "document.getElementById('calls').textContent.split('Recognised').length"
@@ -132,37 +125,6 @@ def test_a_spoken_clearance_is_recognised_read_back_and_flown(tmp_path: Path) ->
     assert replay(out).identical
 
 
-def test_of_calls_spoken_in_noise_those_in_doubt_are_asked_for_again(tmp_path: Path) -> None:
-    """The noise of a live call depends on its time, so no single call is sure to be in doubt."""
-    out, file = tmp_path / "run", microphone_file(tmp_path / "said.wav", GO_AROUND)
-    options = ("--seat", "tower", "--assistant", "none", "--snr", "0")
-    with (
-        running(out, "s01b_nominal", 75.0, *options) as url,
-        page_with_microphone(*playing(file)) as page,
-    ):
-        sit_down(page, url)
-        open_microphone(page)
-        for count in range(2, 7, 2):  # Each call, and what the crew answers.
-            talk(page)
-            page.wait_for(f"{CALL_COUNT} >= {count}")
-    callsigns = ("AAL123", "OPS1", "OPS2")
-    heard = {one["id"]: one for one in contents(out, "truth/hearing/AAL123")}
-    is_certain = []
-    for transcript in contents(out, "asr/"):
-        if not transcript["id"].startswith("microphone.") or transcript["id"] not in heard:
-            continue
-        confidences = [word["confidence"] for word in transcript["words"]]
-        meant = parse_call(transcript["text"], callsigns, confidences)
-        is_certain.append(meant.confidence >= TAU_ASR and meant.callsign is not None)
-        outcome = heard[transcript["id"]]["outcome"]
-        assert outcome == ("understood" if is_certain[-1] else "unsure")
-    answers = [
-        one["text"] for one in contents(out, "truth/radio/seat.") if one["speaker"] == "AAL123"
-    ]
-    assert not all(is_certain)
-    assert sum(text.startswith("Say again") for text in answers) >= is_certain.count(False)
-
-
 def test_two_people_hear_each_other_and_block_each_other_when_both_talk(tmp_path: Path) -> None:
     said_by_tower = microphone_file(tmp_path / "tower.wav", GO_AROUND)
     said_by_pilot = microphone_file(tmp_path / "pilot.wav", UNABLE)
@@ -205,31 +167,6 @@ def test_two_people_hear_each_other_and_block_each_other_when_both_talk(tmp_path
     assert replay(out).identical
 
 
-def test_who_has_a_bad_receiver_hears_at_the_page_what_the_run_records_of_it(
-    tmp_path: Path,
-) -> None:
-    out, seat, call = tmp_path / "run", "Washington Centre", "check-in-dal"
-    radio = {"snr_db": 20.0, "receivers": {seat: {"snr_db": 3.0}}}
-    options = ("--seat", "tower", "--assistant", "none")
-    pieces: list[tuple[str, dict[str, Any]]] = []
-    with (
-        running(out, "s02a_headon", 25.0, *options, **radio) as url,
-        opened(url) as socket,
-    ):
-        sit(socket, seat)
-        assert do(socket, "tune", frequencies_khz=[133_475, 134_325]) == ""
-        while ("closed", call) not in [(phase, piece["id"]) for phase, piece in pieces]:
-            pieces += json.loads(socket.recv(timeout=PATIENCE_S)).get("sounds", ())
-    heard = [piece["pcm"] for _, piece in pieces if piece["id"] == call and "pcm" in piece]
-    (closed,) = (
-        one for one in contents(out, "seat/Washington_Centre/audio")
-        if (one["id"], one["phase"]) == (call, "closed")
-    )  # fmt: skip
-    assert closed["snr_db"] == 3.0
-    recorded = recorded_pcm(out / "audio", SeatAudioClosed.model_validate(closed))
-    assert b"".join(map(b64decode, heard)) == recorded
-
-
 def said_until_written(speaker: Page, listener: Page, words: str) -> Audio:
     """Say the same again until the listener's page writes these words; return what was heard last.
 
@@ -259,59 +196,6 @@ def loudness(audio: Audio) -> float:
     """Return the root mean square of the loudest half second."""
     pieces = audio[: len(audio) // HALF_SECOND * HALF_SECOND].reshape(-1, HALF_SECOND)
     return float(np.sqrt(np.mean(pieces**2, axis=1)).max(initial=0.0))
-
-
-def test_the_run_goes_on_while_the_network_of_a_person_is_cut(tmp_path: Path) -> None:
-    out, options = tmp_path / "run", ("--seat", "tower", "--assistant", "none", "--no-speech")
-    with (
-        running(out, "s01b_nominal", 60.0, *options) as url,
-        through_network(url) as (network, url_through),
-        page_with_microphone() as own,
-        page_with_microphone() as other,
-    ):
-        sit_down(own, url_through)
-        other.open(url)
-        other.wait_for(TAKEN)
-        network.cut()
-        own.evaluate("new Promise((done) => setTimeout(done, 5000))")
-        assert own.evaluate("!document.getElementById('link').hidden")
-        network.mend()
-        own.wait_for("document.getElementById('link').hidden")
-        assert other.evaluate(TAKEN)
-        network.cut()
-        other.wait_for(f"!{TAKEN}")
-        forgive(own)
-    acts = [one for one in contents(out, "seat/") if "act" in one]
-    assert acts[0]["act"]["do"] == "take"
-    left = next(one for one in acts if one["act"]["do"] == "leave")
-    by_script = next(one for one in contents(out, "truth/radio/") if one["id"] == "landing")
-    assert by_script["t_tx_ns"] >= left["t_ns"]
-    times_ns = [one["t_ns"] for one in contents(out, "truth/state/AAL123")]
-    assert max(b - a for a, b in itertools.pairwise(times_ns)) <= SECOND_NS
-
-
-@pytest.mark.parametrize(
-    ("scenario", "duration_s", "seat"),
-    [("s01b_nominal", 60.0, "OPS1"), ("s01b_ground_nominal", 115.0, "DAL456")],
-)
-def test_who_drives_or_is_at_a_stand_sets_off_by_the_button_of_the_call(
-    tmp_path: Path, scenario: str, duration_s: float, seat: str
-) -> None:
-    out = tmp_path / "run"
-    button = "document.querySelector('#offers button')"
-    with (
-        running(out, scenario, duration_s, "--seat", seat) as url,
-        page_with_microphone() as page,
-    ):
-        sit_down(page, url)
-        page.wait_for(f"{button}?.textContent.includes('to the hold short of runway 01 on D')")
-        page.evaluate(f"{button}.click()")
-        page.wait_for(f"!{button}")
-        page.wait_for("document.getElementById('state').textContent === 'finished'")
-    states = contents(out, f"truth/state/{seat}")
-    assert states[0]["latitude_deg"] != states[-1]["latitude_deg"]
-    assert json.loads((out / "summary.json").read_text())["people"][0]["commands"] == 1
-    assert replay(out).identical
 
 
 def test_a_pilot_who_is_warned_goes_around(tmp_path: Path) -> None:

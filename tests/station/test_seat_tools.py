@@ -110,7 +110,6 @@ def test_what_may_be_used_is_chosen_in_the_form_in_which_the_seat_is_taken(
     assert run.deeds == ["take", "agree", "text"]
     *_, last = run.settings.queue
     assert last == AgreeToUses(uses=("words",))
-    page.open("about:blank")
 
 
 @pytest.mark.browser
@@ -122,7 +121,6 @@ def test_the_form_says_if_the_voice_is_recorded(page: Page, is_recorded: bool) -
         page.wait_for(f"{HINT}.includes('recorded')")
         silent = str(not is_recorded).lower()
         page.wait_for(f"{HINT}.includes('sound is not recorded') === {silent}")
-        page.open("about:blank")
 
 
 @pytest.mark.browser
@@ -140,24 +138,6 @@ def test_words_that_the_run_may_not_have_heard_are_given_back(
     page.evaluate("connect()")
     page.evaluate(SAY)
     assert run.next() == SayText(text="Ready.")
-    page.open("about:blank")
-
-
-@pytest.mark.browser
-def test_a_page_that_is_loaded_again_goes_on_at_its_seat_with_all_that_was_chosen(
-    page: Page, seat: tuple[PretendedRun, str]
-) -> None:
-    run, url = seat
-    sit_down(page, url, uses="words")
-    run.deeds.clear()
-    page.evaluate("location.reload()")
-    page.wait_for("document.getElementById('seat-take')?.textContent === 'Leave the seat'")
-    page.wait_for("document.getElementById('seat-uses')?.value === 'words'")
-    page.click("seat-take")
-    page.wait_for("document.getElementById('seat-take').textContent === 'Take the seat'")
-    assert page.evaluate("document.getElementById('seat-uses').value") == ""
-    assert run.deeds[-1] == "leave"
-    page.open("about:blank")
 
 
 @pytest.mark.browser
@@ -167,7 +147,6 @@ def test_nobody_talks_or_types_once_the_run_is_over(page: Page) -> None:
         run.changes.add("clock", 9.0, "finished", "realtime")
         for name in ("talk", "say"):
             page.wait_for(f"document.getElementById({name!r}).hidden")
-        page.open("about:blank")
 
 
 @pytest.mark.parametrize("version", ["0123456789ab pretended", "{page} another-run"])
@@ -190,41 +169,44 @@ def test_a_situation_that_cannot_be_is_refused_in_words(seat: tuple[PretendedRun
 
 
 @pytest.mark.browser
-def test_a_phrase_is_chosen_and_the_workload_is_rated(seat: tuple[PretendedRun, str]) -> None:
+def test_a_phrase_is_chosen_and_the_workload_is_rated(
+    page: Page, seat: tuple[PretendedRun, str]
+) -> None:
     run, url = seat
     run.changes.add("briefing", "TOWER", None, ROSTER)
-    with page_with_microphone() as page:
-        sit_down(page, url)
-        page.evaluate("""
-            document.getElementById('phrase-to').value = 'OPS1';
-            document.getElementById('phrase-to').dispatchEvent(new Event('change'));
-        """)
-        hold = "[...document.querySelectorAll('#phrase-list button')]"
-        page.wait_for(f"{hold}.some((one) => one.title === 'Ops one, hold position.')")
-        page.evaluate(f"{hold}.find((one) => one.title === 'Ops one, hold position.').click()")
-        page.press("Enter", 13)
-        page.evaluate(SAY)
-        assert run.next() == SayText(text="Ops one, hold position.")
-        run.seats.ask("TOWER", WorkloadQuestion(number=1, scale="isa", asked_ns=0))
-        page.wait_for("!document.getElementById('isa').hidden")
-        page.press("4", 52)
-        rated = run.next()
-        assert (rated.question, rated.isa) == (1, 4)
-        page.wait_for("document.getElementById('isa').hidden")
-        run.seats.ask("TOWER", WorkloadQuestion(number=2, scale="nasa_tlx", asked_ns=0))
-        page.wait_for("document.getElementById('tlx-dialog').open")
-        page.evaluate("document.getElementById('tlx').requestSubmit()")
-        assert "Frustration" in page.evaluate("document.getElementById('tlx-state').textContent")
-        page.evaluate("document.querySelectorAll('#tlx-items input').forEach((one) => one.click())")
-        page.evaluate("document.getElementById('tlx').requestSubmit()")
-        assert run.next().nasa_tlx == NasaTlx(**dict.fromkeys(NasaTlx.model_fields, 50))
-        page.wait_for("!document.getElementById('tlx-dialog').open")
+    sit_down(page, url)
+    page.evaluate("""
+        document.getElementById('phrase-to').value = 'OPS1';
+        document.getElementById('phrase-to').dispatchEvent(new Event('change'));
+    """)
+    hold = "[...document.querySelectorAll('#phrase-list button')]"
+    page.wait_for(f"{hold}.some((one) => one.title === 'Ops one, hold position.')")
+    page.evaluate(f"{hold}.find((one) => one.title === 'Ops one, hold position.').click()")
+    page.press("Enter", 13)
+    page.evaluate(SAY)
+    assert run.next() == SayText(text="Ops one, hold position.")
+    run.seats.ask("TOWER", WorkloadQuestion(number=1, scale="isa", asked_ns=0))
+    page.wait_for("!document.getElementById('isa').hidden")
+    page.press("4", 52)
+    rated = run.next()
+    assert (rated.question, rated.isa) == (1, 4)
+    page.wait_for("document.getElementById('isa').hidden")
+    run.seats.ask("TOWER", WorkloadQuestion(number=2, scale="nasa_tlx", asked_ns=0))
+    page.wait_for("document.getElementById('tlx-dialog').open")
+    page.evaluate("document.getElementById('tlx').requestSubmit()")
+    assert "Frustration" in page.evaluate("document.getElementById('tlx-state').textContent")
+    page.evaluate("document.querySelectorAll('#tlx-items input').forEach((one) => one.click())")
+    page.evaluate("document.getElementById('tlx').requestSubmit()")
+    assert run.next().nasa_tlx == NasaTlx(**dict.fromkeys(NasaTlx.model_fields, 50))
+    page.wait_for("!document.getElementById('tlx-dialog').open")
 
 
 @pytest.mark.browser
-def test_an_advisory_is_not_told_to_be_heard_where_the_loudspeaker_is_down() -> None:
+def test_an_advisory_is_not_told_to_be_heard_where_the_loudspeaker_is_down(
+    page: Page,
+) -> None:
     told: dict[str, list[str]] = {}
-    with seat_page() as (run, url), page_with_microphone() as page:
+    with seat_page() as (run, url):
         run.changes.add("briefing", "TOWER", None, ROSTER)
         sit_down(page, url)
         for volume in ("0", "0.5"):
@@ -236,10 +218,12 @@ def test_an_advisory_is_not_told_to_be_heard_where_the_loudspeaker_is_down() -> 
 
 
 @pytest.mark.browser
-def test_a_voice_without_a_tone_is_told_to_be_heard_only_if_it_sounds() -> None:
+def test_a_voice_without_a_tone_is_told_to_be_heard_only_if_it_sounds(
+    page: Page,
+) -> None:
     """A voice that cannot be had, of a run that has none for it, comes before one that sounds."""
     voice = Sound(to_pcm(np.full(SAMPLE_RATE_HZ // 10, 0.1, np.float32)), EVERYBODY)
-    with seat_page() as (run, url), page_with_microphone() as page:
+    with seat_page() as (run, url):
         run.kept["there-0-ATC"] = voice
         run.changes.add("briefing", "TOWER", None, ROSTER)
         sit_down(page, url)
@@ -267,10 +251,10 @@ COUNT_TONES = """
     ("severity", "tones"), [("ADVISORY", []), ("CAUTION", [700]), ("WARNING", [1100] * 3)]
 )
 def test_an_advisory_that_nobody_speaks_has_its_tone_and_is_heard_then(
-    severity: str, tones: list[int]
+    page: Page, severity: str, tones: list[int]
 ) -> None:
     silent = PretendedRun((TOWER.model_copy(update={"spoken_from": None}),))
-    with seat_page(silent) as (run, url), page_with_microphone() as page:
+    with seat_page(silent) as (run, url):
         run.changes.add("briefing", "TOWER", None, ROSTER)
         sit_down(page, url)
         page.evaluate(COUNT_TONES)
@@ -282,8 +266,10 @@ def test_an_advisory_that_nobody_speaks_has_its_tone_and_is_heard_then(
 
 
 @pytest.mark.browser
-def test_an_advisory_whose_voice_was_lost_has_its_tone_then_and_no_other_one_again() -> None:
-    with seat_page() as (run, url), page_with_microphone() as page:
+def test_an_advisory_whose_voice_was_lost_has_its_tone_then_and_no_other_one_again(
+    page: Page,
+) -> None:
+    with seat_page() as (run, url):
         run.changes.add("briefing", "TOWER", None, ROSTER)
         sit_down(page, url)
         page.evaluate(COUNT_TONES)
@@ -343,17 +329,16 @@ def test_a_button_of_a_gamepad_talks_as_the_space_bar_does(
 @pytest.mark.slow
 @pytest.mark.browser
 def test_a_station_that_stands_still_is_told_on_the_page_and_so_is_the_end_of_the_run(
-    seat: tuple[PretendedRun, str], monkeypatch: pytest.MonkeyPatch
+    page: Page, seat: tuple[PretendedRun, str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     run, url = seat
     told = "document.getElementById('link').hidden ? '' : link.textContent"
-    with page_with_microphone() as page:
-        page.open(url)
-        page.wait_for("document.getElementById('state').textContent.startsWith('running')")
-        assert page.evaluate(told) == ""
-        with monkeypatch.context() as patch:
-            patch.setattr(browsers.Browsers, "_do", lambda *_: asyncio.sleep(0))
-            page.wait_for(f"({told}).includes('What is shown is old')")
-        page.wait_for(f"!({told})")
-        run.changes.add("clock", 9.0, "finished", "realtime")
-        page.wait_for(f"({told}).includes('The run is over')")
+    page.open(url)
+    page.wait_for("document.getElementById('state').textContent.startsWith('running')")
+    assert page.evaluate(told) == ""
+    with monkeypatch.context() as patch:
+        patch.setattr(browsers.Browsers, "_do", lambda *_: asyncio.sleep(0))
+        page.wait_for(f"({told}).includes('What is shown is old')")
+    page.wait_for(f"!({told})")
+    run.changes.add("clock", 9.0, "finished", "realtime")
+    page.wait_for(f"({told}).includes('The run is over')")

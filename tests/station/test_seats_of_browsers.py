@@ -237,7 +237,7 @@ class Frozen:
 def test_who_takes_nothing_of_what_is_sent_is_gone(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(browsers, "STALLED_S", 0.05)
     run = PretendedRun()
-    served = browsers.Browsers(run.changes, run, run.views, run.sounds, print)
+    served = browsers.Browsers(run.changes, cast(Any, run), run.views, run.sounds, print)
 
     async def serve() -> None:
         await asyncio.wait_for(served.serve(cast(Any, Frozen()), 0, "one", "", None), 5.0)

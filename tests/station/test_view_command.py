@@ -6,6 +6,10 @@ import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
+import httpx
+
+from stations import PATIENCE_S, commanded
+
 Cli = Callable[..., subprocess.CompletedProcess[str]]
 
 
@@ -42,3 +46,9 @@ def test_options_of_a_page_are_refused_where_no_participant_is_led(
     done = airhilt_command("experiment", tmp_path / "plan.json", "--host", "0.0.0.0")
     assert done.returncode == 2
     assert "--host would do nothing without --participant" in done.stderr
+
+
+def test_a_recorded_run_is_shown_until_the_command_is_interrupted(recorded_run: Path) -> None:
+    with commanded("view", recorded_run) as url:
+        shown = httpx.get(f"{url}api/run", timeout=PATIENCE_S, trust_env=False).json()
+    assert shown["scenario"]["name"] == "encounter"

@@ -328,18 +328,6 @@ def test_pictures_of_a_camera_that_the_seat_does_not_see_are_not_drawn(
         assert run.watched.get(timeout=PATIENCE_S) == {"nose"}
 
 
-def test_a_seat_listens_to_its_own_frequencies_alone(seats: tuple[PretendedRun, str]) -> None:
-    run, url = seats
-    with opened(url) as socket:
-        taken(socket, "TOWER")
-        wish(socket, act={"do": "tune", "frequencies_khz": [TOWER_KHZ, GROUND_KHZ]})
-        assert next(one for one in socket if "that frequency" in one)
-        for khz in (GROUND_KHZ, TOWER_KHZ):
-            run.stream("opened", id="one", frequency_khz=khz)
-        heard = json.loads(next(one for one in socket if "sounds" in one))["sounds"]
-        assert [piece[1]["frequency_khz"] for piece in heard] == [TOWER_KHZ]
-
-
 @pytest.mark.parametrize(("seat", "heard"), [("AAL123", "own"), ("TOWER", "site")])
 def test_a_seat_with_a_receiver_of_its_own_hears_that_and_the_others_the_one_of_the_units(
     seat: str, heard: str

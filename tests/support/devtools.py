@@ -6,6 +6,7 @@ import itertools
 import json
 import os
 import select
+import signal
 import subprocess
 import tempfile
 import time
@@ -157,6 +158,7 @@ def browser_page(executable: str, *more: str) -> Iterator[Page]:
         process = subprocess.Popen(
             ["bash", "-c", shell, executable, *ARGUMENTS, *more, f"--user-data-dir={profile}"],
             pass_fds=(to_browser, from_browser),
+            start_new_session=True,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
         )
@@ -167,5 +169,5 @@ def browser_page(executable: str, *more: str) -> Iterator[Page]:
         finally:
             os.close(commands)
             os.close(answers)
-            process.terminate()
+            os.killpg(process.pid, signal.SIGKILL)  # It would take its time to end by itself.
             process.wait(timeout=PATIENCE_S)

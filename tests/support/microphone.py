@@ -15,7 +15,7 @@ from airhilt.audio.wav import write_wav
 from devtools import BROWSERS, Page, browser_page
 from seats import voice
 
-PAUSE_S = 5.0
+PAUSE_S = 2.0
 """Silence after the words, before they come again."""
 FAKE = ("--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream")
 BUTTON = "document.getElementById('talk-button').textContent"

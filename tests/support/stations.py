@@ -11,7 +11,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 from secrets import token_hex
@@ -44,17 +44,23 @@ from airhilt.messages import (
     TuneFrequencies,
     key_chunk,
 )
+from airhilt.record import open_run
 from airhilt.seats import Seats
 from airhilt.sim import Director, Virtual
 from airhilt.station.address import Address
-from airhilt.station.app import live_app
+from airhilt.station.app import live_app, recorded_app
 from airhilt.station.audiences import heard_by
 from airhilt.station.browsers import Browsers
 from airhilt.station.changes import Changes
+from airhilt.station.conductor import Conductor
+from airhilt.station.debrief import Debrief
+from airhilt.station.experiment_app import experiment_app
+from airhilt.station.participant_progress import Progress
 from airhilt.station.pictures import Picture
+from airhilt.station.plan import plan_of
 from airhilt.station.seat_views import SeatViews
 from airhilt.station.server import serve
-from airhilt.station.subscription import Sound
+from airhilt.station.subscription import Sound, Subscription
 from devtools import Page
 from seats import state_of
 
@@ -97,24 +103,28 @@ def reachable(folder: Path) -> list[str]:
 
 @contextmanager
 def viewed(*run_folders: Path) -> Iterator[str]:
-    """Start `airhilt view`, yield the URL that it prints, and interrupt it."""
-    with _served("view", *map(str, run_folders)) as url:
+    """Serve the debrief of one run, or of two side by side, in this process; yield the URL."""
+    with ExitStack() as stack:
+        debriefs = [Debrief(open_run(folder)) for folder in run_folders]
+        for debrief in debriefs:
+            stack.callback(debrief.close)
+        yield stack.enter_context(serving(recorded_app(debriefs)))
+
+
+@contextmanager
+def experiment_page(plan_file: Path, out: Path, participant: str = "P01") -> Iterator[str]:
+    """Serve the page of the team of a participant in this process; yield the URL."""
+    plan = plan_of(json.loads(plan_file.read_text()), str(plan_file))
+    team = [Progress(plan, out, name) for name in plan.team_of(participant)]
+    with serving(experiment_app(Conductor(team))) as url:
         yield url
 
 
 @contextmanager
-def experimenting(plan: Path, *options: str) -> Iterator[str]:
-    """Start `airhilt experiment`, yield the URL that it prints, and interrupt it."""
-    with _served("experiment", str(plan), *options) as url:
-        yield url
-
-
-@contextmanager
-def _served(*command: str) -> Iterator[str]:
-    arguments = [*command, "--port", "0", "--no-browser"]
-    process = subprocess.Popen(
-        [sys.executable, "-m", "airhilt", *arguments], stdout=subprocess.PIPE, text=True
-    )
+def commanded(*arguments: str | Path) -> Iterator[str]:
+    """Start a command such as `airhilt view`, yield the URL that it prints, and interrupt it."""
+    command = [sys.executable, "-m", "airhilt", *map(str, arguments), "--port=0", "--no-browser"]
+    process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
     assert process.stdout is not None
     with process.stdout:
         try:
@@ -378,8 +388,9 @@ def seat_page(
     """Serve the page of a pretended run in this process; yield the run and the URL."""
     run = run or PretendedRun()
     views = run.views if has_seats else SeatViews()
-    browsers = Browsers(run.changes, run, views, run.sounds, run.told.append)
-    with serving(live_app(run, browsers)) as url:  # type: ignore[arg-type]
+    subscription = cast("Subscription", run)
+    browsers = Browsers(run.changes, subscription, views, run.sounds, run.told.append)
+    with serving(live_app(subscription, browsers)) as url:
         yield run, url
 
 

@@ -59,7 +59,6 @@ def experiment(
     from airhilt.station.conductor import Conductor
     from airhilt.station.experiment_tables import write_tables
     from airhilt.station.participant_progress import Progress
-    from airhilt.station.trial_order import balance_of
 
     if participant is not None:
         address = page.address()
@@ -74,10 +73,10 @@ def experiment(
     for name in chain(*teams):
         progress = Progress(plan, folder, name)
         click.echo(f"{name}: " + ", ".join(_shown(progress, trial) for trial in progress.trials))
-    if participant is None and len(teams) % balance_of(plan):
+    if participant is None and len(teams) % plan.balance:
         led = "participants" if plan.seats is None else "teams"
         tell(
-            f"the order is not balanced with {len(teams)} {led}; expected {balance_of(plan)}, or a "
+            f"the order is not balanced with {len(teams)} {led}; expected {plan.balance}, or a "
             "multiple"
         )
     rows = write_tables(plan, folder)

@@ -81,7 +81,7 @@ def view(
 
 def _show_recorded(run_folders: Sequence[Path], address: Address, browser: bool) -> None:
     from airhilt.record import open_run
-    from airhilt.station.app import debrief_app, two_debriefs_app
+    from airhilt.station.app import recorded_app
     from airhilt.station.debrief import Debrief
     from airhilt.station.server import serve
 
@@ -90,8 +90,7 @@ def _show_recorded(run_folders: Sequence[Path], address: Address, browser: bool)
         for folder in run_folders:
             debriefs.append(Debrief(open_run(folder, tell)))
             stack.callback(debriefs[-1].close)
-        app = debrief_app(debriefs[0]) if len(debriefs) == 1 else two_debriefs_app(debriefs)
-        serve(app, address, opened=tell_page, notice=tell, browser=browser)
+        serve(recorded_app(debriefs), address, opened=tell_page, notice=tell, browser=browser)
 
 
 def _show_live(

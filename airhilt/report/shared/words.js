@@ -2,7 +2,8 @@
 
 // Numbers, places and commands in words.
 
-const METRE_PER_NM = 1852, METRE_PER_FT = 0.3048;
+const METRE_PER_NM = 1852;
+const METRE_PER_FT = 0.3048;
 const SEVERITIES = ["INFO", "ADVISORY", "CAUTION", "WARNING"];
 
 const known = (value) => value !== null && value !== undefined;

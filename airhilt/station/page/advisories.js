@@ -1,5 +1,6 @@
 // The advisories of the assistant, each with what it rests on.
 
+import { Pane } from "./pane.js";
 import { button, byId, html, svg, timeButton } from "./dom.js";
 import { FILLED } from "./pen.js";
 import { Rows, keepInView } from "./rows.js";
@@ -33,11 +34,9 @@ export const basisOf = ({ sources, shares }) =>
     .map((name) => (known(shares[name]) ? `${words(name)} ${percent(shares[name])}` : words(name)))
     .join(", ");
 
-export class Advisories {
+export class Advisories extends Pane {
   #list = byId("advisories");
   #rows = new Rows(this.#list);
-  #run;
-  #clock;
   #links;
   #items = [];
   #current = "";
@@ -47,29 +46,28 @@ export class Advisories {
 
   /** `links.call(id)` and `links.camera(name)` show what an advisory rests on. */
   constructor(run, clock, links) {
-    this.#run = run;
-    this.#clock = clock;
+    super(run, clock);
     this.#links = links;
     this.redraw();
   }
 
   /** Shows the advisories again, because there are new ones. */
   redraw() {
-    const rows = this.#run.advisories
-      .filter((row) => this.#run.textsOf(row).length)
-      .slice(this.#clock.live ? -MOST_LIVE : 0);
-    const shown = rows.map((row) => ({ ...row, texts: this.#run.textsOf(row) })),
+    const rows = this.run.advisories
+      .filter((row) => this.run.textsOf(row).length)
+      .slice(this.clock.live ? -MOST_LIVE : 0);
+    const shown = rows.map((row) => ({ ...row, texts: this.run.textsOf(row) })),
       name = (row) => `${row.equipment}/${row.id}/${row.revision}`;
     const items = this.#rows.show(
       shown,
       name,
       (row) => this.#item(row),
-      `No advisory ${this.#clock.live ? "so far" : "in this run"}.`,
+      `No advisory ${this.clock.live ? "so far" : "in this run"}.`,
     );
     this.#items = rows.map((row, i) => ({ row, item: items[i] }));
     this.#announceNew(rows, name);
     this.#current = null;
-    this.#listed = this.#run.advised;
+    this.#listed = this.run.advised;
     this.draw();
   }
 
@@ -80,12 +78,12 @@ export class Advisories {
   }
 
   draw() {
-    if (this.#listed !== this.#run.advised) {
+    if (this.#listed !== this.run.advised) {
       this.redraw();
       return;
     }
-    const { t } = this.#clock,
-      active = new Set(this.#run.activeAdvisories(t)),
+    const { t } = this.clock,
+      active = new Set(this.run.activeAdvisories(t)),
       now = this.#items.filter(({ row }) => active.has(row));
     const names = now.map(({ row }) => `${row.id}/${row.revision}`).join(" ");
     this.#announceTimely(t);
@@ -99,8 +97,8 @@ export class Advisories {
 
   /** Announces advisories whose time has just come while the clock plays. */
   #announceTimely(t) {
-    if (this.#clock.playing && t > this.#last)
-      this.#announce(this.#run.advisories.filter((row) => this.#last < row.t && row.t <= t));
+    if (this.clock.playing && t > this.#last)
+      this.#announce(this.run.advisories.filter((row) => this.#last < row.t && row.t <= t));
     this.#last = t;
   }
 
@@ -111,7 +109,7 @@ export class Advisories {
   #announceNew(rows, name) {
     const before = this.#names;
     this.#names = new Set(rows.map(name));
-    if (before && this.#clock.following)
+    if (before && this.clock.following)
       this.#announce(rows.filter((row) => !before.has(name(row))));
   }
 
@@ -123,7 +121,7 @@ export class Advisories {
       .filter((row) => row.active)
       .slice(-MOST_ANNOUNCED)
       .map((row) => `${row.severity}: ${row.texts[0]?.message ?? ""}`);
-    if (told.length && !this.#run.own) byId("alert").textContent = told.join(". ");
+    if (told.length && !this.run.own) byId("alert").textContent = told.join(". ");
   }
 
   #item(row) {
@@ -136,23 +134,18 @@ export class Advisories {
         .join(", ");
     return html(
       "li",
-      {},
       html(
-        "div",
-        { class: "row-head" },
-        timeButton(this.#clock, row.t, seconds(row.t)),
-        row.active ? badge(row.severity) : html("span", { class: "badge" }, "over"),
-        html("span", { class: "dim" }, `${source}${words(row.kind)}`),
+        "div.row-head",
+        timeButton(this.clock, row.t, seconds(row.t)),
+        row.active ? badge(row.severity) : html("span.badge", "over"),
+        html("span.dim", `${source}${words(row.kind)}`),
       ),
       texts.map((text) =>
         html(
           "div",
-          {},
-          html("span", { class: "dim" }, `${to(text.message)}: `),
+          html("span.dim", `${to(text.message)}: `),
           text.message,
-          text.recommendation
-            ? html("span", { class: "who" }, ` (${instruction(text.recommendation)})`)
-            : null,
+          text.recommendation ? html("span.who", ` (${instruction(text.recommendation)})`) : null,
         ),
       ),
       row.active ? this.#evidence(row.evidence) : null,
@@ -177,15 +170,10 @@ export class Advisories {
       Array.isArray(value) ? value.flatMap((node, i) => (i ? [", ", node] : [node])) : value;
     return html(
       "details",
-      {},
-      html("summary", {}, "Evidence"),
+      html("summary", "Evidence"),
       html(
         "dl",
-        {},
-        facts.flatMap(([name, value]) => [
-          html("dt", {}, capital(name)),
-          html("dd", {}, spaced(value)),
-        ]),
+        facts.flatMap(([name, value]) => [html("dt", capital(name)), html("dd", spaced(value))]),
       ),
     );
   }

@@ -1,23 +1,19 @@
 // The picture of a camera at the time shown, as the run has kept it or drawn again by the server,
 // with the boxes of a detector.
 
-import { keepNewest } from "./bounds.js";
-import { byId, html, svg } from "./dom.js";
+import { Pane } from "./pane.js";
+import { byId, html, on, svg } from "./dom.js";
 import { identity } from "./identity.js";
 import { before } from "./series.js";
 import { counted, fixed, seconds } from "./words.js";
 
 const FOUND = "#ffdd33",
   THERE = "#5ce1ff";
-const MOST_WATCHED = 4; // cameras of a live run whose pictures are kept, those that began last
-const MOST_BOXES = 50; // that are drawn in a picture
 const MOST_RECORDS = 1000; // of pictures of a camera of a live run: about a minute
 const PATIENCE_MS = 30000; // with a server that draws
 const RADIANS = Math.PI / 180;
 
-export class Cameras {
-  #run;
-  #clock;
+export class Cameras extends Pane {
   #plan;
   #watch;
   #choice = byId("camera");
@@ -32,13 +28,11 @@ export class Cameras {
 
   /** `watch(name)` lets the pictures of a camera of a live run come. */
   constructor(run, clock, plan, watch) {
+    super(run, clock);
     this.#watch = watch;
-    this.#run = run;
-    this.#clock = clock;
     this.#plan = plan;
     this.#choice.addEventListener("change", () => this.#open());
-    for (const id of ["camera-found", "camera-there"])
-      byId(id).addEventListener("change", () => this.#drawBoxes());
+    for (const id of ["camera-found", "camera-there"]) on(id, "change", () => this.#drawBoxes());
     this.renew();
   }
 
@@ -68,7 +62,7 @@ export class Cameras {
   }
 
   get #offered() {
-    return this.#run.cameras.filter(
+    return this.run.cameras.filter(
       (camera) => this.#carrier === undefined || camera.carrier === this.#carrier,
     );
   }
@@ -87,7 +81,7 @@ export class Cameras {
     else
       byId("camera-none").textContent = this.#carrier
         ? "This aircraft has no camera."
-        : this.#clock.live
+        : this.clock.live
           ? "No pictures so far."
           : "This run has no pictures.";
   }
@@ -96,10 +90,8 @@ export class Cameras {
   add(name, seq, t, view, found) {
     const record = this.#records.get(name) ?? { seq: [], t: [], views: [], found: [], there: [] };
     this.#records.set(name, record);
-    keepNewest(this.#records, MOST_WATCHED);
     if (record.seq.length && seq <= record.seq.at(-1)) return;
-    const seen = found && { ...found, boxes: found.boxes.slice(0, MOST_BOXES) };
-    for (const [part, value] of Object.entries({ seq, t, views: view, found: seen, there: [] }))
+    for (const [part, value] of Object.entries({ seq, t, views: view, found, there: [] }))
       record[part].push(value);
     if (record.seq.length > 1.2 * MOST_RECORDS)
       for (const values of Object.values(record)) values.splice(0, values.length - MOST_RECORDS);
@@ -113,7 +105,7 @@ export class Cameras {
   }
 
   get #camera() {
-    return this.#run.cameras.find((camera) => camera.name === this.#choice.value);
+    return this.run.cameras.find((camera) => camera.name === this.#choice.value);
   }
 
   async #open() {
@@ -122,7 +114,7 @@ export class Cameras {
     this.#boxes.setAttribute("viewBox", `0 0 ${width} ${height}`);
     this.#shown = "";
     this.#failure = this.#missing = "";
-    if (this.#clock.live) this.#watch(name);
+    if (this.clock.live) this.#watch(name);
     else if (!this.#records.has(name)) {
       const content = await answered(`api/cameras/${encodeURIComponent(name)}`);
       if (!content.seq) {
@@ -140,7 +132,7 @@ export class Cameras {
   draw() {
     const record = this.#camera && this.#records.get(this.#camera.name);
     if (!record?.seq.length) return;
-    const i = before(record.t, this.#clock.t);
+    const i = before(record.t, this.clock.t);
     this.#point(record, i);
     if (this.#failure && !isKept(record, i)) this.#hide(this.#failure);
     else this.#load(record, i);
@@ -168,7 +160,7 @@ export class Cameras {
       wanted = `${name}/${record.seq[i]}`;
     if (this.#isLoading || wanted === this.#shown || wanted === this.#missing) return;
     this.#isLoading = true;
-    if (!this.#shown && !this.#failure && !this.#clock.live && !isKept(record, i))
+    if (!this.#shown && !this.#failure && !this.clock.live && !isKept(record, i))
       byId("camera-none").textContent = "Drawing the first picture. That takes some seconds.";
     const arrived = new Image();
     arrived.onload = () => {
@@ -186,9 +178,9 @@ export class Cameras {
     };
     arrived.onerror = async () => {
       // Of a live run it is an old one, which is not kept.
-      const why = this.#clock.live ? "" : ((await answered(arrived.src)).error ?? "");
+      const why = this.clock.live ? "" : ((await answered(arrived.src)).error ?? "");
       this.#isLoading = false;
-      if (this.#clock.live) return;
+      if (this.clock.live) return;
       if (this.#camera?.name === name) {
         this.#missing = wanted;
         if (!isKept(record, i)) this.#failure = why; // Without a reason, others may come.
@@ -227,7 +219,7 @@ export class Cameras {
       : "no detector looked at it";
     const origin = isKept(record, i) ? "as it was" : "drawn again from the log";
     byId("camera-caption").textContent =
-      `Picture ${record.seq[i]} at ${seconds(record.t[i], 2)}, ${this.#clock.live ? "" : `${origin}; `}${seen}`;
+      `Picture ${record.seq[i]} at ${seconds(record.t[i], 2)}, ${this.clock.live ? "" : `${origin}; `}${seen}`;
   }
 
   #box([left, top, right, bottom], ink, text, isDashed, wide) {

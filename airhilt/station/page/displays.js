@@ -1,6 +1,7 @@
 // The displays of a seat: a cockpit for the pilot of an aircraft, a scope with strips for a
 // controller.
 
+import { Pane } from "./pane.js";
 import { byId } from "./dom.js";
 import { ModePanel } from "./mode_panel.js";
 import { NavigationDisplay } from "./navigation_display.js";
@@ -48,9 +49,7 @@ class Instruments {
 /** Kinds of seats, by the categories of those who are at them. */
 const KINDS = { aircraft: "pilot", vehicle: "driver", unit: "controller" };
 
-export class Displays {
-  #run;
-  #clock;
+export class Displays extends Pane {
   #seat = null;
   #arranged = null; // the airport for which the displays are arranged
   #instruments = new Instruments();
@@ -61,8 +60,7 @@ export class Displays {
   #cameras;
 
   constructor(run, clock, cameras, live) {
-    this.#run = run;
-    this.#clock = clock;
+    super(run, clock);
     this.#cameras = cameras;
     this.#nd = new NavigationDisplay(run, clock);
     this.#strips = new Strips(run, clock);
@@ -104,12 +102,12 @@ export class Displays {
 
   /** Shows the displays of a seat of its category, once that is known. */
   arrange() {
-    const category = this.#run.ownCategory;
-    this.#arranged = this.#run.airport;
+    const category = this.run.ownCategory;
+    this.#arranged = this.run.airport;
     if (category) document.body.dataset.seat = KINDS[category];
     else delete document.body.dataset.seat;
     this.#cameras.offer(!category ? undefined : category === "unit" ? null : this.#seat);
-    this.#panel.offer(category, this.#run.airport);
+    this.#panel.offer(category, this.run.airport);
   }
 
   /** Forgets the former seat: strips with their notes, instruments, and what was not set yet. */
@@ -132,7 +130,7 @@ export class Displays {
   }
 
   #drawCockpit(shown) {
-    const told = tcasOf(this.#run, this.#clock.t),
+    const told = tcasOf(this.run, this.clock.t),
       label = ["Primary flight display", spoken(told)].filter((text) => text).join(", ");
     this.#pfd.draw(shown, told);
     this.#nd.draw(this.#seat, shown, told);
@@ -140,7 +138,7 @@ export class Displays {
   }
 
   #draw() {
-    if (this.#arranged !== this.#run.airport) this.arrange(); // It comes with the briefing.
+    if (this.#arranged !== this.run.airport) this.arrange(); // It comes with the briefing.
     const shown = this.#instruments.now(),
       { seat } = document.body.dataset;
     if (seat === "pilot") this.#drawCockpit(shown);

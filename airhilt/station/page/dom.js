@@ -4,22 +4,30 @@ const SVG = "http://www.w3.org/2000/svg";
 
 export const byId = (id) => document.getElementById(id);
 
-function filled(node, attributes, children) {
-  for (const [name, value] of Object.entries(attributes)) {
+/** Calls a function when something happens to an element. */
+export const on = (id, event, act) => byId(id).addEventListener(event, act);
+
+/** Fills an element that `make` makes of a name such as "div" or "div.row-head", with its classes. */
+function filled(make, name, given) {
+  const [tag, ...classes] = name.split("."),
+    hasAttributes = given[0]?.constructor === Object,
+    attributes = hasAttributes ? given.shift() : {},
+    node = make(tag);
+  if (classes.length) node.setAttribute("class", classes.join(" "));
+  for (const [attribute, value] of Object.entries(attributes)) {
     if (value !== null && value !== undefined && value !== false)
-      node.setAttribute(name, value === true ? "" : value);
+      node.setAttribute(attribute, value === true ? "" : value);
   }
-  node.append(...children.flat().filter((child) => child !== null && child !== undefined));
+  node.append(...given.flat().filter((child) => child !== null && child !== undefined));
   return node;
 }
 
-/** Returns an HTML element. */
-export const html = (tag, attributes = {}, ...children) =>
-  filled(document.createElement(tag), attributes, children);
+/** Returns an HTML element of a tag with classes; attributes may come before its children. */
+export const html = (name, ...given) => filled((tag) => document.createElement(tag), name, given);
 
-/** Returns an SVG element. */
-export const svg = (tag, attributes = {}, ...children) =>
-  filled(document.createElementNS(SVG, tag), attributes, children);
+/** Returns an SVG element likewise. */
+export const svg = (name, ...given) =>
+  filled((tag) => document.createElementNS(SVG, tag), name, given);
 
 /** Returns a button that does something when it is pressed. */
 export function button(text, act, attributes = {}) {

@@ -1,7 +1,7 @@
 // The page of a participant: what is to be done now, and the questions of the plan. Where several
 // have seats together, the end of its address says whose page it is, such as #P01.
 
-import { byId, html } from "./dom.js";
+import { byId, html, on } from "./dom.js";
 import { addressee, onThisHost } from "./neighbours.js";
 import { Questionnaire } from "./questionnaire.js";
 import { ask, found, lost, note } from "./server.js";
@@ -112,7 +112,7 @@ function showQuestions(key, questions) {
   if (draft?.key === key) return;
   draft = drafts.get(key);
   if (!draft) {
-    const place = html("div", { class: "items" });
+    const place = html("div.items");
     draft = { key, place, questionnaire: new Questionnaire(place, questions) };
     drafts.set(key, draft);
   }
@@ -181,8 +181,8 @@ addEventListener("hashchange", () => {
   show(NOTHING);
   look();
 });
-byId("begin").addEventListener("click", () => act("api/begin", {}));
-byId("questions").addEventListener("submit", (event) => {
+on("begin", "click", () => act("api/begin", {}));
+on("questions", "submit", (event) => {
   event.preventDefault();
   answer();
 });

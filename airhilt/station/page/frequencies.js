@@ -1,11 +1,8 @@
 // The frequency panel of a seat: which frequencies are heard, on which one is spoken, and which are
 // busy.
 
-import { keepNewest } from "./bounds.js";
 import { byId, html } from "./dom.js";
 import { megahertz } from "./words.js";
-
-const MOST_OPEN = 100; // transmissions at a time
 
 export class Frequencies {
   #tune;
@@ -45,7 +42,6 @@ export class Frequencies {
   take(pieces) {
     for (const [phase, { id, frequency_khz: khz }] of pieces) {
       if (phase === "opened") this.#open.set(id, khz);
-      keepNewest(this.#open, MOST_OPEN);
       if (phase === "closed") this.#open.delete(id);
     }
     this.#draw();
@@ -63,8 +59,8 @@ export class Frequencies {
     speak.addEventListener("change", () => {
       if (!listen.checked) listen.click();
     }); // as on a radio: who speaks there listens there
-    const labels = [html("label", {}, listen, "Listen"), html("label", {}, speak, "Transmit")];
-    const item = html("li", {}, html("strong", {}, megahertz(khz)), lamp, labels);
+    const labels = [html("label", listen, "Listen"), html("label", speak, "Transmit")];
+    const item = html("li", html("strong", megahertz(khz)), lamp, labels);
     return { listen, speak, lamp, item };
   }
 

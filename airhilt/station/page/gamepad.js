@@ -1,6 +1,6 @@
 // A button of a gamepad, yoke or joystick with which one talks, as with the space bar.
 
-import { byId } from "./dom.js";
+import { byId, on } from "./dom.js";
 
 const NAME = "airhilt-gamepad-button";
 
@@ -14,7 +14,7 @@ export class GamepadButton {
   /** `act(event, isDown)` is called when the button goes down or up. */
   constructor(act) {
     this.#act = act;
-    byId("gamepad-choose").addEventListener("click", () => {
+    on("gamepad-choose", "click", () => {
       this.#isChoosing = !this.#isChoosing;
       this.#draw();
     });

@@ -1,6 +1,6 @@
 // The first page: choose a scenario, its seats and conditions, start the run, open what is there.
 
-import { button, byId, html } from "./dom.js";
+import { button, byId, html, on } from "./dom.js";
 import { onThisHost } from "./neighbours.js";
 import { Rows } from "./rows.js";
 import { ask, found, lost, note } from "./server.js";
@@ -32,15 +32,14 @@ function showScenario() {
   const seats = (scenario.seats ?? []).map((seat) =>
     html(
       "label",
-      {},
       html("input", { type: "checkbox", value: seat }),
       seat === scenario.controller ? `${seat} (controller)` : seat,
     ),
   );
   const hint = seats.length
-    ? html("p", { class: "hint" }, SEATS_HINT)
-    : html("span", { class: "dim" }, "This scenario has no radio: it can be watched.");
-  byId("seats").replaceChildren(html("legend", {}, "Seats for people"), ...seats, hint);
+    ? html("p.hint", SEATS_HINT)
+    : html("span.dim", "This scenario has no radio: it can be watched.");
+  byId("seats").replaceChildren(html("legend", "Seats for people"), ...seats, hint);
   byId("cameras").disabled = !scenario.has_cameras;
   byId("snr").placeholder =
     scenario.snr_db === null ? "no noise" : `${scenario.snr_db}, as in the scenario`;
@@ -109,19 +108,14 @@ async function start() {
 // --- what is there -------------------------------------------------------------------------------
 
 function startedRow(run) {
-  const parts = [html("span", { class: "who" }, run.name), html("span", {}, STATES[run.state])],
+  const parts = [html("span.who", run.name), html("span", STATES[run.state])],
     link = { class: "open", href: run.url && onThisHost(run.url) };
   if (run.url) parts.push(html("a", link, run.seats.length ? "Open and take a seat" : "Watch"));
   if (run.state !== "ended")
     parts.push(button("Stop", () => stop(run.name), { "aria-label": `Stop ${run.name}` }));
   const said =
     run.state === "running" ? run.seats.map((seat) => `seat ${seat}`).join(", ") : run.said;
-  return html(
-    "li",
-    {},
-    html("div", { class: "started-head" }, ...parts),
-    html("div", { class: "heard" }, said),
-  );
+  return html("li", html("div.started-head", ...parts), html("div.heard", said));
 }
 
 const stop = (name) =>
@@ -131,7 +125,7 @@ async function open(pressed, runs) {
   pressed.disabled = true;
   byId("compare-state").textContent = "Reading ...";
   try {
-    location.href = onThisHost((await ask("api/debriefs", { runs })).url);
+    location.href = (await ask("api/debriefs", { runs })).url;
   } catch (error) {
     note(`The debrief was not opened: ${error.message}`);
   } finally {
@@ -157,7 +151,6 @@ function recordedRow(run) {
     act = ({ target }) => open(target, [run.name]);
   return html(
     "tr",
-    {},
     cell(box),
     name,
     cell(begun, { class: "when" }),
@@ -170,7 +163,7 @@ function showRecorded() {
   const wanted = byId("find").value.trim().toLowerCase(),
     listed = recorded.filter((run) => run.name.toLowerCase().includes(wanted)),
     empty = recorded.length ? "No run has this in its name." : NOTHING_RECORDED,
-    nothing = html("tr", {}, html("td", { colspan: 7, class: "dim" }, empty));
+    nothing = html("tr", html("td", { colspan: 7, class: "dim" }, empty));
   const rows = listed.length ? listed.map(recordedRow) : [nothing];
   byId("recorded").tBodies[0].replaceChildren(...rows);
 }
@@ -220,17 +213,17 @@ async function begin() {
       html("option", { value: name, selected: name === "reference" }, name),
     ),
   );
-  byId("scenario").addEventListener("change", showScenario);
-  byId("cameras").addEventListener("change", showCameras);
-  byId("seats").addEventListener("change", showAsked);
-  byId("find").addEventListener("input", showRecorded);
-  byId("compare").addEventListener("click", () =>
+  on("scenario", "change", showScenario);
+  on("cameras", "change", showCameras);
+  on("seats", "change", showAsked);
+  on("find", "input", showRecorded);
+  on("compare", "click", () =>
     open(
       byId("compare"),
       recorded.map((run) => run.name).filter((name) => chosen.has(name)),
     ),
   );
-  byId("new").addEventListener("submit", (event) => {
+  on("new", "submit", (event) => {
     event.preventDefault();
     start();
   });

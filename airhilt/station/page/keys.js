@@ -1,6 +1,6 @@
 // Keys of the whole page, and the list of them.
 
-import { byId, html } from "./dom.js";
+import { byId, html, on } from "./dom.js";
 
 /** True where nobody has a seat: who has one cannot go back in time. */
 const isWatching = () => !document.body.dataset.seat;
@@ -56,13 +56,13 @@ export function connectKeys(keys) {
     event.preventDefault();
     if (!event.repeat || key.repeats) key.act(event);
   });
-  byId("help-button").addEventListener("click", showHelp);
+  on("help-button", "click", showHelp);
 }
 
 /** Returns a key and what it does, for the list. */
 function inWords({ shown, text }) {
-  const keys = shown.flatMap((key, i) => [i ? " " : "", html("kbd", {}, key)]);
-  return html("div", {}, html("dt", {}, keys), html("dd", {}, text));
+  const keys = shown.flatMap((key, i) => [i ? " " : "", html("kbd", key)]);
+  return html("div", html("dt", keys), html("dd", text));
 }
 
 /** True if the element with the focus has its own use for a key. */

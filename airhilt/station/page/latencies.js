@@ -1,6 +1,7 @@
 // The latency of each stage: a bar from its input to its result, in lanes, around the time shown.
 
-import { byId, colour } from "./dom.js";
+import { Pane } from "./pane.js";
+import { byId, colour, on } from "./dom.js";
 import { BOLD, FONT, FONT_SMALL, box, line, onSize, within, write } from "./pen.js";
 import { fixed, seconds } from "./words.js";
 
@@ -20,18 +21,15 @@ const SPEECH_OPACITY = 0.35; // of a bar while somebody speaks: nothing can be l
 /** Returns a latency in ms or s. */
 const latency = (value) => (value < 1 ? `${Math.round(value * 1000)} ms` : `${fixed(value, 2)} s`);
 
-export class Latencies {
+export class Latencies extends Pane {
   #canvas = byId("latencies");
-  #run;
-  #clock;
   #size;
 
   constructor(run, clock) {
-    this.#run = run;
-    this.#clock = clock;
+    super(run, clock);
     this.#size = onSize(this.#canvas, () => this.draw());
     for (const name of ["profile", "latencies"])
-      byId(`show-${name}`).addEventListener("click", () => this.#show(name));
+      on(`show-${name}`, "click", () => this.#show(name));
   }
 
   #show(shown) {
@@ -45,7 +43,7 @@ export class Latencies {
   draw() {
     if (!this.#size.pen || this.#canvas.hidden) return;
     const { pen, width, height } = this.#size,
-      { t, live } = this.#clock,
+      { t, live } = this.clock,
       to = t + (live ? 0 : AHEAD_S),
       from = to - WINDOW_S,
       x = (time) => LEFT + ((time - from) / WINDOW_S) * (width - LEFT - RIGHT),
@@ -54,7 +52,7 @@ export class Latencies {
     box(pen, colour("--panel"), 0, 0, width, height);
     this.#drawGrid(x, from, to, bottom);
     const told = STAGES.map(([stage, name], i) => {
-      const ofStage = this.#run.latencies.filter((bar) => bar[0] === stage),
+      const ofStage = this.run.latencies.filter((bar) => bar[0] === stage),
         seen = ofStage.filter((bar) => bar[2] >= from && bar[1] <= Math.min(to, t)),
         last = ofStage.findLast((bar) => bar[2] <= t),
         text = last ? latency(last[2] - last[1]) : "none yet",
@@ -91,6 +89,6 @@ export class Latencies {
       pen.fillStyle = colour("--dim");
       pen.fillText(seconds(time, 0), Math.min(x(time), width - 20), height - 6);
     }
-    line(pen, colour("--ink"), 1.5, [x(this.#clock.t), 0], [x(this.#clock.t), bottom]);
+    line(pen, colour("--ink"), 1.5, [x(this.clock.t), 0], [x(this.clock.t), bottom]);
   }
 }

@@ -1,5 +1,6 @@
 // A run that goes on: its changes come over a WebSocket, which is opened again when it is lost.
 
+import { Pane } from "./pane.js";
 import { byId } from "./dom.js";
 import { identity } from "./identity.js";
 import { Lag } from "./lag.js";
@@ -42,10 +43,8 @@ function ending({ title, phase }) {
 /** Returns the reason of a refusal as a sentence. */
 export const sentence = (reason) => `${capital(reason).replace(/\.$/, "")}.`;
 
-export class Live {
-  #run;
+export class Live extends Pane {
   #wish;
-  #clock;
   #panes;
   #socket = null;
   #watched = null;
@@ -61,9 +60,8 @@ export class Live {
   #unanswered = []; // acts that the run has not answered, in their order: { resolve, reject }
 
   constructor(run, clock) {
-    this.#run = run;
+    super(run, clock);
     this.#wish = new SeatWish(run.run);
-    this.#clock = clock;
     this.#lag = new Lag(run);
   }
 
@@ -88,7 +86,7 @@ export class Live {
     url.searchParams.set("from", this.#seen);
     if (this.#shown !== null) url.searchParams.set("shown", this.#shown);
     url.searchParams.set("browser", identity());
-    url.searchParams.set("version", this.#run.version ?? "");
+    url.searchParams.set("version", this.run.version ?? "");
     this.#socket = new WebSocket(url);
     this.#heard = performance.now();
     this.#socket.onopen = () => {
@@ -109,14 +107,14 @@ export class Live {
     this.#socket.onclose = (event) => {
       this.#panes.talk.lost();
       this.#lose();
-      if (this.#run.isOver) {
+      if (this.run.isOver) {
         this.#tell();
         return;
       }
       const isOld = event.code === OLD_PAGE || event.code === REPLACED;
       this.#warn(
         event.reason ||
-          (this.#run.own
+          (this.run.own
             ? `Connection lost, trying again. ${this.#seatMeanwhile}`
             : "Connection lost, trying again."),
         isOld,
@@ -159,14 +157,14 @@ export class Live {
     const isOpen = this.#isOpen,
       isOpening = this.#socket.readyState === WebSocket.CONNECTING,
       silentMs = performance.now() - this.#heard;
-    this.#isSilent = isOpen && !this.#run.isOver && silentMs > SILENT_MS;
+    this.#isSilent = isOpen && !this.run.isOver && silentMs > SILENT_MS;
     this.#lag.draw(isOpen && !this.#isSilent, this.#heard);
     if (this.#isSilent) {
       this.#panes.talk.lost();
-      this.#warn(this.#run.own ? `${SILENT}, ${SILENT_AT_SEAT}` : `${SILENT}.`);
+      this.#warn(this.run.own ? `${SILENT}, ${SILENT_AT_SEAT}` : `${SILENT}.`);
     }
     if (
-      !this.#run.isOver &&
+      !this.run.isOver &&
       ((isOpen && silentMs > DEAD_MS) || (isOpening && silentMs > SILENT_MS))
     ) {
       this.#lostAt ??= this.#heard;
@@ -183,14 +181,14 @@ export class Live {
   }
 
   #tell() {
-    const { phase, pace } = this.#run;
+    const { phase, pace } = this.run;
     this.#warn("");
     byId("state").textContent =
       PHASES[phase] ?? (pace === "paused" ? "paused" : `running, ${PACES[pace] ?? pace}`);
-    if (!this.#run.isOver) return;
+    if (!this.run.isOver) return;
     byId("link").hidden = false;
     byId("pace").hidden = true;
-    byId("link-text").textContent = ending(this.#run);
+    byId("link-text").textContent = ending(this.run);
   }
 
   get #isOpen() {
@@ -250,7 +248,7 @@ export class Live {
 
   #sendWish() {
     const { seat, acts } = this.#wish;
-    if (!seat || this.#run.isOver) return;
+    if (!seat || this.run.isOver) return;
     this.act(acts[0], seat).then(
       (why) => {
         if (!why) return;
@@ -285,8 +283,8 @@ export class Live {
     if (seats) this.#takeSeats(seats);
     if (own) this.#takeOwn(own);
     const { plan, transcript, cameras, sounds, talk } = this.#panes,
-      { pace, phase } = this.#run,
-      changed = this.#run.apply(changes ?? []),
+      { pace, phase } = this.run,
+      changed = this.run.apply(changes ?? []),
       has = (...kinds) => kinds.some((kind) => changed.has(kind));
     talk.take(message);
     // The frequencies of the seat are known from now on.
@@ -295,7 +293,7 @@ export class Live {
     this.#seen = next;
     for (const [kind, ...rest] of changes) {
       if (kind === "picture") cameras.add(...rest);
-      if (kind === "call" && this.#clock.following && !this.#run.own) sounds.add(rest[0]);
+      if (kind === "call" && this.clock.following && !this.run.own) sounds.add(rest[0]);
     }
     if (has("call")) this.#panes.seat.drawTasks();
     if (has("briefing")) plan.renew();
@@ -306,36 +304,36 @@ export class Live {
       this.#tell();
       this.#lag.told();
     }
-    if (this.#run.pace !== pace || this.#run.phase !== phase) this.#clock.paced();
-    if (this.#run.isOver) for (const pane of [this.#panes.seat, this.#panes.talk]) pane.end();
+    if (this.run.pace !== pace || this.run.phase !== phase) this.clock.paced();
+    if (this.run.isOver) for (const pane of [this.#panes.seat, this.#panes.talk]) pane.end();
     for (const kind of changed) this.#undrawn.add(kind);
     this.#drawing ??= setTimeout(
       () => this.#drawLists(),
       Math.max(SLOWLY_MS - (performance.now() - this.#drawn), 0),
     );
-    this.#clock.setEnd(this.#run.now ?? 0);
+    this.clock.setEnd(this.run.now ?? 0);
   }
 
   /** Shows why something was not done: at the seats, or where the run has none, below the title. */
   refuse(text) {
-    if (this.#run.seats?.length) this.#panes.seat.refuse(text);
+    if (this.run.seats?.length) this.#panes.seat.refuse(text);
     else byId("refused").textContent = text;
   }
 
   /** Shows who watches a run without seats what the run has refused last. */
   #tellRefused() {
-    const last = this.#run.seats?.length
+    const last = this.run.seats?.length
       ? null
-      : this.#run.events.findLast(({ kind }) => kind === "refused");
+      : this.run.events.findLast(({ kind }) => kind === "refused");
     if (last) this.refuse(`Refused at ${seconds(last.t)}: ${last.text}`);
   }
 
   #takeSeats(seats) {
     const { seat, talk, transcript, advisories, plan } = this.#panes,
-      before = this.#run.own;
+      before = this.run.own;
     seat.setSeats(seats);
-    talk.setSeat(this.#run.own);
-    if (this.#run.own === before) return;
+    talk.setSeat(this.run.own);
+    if (this.run.own === before) return;
     transcript.redraw();
     advisories.redraw();
     plan.fitFirst();
@@ -344,9 +342,9 @@ export class Live {
   /** Takes in what only the person at the own seat sees. */
   #takeOwn(changes) {
     const { seat, plan } = this.#panes,
-      before = this.#run.ownCategory;
+      before = this.run.ownCategory;
     seat.take(changes);
-    if (this.#run.ownCategory !== before) plan.fitFirst();
+    if (this.run.ownCategory !== before) plan.fitFirst();
   }
 
   /** Forgets what was seen; all that the view of a seat, or nobody's (null), has comes next. */
@@ -354,7 +352,7 @@ export class Live {
     const { transcript, advisories, cameras, plan, seat, talk } = this.#panes;
     this.#seen = 0;
     this.#shown = shown;
-    this.#run.forget();
+    this.run.forget();
     for (const pane of [advisories, cameras, seat, talk]) pane.forget();
     transcript.redraw();
     plan.redraw();

@@ -1,6 +1,5 @@
 // What the person at a seat hears: the frequencies while somebody speaks there, and the assistant.
 
-import { keepNewest } from "./bounds.js";
 import { byId, html } from "./dom.js";
 
 const RATE_HZ = 16000;
@@ -12,7 +11,6 @@ const MOST_SOURCES = 10; // pieces of a transmission that may still have to be s
 const PIECE_S = 0.5;
 // Pieces of a transmission in slow motion, the newest: a call lasts 60 s at most.
 const MOST_WAITING = 130;
-const MOST_OPEN = 20; // transmissions at a time
 // Frequency in Hz, and when each pulse begins, in s.
 const TONES = { CAUTION: [700, [0]], WARNING: [1100, [0, 0.18, 0.36]] };
 const PULSE_S = 0.12;
@@ -34,7 +32,7 @@ export class Loudspeaker {
   constructor(tell) {
     this.#tell = tell;
     this.#volume.addEventListener("input", () => this.#setVolume());
-    byId("hearing").append(html("label", {}, "Volume", this.#volume), this.#silent);
+    byId("hearing").append(html("label", "Volume", this.#volume), this.#silent);
     for (const gesture of ["pointerup", "keydown"])
       addEventListener(gesture, () => this.#isWanted && this.#context.resume());
   }
@@ -72,7 +70,6 @@ export class Loudspeaker {
     for (const [phase, { id, pcm }] of pieces) {
       const isHeard = !isOwn(id) && !isDeaf && this.#context?.state === "running";
       if (phase === "opened" && isHeard) this.#begun.add(id);
-      keepNewest(this.#begun, MOST_OPEN);
       if (phase === "closed") this.#close(id);
       if (pcm && isHeard) {
         if (isSlow) this.#keep(id, pcm);
@@ -84,7 +81,6 @@ export class Loudspeaker {
   /** Keeps a piece until its transmission has ended. */
   #keep(id, pcm) {
     this.#waiting.set(id, [...(this.#waiting.get(id) ?? []), pcm].slice(-MOST_WAITING));
-    keepNewest(this.#waiting, MOST_OPEN);
   }
 
   /**
@@ -127,7 +123,6 @@ export class Loudspeaker {
     if (this.#begun.delete(id) && this.#isOn) this.#tell(id, due - now + this.#delay);
     line.due = due + buffer.duration;
     this.#playing.set(id, line);
-    keepNewest(this.#playing, MOST_OPEN);
   }
 
   #start(buffer, at) {

@@ -20,7 +20,7 @@ import { Traffic } from "./traffic.js";
 import { Transcript } from "./transcript.js";
 import { Transport } from "./transport.js";
 
-const note = (text) => byId("notes").append(html("p", {}, text));
+const note = (text) => byId("notes").append(html("p", text));
 
 async function begin() {
   const answer = await fetch("api/run");

@@ -136,8 +136,7 @@ export class ModePanel {
       ({ text, command }) =>
         html(
           "li",
-          {},
-          html("span", { class: "dim" }, "When it is time: "),
+          html("span.dim", "When it is time: "),
           button(text, () => this.#give(text, command)),
         ),
     );
@@ -210,14 +209,12 @@ export class ModePanel {
     });
     const form = html(
       "form",
-      {},
       html(
-        "span",
-        { class: "dial-name" },
+        "span.dial-name",
         `${SHORT[id] ?? name} `,
         html("span", { class: "dim", id: `panel-${id}-unit` }, unit),
       ),
-      html("span", { class: "dial" }, input),
+      html("span.dial", input),
       html("button", { "aria-label": `Set ${name.toLowerCase()}` }, "Set"),
     );
     form.addEventListener("submit", (event) => {

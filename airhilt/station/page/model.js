@@ -1,7 +1,6 @@
 // What the server said of the run, prepared for drawing: tracks in metres, states at any time,
 // events.
 
-import { keepNewest } from "./bounds.js";
 import { RadarPlots } from "./radar_plots.js";
 import { at, before, headingAt } from "./series.js";
 import { METRE_PER_NM, SEVERITIES, instruction, known, words } from "./words.js";
@@ -17,9 +16,6 @@ const FULL_S = 300,
 // Of an actor of a live run that are kept: its old ones in longer steps the longer it is there.
 const MOST_STATES = 2500;
 const MOST_TRACKS = 200; // of a live run that are kept: those that were reported last
-const MOST_CAMERAS = 100; // of a live run that can be chosen
-const MOST_ADDRESSES = 2000; // of actors whose callsigns are kept
-const MOST_PHASES = 500; // of an actor of a live run, and of its times on the ground, the newest
 // Of a live run that are kept, the newest.
 const MOST_ROWS = { calls: 1000, events: 2000, advisories: 1000, spoken: 200 };
 const CONTROLLER = "ATC"; // as recipient of advisories
@@ -129,7 +125,6 @@ export class LiveTrack extends Track {
     if (onGround && wasOnGround) this.on_ground.at(-1)[1] = t;
     else if (onGround) this.on_ground.push([t, t]);
     if (this.phases.at(-1)?.what !== phase) this.phases.push({ from: t, what: phase });
-    for (const kept of [this.on_ground, this.phases]) if (kept.length > MOST_PHASES) kept.shift();
     this.t.push(t);
     this.east.push(east);
     this.north.push(north);
@@ -296,9 +291,7 @@ export class Run {
     spoken: (row) => void this.spoken.push(row),
     event: (row) => void this.events.push(row),
     latency: (bar) => void this.latencies.push(bar),
-    camera: (camera) => {
-      if (this.cameras.length < MOST_CAMERAS) this.cameras.push(camera);
-    },
+    camera: (camera) => void this.cameras.push(camera),
   };
 
   /**
@@ -307,7 +300,6 @@ export class Run {
    */
   #rename(address, callsign) {
     this.#callsigns.set(address, callsign);
-    keepNewest(this.#callsigns, MOST_ADDRESSES);
     const track = this.track(address);
     if (!track) return true;
     if (this.track(callsign)) this.tracks.splice(this.tracks.indexOf(track), 1);

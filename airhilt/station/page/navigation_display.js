@@ -1,6 +1,7 @@
 // The navigation display: compass, range rings, runways, and traffic with the symbols of TCAS II,
 // own track up.
 
+import { Pane } from "./pane.js";
 import { byId, html } from "./dom.js";
 import { boxesOff, firstFree } from "./labels.js";
 import { box, circle, label, line, onSize, shape } from "./pen.js";
@@ -15,23 +16,20 @@ const OWN = { fill: INK.black, edge: INK.text, width: 2 };
 const IDENTS_OFF_PX = [12, 26, 40]; // from the end of a runway, where its number is tried
 const CLIMBS_FPM = 500; // from which an arrow tells that traffic climbs or descends
 
-export class NavigationDisplay {
+export class NavigationDisplay extends Pane {
   #canvas = byId("nd");
   #size = onSize(this.#canvas, () => {}); // It is drawn with each frame.
   #range = byId("nd-range");
-  #run;
-  #clock;
 
   constructor(run, clock) {
-    this.#run = run;
-    this.#clock = clock;
+    super(run, clock);
     const options = RANGES_NM.map((nm) => html("option", { value: nm }, `${nm} NM`));
     this.#range.replaceChildren(...options);
   }
 
   /** Shows the range that one begins with: short at an airport. */
   reset() {
-    this.#range.value = this.#run.airport ? 5 : 40;
+    this.#range.value = this.run.airport ? 5 : 40;
   }
 
   /** Shows a longer range, or a shorter one with a step of -1. */
@@ -47,15 +45,15 @@ export class NavigationDisplay {
   draw(callsign, shown, tcas) {
     if (!this.#size.pen) return;
     const { pen, width, height } = this.#size,
-      track = this.#run.track(callsign);
+      track = this.run.track(callsign);
     box(pen, INK.black, 0, 0, width, height);
     if (!shown || !track) {
       this.#text("NO POSITION", width / 2, height / 2, INK.caution, 16, "center");
       this.#canvas.ariaLabel = "Navigation display, no position";
       return;
     }
-    const t = this.#clock.t,
-      own = track.state(t, this.#run.span),
+    const t = this.clock.t,
+      own = track.state(t, this.run.span),
       reach = Math.min(height - 98, width * 0.62),
       x = width / 2,
       y = Math.min(height - 46, reach + 110);
@@ -69,7 +67,7 @@ export class NavigationDisplay {
     };
     this.#runways(view);
     this.#compass(view, shown);
-    const others = this.#run
+    const others = this.run
       .states(t)
       .filter(
         (one) =>
@@ -107,7 +105,7 @@ export class NavigationDisplay {
   /** Draws the runways, and their numbers off their ends: farther off where others are. */
   #runways(view) {
     const taken = [];
-    for (const { pavement, ends } of this.#run.airport?.runways ?? []) {
+    for (const { pavement, ends } of this.run.airport?.runways ?? []) {
       const corners = pavement.map(([east, north]) => this.#pixel(view, east, north));
       line(this.#size.pen, INK.text, 2, ...corners, corners[0]);
       ends.forEach(({ ident, start }, i) => {
@@ -157,7 +155,7 @@ export class NavigationDisplay {
     if (px < 4 || py < 40 || px > width - 4 || py > height - 4) return "";
     const feet = state.altitude - shown.altitude_ft,
       nm = Math.hypot(state.east - view.own.east, state.north - view.own.north) / METRE_PER_NM;
-    const severity = SEVERITIES.indexOf(this.#run.severityOf(track.callsign, t)),
+    const severity = SEVERITIES.indexOf(this.run.severityOf(track.callsign, t)),
       isNear = nm < NEAR_NM && Math.abs(feet) < NEAR_FT;
     const ink = severity === 3 ? INK.warning : severity === 2 ? INK.caution : INK.text;
     this.#symbol(px, py, severity, isNear, ink, track.category);

@@ -2,14 +2,12 @@
 // was.
 
 import { badge, basisOf } from "./advisories.js";
-import { keepNewest } from "./bounds.js";
 import { byId, html } from "./dom.js";
 import { identity } from "./identity.js";
 import { Rows } from "./rows.js";
 import { SEVERITIES, capital, instruction, known, seconds } from "./words.js";
 
-const MOST_SHOWN = 10; // at a time, those that began last
-const MOST_TOLD = 1000; // reports that are not made again, and alerts that do not sound again
+const MOST_SHOWN = 10; // at a time, the most severe
 
 export class OwnAdvisories {
   #run;
@@ -39,7 +37,6 @@ export class OwnAdvisories {
     const name = `${row.equipment}/${row.id}`;
     if (row.active) this.#shown.set(name, { row, text: texts.at(-1) });
     else this.#shown.delete(name);
-    keepNewest(this.#shown, MOST_SHOWN);
     this.#draw();
     if (!row.active) return;
     const { recipient } = texts.at(-1);
@@ -78,7 +75,6 @@ export class OwnAdvisories {
   async #sound(row, recipient, url) {
     const name = soundOf(row, recipient);
     this.#sounded.add(name);
-    keepNewest(this.#sounded, MOST_TOLD);
     const after = await this.#warn(row.severity, url);
     if (after === null) this.#sounded.delete(name);
     else this.#report(row, recipient, "heard", after);
@@ -88,7 +84,6 @@ export class OwnAdvisories {
     const name = `${way} ${id} ${revision} ${recipient}`;
     if (equipment || this.#told.has(name)) return;
     this.#told.add(name);
-    keepNewest(this.#told, MOST_TOLD);
     this.#tell({ id, revision, recipient, way, after_s: after });
   }
 
@@ -97,7 +92,7 @@ export class OwnAdvisories {
     const rank = ({ row }) => SEVERITIES.indexOf(row.severity),
       shown = [...this.#shown.values()];
     shown.sort((a, b) => rank(b) - rank(a) || b.row.t - a.row.t);
-    this.#rows.show(shown, ({ row }) => `${row.equipment}/${row.id}`, inWords);
+    this.#rows.show(shown.slice(0, MOST_SHOWN), ({ row }) => `${row.equipment}/${row.id}`, inWords);
   }
 }
 
@@ -108,17 +103,10 @@ const inWords = ({ row, text }) =>
   html(
     "div",
     { class: `own-advisory ${row.severity}-fill` },
-    html(
-      "div",
-      { class: "row-head" },
-      badge(row.severity),
-      html("span", { class: "dim" }, seconds(row.t)),
-    ),
-    html("div", { class: "own-text" }, text.message),
-    text.recommendation
-      ? html("div", { class: "who" }, capital(instruction(text.recommendation)))
-      : null,
-    html("div", { class: "dim" }, restsOn(row.evidence, text.message)),
+    html("div.row-head", badge(row.severity), html("span.dim", seconds(row.t))),
+    html("div.own-text", text.message),
+    text.recommendation ? html("div.who", capital(instruction(text.recommendation))) : null,
+    html("div.dim", restsOn(row.evidence, text.message)),
   );
 
 function restsOn(evidence, said) {

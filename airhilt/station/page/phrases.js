@@ -1,6 +1,6 @@
 // Phrases for the situation, that can be chosen instead of typed.
 
-import { button, byId, html } from "./dom.js";
+import { button, byId, html, on } from "./dom.js";
 import { identsOf } from "./model.js";
 import { METRE_PER_FT, METRE_PER_NM } from "./words.js";
 
@@ -15,8 +15,7 @@ export class Phrases {
 
   constructor(run) {
     this.#run = run;
-    for (const id of ["phrase-to", "phrase-runway"])
-      byId(id).addEventListener("change", () => this.renew());
+    for (const id of ["phrase-to", "phrase-runway"]) on(id, "change", () => this.renew());
     setInterval(() => this.renew(), PERIOD_MS);
   }
 

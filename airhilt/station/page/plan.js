@@ -1,9 +1,9 @@
 // The plan: what is drawn on it, in which order, and how one moves on it.
 
-import { byId, colour, html } from "./dom.js";
+import { Pane } from "./pane.js";
+import { byId, colour, html, on } from "./dom.js";
 import { NOWHERE, widened } from "./model.js";
-import { box, copyOf, onSize } from "./pen.js";
-import { drawCamera } from "./plan_camera.js";
+import { box, copyOf, line, onSize } from "./pen.js";
 import { drawAirport } from "./plan_map.js";
 import { drawPlots, inWords } from "./plan_radar.js";
 import { drawRings, drawScale } from "./plan_ranges.js";
@@ -23,10 +23,8 @@ const STEPS_PX = {
   ArrowDown: [0, -60],
 };
 
-export class Plan {
+export class Plan extends Pane {
   #canvas = byId("plan");
-  #run;
-  #clock;
   #view = new PlanView();
   #fitted = "all";
   #camera = null;
@@ -39,8 +37,7 @@ export class Plan {
   #describing = null; // a timer, after which the plan is told in words
 
   constructor(run, clock) {
-    this.#run = run;
-    this.#clock = clock;
+    super(run, clock);
     this.#views();
     this.#controls();
     const resized = (isFirst) => {
@@ -67,7 +64,7 @@ export class Plan {
 
   /** Shows what one begins with: a driver the airport, all others all traffic. */
   fitFirst() {
-    const { airport, ownCategory } = this.#run;
+    const { airport, ownCategory } = this.run;
     this.fit(airport && ownCategory === "vehicle" ? "airport" : "all");
   }
 
@@ -75,7 +72,7 @@ export class Plan {
   keepFitted() {
     if (this.#fitted !== "all" || !this.#view.pen) return;
     const { width, height } = this.#view,
-      { east, north } = this.#run.bounds,
+      { east, north } = this.run.bounds,
       [left, bottom] = this.#view.pixel([east[0], north[0]]),
       [right, top] = this.#view.pixel([east[1], north[1]]);
     const edge = ROOM / 2 - 1,
@@ -85,7 +82,7 @@ export class Plan {
 
   #views() {
     const options = [["all", "all traffic"]];
-    if (this.#run.airport) options.push(["airport", "airport"]);
+    if (this.run.airport) options.push(["airport", "airport"]);
     if (this.#closest()) options.push(["conflict", "conflict"]);
     byId("plan-view").replaceChildren(
       ...options.map(([value, text]) => html("option", { value }, text)),
@@ -95,7 +92,7 @@ export class Plan {
       ...LEADERS_S.map((s) =>
         html(
           "option",
-          { value: s, selected: s === (this.#run.airport ? 30 : 60) },
+          { value: s, selected: s === (this.run.airport ? 30 : 60) },
           s ? `${s} s ahead` : "no leaders",
         ),
       ),
@@ -104,11 +101,11 @@ export class Plan {
 
   #controls() {
     const canvas = this.#canvas;
-    byId("plan-view").addEventListener("change", (event) => this.fit(event.target.value));
+    on("plan-view", "change", (event) => this.fit(event.target.value));
     for (const id of ["plan-leader", "plan-rings", "plan-tracks"])
-      byId(id).addEventListener("change", () => this.redraw());
-    byId("plan-in").addEventListener("click", () => this.zoom(1.5));
-    byId("plan-out").addEventListener("click", () => this.zoom(1 / 1.5));
+      on(id, "change", () => this.redraw());
+    on("plan-in", "click", () => this.zoom(1.5));
+    on("plan-out", "click", () => this.zoom(1 / 1.5));
     canvas.addEventListener(
       "wheel",
       (event) => {
@@ -173,7 +170,7 @@ export class Plan {
   }
 
   #boundsOf(name) {
-    const { airport, bounds } = this.#run,
+    const { airport, bounds } = this.run,
       field = (airport?.runways ?? []).flatMap((runway) => runway.pavement),
       points = name === "conflict" ? this.#closest() : field,
       found = points.reduce(widened, name === "all" ? bounds : NOWHERE);
@@ -181,8 +178,8 @@ export class Plan {
   }
 
   #closest() {
-    const t = this.#run.summary?.closest_approach?.t_s,
-      pair = (this.#run.pair ?? []).map((name) => this.#run.track(name));
+    const t = this.run.summary?.closest_approach?.t_s,
+      pair = (this.run.pair ?? []).map((name) => this.run.track(name));
     if (!known(t) || pair.length < 2 || pair.some((track) => !track)) return null;
     return pair.flatMap((track) =>
       [-20, 0, 20].map((shift) =>
@@ -201,22 +198,22 @@ export class Plan {
   draw() {
     const view = this.#view;
     if (!view.pen || document.body.dataset.seat === "pilot") return;
-    const { t } = this.#clock,
+    const { t } = this.clock,
       now = performance.now();
-    if (!this.#still || (this.#clock.live && now - this.#stillSince > RENEWED_MS))
+    if (!this.#still || (this.clock.live && now - this.#stillSince > RENEWED_MS))
       this.#renewStill(now);
     view.pen.drawImage(this.#still, 0, 0, view.width, view.height);
-    if (!this.#run.airport) this.#drawRings();
+    if (!this.run.airport) this.#drawRings();
     if (this.#camera) drawCamera(view, this.#camera);
-    const states = this.#run.states(t).filter(({ state }) => state.isThere),
-      plots = this.#run.plots.at(t),
+    const states = this.run.states(t).filter(({ state }) => state.isThere),
+      plots = this.run.plots.at(t),
       leaderS = Number(byId("plan-leader").value);
     drawPlots(view, plots);
-    for (const one of states) drawActor(view, this.#run, one, t, leaderS);
-    drawBlocks(view, this.#run, states, t, [...this.#names, ...this.#ringNames]);
+    for (const one of states) drawActor(view, this.run, one, t, leaderS);
+    drawBlocks(view, this.run, states, t, [...this.#names, ...this.#ringNames]);
     drawScale(view);
-    if (this.#clock.playing) return;
-    const after = this.#clock.following ? this.#described + RENEWED_MS - now : 0;
+    if (this.clock.playing) return;
+    const after = this.clock.following ? this.#described + RENEWED_MS - now : 0;
     clearTimeout(this.#describing);
     // The last picture before the clock stands is told too.
     if (after > 0) this.#describing = setTimeout(() => this.draw(), after);
@@ -228,7 +225,7 @@ export class Plan {
   /** Draws the airport, the rings about it, and the tracks, and keeps the picture of them. */
   #renewStill(now) {
     const { pen, width, height } = this.#view,
-      { airport, tracks } = this.#run;
+      { airport, tracks } = this.run;
     box(pen, colour("--map"), 0, 0, width, height);
     this.#names = airport ? drawAirport(this.#view, airport) : [];
     if (airport) this.#drawRings();
@@ -239,11 +236,11 @@ export class Plan {
 
   /** Draws range rings about the airport, or about the first of the pair, if they are wished. */
   #drawRings() {
-    const { airport, pair, tracks } = this.#run,
-      own = this.#run.track(pair?.[0]) ?? tracks[0],
+    const { airport, pair, tracks } = this.run,
+      own = this.run.track(pair?.[0]) ?? tracks[0],
       isDrawn = byId("plan-rings").checked && (airport || own);
     const middle = () =>
-      airport ? [0, 0] : own.place(Math.min(Math.max(this.#clock.t, own.first), own.last));
+      airport ? [0, 0] : own.place(Math.min(Math.max(this.clock.t, own.first), own.last));
     this.#ringNames = isDrawn ? drawRings(this.#view, middle()) : [];
   }
 
@@ -256,5 +253,26 @@ export class Plan {
       rest = parts.length - MOST_NAMED;
     if (rest > 0) parts.splice(MOST_NAMED, rest, `and ${rest} more`);
     this.#canvas.ariaLabel = `Plan view: ${parts.join(", ") || "no traffic"}`;
+  }
+}
+
+/** Draws the field of view of a camera, and the bearings of what it has detected. */
+function drawCamera(view, { place, heading, fov, bearings }) {
+  const { pen } = view,
+    [x, y] = view.pixel(place),
+    reach = Math.max(3000 * view.scale, 40),
+    from = heading - fov / 2 - Math.PI / 2;
+  pen.beginPath();
+  pen.moveTo(x, y);
+  pen.arc(x, y, reach, from, from + fov);
+  pen.closePath();
+  pen.strokeStyle = colour("--accent");
+  pen.setLineDash([5, 4]);
+  pen.lineWidth = 1.2;
+  pen.stroke();
+  pen.setLineDash([]);
+  for (const bearing of bearings) {
+    const end = [x + 1.5 * reach * Math.sin(bearing), y - 1.5 * reach * Math.cos(bearing)];
+    line(pen, colour("--warn"), 1.2, [x, y], end);
   }
 }

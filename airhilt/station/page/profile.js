@@ -1,5 +1,6 @@
 // Altitude over time, with the time shown; a click sets it.
 
+import { Pane } from "./pane.js";
 import { byId, colour } from "./dom.js";
 import { FONT_SMALL, box, copyOf, line, onSize, write } from "./pen.js";
 import { niceStep } from "./series.js";
@@ -28,16 +29,13 @@ function thinned(track) {
   return indices;
 }
 
-export class Profile {
+export class Profile extends Pane {
   #canvas = byId("profile");
-  #run;
-  #clock;
   #size;
   #picture = null;
 
   constructor(run, clock) {
-    this.#run = run;
-    this.#clock = clock;
+    super(run, clock);
     const seek = (event) =>
       clock.set(
         ((event.offsetX - this.#area.left) / (this.#area.right - this.#area.left)) * clock.end,
@@ -58,7 +56,7 @@ export class Profile {
 
   #x(t) {
     const { left, right } = this.#area;
-    return left + (t / Math.max(this.#clock.end, 1e-9)) * (right - left);
+    return left + (t / Math.max(this.clock.end, 1e-9)) * (right - left);
   }
 
   /** Draws everything again, because the size, the colours or the run have changed. */
@@ -71,7 +69,7 @@ export class Profile {
     if (!this.#size.pen) return;
     const { pen, width, height } = this.#size,
       { top, bottom, right } = this.#area,
-      x = Math.min(this.#x(this.#clock.t), right); // the lines are a little older than the time
+      x = Math.min(this.#x(this.clock.t), right); // the lines are a little older than the time
     if (!this.#picture) {
       this.#drawLines();
       this.#picture = copyOf(this.#canvas);
@@ -83,7 +81,7 @@ export class Profile {
   #drawLines() {
     const { pen, width, height } = this.#size,
       { left, right, top, bottom } = this.#area,
-      lines = this.#run.tracks.map((track) => ({ track, indices: thinned(track) })),
+      lines = this.run.tracks.map((track) => ({ track, indices: thinned(track) })),
       values = lines.flatMap(({ track, indices }) => indices.map((i) => track.altitude_ft[i]));
     const low = values.reduce((a, b) => Math.min(a, b), values[0] ?? 0),
       high = values.reduce((a, b) => Math.max(a, b), values[0] ?? 1000),
@@ -100,7 +98,7 @@ export class Profile {
     }
     pen.textAlign = "center";
     const mostTicks = Math.max(Math.floor((right - left) / 80), 2);
-    for (const { t, label } of timeTicks(this.#clock.end, mostTicks)) {
+    for (const { t, label } of timeTicks(this.clock.end, mostTicks)) {
       line(pen, colour("--grid"), 1, [this.#x(t), top], [this.#x(t), bottom]);
       pen.fillText(label, Math.min(this.#x(t), width - 20), height - 6);
     }
@@ -116,7 +114,7 @@ export class Profile {
     const { pen } = this.#size,
       taken = [];
     pen.textAlign = "left";
-    for (const { callsign, colour: ink, first, altitude_ft } of this.#run.tracks) {
+    for (const { callsign, colour: ink, first, altitude_ft } of this.run.tracks) {
       let bottom = y(altitude_ft[0]) - 5;
       while (taken.some((other) => Math.abs(other - bottom) < 12)) bottom -= 12;
       if (bottom < 10) continue;

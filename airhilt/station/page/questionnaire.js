@@ -46,37 +46,33 @@ export class Questionnaire {
         input.removeAttribute("aria-valuetext");
       });
     return html(
-      "label",
-      { class: "item scale" },
-      html("span", { class: "name" }, ...inWords(title, question)),
-      html("span", { class: "end" }, low),
+      "label.item.scale",
+      html("span.name", ...inWords(title, question)),
+      html("span.end", low),
       input,
-      html("span", { class: "end" }, high),
+      html("span.end", high),
     );
   }
 
   #steps({ name, title, question, low, high, steps, first, interval }) {
     const numbers = Array.from({ length: steps }, (_, i) => first + i * interval);
     return html(
-      "fieldset",
-      { class: "item" },
-      html("legend", {}, ...inWords(title, question)),
+      "fieldset.item",
+      html("legend", ...inWords(title, question)),
       html(
-        "div",
-        { class: "scale stepped" },
-        html("span", { class: "end" }, low),
-        html("span", { class: "steps" }, ...numbers.map((n) => this.#button(name, n))),
-        html("span", { class: "end" }, high),
+        "div.scale.stepped",
+        html("span.end", low),
+        html("span.steps", ...numbers.map((n) => this.#button(name, n))),
+        html("span.end", high),
       ),
     );
   }
 
   #choice({ name, title, question, choices }) {
     return html(
-      "fieldset",
-      { class: "item" },
-      html("legend", {}, ...inWords(title, question)),
-      html("div", { class: "choices" }, ...choices.map((text) => this.#button(name, text))),
+      "fieldset.item",
+      html("legend", ...inWords(title, question)),
+      html("div.choices", ...choices.map((text) => this.#button(name, text))),
     );
   }
 
@@ -85,9 +81,8 @@ export class Questionnaire {
     input.addEventListener("change", () => {
       this.answers[name] = answer;
     });
-    return html("label", {}, input, ` ${answer}`);
+    return html("label", input, ` ${answer}`);
   }
 }
 
-const inWords = (title, question) =>
-  title ? [html("strong", {}, title), ` ${question}`] : [question];
+const inWords = (title, question) => (title ? [html("strong", title), ` ${question}`] : [question]);

@@ -63,11 +63,7 @@ export class Rows {
     this.#known = made;
     const rows = [...made.values()];
     for (const row of rows) if (row.old) this.#replace(row);
-    this.#arrange(
-      rows.length || !empty
-        ? rows.map(({ item }) => item)
-        : [html("li", { class: "empty" }, empty)],
-    );
+    this.#arrange(rows.length || !empty ? rows.map(({ item }) => item) : [html("li.empty", empty)]);
     return things.map((thing) => made.get(name(thing)).item);
   }
 

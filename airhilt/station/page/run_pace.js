@@ -1,6 +1,6 @@
 // Pause and slow motion of the run itself, for all who take part.
 
-import { byId, html } from "./dom.js";
+import { byId, html, on } from "./dom.js";
 
 export const PACES = { realtime: "real time", virtual: "as fast as it can" };
 
@@ -11,8 +11,8 @@ export class RunPace {
   /** `set(factor)` asks the run for a part of real time; 0 is a pause. */
   constructor(run, set) {
     this.#run = run;
-    byId("pace-pause").addEventListener("click", () => set(this.#isPaused ? this.#chosen : 0));
-    byId("pace-factor").addEventListener("change", () => {
+    on("pace-pause", "click", () => set(this.#isPaused ? this.#chosen : 0));
+    on("pace-factor", "change", () => {
       if (!this.#isPaused) set(this.#chosen);
     });
   }

@@ -1,7 +1,8 @@
 // The seat of a person: task cards, words for the radio, and the displays of the seat.
 
+import { Pane } from "./pane.js";
 import { Displays } from "./displays.js";
-import { button, byId, html } from "./dom.js";
+import { button, byId, html, on } from "./dom.js";
 import { addressee } from "./neighbours.js";
 import { Rows } from "./rows.js";
 import { bearing, feet, known, percent, seconds, whole, words } from "./words.js";
@@ -20,19 +21,16 @@ const consequence = (isRecorded) =>
       : "Its sound is not recorded, its words are as they were recognised."
   } ${TYPED}`;
 
-export class Seat {
-  #run;
+export class Seat extends Pane {
   #live;
   #tasks = [];
   #notice = null; // the last one, as it was shown
   #seats = {};
   #rows = new Rows(byId("tasks"));
   #displays;
-  #clock;
 
   constructor(run, live, clock, cameras) {
-    this.#run = run;
-    this.#clock = clock;
+    super(run, clock);
     this.#live = live;
     byId("seat").hidden = !run.seats?.length;
     const seats = run.seats ?? [],
@@ -42,18 +40,18 @@ export class Seat {
         html("option", { value: name }, name),
       ),
     );
-    byId("seat-name").addEventListener("change", () => this.#hint());
+    on("seat-name", "change", () => this.#hint());
     this.#displays = new Displays(run, clock, cameras, live);
-    byId("seat-form").addEventListener("submit", (event) => {
+    on("seat-form", "submit", (event) => {
       event.preventDefault();
       if (!live.isThere) this.refuse("Not done: the connection is lost.");
-      else if (this.#run.own) live.leave();
+      else if (this.run.own) live.leave();
       else live.sit(byId("seat-name").value, USES[byId("seat-uses").value]);
     });
-    byId("seat-uses").addEventListener("change", (event) => {
-      if (this.#run.own) live.agree(USES[event.target.value]);
+    on("seat-uses", "change", (event) => {
+      if (this.run.own) live.agree(USES[event.target.value]);
     });
-    byId("say").addEventListener("submit", (event) => {
+    on("say", "submit", (event) => {
       event.preventDefault();
       const text = byId("words").value.trim();
       if (text) this.#say(text);
@@ -67,20 +65,20 @@ export class Seat {
 
   /** Takes in which seats are free, taken or one's own. */
   setSeats(seats) {
-    const before = this.#run.own;
+    const before = this.run.own;
     this.#seats = seats;
     const own = Object.keys(seats).find((name) => seats[name].is === "yours") ?? null;
-    this.#run.own = own;
+    this.run.own = own;
     byId("seat-take").textContent = own ? "Leave the seat" : "Take the seat";
     byId("seat-name").disabled = Boolean(own);
     if (own) byId("seat-name").value = own;
     else if (before) byId("seat-uses").value = ""; // Who has it next chooses anew.
     if (own !== before) this.refuse("");
     this.#hint();
-    byId("say").hidden = !own || this.#run.isOver;
+    byId("say").hidden = !own || this.run.isOver;
     this.#displays.setSeat(own);
     // Nobody at a seat goes back in time.
-    if (own && !this.#clock.following) this.#clock.follow();
+    if (own && !this.clock.following) this.clock.follow();
     this.drawTasks();
   }
 
@@ -88,7 +86,7 @@ export class Seat {
   #hint() {
     const name = byId("seat-name").value,
       taken = Object.keys(this.#seats).filter((one) => this.#seats[one].is === "taken");
-    byId("seat-hint").textContent = this.#run.own
+    byId("seat-hint").textContent = this.run.own
       ? ""
       : [
           ...taken.map((one) => `${one} is taken. `),
@@ -121,7 +119,7 @@ export class Seat {
   take(changes) {
     const newest = Object.fromEntries(changes.map(([kind, ...what]) => [kind, what]));
     if (newest.seat) this.#takeState(newest.seat[0]);
-    if (newest.state) this.#run.apply([["state", ...newest.state]]); // where the own vehicle is
+    if (newest.state) this.run.apply([["state", ...newest.state]]); // where the own vehicle is
     if (newest.cockpit) {
       this.#displays.take(newest.cockpit[0]);
       this.#showInstruments(newest.cockpit[0]);
@@ -129,8 +127,8 @@ export class Seat {
   }
 
   #takeState({ category, uses, tasks, offers, notice }) {
-    if (this.#run.ownCategory !== category) {
-      this.#run.ownCategory = category;
+    if (this.run.ownCategory !== category) {
+      this.run.ownCategory = category;
       this.#displays.arrange();
     }
     byId("seat-uses").value = uses.includes("voice") ? "voice" : uses.length ? "words" : "none";
@@ -167,13 +165,13 @@ export class Seat {
   /** Shows the cards of calls that nobody has made yet. */
   drawTasks() {
     this.#rows.show(
-      this.#run.own
-        ? this.#tasks.filter(({ line }) => !this.#run.calls.some((call) => call.id === line))
+      this.run.own
+        ? this.#tasks.filter(({ line }) => !this.run.calls.some((call) => call.id === line))
         : [],
       (card) => card.line,
       (card) => this.#row(card),
     );
-    if (!this.#run.own) byId("instruments").hidden = true;
+    if (!this.run.own) byId("instruments").hidden = true;
   }
 
   #row(card) {
@@ -183,10 +181,8 @@ export class Seat {
     };
     return html(
       "li",
-      {},
       html(
-        "span",
-        { class: "dim" },
+        "span.dim",
         `Due since ${seconds(card.t)}${card.addressed ? `, to ${card.addressed}` : ""}: `,
       ),
       button(card.text, choose),

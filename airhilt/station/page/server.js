@@ -14,7 +14,7 @@ export async function ask(path, wish) {
 /** Shows a note, or none. What is written is read aloud, so that only another one is written. */
 export function note(text) {
   if (byId("notes").textContent !== text)
-    byId("notes").replaceChildren(...(text ? [html("p", {}, text)] : []));
+    byId("notes").replaceChildren(...(text ? [html("p", text)] : []));
 }
 
 /** Shows that the server is lost. */

@@ -1,6 +1,5 @@
 // The sound of each frequency, and of the assistant, in time with the clock.
 
-import { keepNewest } from "./bounds.js";
 import { byId, html } from "./dom.js";
 import { megahertz } from "./words.js";
 
@@ -29,10 +28,10 @@ export class Sounds {
         box = html("input", { type: "checkbox", checked: isFirst });
       audio.preload = isFirst ? "auto" : "none";
       box.addEventListener("change", () => this.draw());
-      return { audio, box, isFirst, label: html("label", {}, box, labelOf(name)) };
+      return { audio, box, isFirst, label: html("label", box, labelOf(name)) };
     });
     byId("sounds").replaceChildren(...this.#channels.map(({ label }) => label));
-    if (!run.sounds.length) byId("sounds").append(html("span", { class: "dim" }, "no sound"));
+    if (!run.sounds.length) byId("sounds").append(html("span.dim", "no sound"));
   }
 
   /** Switches all sounds off, or those on that are so at first if none is. */
@@ -62,7 +61,6 @@ export class Sounds {
 }
 
 const MOST_BEHIND = 3;
-const MOST_HEARD = 1000; // calls that are not heard again
 
 /**
  * The calls of a live run, each when it has ended; where they come faster than they are spoken, old
@@ -75,7 +73,7 @@ export class LiveSounds {
   #waiting = [];
 
   constructor() {
-    byId("sounds").replaceChildren(html("label", {}, this.#box, "Listen"));
+    byId("sounds").replaceChildren(html("label", this.#box, "Listen"));
     this.#audio.addEventListener("ended", () => this.#next());
     this.#audio.addEventListener("error", () => this.#next());
     this.#box.addEventListener("change", () => {
@@ -90,7 +88,6 @@ export class LiveSounds {
   add(call) {
     if (!call.has_sound || this.#heard.has(call.id)) return;
     this.#heard.add(call.id);
-    keepNewest(this.#heard, MOST_HEARD);
     if (!this.#box.checked) return;
     this.#waiting = [...this.#waiting, call.id].slice(-MOST_BEHIND);
     if (this.#audio.paused || this.#audio.ended) this.#next();

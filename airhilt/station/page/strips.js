@@ -1,22 +1,20 @@
 // Flight progress strips: one an aircraft or vehicle that the controller expects, in the order that
 // the controller gives them.
 
+import { Pane } from "./pane.js";
 import { button, byId, html } from "./dom.js";
 import { level } from "./labels.js";
 import { whole, words } from "./words.js";
 
 const PERIOD_MS = 500;
 
-export class Strips {
+export class Strips extends Pane {
   #list = byId("strips");
-  #run;
-  #clock;
   #strips = new Map();
   #drawn = 0;
 
   constructor(run, clock) {
-    this.#run = run;
-    this.#clock = clock;
+    super(run, clock);
     this.#list.addEventListener("keydown", (event) => this.#key(event));
   }
 
@@ -32,10 +30,10 @@ export class Strips {
   }
 
   #callsigns() {
-    const seen = this.#run.tracks
+    const seen = this.run.tracks
       .filter((track) => track.category !== "wildlife")
       .map((track) => track.callsign);
-    return [...new Set([...Object.keys(this.#run.categories ?? {}), ...seen])];
+    return [...new Set([...Object.keys(this.run.categories ?? {}), ...seen])];
   }
 
   #add(callsign) {
@@ -58,8 +56,8 @@ export class Strips {
     const item = html(
       "li",
       { class: "flight-strip", tabindex: 0, "data-callsign": callsign },
-      html("span", { class: "strip-name" }, html("span", { class: "who" }, callsign), type),
-      html("span", { class: "strip-middle" }, where, said),
+      html("span.strip-name", html("span.who", callsign), type),
+      html("span.strip-middle", where, said),
       note,
       cock,
     );
@@ -79,11 +77,11 @@ export class Strips {
   }
 
   #fill(callsign, { item, type, where, said }) {
-    const track = this.#run.track(callsign),
-      state = track?.state(this.#clock.t, this.#run.span),
+    const track = this.run.track(callsign),
+      state = track?.state(this.clock.t, this.run.span),
       isThere = state && !state.ended && state.isThere,
-      kind = this.#run.categories?.[callsign] ?? track?.category ?? "",
-      severity = this.#run.severityOf(callsign, this.#clock.t) ?? "",
+      kind = this.run.categories?.[callsign] ?? track?.category ?? "",
+      severity = this.run.severityOf(callsign, this.clock.t) ?? "",
       knots = isThere ? whole(state.knots) : "",
       call = this.#lastCall(callsign);
     Object.assign(item.dataset, { kind, severity });
@@ -98,10 +96,10 @@ export class Strips {
 
   /** The last call of this callsign that the recogniser has understood. */
   #lastCall(callsign) {
-    return this.#run.calls.findLast(
+    return this.run.calls.findLast(
       (call) =>
-        this.#run.hears(call) &&
-        call.from <= this.#clock.t &&
+        this.run.hears(call) &&
+        call.from <= this.clock.t &&
         (call.addressed === callsign ||
           call.speaker === callsign ||
           call.transcripts.some((one) => one.speaker === callsign)),

@@ -1,6 +1,6 @@
 // What the person at a seat says, hears, and is warned of.
 
-import { byId } from "./dom.js";
+import { byId, on } from "./dom.js";
 import { Frequencies } from "./frequencies.js";
 import { sentence } from "./live.js";
 import { Loudspeaker } from "./loudspeaker.js";
@@ -58,10 +58,10 @@ export class Talk {
       live.do({ do: "answer", ...answer }, "Not answered: the connection is lost."),
     );
     this.#microphone.setState(null);
-    byId("strips").addEventListener("focusin", ({ target }) =>
+    on("strips", "focusin", ({ target }) =>
       this.#phrases.address(target.closest(".flight-strip")?.dataset.callsign),
     );
-    byId("seat-take").addEventListener("click", () => this.#loudspeaker.begin());
+    on("seat-take", "click", () => this.#loudspeaker.begin());
     setInterval(() => live.send({ echo: performance.now() }), ECHO_MS);
   }
 

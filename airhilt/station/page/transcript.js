@@ -1,6 +1,7 @@
 // The calls on the radio: what was said, what was recognised with which confidence, who understood
 // it.
 
+import { Pane } from "./pane.js";
 import { byId, html, timeButton } from "./dom.js";
 import { Rows, keepInView } from "./rows.js";
 import { capital, decibels, fixed, known, megahertz, percent, seconds, words } from "./words.js";
@@ -9,18 +10,15 @@ import { capital, decibels, fixed, known, megahertz, percent, seconds, words } f
 const SURE = 0.8;
 const MOST_LIVE = 200; // calls of a live run that are listed, the newest
 
-export class Transcript {
+export class Transcript extends Pane {
   #list = byId("calls");
   #rows = new Rows(this.#list);
-  #run;
-  #clock;
   #items = [];
   #current = "";
   #shown = null; // the row that is kept in view
 
   constructor(run, clock) {
-    this.#run = run;
-    this.#clock = clock;
+    super(run, clock);
     // An advisory or a question above the list takes room from it.
     new ResizeObserver(() => this.#keepInView()).observe(this.#list);
     for (const type of ["wheel", "pointerdown", "keydown"])
@@ -31,13 +29,13 @@ export class Transcript {
 
   /** Shows the calls again, because there are new ones. */
   redraw() {
-    const calls = this.#run.calls
-      .filter((call) => this.#run.hears(call))
-      .slice(this.#clock.live ? -MOST_LIVE : 0);
+    const calls = this.run.calls
+      .filter((call) => this.run.hears(call))
+      .slice(this.clock.live ? -MOST_LIVE : 0);
     const several = new Set(calls.map((call) => call.frequency_khz)).size > 1;
-    const empty = !this.#clock.live
+    const empty = !this.clock.live
       ? "Nobody says anything in this run."
-      : this.#run.seats?.length && !this.#run.own
+      : this.run.seats?.length && !this.run.own
         ? "Take a seat to see what is said there."
         : "Nobody has said anything so far.";
     const shown = calls.map((call) => ({ call, several })),
@@ -53,7 +51,7 @@ export class Transcript {
   }
 
   draw() {
-    const { t } = this.#clock,
+    const { t } = this.clock,
       now = this.#items.filter(({ call }) => call.from <= t && t <= call.to),
       last = this.#items.findLast(({ call }) => call.from <= t);
     const shown = now.length ? now : last && t - last.call.to < 3 ? [last] : [],
@@ -62,7 +60,7 @@ export class Transcript {
     this.#current = names;
     for (const { item } of this.#items) item.removeAttribute("aria-current");
     for (const { item } of shown) item.setAttribute("aria-current", "true");
-    const kept = this.#clock.live ? this.#items.find(({ call }) => call === last?.call) : null;
+    const kept = this.clock.live ? this.#items.find(({ call }) => call === last?.call) : null;
     this.#shown = (shown.at(-1) ?? kept)?.item ?? null;
     this.#keepInView();
   }
@@ -73,8 +71,8 @@ export class Transcript {
 
   /** Shows the row of a call and sets the clock to its beginning. */
   goTo(id) {
-    const found = this.#run.calls.find((call) => call.id === id);
-    if (found) this.#clock.set(found.from);
+    const found = this.run.calls.find((call) => call.id === id);
+    if (found) this.clock.set(found.from);
   }
 
   #item({ call, several }) {
@@ -89,18 +87,16 @@ export class Transcript {
     );
     return html(
       "li",
-      {},
       html(
-        "div",
-        { class: "row-head" },
-        timeButton(this.#clock, call.from, seconds(call.from)),
-        html("span", { class: "who" }, who),
-        call.addressed ? html("span", { class: "dim" }, `to ${call.addressed}`) : null,
-        html("span", { class: "dim" }, facts.join(", ")),
+        "div.row-head",
+        timeButton(this.clock, call.from, seconds(call.from)),
+        html("span.who", who),
+        call.addressed ? html("span.dim", `to ${call.addressed}`) : null,
+        html("span.dim", facts.join(", ")),
       ),
-      known(call.said) ? html("div", {}, call.said || "(carrier without words)") : null,
+      known(call.said) ? html("div", call.said || "(carrier without words)") : null,
       call.transcripts.map((one) => this.#heard(one)),
-      hearings.length ? html("div", { class: "row-head" }, hearings) : null,
+      hearings.length ? html("div.row-head", hearings) : null,
     );
   }
 
@@ -110,8 +106,7 @@ export class Transcript {
       return [i ? " " : "", confidence < SURE ? html("span", { class: "low", title }, text) : text];
     });
     return html(
-      "div",
-      { class: "heard" },
+      "div.heard",
       `${capital(one.engine || "recognised")}, ${percent(one.confidence)}: `,
       marked.length ? marked : one.text || "(nothing)",
     );

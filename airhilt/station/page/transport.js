@@ -1,7 +1,8 @@
 // The controls of the time: playing, speed, events, loop.
 
+import { Pane } from "./pane.js";
 import { RATES } from "./clock.js";
-import { byId, html } from "./dom.js";
+import { byId, html, on } from "./dom.js";
 import { METRE_PER_NM, feet, metres, miles, seconds } from "./words.js";
 
 const PLAY = "M4 2l10 6-10 6z",
@@ -9,35 +10,32 @@ const PLAY = "M4 2l10 6-10 6z",
 
 const MOST_LISTED = 300; // events of a live run that can be chosen, the newest
 
-export class Transport {
-  #run;
-  #clock;
+export class Transport extends Pane {
   #isOld = false; // The list of events lacks new ones.
   #listed = []; // events as they were when they were listed
   #first = 0; // index of the first event that can be chosen
 
   constructor(run, clock) {
-    this.#run = run;
-    this.#clock = clock;
+    super(run, clock);
     byId("rate").replaceChildren(
       ...RATES.map((rate) => html("option", { value: rate }, `${rate} x`)),
     );
-    byId("rate").addEventListener("change", (event) => clock.setRate(Number(event.target.value)));
-    byId("play").addEventListener("click", () => clock.toggle());
-    byId("previous").addEventListener("click", () => this.step(-1));
-    byId("next").addEventListener("click", () => this.step(1));
-    byId("slider").addEventListener("input", (event) => clock.set(Number(event.target.value)));
-    byId("loop-from").addEventListener("click", () => clock.mark("from"));
-    byId("loop-to").addEventListener("click", () => clock.mark("to"));
-    byId("loop").addEventListener("click", () => clock.toggleLoop());
-    byId("events").addEventListener("change", (event) => {
+    on("rate", "change", (event) => clock.setRate(Number(event.target.value)));
+    on("play", "click", () => clock.toggle());
+    on("previous", "click", () => this.step(-1));
+    on("next", "click", () => this.step(1));
+    on("slider", "input", (event) => clock.set(Number(event.target.value)));
+    on("loop-from", "click", () => clock.mark("from"));
+    on("loop-to", "click", () => clock.mark("to"));
+    on("loop", "click", () => clock.toggleLoop());
+    on("events", "change", (event) => {
       if (event.target.value !== "") clock.set(this.#listed[Number(event.target.value)].t);
     });
-    byId("events").addEventListener("blur", () => {
+    on("events", "blur", () => {
       if (this.#isOld) this.renew();
     });
     byId("live").hidden = !clock.live;
-    byId("live").addEventListener("click", () => clock.follow());
+    on("live", "click", () => clock.follow());
     this.renew();
   }
 
@@ -45,8 +43,8 @@ export class Transport {
   renew() {
     this.#isOld = document.activeElement === byId("events");
     if (this.#isOld) return;
-    const { moments } = this.#run,
-      first = this.#clock.live ? Math.max(moments.length - MOST_LISTED, 0) : 0;
+    const { moments } = this.run,
+      first = this.clock.live ? Math.max(moments.length - MOST_LISTED, 0) : 0;
     this.#first = first;
     this.#listed = moments;
     byId("events").replaceChildren(
@@ -61,18 +59,18 @@ export class Transport {
 
   /** Goes to the next event, or to the one before with a step of -1. */
   step(step) {
-    const { t } = this.#clock,
+    const { t } = this.clock,
       near = 0.05;
     const found =
       step > 0
-        ? this.#run.moments.find((moment) => moment.t > t + near)
-        : this.#run.moments.findLast((moment) => moment.t < t - (this.#clock.playing ? 1 : near));
-    if (found) this.#clock.set(found.t);
+        ? this.run.moments.find((moment) => moment.t > t + near)
+        : this.run.moments.findLast((moment) => moment.t < t - (this.clock.playing ? 1 : near));
+    if (found) this.clock.set(found.t);
   }
 
   draw() {
-    const { t, end, rate, following, loop } = this.#clock,
-      playing = this.#clock.playing || following;
+    const { t, end, rate, following, loop } = this.clock,
+      playing = this.clock.playing || following;
     byId("live").setAttribute("aria-pressed", following);
     byId("play").setAttribute("aria-label", playing ? "Pause" : "Play");
     byId("play-word").textContent = playing ? "Pause" : "Play";
@@ -87,14 +85,14 @@ export class Transport {
       loop.from === null && loop.to === null
         ? ""
         : `${loop.from === null ? "?" : seconds(loop.from)} to ${loop.to === null ? "?" : seconds(loop.to)}`;
-    const moment = this.#run.moments.findLastIndex((one) => Math.abs(one.t - t) < 0.05);
+    const moment = this.run.moments.findLastIndex((one) => Math.abs(one.t - t) < 0.05);
     if (document.activeElement !== byId("events"))
       byId("events").value = moment < this.#first ? "" : moment;
     this.#drawApart(t);
   }
 
   #drawApart(t) {
-    const apart = this.#run.apart(t);
+    const apart = this.run.apart(t);
     if (!apart) {
       byId("apart").textContent = "";
       return;
@@ -104,6 +102,6 @@ export class Transport {
         ? metres(apart.horizontal)
         : miles(apart.horizontal / METRE_PER_NM);
     byId("apart").textContent =
-      `${this.#run.pair.join(" and ")}: ${horizontal}, ${feet(apart.vertical)} apart`;
+      `${this.run.pair.join(" and ")}: ${horizontal}, ${feet(apart.vertical)} apart`;
   }
 }

@@ -1,6 +1,6 @@
 // Questions about workload: ISA while the run goes on, NASA-TLX at its end.
 
-import { button, byId } from "./dom.js";
+import { button, byId, on } from "./dom.js";
 import { Questionnaire } from "./questionnaire.js";
 
 /** Ratings of the Instantaneous Self-Assessment (Tattersall & Foord 1996). */
@@ -23,12 +23,12 @@ export class Workload {
         button(`${i + 1} ${name}`, () => this.rate(i + 1), { title: `${name}: key ${i + 1}` }),
       ),
     );
-    byId("tlx").addEventListener("submit", (event) => {
+    on("tlx", "submit", (event) => {
       event.preventDefault();
       this.#give();
     });
-    byId("tlx-skip").addEventListener("click", () => this.#close({}));
-    byId("tlx-dialog").addEventListener("cancel", (event) => event.preventDefault());
+    on("tlx-skip", "click", () => this.#close({}));
+    on("tlx-dialog", "cancel", (event) => event.preventDefault());
   }
 
   /**
