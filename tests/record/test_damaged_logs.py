@@ -88,17 +88,16 @@ def test_a_flipped_bit_of_a_killed_run_is_named_or_changes_no_message(run_copy: 
         log.write_bytes(whole)
 
 
-def test_each_bit_of_the_head_of_a_chunk_is_named_with_its_second(run_copy: Path) -> None:
+def test_each_bit_of_the_fields_of_a_chunk_costs_its_second_at_most(run_copy: Path) -> None:
     log = run_copy / "log.mcap"
     before, data = messages(run_copy), log.read_bytes()
     third = chunks(data)[2]
-    for bit in range(72):
+    for bit in range(8 * -9, 8 * 44):
         flip(log, 8 * third + bit)
         damaged = quiet(run_copy)
         assert_named_or_harmless(before, damaged)
-        ((begin_s, end_s),) = seconds_of(damaged.damage[0])
-        assert (begin_s, end_s) == (pytest.approx(2.0, abs=0.3), pytest.approx(3.0, abs=0.3))
-        assert len(list(damaged.messages())) > len(before) / 2
+        for begin_s, end_s in seconds_of(damaged.damage[0]):
+            assert (begin_s, end_s) == (pytest.approx(2.0, abs=0.3), pytest.approx(3.0, abs=0.3))
         log.write_bytes(data)
 
 
