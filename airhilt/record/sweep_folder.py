@@ -23,14 +23,7 @@ from airhilt.host import bounded_json
 from airhilt.host.files import PARTIAL, make_folder, read_inside, replace_file
 from airhilt.record.damage import Notice, tell_damage
 from airhilt.record.folder import RunFolder
-from airhilt.record.manifest import (
-    FileRecord,
-    digest,
-    digest_problem,
-    manifest,
-    problem_of,
-)
-from airhilt.record.parquet import LARGEST_BYTES, parse_table
+from airhilt.record.manifest import FileRecord, digest, digest_problem, manifest, problem_of
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -38,10 +31,12 @@ if TYPE_CHECKING:
 FORMAT = 1
 MOST_PARTS = 64
 """Small parts from which they are put together into one."""
-UNFINISHED = f"*{PARTIAL}"
-"""Names of files that are being written."""
 SMALL_BYTES = 1_000_000
 """Size up to which a part is small."""
+LARGEST_BYTES = 2_000_000_000
+"""Size of the largest Parquet file that is read, and of its columns before compression."""
+MOST_CELLS = 200_000_000
+"""Greatest number of rows times columns of a Parquet file."""
 UNREADABLE = (OSError, ValueError)
 """Exceptions of a file that cannot be read."""
 REQUIRED = ("key", "status")
@@ -77,8 +72,6 @@ class SweepFolder:
         self.runs_path = path / "runs"
         self.figures_path = path / "figures"
         self.report_path = path / "report.html"
-        self._of_others: set[Path] = set()
-        """Parts with other columns than the newest: they stay as they are."""
 
     @property
     def is_there(self) -> bool:
@@ -123,13 +116,7 @@ class SweepFolder:
             os.close(self._open_lock())
 
     def require_usable(self) -> None:
-        """Complain about a folder that holds something else; nothing is written.
-
-        Raises
-        ------
-        SweepFolderError
-            It does, or leads elsewhere by a link.
-        """
+        """Refuse a folder that holds something else or leads elsewhere by a link, as `create`."""
         for folder in (self.parts_path, self.runs_path, self.figures_path):
             if folder.is_symlink():
                 raise SweepFolderError(
@@ -173,12 +160,12 @@ class SweepFolder:
                     f"{self.path}: another sweep is writing here; wait for its end, or choose "
                     "another folder"
                 ) from None
-            for left in (*self.path.glob(UNFINISHED), *self.parts_path.glob(UNFINISHED)):
-                left.unlink(missing_ok=True)
+            for folder in (self.path, self.parts_path):
+                for left in folder.glob(f"*{PARTIAL}"):
+                    left.unlink(missing_ok=True)
             yield
 
     def _open_lock(self) -> int:
-        """Return the descriptor of the lock, which is made if it is not there."""
         flags = os.O_WRONLY | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK
         return os.open(self._lock_path, flags, 0o666)
 
@@ -255,8 +242,7 @@ class SweepFolder:
             They cannot be written; earlier parts are as they were.
         """
         self._write_part(runs)
-        parts = [part for part in self._parts() if part not in self._of_others]
-        small = [part for part in parts if part.stat().st_size <= SMALL_BYTES]
+        small = [part for part in self._parts() if part.stat().st_size <= SMALL_BYTES]
         if len(small) > MOST_PARTS:
             self._put_together(small, runs.schema)
 
@@ -310,10 +296,7 @@ class SweepFolder:
                 table = _read_part(part)
                 if table.schema.equals(schema):  # No column is to be lost.
                     read[part] = table
-        self._of_others.update(part for part in parts if part not in read)
-        if len(read) < 2:
-            return
-        self._write_part(pa.concat_tables(list(read.values())))
+        self._write_part(pa.concat_tables(read.values()))
         for part in read:
             part.unlink(missing_ok=True)
 
@@ -343,7 +326,7 @@ class SweepFolder:
             self.next_info_path.unlink(missing_ok=True)
 
     def _sealed(self, info: Mapping[str, Any], kept: Iterable[str | None]) -> dict[str, Any]:
-        """Return the content of ``sweep.json`` with its manifest, and with its own hash."""
+        """Return the content of ``sweep.json`` with its manifest and digest."""
         runs = (self.runs_path / PurePosixPath(name).name for name in kept if name)
         files = (self.table_path, self.machine_path, *(RunFolder(run).info_path for run in runs))
         with _writing(self.path):
@@ -366,7 +349,12 @@ class SweepFolder:
         return self._of_this_sweep(self.machine_path)
 
     def _of_this_sweep(self, path: Path) -> pa.Table:
-        table = _read_table(path)
+        try:
+            table = _parse(read_inside(self.path, path, LARGEST_BYTES))
+        except FileNotFoundError:
+            raise SweepFolderError(f"{path}: not there; {AGAIN}") from None
+        except UNREADABLE as error:
+            raise SweepFolderError(f"{path}: damaged ({_reason(error)}); {AGAIN}") from None
         found = (table.schema.metadata or {}).get(GRID.encode(), b"").decode()
         if found != self.info().get(GRID, ""):
             raise SweepFolderError(f"{path}: not of the sweep in {self.info_path.name}; {AGAIN}")
@@ -396,41 +384,52 @@ def _write_info(path: Path, info: Mapping[str, Any]) -> None:
 
 
 def _read_part(part: Path) -> pa.Table:
-    """Return the table of a part as it was written.
-
-    Raises
-    ------
-    OSError, ValueError
-        It is damaged, or does not have what is `REQUIRED`.
-    """
-    table = parse_table(read_inside(part.parents[1], part, LARGEST_BYTES))
+    """Return the table of a part, which has at least what is `REQUIRED`."""
+    table = _parse(read_inside(part.parents[1], part, LARGEST_BYTES))
     for name in REQUIRED:
         if name not in table.column_names:
             raise ValueError(f"it has no column {name}")
     return table
 
 
-def _cast(table: pa.Table, schema: pa.Schema) -> pa.Table:
-    """Return a table with the columns of a schema; columns that it does not have are null.
+def _parse(data: bytes) -> pa.Table:
+    """Return the table in a Parquet file.
 
     Raises
     ------
     ValueError
-        A column cannot have the type that the schema says.
+        It is damaged, or claims to be larger than a sweep can be.
     """
     import pyarrow as pa
+    import pyarrow.parquet as pq
 
-    if table.schema.equals(schema):
-        return table
+    try:
+        with pq.ParquetFile(pa.py_buffer(data)) as file:
+            rows, columns = file.metadata.num_rows, file.metadata.num_columns
+            if rows * columns > MOST_CELLS:
+                raise ValueError(
+                    f"it has {rows:,} rows of {columns:,} columns; expected at most "
+                    f"{MOST_CELLS:,} cells"
+                )
+            groups = map(file.metadata.row_group, range(file.metadata.num_row_groups))
+            if sum(group.total_byte_size for group in groups) > LARGEST_BYTES:
+                raise ValueError(f"its columns have over {LARGEST_BYTES:,} bytes; expected less")
+            return file.read()
+    except (pa.ArrowException, OSError) as error:
+        raise ValueError(str(error)) from None
+
+
+def _cast(table: pa.Table, schema: pa.Schema) -> pa.Table:
+    """Return a table with the columns of a schema; columns that it does not have are null."""
+    import pyarrow as pa
+
     columns = []
     for field in schema:
-        is_there = field.name in table.column_names
+        if field.name not in table.column_names:
+            columns.append(pa.nulls(table.num_rows, field.type))
+            continue
         try:
-            columns.append(
-                table[field.name].cast(field.type)
-                if is_there
-                else pa.nulls(table.num_rows, field.type)
-            )
+            columns.append(table[field.name].cast(field.type))
         except (pa.ArrowException, KeyError) as error:  # KeyError: two columns have that name.
             raise ValueError(f"column {field.name}: {_reason(error)}") from None
     return pa.table(columns, schema=schema)
@@ -445,15 +444,6 @@ def _write_table(table: pa.Table, path: Path) -> None:
     pq.write_table(table, sink, compression="zstd", store_schema=True)
     with _writing(path):
         replace_file(path, sink.getvalue().to_pybytes())
-
-
-def _read_table(path: Path) -> pa.Table:
-    try:
-        return parse_table(read_inside(path.parent, path, LARGEST_BYTES))
-    except FileNotFoundError:
-        raise SweepFolderError(f"{path}: not there; {AGAIN}") from None
-    except UNREADABLE as error:
-        raise SweepFolderError(f"{path}: damaged ({_reason(error)}); {AGAIN}") from None
 
 
 def _reason(error: Exception) -> str:

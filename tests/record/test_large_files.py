@@ -11,7 +11,6 @@ from contextlib import closing
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
@@ -120,39 +119,11 @@ def rows_beyond_number() -> pa.Table:
     return pa.table({f"column{n}": pa.nulls(1_000_000) for n in range(300)})
 
 
-def long_text_in_each_row() -> pa.Table:
-    """Return a table of 20 GB of text, of which a file keeps 100 kB."""
-    texts = pa.array(["x" * 100_000])
-    return pa.table({"key": pa.DictionaryArray.from_arrays(np.zeros(200_000, np.int32), texts)})
-
-
-def lists() -> pa.Table:
-    return pa.table({"key": pa.array([["a"]])})
-
-
-@pytest.mark.parametrize(
-    ("make", "answer"),
-    [
-        (rows_beyond_number, "1,000,000 rows of 300 columns"),
-        (long_text_in_each_row, "its texts have over 1,000,000,000 bytes"),
-        (lists, "column key has the type list<element: string>"),
-    ],
-)
-def test_a_table_that_claims_too_much_is_refused(
-    tmp_path: Path, make: Callable[[], pa.Table], answer: str
-) -> None:
+def test_a_table_that_claims_too_much_is_refused(tmp_path: Path) -> None:
     folder = write_sweep(tmp_path / "sweep", grid(["s01a_tight_timing"], ["reference"]))
-    pq.write_table(make(), folder / "sweep.parquet", compression="zstd")
-    with pytest.raises(AirhiltError, match=rf"sweep\.parquet: damaged \(.*{answer}"):
+    pq.write_table(rows_beyond_number(), folder / "sweep.parquet", compression="zstd")
+    with pytest.raises(AirhiltError, match=r"sweep\.parquet: damaged \(.*1,000,000 rows of 300"):
         SweepFolder.open(folder).table()
-
-
-def test_a_table_of_texts_is_read_as_it_was_written(tmp_path: Path) -> None:
-    folder = write_sweep(tmp_path / "sweep", grid(["s01a_tight_timing"], ["reference"]))
-    written = pq.read_table(folder / "sweep.parquet")
-    read = SweepFolder.open(folder).table()
-    assert read.equals(written)
-    assert read.schema.equals(written.schema, check_metadata=True)
 
 
 def test_a_large_file_in_the_place_of_a_small_one_is_not_hashed(run_copy: Path) -> None:
