@@ -8,7 +8,6 @@ import json
 import os
 import platform
 from contextlib import suppress
-from io import BufferedReader
 from pathlib import Path
 from typing import Any, Final, Literal
 
@@ -17,7 +16,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from airhilt._version import __version__
 from airhilt.errors import RunFolderError, first_line, first_problem, shown
 from airhilt.host import bounded_json
-from airhilt.host.files import open_inside, read_inside, replace_file
+from airhilt.host.files import read_inside, replace_file
 from airhilt.messages import WorkerDescription
 from airhilt.options import Options
 from airhilt.record.manifest import FileRecord, digest, manifest
@@ -107,7 +106,6 @@ def versions() -> dict[str, str]:
 
 @functools.cache
 def _version(package: str) -> str:
-    """Return the version of a package; it is looked up once, since a process loads it once."""
     return importlib.metadata.version(package)
 
 
@@ -226,24 +224,8 @@ class RunFolder:
             raise RunFolderError(f"{path}: no run here; expected a folder with a run.json")
         return folder
 
-    def open_file(self, path: Path) -> BufferedReader:
-        """Open a file of the run for reading.
-
-        Raises
-        ------
-        OSError
-            It is not there, or is no regular file of this folder.
-        """
-        return open_inside(self.path, path)
-
     def read(self, path: Path) -> bytes:
-        """Return the content of a small file of the run: ``run.json``, summary or signature.
-
-        Raises
-        ------
-        OSError
-            It is not there, cannot be read, is no regular file of this folder, or is too large.
-        """
+        """Return the content of a small file; it raises what `read_inside` does."""
         return read_inside(self.path, path, bounded_json.MOST_BYTES)
 
     def write_info(self, info: RunInfo) -> None:
@@ -255,10 +237,6 @@ class RunFolder:
     def write_summary(self, summary: BaseModel) -> None:
         """Write ``summary.json``, all or nothing."""
         self._write(self.summary_path, summary.model_dump_json(indent=2))
-
-    def write_report(self, html: str) -> None:
-        """Write ``report.html``, all or nothing."""
-        self._write(self.report_path, html)
 
     def _write(self, path: Path, text: str) -> None:
         try:
@@ -276,21 +254,10 @@ class RunFolder:
         """
         try:
             data = self.read(self.info_path)
-        except OSError as error:
-            raise RunFolderError(f"{self.info_path}: cannot be read: {error.strerror}") from None
-        return self.info_in(data)
-
-    def info_in(self, data: bytes) -> RunInfo:
-        """Return what the content of ``run.json`` says.
-
-        Raises
-        ------
-        RunFolderError
-            It is damaged or of another format.
-        """
-        try:
             bounded_json.require_few_values(data)
             return RunInfo.model_validate_json(data)
+        except OSError as error:
+            raise RunFolderError(f"{self.info_path}: cannot be read: {error.strerror}") from None
         except ValidationError as error:
             raise RunFolderError(
                 f"{self.info_path}: {first_problem(error)}; expected a run.json of format {FORMAT}"

@@ -19,11 +19,7 @@ LONGEST_STEP_BYTES = 1_000_000
 
 
 class LatencyLog:
-    """Writes one line for each step.
-
-    Whoever writes the log of the run as well flushes this one first: a step whose result is in the
-    log of a run that was killed is then here too.
-    """
+    """Writes one line for each step; it is flushed before the log that has the results of steps."""
 
     def __init__(self, path: Path) -> None:
         self._stream = path.open("w", encoding="utf-8")
@@ -65,7 +61,6 @@ class LatencyLog:
 
     @contextmanager
     def _named(self) -> Iterator[None]:
-        """Convert an error of the disk to RunFolderError, with the name of the file."""
         try:
             yield
         except OSError as error:

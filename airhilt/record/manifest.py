@@ -59,13 +59,7 @@ def digest_problem(name: str, document: Mapping[str, Any]) -> str:
 
 
 def problem_of(folder: Path, name: str, record: FileRecord, manifest_name: str = "run.json") -> str:
-    """Return in words why a file is not the one of the manifest, empty if it is.
-
-    Parameters
-    ----------
-    manifest_name
-        Name of the document that has the manifest.
-    """
+    """Return in words why a file is not the one of the manifest, empty if it is."""
     place = PurePosixPath(name)
     if place.is_absolute() or ".." in place.parts:
         return f"{name}: outside of the folder; the manifest was not written by AIRHILT"
@@ -77,11 +71,10 @@ def problem_of(folder: Path, name: str, record: FileRecord, manifest_name: str =
                     f"{name}: damaged or changed: it has {size_bytes} bytes, and "
                     f"{manifest_name} says {record.size_bytes}"
                 )
-            found = hashlib.file_digest(stream, "sha256").hexdigest()
+            if hashlib.file_digest(stream, "sha256").hexdigest() == record.sha256:
+                return ""
     except FileNotFoundError:
         return f"{name}: missing"
     except OSError as error:
         return f"{name}: cannot be read: {error.strerror}"
-    if found == record.sha256:
-        return ""
     return f"{name}: damaged or changed: its SHA-256 is not that in {manifest_name}"

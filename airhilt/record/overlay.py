@@ -51,9 +51,8 @@ def clock(t_ns: int) -> str:
 class Overlay:
     """Draws on pictures of one size, with a bar above for the clock and one below for advisories.
 
-    The boxes are those of the picture itself, in full colour: two pixels wide once confirmed, one
-    before. A picture that no detector looked at has the boxes of the last one before it, paler,
-    with their time. Nothing is drawn that is only true.
+    Boxes are two pixels wide once confirmed, one before. A picture that no detector looked at has
+    the boxes of the last one before it, paler, with their time.
 
     Attributes
     ----------

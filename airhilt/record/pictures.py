@@ -8,7 +8,6 @@ has the detections and the truth of it.
 from __future__ import annotations
 
 import re
-from collections import deque
 from collections.abc import Callable, Collection
 from contextlib import suppress
 from pathlib import Path
@@ -75,37 +74,32 @@ class WaitingPictures:
     """Pictures that wait for their detections, the oldest first."""
 
     def __init__(self) -> None:
-        self._pictures: deque[Picture] = deque()
-        self._bytes = 0
+        self._pictures: list[Picture] = []
 
     def add(self, picture: Picture) -> list[Picture]:
         """Add a picture, and return those that have no room any more."""
         self._pictures.append(picture)
-        self._bytes += len(picture.pixels)
         crowded_out = []
-        while self._bytes > MOST_WAITING_BYTES and len(self._pictures) > 1:
-            crowded_out.append(self._pop())
+        size = sum(len(one.pixels) for one in self._pictures)
+        while size > MOST_WAITING_BYTES and len(self._pictures) > 1:
+            crowded_out.append(self._pictures.pop(0))
+            size -= len(crowded_out[-1].pixels)
         return crowded_out
 
     def up_to(self, camera: str, seq: int) -> list[Picture]:
         """Take out a camera's pictures up to one; no detector will look at those before it."""
-        taken: list[Picture] = []
-        for picture in self.everything():
+        kept, taken = [], []
+        for picture in self._pictures:
             header = picture.header
-            if header.camera == camera and header.seq <= seq:
-                taken.append(picture)
-            else:
-                self.add(picture)
+            is_over = header.camera == camera and header.seq <= seq
+            (taken if is_over else kept).append(picture)
+        self._pictures = kept
         return taken
 
     def everything(self) -> list[Picture]:
         """Take out all pictures."""
-        return [self._pop() for _ in range(len(self._pictures))]
-
-    def _pop(self) -> Picture:
-        picture = self._pictures.popleft()
-        self._bytes -= len(picture.pixels)
-        return picture
+        taken, self._pictures = self._pictures, []
+        return taken
 
 
 class KeyPictures:
@@ -147,7 +141,7 @@ class KeyPictures:
         Raises
         ------
         RunFolderError
-            The disk is full or gone.
+            The disk is full or gone. `close` raises the same.
         """
         match message:
             case CameraTruth(camera=name):
@@ -164,13 +158,7 @@ class KeyPictures:
                 self._warned()
 
     def close(self) -> None:
-        """Write the picture of the closest approach.
-
-        Raises
-        ------
-        RunFolderError
-            The disk is full or gone.
-        """
+        """Write the picture of the closest approach."""
         closest_ns = self._closest_ns()
         if closest_ns is None or not self._nearest or self._is_full:
             return

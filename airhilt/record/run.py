@@ -45,33 +45,28 @@ class Run:
             self.log_damage,
             *(self._problem(path) for path in (folder.latency_path, folder.summary_path)),
         )
-        self.damage = tuple(line for line in lines if line)
+        self.damage = tuple(filter(None, lines))
 
     def damage_of_all_files(self) -> tuple[str, ...]:
-        """Return `damage`, and a line for each other file of the manifest that was changed.
-
-        All of them are read, which takes as long as they are large.
-        """
-        checked = (self.folder.log_path, self.folder.latency_path, self.folder.summary_path)
-        others = self.info.files.keys() - {path.name for path in checked}
+        """Return `damage`, and a line for each other file of the manifest that was changed."""
+        folder = self.folder
+        checked = {folder.log_path.name, folder.latency_path.name, folder.summary_path.name}
         lines = (
-            problem_of(self.folder.path, name, record)
+            problem_of(folder.path, name, record)
             for name, record in self.info.files.items()
-            if name in others
+            if name not in checked
         )
-        return (*self.damage, *(line for line in lines if line))
+        return (*self.damage, *filter(None, lines))
 
     def messages(self) -> Iterator[Logged]:
-        """Yield the messages of the log in the order of writing, up to where it breaks off.
-
-        What is damaged is left out. `damage` says where.
+        """Yield the messages of the log in the order of writing, without what is damaged.
 
         Raises
         ------
         RunFolderError
             The log cannot be read at all.
         """
-        yield from LogReader(self.folder.log_path).messages()
+        return LogReader(self.folder.log_path).messages()
 
     def latencies(self) -> RecordedLatencies:
         """Return the steps of the workers.
@@ -133,8 +128,7 @@ def open_run(path: str | Path, notice: Notice | None = None) -> Run:
 def result_problem(folder: RunFolder, info: RunInfo, path: Path) -> str:
     """Return in words why a file is not one that the run wrote, empty if it is.
 
-    A run that goes on or was killed has no record of its pictures and videos. Of those nothing is
-    said.
+    A run that goes on or was killed has no record of its pictures and videos.
     """
     name = path.relative_to(folder.path).as_posix()
     record = info.files.get(name)

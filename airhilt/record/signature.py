@@ -10,6 +10,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -33,8 +34,6 @@ if TYPE_CHECKING:
 
 LARGEST_KEY_BYTES = 1_000_000
 """Size of the largest file that is read as a key."""
-NO_KEY = (ValueError, TypeError, UnsupportedAlgorithm)
-"""Exceptions of a file that holds no key, or one that needs a password."""
 
 
 def public_file(private: Path) -> Path:
@@ -45,10 +44,7 @@ def public_file(private: Path) -> Path:
 def make_keys(private: Path) -> str:
     """Write a new private key, which only its owner may read, and its public key beside it.
 
-    Returns
-    -------
-    str
-        The fingerprint of the key.
+    The fingerprint of the key is returned.
 
     Raises
     ------
@@ -70,7 +66,6 @@ def make_keys(private: Path) -> str:
 
 @contextmanager
 def _named(path: Path, done: Literal["read", "written"]) -> Iterator[None]:
-    """Convert an error of the disk to SignatureError, with the name of the file."""
     try:
         yield
     except OSError as error:
@@ -90,7 +85,7 @@ def private_key(path: Path) -> Ed25519PrivateKey:
     SignatureError
         It cannot be read, is no private Ed25519 key without a password, or other users may read it.
     """
-    key = _key(path, lambda data: load_pem_private_key(data, None))
+    key = _key(path, partial(load_pem_private_key, password=None))
     if not isinstance(key, Ed25519PrivateKey):
         raise SignatureError(
             f"{path}: no private key; expected one that `airhilt keys sign` has made (Ed25519, "
@@ -126,7 +121,7 @@ def _key(path: Path, load: Callable[[bytes], object]) -> object:
         data = read_file(path, LARGEST_KEY_BYTES)
     try:
         return load(data)
-    except NO_KEY:
+    except (ValueError, TypeError, UnsupportedAlgorithm):  # TypeError: it needs a password.
         return None
 
 
@@ -141,20 +136,20 @@ def sign(folder: RunFolder | SweepFolder, key: Ed25519PrivateKey) -> None:
     path = folder.signature_path
     if path.exists():
         raise SignatureError(f"{path}: signed already; delete this file to sign anew")
-    with _named(folder.info_path, "read"):
-        signed = folder.read(folder.info_path)
+    signed = _read(folder, folder.info_path)
     with _named(path, "written"):
         replace_file(path, key.sign(signed))
 
 
 def is_signed_by(folder: RunFolder | SweepFolder, key: Ed25519PublicKey) -> bool:
     """Return whether a signature is of this key, and of the signed file as it is now."""
-    with _named(folder.signature_path, "read"):
-        signature = folder.read(folder.signature_path)
-    with _named(folder.info_path, "read"):
-        signed = folder.read(folder.info_path)
     try:
-        key.verify(signature, signed)
+        key.verify(_read(folder, folder.signature_path), _read(folder, folder.info_path))
     except InvalidSignature:
         return False
     return True
+
+
+def _read(folder: RunFolder | SweepFolder, path: Path) -> bytes:
+    with _named(path, "read"):
+        return folder.read(path)

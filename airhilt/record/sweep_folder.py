@@ -192,13 +192,7 @@ class SweepFolder:
         return loaded
 
     def read(self, path: Path) -> bytes:
-        """Return the content of a small file of the sweep: ``sweep.json`` or its signature.
-
-        Raises
-        ------
-        OSError
-            It is not there, cannot be read, is no regular file of this folder, or is too large.
-        """
+        """Return the content of a small file; it raises what `read_inside` does."""
         return read_inside(self.path, path, bounded_json.MOST_BYTES)
 
     def files(self) -> dict[str, FileRecord]:

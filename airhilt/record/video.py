@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -30,9 +29,6 @@ from airhilt.record.pictures import Picture, WaitingPictures
 from airhilt.sim.payload import Payload
 from airhilt.units import SECOND_NS
 
-if TYPE_CHECKING:
-    from PIL import Image
-
 ENCODERS = ("libx264", "libopenh264")
 """H.264 encoders of FFmpeg; the first one installed is used."""
 QUALITY = {"preset": "veryfast", "crf": "21", "tune": "zerolatency"}
@@ -46,18 +42,14 @@ KEY_PICTURE_S = 2.0
 whole up to one."""
 
 
-def require_video() -> None:
-    """Check that videos can be written.
+def require_video() -> str:
+    """Return the encoder that writes videos.
 
     Raises
     ------
     VideoError
         PyAV or an H.264 encoder is not installed.
     """
-    _encoder()
-
-
-def _encoder() -> str:
     try:
         from av.codec import codecs_available
     except ImportError:
@@ -107,7 +99,7 @@ class VideoRecorder:
         Raises
         ------
         RunFolderError
-            The disk is full or gone.
+            The disk is full or gone. `close` raises the same.
         """
         try:
             self._take(message, payload)
@@ -126,7 +118,9 @@ class VideoRecorder:
                 with self._giving_up(name):
                     self._videos[name].look(message)
             case Advisory():
-                self._advise(message)
+                self._advisories.pop((message.id, message.recipient), None)
+                if message.active:
+                    self._advisories[message.id, message.recipient] = message
             case Status(modality="vision", state=state):
                 self._is_watched = state == "on"
                 if not self._is_watched:
@@ -135,13 +129,7 @@ class VideoRecorder:
                             video.flush()
 
     def close(self) -> None:
-        """Finish all videos; one whose disk was full keeps what was written.
-
-        Raises
-        ------
-        RunFolderError
-            The disk is full or gone.
-        """
+        """Finish all videos; one whose disk was full keeps what was written."""
         try:
             for name, video in list(self._videos.items()):
                 if not self._is_full:
@@ -154,7 +142,6 @@ class VideoRecorder:
 
     @contextmanager
     def _giving_up(self, name: str) -> Iterator[None]:
-        """Give up a camera's video when it cannot go on; what was written of it stays."""
         try:
             yield
         except (VideoError, RendererError) as error:
@@ -175,12 +162,6 @@ class VideoRecorder:
             self._videos[name].take(picture)
             if not self._is_watched:
                 self._videos[name].flush()
-
-    def _advise(self, advisory: Advisory) -> None:
-        name = advisory.id, advisory.recipient
-        self._advisories.pop(name, None)
-        if advisory.active:
-            self._advisories[name] = advisory
 
     def _advisory_for(self, header: CameraFrame) -> Advisory | None:
         """Return the most severe active advisory, preferably one to the owner of the camera."""
@@ -207,7 +188,7 @@ class _CameraVideo:
         with _writing(path):
             make_folder(path.parent)
             self._container = av.open(str(path), "w", format="mp4", options=dict(MOVIE))
-            stream = self._container.add_stream(_encoder(), rate=rate, options=dict(QUALITY))
+            stream = self._container.add_stream(require_video(), rate=rate, options=dict(QUALITY))
             assert isinstance(stream, av.VideoStream)
             stream.width, stream.height = self._overlay.size
             stream.pix_fmt = "yuv420p"
@@ -222,12 +203,11 @@ class _CameraVideo:
     def look(self, seen: Detections) -> None:
         """Write the picture with these detections, and those before it that have none."""
         pictures = self._waiting.up_to(seen.camera, seen.seq)
-        if pictures and pictures[-1].header.seq == seen.seq:
-            self._write(pictures[:-1])
+        is_there = bool(pictures) and pictures[-1].header.seq == seen.seq
+        self._write(pictures[:-1] if is_there else pictures)
+        if is_there:
             self._seen = seen
             self._write(pictures[-1:])
-        else:
-            self._write(pictures)
 
     def flush(self) -> None:
         """Write all waiting pictures."""
@@ -246,30 +226,21 @@ class _CameraVideo:
             self._container.close()
 
     def _write(self, pictures: list[Picture]) -> None:
-        for picture in pictures:
-            image = self._overlay.image(picture, self._seen)
-            self._encode(image, picture.header.t_frame_ns - self._begin_ns)
-
-    def _encode(self, image: Image.Image, t_ns: int) -> None:
         import av
 
-        with _writing(self._path):
-            frame = av.VideoFrame.from_ndarray(np.asarray(image), format="rgb24")
-            frame.pts, frame.time_base = round(t_ns * TIME_BASE.denominator / SECOND_NS), TIME_BASE
-            self._container.mux(self._stream.encode(frame))
+        for picture in pictures:
+            image = self._overlay.image(picture, self._seen)
+            t_ns = picture.header.t_frame_ns - self._begin_ns
+            with _writing(self._path):
+                frame = av.VideoFrame.from_ndarray(np.asarray(image), format="rgb24")
+                frame.pts = round(t_ns * TIME_BASE.denominator / SECOND_NS)
+                frame.time_base = TIME_BASE
+                self._container.mux(self._stream.encode(frame))
 
 
 @contextmanager
 def _writing(path: Path) -> Iterator[None]:
-    """Turn exceptions of PyAV into those of this package, with the name of the file.
-
-    Raises
-    ------
-    RunFolderError
-        The disk is full or gone.
-    VideoError
-        FFmpeg refuses.
-    """
+    """Convert errors of the disk and of FFmpeg to RunFolderError and VideoError."""
     import av
 
     try:

@@ -11,8 +11,11 @@ import json
 import re
 from collections.abc import Mapping, Sequence
 from importlib import resources
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from airhilt.errors import RunFolderError
+from airhilt.host.files import replace_file
 from airhilt.host.text import readable
 from airhilt.report.page_section import PageSection
 
@@ -119,6 +122,20 @@ class Assembly:
         ]
         scripts = [*shared, *own, _Script("page.begin();\n")]
         return [script._replace(text=inline(script.text)) for script in scripts]
+
+
+def write_page(page: Path, html: str) -> None:
+    """Write a page, all or nothing.
+
+    Raises
+    ------
+    RunFolderError
+        It cannot be written.
+    """
+    try:
+        replace_file(page, f"{html}\n".encode())
+    except OSError as error:
+        raise RunFolderError(f"{page}: cannot be written: {error.strerror}") from None
 
 
 def _own_file(name: str) -> str:

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from airhilt.errors import RunFolderError
-from airhilt.host.files import replace_file
 from airhilt.host.text import readable
 from airhilt.record import Run, open_run
 from airhilt.record.damage import Notice, untold
-from airhilt.report.assembly import Assembly
+from airhilt.report.assembly import Assembly, write_page
 from airhilt.report.data import read_run
 from airhilt.report.sections import GuardedContent, load_sections
 
@@ -54,16 +52,9 @@ def write_report(run_folder: Path, out: Path | None = None, notice: Notice = unt
         There is no run, its ``run.json`` is damaged, or the page cannot be written.
     """
     run = open_run(run_folder, notice)
-    folder = run.folder
-    html = render(run, out or folder.report_path)
-    if out is None:
-        folder.write_report(html)
-        return folder.report_path
-    try:
-        replace_file(out, f"{html}\n".encode())
-    except OSError as error:
-        raise RunFolderError(f"{out}: cannot be written: {error.strerror}") from None
-    return out
+    page = out or run.folder.report_path
+    write_page(page, render(run, page))
+    return page
 
 
 def render(recorded: Run, page: Path) -> str:

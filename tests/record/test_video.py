@@ -267,7 +267,7 @@ def test_a_picture_that_cannot_be_drawn_any_more_ends_the_video_and_is_told(film
 def test_a_video_that_cannot_be_begun_is_told_once(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("airhilt.record.video._encoder", lambda: "wmv2")
+    monkeypatch.setattr("airhilt.record.video.require_video", lambda: "wmv2")
     film = Film(tmp_path).shoot(0, 1).take(seen(1)).take(vision("lost"))
     film.recorder.close()
     assert len(film.told) == 1

@@ -5,10 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from airhilt.errors import AirhiltError
-from airhilt.host.files import replace_file
 from airhilt.host.text import readable
-from airhilt.report.assembly import Assembly
+from airhilt.report.assembly import Assembly, write_page
 from airhilt.report.comparison import runs, sweeps
 from airhilt.report.comparison.runs import RunComparison
 from airhilt.report.comparison.sweeps import MeasureDifference, SweepComparison
@@ -44,10 +42,7 @@ def write_comparison(comparison: RunComparison | SweepComparison, page: Path) ->
     data = {"title": title, "notes": [], "sections": {comparison.kind: own}}
     sections = [SECTIONS[comparison.kind]]
     html = Assembly("comparison", title, SHARED, sections, data, figures.markup).page()
-    try:
-        replace_file(page, f"{html}\n".encode())
-    except OSError as error:
-        raise AirhiltError(f"{page}: cannot be written: {error.strerror}") from None
+    write_page(page, html)
     return page
 
 

@@ -7,6 +7,7 @@ import os
 from pathlib import Path
 from typing import Any
 
+from airhilt.host.files import open_inside
 from airhilt.host.text import readable
 from airhilt.imaging.boxes import size_px
 from airhilt.imaging.matching import matches
@@ -160,7 +161,7 @@ def _video(run: RunData, camera: str) -> str | None:
     """Return a link to the video of a camera, None if it has none that the run wrote."""
     path = run.folder.video_path / f"{camera}.mp4"
     try:
-        with run.folder.open_file(path):
+        with open_inside(run.folder.path, path):
             problem = result_problem(run.folder, run.info, path)
     except FileNotFoundError:
         return None
@@ -200,7 +201,7 @@ class PictureSources:
         folder = self._run.folder
         path = name.path(folder.pictures_path)
         try:
-            with folder.open_file(path) as stream:
+            with open_inside(folder.path, path) as stream:
                 problem = result_problem(folder, self._run.info, path)
                 size_bytes = os.fstat(stream.fileno()).st_size
                 has_room = 4 * -(-size_bytes // 3) <= self._room

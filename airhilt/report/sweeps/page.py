@@ -7,12 +7,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from airhilt.errors import AirhiltError
-from airhilt.host.files import replace_file
 from airhilt.host.text import readable
 from airhilt.record.damage import Notice, untold
 from airhilt.record.sweep_folder import SweepFolder
-from airhilt.report.assembly import Assembly
+from airhilt.report.assembly import Assembly, write_page
 from airhilt.report.figures import Figures
 from airhilt.report.page_section import cannot_be_shown
 from airhilt.report.sweeps.data import SweepData, read_sweep_data
@@ -57,10 +55,7 @@ def write_sweep_report(
     figures = Figures(drawn)
     html = render(sweep, figures)
     figures.write(folder.figures_path)
-    try:
-        replace_file(page, f"{html}\n".encode())
-    except OSError as error:
-        raise AirhiltError(f"{page}: cannot be written: {error.strerror}") from None
+    write_page(page, html)
     return page
 
 
