@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -20,6 +20,7 @@ from airhilt.messages import (
     Message,
     Modality,
     ModalityState,
+    ModelExchange,
     Status,
 )
 from airhilt.metrics.advisories import AdvisoryRecords
@@ -28,12 +29,11 @@ from airhilt.metrics.detection_scores import DetectionScores
 from airhilt.metrics.equipment import EquipmentRecords
 from airhilt.metrics.evidence_ages import EvidenceAges
 from airhilt.metrics.first_warning import FirstWarning
-from airhilt.metrics.language_model import LanguageModelRecords
 from airhilt.metrics.latencies import StageLatencies
 from airhilt.metrics.outcome import Outcome
 from airhilt.metrics.people import REAL_TIME, PeopleRecords
 from airhilt.metrics.plans import Plans
-from airhilt.metrics.summary import Summary, WarningParts
+from airhilt.metrics.summary import LanguageModelStatistics, Summary, WarningParts
 from airhilt.metrics.warning_parts import parts_of, supporting_transcript
 from airhilt.options import MODALITIES
 from airhilt.scenario.conflict_pair import pair_of
@@ -117,7 +117,7 @@ class Collector:
         self._calls = CallRecords()
         self._evidence = EvidenceAges(deciders, given)
         self._detections = DetectionScores()
-        self._language_model = LanguageModelRecords()
+        self._exchanges: list[ModelExchange] = []
         self._people = PeopleRecords(seats, [one.callsign for one in scenario.actors], pace)
         new_records = partial(
             AdvisoryRecords, callsigns_of(scenario), pair, monitor, self._detections.was_seen
@@ -146,6 +146,8 @@ class Collector:
                 self._equipment.take(message)
             case AdvisoryAudio() if not self._is_called(message.recipient):
                 self._told(message.id, message.revision, message.recipient, message.t_ns)
+            case ModelExchange():
+                self._exchanges.append(message)
             case HearingTruth(id=name, outcome="understood") if name.startswith(ADVISORY_CALL):
                 self._take_advisory_call(name)
             case Status(modality=modality, state=state, t_ns=now_ns):
@@ -156,7 +158,6 @@ class Collector:
         self._calls.take(message)
         self._evidence.take(message)
         self._detections.take(message)
-        self._language_model.take(message)
         self._people.take(key, message)
 
     def step(self, record: StepRecord) -> None:
@@ -216,7 +217,7 @@ class Collector:
                 is_recognised=self.modalities.get("asr") in ("on", "lost"),
             ),
             vision=vision,
-            language_model=self._language_model.statistics(),
+            language_model=_language_model(self._exchanges),
             latencies=self._latencies.statistics(),
             evidence=self._evidence.statistics(now_ns),
             modalities={**self.modalities},
@@ -225,7 +226,6 @@ class Collector:
         )
 
     def _warning_fields(self, now_ns: int) -> dict[str, Any]:
-        """Return the fields about the conflict, its window and the first warning."""
         conflict_s = ns_to_seconds(self.window.begun_ns)
         warning_s = ns_to_seconds(self._first_warning.t_ns)
         is_in_time = self._is_warned_in_time()
@@ -249,19 +249,17 @@ class Collector:
         }
 
     def _beginning_call(self) -> str | None:
-        """Return the id of the call that begins the conflict, None if none does."""
+        """Return the id of the call that begins the conflict."""
         conflict = self._scenario.conflict
         begins = None if conflict is None else conflict.begins
         return begins.line if isinstance(begins, LineBegun) else None
 
     def _call_ended_ns(self) -> int | None:
-        """Return the end of the call that begins the conflict, None if none has."""
         name = self._beginning_call()
         call = None if name is None else self._calls.get(name)
         return None if call is None or call.said is None else call.said.t_end_ns
 
     def _warning_parts(self) -> WarningParts | None:
-        """Return what the time to first warning consists of."""
         warning, begun_ns = self._first_warning, self.window.begun_ns
         if warning.t_ns is None or warning.advisory is None or begun_ns is None:
             return None
@@ -274,11 +272,6 @@ class Collector:
         """Return true if somebody was warned before the conflict window closed."""
         warning_ns, closed_ns = self._first_warning.t_ns, self.window.closed_ns
         return warning_ns is not None and (closed_ns is None or warning_ns <= closed_ns)
-
-    def _is_first_to_warn_in_time(self) -> bool:
-        """Return true if the assistant warned in time, before equipment told anybody what to do."""
-        warning_ns = self._first_warning.t_ns
-        return self._is_warned_in_time() and not self._equipment.acts_before(warning_ns)
 
     def _as_declared(self, assistant: str) -> bool | None:
         """Return true if what the scenario declares came about without an assistant.
@@ -293,8 +286,10 @@ class Collector:
         return None if self._equipment.acts_before(None) else False
 
     def _outcome_fields(self) -> dict[str, Any]:
-        """Return the fields about separation, collisions and runway incursions."""
         outcome, truth = self._outcome, self._outcome.pair_truth
+        # A warning counts that came before equipment told anybody what to do.
+        warning_ns = self._first_warning.t_ns
+        is_warned = self._is_warned_in_time() and not self._equipment.acts_before(warning_ns)
         return {
             "min_horizontal_separation_m": truth.least_horizontal_m if truth else None,
             "min_vertical_separation_m": truth.least_vertical_m if truth else None,
@@ -304,8 +299,19 @@ class Collector:
             "collision": outcome.happened("collision"),
             "runway_incursions": outcome.incursions(),
             "runway_incursion_category": outcome.worst_category(),
-            "avoided": outcome.avoided(was_warned=self._is_first_to_warn_in_time()),
+            "avoided": outcome.avoided(was_warned=is_warned),
         }
+
+
+def _language_model(exchanges: Sequence[ModelExchange]) -> LanguageModelStatistics | None:
+    if not exchanges:
+        return None
+    return LanguageModelStatistics(
+        model=exchanges[0].model,
+        questions=len(exchanges),
+        failures=sum(bool(each.failure) for each in exchanges),
+        rejections=sum(len(each.rejections) for each in exchanges),
+    )
 
 
 def _difference(later_s: float | None, earlier_s: float | None) -> float | None:
