@@ -144,7 +144,6 @@ class AdvisoryRecords:
         ]
 
     def _concerns_conflict(self, advisory: Advisory) -> bool:
-        """Return true if an advisory is about the annotated pair."""
         pair = frozenset(self._pair or ())
         return self._concerns(advisory, pair, self._shown(advisory))
 
@@ -172,11 +171,10 @@ class AdvisoryRecords:
         return frozenset(name for name in callsigns if self._was_seen(name, since_ns))
 
     def _traffic(self, advisory: Advisory) -> tuple[str, ...]:
-        """Return an advisory's traffic by callsign; a name that no actor has stays as it is."""
+        """Return the callsigns of an advisory's traffic, and names that no actor has."""
         return tuple(self._callsigns.get(name, name) for name in advisory.traffic)
 
     def _loses_separation(self, advisory: Advisory) -> bool:
-        """Return true if the traffic is a pair that will really lose separation soon."""
         traffic = advisory.traffic
         if len(traffic) != 2 or not all(name in self._callsigns for name in traffic):
             return False
@@ -188,7 +186,6 @@ class AdvisoryRecords:
         """Return true if the traffic is in no conflict, annotated or real.
 
         In a scenario without a conflict, every alert is a nuisance whose conflict did not happen.
-        A question for what was heard in doubt tells of no conflict, and is none.
         """
         if record.concerns_conflict or record.first.kind == CLARIFICATION:
             return False
@@ -198,7 +195,6 @@ class AdvisoryRecords:
 
 
 def _involved(incursions: Iterable[RunwayIncursion]) -> list[frozenset[str]]:
-    """Return the actors in each incursion."""
     return [
         frozenset(actor for actor in (one.user, one.intruder) if actor is not None)
         for one in incursions

@@ -91,14 +91,9 @@ class CallRecords:
     # --- statistics -------------------------------------------------------------------------
 
     def statistics(self, callsigns: Sequence[str], *, is_recognised: bool) -> RadioStatistics:
-        """Return the statistics of the radio.
+        """Return the statistics of the radio, with the callsigns on the roster.
 
-        Parameters
-        ----------
-        callsigns
-            Callsigns on the roster.
-        is_recognised
-            True if a recogniser took part, so that transcripts may be missing.
+        Transcripts may be missing only if a recogniser took part: `is_recognised`.
         """
         spoken = [(call, said) for call in self if (said := call.said) is not None]
         words = [(call, said) for call, said in spoken if said.text]

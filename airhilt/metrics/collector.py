@@ -68,8 +68,8 @@ class Collector:
     ----------
     ground_m
         Height of the ground above WGS84, in m.
-    monitor, runways
-        Monitors of the run; runways is None away from airports.
+    runways
+        Monitor of the runways; None away from airports.
     deciders
         Names of the workers that decide.
     given
@@ -81,8 +81,6 @@ class Collector:
 
     Attributes
     ----------
-    window
-        The conflict window.
     modalities
         Last state of each modality.
     ended_actors
@@ -188,7 +186,6 @@ class Collector:
             self._told(identity, int(revision), recipient, call.said.t_tx_ns)
 
     def _told(self, identity: str, revision: int, recipient: str, t_ns: int) -> None:
-        """Receive that a recipient hears, or has heard, an advisory from a time on."""
         self._advisories.add_voice(identity, t_ns)
         self._first_warning.heard((identity, recipient, revision), t_ns)
 
@@ -269,12 +266,11 @@ class Collector:
         return parts_of(begun_ns, warning.t_ns, warning.advisory, transcript)
 
     def _is_warned_in_time(self) -> bool:
-        """Return true if somebody was warned before the conflict window closed."""
         warning_ns, closed_ns = self._first_warning.t_ns, self.window.closed_ns
         return warning_ns is not None and (closed_ns is None or warning_ns <= closed_ns)
 
     def _as_declared(self, assistant: str) -> bool | None:
-        """Return true if what the scenario declares came about without an assistant.
+        """Return whether what the scenario declares came about without an assistant.
 
         None if there was one, or the scenario declares no conflict, or equipment has averted it.
         """

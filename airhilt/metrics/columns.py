@@ -80,14 +80,8 @@ class Column:
 class FlatRow:
     """The columns of a model, and their values.
 
-    Parameters
-    ----------
-    model
-        Model of which each single value has a column.
-    derived
-        Metrics that are worked out from others; their columns come last.
-    left_out
-        Fields without a column.
+    Each single value of the model has a column, but for the fields left out. Metrics that are
+    derived from others come last.
     """
 
     def __init__(
@@ -110,12 +104,8 @@ class FlatRow:
     def values(self, content: Mapping[str, Any]) -> dict[str, Value]:
         """Return the values by the names of their columns, of a model as JSON has it.
 
-        What the content does not have is null.
-
-        Raises
-        ------
-        TypeError, ValueError
-            A field has a value of another type.
+        What the content does not have is null. It raises TypeError or ValueError for a value of
+        another type.
         """
         own = {each.name: _at(content, each) for each in self.columns if each.path}
         return own | {each.name: each.value(content) for each in self._derived}
@@ -179,7 +169,6 @@ def _kind(annotation: Any) -> Kind | None:
 
 
 def _at(content: Mapping[str, Any], column: Column) -> Value:
-    """Return the value of a column; null if the summary does not have it."""
     found: Any = content
     for key in column.path:
         if found is None:
@@ -208,17 +197,9 @@ def metric_columns() -> tuple[Column, ...]:
 
 
 def metrics_of(summary: Summary | Mapping[str, Any]) -> dict[str, Value]:
-    """Return the metrics of a run by the names of their columns.
+    """Return the metrics of a run, of its summary or the content of its ``summary.json``.
 
-    Parameters
-    ----------
-    summary
-        The summary of a run, or the content of its ``summary.json``.
-
-    Raises
-    ------
-    TypeError, ValueError
-        A field has a value of another type.
+    They are by the names of their columns. It raises what `FlatRow.values` does.
     """
     content = summary.model_dump(mode="json") if isinstance(summary, Summary) else summary
     return OF_RUNS.values(content)

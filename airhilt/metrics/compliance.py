@@ -34,12 +34,7 @@ def complies(
 ) -> bool:
     """Return whether an action does what is recommended, in its sense.
 
-    Parameters
-    ----------
-    command
-        The command to the aircraft or vehicle; None: the action is a call.
-    track_deg
-        True track when the command came; None if it is not known, so that no side is either.
+    Without a command the action is a call. Without a true track, in degrees, a track has no side.
     """
     match recommendation:
         case Confirm():
@@ -57,7 +52,6 @@ def complies(
 
 
 def _is_level(recommendation: Climb | MaintainLevel, selected_ft: float) -> bool:
-    """Return whether a level is the recommended one, or lies beyond it in the sense given."""
     above_ft = selected_ft - recommendation.altitude_ft
     if isinstance(recommendation, MaintainLevel):
         return abs(above_ft) <= LEVEL_TOLERANCE_FT

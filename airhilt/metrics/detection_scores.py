@@ -239,10 +239,7 @@ class DetectionScores:
     def statistics(self, inputs_dropped: Mapping[str, int]) -> VisionStatistics:
         """Return the statistics of vision.
 
-        Parameters
-        ----------
-        inputs_dropped
-            Number of dropped inputs by worker and key, as `WorkerPool.inputs_dropped` returns it.
+        `inputs_dropped` has the number of dropped inputs by worker and key.
         """
         counted = {name: camera.counts() for name, camera in self._cameras.items()}
         every = _Counts()

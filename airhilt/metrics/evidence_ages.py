@@ -101,15 +101,7 @@ class _Calls:
 
 
 class EvidenceAges:
-    """Follows what decision workers have had.
-
-    Parameters
-    ----------
-    deciders
-        Names of the workers that decide.
-    given
-        Modalities that they are given.
-    """
+    """Follows what decision workers have had of the modalities that they are given."""
 
     def __init__(self, deciders: Collection[str], given: Collection[str] = MODALITIES) -> None:
         self._deciders = frozenset(deciders)

@@ -86,12 +86,7 @@ class FirstWarning:
     def margin_s(self, alert: tcas.Alert, truth: PairTruth | None) -> float | None:
         """Return the time from the first warning to an alert of TCAS II, had nobody reacted, in s.
 
-        Where TCAS spoke before the warning, the margin is negative.
-
-        Parameters
-        ----------
-        truth
-            Truth of the annotated pair.
+        Where TCAS spoke before the warning, as the truth of the pair tells, it is negative.
         """
         first = self._first
         if first is None or first.projection is None:

@@ -18,21 +18,13 @@ PERCENT = 100.0
 
 @dataclass(frozen=True)
 class Measure:
-    """A number over many runs.
+    """A number over many runs, of the values in one column that are not null.
 
     Attributes
     ----------
-    name
-        Name in files and on pages.
-    title
-        The number in words.
-    unit
-        Its unit.
     kind
-        share: of the runs in which the column is true, among those in which it is not null; mean:
-        of the values that are not null; per_hour: sum of the column by simulated hour.
-    column
-        Column of the table.
+        share: of the runs in which the column is true; mean: of the values; per_hour: sum of the
+        column by simulated hour.
     only_nominal
         True if only runs without a conflict count.
     """

@@ -42,10 +42,7 @@ def mcnemar(
 ) -> McNemar:
     """Return the test for the pairs of two arrays of equal length.
 
-    Parameters
-    ----------
-    groups
-        Number of the group of each pair, from 0 on without gaps: pairs of one depend on each other.
+    `groups` has the number of the group of each pair, from 0 on without gaps.
     """
     from scipy.stats import binomtest
 
@@ -98,7 +95,6 @@ def share_difference(
 
 
 def _are_alone(groups: NDArray[np.int64]) -> bool:
-    """Return true if each pair is a group of its own."""
     return len(np.unique(groups)) == len(groups)
 
 

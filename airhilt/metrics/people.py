@@ -112,11 +112,7 @@ class _Person:
         return min(times[name] for times in (self.seen_ns, self.heard_ns) if name in times)
 
     def perceived(self, name: Advised) -> _Perceived:
-        """Return from when on the reaction to an advisory counts.
-
-        It counts from when the advisory was audible, and from when it was drawn if it was not
-        heard, or if the person acted before it was audible.
-        """
+        """Return from when an advisory counts: heard, or drawn if not heard before the action."""
         seen_ns, heard_ns = self.seen_ns.get(name), self.heard_ns.get(name)
         if seen_ns is not None:
             first = self.first_action(seen_ns)
@@ -165,16 +161,9 @@ class _Seat:
 
 
 class PeopleRecords:
-    """Follows the people at the seats of a run.
+    """Follows the people at the seats of a run, which are units and callsigns.
 
-    Parameters
-    ----------
-    seats
-        Units and callsigns that are left to people.
-    callsigns
-        Callsigns of the run.
-    pace
-        Name of the pace with which the run begins.
+    The callsigns are those of the run; the pace is the one with which it begins.
     """
 
     def __init__(
@@ -392,8 +381,8 @@ class PeopleRecords:
     def _answered(self, action: _Action, perceived: list[_Perceived]) -> _Perceived:
         """Return the advisory to which an action is the reaction.
 
-        The first advisory with which the action complies comes before all others after which it
-        is the first action.
+        It is the first with which the action complies, else the first after which it is the first
+        action.
         """
 
         def order(one: _Perceived) -> tuple[bool, int, Advised]:
@@ -403,7 +392,6 @@ class PeopleRecords:
         return min((one for one in perceived if one.first is action), key=order)
 
     def _is_real_time(self, begin_ns: int, end_ns: int) -> bool:
-        """Return true if time passed as on the clock all the while."""
         before = [self._first_pace, *(pace for t_ns, pace in self._paces if t_ns < begin_ns)]
         within = [pace for t_ns, pace in self._paces if begin_ns <= t_ns <= end_ns]
         stalls = [t_ns for t_ns in self._stalls_ns if begin_ns - AFTER_STALL_NS <= t_ns <= end_ns]
@@ -411,7 +399,7 @@ class PeopleRecords:
 
 
 def _consent(people: list[_Person]) -> Literal["voice", "words", "none"] | None:
-    """Return to what the last of the people who had a seat, and have answered, agreed at last."""
+    """Return to what the last person who has answered agreed at last."""
     answers = [one.agreed for one in people if one.agreed is not None]
     if not answers:
         return None

@@ -38,13 +38,7 @@ class _Call:
 
 
 class PersonCalls:
-    """Follows the calls of the people at one seat.
-
-    Parameters
-    ----------
-    seat
-        Unit or callsign.
-    """
+    """Follows the calls of the people at one seat, a unit or a callsign."""
 
     def __init__(self, seat: str) -> None:
         self._seat = seat
@@ -76,15 +70,7 @@ class PersonCalls:
         return self._on_air(name) is not None
 
     def rows(self, heard: HeardAfter, next_call: NextCall) -> list[PersonCall]:
-        """Return what is known of each call, in the order in which they were begun.
-
-        Parameters
-        ----------
-        heard
-            Tells how soon other people heard a call.
-        next_call
-            Tells which call of another person came next.
-        """
+        """Return what is known of each call, in the order in which they were begun."""
         in_order = sorted(self._calls, key=lambda call: call.since_ns)
         return [_row(call, heard, next_call) for call in in_order]
 
@@ -102,7 +88,6 @@ class PersonCalls:
         return next((call for call in begun if call.text == said.text), None)
 
     def _on_air(self, name: str) -> _Call | None:
-        """Return the call that was on the air as a transmission."""
         return next((call for call in self._calls if call.said and call.said.id == name), None)
 
 
@@ -129,7 +114,6 @@ def _row(call: _Call, heard: HeardAfter, next_call: NextCall) -> PersonCall:
 
 
 def _of_transmission(since_ns: int, said: SpokenTruth) -> dict[str, str | int | float | bool]:
-    """Return the fields of a row that are known once a call was on the air."""
     return {
         "call": said.id,
         "frequency_khz": said.frequency_khz,
@@ -141,7 +125,6 @@ def _of_transmission(since_ns: int, said: SpokenTruth) -> dict[str, str | int | 
 
 
 def _of_hearing(after_s: Sequence[float | None]) -> dict[str, Any]:
-    """Return the fields of a row about the other people who heard a call."""
     measured = [one for one in after_s if one is not None]
     return {
         "to_loudspeaker_s": median(measured) if measured else None,

@@ -20,8 +20,7 @@ class Plans:
     lines
         Lines of the script, with the scenario's failures applied.
     ends_ns
-        Time by which each line ends, by its id. Until it has ended, this is when it would end if
-        the frequency were free.
+        Time by which each line ends, by its id; for one to come, if the frequency is free then.
     usual_rates_m_s
         Vertical speed of a climb that is scripted without one, in m/s, by callsign of the aircraft.
     """

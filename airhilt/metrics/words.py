@@ -46,7 +46,6 @@ def in_words(text: str) -> list[str]:
 
 
 def _spelled(word: str) -> Iterable[str]:
-    """Return a word in its usual spelling, a number as it is spoken."""
     if word in DIGITS:
         return [PLAIN_DIGITS[int(DIGITS[word])]]
     if word in SPELLINGS:
@@ -62,7 +61,6 @@ def _spelled(word: str) -> Iterable[str]:
 
 
 def _part(piece: str) -> Iterable[str]:
-    """Return a digit, a decimal point or the letters of a designator such as B5."""
     if piece == ".":
         return ["decimal"]
     if piece in "0123456789":

@@ -48,12 +48,8 @@ class AudioRecorder:
     """Writes the sound of each message that has any, as it is published.
 
     The chunks of a transmission are written if no `Transmission` has their samples: its sender or
-    the sound of the radio was lost while it lasted. Those of a receiver of a seat always are.
-
-    Parameters
-    ----------
-    keeps_voices
-        False leaves out what people have spoken.
+    the sound of the radio was lost while it lasted. Those of a receiver of a seat always are. What
+    people have spoken is left out unless voices are kept.
     """
 
     def __init__(self, folder: Path, *, keeps_voices: bool = True) -> None:
@@ -63,13 +59,7 @@ class AudioRecorder:
         """PCM of the transmissions that are on the air, by the key of their chunks and by id."""
 
     def take(self, key: str, message: Message, payload: Payload) -> None:
-        """Write the sound of a message.
-
-        Raises
-        ------
-        RunFolderError
-            The disk is full or gone.
-        """
+        """Write the sound of a message; `RunFolderError` if the disk is full or gone."""
         match message:
             case TransmissionChunk():
                 self._chunks.setdefault((key, message.id), bytearray()).extend(bytes(payload))
@@ -96,10 +86,7 @@ class AudioRecorder:
 def recorded_pcm(folder: Path, message: MessageWithSound) -> bytes:
     """Return the PCM of a message from the ``audio`` folder of its run.
 
-    Raises
-    ------
-    RunFolderError
-        Its file is missing, or has other samples than the message says.
+    It raises `RunFolderError` if its file is missing, or has other samples than the message says.
     """
     path = audio_file(folder, message)
     try:

@@ -137,10 +137,8 @@ class RunFolder:
     def require_free(self, overwrite: bool = False) -> None:
         """Check that a run can be written here; nothing is written.
 
-        Raises
-        ------
-        RunFolderError
-            It holds something already, leads elsewhere by a link, or cannot be written.
+        It raises `RunFolderError` if the folder holds something already, leads elsewhere by a link,
+        or cannot be written.
         """
         path = self.path
         for folder in (self.audio_path, self.pictures_path, self.video_path):
@@ -170,13 +168,7 @@ class RunFolder:
             )
 
     def create(self, overwrite: bool = False) -> None:
-        """Make the folder, or delete the files of an earlier run in it; other files stay.
-
-        Raises
-        ------
-        RunFolderError
-            As for `require_free`.
-        """
+        """Make the folder, or delete the files of an earlier run in it; else as `require_free`."""
         self.require_free(overwrite)
         try:
             self.path.mkdir(parents=True, exist_ok=True)
@@ -212,13 +204,7 @@ class RunFolder:
 
     @classmethod
     def open(cls, path: Path) -> RunFolder:
-        """Return an existing run folder.
-
-        Raises
-        ------
-        RunFolderError
-            There is no run in it.
-        """
+        """Return an existing run folder; `RunFolderError` if there is no run in it."""
         folder = cls(path)
         if not folder.info_path.is_file():
             raise RunFolderError(f"{path}: no run here; expected a folder with a run.json")
@@ -245,13 +231,7 @@ class RunFolder:
             raise RunFolderError(f"{path}: cannot be written: {error.strerror}") from None
 
     def info(self) -> RunInfo:
-        """Return the content of ``run.json``.
-
-        Raises
-        ------
-        RunFolderError
-            It cannot be read, is damaged, or of another format.
-        """
+        """Return ``run.json``; `RunFolderError` if it cannot be read or has another format."""
         try:
             data = self.read(self.info_path)
             bounded_json.require_few_values(data)
@@ -266,12 +246,9 @@ class RunFolder:
             raise RunFolderError(f"{self.info_path}: {error}") from None
 
     def summary(self) -> dict[str, Any] | None:
-        """Return ``summary.json``, or None if the run did not write it.
+        """Return ``summary.json``, None if the run did not write it.
 
-        Raises
-        ------
-        RunFolderError
-            It cannot be read, or is no JSON object.
+        It raises `RunFolderError` if it cannot be read, or is no JSON object.
         """
         try:
             loaded = bounded_json.parse(self.read(self.summary_path))

@@ -19,19 +19,16 @@ LONGEST_STEP_BYTES = 1_000_000
 
 
 class LatencyLog:
-    """Writes one line for each step; it is flushed before the log that has the results of steps."""
+    """Writes one line for each step; it is flushed before the log that has the results of steps.
+
+    All methods raise `RunFolderError` if the disk is full or gone.
+    """
 
     def __init__(self, path: Path) -> None:
         self._stream = path.open("w", encoding="utf-8")
 
     def step(self, record: StepRecord) -> None:
-        """Write a step.
-
-        Raises
-        ------
-        RunFolderError
-            The disk is full or gone. The other methods raise the same.
-        """
+        """Write a step."""
         self._write(
             f'{{"worker": "{record.worker}", "seq": {record.seq}, "t_in_ns": {record.t_in_ns}, '
             f'"t_start_ns": {record.t_start_ns}, "latency_ns": {record.latency_ns}, '
@@ -98,10 +95,7 @@ class RecordedLatencies:
 def read_latencies(path: Path) -> RecordedLatencies:
     """Return the steps of a run; a last line that breaks off is left out.
 
-    Raises
-    ------
-    RunFolderError
-        The file cannot be read, or one of its lines is no step of a worker.
+    It raises `RunFolderError` if the file cannot be read, or a line is no step of a worker.
     """
     recorded = RecordedLatencies()
     try:
@@ -122,10 +116,7 @@ def read_latencies(path: Path) -> RecordedLatencies:
 def latency_lines(path: Path) -> Iterator[bytes]:
     """Yield the lines of a latency log one by one.
 
-    Raises
-    ------
-    OSError
-        The file cannot be read, is no regular file of its folder, or has a line that is too long.
+    It raises OSError if the file cannot be read, or a line is longer than `LONGEST_STEP_BYTES`.
     """
     with open_inside(path.parent, path) as stream:
         while line := stream.readline(LONGEST_STEP_BYTES + 1):
@@ -136,7 +127,6 @@ def latency_lines(path: Path) -> Iterator[bytes]:
 
 
 def _take(row: dict[str, Any], recorded: RecordedLatencies) -> None:
-    """Keep one line of a latency log."""
     worker = row["worker"]
     if "lost" in row:
         if type(row["t_ns"]) is not int:

@@ -60,10 +60,7 @@ class LogWriter:
     def flush(self) -> None:
         """Hand all messages to the operating system, so that they outlive this process.
 
-        Raises
-        ------
-        RunFolderError
-            The disk is full or gone.
+        It raises `RunFolderError` if the disk is full or gone.
         """
         try:
             self._writer.flush()  # type: ignore[no-untyped-call]
@@ -71,13 +68,7 @@ class LogWriter:
             raise disk_failed(self._stream.name, error) from None
 
     def close(self) -> None:
-        """Write the index and close the file, unless it is closed already.
-
-        Raises
-        ------
-        RunFolderError
-            The disk is full or gone; what was flushed before stays readable.
-        """
+        """Write the index and close the file, unless it is closed already; else as `flush`."""
         if self._stream.closed:
             return
         try:

@@ -77,12 +77,7 @@ class Gap(NamedTuple):
 
 
 class LogReader:
-    """Reads one log from its beginning to where it ends.
-
-    Parameters
-    ----------
-    path
-        The file, which may still be written.
+    """Reads one log, which may still be written, from its beginning to where it ends.
 
     Attributes
     ----------
@@ -105,10 +100,7 @@ class LogReader:
     def messages(self) -> Iterator[Logged]:
         """Yield the messages in the order of writing; what cannot be read is left out.
 
-        Raises
-        ------
-        RunFolderError
-            The file cannot be read, or holds no message that anybody could read.
+        It raises `RunFolderError` if the file cannot be read, or is no log.
         """
         with self._content() as content:
             yield from self._messages(content)
@@ -180,12 +172,7 @@ class LogReader:
 def _chunk(content: mmap.mmap, place: int) -> tuple[list[McapRecord], int]:
     """Return the records of the chunk whose compression is named at a place, and where it ends.
 
-    Raises
-    ------
-    EndOfFile
-        The file ends before it.
-    Exception
-        Another one of `BROKEN`: it is no chunk, too large, or damaged.
+    It raises EndOfFile if the file ends before it, and others of `BROKEN` if it is damaged.
     """
     begin = place - BEFORE_COMPRESSION
     (length,) = struct.unpack_from("<Q", content, begin - LENGTH_BYTES)
@@ -230,12 +217,8 @@ def _is_end_of_data(content: mmap.mmap, end: int) -> bool:
 def read_log(path: Path) -> Iterator[Logged]:
     """Yield the messages of a log in the order of writing, up to where it breaks off.
 
-    `airhilt.record.open_run` reads a damaged log too, and the rest of its run.
-
-    Raises
-    ------
-    RunFolderError
-        The file cannot be read, is no MCAP file, or messages are missing in it.
+    It raises `RunFolderError` if the file cannot be read or messages are missing in it.
+    `airhilt.record.open_run` reads a damaged log too.
     """
     reader = LogReader(path)
     for logged in reader.messages():

@@ -41,8 +41,7 @@ def manifest(folder: Path, files: Iterable[Path]) -> dict[str, FileRecord]:
 def digest(document: Mapping[str, Any]) -> str:
     """Return the SHA-256 of a document with a manifest, without its field ``digest``.
 
-    It is taken over JSON with sorted names, without spaces, and with ASCII characters only, so that
-    it does not depend on how the file is laid out.
+    It is taken over JSON with sorted names, without spaces, and with ASCII characters only.
     """
     content = {name: value for name, value in document.items() if name != "digest"}
     canonical = json.dumps(content, sort_keys=True, separators=(",", ":"))

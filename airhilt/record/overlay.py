@@ -75,10 +75,7 @@ class Overlay:
     def image(self, picture: Picture, seen: Detections | None) -> Image.Image:
         """Return a picture with its boxes, clock and advisory.
 
-        Parameters
-        ----------
-        seen
-            Detections in it, or in the last picture before it that a detector looked at.
+        `seen` are the detections in it, or in the last picture before it that a detector looked at.
         """
         from PIL import Image, ImageDraw
 

@@ -1,8 +1,7 @@
 """``pictures/``: the key pictures of a run.
 
 There is a small one of each camera at the start, and one of the first detection, of the first
-warning and of the closest approach. A file is named after its occasion, camera and picture. The log
-has the detections and the truth of it.
+warning and of the closest approach.
 """
 
 from __future__ import annotations
@@ -105,19 +104,11 @@ class WaitingPictures:
 class KeyPictures:
     """Writes the key pictures of a run, each as soon as it is known.
 
-    The first detection is the first one that matches one of the `actors`. The first warning is the
-    first advisory of CAUTION or above. Its picture is the newest that a detector had looked at, of
-    the camera that shows one of the actors largest. The closest approach is known at the end of the
-    run. Until then each camera that has an actor in view keeps its picture nearest to it in time.
-
-    Parameters
-    ----------
-    folder
-        Folder to write into; it is made with the first picture.
-    actors
-        Callsigns of the pair of the conflict, or of all actors.
-    closest_ns
-        Returns the time of the pair's closest approach up to now, None without a pair.
+    The first detection is the first one that matches one of the `actors`: the pair of the conflict,
+    or all. The first warning is the first advisory of CAUTION or above. Its picture is the newest
+    that a detector had looked at, of the camera that shows one of the actors largest. Each camera
+    that has an actor in view keeps its picture nearest in time to the closest approach up to now,
+    `closest_ns`.
     """
 
     def __init__(
@@ -136,13 +127,7 @@ class KeyPictures:
         self._is_full = False
 
     def take(self, key: str, message: Message, payload: Payload) -> None:  # noqa: ARG002
-        """Receive a published message, truth too.
-
-        Raises
-        ------
-        RunFolderError
-            The disk is full or gone. `close` raises the same.
-        """
+        """Receive a message, truth too; `RunFolderError` if the disk is full or gone."""
         match message:
             case CameraTruth(camera=name):
                 self._sightings[name] = message.sightings
@@ -158,7 +143,7 @@ class KeyPictures:
                 self._warned()
 
     def close(self) -> None:
-        """Write the picture of the closest approach."""
+        """Write the picture of the closest approach; else as `take`."""
         closest_ns = self._closest_ns()
         if closest_ns is None or not self._nearest or self._is_full:
             return

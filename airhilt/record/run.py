@@ -1,8 +1,4 @@
-"""A recorded run: its folder, read and checked against its manifest.
-
-Every command that reads a run opens it with `open_run`, which tells in one line a file what is
-damaged, and from when to when. The rest of the run can be read.
-"""
+"""A recorded run: its folder, read and checked against its manifest."""
 
 from __future__ import annotations
 
@@ -59,22 +55,13 @@ class Run:
         return (*self.damage, *filter(None, lines))
 
     def messages(self) -> Iterator[Logged]:
-        """Yield the messages of the log in the order of writing, without what is damaged.
-
-        Raises
-        ------
-        RunFolderError
-            The log cannot be read at all.
-        """
+        """Yield the messages of the log without what is damaged; else as `LogReader.messages`."""
         return LogReader(self.folder.log_path).messages()
 
     def latencies(self) -> RecordedLatencies:
         """Return the steps of the workers.
 
-        Raises
-        ------
-        RunFolderError
-            They cannot be read, or are not those that the run wrote.
+        It raises `RunFolderError` if they cannot be read, or are not those that the run wrote.
         """
         if problem := self._problem(self.folder.latency_path):
             raise RunFolderError(
@@ -85,10 +72,7 @@ class Run:
     def summary(self) -> dict[str, Any]:
         """Return the numbers of the run.
 
-        Raises
-        ------
-        RunFolderError
-            There are none, they cannot be read, or they are not those that the run wrote.
+        It raises `RunFolderError` if they cannot be read, or are not those that the run wrote.
         """
         path = self.folder.summary_path
         problem = self._problem(path)
@@ -149,8 +133,7 @@ def _info_problem(folder: RunFolder) -> str:
 def _log_problem(folder: RunFolder, info: RunInfo) -> str:
     """Return in words from when to when the log is damaged, empty if it is not.
 
-    A log without a record in the manifest, because its run was killed or goes on, is checked by
-    its own checksums. Nothing is said of one that cannot be read at all and has no record.
+    A log without a record, because its run was killed or goes on, is checked by its own checksums.
     """
     path = folder.log_path
     record = info.files.get(path.name)

@@ -42,14 +42,9 @@ def public_file(private: Path) -> Path:
 
 
 def make_keys(private: Path) -> str:
-    """Write a new private key, which only its owner may read, and its public key beside it.
+    """Write a new private key and its public key beside it, and return their fingerprint.
 
-    The fingerprint of the key is returned.
-
-    Raises
-    ------
-    SignatureError
-        There is such a file already, or it cannot be written.
+    It raises `SignatureError` if there is such a file already, or it cannot be written.
     """
     public = public_file(private)
     for path in (private, public):
@@ -80,10 +75,8 @@ def fingerprint(key: Ed25519PublicKey) -> str:
 def private_key(path: Path) -> Ed25519PrivateKey:
     """Return the private key in a file.
 
-    Raises
-    ------
-    SignatureError
-        It cannot be read, is no private Ed25519 key without a password, or other users may read it.
+    It raises `SignatureError` if it cannot be read, is no private Ed25519 key without a password,
+    or other users may read it.
     """
     key = _key(path, partial(load_pem_private_key, password=None))
     if not isinstance(key, Ed25519PrivateKey):
@@ -100,13 +93,7 @@ def private_key(path: Path) -> Ed25519PrivateKey:
 
 
 def public_key(path: Path) -> Ed25519PublicKey:
-    """Return the public key in a file.
-
-    Raises
-    ------
-    SignatureError
-        It cannot be read, or is no public Ed25519 key.
-    """
+    """Return the public key in a file; `SignatureError` if it is no public Ed25519 key."""
     key = _key(path, load_pem_public_key)
     if not isinstance(key, Ed25519PublicKey):
         raise SignatureError(
@@ -116,7 +103,6 @@ def public_key(path: Path) -> Ed25519PublicKey:
 
 
 def _key(path: Path, load: Callable[[bytes], object]) -> object:
-    """Return the key in a file, None if it holds none."""
     with _named(path, "read"):
         data = read_file(path, LARGEST_KEY_BYTES)
     try:
@@ -128,10 +114,7 @@ def _key(path: Path, load: Callable[[bytes], object]) -> object:
 def sign(folder: RunFolder | SweepFolder, key: Ed25519PrivateKey) -> None:
     """Write the signature of a run or a sweep beside its manifest.
 
-    Raises
-    ------
-    SignatureError
-        It is signed already, or the signature cannot be written.
+    It raises `SignatureError` if it is signed already, or the signature cannot be written.
     """
     path = folder.signature_path
     if path.exists():

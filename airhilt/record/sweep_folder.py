@@ -80,19 +80,10 @@ class SweepFolder:
 
     @classmethod
     def open(cls, path: Path, notice: Notice | None = None) -> SweepFolder:
-        """Return an existing sweep folder, and tell what is damaged in it.
+        """Return an existing sweep folder, and tell each line of its `damage`.
 
-        Parameters
-        ----------
-        path
-            The sweep folder.
-        notice
-            Is told each line of `damage`. None warns of it, as Python does.
-
-        Raises
-        ------
-        SweepFolderError
-            There is no sweep in it, or one that has no tables yet.
+        Without a notice Python warns of it. It raises `SweepFolderError` if there is no sweep in
+        the folder, or one that has no tables yet.
         """
         folder = cls(path)
         if not folder.info_path.is_file():
@@ -103,13 +94,7 @@ class SweepFolder:
         return folder
 
     def create(self) -> None:
-        """Make the folder; one that holds a sweep already is used again.
-
-        Raises
-        ------
-        SweepFolderError
-            It holds something else, or cannot be written.
-        """
+        """Make the folder, or use that of a sweep again; `SweepFolderError` if it cannot be."""
         self.require_usable()
         with _writing(self.path):
             make_folder(self.parts_path)
@@ -143,12 +128,8 @@ class SweepFolder:
     def locked(self) -> Iterator[None]:
         """Keep the folder for one process; the lock ends with it, however it ends.
 
-        What a killed process left half-written is removed.
-
-        Raises
-        ------
-        SweepFolderError
-            Another process has it.
+        What a killed process left half-written is removed. It raises `SweepFolderError` if another
+        process has the folder.
         """
         with _writing(self.path):
             stream = os.fdopen(self._open_lock(), "w")
@@ -176,13 +157,7 @@ class SweepFolder:
         _write_info(self.next_info_path, info)
 
     def info(self) -> dict[str, Any]:
-        """Return ``sweep.json``.
-
-        Raises
-        ------
-        SweepFolderError
-            It is damaged.
-        """
+        """Return ``sweep.json``; `SweepFolderError` if it is damaged."""
         try:
             loaded = bounded_json.parse(self.read(self.info_path))
         except UNREADABLE as error:
@@ -196,26 +171,14 @@ class SweepFolder:
         return read_inside(self.path, path, bounded_json.MOST_BYTES)
 
     def files(self) -> dict[str, FileRecord]:
-        """Return the manifest in ``sweep.json``, empty if it has none.
-
-        Raises
-        ------
-        SweepFolderError
-            It is damaged.
-        """
+        """Return the manifest in ``sweep.json``, empty if it has none; else as `info`."""
         try:
             return MANIFEST.validate_python(self.info().get(FILES, {}))
         except ValidationError as error:
             raise SweepFolderError(f"{self.info_path}: {FILES}: {first_problem(error)}") from None
 
     def damage(self) -> tuple[str, ...]:
-        """Return a line for ``sweep.json`` and each table that is not as the sweep wrote it.
-
-        Raises
-        ------
-        SweepFolderError
-            ``sweep.json`` cannot be read.
-        """
+        """Return a line for ``sweep.json`` and each table that was changed; else as `info`."""
         info, files = self.info(), self.files()
         problems = [digest_problem(self.info_path.name, info)]
         problems += [
@@ -228,31 +191,18 @@ class SweepFolder:
     # --- finished runs ----------------------------------------------------------------------
 
     def keep(self, runs: pa.Table) -> None:
-        """Write finished runs as a new part; each row has at least what is `REQUIRED`.
-
-        Raises
-        ------
-        SweepFolderError
-            They cannot be written; earlier parts are as they were.
-        """
+        """Write finished runs as a new part; each row has at least what is `REQUIRED`."""
         self._write_part(runs)
         small = [part for part in self._parts() if part.stat().st_size <= SMALL_BYTES]
         if len(small) > MOST_PARTS:
             self._put_together(small, runs.schema)
 
     def finished(self, schema: pa.Schema, notice: Callable[[str], None] | None) -> pa.Table:
-        """Return all finished runs; a run that was finished twice has two rows.
+        """Return all finished runs in the columns of a schema; one finished twice has two rows.
 
         What a part of another version does not have is null. The runs of a part that is damaged, or
-        whose columns cannot be those of the schema, are missing.
-
-        Parameters
-        ----------
-        schema
-            Names and types of the columns that are returned.
-        notice
-            Is told of each such part, which is set aside. None leaves the folder as it is, while
-            another sweep writes.
+        whose columns cannot be those of the schema, are missing. The notice is told of each such
+        part, which is set aside; None leaves the folder as it is, while another sweep writes.
         """
         import pyarrow as pa
 
@@ -300,15 +250,9 @@ class SweepFolder:
         """Write both tables and their ``sweep.json``, each all or nothing.
 
         After a kill in between, `table` and `machine` tell that they are not of one sweep. An
-        earlier signature is deleted: it is none of these tables.
-
-        Parameters
-        ----------
-        machine
-            Its column ``folder`` says which run folders were kept.
-        info
-            Content of ``sweep.json`` but for the manifest; its ``grid_sha256`` goes into the tables
-            too.
+        earlier signature is deleted. The column ``folder`` of `machine` says which run folders were
+        kept; `info` is the content of ``sweep.json`` but for the manifest, and its ``grid_sha256``
+        goes into the tables.
         """
         with _writing(self.signature_path):
             self.signature_path.unlink(missing_ok=True)
@@ -331,10 +275,8 @@ class SweepFolder:
     def table(self) -> pa.Table:
         """Return ``sweep.parquet``: parameters and metrics, a row a run.
 
-        Raises
-        ------
-        SweepFolderError
-            It is not there yet, damaged, or not of the sweep in ``sweep.json``.
+        It raises `SweepFolderError` if it is not there, damaged, or not of the sweep in
+        ``sweep.json``.
         """
         return self._of_this_sweep(self.table_path)
 
@@ -356,13 +298,7 @@ class SweepFolder:
 
 
 def is_sweep(path: Path) -> bool:
-    """Return true for a sweep folder, false for a run folder.
-
-    Raises
-    ------
-    SweepFolderError
-        It is neither.
-    """
+    """Return true for a sweep folder, false for a run folder; else raise `SweepFolderError`."""
     if SweepFolder(path).is_there:
         return True
     if RunFolder(path).info_path.is_file():
@@ -387,13 +323,7 @@ def _read_part(part: Path) -> pa.Table:
 
 
 def _parse(data: bytes) -> pa.Table:
-    """Return the table in a Parquet file.
-
-    Raises
-    ------
-    ValueError
-        It is damaged, or claims to be larger than a sweep can be.
-    """
+    """Return the table in a Parquet file; ValueError if it is damaged or claims too much."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 

@@ -103,12 +103,8 @@ class Verification:
 def verify(path: Path, key: Path | None = None) -> Verification:
     """Compare every file of a run or a sweep with its manifest, and its signature with a key.
 
-    Raises
-    ------
-    SweepFolderError
-        There is neither a run nor a sweep.
-    SignatureError
-        The key cannot be read.
+    It raises `SweepFolderError` if there is neither, and `SignatureError` if the key cannot be
+    read.
     """
     folder = SweepFolder(path) if is_sweep(path) else RunFolder(path)
     given = None if key is None else public_key(key)
@@ -125,12 +121,8 @@ def verify(path: Path, key: Path | None = None) -> Verification:
 def sign_folder(path: Path, key: Path) -> str:
     """Sign a run or a sweep that is intact, and return the fingerprint of the key.
 
-    Raises
-    ------
-    SweepFolderError
-        There is neither a run nor a sweep, or a sweep is going on.
-    SignatureError
-        It is not intact, or signed already, or the key is none.
+    It raises `SignatureError` if it is not intact, or signed already, or the key is none, and
+    `SweepFolderError` if there is neither a run nor a sweep, or the sweep is going on.
     """
     signer = private_key(key)
     sweep = SweepFolder(path)

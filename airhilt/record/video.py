@@ -43,13 +43,7 @@ whole up to one."""
 
 
 def require_video() -> str:
-    """Return the encoder that writes videos.
-
-    Raises
-    ------
-    VideoError
-        PyAV or an H.264 encoder is not installed.
-    """
+    """Return the encoder of videos; `VideoError` if PyAV or an encoder is not installed."""
     try:
         from av.codec import codecs_available
     except ImportError:
@@ -68,17 +62,7 @@ def require_video() -> str:
 class VideoRecorder:
     """Writes a video for each camera of a run.
 
-    Parameters
-    ----------
-    folder
-        Folder to write into; it is made with the first picture.
-    notice
-        Called with a sentence for the user when a camera's video cannot go on.
-
-    Raises
-    ------
-    VideoError, RendererError
-        As `require_video`.
+    The notice is told when a camera's video cannot go on. Without PyAV it raises `VideoError`.
     """
 
     def __init__(self, folder: Path, *, notice: Callable[[str], None]) -> None:
@@ -94,13 +78,7 @@ class VideoRecorder:
         self._is_full = False
 
     def take(self, key: str, message: Message, payload: Payload) -> None:  # noqa: ARG002
-        """Receive a published message; truth is ignored.
-
-        Raises
-        ------
-        RunFolderError
-            The disk is full or gone. `close` raises the same.
-        """
+        """Receive a message; `RunFolderError` if the disk is full or gone."""
         try:
             self._take(message, payload)
         except RunFolderError:

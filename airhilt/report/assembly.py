@@ -42,8 +42,6 @@ class Assembly:
     ----------
     name
         Name under which templates find the data that all sections share; the id of its element.
-    title
-        Title of the page until a script sets another.
     shared
         Names of the scripts in ``report/shared`` that all sections may use, in the order in which
         they build on each other.
@@ -125,13 +123,7 @@ class Assembly:
 
 
 def write_page(page: Path, html: str) -> None:
-    """Write a page, all or nothing.
-
-    Raises
-    ------
-    RunFolderError
-        It cannot be written.
-    """
+    """Write a page, all or nothing; `RunFolderError` if it cannot be written."""
     try:
         replace_file(page, f"{html}\n".encode())
     except OSError as error:
@@ -148,7 +140,6 @@ def inline(script: str) -> str:
 
 
 def _readable(data: Any) -> Any:
-    """Return data whose texts have no character without a shape."""
     match data:
         case str():
             return "\n".join(readable(line, longest=None) for line in data.split("\n"))

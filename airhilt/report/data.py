@@ -102,10 +102,8 @@ class RunData:
     def as_json(self) -> Json:
         """Return what all sections share.
 
-        Raises
-        ------
-        RunFolderError
-            What ``run.json`` says of the scenario has another shape than a run writes.
+        It raises `RunFolderError` if ``run.json`` describes the scenario in another shape than a
+        run writes.
         """
         with _of_record(self.folder):
             info, realised = self.info, self.info.realised
@@ -141,20 +139,8 @@ class RunData:
 def read_run(recorded: Run, page: Path, contents: Sequence[GuardedContent]) -> RunData:
     """Read a run folder, and give the messages of its log to the sections that ask for them.
 
-    Parameters
-    ----------
-    recorded
-        A run that has finished, was stopped, was killed or is still going on.
-    page
-        File that the page is written to.
-    contents
-        Receivers of messages: each gets those with the keys of its section.
-
-    Raises
-    ------
-    RunFolderError
-        The log cannot be read, or what ``run.json`` says of the scenario has another shape than a
-        run writes.
+    The page is the file that is written. It raises `RunFolderError` if the log cannot be read; else
+    as `RunData.as_json`.
     """
     with _of_record(recorded.folder):
         info, folder = recorded.info, recorded.folder
@@ -189,13 +175,7 @@ def read_run(recorded: Run, page: Path, contents: Sequence[GuardedContent]) -> R
 
 @contextmanager
 def _of_record(folder: RunFolder) -> Iterator[None]:
-    """Name ``run.json`` where what it says of the scenario is not what a run writes.
-
-    Raises
-    ------
-    RunFolderError
-        A part of it is missing, or of another kind.
-    """
+    """Name ``run.json`` where what it says of the scenario is not what a run writes."""
     try:
         yield
     except AirhiltError:

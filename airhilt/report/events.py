@@ -61,13 +61,7 @@ def _with_line(row: Json, lines: dict[str, Json]) -> Json:
 
 
 def event_row(logged: Logged, message: Json | None = None) -> Json | None:
-    """Return the row of a message, or None if it is no event.
-
-    Parameters
-    ----------
-    message
-        Its content, if that is known already.
-    """
+    """Return the row of a message, or None if it is no event; its content may be known already."""
     make = _maker(logged.key)
     row = None if make is None else make(message or json.loads(logged.data), logged)
     if row is None:

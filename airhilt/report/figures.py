@@ -69,12 +69,7 @@ COLOUR = re.compile("|".join(CSS))
 
 
 class Figures:
-    """The figures of one page.
-
-    Parameters
-    ----------
-    drawn
-        Called after each figure with the number of those that there are.
+    """The figures of one page; `drawn` is told their number after each.
 
     Attributes
     ----------
@@ -115,13 +110,7 @@ class Figures:
         self._drawn(len(self.markup))
 
     def write(self, folder: Path) -> None:
-        """Write each figure into a folder, as SVG and as PDF.
-
-        Raises
-        ------
-        AirhiltError
-            One cannot be written.
-        """
+        """Write each figure into a folder, as SVG and as PDF; `AirhiltError` if one cannot be."""
         try:
             for name, data in self._files.items():
                 make_folder(folder)

@@ -58,10 +58,7 @@ class SplicedSound:
     def pieces(self) -> Iterator[Audio]:
         """Yield the sound by pieces, so that no day of silence is ever in memory.
 
-        Raises
-        ------
-        RunFolderError
-            A sound file is missing, or not what was received.
+        It raises `RunFolderError` if a sound file is missing, or not what was received.
         """
         at = 0
         for one in self.placed:
@@ -125,10 +122,8 @@ def write_frequency(
     frequency_khz
         The frequency; None takes the only one of the run.
     out
-        The WAV file; the transcript has the same name with ``.txt``. None writes both into the
-        run folder, under the name of the frequency.
-    notice
-        Is told what is damaged; the transcript says it too.
+        The WAV file; the transcript has the same name with ``.txt``. None writes both into the run
+        folder, under the name of the frequency.
 
     Returns
     -------
@@ -138,8 +133,7 @@ def write_frequency(
     Raises
     ------
     RunFolderError
-        There is no run, nothing was said on that frequency, or a sound file is not what was
-        received.
+        There is no run, nothing was said on the frequency, or a sound file is not what was received.
     SpeechError
         The run has no sound.
     """
@@ -158,13 +152,7 @@ def write_frequency(
 
 
 def read_frequency(run: Run, frequency_khz: int | None = None) -> FrequencyRecording:
-    """Return the sound of a frequency with the timing of the run, and what was said on it.
-
-    Raises
-    ------
-    RunFolderError, SpeechError
-        As `write_frequency`.
-    """
+    """Return the sound of a frequency, and what was said on it; else as `write_frequency`."""
     records = CallRecords()
     try:
         for logged in run.messages():
@@ -227,24 +215,12 @@ def _call(call: CallRecord, tx: Transmission) -> Json:
 
 
 def splice(folder: RunFolder, heard: Iterable[tuple[int, int, MessageWithSound]]) -> SplicedSound:
-    """Return the sound of messages from the start of the run, each at its time.
-
-    No file is read yet.
+    """Return the sound of messages from the start of the run, each at its time in ns.
 
     Two transmissions that blocked each other were both received mixed: the second is taken from
     where the first ends. A call that begins during the squelch tail of the one before cuts it off.
-
-    Parameters
-    ----------
-    heard
-        Begin and end of each message in ns, and the message; begins rise.
-
-    Raises
-    ------
-    RunFolderError
-        A message has a time before the run, or after the longest one that there can be.
-    SpeechError
-        None of them has sound.
+    Begins of messages rise. It raises `RunFolderError` for a message at a time that no run has, and
+    `SpeechError` if none has sound.
     """
     placed: list[_Placed] = []
     free_at = 0

@@ -30,26 +30,11 @@ SHARED = (
 
 
 def write_report(run_folder: Path, out: Path | None = None, notice: Notice = untold) -> Path:
-    """Write the page of a run, by default as ``report.html`` in its folder.
+    """Write the page of a run, by default as ``report.html`` in its folder, and return its path.
 
-    Parameters
-    ----------
-    run_folder
-        Folder of a run that has finished, was stopped, was killed or is still going on.
-    out
-        File to write instead.
-    notice
-        Is told what is damaged; the page says it too.
-
-    Returns
-    -------
-    Path
-        The file written.
-
-    Raises
-    ------
-    RunFolderError
-        There is no run, its ``run.json`` is damaged, or the page cannot be written.
+    The run has finished, was stopped, was killed or is still going on. The notice is told what is
+    damaged; the page says it too. It raises `RunFolderError` if there is no run, its ``run.json``
+    is damaged, or the page cannot be written.
     """
     run = open_run(run_folder, notice)
     page = out or run.folder.report_path

@@ -54,10 +54,8 @@ def cannot_be_shown(section: str, error: Exception) -> str:
 def load_member(family: Family, name: str) -> Any:
     """Return a section whose template and script can be read.
 
-    Raises
-    ------
-    AirhiltError
-        It cannot be loaded, stands in no section, or its template or script cannot be read.
+    It raises `AirhiltError` if it cannot be loaded, or stands in no section, or they cannot be
+    read.
     """
     section: PageSection = family.load(name)
     if section.within and section.within not in family.names():

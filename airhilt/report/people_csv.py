@@ -29,12 +29,8 @@ def write_people_csv(run: Run, path: Path) -> None:
     """Write the people of a run; without any, the file has its head alone.
 
     Each seat has a row ``total``, a row ``reaction`` for each advisory, a row ``isa`` for each
-    question, and a row ``call`` for each call.
-
-    Raises
-    ------
-    RunFolderError
-        There is no summary, or not the one that the run wrote. Or the file cannot be written.
+    question, and a row ``call`` for each call. It raises `RunFolderError` if there is no summary,
+    or not the one that the run wrote, or the file cannot be written.
     """
     summary, folder = run.summary(), run.folder
     table = io.StringIO(newline="")

@@ -26,13 +26,7 @@ SECTIONS = {
 
 
 def write_comparison(comparison: RunComparison | SweepComparison, page: Path) -> Path:
-    """Write the page of a comparison: one HTML file that opens offline.
-
-    Raises
-    ------
-    AirhiltError
-        It cannot be written.
-    """
+    """Write the page of a comparison: one HTML file that opens offline; else as `write_page`."""
     figures = Figures()
     if isinstance(comparison, SweepComparison):
         own = _of_sweeps(comparison, figures)

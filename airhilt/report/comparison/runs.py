@@ -70,10 +70,7 @@ class RunComparison:
 def compare_runs(first: Run, second: Run, names: tuple[str, str]) -> RunComparison:
     """Return what differs between two runs, which have these names.
 
-    Raises
-    ------
-    AirhiltError
-        One has no summary, or is damaged.
+    It raises `AirhiltError` if one has no summary, or is damaged.
     """
     runs = [read_run(each, each.folder.report_path, []) for each in (first, second)]
     rows = [_metrics(run) for run in runs]

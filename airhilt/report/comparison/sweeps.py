@@ -25,13 +25,7 @@ FIRST, SECOND = "_first", "_second"
 
 @dataclass(frozen=True)
 class Side:
-    """One side of a comparison: finished runs of a sweep.
-
-    Attributes
-    ----------
-    parameters
-        Names of the columns that are parameters.
-    """
+    """One side of a comparison: finished runs of a sweep, and the columns that are parameters."""
 
     name: str
     runs: DataFrame
@@ -40,14 +34,12 @@ class Side:
 
 @dataclass(frozen=True)
 class MeasureDifference:
-    """One measure on both sides.
+    """One measure on both sides, over the pairs in which both have a value.
 
     Attributes
     ----------
-    first, second
-        The measure over the pairs in which both have a value.
     difference
-        Mean of second less first over these pairs.
+        Mean of second less first.
     test
         McNemar's test, None for what is no share.
     one_sided
@@ -122,10 +114,7 @@ class SweepComparison:
 def compare_sides(first: Side, second: Side) -> SweepComparison:
     """Return the differences of two sides.
 
-    Raises
-    ------
-    AirhiltError
-        They have no runs in common, or a run of one has several partners.
+    It raises `AirhiltError` if they have no runs in common, or a run of one has several partners.
     """
     differing = dict(_differing(first, second))
     shared = [name for name in _settings(first) if name in _settings(second)]
@@ -182,13 +171,7 @@ def _only(side: Side, name: str) -> str | None:
 
 
 def _require_unique(side: Side, by: list[str], other: Side) -> None:
-    """Complain about runs of a side that are the same but for what the other side does not have.
-
-    Raises
-    ------
-    AirhiltError
-        There are some.
-    """
+    """Refuse runs of a side that are the same but for what the other side does not have."""
     if not side.runs.duplicated(by).any():
         return
     several = [name for name in _settings(side) if name not in by and side.runs[name].nunique() > 1]

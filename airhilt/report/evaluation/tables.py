@@ -13,13 +13,7 @@ SECTION = PageSection("tables", order=10, module=__file__)
 
 
 def render(evaluation: Mapping[str, Any]) -> str:
-    """Return the page of an evaluation as HTML.
-
-    Parameters
-    ----------
-    evaluation
-        Content of ``evaluation.json``.
-    """
+    """Return the page of an evaluation, from its ``evaluation.json``, as HTML."""
     title = f"Evaluation {evaluation['preset']}, {evaluation['seeds']} seeds"
     own = {
         "tables": [

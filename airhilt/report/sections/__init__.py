@@ -38,13 +38,7 @@ Json = dict[str, Any]
 
 
 class Content:
-    """The data of a section, gathered from one run folder and its log.
-
-    Parameters
-    ----------
-    folder
-        The run folder.
-    """
+    """The data of a section, gathered from one run folder and its log."""
 
     def __init__(self, folder: RunFolder) -> None:
         self.folder = folder
@@ -52,11 +46,8 @@ class Content:
     def take(self, logged: Logged) -> None:
         """Receive the next message with one of the section's keys.
 
-        Raises
-        ------
-        ValidationError
-            The message is not as this version writes it: the page leaves it out, and says so. Any
-            other exception costs the section.
+        After a ValidationError the page leaves the message out, and says so. Any other exception
+        costs the section.
         """
 
     def as_json(self, run: RunData) -> Any:
@@ -84,14 +75,7 @@ class Section(PageSection):
 class GuardedContent:
     """The content of a section, whose failure costs that section alone.
 
-    Attributes
-    ----------
-    section
-        The section.
-    is_whole
-        False once the content has failed: the section cannot be shown.
-    notes
-        Sentences on what failed.
+    `is_whole` is false once the content has failed; `notes` say why.
     """
 
     def __init__(self, section: Section, folder: RunFolder) -> None:
@@ -105,13 +89,7 @@ class GuardedContent:
             self._fail(error)
 
     def take(self, logged: Logged) -> None:
-        """Hand a message to the content.
-
-        Raises
-        ------
-        ValidationError
-            The message is not as this version writes it.
-        """
+        """Hand a message to the content; ValidationError if it is of another version."""
         if self._content is None:
             return
         try:

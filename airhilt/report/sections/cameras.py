@@ -176,12 +176,7 @@ def _video(run: RunData, camera: str) -> str | None:
 class PictureSources:
     """Puts pictures into the page, or links to them once there is no room.
 
-    Attributes
-    ----------
-    linked
-        Number of pictures that are links.
-    refused
-        A line for each picture that the run did not write as it is now.
+    `linked` counts the links; `refused` has a line for each picture that the run did not write so.
     """
 
     def __init__(self, run: RunData) -> None:
@@ -191,13 +186,7 @@ class PictureSources:
         self._room = MOST_CHARACTERS
 
     def of(self, name: PictureName) -> Json | None:
-        """Return ``src`` of a picture in the page or ``href`` of its file.
-
-        Returns
-        -------
-        dict
-            None without a file, or if it is not one that the run wrote.
-        """
+        """Return ``src`` of a picture or ``href`` of its file, None if the run did not write it."""
         folder = self._run.folder
         path = name.path(folder.pictures_path)
         try:

@@ -32,16 +32,10 @@ TITLES = {
 
 @dataclass(frozen=True)
 class Level:
-    """One value of a parameter, or a bin of values.
+    """One value of a parameter in words, or a bin of values between two limits.
 
-    Attributes
-    ----------
-    label
-        The value in words.
-    position
-        The value, or the mean of those in the bin; a place in the order for what is no number.
-    low, high
-        Limits of a bin; None for one value.
+    Its position is the value, or the mean of those in the bin; a place in the order for what is no
+    number.
     """
 
     label: str
@@ -52,13 +46,7 @@ class Level:
 
 @dataclass(frozen=True)
 class Axis:
-    """One parameter with its levels, in rising order.
-
-    Attributes
-    ----------
-    values
-        The parameter of each run; null where the run leaves it to its scenario.
-    """
+    """One parameter with its levels, in rising order, and the value of each run, or null."""
 
     name: str
     unit: str

@@ -109,13 +109,7 @@ def _families(runs: DataFrame) -> Series:
 
 
 def read_sweep_data(folder: SweepFolder, page: Path) -> SweepData:
-    """Return what the page of a sweep shows.
-
-    Raises
-    ------
-    AirhiltError
-        A table is not there, is damaged, or is not one of a sweep.
-    """
+    """Return what the page of a sweep shows; `AirhiltError` if a table is not there or damaged."""
     info, table = folder.info(), folder.table()
     return SweepData(
         folder=folder,
@@ -145,13 +139,7 @@ def _notes(table: pa.Table) -> list[str]:
 
 
 def parameters_of(table: pa.Table, origin: str) -> tuple[str, ...]:
-    """Return the names of the columns that are parameters; ``origin`` begins an error message.
-
-    Raises
-    ------
-    AirhiltError
-        It is no table of a sweep.
-    """
+    """Return the columns that are parameters; `AirhiltError` names what is no table of a sweep."""
     names: Sequence[str] = table.column_names
     first = len(BEFORE_PARAMETERS)
     if tuple(names[:first]) != BEFORE_PARAMETERS or AFTER_PARAMETERS not in names:

@@ -26,28 +26,11 @@ def write_sweep_report(
     drawn: Callable[[int], None] = lambda _: None,
     notice: Notice | None = untold,
 ) -> Path:
-    """Write the page of a sweep, by default as ``report.html`` in its folder, and its figures.
+    """Write the page of a sweep, by default as ``report.html`` in its folder, and return its path.
 
-    Parameters
-    ----------
-    sweep_folder
-        Folder of a sweep whose tables have been written.
-    out
-        File to write the page to instead; the figures stay in ``figures`` of the sweep folder.
-    drawn
-        Called after each figure with the number of those that there are.
-    notice
-        Is told what is damaged; the page says so too.
-
-    Returns
-    -------
-    Path
-        The file written.
-
-    Raises
-    ------
-    AirhiltError
-        There is no sweep, a table is damaged, or the page or a figure cannot be written.
+    The figures go into ``figures`` of the sweep folder; `drawn` is told their number after each.
+    The notice is told what is damaged; the page says so too. It raises `AirhiltError` if there is
+    no sweep, a table is damaged, or the page or a figure cannot be written.
     """
     folder = SweepFolder.open(sweep_folder, notice)
     page = out or folder.report_path

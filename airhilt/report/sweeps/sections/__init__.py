@@ -29,11 +29,8 @@ Content = Callable[[SweepData, Figures], Any]
 class SweepSection(PageSection):
     """One section of the page of a sweep.
 
-    Attributes
-    ----------
-    content
-        Returns the section's data from a sweep, and draws its figures; None if it has neither. A
-        section whose data is None is left out.
+    Its content returns the section's data from a sweep, and draws its figures. A section whose data
+    is None is left out.
     """
 
     content: Content | None = None
