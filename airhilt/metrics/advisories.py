@@ -39,6 +39,8 @@ class AdvisoryRecord:
         True if a revision of it was about the annotated pair.
     shown
         Callsigns of the actors that cameras had really shown shortly before a revision.
+    severity
+        Highest severity of all revisions.
     spoken_ns
         Time at which its voice was first heard, None if it never was.
     """
@@ -47,14 +49,9 @@ class AdvisoryRecord:
     loses_separation: bool
     concerns_conflict: bool = False
     shown: frozenset[str] = frozenset()
-    severities: list[Severity] = field(default_factory=list)
+    severity: Severity = Severity.INFO
     revisions: set[int] = field(default_factory=set)
     spoken_ns: int | None = None
-
-    @property
-    def severity(self) -> Severity:
-        """Highest severity of all revisions."""
-        return max(self.severities, key=lambda severity: severity.rank)
 
 
 class AdvisoryRecords:
@@ -92,7 +89,7 @@ class AdvisoryRecords:
         if advisory.revision in record.revisions:
             return False
         record.revisions.add(advisory.revision)
-        record.severities.append(advisory.severity)
+        record.severity = max(record.severity, advisory.severity, key=lambda one: one.rank)
         record.concerns_conflict |= self._concerns_conflict(advisory)
         record.shown |= self._shown(advisory)
         return True
@@ -165,7 +162,6 @@ class AdvisoryRecords:
         return "radio" in sources
 
     def _shown(self, advisory: Advisory) -> frozenset[str]:
-        """Return the callsigns of the actors that cameras really showed before an advisory."""
         since_ns = advisory.t_ns - SEEN_WITHIN_NS
         callsigns = set(self._callsigns.values())
         return frozenset(name for name in callsigns if self._was_seen(name, since_ns))

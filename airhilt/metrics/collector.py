@@ -179,7 +179,6 @@ class Collector:
         return self._is_on_frequency and recipient != CONTROLLER
 
     def _take_advisory_call(self, name: str) -> None:
-        """Receive that an advisory was heard on a frequency; its voice began with the call."""
         identity, revision, recipient = name.removeprefix(ADVISORY_CALL).rsplit(".", 2)
         call = self._calls.get(name)
         if call is not None and call.said is not None:
@@ -246,7 +245,6 @@ class Collector:
         }
 
     def _beginning_call(self) -> str | None:
-        """Return the id of the call that begins the conflict."""
         conflict = self._scenario.conflict
         begins = None if conflict is None else conflict.begins
         return begins.line if isinstance(begins, LineBegun) else None

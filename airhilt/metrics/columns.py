@@ -2,8 +2,7 @@
 
 A row has a column for each number, by rule from the models. A field of a model within another has
 the names of both, such as ``radio_wer``. Fields by stage, modality or outcome have a column for
-each that AIRHILT itself knows, so that every run has the same columns. Lists have none: what is
-wanted of them is counted in `DERIVED` and `DERIVED_OF_PEOPLE`.
+each that AIRHILT itself knows, so that every run has the same columns. Lists have none.
 """
 
 from __future__ import annotations
@@ -54,18 +53,12 @@ UNITS = {
 
 @dataclass(frozen=True)
 class Column:
-    """One column of a table of runs.
+    """One column of a table of runs, whose values may be null.
 
     Attributes
     ----------
-    name
-        Name, with the unit at its end where there is one.
-    type
-        Type of the values; every value may be null.
     unit
         Unit of the values: 1 for counts and shares, empty for texts and for true and false.
-    description
-        Meaning of the values, in one sentence.
     path
         Keys under which ``summary.json`` has the value; empty if it is worked out from others.
     """
@@ -121,7 +114,6 @@ def column_of(name: str, kind: Kind, description: str, path: tuple[str, ...] = (
 def _of_model(
     model: type[BaseModel], path: tuple[str, ...], left_out: Collection[str] = ()
 ) -> Iterator[Column]:
-    """Yield the fields of a model that are, or consist of, single values."""
     for name, info in model.model_fields.items():
         if name in left_out:
             continue
@@ -137,7 +129,6 @@ def _of_model(
 def _of_type(
     annotation: Any, info: FieldInfo, path: tuple[str, ...], context: tuple[str, ...]
 ) -> Iterator[Column]:
-    """Yield one column, or those of the model that the type is; none for a list."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         yield from _of_model(annotation, path)
     elif (kind := _kind(annotation)) is not None:

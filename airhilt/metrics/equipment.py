@@ -45,14 +45,12 @@ class EquipmentRecords:
                 equipment=name,
                 t_first_warning_s=ns_to_seconds(self._warned_ns.get(name)),
                 t_first_action_s=ns_to_seconds(self._acted_ns.get(name)),
-                margin_s=self._margin_s(name, warning_ns),
+                margin_s=(
+                    None
+                    if warning_ns is None or name not in self._warned_ns
+                    else (self._warned_ns[name] - warning_ns) / SECOND_NS
+                ),
                 alerts=records.summaries(incursions),
             )
             for name, records in self._records.items()
         ]
-
-    def _margin_s(self, name: str, warning_ns: int | None) -> float | None:
-        warned_ns = self._warned_ns.get(name)
-        if warned_ns is None or warning_ns is None:
-            return None
-        return (warned_ns - warning_ns) / SECOND_NS

@@ -42,11 +42,8 @@ class Estimate:
 
     def times(self, factor: float) -> Estimate:
         """Return the estimate in another unit."""
-        value, low, high = (
-            None if number is None else number * factor
-            for number in (self.value, self.low, self.high)
-        )
-        return Estimate(value, low, high, self.n)
+        numbers = (self.value, self.low, self.high)
+        return Estimate(*(None if one is None else one * factor for one in numbers), self.n)
 
 
 UNKNOWN = Estimate(None, None, None, 0)

@@ -21,7 +21,6 @@ Arrivals = deque[tuple[int, int]]
 
 
 def _taken(arrivals: Arrivals, t_start_ns: int) -> Iterator[int]:
-    """Yield when what a step has was observed, and forget it."""
     while arrivals and arrivals[0][0] <= t_start_ns:
         yield arrivals.popleft()[1]
 

@@ -9,9 +9,6 @@ from airhilt.metrics.calls import CallRecord
 from airhilt.metrics.summary import WarningParts
 from airhilt.units import SECOND_NS
 
-RADIO = "radio"
-"""Source of evidence that names the radio."""
-
 
 def supporting_transcript(
     advisory: Advisory, beginning: str | None, call: Callable[[str], CallRecord | None]
@@ -22,12 +19,12 @@ def supporting_transcript(
     advisory rests on the radio and names none, it is that of the call that begins the conflict.
     """
     names: tuple[str, ...] = advisory.evidence.radio_ids
-    if not names and beginning is not None and RADIO in advisory.evidence.sources:
+    if not names and beginning is not None and "radio" in advisory.evidence.sources:
         names = (beginning,)
-    known = [record for name in names if (record := call(name)) is not None]
     ready = [
         transcript
-        for record in known
+        for name in names
+        if (record := call(name)) is not None
         for transcript in record.transcripts
         if transcript.t_ns <= advisory.t_ready_ns
     ]

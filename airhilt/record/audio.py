@@ -1,7 +1,6 @@
 """``audio/``: the sound of each transmission and spoken advisory, a WAV file each.
 
-The files are named after their messages. The log has the SHA-256 of the samples, so that a file can
-be checked against it.
+The files are named after their messages. The log has the SHA-256 of the samples.
 """
 
 from __future__ import annotations

@@ -1,8 +1,7 @@
 """``log.mcap``: every message of a run, by simulation time.
 
-The file depends on nothing but the messages, so two equal runs give equal bytes. It is flushed
-once a simulated second; a run that is killed leaves all but the last of them. Everything in it has
-a CRC-32, and the messages are numbered from 1 on: `airhilt.record.log_reader` says what is damaged.
+The file depends on nothing but the messages, so two equal runs give equal bytes. It is flushed once
+a simulated second. Everything in it has a CRC-32, and the messages are numbered from 1 on.
 """
 
 from __future__ import annotations
@@ -80,5 +79,4 @@ class LogWriter:
 
 @functools.cache
 def _json_schema(model: type[BaseModel]) -> bytes:
-    """Return the JSON Schema of a model; a process makes it once for all its logs."""
     return json.dumps(model.model_json_schema(), sort_keys=True).encode()

@@ -1,8 +1,7 @@
 """The manifest of a run or a sweep: SHA-256 and size of each of its files.
 
-It is in ``run.json`` or ``sweep.json``, beside a hash of that document itself. It tells damage from
-what was written. Whoever changes a file on purpose can change the manifest too: only a signature
-(`airhilt.record.signature`) tells that.
+It is in ``run.json`` or ``sweep.json``, beside a hash of that document itself. It tells damage;
+only a signature (`airhilt.record.signature`) tells what was changed on purpose.
 """
 
 from __future__ import annotations

@@ -21,10 +21,6 @@ class Run:
 
     Attributes
     ----------
-    folder
-        The paths in the folder.
-    info
-        Content of ``run.json``.
     log_damage
         From when to when the log is damaged, empty if it is not.
     damage
@@ -92,17 +88,8 @@ class Run:
 def open_run(path: str | Path, notice: Notice | None = None) -> Run:
     """Open the folder of a run that has ended, was killed, or is still going on.
 
-    Parameters
-    ----------
-    path
-        The run folder.
-    notice
-        Is told each line of the run's ``damage``. None warns of it, as Python does.
-
-    Raises
-    ------
-    RunFolderError
-        There is no run in it, or its ``run.json`` cannot be read.
+    The notice is told each line of the run's ``damage``; None warns of it, as Python does. It
+    raises `RunFolderError` if there is no run in it, or its ``run.json`` cannot be read.
     """
     run = Run(RunFolder.open(Path(path)))
     tell_damage(run.folder.path, run.damage, notice)
@@ -122,7 +109,6 @@ def result_problem(folder: RunFolder, info: RunInfo, path: Path) -> str:
 
 
 def _info_problem(folder: RunFolder) -> str:
-    """Return in words why ``run.json`` is not as the run wrote it, empty if it is."""
     try:
         document = bounded_json.parse(folder.read(folder.info_path))
     except (OSError, ValueError):

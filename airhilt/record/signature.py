@@ -1,8 +1,7 @@
 """Signatures of runs and sweeps: Ed25519 (RFC 8032) over the bytes of the file with the manifest.
 
-The file is ``run.json`` or ``sweep.json``. Its signature is ``run.json.sig`` or ``sweep.json.sig``:
-the 64 bytes, as ``openssl pkeyutl -rawin`` reads and writes them. Keys are PEM files (PKCS #8, and
-SubjectPublicKeyInfo).
+The signature of ``run.json`` is ``run.json.sig``: 64 bytes, as ``openssl pkeyutl -rawin`` reads and
+writes them. Keys are PEM files (PKCS #8, and SubjectPublicKeyInfo).
 """
 
 from __future__ import annotations

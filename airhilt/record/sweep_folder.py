@@ -1,8 +1,7 @@
 """The folder of a sweep: its specification, the runs that are finished, and the tables of them.
 
-Finished runs are kept in parts, Parquet files that appear all or nothing, so that whatever is
-killed, nothing that was finished is lost. The tables ``sweep.parquet`` and ``machine.parquet`` are
-made of them and can be made again.
+Finished runs are kept in parts, Parquet files that appear all or nothing, so that nothing finished
+is lost by a kill. The tables ``sweep.parquet`` and ``machine.parquet`` are made of them.
 """
 
 from __future__ import annotations
@@ -114,10 +113,7 @@ class SweepFolder:
             )
 
     def _holds_something_else(self) -> bool:
-        """Return true for a folder that no sweep has made; one that was just begun is a sweep's.
-
-        A ``sweep.json`` alone does not make it one: the specification of a user may have that name.
-        """
+        """Return true for a folder that no sweep has made; a ``sweep.json`` may be a user's."""
         if not self.path.is_dir() or self._lock_path.is_file():
             return False
         if any(entry != self.parts_path for entry in self.path.iterdir()):
@@ -264,7 +260,6 @@ class SweepFolder:
             self.next_info_path.unlink(missing_ok=True)
 
     def _sealed(self, info: Mapping[str, Any], kept: Iterable[str | None]) -> dict[str, Any]:
-        """Return the content of ``sweep.json`` with its manifest and digest."""
         runs = (self.runs_path / PurePosixPath(name).name for name in kept if name)
         files = (self.table_path, self.machine_path, *(RunFolder(run).info_path for run in runs))
         with _writing(self.path):
@@ -314,7 +309,6 @@ def _write_info(path: Path, info: Mapping[str, Any]) -> None:
 
 
 def _read_part(part: Path) -> pa.Table:
-    """Return the table of a part, which has at least what is `REQUIRED`."""
     table = _parse(read_inside(part.parents[1], part, LARGEST_BYTES))
     for name in REQUIRED:
         if name not in table.column_names:
@@ -371,13 +365,12 @@ def _write_table(table: pa.Table, path: Path) -> None:
 
 
 def _reason(error: Exception) -> str:
-    """Return what is wrong in one line, without the path that an error of the system has."""
+    """Return what is wrong in one line, without the path of an error of the system."""
     return str(getattr(error, "strerror", None) or error).partition("\n")[0]
 
 
 @contextmanager
 def _writing(path: Path) -> Iterator[None]:
-    """Convert OSError to SweepFolderError."""
     try:
         yield
     except OSError as error:

@@ -32,14 +32,10 @@ DAMAGED, UNFINISHED = 1, 3
 
 @dataclass(frozen=True)
 class Verification:
-    """The state of the folder of a run or a sweep.
+    """The state of the folder of a run or a sweep, which is `run`.
 
     Attributes
     ----------
-    run
-        The folder.
-    kind
-        What is in it.
     state
         ``intact``: each file of the manifest is as it was written. ``unfinished``: a run has no
         manifest, because it was killed or goes on; a sweep has not written its tables yet.
@@ -139,12 +135,10 @@ def sign_folder(path: Path, key: Path) -> str:
 
 
 def _below(folder: Path, error: Exception) -> tuple[str]:
-    """Return an error with the names of files as they are below a folder."""
     return (str(error).replace(f"{folder}/", ""),)
 
 
 def _run(folder: RunFolder) -> Verification:
-    """Return the state of a run, without its signature."""
     found = Verification(str(folder.path), "run")
     try:
         info = folder.info()
@@ -170,7 +164,6 @@ def _run(folder: RunFolder) -> Verification:
 
 
 def _ended(folder: RunFolder) -> str:
-    """Return how far the log of an unfinished run can be read."""
     reader = LogReader(folder.log_path)
     try:
         for _ in reader.messages():
@@ -181,7 +174,6 @@ def _ended(folder: RunFolder) -> str:
 
 
 def _sweep(folder: SweepFolder) -> Verification:
-    """Return the state of a sweep, without its signature."""
     found = Verification(str(folder.path), "sweep")
     if not folder.info_path.is_file():
         return replace(found, state="unfinished", ended="it has no tables yet")

@@ -152,8 +152,6 @@ class VideoRecorder:
 
 
 class _CameraVideo:
-    """The video of one camera."""
-
     def __init__(self, path: Path, first: Picture, rate_hz: float) -> None:
         import av
 

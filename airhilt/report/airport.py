@@ -15,7 +15,7 @@ from airhilt.geodesy.wgs84 import Place
 from airhilt.units import NAUTICAL_MILE
 from airhilt.world.surface import path as lines
 from airhilt.world.surface.airport import load_airport
-from airhilt.world.surface.ground_plan import Area, RunwayShape, TaxiwayLeg, ground_plan
+from airhilt.world.surface.ground_plan import Area, RunwayShape, ground_plan
 from airhilt.world.surface.layout import Layout
 from airhilt.world.surface.path import Local
 
@@ -68,7 +68,14 @@ class ReportAirport:
             "elevation_m": round(plan.elevation_m, 1),
             "variation_deg": self._variation_deg,
             "runways": [_runway(runway) for runway in plan.runways],
-            "taxiways": [_taxiway(name, legs) for name, legs in plan.taxiways.items()],
+            "taxiways": [
+                {
+                    "name": name,
+                    "width_m": max(leg.width_m for leg in legs),
+                    "legs": [_leg(leg.ends) for leg in legs],
+                }
+                for name, legs in plan.taxiways.items()
+            ],
             "holds": [
                 {
                     "name": f"{hold.position}, short of {hold.runway}",
@@ -92,14 +99,6 @@ def _runway(runway: RunwayShape) -> Json:
             {"ident": end.ident, "start": _point(end.start), "threshold": _point(end.threshold)}
             for end in runway.ends
         ],
-    }
-
-
-def _taxiway(name: str, legs: Sequence[TaxiwayLeg]) -> Json:
-    return {
-        "name": name,
-        "width_m": max(leg.width_m for leg in legs),
-        "legs": [_leg(leg.ends) for leg in legs],
     }
 
 

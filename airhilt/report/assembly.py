@@ -1,8 +1,7 @@
 """Assembles a page from its sections, with Jinja: one HTML file that opens offline.
 
-Texts of a scenario or a worker may be hostile. They are only ever data: in a template Jinja escapes
-them, in the JSON of the page nothing can end the script element, and scripts show them as text. The
-page has no character without a shape, such as those that turn the direction of writing.
+Texts of a scenario or a worker may be hostile. They are only ever data: Jinja escapes them in a
+template, nothing in the JSON of the page ends its script element, and scripts show them as text.
 """
 
 from __future__ import annotations
@@ -12,7 +11,7 @@ import re
 from collections.abc import Mapping, Sequence
 from importlib import resources
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 from airhilt.errors import RunFolderError
 from airhilt.host.files import replace_file
@@ -28,13 +27,6 @@ END_OF_SCRIPT = re.compile(r"</(?=script)|<(?=!--)", re.IGNORECASE)
 """Text that would end a script element, or begin a comment in it."""
 
 
-class _Script(NamedTuple):
-    """A script of the page, and the section that it draws."""
-
-    text: str
-    section: str = ""
-
-
 class Assembly:
     """Puts the markup, scripts and data of the sections into one document.
 
@@ -43,8 +35,7 @@ class Assembly:
     name
         Name under which templates find the data that all sections share; the id of its element.
     shared
-        Names of the scripts in ``report/shared`` that all sections may use, in the order in which
-        they build on each other.
+        Scripts in ``report/shared`` that all sections may use; later ones build on earlier ones.
     data
         The data; that of each section is in ``sections``, by name. What cannot be shown is added to
         its ``notes``.
@@ -84,7 +75,7 @@ class Assembly:
             style=_own_file("page.css"),
             sections=outer,
             data=embeddable(self._data),
-            scripts=self._all_scripts(),
+            scripts=self._scripts(),
         )
 
     def _markup(self, section: PageSection) -> str:
@@ -107,19 +98,15 @@ class Assembly:
             )
             return ""
 
-    def _all_scripts(self) -> list[_Script]:
-        """Return all scripts; that of a section has a scope and an element of its own."""
-        shared = [_Script(_own_file(f"shared/{name}.js")) for name in self._shared]
+    def _scripts(self) -> list[Json]:
+        shared = [("", _own_file(f"shared/{name}.js")) for name in self._shared]
         own = [
-            _Script(
-                f"page.section({json.dumps(section.name)}, (data) => {{\n{script}}});\n",
-                section.name,
-            )
+            (section.name, f"page.section({json.dumps(section.name)}, (data) => {{\n{script}}});\n")
             for section in self._sections
             if section.name not in self._failed and (script := section.script())
         ]
-        scripts = [*shared, *own, _Script("page.begin();\n")]
-        return [script._replace(text=inline(script.text)) for script in scripts]
+        scripts = [*shared, *own, ("", "page.begin();\n")]
+        return [{"section": section, "text": inline(script)} for section, script in scripts]
 
 
 def write_page(page: Path, html: str) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
@@ -60,24 +60,18 @@ class RunData:
 
     Attributes
     ----------
-    folder, info, summary
-        The run folder and what is in it; the summary is None if the run did not write one.
+    summary
+        The numbers, None if the run did not write them.
     page
         File that the page is written to; links lead from there.
     notes
         Sentences above the page on what is missing. Sections may append to them.
     end_ns
         Time of the last message in the log.
-    events
-        Events, as rows of the timeline.
     locate
         Returns where a place lies on the plan, in NM east and north of its centre.
-    tracks
-        Track of each actor, by its callsign.
     pair
         The two actors whose separation is drawn, None if there is no such pair.
-    pair_is_annotated
-        True if the scenario names the pair.
     airport
         The airport of the scenario, None where there is none or it cannot be drawn.
     """
@@ -210,7 +204,9 @@ class _Log:
             notes.append(
                 f"The log cannot be read, so there is nothing to draw: {readable(str(error))}"
             )
-        self._parse_states()
+        for thinned in self._thinned.values():
+            for logged in thinned.messages():
+                self._unread.attempt(self._parse_state, logged)
         if note := self._unread.note():
             notes.append(note)
 
@@ -226,16 +222,9 @@ class _Log:
         self.phases.setdefault(actor, Phases()).add(logged.t_ns, logged.data)
         self._thinned.setdefault(actor, ThinnedStates(self._points_a_track)).add(logged)
 
-    def _parse_states(self) -> None:
-        """Parse the states that were kept; an actor without any has no track."""
-
-        def parse(logged: Logged) -> None:
-            state = parse_state(logged.data)
-            self.states.setdefault(logged.key.removeprefix(STATE), []).append(state)
-
-        for thinned in self._thinned.values():
-            for logged in thinned.messages():
-                self._unread.attempt(parse, logged)
+    def _parse_state(self, logged: Logged) -> None:
+        state = parse_state(logged.data)
+        self.states.setdefault(logged.key.removeprefix(STATE), []).append(state)
 
     def _receivers_of(self, key: str) -> list[GuardedContent]:
         if key not in self._receivers:
@@ -294,7 +283,6 @@ def _points_a_track(info: RunInfo) -> int:
 
 
 def _airport_name(info: RunInfo) -> str | None:
-    """Return the name of the airport where the scenario takes place, or None."""
     scene = info.realised.get("scene", {})
     return str(scene["airport"]) if scene.get("type") == "airport" else None
 
@@ -316,22 +304,18 @@ def _airport(info: RunInfo, notes: list[str]) -> ReportAirport | None:
 def _kind(actor: Json, files: Json) -> Json:
     """Return the type of an actor, and its size as far as the type is still known here."""
     name = str(actor.get("aircraft") or actor.get("kind") or "")
-    try:
-        size = _dimensions(name, "aircraft" in actor, files) if name else None
-    except AirhiltError:
-        size = None
+    size: Size | None = None
+    with suppress(AirhiltError):
+        if "aircraft" in actor:
+            size = load_aircraft_type(name, files).dimensions
+        elif name:
+            size = load_kind(name).dimensions
     return {
         "type": name,
         "category": actor.get("type", "aircraft"),
         "length_m": None if size is None else round(size.length_m, 1),
         "span_m": None if size is None else round(size.span_m, 1),
     }
-
-
-def _dimensions(name: str, is_aircraft: bool, files: Json) -> Size:
-    if is_aircraft:
-        return load_aircraft_type(name, files).dimensions
-    return load_kind(name).dimensions
 
 
 # --- the pair -------------------------------------------------------------------------------
@@ -344,11 +328,9 @@ def _pair(
     conflict = info.realised.get("conflict")
     if conflict is not None:
         return list(conflict["actors"]), True
-    if len(tracks) < 2:
-        return None, False
     if len(tracks) == 2:
         return list(tracks), False
-    if summary is None or summary.closest_approach is None:
+    if len(tracks) < 2 or summary is None or summary.closest_approach is None:
         return None, False
     return _nearest_pair(summary.closest_approach, tracks), False
 

@@ -13,6 +13,8 @@ Json = dict[str, Any]
 
 MOST_EVENTS = 1500
 """Largest number of events in the page."""
+OF_ADVISORIES = ("id", "revision", "severity", "active", "traffic", "recommendation")
+"""Fields of an advisory that its row has."""
 END = ("finished", "stopped")
 """Kinds of the event that ends a run."""
 
@@ -49,15 +51,14 @@ class Events:
 
     def as_json(self, info: RunInfo) -> list[Json]:
         """Return the rows; a failure of a radio line has the words of the line with it."""
-        lines = {line["id"]: line for line in info.realised.get("radio", {}).get("lines", ())}
-        return [_with_line(row, lines) for row in self.rows]
-
-
-def _with_line(row: Json, lines: dict[str, Json]) -> Json:
-    line = lines.get(row["who"]) if row["kind"] == "failure" else None
-    if line is None:
-        return row
-    return row | {"speaker": line["speaker"], "line": readable(line["text"])}
+        lines = {
+            line["id"]: {"speaker": line["speaker"], "line": readable(line["text"])}
+            for line in info.realised.get("radio", {}).get("lines", ())
+        }
+        return [
+            row | lines.get(row["who"], {}) if row["kind"] == "failure" else row
+            for row in self.rows
+        ]
 
 
 def event_row(logged: Logged, message: Json | None = None) -> Json | None:
@@ -73,7 +74,6 @@ def event_row(logged: Logged, message: Json | None = None) -> Json | None:
 
 
 def _maker(key: str) -> Any:
-    """Return the function that makes a row of a message with this key, or None."""
     family, _, rest = key.partition("/")
     if family == "asr" and rest.endswith("/partial"):
         return None  # The whole transcript has the same words.
@@ -87,17 +87,11 @@ def _advisory(message: Json, _: Logged) -> Json:
         "kind": "advisory",
         "who": message["recipient"],
         "text": message["message"],
-        "id": message["id"],
-        "revision": message["revision"],
-        "severity": message["severity"],
-        "active": message["active"],
-        "traffic": message["traffic"],
-        "recommendation": message["recommendation"],
+        **{name: message[name] for name in OF_ADVISORIES},
     }
 
 
 def _equipment(message: Json, logged: Logged) -> Json:
-    """Return the row of an alert of equipment, which says that it is one."""
     row = _advisory(message["advisory"], logged)
     name = message["equipment"].replace("_", " ")
     over = "" if row["active"] else "over: "
@@ -105,7 +99,6 @@ def _equipment(message: Json, logged: Logged) -> Json:
 
 
 def _exchange(message: Json, logged: Logged) -> Json | None:
-    """Return the row of an answer of a language model that was not used, or not as a whole."""
     rejected = [f"{each['subject']}: {each['reason']}" for each in message["rejections"]]
     reasons = [message["failure"]] if message["failure"] else rejected
     if not reasons:

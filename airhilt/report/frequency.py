@@ -133,7 +133,7 @@ def write_frequency(
     Raises
     ------
     RunFolderError
-        There is no run, nothing was said on the frequency, or a sound file is not what was received.
+        There is no run, nothing was said there, or a sound file is not what was received.
     SpeechError
         The run has no sound.
     """

@@ -9,7 +9,8 @@ from airhilt.record import Run, open_run
 from airhilt.record.damage import Notice, untold
 from airhilt.report.assembly import Assembly, write_page
 from airhilt.report.data import read_run
-from airhilt.report.sections import GuardedContent, load_sections
+from airhilt.report.page_section import load_members
+from airhilt.report.sections import FAMILY, GuardedContent
 
 SHARED = (
     "document",
@@ -44,7 +45,7 @@ def write_report(run_folder: Path, out: Path | None = None, notice: Notice = unt
 
 def render(recorded: Run, page: Path) -> str:
     """Return the page of a run as HTML; ``page`` is the file that it will be."""
-    sections, problems = load_sections()
+    sections, problems = load_members(FAMILY)
     contents = [GuardedContent(section, recorded.folder) for section in sections]
     run = read_run(recorded, page, contents)
     own = {content.section.name: content.as_json(run) for content in contents}

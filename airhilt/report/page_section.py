@@ -20,11 +20,9 @@ class PageSection:
     name
         Name of its module or entry point; its data is found by it.
     order
-        Place among the sections of the page, or of the section that it stands in: a higher number
-        comes later.
+        Place among the sections of the page, or of the section that it stands in.
     module
-        ``__file__`` of its module: the template and the script have the same name with ``.html``
-        and ``.js``.
+        ``__file__`` of its module: the template and the script have its name.
     within
         Name of the section that it stands in.
     """

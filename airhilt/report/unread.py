@@ -33,7 +33,9 @@ class UnreadMessages:
             if self._last is not logged:
                 self._count += 1
                 self._last = logged
-            self._first = self._first or f"{_name(logged)}: {_cause(error)}"
+            self._first = self._first or (
+                f"{logged.key} at {logged.t_ns / SECOND_NS:.1f} s: {_cause(error)}"
+            )
 
     def note(self) -> str:
         """Return a sentence on the messages that were left out, empty if there are none."""
@@ -47,10 +49,6 @@ class UnreadMessages:
                 "out. The first is"
             )
         return readable(f"{begin}: {self._first}")
-
-
-def _name(logged: Logged) -> str:
-    return f"{logged.key} at {logged.t_ns / SECOND_NS:.1f} s"
 
 
 def _cause(error: Exception) -> str:

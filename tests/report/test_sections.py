@@ -11,7 +11,8 @@ import pytest
 
 from airhilt.report import write_report
 from airhilt.report.assembly import inline
-from airhilt.report.sections import load_sections
+from airhilt.report.page_section import load_members
+from airhilt.report.sections import FAMILY
 from engine_package import installed
 from paths import DOCS
 from radio_folder import RadioFolder
@@ -68,7 +69,7 @@ def run_folder(tmp_path: Path) -> Path:
 
 
 def test_sections_stand_in_their_order() -> None:
-    sections, problems = load_sections()
+    sections, problems = load_members(FAMILY)
     outer = [section.name for section in sections if not section.within]
     assert problems == []
     assert outer[:5] == ["header", "numbers", "warning", "evidence", "flight"]

@@ -71,6 +71,5 @@ def _side(folder: Path, name: str, notice: Notice | None) -> Side:
 
 
 def _name(folder: Path, other: Path) -> str:
-    """Return the name of a folder, with its whole path if another has the same name."""
     name = folder.absolute().name
     return str(folder) if name == other.absolute().name else name

@@ -65,7 +65,7 @@ def _of_runs(comparison: RunComparison) -> Json:
 
 
 def _draw(comparison: SweepComparison, figures: Figures) -> str:
-    """Draw the differences of all percentages with their intervals; return the figure's name."""
+    """Draw the differences of all percentages; return the figure's name."""
     series = {
         family: [each for each in found if each.measure.unit == "%" and each.difference.n]
         for family, found in comparison.families.items()

@@ -20,7 +20,6 @@ Json = dict[str, Any]
 
 ALWAYS = ("scenario", "seed")
 """Columns that the two runs of a pair always share."""
-FIRST, SECOND = "_first", "_second"
 
 
 @dataclass(frozen=True)
@@ -73,14 +72,10 @@ class SweepComparison:
 
     Attributes
     ----------
-    first, second
-        Names of the sides.
     paired_by
         Columns that the two runs of a pair share.
     differing
         Columns in which the sides differ as a whole, with the value of each.
-    pairs
-        Number of pairs.
     draws
         Number of scenarios with a seed that the pairs are of. Pairs of one draw, which differ in
         other parameters, depend on each other and count as one group.
@@ -122,7 +117,7 @@ def compare_sides(first: Side, second: Side) -> SweepComparison:
     for side, other in ((first, second), (second, first)):
         _require_unique(side, by, other)
     one, other = (_comparable(side.runs, by) for side in (first, second))
-    pairs = one.merge(other, on=by, suffixes=(FIRST, SECOND))
+    pairs = one.merge(other, on=by, suffixes=("_first", "_second"))
     if pairs.empty:
         raise AirhiltError(
             f"{first.name}, {second.name}: no run of the one has a partner in the other; expected "
@@ -136,18 +131,20 @@ def compare_sides(first: Side, second: Side) -> SweepComparison:
         pairs=len(pairs),
         draws=pairs.groupby(list(ALWAYS)).ngroups,
         without_partner=(len(first.runs) - len(pairs), len(second.runs) - len(pairs)),
-        families=_by_family(pairs),
+        families=_by_family(
+            first.runs.iloc[pairs["row_first"]].reset_index(drop=True),
+            second.runs.iloc[pairs["row_second"]].reset_index(drop=True),
+        ),
     )
 
 
 def _comparable(runs: DataFrame, by: list[str]) -> DataFrame:
-    """Return runs whose columns to pair by have one type on either side.
+    """Return the columns to pair by, of one type on either side, and the number of each row.
 
     A parameter that only one side leaves to the scenario, or gives as a text, has another there.
     """
-    return runs.assign(
-        **{name: runs[name].astype(object).where(runs[name].notna(), None) for name in by}
-    )
+    columns = {name: runs[name].astype(object).where(runs[name].notna(), None) for name in by}
+    return runs[[]].assign(**columns, row=range(len(runs)))
 
 
 def _settings(side: Side) -> tuple[str, ...]:
@@ -155,7 +152,6 @@ def _settings(side: Side) -> tuple[str, ...]:
 
 
 def _differing(first: Side, second: Side) -> Iterator[tuple[str, tuple[str, str]]]:
-    """Yield the columns with one value on each side that is not that of the other."""
     for name in dict.fromkeys((*_settings(first), *_settings(second))):
         values = [_only(side, name) for side in (first, second)]
         if None not in values and values[0] != values[1]:
@@ -181,61 +177,51 @@ def _require_unique(side: Side, by: list[str], other: Side) -> None:
     )
 
 
-def _by_family(pairs: DataFrame) -> dict[str, list[MeasureDifference]]:
-    names = pairs[f"family{FIRST}"].fillna("").replace("", "other")
-    groups = {str(name): group for name, group in pairs.groupby(names, sort=True)}
-    whole = {"all": pairs, **groups} if len(groups) > 1 else groups
+def _by_family(first: DataFrame, second: DataFrame) -> dict[str, list[MeasureDifference]]:
+    names = first["family"].fillna("").replace("", "other")
+    groups = {str(name): rows for name, rows in names.groupby(names, sort=True).groups.items()}
+    whole = {"all": names.index, **groups} if len(groups) > 1 else groups
     return {
-        name: [found for each in MEASURES if (found := _difference(each, group)) is not None]
-        for name, group in whole.items()
+        name: [
+            found
+            for each in MEASURES
+            if (found := _difference(each, first.loc[rows], second.loc[rows])) is not None
+        ]
+        for name, rows in whole.items()
     }
 
 
-def _difference(measure: Measure, pairs: DataFrame) -> MeasureDifference | None:
-    """Return one measure over some pairs, None if no run has a value of it."""
+def _difference(measure: Measure, first: DataFrame, second: DataFrame) -> MeasureDifference | None:
+    """Return one measure over pairs of rows, None if no run has a value of it."""
     if measure.only_nominal:
-        pairs = pairs[_column(pairs, "nominal", FIRST).fillna(False).astype(bool)]
-    first, second = (_values(measure, pairs, side) for side in (FIRST, SECOND))
-    both = (first.notna() & second.notna()).to_numpy(dtype=np.bool_)
-    either = int((first.notna() | second.notna()).sum())
+        nominal = first.get("nominal", first["seed"].isna()).fillna(False).astype(bool)
+        first, second = first[nominal], second[nominal]
+    ones, others = _values(measure, first), _values(measure, second)
+    both = (ones.notna() & others.notna()).to_numpy(dtype=np.bool_)
+    either = int((ones.notna() | others.notna()).sum())
     if not either:
         return None
-    ones, others = (_numbers(values[both]) for values in (first, second))
+    first, second = first[both], second[both]
+    before, after = (values[both].to_numpy(dtype=np.float64) for values in (ones, others))
     is_share = measure.kind == "share"
-    paired = pairs[both]
-    draws = paired.groupby(list(ALWAYS)).ngroup().to_numpy(dtype=np.int64)
+    draws = first.groupby(list(ALWAYS)).ngroup().to_numpy(dtype=np.int64)
     difference = (
-        share_difference(ones > 0, others > 0, draws)
+        share_difference(before > 0, after > 0, draws)
         if is_share
-        else mean_difference(ones, others, draws)
+        else mean_difference(before, after, draws)
     )
-    factor = 100.0 if measure.unit == "%" else 1.0
     return MeasureDifference(
         measure=measure,
-        first=measure.estimate(_one_side(measure, paired, FIRST)),
-        second=measure.estimate(_one_side(measure, paired, SECOND)),
-        difference=difference.times(factor),
-        test=mcnemar(ones > 0, others > 0, draws) if is_share else None,
+        first=measure.estimate(first),
+        second=measure.estimate(second),
+        difference=difference.times(100.0 if measure.unit == "%" else 1.0),
+        test=mcnemar(before > 0, after > 0, draws) if is_share else None,
         one_sided=either - int(both.sum()),
     )
 
 
-def _column(pairs: DataFrame, name: str, side: str) -> Series:
-    return pairs[f"{name}{side}"] if f"{name}{side}" in pairs else pairs[[]].assign(x=None)["x"]
-
-
-def _values(measure: Measure, pairs: DataFrame, side: str) -> Series:
-    """Return what each run of a side adds to a measure; a count by simulated hour."""
-    values = _column(pairs, measure.column, side)
-    if measure.kind != "per_hour":
-        return values
-    return values.astype("Float64") / (_column(pairs, "duration_s", side) / HOUR_S)
-
-
-def _numbers(values: Series) -> np.ndarray[Any, np.dtype[np.float64]]:
-    return np.asarray(values.astype("Float64"), dtype=np.float64)
-
-
-def _one_side(measure: Measure, pairs: DataFrame, side: str) -> DataFrame:
-    names = [name for name in measure.columns if f"{name}{side}" in pairs]
-    return pairs[[f"{name}{side}" for name in names]].set_axis(names, axis="columns")
+def _values(measure: Measure, runs: DataFrame) -> Series:
+    if measure.column not in runs:
+        return runs["seed"].where(False).astype("Float64")
+    values = runs[measure.column].astype("Float64")
+    return values / (runs["duration_s"] / HOUR_S) if measure.kind == "per_hour" else values

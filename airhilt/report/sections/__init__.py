@@ -1,20 +1,14 @@
 """The sections of a report: one Python module each, with its template and its script beside it.
 
 A section ``radar`` is the module ``radar.py`` with its `SECTION`, the Jinja template ``radar.html``
-and, if anything is to be drawn, the script ``radar.js``. A file in this package needs no
-registration. A section of another package is found by an entry point of the group
-``airhilt.report_sections`` that names the object, such as ``fuel = "my_package.fuel:SECTION"``.
+and, if anything is to be drawn, the script ``radar.js``. One of another package is found by an
+entry point of the group ``airhilt.report_sections`` that names the object.
 
 The template sees `run`, the data that all sections share, `data`, the section's own data, and
 `parts`, the markup of the sections within it. The script is the body of a function of `data`. It
-may use everything in ``report/shared/*.js``, and returns what is drawn::
-
-    return {
-      draw() { ... },                    // once
-      fit() { ... return (t) => ...; },  // again in a window of another width
-    };
-
-Both may return a function, which is then called with each time that is shown, in s.
+may use everything in ``report/shared/*.js``, and returns what is drawn: `draw`, called once, and
+`fit`, called again in a window of another width. Both may return a function of the time shown, in
+s.
 """
 
 from __future__ import annotations
@@ -29,7 +23,7 @@ from pydantic.dataclasses import dataclass
 from airhilt.errors import AirhiltError
 from airhilt.plugins import Family
 from airhilt.record import Logged, RunFolder
-from airhilt.report.page_section import PageSection, cannot_be_shown, load_members
+from airhilt.report.page_section import PageSection, cannot_be_shown
 
 if TYPE_CHECKING:
     from airhilt.report.data import RunData
@@ -120,8 +114,3 @@ class GuardedContent:
 FAMILY = Family(
     "report section", "airhilt.report_sections", __name__, "SECTION", Section, AirhiltError
 )
-
-
-def load_sections() -> tuple[list[Section], list[str]]:
-    """Return all sections in their order, and a sentence on each that cannot be shown."""
-    return load_members(FAMILY)

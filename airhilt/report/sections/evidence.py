@@ -36,6 +36,11 @@ class AdvisoryEvidence(Content):
             self._left_out += 1
             return
         evidence = advisory.evidence
+        times_s = (
+            evidence.time_to_go_s,
+            evidence.time_to_loss_s,
+            evidence.time_to_closest_approach_s,
+        )
         self._rows[key] = {
             "t": logged.t_ns / SECOND_NS,
             "severity": advisory.severity,
@@ -50,18 +55,7 @@ class AdvisoryEvidence(Content):
             "radio": _names(evidence.radio_ids),
             "cameras": _names(evidence.camera_ids),
             "tracks": _names(evidence.tracks),
-            "time_to_go_s": next(
-                (
-                    time_s
-                    for time_s in (
-                        evidence.time_to_go_s,
-                        evidence.time_to_loss_s,
-                        evidence.time_to_closest_approach_s,
-                    )
-                    if time_s is not None
-                ),
-                None,
-            ),
+            "time_to_go_s": next((time_s for time_s in times_s if time_s is not None), None),
         }
 
     def as_json(self, run: RunData) -> list[Json]:

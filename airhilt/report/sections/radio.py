@@ -78,7 +78,6 @@ def _call(call: CallRecord, said: SpokenTruth, sounds: Sounds) -> Json:
 
 
 def _transcript(transcript: Transcript, said: SpokenTruth) -> Json:
-    """Return what was recognised, beside what was said."""
     return {
         "engine": readable(transcript.engine),
         "confidence": transcript.confidence,

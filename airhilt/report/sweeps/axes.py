@@ -133,7 +133,6 @@ def _label(value: Any) -> str:
 
 
 def _bins(numbers: NDArray[np.float64]) -> tuple[Level, ...]:
-    """Return bins with nearly as many runs in each."""
     limits = np.unique(np.quantile(numbers, np.linspace(0.0, 1.0, BINS + 1)))
     levels = []
     for begin, end in pairwise(float(limit) for limit in limits):

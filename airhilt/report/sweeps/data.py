@@ -38,8 +38,6 @@ class SweepData:
 
     Attributes
     ----------
-    folder
-        The sweep folder.
     info
         Content of ``sweep.json``.
     runs
@@ -104,7 +102,6 @@ class SweepData:
 
 
 def _families(runs: DataFrame) -> Series:
-    """Return the family of each run, with a name for those that have none."""
     return runs["family"].fillna("").replace("", OTHER_FAMILY)
 
 
@@ -124,7 +121,6 @@ def read_sweep_data(folder: SweepFolder, page: Path) -> SweepData:
 
 
 def _notes(table: pa.Table) -> list[str]:
-    """Return sentences on numbers that not all runs have."""
     import pyarrow.compute as pc
 
     if EXPOSURES_LEFT_OUT not in table.column_names:

@@ -12,9 +12,9 @@ from airhilt.record.damage import Notice, untold
 from airhilt.record.sweep_folder import SweepFolder
 from airhilt.report.assembly import Assembly, write_page
 from airhilt.report.figures import Figures
-from airhilt.report.page_section import cannot_be_shown
+from airhilt.report.page_section import cannot_be_shown, load_members
 from airhilt.report.sweeps.data import SweepData, read_sweep_data
-from airhilt.report.sweeps.sections import SweepSection, load_sections
+from airhilt.report.sweeps.sections import FAMILY, SweepSection
 
 SHARED = ("document", "page", "words", "tables")
 """Scripts that all sections may use, in the order in which they build on each other."""
@@ -44,7 +44,7 @@ def write_sweep_report(
 
 def render(sweep: SweepData, figures: Figures) -> str:
     """Return the page of a sweep as HTML."""
-    sections, problems = load_sections()
+    sections, problems = load_members(FAMILY)
     shown: list[SweepSection] = []
     own: dict[str, Any] = {}
     for section in sections:

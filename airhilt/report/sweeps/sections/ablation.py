@@ -108,7 +108,6 @@ def _colour(place: int) -> str:
 
 
 def _bars(axes: Axes, measure: Measure, bars: list[Estimate], place: int, among: int) -> None:
-    """Draw the bars of one series, each with its interval and its value in words."""
     thick = 0.8 / among
     for level, found in enumerate(bars):
         y = level - 0.4 + thick * (place + 0.5)

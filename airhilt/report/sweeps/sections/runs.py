@@ -86,7 +86,6 @@ def content(sweep: SweepData, figures: Figures) -> dict[str, Any]:  # noqa: ARG0
 
 
 def _values(column: Series) -> list[Any]:
-    """Return the values of a column as JSON has them: null where there is none."""
     return [_value(value) for value in column.astype(object).where(column.notna(), None)]
 
 
@@ -97,7 +96,6 @@ def _value(value: Any) -> Any:
 
 
 def _link(sweep: SweepData, folder: str) -> str:
-    """Return the address of a run that is kept: its page if it has one, else its folder."""
     path = sweep.folder.path / folder
     if not folder or not path.resolve().is_relative_to(sweep.folder.path.resolve()):
         return ""
