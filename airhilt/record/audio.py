@@ -11,7 +11,7 @@ from pathlib import Path
 
 from airhilt.audio.pcm import from_pcm, to_pcm
 from airhilt.audio.wav import LARGEST_WAV_BYTES, decode_wav, encode_wav
-from airhilt.errors import RunFolderError, SpeechError, disk_failed
+from airhilt.errors import RunFolderError, SpeechError, writing_to_run
 from airhilt.host.files import make_folder, read_inside
 from airhilt.messages import (
     FROM_MICROPHONE,
@@ -74,12 +74,13 @@ class AudioRecorder:
             return
         path = audio_file(self._folder, message)
         try:
-            make_folder(self._folder)
-            path.write_bytes(encode_wav(from_pcm(pcm)))
-        except OSError as error:
+            with writing_to_run(path):
+                make_folder(self._folder)
+                path.write_bytes(encode_wav(from_pcm(pcm)))
+        except RunFolderError:
             with suppress(OSError):
                 path.unlink()
-            raise disk_failed(str(path), error) from None
+            raise
 
 
 def recorded_pcm(folder: Path, message: MessageWithSound) -> bytes:

@@ -172,7 +172,7 @@ class RunFolder:
         self.require_free(overwrite)
         try:
             self.path.mkdir(parents=True, exist_ok=True)
-            for path in self.files:
+            for path in (*self.results, self.info_path, self.signature_path, self.report_path):
                 path.unlink(missing_ok=True)
         except OSError as error:
             raise RunFolderError(
@@ -181,22 +181,11 @@ class RunFolder:
             ) from None
 
     @property
-    def files(self) -> tuple[Path, ...]:
-        """All files that a run has written or will write, and its signature."""
-        return (*self.results, self.info_path, self.signature_path, self.report_path)
-
-    @property
     def results(self) -> tuple[Path, ...]:
         """The files that the manifest has: what no other file of the run can give again."""
-        return (
-            *sorted(self.audio_path.glob("*.wav")),
-            *sorted(self.pictures_path.glob("*.png")),
-            *sorted(self.pictures_path.glob("*.jpg")),
-            *sorted(self.video_path.glob("*.mp4")),
-            self.log_path,
-            self.latency_path,
-            self.summary_path,
-        )
+        kinds = ("audio/*.wav", "pictures/*.png", "pictures/*.jpg", "video/*.mp4")
+        media = (path for kind in kinds for path in sorted(self.path.glob(kind)))
+        return (*media, self.log_path, self.latency_path, self.summary_path)
 
     def manifest(self) -> dict[str, FileRecord]:
         """Return SHA-256 and size of each file that the run has written."""
@@ -248,10 +237,12 @@ class RunFolder:
     def summary(self) -> dict[str, Any] | None:
         """Return ``summary.json``, None if the run did not write it.
 
-        It raises `RunFolderError` if it cannot be read, or is no JSON object.
+        It raises `RunFolderError` if it cannot be read, or is no JSON.
         """
         try:
             loaded = bounded_json.parse(self.read(self.summary_path))
+            if not isinstance(loaded, dict):
+                raise ValueError(f"{shown(loaded)} is no object")
         except FileNotFoundError:
             return None
         except OSError as error:
@@ -260,8 +251,4 @@ class RunFolder:
             raise RunFolderError(
                 f"{self.summary_path}: no JSON: {first_line(error)}; expected the summary of a run"
             ) from None
-        if not isinstance(loaded, dict):
-            raise RunFolderError(
-                f"{self.summary_path}: {shown(loaded)}; expected an object with a run's numbers"
-            )
         return loaded

@@ -5,12 +5,11 @@ from __future__ import annotations
 import errno
 import json
 from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from airhilt.errors import RunFolderError, disk_failed, first_line
+from airhilt.errors import RunFolderError, first_line, writing_to_run
 from airhilt.host.files import open_inside
 from airhilt.sim import StepRecord
 
@@ -43,25 +42,18 @@ class LatencyLog:
         self._write(json.dumps(row) + "\n")
 
     def _write(self, line: str) -> None:
-        with self._named():
+        with writing_to_run(self._stream.name):
             self._stream.write(line)
 
     def flush(self) -> None:
         """Hand all lines to the operating system, so that they outlive this process."""
-        with self._named():
+        with writing_to_run(self._stream.name):
             self._stream.flush()
 
     def close(self) -> None:
         """Close the file."""
-        with self._named():
+        with writing_to_run(self._stream.name):
             self._stream.close()
-
-    @contextmanager
-    def _named(self) -> Iterator[None]:
-        try:
-            yield
-        except OSError as error:
-            raise disk_failed(self._stream.name, error) from None
 
 
 @dataclass

@@ -13,7 +13,7 @@ from pathlib import Path
 from mcap.writer import CompressionType, Writer
 from pydantic import BaseModel
 
-from airhilt.errors import disk_failed
+from airhilt.errors import writing_to_run
 
 CHUNK_BYTES = 4_000_000
 """Size of a chunk of the file, in bytes: more than one second of any run."""
@@ -61,20 +61,15 @@ class LogWriter:
 
         It raises `RunFolderError` if the disk is full or gone.
         """
-        try:
+        with writing_to_run(self._stream.name):
             self._writer.flush()  # type: ignore[no-untyped-call]
-        except OSError as error:
-            raise disk_failed(self._stream.name, error) from None
 
     def close(self) -> None:
         """Write the index and close the file, unless it is closed already; else as `flush`."""
         if self._stream.closed:
             return
-        try:
-            with self._stream:
-                self._writer.finish()  # type: ignore[no-untyped-call]
-        except OSError as error:
-            raise disk_failed(self._stream.name, error) from None
+        with writing_to_run(self._stream.name), self._stream:
+            self._writer.finish()  # type: ignore[no-untyped-call]
 
 
 @functools.cache

@@ -12,7 +12,7 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Literal, NamedTuple, get_args
 
-from airhilt.errors import RendererError, disk_failed
+from airhilt.errors import RendererError, RunFolderError, writing_to_run
 from airhilt.host.files import make_folder
 from airhilt.imaging.boxes import size_px
 from airhilt.imaging.matching import matches
@@ -208,10 +208,11 @@ class KeyPictures:
             image = image.resize((START_WIDTH_PX, max(START_WIDTH_PX * size[1] // size[0], 1)))
         path = PictureName(occasion, header.camera, header.seq).path(self._folder)
         try:
-            make_folder(self._folder)
-            image.save(path)
-        except OSError as error:
+            with writing_to_run(path):
+                make_folder(self._folder)
+                image.save(path)
+        except RunFolderError:
             self._is_full = True
             with suppress(OSError):
                 path.unlink()
-            raise disk_failed(str(path), error) from None
+            raise

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from airhilt.errors import RendererError, RunFolderError, VideoError, disk_failed, first_line
+from airhilt.errors import RendererError, RunFolderError, VideoError, first_line, writing_to_run
 from airhilt.host.files import make_folder
 from airhilt.messages import (
     CONTROLLER,
@@ -220,8 +220,7 @@ def _writing(path: Path) -> Iterator[None]:
     import av
 
     try:
-        yield
-    except OSError as error:
-        raise disk_failed(str(path), error) from None
+        with writing_to_run(path):
+            yield
     except (av.FFmpegError, ValueError) as error:
         raise VideoError(f"{path} stays as far as it goes: {first_line(error)}") from None

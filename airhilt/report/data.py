@@ -212,7 +212,11 @@ class _Log:
 
     def _take(self, logged: Logged) -> None:
         self.end_ns = max(self.end_ns, logged.t_ns)
-        for content in self._receivers_of(logged.key):
+        if logged.key not in self._receivers:
+            self._receivers[logged.key] = [
+                content for content in self._contents if logged.key.startswith(content.section.keys)
+            ]
+        for content in self._receivers[logged.key]:
             self._unread.attempt(content.take, logged)
         take = self._take_state if logged.key.startswith(STATE) else self.events.take
         self._unread.attempt(take, logged)
@@ -225,13 +229,6 @@ class _Log:
     def _parse_state(self, logged: Logged) -> None:
         state = parse_state(logged.data)
         self.states.setdefault(logged.key.removeprefix(STATE), []).append(state)
-
-    def _receivers_of(self, key: str) -> list[GuardedContent]:
-        if key not in self._receivers:
-            self._receivers[key] = [
-                content for content in self._contents if key.startswith(content.section.keys)
-            ]
-        return self._receivers[key]
 
 
 # --- the summary, and how the run ended -----------------------------------------------------
@@ -278,24 +275,20 @@ def _note_how_it_ended(info: RunInfo, log: _Log, notes: list[str]) -> None:
 
 def _points_a_track(info: RunInfo) -> int:
     share = MOST_POINTS_OF_ALL // max(len(info.realised.get("actors", ())), 1)
-    most = MOST_POINTS if _airport_name(info) is None else MOST_POINTS_AT_AIRPORT
+    is_at_airport = info.realised.get("scene", {}).get("type") == "airport"
+    most = MOST_POINTS_AT_AIRPORT if is_at_airport else MOST_POINTS
     return max(min(share, most), FEWEST_POINTS)
 
 
-def _airport_name(info: RunInfo) -> str | None:
-    scene = info.realised.get("scene", {})
-    return str(scene["airport"]) if scene.get("type") == "airport" else None
-
-
 def _airport(info: RunInfo, notes: list[str]) -> ReportAirport | None:
-    name = _airport_name(info)
-    if name is None:
+    scene = info.realised.get("scene", {})
+    if scene.get("type") != "airport":
         return None
     # Not at the top: reports of other runs do without the libraries behind it.
     from airhilt.report.airport import ReportAirport
 
     try:
-        return ReportAirport(name, info.realised.get("files", {}))
+        return ReportAirport(str(scene["airport"]), info.realised.get("files", {}))
     except AirhiltError as error:
         notes.append(f"The airport cannot be drawn: {readable(str(error))}")
         return None

@@ -17,7 +17,7 @@ from airhilt.errors import RunFolderError, SpeechError, first_problem
 from airhilt.host.files import replace_file
 from airhilt.host.text import LONGEST_LINE, readable
 from airhilt.messages import Transmission
-from airhilt.metrics.calls import CallRecord, CallRecords, call_message
+from airhilt.metrics.calls import CallRecord, CallRecords
 from airhilt.quantities import LONGEST_RUN_S
 from airhilt.record import Run, RunFolder, open_run
 from airhilt.record.audio import MessageWithSound, audio_file, recorded_pcm
@@ -156,9 +156,7 @@ def read_frequency(run: Run, frequency_khz: int | None = None) -> FrequencyRecor
     records = CallRecords()
     try:
         for logged in run.messages():
-            model = call_message(logged.key)
-            if model is not None:
-                records.take(model.model_validate_json(logged.data))
+            records.read(logged.key, logged.data)
     except ValidationError as error:
         raise RunFolderError(
             f"{run.folder.log_path}: {first_problem(error)}; expected a log of this version of "

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from airhilt.audio.pcm import SAMPLE_RATE_HZ
 from airhilt.host.text import readable
 from airhilt.messages import AdvisoryAudio, Transcript, Word
-from airhilt.metrics.calls import CallRecord, CallRecords, call_message
+from airhilt.metrics.calls import CallRecord, CallRecords
 from airhilt.record import Logged, RunFolder
 from airhilt.report.sections import Content
 from airhilt.units import SECOND_NS
@@ -31,7 +31,6 @@ class Calls(Content):
     def __init__(self, folder: RunFolder) -> None:
         super().__init__(folder)
         self._calls = CallRecords()
-        self._spoken: list[AdvisoryAudio] = []
 
     @property
     def frequencies_khz(self) -> tuple[int, ...]:
@@ -42,15 +41,11 @@ class Calls(Content):
     @property
     def spoken(self) -> tuple[AdvisoryAudio, ...]:
         """The advisories that were spoken, in the order of their beginnings."""
-        return tuple(self._spoken)
+        return tuple(self._calls.spoken)
 
     def take(self, logged: Logged) -> None:
         """Receive a message about a call, or the audio of an advisory."""
-        model = call_message(logged.key)
-        if model is AdvisoryAudio:
-            self._spoken.append(AdvisoryAudio.model_validate_json(logged.data))
-        elif model is not None:
-            self._calls.take(model.model_validate_json(logged.data))
+        self._calls.read(logged.key, logged.data)
 
     def as_json(self, run: RunData) -> Json:  # noqa: ARG002
         """Return calls and spoken advisories, each in the order in which they began."""
@@ -59,7 +54,7 @@ class Calls(Content):
             "calls": sorted(
                 (call for call in calls if call is not None), key=lambda call: call["from"]
             ),
-            "spoken": [spoken_as_json(audio) for audio in self._spoken],
+            "spoken": [spoken_as_json(audio) for audio in self._calls.spoken],
         }
 
 

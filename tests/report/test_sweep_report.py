@@ -8,6 +8,7 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
@@ -163,10 +164,11 @@ def _series(values: list[Any]) -> Any:
 
 
 def test_many_values_are_put_into_bins_that_hold_each_of_them_once() -> None:
-    axis = axis_of("visibility_m", _series([400.0 * 1.2**n for n in range(18)]), "m")
-    held = [int(axis._at(level).sum()) for level in axis.levels]
-    assert held == [3] * 6
-    assert sum(axis._at(level).astype(int) for level in axis.levels).tolist() == [1] * 18
+    runs = _series([400.0 * 1.2**n for n in range(18)]).to_frame("visibility_m")
+    axis = axis_of("visibility_m", runs["visibility_m"], "m")
+    held = np.array([axis.among(runs, level) for level in axis.levels])
+    assert held.sum(axis=1).tolist() == [3] * 6
+    assert held.sum(axis=0).tolist() == [1] * 18
 
 
 @pytest.mark.parametrize(
@@ -181,9 +183,10 @@ def test_an_axis_is_logarithmic_where_its_levels_are(
 
 
 def test_a_parameter_that_a_run_leaves_to_its_scenario_is_at_no_level() -> None:
-    axis = axis_of("snr_db", _series([0.0, 10.0, None]), "dB")
+    runs = _series([0.0, 10.0, None]).to_frame("snr_db")
+    axis = axis_of("snr_db", runs["snr_db"], "dB")
     assert [level.label for level in axis.levels] == ["0", "10"]
-    assert axis._at(Level("0", 0.0)).tolist() == [True, False, False]
+    assert axis.among(runs, Level("0", 0.0)).tolist() == [True, False, False]
 
 
 def test_a_level_is_written_without_a_power_of_ten() -> None:

@@ -14,7 +14,8 @@ s.
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
@@ -77,38 +78,36 @@ class GuardedContent:
         self.is_whole = True
         self.notes: list[str] = []
         self._content: Content | None = None
-        try:
-            self._content = None if section.content is None else section.content(folder)
-        except Exception as error:
-            self._fail(error)
+        if section.content is not None:
+            with self._guarding():
+                self._content = section.content(folder)
 
     def take(self, logged: Logged) -> None:
         """Hand a message to the content; ValidationError if it is of another version."""
-        if self._content is None:
-            return
-        try:
-            self._content.take(logged)
-        except ValidationError:
-            raise
-        except Exception as error:
-            self._fail(error)
+        if self._content is not None:
+            with self._guarding(ValidationError):
+                self._content.take(logged)
 
     def as_json(self, run: RunData) -> Any:
         """Return the section's data, None if it failed or JSON cannot hold it."""
-        if self._content is None:
-            return None
-        try:
-            data = self._content.as_json(run)
-            json.dumps(data, allow_nan=False)
-        except Exception as error:
-            self._fail(error)
-            return None
-        return data
+        if self._content is not None:
+            with self._guarding():
+                data = self._content.as_json(run)
+                json.dumps(data, allow_nan=False)
+                return data
+        return None
 
-    def _fail(self, error: Exception) -> None:
-        self.notes.append(cannot_be_shown(self.section.name, error))
-        self.is_whole = False
-        self._content = None
+    @contextmanager
+    def _guarding(self, *passing: type[Exception]) -> Iterator[None]:
+        """Give the content up after an exception, unless that may pass."""
+        try:
+            yield
+        except passing:
+            raise
+        except Exception as error:
+            self.notes.append(cannot_be_shown(self.section.name, error))
+            self.is_whole = False
+            self._content = None
 
 
 FAMILY = Family(

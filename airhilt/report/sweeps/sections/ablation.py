@@ -57,7 +57,7 @@ def _groupings(sweep: SweepData, family: str, runs: DataFrame) -> list[Axis]:
     axes = [axis for axis in sweep.axes() if not axis.is_numeric]
     names = ("family", "scenario") if family == "all" else ("scenario",)
     axes += [axis_of(name, sweep.finished[name].replace("", None), "") for name in names]
-    several = [axis for axis in axes if len(set(axis.values.loc[runs.index].dropna())) > 1]
+    several = [axis for axis in axes if len({*axis.places.loc[runs.index]} - {-1}) > 1]
     return several or [axis_of("assistant", sweep.finished["assistant"], "")]
 
 
