@@ -27,44 +27,29 @@ CLARIFICATION: AdvisoryKind = "clarification"
 
 @dataclass
 class AdvisoryRecord:
-    """One advisory over its revisions.
-
-    Attributes
-    ----------
-    first
-        The advisory as it was published first.
-    loses_separation
-        True if its traffic was then going to lose separation.
-    concerns_conflict
-        True if a revision of it was about the annotated pair.
-    shown
-        Callsigns of the actors that cameras had really shown shortly before a revision.
-    severity
-        Highest severity of all revisions.
-    spoken_ns
-        Time at which its voice was first heard, None if it never was.
-    """
+    """One advisory over its revisions."""
 
     first: Advisory
+    """The advisory as it was published first."""
     loses_separation: bool
+    """True if its traffic was then going to lose separation."""
     concerns_conflict: bool = False
+    """True if a revision of it was about the annotated pair."""
     shown: frozenset[str] = frozenset()
+    """Callsigns of the actors that cameras had really shown shortly before a revision."""
     severity: Severity = Severity.INFO
+    """Highest severity of all revisions."""
     revisions: set[int] = field(default_factory=set)
     spoken_ns: int | None = None
+    """Time at which its voice was first heard, None if it never was."""
 
 
 class AdvisoryRecords:
     """All advisories of a run, by their ids.
 
-    Parameters
-    ----------
-    callsigns
-        Callsigns of the actors by all their names, as `callsigns_of` returns them.
-    pair
-        The annotated pair, None if the scenario has no conflict.
-    was_seen
-        Returns true if a camera's detection really showed an actor since a time.
+    The callsigns of the actors are by all their names, as `callsigns_of` returns them. Without an
+    annotated conflict there is no pair. `was_seen` tells whether a camera's detection really showed
+    an actor since a time in ns.
     """
 
     def __init__(

@@ -49,16 +49,11 @@ class CallRecord:
 
 
 class CallRecords:
-    """All calls of a run, by their ids, in the order in which they ended.
-
-    Attributes
-    ----------
-    spoken
-        The advisories that the assistant spoke, in the order of their beginnings.
-    """
+    """All calls of a run, by their ids, in the order in which they ended."""
 
     def __init__(self) -> None:
         self.spoken: list[AdvisoryAudio] = []
+        """The advisories that the assistant spoke, in the order of their beginnings."""
         self._calls: dict[str, CallRecord] = {}
 
     def __iter__(self) -> Iterator[CallRecord]:

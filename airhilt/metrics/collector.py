@@ -30,7 +30,7 @@ from airhilt.metrics.equipment import EquipmentRecords
 from airhilt.metrics.evidence_ages import EvidenceAges
 from airhilt.metrics.first_warning import FirstWarning
 from airhilt.metrics.latencies import StageLatencies
-from airhilt.metrics.outcome import Outcome
+from airhilt.metrics.outcome import INFRINGEMENTS, Outcome
 from airhilt.metrics.people import REAL_TIME, PeopleRecords
 from airhilt.metrics.plans import Plans
 from airhilt.metrics.summary import LanguageModelStatistics, Summary, WarningParts
@@ -64,29 +64,9 @@ class WindowTimes:
 class Collector:
     """Collects the numbers of a run.
 
-    Parameters
-    ----------
-    ground_m
-        Height of the ground above WGS84, in m.
-    runways
-        Monitor of the runways; None away from airports.
-    deciders
-        Names of the workers that decide.
-    given
-        Modalities that they are given.
-    seats
-        Units and callsigns that are left to people.
-    pace
-        Name of the pace with which the run begins.
-
-    Attributes
-    ----------
-    modalities
-        Last state of each modality.
-    ended_actors
-        Cause by the callsign of each actor that ended before the run did.
-    last_advisory
-        The advisory that was published last and is active, None before the first.
+    The height of the ground is in m above WGS84; away from airports there is no monitor of runways.
+    `deciders` are the names of the workers that decide, `given` the modalities that they are given,
+    `seats` the units and callsigns that are left to people. The run begins with the `pace`.
     """
 
     def __init__(
@@ -104,8 +84,11 @@ class Collector:
     ) -> None:
         self.window = WindowTimes()
         self.modalities: dict[Modality, ModalityState] = {}
+        """Last state of each modality."""
         self.ended_actors: dict[str, str] = {}
+        """Cause by the callsign of each actor that ended before the run did."""
         self.last_advisory: Advisory | None = None
+        """The advisory that was published last and is active, None before the first."""
         self._scenario = scenario
         self._is_on_frequency = is_on_frequency
         pair = pair_of(scenario)
@@ -288,9 +271,7 @@ class Collector:
             "min_horizontal_separation_m": truth.least_horizontal_m if truth else None,
             "min_vertical_separation_m": truth.least_vertical_m if truth else None,
             "closest_approach": outcome.closest_approach,
-            "loss_of_separation": outcome.happened("loss_of_separation"),
-            "nmac": outcome.happened("nmac"),
-            "collision": outcome.happened("collision"),
+            **{phase: outcome.happened(phase) for phase in INFRINGEMENTS},
             "runway_incursions": outcome.incursions(),
             "runway_incursion_category": outcome.worst_category(),
             "avoided": outcome.avoided(was_warned=is_warned),

@@ -10,7 +10,6 @@ from __future__ import annotations
 import types
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from enum import StrEnum
 from functools import cached_property
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
@@ -53,21 +52,15 @@ UNITS = {
 
 @dataclass(frozen=True)
 class Column:
-    """One column of a table of runs, whose values may be null.
-
-    Attributes
-    ----------
-    unit
-        Unit of the values: 1 for counts and shares, empty for texts and for true and false.
-    path
-        Keys under which ``summary.json`` has the value; empty if it is worked out from others.
-    """
+    """One column of a table of runs, whose values may be null."""
 
     name: str
     type: Kind
     unit: str
+    """Unit of the values: 1 for counts and shares, empty for texts and for true and false."""
     description: str
     path: tuple[str, ...] = ()
+    """Keys under which ``summary.json`` has the value; empty if it is worked out from others."""
 
 
 class FlatRow:
@@ -149,26 +142,19 @@ def _bare(annotation: Any) -> Any:
 
 def _kind(annotation: Any) -> Kind | None:
     """Return the type of a column, None for a list of values."""
-    if get_origin(annotation) is Literal:
-        return "string"
-    if not isinstance(annotation, type):
-        return None
-    if issubclass(annotation, str | StrEnum):
+    is_type = isinstance(annotation, type)
+    if get_origin(annotation) is Literal or (is_type and issubclass(annotation, str)):
         return "string"
     kinds: dict[type, Kind] = {bool: "bool", int: "int64", float: "float64"}
-    return kinds.get(annotation)
+    return kinds.get(annotation) if is_type else None
 
 
 def _at(content: Mapping[str, Any], column: Column) -> Value:
     found: Any = content
     for key in column.path:
-        if found is None:
-            return None
-        found = found.get(key)
-    if found is None:
-        return None
+        found = None if found is None else found.get(key)
     convert = {"string": str, "bool": bool, "int64": int, "float64": float}
-    value: Value = convert[column.type](found)
+    value: Value = None if found is None else convert[column.type](found)
     return value
 
 

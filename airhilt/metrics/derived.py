@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from airhilt.messages import Severity
-from airhilt.metrics.outcome import SERIOUS
+from airhilt.metrics.outcome import INFRINGEMENTS, SERIOUS
 
 Json = Mapping[str, Any]
 
@@ -54,7 +54,7 @@ def _missed(summary: Json) -> bool | None:
 
 
 def _lost(summary: Json) -> bool:
-    happened = any(summary.get(name) for name in ("loss_of_separation", "nmac", "collision"))
+    happened = any(summary.get(name) for name in INFRINGEMENTS)
     return happened or summary.get("runway_incursion_category") in SERIOUS
 
 
@@ -95,10 +95,6 @@ def _earliest_of_equipment(field: str) -> Callable[[Json], float | None]:
         return min((float(each) for each in times if each is not None), default=None)
 
     return value
-
-
-def _isa_mean(person: Json) -> float | None:
-    return (person.get("workload") or {}).get("isa_mean")
 
 
 def _reactions_with(field: str) -> Callable[[Json], int]:
@@ -211,7 +207,12 @@ DERIVED = (
 )
 """The derived metrics, in the order of their columns."""
 DERIVED_OF_PEOPLE = (
-    Derived("isa_mean", "float64", "mean of the ISA ratings; null: none was given", _isa_mean),
+    Derived(
+        "isa_mean",
+        "float64",
+        "mean of the ISA ratings; null: none was given",
+        lambda person: (person.get("workload") or {}).get("isa_mean"),
+    ),
     Derived(
         "reaction_times",
         "int64",

@@ -18,23 +18,17 @@ PERCENT = 100.0
 
 @dataclass(frozen=True)
 class Measure:
-    """A number over many runs, of the values in one column that are not null.
-
-    Attributes
-    ----------
-    kind
-        share: of the runs in which the column is true; mean: of the values; per_hour: sum of the
-        column by simulated hour.
-    only_nominal
-        True if only runs without a conflict count.
-    """
+    """A number over many runs, of the values in one column that are not null."""
 
     name: str
     title: str
     unit: str
     kind: Literal["share", "mean", "per_hour"]
+    """share: of the runs in which the column is true; mean: of the values; per_hour: sum of the
+    column by simulated hour."""
     column: str
     only_nominal: bool = False
+    """True if only runs without a conflict count."""
 
     @property
     def columns(self) -> list[str]:

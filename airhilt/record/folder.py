@@ -119,6 +119,16 @@ def machine() -> dict[str, str]:
     }
 
 
+def refuse_links(*folders: Path) -> None:
+    """Raise `RunFolderError` for a folder that is a link: what is written there is elsewhere."""
+    for folder in folders:
+        if folder.is_symlink():
+            raise RunFolderError(
+                f"{folder}: a link, which may lead elsewhere; delete it, or choose another folder "
+                "with --out"
+            )
+
+
 class RunFolder:
     """The paths in a run folder; reads and writes its `RunInfo`."""
 
@@ -141,12 +151,7 @@ class RunFolder:
         or cannot be written.
         """
         path = self.path
-        for folder in (self.audio_path, self.pictures_path, self.video_path):
-            if folder.is_symlink():
-                raise RunFolderError(
-                    f"{folder}: a link, which may lead elsewhere; delete it, or choose another "
-                    "folder with --out"
-                )
+        refuse_links(self.audio_path, self.pictures_path, self.video_path)
         existing = next(parent for parent in (path, *path.absolute().parents) if parent.exists())
         if not existing.is_dir() or not os.access(existing, os.W_OK | os.X_OK):
             raise RunFolderError(

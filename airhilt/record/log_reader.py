@@ -77,23 +77,16 @@ class Gap(NamedTuple):
 
 
 class LogReader:
-    """Reads one log, which may still be written, from its beginning to where it ends.
-
-    Attributes
-    ----------
-    gaps
-        Places at which messages are missing, as far as the log has been read.
-    end_ns
-        Time of the last message that was read.
-    is_closed
-        True if the log has its end: it neither breaks off nor goes on.
-    """
+    """Reads one log, which may still be written, from its beginning to where it ends."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
         self.gaps: list[Gap] = []
+        """Places at which messages are missing, as far as the log has been read."""
         self.end_ns = 0
+        """Time of the last message that was read."""
         self.is_closed = False
+        """True if the log has its end: it neither breaks off nor goes on."""
         self._last = 0
         """Number of the last message that was read."""
 

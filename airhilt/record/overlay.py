@@ -53,11 +53,6 @@ class Overlay:
 
     Boxes are two pixels wide once confirmed, one before. A picture that no detector looked at has
     the boxes of the last one before it, paler, with their time.
-
-    Attributes
-    ----------
-    size
-        Width and height of the images returned, in px, both even.
     """
 
     def __init__(self, width_px: int, height_px: int) -> None:
@@ -71,6 +66,7 @@ class Overlay:
         self._columns = max(int((width_px - 12) / of_one * 0.95), 8)
         height = height_px + (1 + MOST_LINES) * self._row_px
         self.size = width_px + width_px % 2, height + height % 2
+        """Width and height of the images returned, in px, both even."""
 
     def image(self, picture: Picture, seen: Detections | None) -> Image.Image:
         """Return a picture with its boxes, clock and advisory.

@@ -17,27 +17,22 @@ from airhilt.units import SECOND_NS
 
 
 class Run:
-    """A run folder whose files that commands read have been compared with its manifest.
-
-    Attributes
-    ----------
-    log_damage
-        From when to when the log is damaged, empty if it is not.
-    damage
-        A line for each file that commands read and that is not as the run wrote it: ``run.json``,
-        the log, the latencies, the summary. Sound, pictures and videos are not among them.
-    """
+    """A run folder whose files that commands read have been compared with its manifest."""
 
     def __init__(self, folder: RunFolder) -> None:
         self.folder = folder
         self.info: RunInfo = folder.info()
         self.log_damage = _log_problem(folder, self.info)
+        """From when to when the log is damaged, empty if it is not."""
         lines = (
             _info_problem(folder),
             self.log_damage,
             *(self._problem(path) for path in (folder.latency_path, folder.summary_path)),
         )
         self.damage = tuple(filter(None, lines))
+        """A line for each file that commands read and that is not as the run wrote it:
+        ``run.json``, the log, the latencies, the summary. Sound, pictures and videos are not among
+        them."""
 
     def damage_of_all_files(self) -> tuple[str, ...]:
         """Return `damage`, and a line for each other file of the manifest that was changed."""

@@ -21,7 +21,7 @@ from airhilt.errors import AirhiltError, first_problem
 from airhilt.host import bounded_json
 from airhilt.host.files import PARTIAL, make_folder, read_inside, replace_file
 from airhilt.record.damage import Notice, tell_damage
-from airhilt.record.folder import RunFolder
+from airhilt.record.folder import RunFolder, refuse_links
 from airhilt.record.manifest import FileRecord, digest, digest_problem, manifest, problem_of
 
 if TYPE_CHECKING:
@@ -101,12 +101,7 @@ class SweepFolder:
 
     def require_usable(self) -> None:
         """Refuse a folder that holds something else or leads elsewhere by a link, as `create`."""
-        for folder in (self.parts_path, self.runs_path, self.figures_path):
-            if folder.is_symlink():
-                raise SweepFolderError(
-                    f"{folder}: a link, which may lead elsewhere; delete it, or choose another "
-                    "folder with --out"
-                )
+        refuse_links(self.parts_path, self.runs_path, self.figures_path)
         if self._holds_something_else():
             raise SweepFolderError(
                 f"{self.path}: holds files that are no sweep; choose another folder with --out"

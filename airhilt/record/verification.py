@@ -32,40 +32,28 @@ DAMAGED, UNFINISHED = 1, 3
 
 @dataclass(frozen=True)
 class Verification:
-    """The state of the folder of a run or a sweep, which is `run`.
-
-    Attributes
-    ----------
-    state
-        ``intact``: each file of the manifest is as it was written. ``unfinished``: a run has no
-        manifest, because it was killed or goes on; a sweep has not written its tables yet.
-    ended
-        How far an unfinished log can be read, in words, or what tables an unfinished sweep has;
-        empty for another.
-    files
-        Number of files in the manifest.
-    problems
-        A line for each file that is missing or not as the run wrote it.
-    additional
-        Files in the folder that the run or the sweep did not write.
-    made_again
-        Files that can be made again from the others, and were not checked.
-    signature
-        ``unchecked``: there is one, and no key was given.
-    key
-        Fingerprint of the key that was given, empty without one.
-    """
+    """The state of the folder of a run or a sweep, which is `run`."""
 
     run: str
     kind: Literal["run", "sweep"]
     state: Literal["intact", "damaged", "unfinished"] = "damaged"
+    """``intact``: each file of the manifest is as it was written. ``unfinished``: a run has no
+    manifest, because it was killed or goes on; a sweep has not written its tables yet."""
     ended: str = ""
+    """How far an unfinished log can be read, in words, or what tables an unfinished sweep has;
+    empty for another."""
     files: int = 0
+    """Number of files in the manifest."""
     problems: tuple[str, ...] = ()
+    """A line for each file that is missing or not as the run wrote it."""
     additional: tuple[str, ...] = ()
+    """Files in the folder that the run or the sweep did not write."""
     made_again: tuple[str, ...] = ()
+    """Files that can be made again from the others, and were not checked."""
     signature: Literal["absent", "unchecked", "good", "bad"] = "absent"
+    """``unchecked``: there is one, and no key was given."""
     key: str = ""
+    """Fingerprint of the key that was given, empty without one."""
 
     @property
     def exit_code(self) -> int:

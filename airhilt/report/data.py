@@ -56,38 +56,27 @@ FEWEST_POINTS = 40
 
 @dataclass(frozen=True)
 class RunData:
-    """A run as its report shows it.
-
-    Attributes
-    ----------
-    summary
-        The numbers, None if the run did not write them.
-    page
-        File that the page is written to; links lead from there.
-    notes
-        Sentences above the page on what is missing. Sections may append to them.
-    end_ns
-        Time of the last message in the log.
-    locate
-        Returns where a place lies on the plan, in NM east and north of its centre.
-    pair
-        The two actors whose separation is drawn, None if there is no such pair.
-    airport
-        The airport of the scenario, None where there is none or it cannot be drawn.
-    """
+    """A run as its report shows it."""
 
     folder: RunFolder
     page: Path
+    """File that the page is written to; links lead from there."""
     info: RunInfo
     summary: Summary | None
+    """The numbers, None if the run did not write them."""
     notes: list[str]
+    """Sentences above the page on what is missing. Sections may append to them."""
     end_ns: int
+    """Time of the last message in the log."""
     events: Events
     locate: Locate
+    """Returns where a place lies on the plan, in NM east and north of its centre."""
     tracks: dict[str, Track]
     pair: list[str] | None
+    """The two actors whose separation is drawn, None if there is no such pair."""
     pair_is_annotated: bool
     airport: ReportAirport | None
+    """The airport of the scenario, None where there is none or it cannot be drawn."""
 
     def link(self, path: Path) -> str:
         """Return a link from the page to a file of the run."""
@@ -323,9 +312,9 @@ def _pair(
         return list(conflict["actors"]), True
     if len(tracks) == 2:
         return list(tracks), False
-    if len(tracks) < 2 or summary is None or summary.closest_approach is None:
-        return None, False
-    return _nearest_pair(summary.closest_approach, tracks), False
+    if len(tracks) > 2 and summary is not None and summary.closest_approach is not None:
+        return _nearest_pair(summary.closest_approach, tracks), False
+    return None, False
 
 
 def _nearest_pair(closest: ClosestApproach, tracks: dict[str, Track]) -> list[str]:

@@ -15,27 +15,22 @@ MOST_EVENTS = 1500
 """Largest number of events in the page."""
 OF_ADVISORIES = ("id", "revision", "severity", "active", "traffic", "recommendation")
 """Fields of an advisory that its row has."""
+OF_CONFLICTS = ("phase", "actors", "horizontal_m", "vertical_m")
+"""Fields of a `ConflictTruth` that its row has."""
 END = ("finished", "stopped")
 """Kinds of the event that ends a run."""
 
 
 class Events:
-    """The events of a run.
-
-    Attributes
-    ----------
-    rows
-        Content of the page on each event, in the order of the log.
-    left_out
-        Number of events for which there was no room.
-    ended
-        True if the log has the end of the run.
-    """
+    """The events of a run."""
 
     def __init__(self) -> None:
         self.rows: list[Json] = []
+        """Content of the page on each event, in the order of the log."""
         self.left_out = 0
+        """Number of events for which there was no room."""
         self.ended = False
+        """True if the log has the end of the run."""
 
     def take(self, logged: Logged) -> None:
         """Add a message of the log, if it is an event."""
@@ -107,22 +102,13 @@ def _exchange(message: Json, logged: Logged) -> Json | None:
 
 
 def _transcript(message: Json, logged: Logged) -> Json:
-    return {
-        "kind": "transcript",
-        "who": logged.publisher,
-        "text": message["text"],
-        "engine": message["engine"],
-        "confidence": message["confidence"],
-    }
+    words = {name: message[name] for name in ("text", "engine", "confidence")}
+    return {"kind": "transcript", "who": logged.publisher, **words}
 
 
 def _status(message: Json, _: Logged) -> Json:
-    return {
-        "kind": "status",
-        "who": message["modality"],
-        "state": message["state"],
-        "text": message["cause"],
-    }
+    what = {"state": message["state"], "text": message["cause"]}
+    return {"kind": "status", "who": message["modality"], **what}
 
 
 def _command(message: Json, logged: Logged) -> Json:
@@ -147,10 +133,7 @@ def _conflict(message: Json, _: Logged) -> Json:
         "kind": "conflict",
         "who": " - ".join(message["actors"]),
         "text": "",
-        "phase": message["phase"],
-        "actors": message["actors"],
-        "horizontal_m": message["horizontal_m"],
-        "vertical_m": message["vertical_m"],
+        **{name: message[name] for name in OF_CONFLICTS},
         "runway": None if runway is None else runway_name(runway),
     }
 

@@ -69,16 +69,11 @@ COLOUR = re.compile("|".join(CSS))
 
 
 class Figures:
-    """The figures of one page; `drawn` is told their number after each.
-
-    Attributes
-    ----------
-    markup
-        Each figure by its name, as it stands in the page.
-    """
+    """The figures of one page; `drawn` is told their number after each."""
 
     def __init__(self, drawn: Callable[[int], None] = lambda _: None) -> None:
         self.markup: dict[str, str] = {}
+        """Each figure by its name, as it stands in the page."""
         self._files: dict[str, bytes] = {}
         self._drawn = drawn
 

@@ -115,27 +115,14 @@ def write_frequency(
     out: Path | None = None,
     notice: Notice = untold,
 ) -> tuple[FrequencyRecording, Path, Path]:
-    """Write the sound of a frequency with the timing of the run, and its transcript.
+    """Write the sound of a frequency with the timing of the run, and its transcript beside it.
 
-    Parameters
-    ----------
-    frequency_khz
-        The frequency; None takes the only one of the run.
-    out
-        The WAV file; the transcript has the same name with ``.txt``. None writes both into the run
-        folder, under the name of the frequency.
+    Without a frequency it takes the only one of the run; without a WAV file it writes into the run
+    folder, under the name of the frequency. The notice is told what is damaged; the transcript says
+    it too. The recording, the WAV file and the transcript's file are returned.
 
-    Returns
-    -------
-    tuple
-        The recording, the WAV file and the transcript's file.
-
-    Raises
-    ------
-    RunFolderError
-        There is no run, nothing was said there, or a sound file is not what was received.
-    SpeechError
-        The run has no sound.
+    It raises `RunFolderError` if there is no run, nothing was said there, or a sound file is not
+    what was received, and `SpeechError` if the run has no sound.
     """
     run = open_run(run_folder, notice)
     recording = read_frequency(run, frequency_khz)

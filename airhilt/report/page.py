@@ -7,7 +7,7 @@ from pathlib import Path
 from airhilt.host.text import readable
 from airhilt.record import Run, open_run
 from airhilt.record.damage import Notice, untold
-from airhilt.report.assembly import Assembly, write_page
+from airhilt.report.assembly import assemble, write_page
 from airhilt.report.data import read_run
 from airhilt.report.page_section import load_members
 from airhilt.report.sections import FAMILY, GuardedContent
@@ -53,4 +53,4 @@ def render(recorded: Run, page: Path) -> str:
     run.notes.extend(map(readable, problems))
     whole = [content.section for content in contents if content.is_whole]
     data = run.as_json() | {"sections": own}
-    return Assembly("run", "AIRHILT run report", SHARED, whole, data).page()
+    return assemble("run", "AIRHILT run report", SHARED, whole, data)

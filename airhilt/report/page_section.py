@@ -13,24 +13,16 @@ from airhilt.plugins import Family
 
 @dataclass(frozen=True)
 class PageSection:
-    """One section of a page.
-
-    Attributes
-    ----------
-    name
-        Name of its module or entry point; its data is found by it.
-    order
-        Place among the sections of the page, or of the section that it stands in.
-    module
-        ``__file__`` of its module: the template and the script have its name.
-    within
-        Name of the section that it stands in.
-    """
+    """One section of a page."""
 
     name: str
+    """Name of its module or entry point; its data is found by it."""
     order: int
+    """Place among the sections of the page, or of the section that it stands in."""
     module: str
+    """``__file__`` of its module: the template and the script have its name."""
     within: str = ""
+    """Name of the section that it stands in."""
 
     def template(self) -> str:
         """Return the Jinja template."""

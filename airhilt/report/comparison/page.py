@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from airhilt.host.text import readable
-from airhilt.report.assembly import Assembly, write_page
+from airhilt.report.assembly import assemble, write_page
 from airhilt.report.comparison import runs, sweeps
 from airhilt.report.comparison.runs import RunComparison
 from airhilt.report.comparison.sweeps import MeasureDifference, SweepComparison
@@ -35,7 +35,7 @@ def write_comparison(comparison: RunComparison | SweepComparison, page: Path) ->
     title = f"{readable(comparison.second)} compared with {readable(comparison.first)}"
     data = {"title": title, "notes": [], "sections": {comparison.kind: own}}
     sections = [SECTIONS[comparison.kind]]
-    html = Assembly("comparison", title, SHARED, sections, data, figures.markup).page()
+    html = assemble("comparison", title, SHARED, sections, data, figures.markup)
     write_page(page, html)
     return page
 

@@ -36,27 +36,19 @@ class MetricDifference:
 
 @dataclass(frozen=True)
 class RunComparison:
-    """Two runs.
-
-    Attributes
-    ----------
-    settings
-        Options that differ: name, and the value of each run.
-    equal_metrics
-        Number of metrics that both have with the same value.
-    parted_s
-        Time of the first event that only one of the runs has, None if all are the same.
-    events
-        From that time on, the first events of each run.
-    """
+    """Two runs."""
 
     first: str
     second: str
     settings: dict[str, tuple[str, str]]
+    """Options that differ: name, and the value of each run."""
     metrics: list[MetricDifference]
     equal_metrics: int
+    """Number of metrics that both have with the same value."""
     parted_s: float | None
+    """Time of the first event that only one of the runs has, None if all are the same."""
     events: tuple[list[Json], list[Json]]
+    """From that time on, the first events of each run."""
     kind: ClassVar = "runs"
 
     def as_json(self) -> Json:

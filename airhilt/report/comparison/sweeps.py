@@ -12,6 +12,7 @@ from airhilt.errors import AirhiltError
 from airhilt.metrics.estimates import Estimate
 from airhilt.metrics.measures import HOUR_S, MEASURES, Measure
 from airhilt.metrics.paired import McNemar, mcnemar, mean_difference, share_difference
+from airhilt.report.sweeps.data import families_of
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
@@ -33,24 +34,17 @@ class Side:
 
 @dataclass(frozen=True)
 class MeasureDifference:
-    """One measure on both sides, over the pairs in which both have a value.
-
-    Attributes
-    ----------
-    difference
-        Mean of second less first.
-    test
-        McNemar's test, None for what is no share.
-    one_sided
-        Pairs in which only one of the two has a value; they are left out.
-    """
+    """One measure on both sides, over the pairs in which both have a value."""
 
     measure: Measure
     first: Estimate
     second: Estimate
     difference: Estimate
+    """Mean of second less first."""
     test: McNemar | None
+    """McNemar's test, None for what is no share."""
     one_sided: int
+    """Pairs in which only one of the two has a value; they are left out."""
 
     def as_json(self) -> Json:
         """Return the numbers by name."""
@@ -68,31 +62,22 @@ class MeasureDifference:
 
 @dataclass(frozen=True)
 class SweepComparison:
-    """Two sides, what was paired, and what differs.
-
-    Attributes
-    ----------
-    paired_by
-        Columns that the two runs of a pair share.
-    differing
-        Columns in which the sides differ as a whole, with the value of each.
-    draws
-        Number of scenarios with a seed that the pairs are of. Pairs of one draw, which differ in
-        other parameters, depend on each other and count as one group.
-    without_partner
-        Number of runs of each side without a partner.
-    families
-        The differences by family; first of all families if there are more.
-    """
+    """Two sides, what was paired, and what differs."""
 
     first: str
     second: str
     paired_by: tuple[str, ...]
+    """Columns that the two runs of a pair share."""
     differing: dict[str, tuple[str, str]]
+    """Columns in which the sides differ as a whole, with the value of each."""
     pairs: int
     draws: int
+    """Number of scenarios with a seed that the pairs are of. Pairs of one draw, which differ in
+    other parameters, depend on each other and count as one group."""
     without_partner: tuple[int, int]
+    """Number of runs of each side without a partner."""
     families: dict[str, list[MeasureDifference]]
+    """The differences by family; first of all families if there are more."""
     kind: ClassVar = "sweeps"
 
     def as_json(self) -> Json:
@@ -178,7 +163,7 @@ def _require_unique(side: Side, by: list[str], other: Side) -> None:
 
 
 def _by_family(first: DataFrame, second: DataFrame) -> dict[str, list[MeasureDifference]]:
-    names = first["family"].fillna("").replace("", "other")
+    names = families_of(first)
     groups = {str(name): rows for name, rows in names.groupby(names, sort=True).groups.items()}
     whole = {"all": names.index, **groups} if len(groups) > 1 else groups
     return {

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from airhilt.report.assembly import Assembly
+from airhilt.report.assembly import assemble
 from airhilt.report.page_section import PageSection
 
 SHARED = ("document", "page")
@@ -24,7 +24,7 @@ def render(evaluation: Mapping[str, Any]) -> str:
         "options": evaluation["options"],
     }
     data = {"title": title, "notes": [], "sections": {SECTION.name: own}}
-    return Assembly("evaluation", title, SHARED, [SECTION], data).page()
+    return assemble("evaluation", title, SHARED, [SECTION], data)
 
 
 def _text(cell: Any) -> str:

@@ -52,19 +52,13 @@ class Content:
 
 @dataclass(frozen=True)
 class Section(PageSection):
-    """One section of the page of a run.
-
-    Attributes
-    ----------
-    content
-        Called with the run folder to make the receiver of messages; None if the section has no
-        data of its own.
-    keys
-        Beginnings of the keys of the messages that the content receives.
-    """
+    """One section of the page of a run."""
 
     content: Callable[[RunFolder], Content] | None = None
+    """Called with the run folder to make the receiver of messages; None if the section has no data
+    of its own."""
     keys: tuple[str, ...] = ()
+    """Beginnings of the keys of the messages that the content receives."""
 
 
 class GuardedContent:

@@ -43,22 +43,16 @@ class Level(NamedTuple):
 
 @dataclass(frozen=True)
 class Axis:
-    """One parameter with its levels, in rising order.
-
-    Attributes
-    ----------
-    places
-        Place of each run among the levels, -1 where the run leaves the parameter to its scenario.
-    distinct
-        Number of different values; more than there are levels if these are bins.
-    """
+    """One parameter with its levels, in rising order."""
 
     name: str
     unit: str
     is_numeric: bool
     levels: tuple[Level, ...]
     places: Series
+    """Place of each run among the levels, -1 where the run leaves the parameter to its scenario."""
     distinct: int
+    """Number of different values; more than there are levels if these are bins."""
 
     @property
     def title(self) -> str:

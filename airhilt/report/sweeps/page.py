@@ -10,7 +10,7 @@ from typing import Any
 from airhilt.host.text import readable
 from airhilt.record.damage import Notice, untold
 from airhilt.record.sweep_folder import SweepFolder
-from airhilt.report.assembly import Assembly, write_page
+from airhilt.report.assembly import assemble, write_page
 from airhilt.report.figures import Figures
 from airhilt.report.page_section import cannot_be_shown, load_members
 from airhilt.report.sweeps.data import SweepData, read_sweep_data
@@ -60,4 +60,4 @@ def render(sweep: SweepData, figures: Figures) -> str:
     title = f"{sweep.folder.path.absolute().name}: AIRHILT sweep"
     notes = [readable(each) for each in (*sweep.notes, *problems)]
     data = {"title": title, "notes": notes, "sections": own}
-    return Assembly("sweep", title, SHARED, shown, data, figures.markup).page()
+    return assemble("sweep", title, SHARED, shown, data, figures.markup)

@@ -11,7 +11,7 @@ from airhilt.report.sweeps.axes import Axis, axis_of
 from airhilt.report.sweeps.data import SweepData
 from airhilt.report.sweeps.figure_section import HERE, figure_json, section_json
 from airhilt.report.sweeps.sections import SweepSection
-from airhilt.report.sweeps.words import number, short
+from airhilt.report.sweeps.words import short
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -119,9 +119,8 @@ def _bars(axes: Axes, measure: Measure, bars: list[Estimate], place: int, among:
         if found.low is not None and found.high is not None:
             axes.plot([found.low, found.high], [y, y], color=INK, linewidth=1.1)
             end = max(end, found.high)
-        text = short(found.value, "%") if measure.unit == "%" else number(found.value)
-        axes.annotate(text, (end, y), (4, 0), textcoords="offset points", va="center",
-                      fontsize=7.5)  # fmt: skip
+        text = short(found.value, measure.unit)
+        axes.annotate(text, (end, y), (4, 0), textcoords="offset points", va="center", fontsize=7.5)
 
 
 SECTION = SweepSection("ablation", order=25, module=HERE, content=content)
