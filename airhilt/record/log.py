@@ -39,22 +39,20 @@ class LogWriter:
         self, key: str, publisher: str, model: type[BaseModel], t_ns: int, data: bytes
     ) -> None:
         """Write one message, which is JSON already."""
-        channel = self._channels.get((key, publisher, model))
-        if channel is None:
-            channel = self._register(key, publisher, model)
+        name = key, publisher, model
+        if name not in self._channels:
+            self._channels[name] = self._writer.register_channel(
+                key, "json", self._schema(model), {"publisher": publisher}
+            )
         self._sequence += 1
-        self._writer.add_message(channel, t_ns, data, t_ns, self._sequence)
+        self._writer.add_message(self._channels[name], t_ns, data, t_ns, self._sequence)
 
-    def _register(self, key: str, publisher: str, model: type[BaseModel]) -> int:
-        schema = self._schemas.get(model)
-        if schema is None:
-            schema = self._writer.register_schema(
+    def _schema(self, model: type[BaseModel]) -> int:
+        if model not in self._schemas:
+            self._schemas[model] = self._writer.register_schema(
                 f"airhilt.{model.__name__}", "jsonschema", _json_schema(model)
             )
-            self._schemas[model] = schema
-        channel = self._writer.register_channel(key, "json", schema, {"publisher": publisher})
-        self._channels[(key, publisher, model)] = channel
-        return channel
+        return self._schemas[model]
 
     def flush(self) -> None:
         """Hand all messages to the operating system, so that they outlive this process.

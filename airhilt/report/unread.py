@@ -33,9 +33,8 @@ class UnreadMessages:
             if self._last is not logged:
                 self._count += 1
                 self._last = logged
-            self._first = self._first or (
-                f"{logged.key} at {logged.t_ns / SECOND_NS:.1f} s: {_cause(error)}"
-            )
+            place = f"{logged.key} at {logged.t_ns / SECOND_NS:.1f} s"
+            self._first = self._first or f"{place}: {_cause(error)}"
 
     def note(self) -> str:
         """Return a sentence on the messages that were left out, empty if there are none."""
