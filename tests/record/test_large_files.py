@@ -9,7 +9,6 @@ import zlib
 from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
-from typing import Any
 
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -68,14 +67,6 @@ def test_a_record_of_a_run_that_takes_too_much_is_refused(
         _ = folder.info(), folder.summary()
 
 
-def test_a_command_names_a_record_that_takes_too_much(airhilt_command: Any, run_copy: Path) -> None:
-    make_many_values(run_copy / "run.json")
-    done = airhilt_command("report", run_copy)
-    assert done.returncode == 2
-    (line,) = done.stderr.splitlines()
-    assert "run.json: found over 500,000 values; expected fewer" in line
-
-
 @TOO_MUCH
 def test_a_plan_or_configuration_that_takes_too_much_is_refused(
     tmp_path: Path, make: Callable[[Path], None], answer: str
@@ -83,18 +74,6 @@ def test_a_plan_or_configuration_that_takes_too_much_is_refused(
     make(tmp_path / "plan.json")
     with pytest.raises(AirhiltError, match=rf"plan\.json: .*{answer}"):
         read_configuration(tmp_path / "plan.json")
-
-
-@pytest.mark.parametrize("command", ["experiment", "sweep"])
-@pytest.mark.parametrize("text", [b"[" * 100_000, b'{"seeds": ' + b"1" * 5_000 + b"}"])
-def test_a_plan_that_python_cannot_hold_is_refused_in_one_line(
-    airhilt_command: Any, tmp_path: Path, command: str, text: bytes
-) -> None:
-    (tmp_path / "plan.json").write_bytes(text)
-    done = airhilt_command(command, *(["--file"] if command == "sweep" else []), "plan.json")
-    assert done.returncode == 2
-    (line,) = done.stderr.splitlines()
-    assert line.startswith("airhilt: plan.json: ")
 
 
 def test_latencies_with_a_line_without_end_are_refused(tmp_path: Path) -> None:
