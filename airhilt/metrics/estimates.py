@@ -42,8 +42,10 @@ class Estimate:
 
     def times(self, factor: float) -> Estimate:
         """Return the estimate in another unit."""
-        numbers = (self.value, self.low, self.high)
-        return Estimate(*(None if one is None else one * factor for one in numbers), self.n)
+        value, low, high = (
+            None if one is None else one * factor for one in (self.value, self.low, self.high)
+        )
+        return Estimate(value, low, high, self.n)
 
 
 UNKNOWN = Estimate(None, None, None, 0)

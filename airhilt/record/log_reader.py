@@ -14,7 +14,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from io import BytesIO
 from pathlib import Path
-from typing import NamedTuple
+from typing import IO, NamedTuple, cast
 
 import zstandard
 from mcap.data_stream import ReadDataStream
@@ -105,7 +105,7 @@ class LogReader:
         """Return whether no message is missing, and every checksum of the log is right."""
         try:
             with self._content() as content:
-                for _ in StreamReader(content, emit_chunks=True, validate_crcs=True).records:
+                for _ in _records(content, validate_crcs=True):
                     pass
                 return _summary(content) is not None and not self.gaps
         except (RunFolderError, *BROKEN):
@@ -145,7 +145,8 @@ class LogReader:
                     else:
                         yield self._logged(record, channel)
         self.is_closed = summary is not None or _is_end_of_data(content, end)
-        total = nameless if summary is None else summary.statistics.message_count
+        statistics = summary and summary.statistics
+        total = statistics.message_count if statistics else nameless
         if is_end_damaged and not self.is_closed:
             self.gaps.append(Gap(self.end_ns, None, None))
         elif total > self._last:
@@ -160,6 +161,11 @@ class LogReader:
         self.end_ns = max(t_ns, self.end_ns)
         publisher = channel.metadata.get("publisher", "")
         return Logged(channel.topic, publisher, t_ns, message.data, number)
+
+
+def _records(content: mmap.mmap, **options: bool) -> Iterator[McapRecord]:
+    """Yield the records from where the content has been read to, chunks as a whole."""
+    return StreamReader(cast(IO[bytes], content), emit_chunks=True, **options).records
 
 
 def _chunk(content: mmap.mmap, place: int) -> tuple[list[McapRecord], int]:
@@ -191,17 +197,17 @@ def _summary(content: mmap.mmap) -> Summary | None:
             if zlib.crc32(part) != footer.summary_crc:
                 return None
         content.seek(0)
-        summary = SeekingReader(content).get_summary()
+        summary = SeekingReader(cast(IO[bytes], content)).get_summary()
     except BROKEN:
         return None
-    return summary if summary and summary.statistics else None
+    return summary
 
 
 def _is_end_of_data(content: mmap.mmap, end: int) -> bool:
     """Return whether the end of the data follows a chunk, behind indexes of messages."""
     with suppress(*BROKEN):
         content.seek(end)
-        for record in StreamReader(content, skip_magic=True, emit_chunks=True).records:
+        for record in _records(content, skip_magic=True):
             if not isinstance(record, MessageIndex):
                 return isinstance(record, DataEnd)
     return False

@@ -87,7 +87,8 @@ class WaitingPictures:
 
     def up_to(self, camera: str, seq: int) -> list[Picture]:
         """Take out a camera's pictures up to one; no detector will look at those before it."""
-        kept, taken = [], []
+        kept: list[Picture] = []
+        taken: list[Picture] = []
         for picture in self._pictures:
             header = picture.header
             is_over = header.camera == camera and header.seq <= seq
