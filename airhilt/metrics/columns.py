@@ -1,8 +1,7 @@
 """Summaries as flat rows: of a run, of a person at a seat, of one reaction or call of a person.
 
-A row has a column for each number, by rule from the models. A field of a model within another has
-the names of both, such as ``radio_wer``. Fields by stage, modality or outcome have a column for
-each that AIRHILT itself knows, so that every run has the same columns. Lists have none.
+A row has a column for each number, by rule from the models; lists have none. A field of a model
+within another has the names of both, such as ``radio_wer``. Every run has the same columns.
 """
 
 from __future__ import annotations

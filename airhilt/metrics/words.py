@@ -1,8 +1,7 @@
 """The words of a call against its transcript: word errors, callsign and slots.
 
-Said and recognised words are compared as `in_words` writes them. Words that only sound alike are
-not equal: "to" for "two" is an error here, though the parser mends it. Callsigns and slots are
-compared as `parse_call` reads both texts.
+Words that only sound alike are not equal: "to" for "two" is an error here, though the parser mends
+it. Callsigns and slots are compared as `parse_call` reads both texts.
 """
 
 from __future__ import annotations

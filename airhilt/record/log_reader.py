@@ -1,8 +1,7 @@
 """Reads ``log.mcap``: every message whose checksum is right, and where others are missing.
 
-A log is a row of chunks (https://mcap.dev/spec), as `LogWriter` writes them. Each has a CRC-32 of
-its records, and each message has a number, so that nothing is missing without being noticed. Chunks
-are found by their content, so that a damaged one costs no other.
+Chunks (https://mcap.dev/spec) are found by their content, so that a damaged one costs no other.
+Messages are numbered from 1 on, so that none is missing without being noticed.
 """
 
 from __future__ import annotations

@@ -122,16 +122,12 @@ def sign_folder(path: Path, key: Path) -> str:
     return fingerprint(signer.public_key())
 
 
-def _below(folder: Path, error: Exception) -> tuple[str]:
-    return (str(error).replace(f"{folder}/", ""),)
-
-
 def _run(folder: RunFolder) -> Verification:
     found = Verification(str(folder.path), "run")
     try:
         info = folder.info()
     except AirhiltError as error:
-        return replace(found, problems=_below(folder.path, error))
+        return replace(found, problems=(str(error).replace(f"{folder.path}/", ""),))
     problems = Run(folder).damage_of_all_files()
     found = replace(found, files=len(info.files))
     if info.phase == "running":
@@ -168,7 +164,7 @@ def _sweep(folder: SweepFolder) -> Verification:
     try:
         info, files = folder.info(), folder.files()
     except AirhiltError as error:
-        return replace(found, problems=_below(folder.path, error))
+        return replace(found, problems=(str(error).replace(f"{folder.path}/", ""),))
     tables = folder.table_path.name, folder.machine_path.name
     problems = [
         digest_problem(folder.info_path.name, info),

@@ -40,9 +40,8 @@ class UnreadMessages:
         """Return a sentence on the messages that were left out, empty if there are none."""
         if not self._count:
             return ""
-        if self._count == 1:
-            begin = "One message of the log is not as this version writes it, and left out"
-        else:
+        begin = "One message of the log is not as this version writes it, and left out"
+        if self._count > 1:
             begin = (
                 f"{self._count} messages of the log are not as this version writes them, and left "
                 "out. The first is"

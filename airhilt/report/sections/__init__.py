@@ -55,8 +55,7 @@ class Section(PageSection):
     """One section of the page of a run."""
 
     content: Callable[[RunFolder], Content] | None = None
-    """Called with the run folder to make the receiver of messages; None if the section has no data
-    of its own."""
+    """Makes the receiver of messages from the run folder; None if there is no data to receive."""
     keys: tuple[str, ...] = ()
     """Beginnings of the keys of the messages that the content receives."""
 

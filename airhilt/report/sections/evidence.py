@@ -16,6 +16,8 @@ MOST_ROWS = 300
 """Largest number of advisories in the page, counting each revision."""
 MOST_NAMES = 12
 """Largest number of names in one cell."""
+TIMES = ("time_to_go_s", "time_to_loss_s", "time_to_closest_approach_s")
+"""Fields of the evidence that say how urgent it is; the first one that is known is shown."""
 
 
 class AdvisoryEvidence(Content):
@@ -36,11 +38,7 @@ class AdvisoryEvidence(Content):
             self._left_out += 1
             return
         evidence = advisory.evidence
-        times_s = (
-            evidence.time_to_go_s,
-            evidence.time_to_loss_s,
-            evidence.time_to_closest_approach_s,
-        )
+        times_s = (getattr(evidence, name) for name in TIMES)
         self._rows[key] = {
             "t": logged.t_ns / SECOND_NS,
             "severity": advisory.severity,

@@ -133,9 +133,8 @@ def _panel(axes: Axes, cells: _Cells, measure: Measure, colours: Any) -> None:
             axes.text(column, row, "–", ha="center", va="center", color=DIM, in_layout=False)
             continue
         red, green, blue, _ = colours.to_rgba(value)
-        style: dict[str, Any] = {"edgecolor": PANEL, "linewidth": 1.2}
         place, colour = (column - 0.5, row - 0.5), (red, green, blue)
-        axes.add_patch(Rectangle(place, 1, 1, facecolor=colour, **style))
+        axes.add_patch(Rectangle(place, 1, 1, facecolor=colour, edgecolor=PANEL, linewidth=1.2))
         luminance = 0.2126 * red + 0.7152 * green + 0.0722 * blue
         ink = WHITE if luminance < DARK else BLACK
         own: dict[str, Any] = {"ha": "center", "va": "center", "color": ink, "in_layout": False}
