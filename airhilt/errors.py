@@ -77,12 +77,16 @@ class StationError(AirhiltError):
     """A station cannot be opened at that address, or is not installed."""
 
 
-def disk_failed(path: str, error: OSError) -> RunFolderError:
-    """Return the error for a run folder that cannot be written any more."""
-    return RunFolderError(
-        f"{path}: cannot be written any more: {error.strerror}; make room, or choose another "
-        "folder with --out"
-    )
+@contextmanager
+def writing_to_run(path: object) -> Iterator[None]:
+    """Convert OSError to the error for a file of a run that cannot be written any more."""
+    try:
+        yield
+    except OSError as error:
+        raise RunFolderError(
+            f"{path}: cannot be written any more: {error.strerror}; make room, or choose another "
+            "folder with --out"
+        ) from None
 
 
 class WorkerError(AirhiltError):

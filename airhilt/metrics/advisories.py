@@ -27,47 +27,29 @@ CLARIFICATION: AdvisoryKind = "clarification"
 
 @dataclass
 class AdvisoryRecord:
-    """One advisory over its revisions.
-
-    Attributes
-    ----------
-    first
-        The advisory as it was published first.
-    loses_separation
-        True if its traffic was then going to lose separation.
-    concerns_conflict
-        True if a revision of it was about the annotated pair.
-    shown
-        Callsigns of the actors that cameras had really shown shortly before a revision.
-    spoken_ns
-        Time at which its voice was first heard, None if it never was.
-    """
+    """One advisory over its revisions."""
 
     first: Advisory
+    """The advisory as it was published first."""
     loses_separation: bool
+    """True if its traffic was then going to lose separation."""
     concerns_conflict: bool = False
+    """True if a revision of it was about the annotated pair."""
     shown: frozenset[str] = frozenset()
-    severities: list[Severity] = field(default_factory=list)
+    """Callsigns of the actors that cameras had really shown shortly before a revision."""
+    severity: Severity = Severity.INFO
+    """Highest severity of all revisions."""
     revisions: set[int] = field(default_factory=set)
     spoken_ns: int | None = None
-
-    @property
-    def severity(self) -> Severity:
-        """Highest severity of all revisions."""
-        return max(self.severities, key=lambda severity: severity.rank)
+    """Time at which its voice was first heard, None if it never was."""
 
 
 class AdvisoryRecords:
     """All advisories of a run, by their ids.
 
-    Parameters
-    ----------
-    callsigns
-        Callsigns of the actors by all their names, as `Scenario.callsigns` has them.
-    pair
-        The annotated pair, None if the scenario has no conflict.
-    was_seen
-        Returns true if a camera's detection really showed an actor since a time.
+    The callsigns of the actors are by all their names, as `Scenario.callsigns` has them. Without an
+    annotated conflict there is no pair. `was_seen` tells whether a camera's detection really showed
+    an actor since a time in ns.
     """
 
     def __init__(
@@ -92,7 +74,7 @@ class AdvisoryRecords:
         if advisory.revision in record.revisions:
             return False
         record.revisions.add(advisory.revision)
-        record.severities.append(advisory.severity)
+        record.severity = max(record.severity, advisory.severity, key=lambda one: one.rank)
         record.concerns_conflict |= self._concerns_conflict(advisory)
         record.shown |= self._shown(advisory)
         return True
@@ -144,7 +126,6 @@ class AdvisoryRecords:
         ]
 
     def _concerns_conflict(self, advisory: Advisory) -> bool:
-        """Return true if an advisory is about the annotated pair."""
         pair = frozenset(self._pair or ())
         return self._concerns(advisory, pair, self._shown(advisory))
 
@@ -166,17 +147,15 @@ class AdvisoryRecords:
         return "radio" in sources
 
     def _shown(self, advisory: Advisory) -> frozenset[str]:
-        """Return the callsigns of the actors that cameras really showed before an advisory."""
         since_ns = advisory.t_ns - SEEN_WITHIN_NS
         callsigns = set(self._callsigns.values())
         return frozenset(name for name in callsigns if self._was_seen(name, since_ns))
 
     def _traffic(self, advisory: Advisory) -> tuple[str, ...]:
-        """Return an advisory's traffic by callsign; a name that no actor has stays as it is."""
+        """Return the callsigns of an advisory's traffic, and names that no actor has."""
         return tuple(self._callsigns.get(name, name) for name in advisory.traffic)
 
     def _loses_separation(self, advisory: Advisory) -> bool:
-        """Return true if the traffic is a pair that will really lose separation soon."""
         traffic = advisory.traffic
         if len(traffic) != 2 or not all(name in self._callsigns for name in traffic):
             return False
@@ -188,7 +167,6 @@ class AdvisoryRecords:
         """Return true if the traffic is in no conflict, annotated or real.
 
         In a scenario without a conflict, every alert is a nuisance whose conflict did not happen.
-        A question for what was heard in doubt tells of no conflict, and is none.
         """
         if record.concerns_conflict or record.first.kind == CLARIFICATION:
             return False
@@ -198,7 +176,6 @@ class AdvisoryRecords:
 
 
 def _involved(incursions: Iterable[RunwayIncursion]) -> list[frozenset[str]]:
-    """Return the actors in each incursion."""
     return [
         frozenset(actor for actor in (one.user, one.intruder) if actor is not None)
         for one in incursions

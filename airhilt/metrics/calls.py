@@ -15,6 +15,7 @@ from airhilt.messages import (
     SpokenTruth,
     Transcript,
     Transmission,
+    bus_message,
 )
 from airhilt.metrics.summary import RadioStatistics
 from airhilt.metrics.words import recognition, score
@@ -26,21 +27,8 @@ REPEAT = re.compile(r"\.repeat-[0-9]+$")
 """End of the id of a call that is made again (docs/radio.md)."""
 
 
-def call_message(key: str) -> type[Message] | None:
-    """Return the class of the messages with a key if they are about calls or spoken advisories."""
-    match key.split("/"):
-        case ["radio", _, "tx"]:
-            return Transmission
-        case ["asr", _]:
-            return Transcript
-        case ["truth", "radio", *_]:
-            return SpokenTruth
-        case ["truth", "hearing", *_]:
-            return HearingTruth
-        case ["tts", *_]:
-            return AdvisoryAudio
-        case _:
-            return None
+OF_CALLS = (Transmission, Transcript, SpokenTruth, HearingTruth, AdvisoryAudio)
+"""Messages about calls and spoken advisories."""
 
 
 @dataclass
@@ -64,6 +52,8 @@ class CallRecords:
     """All calls of a run, by their ids, in the order in which they ended."""
 
     def __init__(self) -> None:
+        self.spoken: list[AdvisoryAudio] = []
+        """The advisories that the assistant spoke, in the order of their beginnings."""
         self._calls: dict[str, CallRecord] = {}
 
     def __iter__(self) -> Iterator[CallRecord]:
@@ -73,9 +63,17 @@ class CallRecords:
         """Return the call with an id, None if nothing is known of it."""
         return self._calls.get(name)
 
+    def read(self, key: str, data: bytes) -> None:
+        """Add a message of a log, else as `take`; ValidationError if it is of another version."""
+        model = bus_message(key)
+        if model in OF_CALLS:
+            self.take(model.model_validate_json(data))
+
     def take(self, message: Message) -> None:
-        """Add a message about a call; other messages are ignored."""
+        """Add a message about a call or a spoken advisory; other messages are ignored."""
         match message:
+            case AdvisoryAudio():
+                self.spoken.append(message)
             case SpokenTruth(id=name):
                 self._call(name).said = message
             case Transmission(id=name):
@@ -91,14 +89,9 @@ class CallRecords:
     # --- statistics -------------------------------------------------------------------------
 
     def statistics(self, callsigns: Sequence[str], *, is_recognised: bool) -> RadioStatistics:
-        """Return the statistics of the radio.
+        """Return the statistics of the radio, with the callsigns on the roster.
 
-        Parameters
-        ----------
-        callsigns
-            Callsigns on the roster.
-        is_recognised
-            True if a recogniser took part, so that transcripts may be missing.
+        Transcripts may be missing only if a recogniser took part: `is_recognised`.
         """
         spoken = [(call, said) for call in self if (said := call.said) is not None]
         words = [(call, said) for call, said in spoken if said.text]

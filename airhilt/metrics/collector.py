@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -20,6 +20,7 @@ from airhilt.messages import (
     Message,
     Modality,
     ModalityState,
+    ModelExchange,
     Status,
 )
 from airhilt.metrics.advisories import AdvisoryRecords
@@ -28,12 +29,11 @@ from airhilt.metrics.detection_scores import DetectionScores
 from airhilt.metrics.equipment import EquipmentRecords
 from airhilt.metrics.evidence_ages import EvidenceAges
 from airhilt.metrics.first_warning import FirstWarning
-from airhilt.metrics.language_model import LanguageModelRecords
 from airhilt.metrics.latencies import StageLatencies
-from airhilt.metrics.outcome import Outcome
+from airhilt.metrics.outcome import INFRINGEMENTS, Outcome
 from airhilt.metrics.people import REAL_TIME, PeopleRecords
 from airhilt.metrics.plans import Plans
-from airhilt.metrics.summary import Summary, WarningParts
+from airhilt.metrics.summary import LanguageModelStatistics, Summary, WarningParts
 from airhilt.metrics.warning_parts import parts_of, supporting_transcript
 from airhilt.options import MODALITIES
 from airhilt.scenario.models import LineBegun, Scenario
@@ -62,31 +62,9 @@ class WindowTimes:
 class Collector:
     """Collects the numbers of a run.
 
-    Parameters
-    ----------
-    ground_m
-        Height of the ground above WGS84, in m.
-    monitor, runways
-        Monitors of the run; runways is None away from airports.
-    deciders
-        Names of the workers that decide.
-    given
-        Modalities that they are given.
-    seats
-        Units and callsigns that are left to people.
-    pace
-        Name of the pace with which the run begins.
-
-    Attributes
-    ----------
-    window
-        The conflict window.
-    modalities
-        Last state of each modality.
-    ended_actors
-        Cause by the callsign of each actor that ended before the run did.
-    last_advisory
-        The advisory that was published last and is active, None before the first.
+    The height of the ground is in m above WGS84; away from airports there is no monitor of runways.
+    `deciders` are the names of the workers that decide, `given` the modalities that they are given,
+    `seats` the units and callsigns that are left to people. The run begins with the `pace`.
     """
 
     def __init__(
@@ -104,8 +82,11 @@ class Collector:
     ) -> None:
         self.window = WindowTimes()
         self.modalities: dict[Modality, ModalityState] = {}
+        """Last state of each modality."""
         self.ended_actors: dict[str, str] = {}
+        """Cause by the callsign of each actor that ended before the run did."""
         self.last_advisory: Advisory | None = None
+        """The advisory that was published last and is active, None before the first."""
         self._scenario = scenario
         self._is_on_frequency = is_on_frequency
         pair = scenario.pair
@@ -115,7 +96,7 @@ class Collector:
         self._calls = CallRecords()
         self._evidence = EvidenceAges(deciders, given)
         self._detections = DetectionScores()
-        self._language_model = LanguageModelRecords()
+        self._exchanges: list[ModelExchange] = []
         self._people = PeopleRecords(seats, [one.callsign for one in scenario.actors], pace)
         new_records = partial(
             AdvisoryRecords, scenario.callsigns, pair, monitor, self._detections.was_seen
@@ -144,6 +125,8 @@ class Collector:
                 self._equipment.take(message)
             case AdvisoryAudio() if not self._is_called(message.recipient):
                 self._told(message.id, message.revision, message.recipient, message.t_ns)
+            case ModelExchange():
+                self._exchanges.append(message)
             case HearingTruth(id=name, outcome="understood") if name.startswith(ADVISORY_CALL):
                 self._take_advisory_call(name)
             case Status(modality=modality, state=state, t_ns=now_ns):
@@ -154,7 +137,6 @@ class Collector:
         self._calls.take(message)
         self._evidence.take(message)
         self._detections.take(message)
-        self._language_model.take(message)
         self._people.take(key, message)
 
     def step(self, record: StepRecord) -> None:
@@ -178,14 +160,12 @@ class Collector:
         return self._is_on_frequency and recipient != CONTROLLER
 
     def _take_advisory_call(self, name: str) -> None:
-        """Receive that an advisory was heard on a frequency; its voice began with the call."""
         identity, revision, recipient = name.removeprefix(ADVISORY_CALL).rsplit(".", 2)
         call = self._calls.get(name)
         if call is not None and call.said is not None:
             self._told(identity, int(revision), recipient, call.said.t_tx_ns)
 
     def _told(self, identity: str, revision: int, recipient: str, t_ns: int) -> None:
-        """Receive that a recipient hears, or has heard, an advisory from a time on."""
         self._advisories.add_voice(identity, t_ns)
         self._first_warning.heard((identity, recipient, revision), t_ns)
 
@@ -214,7 +194,7 @@ class Collector:
                 is_recognised=self.modalities.get("asr") in ("on", "lost"),
             ),
             vision=vision,
-            language_model=self._language_model.statistics(),
+            language_model=_language_model(self._exchanges),
             latencies=self._latencies.statistics(),
             evidence=self._evidence.statistics(now_ns),
             modalities={**self.modalities},
@@ -223,7 +203,6 @@ class Collector:
         )
 
     def _warning_fields(self, now_ns: int) -> dict[str, Any]:
-        """Return the fields about the conflict, its window and the first warning."""
         conflict_s = ns_to_seconds(self.window.begun_ns)
         warning_s = ns_to_seconds(self._first_warning.t_ns)
         is_in_time = self._is_warned_in_time()
@@ -247,19 +226,16 @@ class Collector:
         }
 
     def _beginning_call(self) -> str | None:
-        """Return the id of the call that begins the conflict, None if none does."""
         conflict = self._scenario.conflict
         begins = None if conflict is None else conflict.begins
         return begins.line if isinstance(begins, LineBegun) else None
 
     def _call_ended_ns(self) -> int | None:
-        """Return the end of the call that begins the conflict, None if none has."""
         name = self._beginning_call()
         call = None if name is None else self._calls.get(name)
         return None if call is None or call.said is None else call.said.t_end_ns
 
     def _warning_parts(self) -> WarningParts | None:
-        """Return what the time to first warning consists of."""
         warning, begun_ns = self._first_warning, self.window.begun_ns
         if warning.t_ns is None or warning.advisory is None or begun_ns is None:
             return None
@@ -269,17 +245,11 @@ class Collector:
         return parts_of(begun_ns, warning.t_ns, warning.advisory, transcript)
 
     def _is_warned_in_time(self) -> bool:
-        """Return true if somebody was warned before the conflict window closed."""
         warning_ns, closed_ns = self._first_warning.t_ns, self.window.closed_ns
         return warning_ns is not None and (closed_ns is None or warning_ns <= closed_ns)
 
-    def _is_first_to_warn_in_time(self) -> bool:
-        """Return true if the assistant warned in time, before equipment told anybody what to do."""
-        warning_ns = self._first_warning.t_ns
-        return self._is_warned_in_time() and not self._equipment.acts_before(warning_ns)
-
     def _as_declared(self, assistant: str) -> bool | None:
-        """Return true if what the scenario declares came about without an assistant.
+        """Return whether what the scenario declares came about without an assistant.
 
         None if there was one, or the scenario declares no conflict, or equipment has averted it.
         """
@@ -291,19 +261,30 @@ class Collector:
         return None if self._equipment.acts_before(None) else False
 
     def _outcome_fields(self) -> dict[str, Any]:
-        """Return the fields about separation, collisions and runway incursions."""
         outcome, truth = self._outcome, self._outcome.pair_truth
+        # A warning counts that came before equipment told anybody what to do.
+        warning_ns = self._first_warning.t_ns
+        is_warned = self._is_warned_in_time() and not self._equipment.acts_before(warning_ns)
         return {
             "min_horizontal_separation_m": truth.least_horizontal_m if truth else None,
             "min_vertical_separation_m": truth.least_vertical_m if truth else None,
             "closest_approach": outcome.closest_approach,
-            "loss_of_separation": outcome.happened("loss_of_separation"),
-            "nmac": outcome.happened("nmac"),
-            "collision": outcome.happened("collision"),
+            **{phase: outcome.happened(phase) for phase in INFRINGEMENTS},
             "runway_incursions": outcome.incursions(),
             "runway_incursion_category": outcome.worst_category(),
-            "avoided": outcome.avoided(was_warned=self._is_first_to_warn_in_time()),
+            "avoided": outcome.avoided(was_warned=is_warned),
         }
+
+
+def _language_model(exchanges: Sequence[ModelExchange]) -> LanguageModelStatistics | None:
+    if not exchanges:
+        return None
+    return LanguageModelStatistics(
+        model=exchanges[0].model,
+        questions=len(exchanges),
+        failures=sum(bool(each.failure) for each in exchanges),
+        rejections=sum(len(each.rejections) for each in exchanges),
+    )
 
 
 def _difference(later_s: float | None, earlier_s: float | None) -> float | None:

@@ -1,9 +1,7 @@
 """Summaries as flat rows: of a run, of a person at a seat, of one reaction or call of a person.
 
-A row has a column for each number, by rule from the models. A field of a model within another has
-the names of both, such as ``radio_wer``. Fields by stage, modality or outcome have a column for
-each that AIRHILT itself knows, so that every run has the same columns. Lists have none: what is
-wanted of them is counted in `DERIVED` and `DERIVED_OF_PEOPLE`.
+A row has a column for each number, by rule from the models; lists have none. A field of a model
+within another has the names of both, such as ``radio_wer``. Every run has the same columns.
 """
 
 from __future__ import annotations
@@ -11,7 +9,6 @@ from __future__ import annotations
 import types
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from enum import StrEnum
 from functools import cached_property
 from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
@@ -54,40 +51,22 @@ UNITS = {
 
 @dataclass(frozen=True)
 class Column:
-    """One column of a table of runs.
-
-    Attributes
-    ----------
-    name
-        Name, with the unit at its end where there is one.
-    type
-        Type of the values; every value may be null.
-    unit
-        Unit of the values: 1 for counts and shares, empty for texts and for true and false.
-    description
-        Meaning of the values, in one sentence.
-    path
-        Keys under which ``summary.json`` has the value; empty if it is worked out from others.
-    """
+    """One column of a table of runs, whose values may be null."""
 
     name: str
     type: Kind
     unit: str
+    """Unit of the values: 1 for counts and shares, empty for texts and for true and false."""
     description: str
     path: tuple[str, ...] = ()
+    """Keys under which ``summary.json`` has the value; empty if it is worked out from others."""
 
 
 class FlatRow:
     """The columns of a model, and their values.
 
-    Parameters
-    ----------
-    model
-        Model of which each single value has a column.
-    derived
-        Metrics that are worked out from others; their columns come last.
-    left_out
-        Fields without a column.
+    Each single value of the model has a column, but for the fields left out. Metrics that are
+    derived from others come last.
     """
 
     def __init__(
@@ -110,12 +89,8 @@ class FlatRow:
     def values(self, content: Mapping[str, Any]) -> dict[str, Value]:
         """Return the values by the names of their columns, of a model as JSON has it.
 
-        What the content does not have is null.
-
-        Raises
-        ------
-        TypeError, ValueError
-            A field has a value of another type.
+        What the content does not have is null. It raises TypeError or ValueError for a value of
+        another type.
         """
         own = {each.name: _at(content, each) for each in self.columns if each.path}
         return own | {each.name: each.value(content) for each in self._derived}
@@ -131,7 +106,6 @@ def column_of(name: str, kind: Kind, description: str, path: tuple[str, ...] = (
 def _of_model(
     model: type[BaseModel], path: tuple[str, ...], left_out: Collection[str] = ()
 ) -> Iterator[Column]:
-    """Yield the fields of a model that are, or consist of, single values."""
     for name, info in model.model_fields.items():
         if name in left_out:
             continue
@@ -147,7 +121,6 @@ def _of_model(
 def _of_type(
     annotation: Any, info: FieldInfo, path: tuple[str, ...], context: tuple[str, ...]
 ) -> Iterator[Column]:
-    """Yield one column, or those of the model that the type is; none for a list."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         yield from _of_model(annotation, path)
     elif (kind := _kind(annotation)) is not None:
@@ -168,27 +141,19 @@ def _bare(annotation: Any) -> Any:
 
 def _kind(annotation: Any) -> Kind | None:
     """Return the type of a column, None for a list of values."""
-    if get_origin(annotation) is Literal:
-        return "string"
-    if not isinstance(annotation, type):
-        return None
-    if issubclass(annotation, str | StrEnum):
+    is_type = isinstance(annotation, type)
+    if get_origin(annotation) is Literal or (is_type and issubclass(annotation, str)):
         return "string"
     kinds: dict[type, Kind] = {bool: "bool", int: "int64", float: "float64"}
-    return kinds.get(annotation)
+    return kinds.get(annotation) if is_type else None
 
 
 def _at(content: Mapping[str, Any], column: Column) -> Value:
-    """Return the value of a column; null if the summary does not have it."""
     found: Any = content
     for key in column.path:
-        if found is None:
-            return None
-        found = found.get(key)
-    if found is None:
-        return None
+        found = None if found is None else found.get(key)
     convert = {"string": str, "bool": bool, "int64": int, "float64": float}
-    value: Value = convert[column.type](found)
+    value: Value = None if found is None else convert[column.type](found)
     return value
 
 
@@ -208,17 +173,9 @@ def metric_columns() -> tuple[Column, ...]:
 
 
 def metrics_of(summary: Summary | Mapping[str, Any]) -> dict[str, Value]:
-    """Return the metrics of a run by the names of their columns.
+    """Return the metrics of a run, of its summary or the content of its ``summary.json``.
 
-    Parameters
-    ----------
-    summary
-        The summary of a run, or the content of its ``summary.json``.
-
-    Raises
-    ------
-    TypeError, ValueError
-        A field has a value of another type.
+    They are by the names of their columns. It raises what `FlatRow.values` does.
     """
     content = summary.model_dump(mode="json") if isinstance(summary, Summary) else summary
     return OF_RUNS.values(content)

@@ -34,12 +34,7 @@ def complies(
 ) -> bool:
     """Return whether an action does what is recommended, in its sense.
 
-    Parameters
-    ----------
-    command
-        The command to the aircraft or vehicle; None: the action is a call.
-    track_deg
-        True track when the command came; None if it is not known, so that no side is either.
+    Without a command the action is a call. Without a true track, in degrees, a track has no side.
     """
     match recommendation:
         case Confirm():
@@ -52,12 +47,12 @@ def complies(
             turned_deg = _turn_deg(command, track_deg)
             return turned_deg is not None and degrees * turned_deg > 0.0
         case Climb() | MaintainLevel():
-            selected_ft = _selected_ft(command)
-            return selected_ft is not None and _is_level(recommendation, selected_ft)
+            return isinstance(command, AltitudeCommand | EmergencyDescentCommand) and _is_level(
+                recommendation, command.altitude_ft
+            )
 
 
 def _is_level(recommendation: Climb | MaintainLevel, selected_ft: float) -> bool:
-    """Return whether a level is the recommended one, or lies beyond it in the sense given."""
     above_ft = selected_ft - recommendation.altitude_ft
     if isinstance(recommendation, MaintainLevel):
         return abs(above_ft) <= LEVEL_TOLERANCE_FT
@@ -65,19 +60,7 @@ def _is_level(recommendation: Climb | MaintainLevel, selected_ft: float) -> bool
     return beyond_ft >= -LEVEL_TOLERANCE_FT
 
 
-def _selected_ft(command: Command | None) -> float | None:
-    match command:
-        case (
-            AltitudeCommand(altitude_ft=altitude_ft)
-            | EmergencyDescentCommand(altitude_ft=altitude_ft)
-        ):
-            return altitude_ft
-        case _:
-            return None
-
-
 def _turn_deg(command: Command | None, track_deg: float | None) -> float | None:
-    """Return by how much a command turns to the right; None if that is not known."""
     match command:
         case TurnCommand(degrees=degrees):
             return degrees

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 from airhilt.messages import Severity
-from airhilt.metrics.outcome import SERIOUS
+from airhilt.metrics.outcome import INFRINGEMENTS, SERIOUS
 
 Json = Mapping[str, Any]
 
@@ -26,64 +26,56 @@ class Derived:
     value: Callable[[Json], Any]
 
 
-def nominal(summary: Json) -> bool | None:
-    """Return true if the scenario declares no conflict, None in a summary that does not tell."""
+def _nominal(summary: Json) -> bool | None:
     actors = summary.get("conflict_actors")
     return None if actors is None else not actors
 
 
-def warned(summary: Json) -> bool | None:
-    """Return true if somebody was warned before the conflict window closed."""
-    if nominal(summary) is not False:
+def _warned(summary: Json) -> bool | None:
+    if _nominal(summary) is not False:
         return None
     warning_s, end_s = summary.get("t_first_warning_s"), summary.get("t_conflict_end_s")
     return warning_s is not None and (end_s is None or warning_s <= end_s)
 
 
-def warned_in_time(summary: Json) -> bool | None:
-    """Return true if the warning left the time to act before the closest approach."""
-    was_warned = warned(summary)
-    if not was_warned:
+def _warned_in_time(summary: Json) -> bool | None:
+    was_warned = _warned(summary)
+    if not was_warned or summary.get("t_window_s") is None:
         return was_warned
-    if summary.get("t_window_s") is None:
-        return True
     lead_s = summary.get("lead_before_closest_approach_s")
     return lead_s is not None and bool(lead_s >= TIME_TO_ACT_S)
 
 
-def missed(summary: Json) -> bool | None:
-    """Return true if the conflict window opened, and nobody was warned before it closed."""
-    was_warned = warned(summary)
-    if was_warned is None or was_warned:
-        return None if was_warned is None else False
-    return None if summary.get("t_window_s") is None else True
+def _missed(summary: Json) -> bool | None:
+    was_warned = _warned(summary)
+    if was_warned is False and summary.get("t_window_s") is None:
+        return None
+    return None if was_warned is None else not was_warned
 
 
-def lost(summary: Json) -> bool:
-    """Return true if something happened that an assistant is there to prevent."""
-    happened = any(summary.get(name) for name in ("loss_of_separation", "nmac", "collision"))
+def _lost(summary: Json) -> bool:
+    happened = any(summary.get(name) for name in INFRINGEMENTS)
     return happened or summary.get("runway_incursion_category") in SERIOUS
 
 
-def severity_max(summary: Json) -> str | None:
-    """Return the highest severity of any advisory, None if there was none."""
-    severities = [Severity(each["severity"]) for each in summary.get("advisories") or ()]
-    return max(severities, key=lambda each: each.rank).value if severities else None
+def _severities(summary: Json) -> list[Severity]:
+    return [Severity(each["severity"]) for each in summary.get("advisories") or ()]
 
 
-def _with_severity(severity: Severity) -> Callable[[Json], int]:
-    return lambda summary: sum(
-        each["severity"] == severity for each in summary.get("advisories") or ()
-    )
+def _severity_max(summary: Json) -> str | None:
+    highest = max(_severities(summary), key=lambda each: each.rank, default=None)
+    return None if highest is None else highest.value
 
 
 def _number_of(name: str) -> Callable[[Json], int]:
     return lambda summary: len(summary.get(name) or ())
 
 
-def _first_detection(field: str) -> Callable[[Json], float | None]:
-    """Return what gives a field of the first detection of an actor of the conflict."""
+def _sum_of(name: str) -> Callable[[Json], int]:
+    return lambda summary: sum((summary.get(name) or {}).values())
 
+
+def _first_detection(field: str) -> Callable[[Json], float | None]:
     def value(summary: Json) -> float | None:
         actors = summary.get("conflict_actors")
         found = [
@@ -97,9 +89,7 @@ def _first_detection(field: str) -> Callable[[Json], float | None]:
     return value
 
 
-def _equipment(field: str) -> Callable[[Json], float | None]:
-    """Return what gives the earliest of the times of all equipment."""
-
+def _earliest_of_equipment(field: str) -> Callable[[Json], float | None]:
     def value(summary: Json) -> float | None:
         times = [each.get(field) for each in summary.get("equipment") or ()]
         return min((float(each) for each in times if each is not None), default=None)
@@ -107,68 +97,62 @@ def _equipment(field: str) -> Callable[[Json], float | None]:
     return value
 
 
-def _isa_mean(person: Json) -> float | None:
-    return (person.get("workload") or {}).get("isa_mean")
-
-
 def _reactions_with(field: str) -> Callable[[Json], int]:
-    """Return what counts the reactions of a person that have a value of a field."""
     return lambda person: sum(each.get(field) is not None for each in person["reactions"])
 
 
 def _reactions_that(*, followed: bool) -> Callable[[Json], int]:
-    """Return what counts the reactions of a person that followed advice, or did not."""
     return lambda person: sum(each.get("followed") is followed for each in person["reactions"])
 
 
 DERIVED = (
-    Derived("nominal", "bool", "the scenario declares no conflict", nominal),
+    Derived("nominal", "bool", "the scenario declares no conflict", _nominal),
     Derived(
         "warned",
         "bool",
         "somebody was warned of the conflict before its window closed; null if the scenario "
         "declares none",
-        warned,
+        _warned,
     ),
     Derived(
         "warned_in_time",
         "bool",
         f"somebody was warned, and at least {TIME_TO_ACT_S} s before the closest approach, or so "
         "early that the conflict window never opened; null if the scenario declares no conflict",
-        warned_in_time,
+        _warned_in_time,
     ),
     Derived(
         "missed",
         "bool",
         "the conflict window opened, and nobody was warned before it closed; null if it did not "
         "open and nobody was warned",
-        missed,
+        _missed,
     ),
     Derived(
         "lost",
         "bool",
         "any two lost separation, came to an NMAC, collided, or came to a runway incursion of "
         "category A or B or an accident",
-        lost,
+        _lost,
     ),
     Derived(
         "severity_max",
         "string",
         "highest severity of any advisory; null: no advisory",
-        severity_max,
+        _severity_max,
     ),
     Derived("advisories", "int64", "advisories of any severity", _number_of("advisories")),
     Derived(
         "cautions",
         "int64",
         "advisories whose highest severity is CAUTION",
-        _with_severity(Severity.CAUTION),
+        lambda summary: _severities(summary).count(Severity.CAUTION),
     ),
     Derived(
         "warnings",
         "int64",
         "advisories whose highest severity is WARNING",
-        _with_severity(Severity.WARNING),
+        lambda summary: _severities(summary).count(Severity.WARNING),
     ),
     Derived(
         "incursions", "int64", "runway incursions of any category", _number_of("runway_incursions")
@@ -196,37 +180,39 @@ DERIVED = (
         "equipment_t_first_warning_s",
         "float64",
         "first alert of any equipment of the world, of CAUTION or above, about the conflict",
-        _equipment("t_first_warning_s"),
+        _earliest_of_equipment("t_first_warning_s"),
     ),
     Derived(
         "equipment_t_first_action_s",
         "float64",
         "first of these that told somebody what to do",
-        _equipment("t_first_action_s"),
+        _earliest_of_equipment("t_first_action_s"),
     ),
     Derived(
         "inputs_dropped",
         "int64",
         "inputs that a newer one replaced before a worker could take them, of all workers",
-        lambda summary: sum((summary.get("inputs_dropped") or {}).values()),
+        _sum_of("inputs_dropped"),
     ),
     Derived(
         "messages_dropped",
         "int64",
         "messages of programs without grants that did not count: too large, too many, or lost on "
         "the way",
-        lambda summary: sum((summary.get("messages_dropped") or {}).values()),
+        _sum_of("messages_dropped"),
     ),
     Derived(
-        "actors_ended",
-        "int64",
-        "actors that ended before the run did",
-        _number_of("ended_actors"),
+        "actors_ended", "int64", "actors that ended before the run did", _number_of("ended_actors")
     ),
 )
 """The derived metrics, in the order of their columns."""
 DERIVED_OF_PEOPLE = (
-    Derived("isa_mean", "float64", "mean of the ISA ratings; null: none was given", _isa_mean),
+    Derived(
+        "isa_mean",
+        "float64",
+        "mean of the ISA ratings; null: none was given",
+        lambda person: (person.get("workload") or {}).get("isa_mean"),
+    ),
     Derived(
         "reaction_times",
         "int64",

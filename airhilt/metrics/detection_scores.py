@@ -1,8 +1,4 @@
-"""Scores of the detections of each camera against the truth.
-
-`airhilt.imaging.matching` says which detection matches which actor, whatever its class;
-`labels_right` is the share of the matches with the true class.
-"""
+"""Scores of the detections of each camera against the truth, as `airhilt.imaging.matching` says."""
 
 from __future__ import annotations
 
@@ -57,8 +53,6 @@ def must_be_found(sighting: SightingTruth) -> bool:
 
 @dataclass
 class _Counts:
-    """Counts of one camera, or of all."""
-
     taken: int = 0
     taken_s: float = 0.0
     left_out: int = 0
@@ -125,8 +119,6 @@ def _ratio(part: float, whole: float) -> float | None:
 
 
 class _Camera:
-    """The detections of one camera so far."""
-
     def __init__(self, rate_hz: float) -> None:
         self._counts = _Counts()
         self._period_s = 1.0 / rate_hz
@@ -139,12 +131,10 @@ class _Camera:
         false_tracks = sum(not is_real for is_real in self._confirmed.values())
         return replace(self._counts, false_tracks=false_tracks)
 
-    def picture(self) -> None:
-        self._counts.taken += 1
-        self._counts.taken_s += self._period_s
-
-    def leave_out(self) -> None:
-        self._counts.left_out += 1
+    def picture(self, *, is_left_out: bool) -> None:
+        self._counts.left_out += is_left_out
+        self._counts.taken += not is_left_out
+        self._counts.taken_s += 0.0 if is_left_out else self._period_s
 
     def keep(self, truth: CameraTruth) -> None:
         self._truths[truth.seq] = truth
@@ -213,14 +203,11 @@ class DetectionScores:
                 self._cameras[name] = _Camera(rate_hz)
             case CameraTruth(camera=name) if name in self._cameras:
                 self._cameras[name].keep(message)
-            case CameraFrame(camera=name, encoding="none") if name in self._cameras:
-                self._cameras[name].leave_out()
-            case CameraFrame(camera=name) if name in self._cameras:
-                self._cameras[name].picture()
-            case Detections(missed=missed) if missed == EXPOSURE_LEFT_OUT:
-                pass
-            case Detections(camera=name) if name in self._cameras:
-                self._look(message)
+            case CameraFrame(camera=name, encoding=encoding) if name in self._cameras:
+                self._cameras[name].picture(is_left_out=encoding == "none")
+            case Detections(camera=name, missed=missed) if name in self._cameras:
+                if missed != EXPOSURE_LEFT_OUT:
+                    self._look(message)
             case Status(modality="vision", state=state, cause=cause):
                 self._state, self._cause = state, cause
 
@@ -239,10 +226,7 @@ class DetectionScores:
     def statistics(self, inputs_dropped: Mapping[str, int]) -> VisionStatistics:
         """Return the statistics of vision.
 
-        Parameters
-        ----------
-        inputs_dropped
-            Number of dropped inputs by worker and key, as `WorkerPool.inputs_dropped` returns it.
+        `inputs_dropped` has the number of dropped inputs by worker and key.
         """
         counted = {name: camera.counts() for name, camera in self._cameras.items()}
         every = _Counts()
@@ -268,5 +252,4 @@ class DetectionScores:
 def _dropped(camera: str, inputs_dropped: Mapping[str, int]) -> int:
     """Return the number of a camera's pictures dropped by the worker that dropped most."""
     ending = f": camera/{camera}/frame"
-    found = (count for name, count in inputs_dropped.items() if name.endswith(ending))
-    return max(found, default=0)
+    return max((n for name, n in inputs_dropped.items() if name.endswith(ending)), default=0)

@@ -11,15 +11,7 @@ from airhilt.units import SECOND_NS, ns_to_seconds
 
 
 class EquipmentRecords:
-    """Warnings of each piece of equipment, and their times.
-
-    Parameters
-    ----------
-    engines
-        Decision engines that are the equipment of the scenario.
-    new_records
-        Returns empty records of advisories.
-    """
+    """Warnings of each piece of equipment, which is a decision engine, and their times."""
 
     def __init__(self, engines: Iterable[str], new_records: Callable[[], AdvisoryRecords]) -> None:
         names = [engine.partition(":")[0] for engine in engines]
@@ -40,36 +32,25 @@ class EquipmentRecords:
                 self._acted_ns.setdefault(alert.equipment, alert.t_ns)
 
     def acts_before(self, t_ns: int | None) -> bool:
-        """Return true if any told somebody what to do about the conflict before a time.
-
-        None stands for the end of the run.
-        """
+        """Return true if any told somebody what to do before a time; None: before the end."""
         return any(t_ns is None or acted_ns < t_ns for acted_ns in self._acted_ns.values())
 
     def summaries(
         self, warning_ns: int | None, incursions: Iterable[RunwayIncursion]
     ) -> list[EquipmentSummary]:
-        """Return what each piece did.
-
-        Parameters
-        ----------
-        warning_ns
-            Time of the assistant's first warning; None if there was none.
-        """
+        """Return what each piece did, and how long after the assistant's first warning."""
         incursions = list(incursions)
         return [
             EquipmentSummary(
                 equipment=name,
                 t_first_warning_s=ns_to_seconds(self._warned_ns.get(name)),
                 t_first_action_s=ns_to_seconds(self._acted_ns.get(name)),
-                margin_s=self._margin_s(name, warning_ns),
+                margin_s=(
+                    None
+                    if warning_ns is None or name not in self._warned_ns
+                    else (self._warned_ns[name] - warning_ns) / SECOND_NS
+                ),
                 alerts=records.summaries(incursions),
             )
             for name, records in self._records.items()
         ]
-
-    def _margin_s(self, name: str, warning_ns: int | None) -> float | None:
-        warned_ns = self._warned_ns.get(name)
-        if warned_ns is None or warning_ns is None:
-            return None
-        return (warned_ns - warning_ns) / SECOND_NS

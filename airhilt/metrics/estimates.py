@@ -30,16 +30,9 @@ SEED = 0
 
 @dataclass(frozen=True)
 class Estimate:
-    """One number over many runs.
+    """One number over `n` runs, with the limits of its 95 % interval.
 
-    Attributes
-    ----------
-    value
-        The estimate, None without runs.
-    low, high
-        Limits of its 95 % interval, None if there are too few runs for one.
-    n
-        Number of runs that it rests on.
+    The value is None without runs, the limits if there are too few runs for an interval.
     """
 
     value: float | None
@@ -50,8 +43,7 @@ class Estimate:
     def times(self, factor: float) -> Estimate:
         """Return the estimate in another unit."""
         value, low, high = (
-            None if number is None else number * factor
-            for number in (self.value, self.low, self.high)
+            None if one is None else one * factor for one in (self.value, self.low, self.high)
         )
         return Estimate(value, low, high, self.n)
 
@@ -93,12 +85,8 @@ def mean_of_groups(values: Sequence[float] | Array, groups: Sequence[int] | IntA
 
     Whole groups are drawn again (Davison and Hinkley, Bootstrap Methods and their Application,
     1997, section 3.8), so that values that depend on each other count as one. Where each value is a
-    group it is `mean_of`. The interval is None for fewer than `FEWEST_RESAMPLED` groups.
-
-    Parameters
-    ----------
-    groups
-        Number of the group of each value, from 0 on without gaps.
+    group it is `mean_of`. The interval is None for fewer than `FEWEST_RESAMPLED` groups. `groups`
+    has the number of the group of each value, from 0 on without gaps.
     """
     sample = np.asarray(values, dtype=np.float64)
     counts = np.bincount(np.asarray(groups, dtype=np.int64)).astype(np.float64)
@@ -152,7 +140,7 @@ def rate_of(
 
 
 def _interval_of_ratio(above: Array, below: Array) -> tuple[float, float]:
-    """Return the interval of the ratio of two sums, by a bootstrap over their parts together."""
+    """Return the interval of the ratio of two sums, by a bootstrap over their parts."""
     random = np.random.default_rng(SEED)
     drawn = random.multinomial(above.size, np.full(above.size, 1.0 / above.size), RESAMPLES)
     tails = (1.0 - CONFIDENCE) / 2.0, (1.0 + CONFIDENCE) / 2.0

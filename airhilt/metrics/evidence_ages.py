@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass
+from copy import copy
 
 from airhilt.messages import AdsbReport, Detections, Message, Modality, Transcript
 from airhilt.metrics.summary import STALE_S, EvidenceAge
@@ -16,44 +16,11 @@ CONTINUOUS: tuple[Modality, ...] = ("adsb", "vision")
 """Modalities that observe all the time; calls come when they come."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Ages:
-    """How old evidence was over times that are past; nothing else of them is kept."""
-
-    stale_ns: int = 0
-    longest_ns: int = 0
-    whole_ns: int = 0
-    age_ns2: float = 0.0
-    """Integral of the age over the time."""
-
-    def and_during(self, begin_ns: int, end_ns: int, newest_ns: int) -> _Ages:
-        """Return these and a time in which the newest observation that was judged stayed."""
-        if end_ns <= begin_ns:
-            return self
-        youngest_ns, oldest_ns = begin_ns - newest_ns, end_ns - newest_ns
-        stale_from_ns = max(begin_ns, newest_ns + seconds_to_ns(STALE_S))
-        return _Ages(
-            self.stale_ns + max(end_ns - stale_from_ns, 0),
-            max(self.longest_ns, oldest_ns),
-            self.whole_ns + end_ns - begin_ns,
-            self.age_ns2 + (end_ns - begin_ns) * (youngest_ns + oldest_ns) / 2.0,
-        )
-
-    def evidence_age(self) -> EvidenceAge:
-        whole_ns = self.whole_ns
-        return EvidenceAge(
-            mean_s=self.age_ns2 / whole_ns / SECOND_NS if whole_ns else 0.0,
-            max_s=self.longest_ns / SECOND_NS,
-            stale_share=self.stale_ns / whole_ns if whole_ns else 0.0,
-        )
-
-
 Arrivals = deque[tuple[int, int]]
 """Observations that no step has had: when each was published, and when it was made, in ns."""
 
 
 def _taken(arrivals: Arrivals, t_start_ns: int) -> Iterator[int]:
-    """Yield when what a step has was observed, and forget it."""
     while arrivals and arrivals[0][0] <= t_start_ns:
         yield arrivals.popleft()[1]
 
@@ -66,24 +33,44 @@ class _Stream:
 
     def __init__(self, first_ns: int) -> None:
         self.arrivals: Arrivals = deque()
-        self._ages = _Ages()
         self._since_ns = first_ns
         """End of the last step."""
         self._newest_ns = first_ns
+        self._stale_ns = self._longest_ns = self._whole_ns = 0
+        self._age_ns2 = 0.0
+        """Integral of the age over the time."""
 
     def step(self, t_start_ns: int, end_ns: int) -> None:
         """Let a step have what had arrived."""
-        self._ages = self._ages.and_during(self._since_ns, end_ns, self._newest_ns)
-        self._since_ns = max(self._since_ns, end_ns)
+        self._count_until(end_ns)
         self._newest_ns = max((self._newest_ns, *_taken(self.arrivals, t_start_ns)))
+
+    def _count_until(self, end_ns: int) -> None:
+        """Count the time since the last step, in which the newest observation stayed the same."""
+        begin_ns, newest_ns = self._since_ns, self._newest_ns
+        if end_ns <= begin_ns:
+            return
+        stale_from_ns = max(begin_ns, newest_ns + seconds_to_ns(STALE_S))
+        self._stale_ns += max(end_ns - stale_from_ns, 0)
+        self._longest_ns = max(self._longest_ns, end_ns - newest_ns)
+        self._whole_ns += end_ns - begin_ns
+        self._age_ns2 += (end_ns - begin_ns) * (begin_ns + end_ns - 2 * newest_ns) / 2.0
+        self._since_ns = end_ns
 
     def age(self, now_ns: int) -> EvidenceAge:
         """Return how old the evidence was until now."""
-        return self._ages.and_during(self._since_ns, now_ns, self._newest_ns).evidence_age()
+        until = copy(self)
+        until._count_until(now_ns)
+        whole_ns = until._whole_ns
+        return EvidenceAge(
+            mean_s=until._age_ns2 / whole_ns / SECOND_NS if whole_ns else 0.0,
+            max_s=until._longest_ns / SECOND_NS,
+            stale_share=until._stale_ns / whole_ns if whole_ns else 0.0,
+        )
 
 
 class _Calls:
-    """What comes when it comes: a call is evidence until a decision has had it."""
+    """Calls: each is evidence until a decision has had it."""
 
     def __init__(self) -> None:
         self.arrivals: Arrivals = deque()
@@ -113,15 +100,7 @@ class _Calls:
 
 
 class EvidenceAges:
-    """Follows what decision workers have had.
-
-    Parameters
-    ----------
-    deciders
-        Names of the workers that decide.
-    given
-        Modalities that they are given.
-    """
+    """Follows what decision workers have had of the modalities that they are given."""
 
     def __init__(self, deciders: Collection[str], given: Collection[str] = MODALITIES) -> None:
         self._deciders = frozenset(deciders)

@@ -12,8 +12,6 @@ from airhilt.world.truth.conflicts import ConflictMonitor, Pair, PairTruth
 
 
 class _Warning(NamedTuple):
-    """A warning that was heard or read."""
-
     t_ns: int
     advisory: Advisory
     projection: tcas.Projection | None
@@ -41,12 +39,12 @@ class FirstWarning:
     @property
     def t_ns(self) -> int | None:
         """Time of the first warning, None before it."""
-        return None if self._first is None else self._first.t_ns
+        return self._first and self._first.t_ns
 
     @property
     def advisory(self) -> Advisory | None:
         """The first warning as it was published, None before it was heard or read."""
-        return None if self._first is None else self._first.advisory
+        return self._first and self._first.advisory
 
     @property
     def _first(self) -> _Warning | None:
@@ -86,12 +84,7 @@ class FirstWarning:
     def margin_s(self, alert: tcas.Alert, truth: PairTruth | None) -> float | None:
         """Return the time from the first warning to an alert of TCAS II, had nobody reacted, in s.
 
-        Where TCAS spoke before the warning, the margin is negative.
-
-        Parameters
-        ----------
-        truth
-            Truth of the annotated pair.
+        Where TCAS spoke before the warning, as the truth of the pair tells, it is negative.
         """
         first = self._first
         if first is None or first.projection is None:
@@ -103,16 +96,14 @@ class FirstWarning:
         return projection.traffic_s if alert == "tcas_ta" else projection.resolution_s
 
     def _add(self, advisory: Advisory, now_ns: int) -> None:
-        if advisory.id in self._warnings or (self._has_begun and self._warnings):
-            return
-        pair = self._pair
-        projection = None
-        if pair and self._monitor.flying(pair) and self._monitor.is_seen_by_tcas(pair):
-            projection = self._project(pair, now_ns)
-        self._warnings[advisory.id] = _Warning(now_ns, advisory, projection)
+        if advisory.id not in self._warnings and not (self._has_begun and self._warnings):
+            self._warnings[advisory.id] = _Warning(now_ns, advisory, self._projection(now_ns))
 
-    def _project(self, pair: Pair, now_ns: int) -> tcas.Projection:
-        """Return when TCAS II would speak if both went on as the script plans."""
+    def _projection(self, now_ns: int) -> tcas.Projection | None:
+        """Return when TCAS II would speak if both went on as the script plans, None if never."""
+        pair = self._pair
+        if not (pair and self._monitor.flying(pair) and self._monitor.is_seen_by_tcas(pair)):
+            return None
         motion, (first, second) = self._monitor.motion(pair), self._monitor.profiles(pair)
         first_m = self._plans.altitude_at(pair[0], now_ns, first)
         second_m = self._plans.altitude_at(pair[1], now_ns, second)

@@ -23,18 +23,9 @@ def frame_of(table: pa.Table) -> DataFrame:
 def read_table(folder: SweepFolder, machine: bool) -> pa.Table:
     """Return the runs of a sweep as a table of Arrow, a row a run.
 
-    Parameters
-    ----------
-    folder
-        The sweep folder.
-    machine
-        True adds what depends on the machine, and with it the runs that a limit ended or that
-        crashed; these have nothing but the columns of ``machine.parquet``.
-
-    Raises
-    ------
-    AirhiltError
-        A table is not there, or damaged.
+    `machine` adds what depends on the machine, and with it the runs that a limit ended or that
+    crashed; these have nothing but the columns of ``machine.parquet``. It raises what
+    `SweepFolder.table` does.
     """
     import pyarrow as pa
     import pyarrow.compute as pc
@@ -50,14 +41,9 @@ def read_table(folder: SweepFolder, machine: bool) -> pa.Table:
 
 
 def read_frame(folder: SweepFolder, machine: bool) -> DataFrame:
-    """Return the runs of a sweep as a data frame, a row a run; it raises what `read_table` does.
+    """Return the runs of a sweep as a data frame, a row a run; else as `read_table`.
 
     Its ``attrs`` have the ``units`` and the ``descriptions`` of the columns, by their names.
-
-    Parameters
-    ----------
-    machine
-        True adds what depends on the machine, as `read_table` does.
     """
     table = read_table(folder, machine)
     frame = frame_of(table)

@@ -18,31 +18,17 @@ PERCENT = 100.0
 
 @dataclass(frozen=True)
 class Measure:
-    """A number over many runs.
-
-    Attributes
-    ----------
-    name
-        Name in files and on pages.
-    title
-        The number in words.
-    unit
-        Its unit.
-    kind
-        share: of the runs in which the column is true, among those in which it is not null; mean:
-        of the values that are not null; per_hour: sum of the column by simulated hour.
-    column
-        Column of the table.
-    only_nominal
-        True if only runs without a conflict count.
-    """
+    """A number over many runs, of the values in one column that are not null."""
 
     name: str
     title: str
     unit: str
     kind: Literal["share", "mean", "per_hour"]
+    """share: of the runs in which the column is true; mean: of the values; per_hour: sum of the
+    column by simulated hour."""
     column: str
     only_nominal: bool = False
+    """True if only runs without a conflict count."""
 
     @property
     def columns(self) -> list[str]:

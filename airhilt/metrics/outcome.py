@@ -24,15 +24,7 @@ AT_LEAST: dict[UnassistedOutcome, frozenset[str]] = {
 
 
 class Outcome:
-    """The outcome of a run.
-
-    Parameters
-    ----------
-    monitor, runways
-        Monitors of the run; runways is None away from airports.
-    pair
-        The annotated pair, None if the scenario has no conflict.
-    """
+    """The outcome of a run: of the annotated pair, and of the runways where there are any."""
 
     def __init__(
         self, monitor: ConflictMonitor, runways: RunwayMonitor | None, pair: Pair | None
@@ -110,7 +102,6 @@ class Outcome:
         return True if was_warned else None
 
     def _pair_in_serious_incursion(self) -> bool:
-        """Return true if the annotated pair came to an incursion of category A or B, or worse."""
         pair = set(self._pair or ())
         return any(
             incursion.category in SERIOUS and {incursion.user, incursion.intruder} <= pair

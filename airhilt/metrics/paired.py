@@ -19,17 +19,12 @@ SIGNS_SEED = 0
 
 @dataclass(frozen=True)
 class McNemar:
-    """McNemar's exact test on pairs of yes and no.
+    """McNemar's exact test on pairs of yes and no, with the pairs in which only one is yes.
 
-    Attributes
-    ----------
-    only_first, only_second
-        Pairs in which only the first, or only the second, is yes.
-    p_value
-        Probability of so uneven a split, or a more uneven one, if neither were more often yes,
-        two-sided. Pairs that are independent: by the binomial distribution (McNemar, 1947; the
-        exact form). Groups of pairs that go together: by changing the sides of whole groups, which
-        for groups of one pair is the same.
+    `p_value` is the probability of so uneven a split, or a more uneven one, if neither were more
+    often yes, two-sided. Pairs that are independent: by the binomial distribution (McNemar, 1947;
+    the exact form). Groups of pairs that go together: by changing the sides of whole groups, which
+    for groups of one pair is the same.
     """
 
     only_first: int
@@ -42,10 +37,7 @@ def mcnemar(
 ) -> McNemar:
     """Return the test for the pairs of two arrays of equal length.
 
-    Parameters
-    ----------
-    groups
-        Number of the group of each pair, from 0 on without gaps: pairs of one depend on each other.
+    `groups` has the number of the group of each pair, from 0 on without gaps.
     """
     from scipy.stats import binomtest
 
@@ -98,7 +90,6 @@ def share_difference(
 
 
 def _are_alone(groups: NDArray[np.int64]) -> bool:
-    """Return true if each pair is a group of its own."""
     return len(np.unique(groups)) == len(groups)
 
 

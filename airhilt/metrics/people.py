@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from statistics import fmean, median
@@ -49,8 +49,8 @@ Advised = tuple[str, int, str]
 """Id, revision and recipient of an advisory."""
 
 
-SPOKEN_CALL = "spoken call"
-"""Name of the action of pressing the button."""
+SPOKEN_CALL, TYPED_CALL = "spoken call", "typed call"
+"""Names of the actions of pressing the button, and of typing a call."""
 REAL_TIME = "realtime"
 """Name of the pace in which the time of the run passes as on the clock."""
 AFTER_STALL_NS = seconds_to_ns(AFTER_STALL_S)
@@ -82,8 +82,6 @@ class _Perceived(NamedTuple):
 
 @dataclass
 class _Person:
-    """Record of a person at a seat, from taking it until leaving it."""
-
     actions: list[_Action] = field(default_factory=list)
     delays_s: list[float] = field(default_factory=list)
     seen_ns: dict[Advised, int] = field(default_factory=dict)
@@ -112,11 +110,7 @@ class _Person:
         return min(times[name] for times in (self.seen_ns, self.heard_ns) if name in times)
 
     def perceived(self, name: Advised) -> _Perceived:
-        """Return from when on the reaction to an advisory counts.
-
-        It counts from when the advisory was audible, and from when it was drawn if it was not
-        heard, or if the person acted before it was audible.
-        """
+        """Return from when an advisory counts: heard, or drawn if not heard before the action."""
         seen_ns, heard_ns = self.seen_ns.get(name), self.heard_ns.get(name)
         if seen_ns is not None:
             first = self.first_action(seen_ns)
@@ -128,8 +122,6 @@ class _Person:
 
 @dataclass
 class _Seat:
-    """Record of a seat, and of those who had it."""
-
     calls: PersonCalls
     recipients: tuple[str, ...] = ()
     """Names under which advisories are for the person."""
@@ -165,16 +157,9 @@ class _Seat:
 
 
 class PeopleRecords:
-    """Follows the people at the seats of a run.
+    """Follows the people at the seats of a run, which are units and callsigns.
 
-    Parameters
-    ----------
-    seats
-        Units and callsigns that are left to people.
-    callsigns
-        Callsigns of the run.
-    pace
-        Name of the pace with which the run begins.
+    The callsigns are those of the run; the pace is the one with which it begins.
     """
 
     def __init__(
@@ -263,7 +248,7 @@ class PeopleRecords:
                 person.actions.append(_Action(t_ns, command.action, command, seat.track_deg))
             case SayText(text=text):
                 seat.calls.type(t_ns, text)
-                person.actions.append(_Action(t_ns, "typed call"))
+                person.actions.append(_Action(t_ns, TYPED_CALL))
             case PressToTalk(delay_s=delay_s):
                 pressed_ns = t_ns - round(delay_s * SECOND_NS)
                 seat.calls.press(pressed_ns, t_ns)
@@ -280,16 +265,11 @@ class PeopleRecords:
 
     def _summary(self, name: str, seat: _Seat, now_ns: int) -> PersonSummary:
         done = [one.what for person in seat.people for one in person.actions]
-        spoken, typed = done.count(SPOKEN_CALL), done.count("typed call")
+        spoken, typed = done.count(SPOKEN_CALL), done.count(TYPED_CALL)
         delays_s = [delay_s for person in seat.people for delay_s in person.delays_s]
         reactions = [one for person in seat.people for one in self._reactions(person)]
-        times_s = [one.reaction_time_s for one in reactions if one.reaction_time_s is not None]
         calls = seat.calls.rows(partial(self._heard_after, name), self._next_call)
-        heard_s = [
-            call.to_loudspeaker_s
-            for call in calls
-            if call.way == "spoken" and call.to_loudspeaker_s is not None
-        ]
+        spoken_s = [call.to_loudspeaker_s for call in calls if call.way == "spoken"]
         return PersonSummary(
             seat=name,
             seat_time_s=seat.taken_until_ns(now_ns) / SECOND_NS,
@@ -300,9 +280,9 @@ class PeopleRecords:
             asked_to_say_again=seat.asked_again,
             readback_errors=seat.readback_errors,
             readback_errors_heard=seat.readback_errors_heard,
-            press_to_transmit_s=median(delays_s) if delays_s else None,
-            press_to_loudspeaker_s=median(heard_s) if heard_s else None,
-            reaction_time_s=median(times_s) if times_s else None,
+            press_to_transmit_s=_median(delays_s),
+            press_to_loudspeaker_s=_median(spoken_s),
+            reaction_time_s=_median([one.reaction_time_s for one in reactions]),
             warning_to_press_s=self._warning_to_press_s(seat.people),
             unperceived=sum(len(person.told - person.perceived_names) for person in seat.people),
             calls=calls,
@@ -311,10 +291,7 @@ class PeopleRecords:
         )
 
     def _heard_after(self, speaker: str, call: str, since_ns: int) -> list[float | None]:
-        """Return how long after a time a call was audible at each seat but the speaker's, in s.
-
-        It is None where time did not pass as on the clock.
-        """
+        """Return how long after a time each seat but the speaker's heard a call, in s."""
         return [
             (heard_ns - since_ns) / SECOND_NS if self._is_real_time(since_ns, heard_ns) else None
             for seat, heard_ns in self._heard_ns.get(call, {}).items()
@@ -322,7 +299,6 @@ class PeopleRecords:
         ]
 
     def _next_call(self, said: SpokenTruth) -> SpokenTruth | None:
-        """Return the next call on the frequency, None unless another person made it soon."""
         later = (
             one
             for one in self._on_air
@@ -351,7 +327,7 @@ class PeopleRecords:
         pressed_ns = min((t_ns for t_ns in pressed if t_ns >= warned_ns), default=None)
         if pressed_ns is None or not self._is_real_time(warned_ns, pressed_ns):
             return None
-        return (pressed_ns - warned_ns) / SECOND_NS
+        return _seconds_between(warned_ns, pressed_ns)
 
     def _reactions(self, person: _Person) -> list[PersonReaction]:
         names = person.perceived_names & self._advisories.keys()
@@ -366,7 +342,7 @@ class PeopleRecords:
         heard_ns, voice_ns = person.heard_ns.get(name), self._voices_ns.get(name)
         is_shared = first is not None and self._answered(first, perceived) is not one
         is_real_time = first is None or self._is_real_time(since_ns, first.t_ns)
-        is_measured = first is not None and not is_shared and is_real_time
+        reacted_ns = None if first is None or is_shared or not is_real_time else first.t_ns
         return PersonReaction(
             advisory=advisory.id,
             revision=advisory.revision,
@@ -376,24 +352,20 @@ class PeopleRecords:
             t_advisory_s=advisory.t_ns / SECOND_NS,
             t_seen_s=ns_to_seconds(person.seen_ns.get(name)),
             t_heard_s=ns_to_seconds(heard_ns),
-            voice_to_loudspeaker_s=(
-                None if heard_ns is None or voice_ns is None else (heard_ns - voice_ns) / SECOND_NS
-            ),
+            voice_to_loudspeaker_s=_seconds_between(voice_ns, heard_ns),
             counted_from=one.way,
             first_action=None if first is None else first.what,
             is_shared=is_shared,
             is_real_time=is_real_time,
-            reaction_time_s=(
-                (first.t_ns - since_ns) / SECOND_NS if is_measured and first is not None else None
-            ),
+            reaction_time_s=_seconds_between(since_ns, reacted_ns),
             followed=_is_followed(advisory, since_ns, person.actions),
         )
 
     def _answered(self, action: _Action, perceived: list[_Perceived]) -> _Perceived:
         """Return the advisory to which an action is the reaction.
 
-        The first advisory with which the action complies comes before all others after which it
-        is the first action.
+        It is the first with which the action complies, else the first after which it is the first
+        action.
         """
 
         def order(one: _Perceived) -> tuple[bool, int, Advised]:
@@ -403,20 +375,28 @@ class PeopleRecords:
         return min((one for one in perceived if one.first is action), key=order)
 
     def _is_real_time(self, begin_ns: int, end_ns: int) -> bool:
-        """Return true if time passed as on the clock all the while."""
         before = [self._first_pace, *(pace for t_ns, pace in self._paces if t_ns < begin_ns)]
         within = [pace for t_ns, pace in self._paces if begin_ns <= t_ns <= end_ns]
         stalls = [t_ns for t_ns in self._stalls_ns if begin_ns - AFTER_STALL_NS <= t_ns <= end_ns]
         return not stalls and all(pace == REAL_TIME for pace in (before[-1], *within))
 
 
+def _seconds_between(begin_ns: int | None, end_ns: int | None) -> float | None:
+    return None if begin_ns is None or end_ns is None else (end_ns - begin_ns) / SECOND_NS
+
+
+def _median(values: Sequence[float | None]) -> float | None:
+    """Return the median of the values that are known, None if none is."""
+    known = [value for value in values if value is not None]
+    return median(known) if known else None
+
+
 def _consent(people: list[_Person]) -> Literal["voice", "words", "none"] | None:
-    """Return to what the last of the people who had a seat, and have answered, agreed at last."""
+    """Return to what the last person who has answered agreed at last."""
     answers = [one.agreed for one in people if one.agreed is not None]
     if not answers:
         return None
-    agreed = answers[-1]
-    return "voice" if "voice" in agreed else "words" if agreed else "none"
+    return "voice" if "voice" in answers[-1] else "words" if answers[-1] else "none"
 
 
 def _workload(seat: _Seat) -> WorkloadSummary:

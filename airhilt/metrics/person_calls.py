@@ -13,13 +13,9 @@ from airhilt.metrics.summary import PersonCall
 from airhilt.units import SECOND_NS
 
 HeardAfter = Callable[[str, int], Sequence[float | None]]
-"""Times in s, by the id of a call on the air and a time in ns, after which other people heard the
-call from its beginning; None where time did not pass as on the clock."""
-
-
+"""Times in s after which others heard a call since a time in ns; None: not as on the clock."""
 NextCall = Callable[[SpokenTruth], SpokenTruth | None]
-"""Call of another person that came next after one on the air, perhaps as an answer; None: none
-did."""
+"""Returns the call of another person that came next, perhaps as an answer."""
 
 
 @dataclass
@@ -38,13 +34,7 @@ class _Call:
 
 
 class PersonCalls:
-    """Follows the calls of the people at one seat.
-
-    Parameters
-    ----------
-    seat
-        Unit or callsign.
-    """
+    """Follows the calls of the people at one seat, a unit or a callsign."""
 
     def __init__(self, seat: str) -> None:
         self._seat = seat
@@ -76,15 +66,7 @@ class PersonCalls:
         return self._on_air(name) is not None
 
     def rows(self, heard: HeardAfter, next_call: NextCall) -> list[PersonCall]:
-        """Return what is known of each call, in the order in which they were begun.
-
-        Parameters
-        ----------
-        heard
-            Tells how soon other people heard a call.
-        next_call
-            Tells which call of another person came next.
-        """
+        """Return what is known of each call, in the order in which they were begun."""
         in_order = sorted(self._calls, key=lambda call: call.since_ns)
         return [_row(call, heard, next_call) for call in in_order]
 
@@ -102,13 +84,30 @@ class PersonCalls:
         return next((call for call in begun if call.text == said.text), None)
 
     def _on_air(self, name: str) -> _Call | None:
-        """Return the call that was on the air as a transmission."""
         return next((call for call in self._calls if call.said and call.said.id == name), None)
 
 
 def _row(call: _Call, heard: HeardAfter, next_call: NextCall) -> PersonCall:
     said, transcript, answer = call.said, call.transcript, call.answer
-    then = None if said is None else next_call(said)
+    known: dict[str, Any] = {}
+    if said is not None:
+        after_s = heard(said.id, call.since_ns)
+        measured = [one for one in after_s if one is not None]
+        known = {
+            "call": said.id,
+            "frequency_khz": said.frequency_khz,
+            "t_tx_s": said.t_tx_ns / SECOND_NS,
+            "to_air_s": (said.t_tx_ns - call.since_ns) / SECOND_NS,
+            "to_loudspeaker_s": median(measured) if measured else None,
+            "heard_at": len(after_s),
+            "length_s": (said.t_end_ns - said.t_tx_ns) / SECOND_NS,
+            "blocked": bool(said.blocked_by),
+        }
+        if answer is not None:
+            known["answered_after_s"] = (answer.t_tx_ns - said.t_end_ns) / SECOND_NS
+        if (then := next_call(said)) is not None:
+            known["next_call"] = then.id
+            known["next_call_after_s"] = (then.t_tx_ns - said.t_end_ns) / SECOND_NS
     return PersonCall(
         way=call.way,
         t_s=call.since_ns / SECOND_NS,
@@ -116,34 +115,5 @@ def _row(call: _Call, heard: HeardAfter, next_call: NextCall) -> PersonCall:
         recognised=None if transcript is None else transcript.text,
         confidence=None if transcript is None else transcript.confidence,
         answer=None if answer is None else answer.text,
-        **({} if said is None else _of_transmission(call.since_ns, said)),
-        **({} if said is None else _of_hearing(heard(said.id, call.since_ns))),
-        answered_after_s=(
-            None if said is None or answer is None else (answer.t_tx_ns - said.t_end_ns) / SECOND_NS
-        ),
-        next_call=None if then is None else then.id,
-        next_call_after_s=(
-            None if said is None or then is None else (then.t_tx_ns - said.t_end_ns) / SECOND_NS
-        ),
+        **known,
     )
-
-
-def _of_transmission(since_ns: int, said: SpokenTruth) -> dict[str, str | int | float | bool]:
-    """Return the fields of a row that are known once a call was on the air."""
-    return {
-        "call": said.id,
-        "frequency_khz": said.frequency_khz,
-        "t_tx_s": said.t_tx_ns / SECOND_NS,
-        "to_air_s": (said.t_tx_ns - since_ns) / SECOND_NS,
-        "length_s": (said.t_end_ns - said.t_tx_ns) / SECOND_NS,
-        "blocked": bool(said.blocked_by),
-    }
-
-
-def _of_hearing(after_s: Sequence[float | None]) -> dict[str, Any]:
-    """Return the fields of a row about the other people who heard a call."""
-    measured = [one for one in after_s if one is not None]
-    return {
-        "to_loudspeaker_s": median(measured) if measured else None,
-        "heard_at": len(after_s),
-    }

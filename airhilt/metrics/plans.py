@@ -15,15 +15,9 @@ from airhilt.units import FOOT, FOOT_PER_MINUTE, SECOND_NS, seconds_to_ns
 class Plans:
     """The altitude commands of the script, and when each is carried out.
 
-    Parameters
-    ----------
-    lines
-        Lines of the script, with the scenario's failures applied.
-    ends_ns
-        Time by which each line ends, by its id. Until it has ended, this is when it would end if
-        the frequency were free.
-    usual_rates_m_s
-        Vertical speed of a climb that is scripted without one, in m/s, by callsign of the aircraft.
+    The lines have the scenario's failures applied. `ends_ns` is the time by which each line ends,
+    by its id; for one to come, if the frequency is free then. `usual_rates_m_s` has the vertical
+    speed of a climb that is scripted without one, by callsign of the aircraft.
     """
 
     def __init__(

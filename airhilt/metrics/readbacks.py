@@ -31,11 +31,6 @@ class Readbacks:
     """Compares each readback with the last instruction to its speaker on the frequency.
 
     What somebody spoke into a microphone is known as it was recognised.
-
-    Parameters
-    ----------
-    callsigns
-        Callsigns of the run.
     """
 
     def __init__(self, callsigns: Collection[str]) -> None:

@@ -11,8 +11,6 @@ from pydantic import BaseModel, ConfigDict, Field
 from airhilt.messages import ModalityState, NasaTlx, Severity
 from airhilt.world.truth.runways import IncursionCategory
 
-Stage = str
-
 
 class _Part(BaseModel):
     model_config = ConfigDict(frozen=True)
@@ -504,8 +502,8 @@ class Summary(_Part):
     language_model: LanguageModelStatistics | None = Field(
         default=None, description="null: none was asked"
     )
-    latencies: dict[Stage, LatencyStatistics] = Field(description="latency by stage")
-    latency_sources: dict[Stage, str] = Field(
+    latencies: dict[str, LatencyStatistics] = Field(description="latency by stage")
+    latency_sources: dict[str, str] = Field(
         default_factory=dict,
         description="what the latencies of each stage in the run came from, such as fixed",
     )

@@ -9,9 +9,6 @@ from airhilt.metrics.calls import CallRecord
 from airhilt.metrics.summary import WarningParts
 from airhilt.units import SECOND_NS
 
-RADIO = "radio"
-"""Source of evidence that names the radio."""
-
 
 def supporting_transcript(
     advisory: Advisory, beginning: str | None, call: Callable[[str], CallRecord | None]
@@ -20,21 +17,14 @@ def supporting_transcript(
 
     The transcript is the last one, up to t_ready, of the calls that its evidence names. If the
     advisory rests on the radio and names none, it is that of the call that begins the conflict.
-
-    Parameters
-    ----------
-    beginning
-        Id of the call that begins the conflict, None if none does.
-    call
-        Returns what is known of a call by its id.
     """
     names: tuple[str, ...] = advisory.evidence.radio_ids
-    if not names and beginning is not None and RADIO in advisory.evidence.sources:
+    if not names and beginning is not None and "radio" in advisory.evidence.sources:
         names = (beginning,)
-    known = [record for name in names if (record := call(name)) is not None]
     ready = [
         transcript
-        for record in known
+        for name in names
+        if (record := call(name)) is not None
         for transcript in record.transcripts
         if transcript.t_ns <= advisory.t_ready_ns
     ]
@@ -46,10 +36,7 @@ def parts_of(
 ) -> WarningParts:
     """Return the parts of the time from the begin of a conflict to the first warning.
 
-    Parameters
-    ----------
-    transcript
-        The transcript that the warning rests on, None if it rests on no call.
+    Without a transcript the warning rests on no call.
     """
     speech_ns = recognition_ns = 0
     if transcript is not None:

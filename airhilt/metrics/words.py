@@ -1,10 +1,7 @@
 """The words of a call against its transcript: word errors, callsign and slots.
 
-Said and recognised words are compared in one form, `in_words`, in which two ways to write the
-same words are equal: capitals, punctuation, numbers in digits or in words, "niner" and "nine",
-"take off" and "takeoff", other spellings. Words that only sound alike are not: "to" for "two" is
-an error here, though the parser mends it. Callsigns and slots are compared as `parse_call` reads
-both texts, with the same callsigns.
+Words that only sound alike are not equal: "to" for "two" is an error here, though the parser mends
+it. Callsigns and slots are compared as `parse_call` reads both texts.
 """
 
 from __future__ import annotations
@@ -39,14 +36,17 @@ ROUND_NUMBER = re.compile(r"([1-9][0-9]?)([0-9])00")
 
 
 def in_words(text: str) -> list[str]:
-    """Return the words of a text in the form in which they are compared."""
+    """Return the words of a text in the form in which they are compared.
+
+    Two ways to write the same words are equal: capitals, punctuation, numbers in digits or in
+    words, "niner" and "nine", "take off" and "takeoff", other spellings.
+    """
     plain = (word for word, _ in canonical((chunk, 1.0) for chunk in text.split()))
     spelled = [part for word in plain for part in _spelled(word)]
     return list(_joined(_without_tens(spelled)))
 
 
 def _spelled(word: str) -> Iterable[str]:
-    """Return a word in its usual spelling, a number as it is spoken."""
     if word in DIGITS:
         return [PLAIN_DIGITS[int(DIGITS[word])]]
     if word in SPELLINGS:
@@ -62,7 +62,6 @@ def _spelled(word: str) -> Iterable[str]:
 
 
 def _part(piece: str) -> Iterable[str]:
-    """Return a digit, a decimal point or the letters of a designator such as B5."""
     if piece == ".":
         return ["decimal"]
     if piece in "0123456789":
@@ -77,7 +76,6 @@ def _digits(digits: str) -> list[str]:
 
 
 def _without_tens(words: Sequence[str]) -> Iterator[str]:
-    """Yield words with numbers of two digits as digits: "twenty three" as "two three"."""
     for index, word in enumerate(words):
         if word not in TENS:
             yield word
@@ -89,7 +87,6 @@ def _without_tens(words: Sequence[str]) -> Iterator[str]:
 
 
 def _joined(words: Iterable[str]) -> Iterator[str]:
-    """Yield words, each pair that is one word elsewhere joined, such as "take off"."""
     before = ""
     for word in words:
         if PAIRS.get(before, {}).get(word) == (before + word,):

@@ -1,7 +1,6 @@
 """``audio/``: the sound of each transmission and spoken advisory, a WAV file each.
 
-The files are named after their messages. The log has the SHA-256 of the samples, so that a file can
-be checked against it.
+The files are named after their messages. The log has the SHA-256 of the samples.
 """
 
 from __future__ import annotations
@@ -12,7 +11,7 @@ from pathlib import Path
 
 from airhilt.audio.pcm import from_pcm, to_pcm
 from airhilt.audio.wav import LARGEST_WAV_BYTES, decode_wav, encode_wav
-from airhilt.errors import RunFolderError, SpeechError, disk_failed
+from airhilt.errors import RunFolderError, SpeechError, writing_to_run
 from airhilt.host.files import make_folder, read_inside
 from airhilt.messages import (
     FROM_MICROPHONE,
@@ -48,12 +47,8 @@ class AudioRecorder:
     """Writes the sound of each message that has any, as it is published.
 
     The chunks of a transmission are written if no `Transmission` has their samples: its sender or
-    the sound of the radio was lost while it lasted. Those of a receiver of a seat always are.
-
-    Parameters
-    ----------
-    keeps_voices
-        False leaves out what people have spoken.
+    the sound of the radio was lost while it lasted. Those of a receiver of a seat always are. What
+    people have spoken is left out unless voices are kept.
     """
 
     def __init__(self, folder: Path, *, keeps_voices: bool = True) -> None:
@@ -63,13 +58,7 @@ class AudioRecorder:
         """PCM of the transmissions that are on the air, by the key of their chunks and by id."""
 
     def take(self, key: str, message: Message, payload: Payload) -> None:
-        """Write the sound of a message.
-
-        Raises
-        ------
-        RunFolderError
-            The disk is full or gone.
-        """
+        """Write the sound of a message; `RunFolderError` if the disk is full or gone."""
         match message:
             case TransmissionChunk():
                 self._chunks.setdefault((key, message.id), bytearray()).extend(bytes(payload))
@@ -85,21 +74,19 @@ class AudioRecorder:
             return
         path = audio_file(self._folder, message)
         try:
-            make_folder(self._folder)
-            path.write_bytes(encode_wav(from_pcm(pcm)))
-        except OSError as error:
+            with writing_to_run(path):
+                make_folder(self._folder)
+                path.write_bytes(encode_wav(from_pcm(pcm)))
+        except RunFolderError:
             with suppress(OSError):
                 path.unlink()
-            raise disk_failed(str(path), error) from None
+            raise
 
 
 def recorded_pcm(folder: Path, message: MessageWithSound) -> bytes:
     """Return the PCM of a message from the ``audio`` folder of its run.
 
-    Raises
-    ------
-    RunFolderError
-        Its file is missing, or has other samples than the message says.
+    It raises `RunFolderError` if its file is missing, or has other samples than the message says.
     """
     path = audio_file(folder, message)
     try:

@@ -8,7 +8,6 @@ import json
 import os
 import platform
 from contextlib import suppress
-from io import BufferedReader
 from pathlib import Path
 from typing import Any, Final, Literal
 
@@ -17,7 +16,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from airhilt._version import __version__
 from airhilt.errors import RunFolderError, first_line, first_problem, shown
 from airhilt.host import bounded_json
-from airhilt.host.files import open_inside, read_inside, replace_file
+from airhilt.host.files import read_inside, replace_file
 from airhilt.messages import WorkerDescription
 from airhilt.options import Options
 from airhilt.record.manifest import FileRecord, digest, manifest
@@ -107,7 +106,6 @@ def versions() -> dict[str, str]:
 
 @functools.cache
 def _version(package: str) -> str:
-    """Return the version of a package; it is looked up once, since a process loads it once."""
     return importlib.metadata.version(package)
 
 
@@ -119,6 +117,16 @@ def machine() -> dict[str, str]:
         "machine": platform.machine(),
         "processors": str(os.cpu_count()),
     }
+
+
+def refuse_links(*folders: Path) -> None:
+    """Raise `RunFolderError` for a folder that is a link: what is written there is elsewhere."""
+    for folder in folders:
+        if folder.is_symlink():
+            raise RunFolderError(
+                f"{folder}: a link, which may lead elsewhere; delete it, or choose another folder "
+                "with --out"
+            )
 
 
 class RunFolder:
@@ -139,18 +147,11 @@ class RunFolder:
     def require_free(self, overwrite: bool = False) -> None:
         """Check that a run can be written here; nothing is written.
 
-        Raises
-        ------
-        RunFolderError
-            It holds something already, leads elsewhere by a link, or cannot be written.
+        It raises `RunFolderError` if the folder holds something already, leads elsewhere by a link,
+        or cannot be written.
         """
         path = self.path
-        for folder in (self.audio_path, self.pictures_path, self.video_path):
-            if folder.is_symlink():
-                raise RunFolderError(
-                    f"{folder}: a link, which may lead elsewhere; delete it, or choose another "
-                    "folder with --out"
-                )
+        refuse_links(self.audio_path, self.pictures_path, self.video_path)
         existing = next(parent for parent in (path, *path.absolute().parents) if parent.exists())
         if not existing.is_dir() or not os.access(existing, os.W_OK | os.X_OK):
             raise RunFolderError(
@@ -172,17 +173,11 @@ class RunFolder:
             )
 
     def create(self, overwrite: bool = False) -> None:
-        """Make the folder, or delete the files of an earlier run in it; other files stay.
-
-        Raises
-        ------
-        RunFolderError
-            As for `require_free`.
-        """
+        """Make the folder, or delete the files of an earlier run in it; else as `require_free`."""
         self.require_free(overwrite)
         try:
             self.path.mkdir(parents=True, exist_ok=True)
-            for path in self.files:
+            for path in (*self.results, self.info_path, self.signature_path, self.report_path):
                 path.unlink(missing_ok=True)
         except OSError as error:
             raise RunFolderError(
@@ -191,22 +186,11 @@ class RunFolder:
             ) from None
 
     @property
-    def files(self) -> tuple[Path, ...]:
-        """All files that a run has written or will write, and its signature."""
-        return (*self.results, self.info_path, self.signature_path, self.report_path)
-
-    @property
     def results(self) -> tuple[Path, ...]:
         """The files that the manifest has: what no other file of the run can give again."""
-        return (
-            *sorted(self.audio_path.glob("*.wav")),
-            *sorted(self.pictures_path.glob("*.png")),
-            *sorted(self.pictures_path.glob("*.jpg")),
-            *sorted(self.video_path.glob("*.mp4")),
-            self.log_path,
-            self.latency_path,
-            self.summary_path,
-        )
+        kinds = ("audio/*.wav", "pictures/*.png", "pictures/*.jpg", "video/*.mp4")
+        media = (path for kind in kinds for path in sorted(self.path.glob(kind)))
+        return (*media, self.log_path, self.latency_path, self.summary_path)
 
     def manifest(self) -> dict[str, FileRecord]:
         """Return SHA-256 and size of each file that the run has written."""
@@ -214,36 +198,14 @@ class RunFolder:
 
     @classmethod
     def open(cls, path: Path) -> RunFolder:
-        """Return an existing run folder.
-
-        Raises
-        ------
-        RunFolderError
-            There is no run in it.
-        """
+        """Return an existing run folder; `RunFolderError` if there is no run in it."""
         folder = cls(path)
         if not folder.info_path.is_file():
             raise RunFolderError(f"{path}: no run here; expected a folder with a run.json")
         return folder
 
-    def open_file(self, path: Path) -> BufferedReader:
-        """Open a file of the run for reading.
-
-        Raises
-        ------
-        OSError
-            It is not there, or is no regular file of this folder.
-        """
-        return open_inside(self.path, path)
-
     def read(self, path: Path) -> bytes:
-        """Return the content of a small file of the run: ``run.json``, summary or signature.
-
-        Raises
-        ------
-        OSError
-            It is not there, cannot be read, is no regular file of this folder, or is too large.
-        """
+        """Return the content of a small file; it raises what `read_inside` does."""
         return read_inside(self.path, path, bounded_json.MOST_BYTES)
 
     def write_info(self, info: RunInfo) -> None:
@@ -256,10 +218,6 @@ class RunFolder:
         """Write ``summary.json``, all or nothing."""
         self._write(self.summary_path, summary.model_dump_json(indent=2))
 
-    def write_report(self, html: str) -> None:
-        """Write ``report.html``, all or nothing."""
-        self._write(self.report_path, html)
-
     def _write(self, path: Path, text: str) -> None:
         try:
             replace_file(path, f"{text}\n".encode())
@@ -267,30 +225,13 @@ class RunFolder:
             raise RunFolderError(f"{path}: cannot be written: {error.strerror}") from None
 
     def info(self) -> RunInfo:
-        """Return the content of ``run.json``.
-
-        Raises
-        ------
-        RunFolderError
-            It cannot be read, is damaged, or of another format.
-        """
+        """Return ``run.json``; `RunFolderError` if it cannot be read or has another format."""
         try:
             data = self.read(self.info_path)
-        except OSError as error:
-            raise RunFolderError(f"{self.info_path}: cannot be read: {error.strerror}") from None
-        return self.info_in(data)
-
-    def info_in(self, data: bytes) -> RunInfo:
-        """Return what the content of ``run.json`` says.
-
-        Raises
-        ------
-        RunFolderError
-            It is damaged or of another format.
-        """
-        try:
             bounded_json.require_few_values(data)
             return RunInfo.model_validate_json(data)
+        except OSError as error:
+            raise RunFolderError(f"{self.info_path}: cannot be read: {error.strerror}") from None
         except ValidationError as error:
             raise RunFolderError(
                 f"{self.info_path}: {first_problem(error)}; expected a run.json of format {FORMAT}"
@@ -299,15 +240,14 @@ class RunFolder:
             raise RunFolderError(f"{self.info_path}: {error}") from None
 
     def summary(self) -> dict[str, Any] | None:
-        """Return ``summary.json``, or None if the run did not write it.
+        """Return ``summary.json``, None if the run did not write it.
 
-        Raises
-        ------
-        RunFolderError
-            It cannot be read, or is no JSON object.
+        It raises `RunFolderError` if it cannot be read, or is no JSON.
         """
         try:
             loaded = bounded_json.parse(self.read(self.summary_path))
+            if not isinstance(loaded, dict):
+                raise ValueError(f"{shown(loaded)} is no object")
         except FileNotFoundError:
             return None
         except OSError as error:
@@ -316,8 +256,4 @@ class RunFolder:
             raise RunFolderError(
                 f"{self.summary_path}: no JSON: {first_line(error)}; expected the summary of a run"
             ) from None
-        if not isinstance(loaded, dict):
-            raise RunFolderError(
-                f"{self.summary_path}: {shown(loaded)}; expected an object with a run's numbers"
-            )
         return loaded

@@ -5,12 +5,11 @@ from __future__ import annotations
 import errno
 import json
 from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from airhilt.errors import RunFolderError, disk_failed, first_line
+from airhilt.errors import RunFolderError, first_line, writing_to_run
 from airhilt.host.files import open_inside
 from airhilt.sim import StepRecord
 
@@ -19,23 +18,16 @@ LONGEST_STEP_BYTES = 1_000_000
 
 
 class LatencyLog:
-    """Writes one line for each step.
+    """Writes one line for each step; it is flushed before the log that has the results of steps.
 
-    Whoever writes the log of the run as well flushes this one first: a step whose result is in the
-    log of a run that was killed is then here too.
+    All methods raise `RunFolderError` if the disk is full or gone.
     """
 
     def __init__(self, path: Path) -> None:
         self._stream = path.open("w", encoding="utf-8")
 
     def step(self, record: StepRecord) -> None:
-        """Write a step.
-
-        Raises
-        ------
-        RunFolderError
-            The disk is full or gone. The other methods raise the same.
-        """
+        """Write a step."""
         self._write(
             f'{{"worker": "{record.worker}", "seq": {record.seq}, "t_in_ns": {record.t_in_ns}, '
             f'"t_start_ns": {record.t_start_ns}, "latency_ns": {record.latency_ns}, '
@@ -50,26 +42,18 @@ class LatencyLog:
         self._write(json.dumps(row) + "\n")
 
     def _write(self, line: str) -> None:
-        with self._named():
+        with writing_to_run(self._stream.name):
             self._stream.write(line)
 
     def flush(self) -> None:
         """Hand all lines to the operating system, so that they outlive this process."""
-        with self._named():
+        with writing_to_run(self._stream.name):
             self._stream.flush()
 
     def close(self) -> None:
         """Close the file."""
-        with self._named():
+        with writing_to_run(self._stream.name):
             self._stream.close()
-
-    @contextmanager
-    def _named(self) -> Iterator[None]:
-        """Convert an error of the disk to RunFolderError, with the name of the file."""
-        try:
-            yield
-        except OSError as error:
-            raise disk_failed(self._stream.name, error) from None
 
 
 @dataclass
@@ -103,10 +87,7 @@ class RecordedLatencies:
 def read_latencies(path: Path) -> RecordedLatencies:
     """Return the steps of a run; a last line that breaks off is left out.
 
-    Raises
-    ------
-    RunFolderError
-        The file cannot be read, or one of its lines is no step of a worker.
+    It raises `RunFolderError` if the file cannot be read, or a line is no step of a worker.
     """
     recorded = RecordedLatencies()
     try:
@@ -127,10 +108,7 @@ def read_latencies(path: Path) -> RecordedLatencies:
 def latency_lines(path: Path) -> Iterator[bytes]:
     """Yield the lines of a latency log one by one.
 
-    Raises
-    ------
-    OSError
-        The file cannot be read, is no regular file of its folder, or has a line that is too long.
+    It raises OSError if the file cannot be read, or a line is longer than `LONGEST_STEP_BYTES`.
     """
     with open_inside(path.parent, path) as stream:
         while line := stream.readline(LONGEST_STEP_BYTES + 1):
@@ -141,7 +119,6 @@ def latency_lines(path: Path) -> Iterator[bytes]:
 
 
 def _take(row: dict[str, Any], recorded: RecordedLatencies) -> None:
-    """Keep one line of a latency log."""
     worker = row["worker"]
     if "lost" in row:
         if type(row["t_ns"]) is not int:

@@ -1,8 +1,7 @@
 """``log.mcap``: every message of a run, by simulation time.
 
-The file depends on nothing but the messages, so two equal runs give equal bytes. It is flushed
-once a simulated second; a run that is killed leaves all but the last of them. Everything in it has
-a CRC-32, and the messages are numbered from 1 on: `airhilt.record.log_reader` says what is damaged.
+The file depends on nothing but the messages, so two equal runs give equal bytes. It is flushed once
+a simulated second. Everything in it has a CRC-32, and the messages are numbered from 1 on.
 """
 
 from __future__ import annotations
@@ -14,7 +13,7 @@ from pathlib import Path
 from mcap.writer import CompressionType, Writer
 from pydantic import BaseModel
 
-from airhilt.errors import disk_failed
+from airhilt.errors import writing_to_run
 
 CHUNK_BYTES = 4_000_000
 """Size of a chunk of the file, in bytes: more than one second of any run."""
@@ -40,54 +39,37 @@ class LogWriter:
         self, key: str, publisher: str, model: type[BaseModel], t_ns: int, data: bytes
     ) -> None:
         """Write one message, which is JSON already."""
-        channel = self._channels.get((key, publisher, model))
-        if channel is None:
-            channel = self._register(key, publisher, model)
+        name = key, publisher, model
+        if name not in self._channels:
+            self._channels[name] = self._writer.register_channel(
+                key, "json", self._schema(model), {"publisher": publisher}
+            )
         self._sequence += 1
-        self._writer.add_message(channel, t_ns, data, t_ns, self._sequence)
+        self._writer.add_message(self._channels[name], t_ns, data, t_ns, self._sequence)
 
-    def _register(self, key: str, publisher: str, model: type[BaseModel]) -> int:
-        schema = self._schemas.get(model)
-        if schema is None:
-            schema = self._writer.register_schema(
+    def _schema(self, model: type[BaseModel]) -> int:
+        if model not in self._schemas:
+            self._schemas[model] = self._writer.register_schema(
                 f"airhilt.{model.__name__}", "jsonschema", _json_schema(model)
             )
-            self._schemas[model] = schema
-        channel = self._writer.register_channel(key, "json", schema, {"publisher": publisher})
-        self._channels[(key, publisher, model)] = channel
-        return channel
+        return self._schemas[model]
 
     def flush(self) -> None:
         """Hand all messages to the operating system, so that they outlive this process.
 
-        Raises
-        ------
-        RunFolderError
-            The disk is full or gone.
+        It raises `RunFolderError` if the disk is full or gone.
         """
-        try:
+        with writing_to_run(self._stream.name):
             self._writer.flush()  # type: ignore[no-untyped-call]
-        except OSError as error:
-            raise disk_failed(self._stream.name, error) from None
 
     def close(self) -> None:
-        """Write the index and close the file, unless it is closed already.
-
-        Raises
-        ------
-        RunFolderError
-            The disk is full or gone; what was flushed before stays readable.
-        """
+        """Write the index and close the file, unless it is closed already; else as `flush`."""
         if self._stream.closed:
             return
-        try:
-            with self._stream:
-                self._writer.finish()  # type: ignore[no-untyped-call]
-        except OSError as error:
-            raise disk_failed(self._stream.name, error) from None
+        with writing_to_run(self._stream.name), self._stream:
+            self._writer.finish()  # type: ignore[no-untyped-call]
 
 
 @functools.cache
 def _json_schema(model: type[BaseModel]) -> bytes:
-    """Return the JSON Schema of a model; a process makes it once for all its logs."""
     return json.dumps(model.model_json_schema(), sort_keys=True).encode()

@@ -1,8 +1,7 @@
 """The manifest of a run or a sweep: SHA-256 and size of each of its files.
 
-It is in ``run.json`` or ``sweep.json``, beside a hash of that document itself. It tells damage from
-what was written. Whoever changes a file on purpose can change the manifest too: only a signature
-(`airhilt.record.signature`) tells that.
+It is in ``run.json`` or ``sweep.json``, beside a hash of that document itself. It tells damage;
+only a signature (`airhilt.record.signature`) tells what was changed on purpose.
 """
 
 from __future__ import annotations
@@ -41,8 +40,7 @@ def manifest(folder: Path, files: Iterable[Path]) -> dict[str, FileRecord]:
 def digest(document: Mapping[str, Any]) -> str:
     """Return the SHA-256 of a document with a manifest, without its field ``digest``.
 
-    It is taken over JSON with sorted names, without spaces, and with ASCII characters only, so that
-    it does not depend on how the file is laid out.
+    It is taken over JSON with sorted names, without spaces, and with ASCII characters only.
     """
     content = {name: value for name, value in document.items() if name != "digest"}
     canonical = json.dumps(content, sort_keys=True, separators=(",", ":"))
@@ -59,13 +57,7 @@ def digest_problem(name: str, document: Mapping[str, Any]) -> str:
 
 
 def problem_of(folder: Path, name: str, record: FileRecord, manifest_name: str = "run.json") -> str:
-    """Return in words why a file is not the one of the manifest, empty if it is.
-
-    Parameters
-    ----------
-    manifest_name
-        Name of the document that has the manifest.
-    """
+    """Return in words why a file is not the one of the manifest, empty if it is."""
     place = PurePosixPath(name)
     if place.is_absolute() or ".." in place.parts:
         return f"{name}: outside of the folder; the manifest was not written by AIRHILT"
@@ -77,11 +69,10 @@ def problem_of(folder: Path, name: str, record: FileRecord, manifest_name: str =
                     f"{name}: damaged or changed: it has {size_bytes} bytes, and "
                     f"{manifest_name} says {record.size_bytes}"
                 )
-            found = hashlib.file_digest(stream, "sha256").hexdigest()
+            if hashlib.file_digest(stream, "sha256").hexdigest() == record.sha256:
+                return ""
     except FileNotFoundError:
         return f"{name}: missing"
     except OSError as error:
         return f"{name}: cannot be read: {error.strerror}"
-    if found == record.sha256:
-        return ""
     return f"{name}: damaged or changed: its SHA-256 is not that in {manifest_name}"

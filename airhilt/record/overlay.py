@@ -51,14 +51,8 @@ def clock(t_ns: int) -> str:
 class Overlay:
     """Draws on pictures of one size, with a bar above for the clock and one below for advisories.
 
-    The boxes are those of the picture itself, in full colour: two pixels wide once confirmed, one
-    before. A picture that no detector looked at has the boxes of the last one before it, paler,
-    with their time. Nothing is drawn that is only true.
-
-    Attributes
-    ----------
-    size
-        Width and height of the images returned, in px, both even.
+    Boxes are two pixels wide once confirmed, one before. A picture that no detector looked at has
+    the boxes of the last one before it, paler, with their time.
     """
 
     def __init__(self, width_px: int, height_px: int) -> None:
@@ -72,14 +66,12 @@ class Overlay:
         self._columns = max(int((width_px - 12) / of_one * 0.95), 8)
         height = height_px + (1 + MOST_LINES) * self._row_px
         self.size = width_px + width_px % 2, height + height % 2
+        """Width and height of the images returned, in px, both even."""
 
     def image(self, picture: Picture, seen: Detections | None) -> Image.Image:
         """Return a picture with its boxes, clock and advisory.
 
-        Parameters
-        ----------
-        seen
-            Detections in it, or in the last picture before it that a detector looked at.
+        `seen` are the detections in it, or in the last picture before it that a detector looked at.
         """
         from PIL import Image, ImageDraw
 

@@ -1,20 +1,18 @@
 """``pictures/``: the key pictures of a run.
 
 There is a small one of each camera at the start, and one of the first detection, of the first
-warning and of the closest approach. A file is named after its occasion, camera and picture. The log
-has the detections and the truth of it.
+warning and of the closest approach.
 """
 
 from __future__ import annotations
 
 import re
-from collections import deque
 from collections.abc import Callable, Collection
 from contextlib import suppress
 from pathlib import Path
 from typing import Literal, NamedTuple, get_args
 
-from airhilt.errors import RendererError, disk_failed
+from airhilt.errors import RendererError, RunFolderError, writing_to_run
 from airhilt.host.files import make_folder
 from airhilt.imaging.boxes import size_px
 from airhilt.imaging.matching import matches
@@ -75,55 +73,43 @@ class WaitingPictures:
     """Pictures that wait for their detections, the oldest first."""
 
     def __init__(self) -> None:
-        self._pictures: deque[Picture] = deque()
-        self._bytes = 0
+        self._pictures: list[Picture] = []
 
     def add(self, picture: Picture) -> list[Picture]:
         """Add a picture, and return those that have no room any more."""
         self._pictures.append(picture)
-        self._bytes += len(picture.pixels)
         crowded_out = []
-        while self._bytes > MOST_WAITING_BYTES and len(self._pictures) > 1:
-            crowded_out.append(self._pop())
+        size = sum(len(one.pixels) for one in self._pictures)
+        while size > MOST_WAITING_BYTES and len(self._pictures) > 1:
+            crowded_out.append(self._pictures.pop(0))
+            size -= len(crowded_out[-1].pixels)
         return crowded_out
 
     def up_to(self, camera: str, seq: int) -> list[Picture]:
         """Take out a camera's pictures up to one; no detector will look at those before it."""
+        kept: list[Picture] = []
         taken: list[Picture] = []
-        for picture in self.everything():
+        for picture in self._pictures:
             header = picture.header
-            if header.camera == camera and header.seq <= seq:
-                taken.append(picture)
-            else:
-                self.add(picture)
+            is_over = header.camera == camera and header.seq <= seq
+            (taken if is_over else kept).append(picture)
+        self._pictures = kept
         return taken
 
     def everything(self) -> list[Picture]:
         """Take out all pictures."""
-        return [self._pop() for _ in range(len(self._pictures))]
-
-    def _pop(self) -> Picture:
-        picture = self._pictures.popleft()
-        self._bytes -= len(picture.pixels)
-        return picture
+        taken, self._pictures = self._pictures, []
+        return taken
 
 
 class KeyPictures:
     """Writes the key pictures of a run, each as soon as it is known.
 
-    The first detection is the first one that matches one of the `actors`. The first warning is the
-    first advisory of CAUTION or above. Its picture is the newest that a detector had looked at, of
-    the camera that shows one of the actors largest. The closest approach is known at the end of the
-    run. Until then each camera that has an actor in view keeps its picture nearest to it in time.
-
-    Parameters
-    ----------
-    folder
-        Folder to write into; it is made with the first picture.
-    actors
-        Callsigns of the pair of the conflict, or of all actors.
-    closest_ns
-        Returns the time of the pair's closest approach up to now, None without a pair.
+    The first detection is the first one that matches one of the `actors`: the pair of the conflict,
+    or all. The first warning is the first advisory of CAUTION or above. Its picture is the newest
+    that a detector had looked at, of the camera that shows one of the actors largest. Each camera
+    that has an actor in view keeps its picture nearest in time to the closest approach up to now,
+    `closest_ns`.
     """
 
     def __init__(
@@ -142,13 +128,7 @@ class KeyPictures:
         self._is_full = False
 
     def take(self, key: str, message: Message, payload: Payload) -> None:  # noqa: ARG002
-        """Receive a published message, truth too.
-
-        Raises
-        ------
-        RunFolderError
-            The disk is full or gone.
-        """
+        """Receive a message, truth too; `RunFolderError` if the disk is full or gone."""
         match message:
             case CameraTruth(camera=name):
                 self._sightings[name] = message.sightings
@@ -164,13 +144,7 @@ class KeyPictures:
                 self._warned()
 
     def close(self) -> None:
-        """Write the picture of the closest approach.
-
-        Raises
-        ------
-        RunFolderError
-            The disk is full or gone.
-        """
+        """Write the picture of the closest approach; else as `take`."""
         closest_ns = self._closest_ns()
         if closest_ns is None or not self._nearest or self._is_full:
             return
@@ -235,10 +209,11 @@ class KeyPictures:
             image = image.resize((START_WIDTH_PX, max(START_WIDTH_PX * size[1] // size[0], 1)))
         path = PictureName(occasion, header.camera, header.seq).path(self._folder)
         try:
-            make_folder(self._folder)
-            image.save(path)
-        except OSError as error:
+            with writing_to_run(path):
+                make_folder(self._folder)
+                image.save(path)
+        except RunFolderError:
             self._is_full = True
             with suppress(OSError):
                 path.unlink()
-            raise disk_failed(str(path), error) from None
+            raise

@@ -1,8 +1,4 @@
-"""A recorded run: its folder, read and checked against its manifest.
-
-Every command that reads a run opens it with `open_run`, which tells in one line a file what is
-damaged, and from when to when. The rest of the run can be read.
-"""
+"""A recorded run: its folder, read and checked against its manifest."""
 
 from __future__ import annotations
 
@@ -21,65 +17,42 @@ from airhilt.units import SECOND_NS
 
 
 class Run:
-    """A run folder whose files that commands read have been compared with its manifest.
-
-    Attributes
-    ----------
-    folder
-        The paths in the folder.
-    info
-        Content of ``run.json``.
-    log_damage
-        From when to when the log is damaged, empty if it is not.
-    damage
-        A line for each file that commands read and that is not as the run wrote it: ``run.json``,
-        the log, the latencies, the summary. Sound, pictures and videos are not among them.
-    """
+    """A run folder whose files that commands read have been compared with its manifest."""
 
     def __init__(self, folder: RunFolder) -> None:
         self.folder = folder
         self.info: RunInfo = folder.info()
         self.log_damage = _log_problem(folder, self.info)
+        """From when to when the log is damaged, empty if it is not."""
         lines = (
             _info_problem(folder),
             self.log_damage,
             *(self._problem(path) for path in (folder.latency_path, folder.summary_path)),
         )
-        self.damage = tuple(line for line in lines if line)
+        self.damage = tuple(filter(None, lines))
+        """A line for each file that commands read and that is not as the run wrote it:
+        ``run.json``, the log, the latencies, the summary. Sound, pictures and videos are not among
+        them."""
 
     def damage_of_all_files(self) -> tuple[str, ...]:
-        """Return `damage`, and a line for each other file of the manifest that was changed.
-
-        All of them are read, which takes as long as they are large.
-        """
-        checked = (self.folder.log_path, self.folder.latency_path, self.folder.summary_path)
-        others = self.info.files.keys() - {path.name for path in checked}
+        """Return `damage`, and a line for each other file of the manifest that was changed."""
+        folder = self.folder
+        checked = {folder.log_path.name, folder.latency_path.name, folder.summary_path.name}
         lines = (
-            problem_of(self.folder.path, name, record)
+            problem_of(folder.path, name, record)
             for name, record in self.info.files.items()
-            if name in others
+            if name not in checked
         )
-        return (*self.damage, *(line for line in lines if line))
+        return (*self.damage, *filter(None, lines))
 
     def messages(self) -> Iterator[Logged]:
-        """Yield the messages of the log in the order of writing, up to where it breaks off.
-
-        What is damaged is left out. `damage` says where.
-
-        Raises
-        ------
-        RunFolderError
-            The log cannot be read at all.
-        """
-        yield from LogReader(self.folder.log_path).messages()
+        """Yield the messages of the log without what is damaged; else as `LogReader.messages`."""
+        return LogReader(self.folder.log_path).messages()
 
     def latencies(self) -> RecordedLatencies:
         """Return the steps of the workers.
 
-        Raises
-        ------
-        RunFolderError
-            They cannot be read, or are not those that the run wrote.
+        It raises `RunFolderError` if they cannot be read, or are not those that the run wrote.
         """
         if problem := self._problem(self.folder.latency_path):
             raise RunFolderError(
@@ -90,10 +63,7 @@ class Run:
     def summary(self) -> dict[str, Any]:
         """Return the numbers of the run.
 
-        Raises
-        ------
-        RunFolderError
-            There are none, they cannot be read, or they are not those that the run wrote.
+        It raises `RunFolderError` if they cannot be read, or are not those that the run wrote.
         """
         path = self.folder.summary_path
         problem = self._problem(path)
@@ -113,17 +83,8 @@ class Run:
 def open_run(path: str | Path, notice: Notice | None = None) -> Run:
     """Open the folder of a run that has ended, was killed, or is still going on.
 
-    Parameters
-    ----------
-    path
-        The run folder.
-    notice
-        Is told each line of the run's ``damage``. None warns of it, as Python does.
-
-    Raises
-    ------
-    RunFolderError
-        There is no run in it, or its ``run.json`` cannot be read.
+    The notice is told each line of the run's ``damage``; None warns of it, as Python does. It
+    raises `RunFolderError` if there is no run in it, or its ``run.json`` cannot be read.
     """
     run = Run(RunFolder.open(Path(path)))
     tell_damage(run.folder.path, run.damage, notice)
@@ -133,8 +94,7 @@ def open_run(path: str | Path, notice: Notice | None = None) -> Run:
 def result_problem(folder: RunFolder, info: RunInfo, path: Path) -> str:
     """Return in words why a file is not one that the run wrote, empty if it is.
 
-    A run that goes on or was killed has no record of its pictures and videos. Of those nothing is
-    said.
+    A run that goes on or was killed has no record of its pictures and videos.
     """
     name = path.relative_to(folder.path).as_posix()
     record = info.files.get(name)
@@ -144,7 +104,6 @@ def result_problem(folder: RunFolder, info: RunInfo, path: Path) -> str:
 
 
 def _info_problem(folder: RunFolder) -> str:
-    """Return in words why ``run.json`` is not as the run wrote it, empty if it is."""
     try:
         document = bounded_json.parse(folder.read(folder.info_path))
     except (OSError, ValueError):
@@ -155,8 +114,7 @@ def _info_problem(folder: RunFolder) -> str:
 def _log_problem(folder: RunFolder, info: RunInfo) -> str:
     """Return in words from when to when the log is damaged, empty if it is not.
 
-    A log without a record in the manifest, because its run was killed or goes on, is checked by
-    its own checksums. Nothing is said of one that cannot be read at all and has no record.
+    A log without a record, because its run was killed or goes on, is checked by its own checksums.
     """
     path = folder.log_path
     record = info.files.get(path.name)

@@ -1,8 +1,7 @@
 """Signatures of runs and sweeps: Ed25519 (RFC 8032) over the bytes of the file with the manifest.
 
-The file is ``run.json`` or ``sweep.json``. Its signature is ``run.json.sig`` or ``sweep.json.sig``:
-the 64 bytes, as ``openssl pkeyutl -rawin`` reads and writes them. Keys are PEM files (PKCS #8, and
-SubjectPublicKeyInfo).
+The signature of ``run.json`` is ``run.json.sig``: 64 bytes, as ``openssl pkeyutl -rawin`` reads and
+writes them. Keys are PEM files (PKCS #8, and SubjectPublicKeyInfo).
 """
 
 from __future__ import annotations
@@ -10,6 +9,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
@@ -33,8 +33,6 @@ if TYPE_CHECKING:
 
 LARGEST_KEY_BYTES = 1_000_000
 """Size of the largest file that is read as a key."""
-NO_KEY = (ValueError, TypeError, UnsupportedAlgorithm)
-"""Exceptions of a file that holds no key, or one that needs a password."""
 
 
 def public_file(private: Path) -> Path:
@@ -43,17 +41,9 @@ def public_file(private: Path) -> Path:
 
 
 def make_keys(private: Path) -> str:
-    """Write a new private key, which only its owner may read, and its public key beside it.
+    """Write a new private key and its public key beside it, and return their fingerprint.
 
-    Returns
-    -------
-    str
-        The fingerprint of the key.
-
-    Raises
-    ------
-    SignatureError
-        There is such a file already, or it cannot be written.
+    It raises `SignatureError` if there is such a file already, or it cannot be written.
     """
     public = public_file(private)
     for path in (private, public):
@@ -70,7 +60,6 @@ def make_keys(private: Path) -> str:
 
 @contextmanager
 def _named(path: Path, done: Literal["read", "written"]) -> Iterator[None]:
-    """Convert an error of the disk to SignatureError, with the name of the file."""
     try:
         yield
     except OSError as error:
@@ -85,12 +74,10 @@ def fingerprint(key: Ed25519PublicKey) -> str:
 def private_key(path: Path) -> Ed25519PrivateKey:
     """Return the private key in a file.
 
-    Raises
-    ------
-    SignatureError
-        It cannot be read, is no private Ed25519 key without a password, or other users may read it.
+    It raises `SignatureError` if it cannot be read, is no private Ed25519 key without a password,
+    or other users may read it.
     """
-    key = _key(path, lambda data: load_pem_private_key(data, None))
+    key = _key(path, partial(load_pem_private_key, password=None))
     if not isinstance(key, Ed25519PrivateKey):
         raise SignatureError(
             f"{path}: no private key; expected one that `airhilt keys sign` has made (Ed25519, "
@@ -105,13 +92,7 @@ def private_key(path: Path) -> Ed25519PrivateKey:
 
 
 def public_key(path: Path) -> Ed25519PublicKey:
-    """Return the public key in a file.
-
-    Raises
-    ------
-    SignatureError
-        It cannot be read, or is no public Ed25519 key.
-    """
+    """Return the public key in a file; `SignatureError` if it is no public Ed25519 key."""
     key = _key(path, load_pem_public_key)
     if not isinstance(key, Ed25519PublicKey):
         raise SignatureError(
@@ -121,40 +102,36 @@ def public_key(path: Path) -> Ed25519PublicKey:
 
 
 def _key(path: Path, load: Callable[[bytes], object]) -> object:
-    """Return the key in a file, None if it holds none."""
     with _named(path, "read"):
         data = read_file(path, LARGEST_KEY_BYTES)
     try:
         return load(data)
-    except NO_KEY:
+    except (ValueError, TypeError, UnsupportedAlgorithm):  # TypeError: it needs a password.
         return None
 
 
 def sign(folder: RunFolder | SweepFolder, key: Ed25519PrivateKey) -> None:
     """Write the signature of a run or a sweep beside its manifest.
 
-    Raises
-    ------
-    SignatureError
-        It is signed already, or the signature cannot be written.
+    It raises `SignatureError` if it is signed already, or the signature cannot be written.
     """
     path = folder.signature_path
     if path.exists():
         raise SignatureError(f"{path}: signed already; delete this file to sign anew")
-    with _named(folder.info_path, "read"):
-        signed = folder.read(folder.info_path)
+    signed = _read(folder, folder.info_path)
     with _named(path, "written"):
         replace_file(path, key.sign(signed))
 
 
 def is_signed_by(folder: RunFolder | SweepFolder, key: Ed25519PublicKey) -> bool:
     """Return whether a signature is of this key, and of the signed file as it is now."""
-    with _named(folder.signature_path, "read"):
-        signature = folder.read(folder.signature_path)
-    with _named(folder.info_path, "read"):
-        signed = folder.read(folder.info_path)
     try:
-        key.verify(signature, signed)
+        key.verify(_read(folder, folder.signature_path), _read(folder, folder.info_path))
     except InvalidSignature:
         return False
     return True
+
+
+def _read(folder: RunFolder | SweepFolder, path: Path) -> bytes:
+    with _named(path, "read"):
+        return folder.read(path)

@@ -1,8 +1,7 @@
 """The folder of a sweep: its specification, the runs that are finished, and the tables of them.
 
-Finished runs are kept in parts, Parquet files that appear all or nothing, so that whatever is
-killed, nothing that was finished is lost. The tables ``sweep.parquet`` and ``machine.parquet`` are
-made of them and can be made again.
+Finished runs are kept in parts, Parquet files that appear all or nothing, so that nothing finished
+is lost by a kill. The tables ``sweep.parquet`` and ``machine.parquet`` are made of them.
 """
 
 from __future__ import annotations
@@ -22,15 +21,8 @@ from airhilt.errors import AirhiltError, first_problem
 from airhilt.host import bounded_json
 from airhilt.host.files import PARTIAL, make_folder, read_inside, replace_file
 from airhilt.record.damage import Notice, tell_damage
-from airhilt.record.folder import RunFolder
-from airhilt.record.manifest import (
-    FileRecord,
-    digest,
-    digest_problem,
-    manifest,
-    problem_of,
-)
-from airhilt.record.parquet import LARGEST_BYTES, parse_table
+from airhilt.record.folder import RunFolder, refuse_links
+from airhilt.record.manifest import FileRecord, digest, digest_problem, manifest, problem_of
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -38,10 +30,12 @@ if TYPE_CHECKING:
 FORMAT = 1
 MOST_PARTS = 64
 """Small parts from which they are put together into one."""
-UNFINISHED = f"*{PARTIAL}"
-"""Names of files that are being written."""
 SMALL_BYTES = 1_000_000
 """Size up to which a part is small."""
+LARGEST_BYTES = 2_000_000_000
+"""Size of the largest Parquet file that is read, and of its columns before compression."""
+MOST_CELLS = 200_000_000
+"""Greatest number of rows times columns of a Parquet file."""
 UNREADABLE = (OSError, ValueError)
 """Exceptions of a file that cannot be read."""
 REQUIRED = ("key", "status")
@@ -77,8 +71,6 @@ class SweepFolder:
         self.runs_path = path / "runs"
         self.figures_path = path / "figures"
         self.report_path = path / "report.html"
-        self._of_others: set[Path] = set()
-        """Parts with other columns than the newest: they stay as they are."""
 
     @property
     def is_there(self) -> bool:
@@ -87,19 +79,10 @@ class SweepFolder:
 
     @classmethod
     def open(cls, path: Path, notice: Notice | None = None) -> SweepFolder:
-        """Return an existing sweep folder, and tell what is damaged in it.
+        """Return an existing sweep folder, and tell each line of its `damage`.
 
-        Parameters
-        ----------
-        path
-            The sweep folder.
-        notice
-            Is told each line of `damage`. None warns of it, as Python does.
-
-        Raises
-        ------
-        SweepFolderError
-            There is no sweep in it, or one that has no tables yet.
+        Without a notice Python warns of it. It raises `SweepFolderError` if there is no sweep in
+        the folder, or one that has no tables yet.
         """
         folder = cls(path)
         if not folder.info_path.is_file():
@@ -110,42 +93,22 @@ class SweepFolder:
         return folder
 
     def create(self) -> None:
-        """Make the folder; one that holds a sweep already is used again.
-
-        Raises
-        ------
-        SweepFolderError
-            It holds something else, or cannot be written.
-        """
+        """Make the folder, or use that of a sweep again; `SweepFolderError` if it cannot be."""
         self.require_usable()
         with _writing(self.path):
             make_folder(self.parts_path)
             os.close(self._open_lock())
 
     def require_usable(self) -> None:
-        """Complain about a folder that holds something else; nothing is written.
-
-        Raises
-        ------
-        SweepFolderError
-            It does, or leads elsewhere by a link.
-        """
-        for folder in (self.parts_path, self.runs_path, self.figures_path):
-            if folder.is_symlink():
-                raise SweepFolderError(
-                    f"{folder}: a link, which may lead elsewhere; delete it, or choose another "
-                    "folder with --out"
-                )
+        """Refuse a folder that holds something else or leads elsewhere by a link, as `create`."""
+        refuse_links(self.parts_path, self.runs_path, self.figures_path)
         if self._holds_something_else():
             raise SweepFolderError(
                 f"{self.path}: holds files that are no sweep; choose another folder with --out"
             )
 
     def _holds_something_else(self) -> bool:
-        """Return true for a folder that no sweep has made; one that was just begun is a sweep's.
-
-        A ``sweep.json`` alone does not make it one: the specification of a user may have that name.
-        """
+        """Return true for a folder that no sweep has made; a ``sweep.json`` may be a user's."""
         if not self.path.is_dir() or self._lock_path.is_file():
             return False
         if any(entry != self.parts_path for entry in self.path.iterdir()):
@@ -156,12 +119,8 @@ class SweepFolder:
     def locked(self) -> Iterator[None]:
         """Keep the folder for one process; the lock ends with it, however it ends.
 
-        What a killed process left half-written is removed.
-
-        Raises
-        ------
-        SweepFolderError
-            Another process has it.
+        What a killed process left half-written is removed. It raises `SweepFolderError` if another
+        process has the folder.
         """
         with _writing(self.path):
             stream = os.fdopen(self._open_lock(), "w")
@@ -173,12 +132,12 @@ class SweepFolder:
                     f"{self.path}: another sweep is writing here; wait for its end, or choose "
                     "another folder"
                 ) from None
-            for left in (*self.path.glob(UNFINISHED), *self.parts_path.glob(UNFINISHED)):
-                left.unlink(missing_ok=True)
+            for folder in (self.path, self.parts_path):
+                for left in folder.glob(f"*{PARTIAL}"):
+                    left.unlink(missing_ok=True)
             yield
 
     def _open_lock(self) -> int:
-        """Return the descriptor of the lock, which is made if it is not there."""
         flags = os.O_WRONLY | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK
         return os.open(self._lock_path, flags, 0o666)
 
@@ -189,13 +148,7 @@ class SweepFolder:
         _write_info(self.next_info_path, info)
 
     def info(self) -> dict[str, Any]:
-        """Return ``sweep.json``.
-
-        Raises
-        ------
-        SweepFolderError
-            It is damaged.
-        """
+        """Return ``sweep.json``; `SweepFolderError` if it is damaged."""
         try:
             loaded = bounded_json.parse(self.read(self.info_path))
         except UNREADABLE as error:
@@ -205,36 +158,18 @@ class SweepFolder:
         return loaded
 
     def read(self, path: Path) -> bytes:
-        """Return the content of a small file of the sweep: ``sweep.json`` or its signature.
-
-        Raises
-        ------
-        OSError
-            It is not there, cannot be read, is no regular file of this folder, or is too large.
-        """
+        """Return the content of a small file; it raises what `read_inside` does."""
         return read_inside(self.path, path, bounded_json.MOST_BYTES)
 
     def files(self) -> dict[str, FileRecord]:
-        """Return the manifest in ``sweep.json``, empty if it has none.
-
-        Raises
-        ------
-        SweepFolderError
-            It is damaged.
-        """
+        """Return the manifest in ``sweep.json``, empty if it has none; else as `info`."""
         try:
             return MANIFEST.validate_python(self.info().get(FILES, {}))
         except ValidationError as error:
             raise SweepFolderError(f"{self.info_path}: {FILES}: {first_problem(error)}") from None
 
     def damage(self) -> tuple[str, ...]:
-        """Return a line for ``sweep.json`` and each table that is not as the sweep wrote it.
-
-        Raises
-        ------
-        SweepFolderError
-            ``sweep.json`` cannot be read.
-        """
+        """Return a line for ``sweep.json`` and each table that was changed; else as `info`."""
         info, files = self.info(), self.files()
         problems = [digest_problem(self.info_path.name, info)]
         problems += [
@@ -247,32 +182,18 @@ class SweepFolder:
     # --- finished runs ----------------------------------------------------------------------
 
     def keep(self, runs: pa.Table) -> None:
-        """Write finished runs as a new part; each row has at least what is `REQUIRED`.
-
-        Raises
-        ------
-        SweepFolderError
-            They cannot be written; earlier parts are as they were.
-        """
+        """Write finished runs as a new part; each row has at least what is `REQUIRED`."""
         self._write_part(runs)
-        parts = [part for part in self._parts() if part not in self._of_others]
-        small = [part for part in parts if part.stat().st_size <= SMALL_BYTES]
+        small = [part for part in self._parts() if part.stat().st_size <= SMALL_BYTES]
         if len(small) > MOST_PARTS:
             self._put_together(small, runs.schema)
 
     def finished(self, schema: pa.Schema, notice: Callable[[str], None] | None) -> pa.Table:
-        """Return all finished runs; a run that was finished twice has two rows.
+        """Return all finished runs in the columns of a schema; one finished twice has two rows.
 
         What a part of another version does not have is null. The runs of a part that is damaged, or
-        whose columns cannot be those of the schema, are missing.
-
-        Parameters
-        ----------
-        schema
-            Names and types of the columns that are returned.
-        notice
-            Is told of each such part, which is set aside. None leaves the folder as it is, while
-            another sweep writes.
+        whose columns cannot be those of the schema, are missing. The notice is told of each such
+        part, which is set aside; None leaves the folder as it is, while another sweep writes.
         """
         import pyarrow as pa
 
@@ -310,10 +231,7 @@ class SweepFolder:
                 table = _read_part(part)
                 if table.schema.equals(schema):  # No column is to be lost.
                     read[part] = table
-        self._of_others.update(part for part in parts if part not in read)
-        if len(read) < 2:
-            return
-        self._write_part(pa.concat_tables(list(read.values())))
+        self._write_part(pa.concat_tables(read.values()))
         for part in read:
             part.unlink(missing_ok=True)
 
@@ -323,15 +241,9 @@ class SweepFolder:
         """Write both tables and their ``sweep.json``, each all or nothing.
 
         After a kill in between, `table` and `machine` tell that they are not of one sweep. An
-        earlier signature is deleted: it is none of these tables.
-
-        Parameters
-        ----------
-        machine
-            Its column ``folder`` says which run folders were kept.
-        info
-            Content of ``sweep.json`` but for the manifest; its ``grid_sha256`` goes into the tables
-            too.
+        earlier signature is deleted. The column ``folder`` of `machine` says which run folders were
+        kept; `info` is the content of ``sweep.json`` but for the manifest, and its ``grid_sha256``
+        goes into the tables.
         """
         with _writing(self.signature_path):
             self.signature_path.unlink(missing_ok=True)
@@ -343,7 +255,6 @@ class SweepFolder:
             self.next_info_path.unlink(missing_ok=True)
 
     def _sealed(self, info: Mapping[str, Any], kept: Iterable[str | None]) -> dict[str, Any]:
-        """Return the content of ``sweep.json`` with its manifest, and with its own hash."""
         runs = (self.runs_path / PurePosixPath(name).name for name in kept if name)
         files = (self.table_path, self.machine_path, *(RunFolder(run).info_path for run in runs))
         with _writing(self.path):
@@ -354,10 +265,8 @@ class SweepFolder:
     def table(self) -> pa.Table:
         """Return ``sweep.parquet``: parameters and metrics, a row a run.
 
-        Raises
-        ------
-        SweepFolderError
-            It is not there yet, damaged, or not of the sweep in ``sweep.json``.
+        It raises `SweepFolderError` if it is not there, damaged, or not of the sweep in
+        ``sweep.json``.
         """
         return self._of_this_sweep(self.table_path)
 
@@ -366,7 +275,12 @@ class SweepFolder:
         return self._of_this_sweep(self.machine_path)
 
     def _of_this_sweep(self, path: Path) -> pa.Table:
-        table = _read_table(path)
+        try:
+            table = _parse(read_inside(self.path, path, LARGEST_BYTES))
+        except FileNotFoundError:
+            raise SweepFolderError(f"{path}: not there; {AGAIN}") from None
+        except UNREADABLE as error:
+            raise SweepFolderError(f"{path}: damaged ({_reason(error)}); {AGAIN}") from None
         found = (table.schema.metadata or {}).get(GRID.encode(), b"").decode()
         if found != self.info().get(GRID, ""):
             raise SweepFolderError(f"{path}: not of the sweep in {self.info_path.name}; {AGAIN}")
@@ -374,13 +288,7 @@ class SweepFolder:
 
 
 def is_sweep(path: Path) -> bool:
-    """Return true for a sweep folder, false for a run folder.
-
-    Raises
-    ------
-    SweepFolderError
-        It is neither.
-    """
+    """Return true for a sweep folder, false for a run folder; else raise `SweepFolderError`."""
     if SweepFolder(path).is_there:
         return True
     if RunFolder(path).info_path.is_file():
@@ -396,41 +304,45 @@ def _write_info(path: Path, info: Mapping[str, Any]) -> None:
 
 
 def _read_part(part: Path) -> pa.Table:
-    """Return the table of a part as it was written.
-
-    Raises
-    ------
-    OSError, ValueError
-        It is damaged, or does not have what is `REQUIRED`.
-    """
-    table = parse_table(read_inside(part.parents[1], part, LARGEST_BYTES))
+    table = _parse(read_inside(part.parents[1], part, LARGEST_BYTES))
     for name in REQUIRED:
         if name not in table.column_names:
             raise ValueError(f"it has no column {name}")
     return table
 
 
-def _cast(table: pa.Table, schema: pa.Schema) -> pa.Table:
-    """Return a table with the columns of a schema; columns that it does not have are null.
+def _parse(data: bytes) -> pa.Table:
+    """Return the table in a Parquet file; ValueError if it is damaged or claims too much."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
 
-    Raises
-    ------
-    ValueError
-        A column cannot have the type that the schema says.
-    """
+    try:
+        with pq.ParquetFile(pa.py_buffer(data)) as file:
+            rows, columns = file.metadata.num_rows, file.metadata.num_columns
+            if rows * columns > MOST_CELLS:
+                raise ValueError(
+                    f"it has {rows:,} rows of {columns:,} columns; expected at most "
+                    f"{MOST_CELLS:,} cells"
+                )
+            groups = map(file.metadata.row_group, range(file.metadata.num_row_groups))
+            if sum(group.total_byte_size for group in groups) > LARGEST_BYTES:
+                raise ValueError(f"its columns have over {LARGEST_BYTES:,} bytes; expected less")
+            return file.read()
+    except (pa.ArrowException, OSError) as error:
+        raise ValueError(str(error)) from None
+
+
+def _cast(table: pa.Table, schema: pa.Schema) -> pa.Table:
+    """Return a table with the columns of a schema; columns that it does not have are null."""
     import pyarrow as pa
 
-    if table.schema.equals(schema):
-        return table
     columns = []
     for field in schema:
-        is_there = field.name in table.column_names
+        if field.name not in table.column_names:
+            columns.append(pa.nulls(table.num_rows, field.type))
+            continue
         try:
-            columns.append(
-                table[field.name].cast(field.type)
-                if is_there
-                else pa.nulls(table.num_rows, field.type)
-            )
+            columns.append(table[field.name].cast(field.type))
         except (pa.ArrowException, KeyError) as error:  # KeyError: two columns have that name.
             raise ValueError(f"column {field.name}: {_reason(error)}") from None
     return pa.table(columns, schema=schema)
@@ -447,23 +359,13 @@ def _write_table(table: pa.Table, path: Path) -> None:
         replace_file(path, sink.getvalue().to_pybytes())
 
 
-def _read_table(path: Path) -> pa.Table:
-    try:
-        return parse_table(read_inside(path.parent, path, LARGEST_BYTES))
-    except FileNotFoundError:
-        raise SweepFolderError(f"{path}: not there; {AGAIN}") from None
-    except UNREADABLE as error:
-        raise SweepFolderError(f"{path}: damaged ({_reason(error)}); {AGAIN}") from None
-
-
 def _reason(error: Exception) -> str:
-    """Return what is wrong in one line, without the path that an error of the system has."""
+    """Return what is wrong in one line, without the path of an error of the system."""
     return str(getattr(error, "strerror", None) or error).partition("\n")[0]
 
 
 @contextmanager
 def _writing(path: Path) -> Iterator[None]:
-    """Convert OSError to SweepFolderError."""
     try:
         yield
     except OSError as error:

@@ -10,11 +10,10 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
 from fractions import Fraction
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from airhilt.errors import RendererError, RunFolderError, VideoError, disk_failed, first_line
+from airhilt.errors import RendererError, RunFolderError, VideoError, first_line, writing_to_run
 from airhilt.host.files import make_folder
 from airhilt.messages import (
     CONTROLLER,
@@ -30,9 +29,6 @@ from airhilt.record.pictures import Picture, WaitingPictures
 from airhilt.sim.payload import Payload
 from airhilt.units import SECOND_NS
 
-if TYPE_CHECKING:
-    from PIL import Image
-
 ENCODERS = ("libx264", "libopenh264")
 """H.264 encoders of FFmpeg; the first one installed is used."""
 QUALITY = {"preset": "veryfast", "crf": "21", "tune": "zerolatency"}
@@ -46,18 +42,8 @@ KEY_PICTURE_S = 2.0
 whole up to one."""
 
 
-def require_video() -> None:
-    """Check that videos can be written.
-
-    Raises
-    ------
-    VideoError
-        PyAV or an H.264 encoder is not installed.
-    """
-    _encoder()
-
-
-def _encoder() -> str:
+def require_video() -> str:
+    """Return the encoder of videos; `VideoError` if PyAV or an encoder is not installed."""
     try:
         from av.codec import codecs_available
     except ImportError:
@@ -76,17 +62,7 @@ def _encoder() -> str:
 class VideoRecorder:
     """Writes a video for each camera of a run.
 
-    Parameters
-    ----------
-    folder
-        Folder to write into; it is made with the first picture.
-    notice
-        Called with a sentence for the user when a camera's video cannot go on.
-
-    Raises
-    ------
-    VideoError, RendererError
-        As `require_video`.
+    The notice is told when a camera's video cannot go on. Without PyAV it raises `VideoError`.
     """
 
     def __init__(self, folder: Path, *, notice: Callable[[str], None]) -> None:
@@ -102,13 +78,7 @@ class VideoRecorder:
         self._is_full = False
 
     def take(self, key: str, message: Message, payload: Payload) -> None:  # noqa: ARG002
-        """Receive a published message; truth is ignored.
-
-        Raises
-        ------
-        RunFolderError
-            The disk is full or gone.
-        """
+        """Receive a message; `RunFolderError` if the disk is full or gone."""
         try:
             self._take(message, payload)
         except RunFolderError:
@@ -126,7 +96,9 @@ class VideoRecorder:
                 with self._giving_up(name):
                     self._videos[name].look(message)
             case Advisory():
-                self._advise(message)
+                self._advisories.pop((message.id, message.recipient), None)
+                if message.active:
+                    self._advisories[message.id, message.recipient] = message
             case Status(modality="vision", state=state):
                 self._is_watched = state == "on"
                 if not self._is_watched:
@@ -135,13 +107,7 @@ class VideoRecorder:
                             video.flush()
 
     def close(self) -> None:
-        """Finish all videos; one whose disk was full keeps what was written.
-
-        Raises
-        ------
-        RunFolderError
-            The disk is full or gone.
-        """
+        """Finish all videos; one whose disk was full keeps what was written."""
         try:
             for name, video in list(self._videos.items()):
                 if not self._is_full:
@@ -154,7 +120,6 @@ class VideoRecorder:
 
     @contextmanager
     def _giving_up(self, name: str) -> Iterator[None]:
-        """Give up a camera's video when it cannot go on; what was written of it stays."""
         try:
             yield
         except (VideoError, RendererError) as error:
@@ -176,12 +141,6 @@ class VideoRecorder:
             if not self._is_watched:
                 self._videos[name].flush()
 
-    def _advise(self, advisory: Advisory) -> None:
-        name = advisory.id, advisory.recipient
-        self._advisories.pop(name, None)
-        if advisory.active:
-            self._advisories[name] = advisory
-
     def _advisory_for(self, header: CameraFrame) -> Advisory | None:
         """Return the most severe active advisory, preferably one to the owner of the camera."""
         owner = header.view.carrier or CONTROLLER
@@ -193,8 +152,6 @@ class VideoRecorder:
 
 
 class _CameraVideo:
-    """The video of one camera."""
-
     def __init__(self, path: Path, first: Picture, rate_hz: float) -> None:
         import av
 
@@ -207,7 +164,7 @@ class _CameraVideo:
         with _writing(path):
             make_folder(path.parent)
             self._container = av.open(str(path), "w", format="mp4", options=dict(MOVIE))
-            stream = self._container.add_stream(_encoder(), rate=rate, options=dict(QUALITY))
+            stream = self._container.add_stream(require_video(), rate=rate, options=dict(QUALITY))
             assert isinstance(stream, av.VideoStream)
             stream.width, stream.height = self._overlay.size
             stream.pix_fmt = "yuv420p"
@@ -222,12 +179,11 @@ class _CameraVideo:
     def look(self, seen: Detections) -> None:
         """Write the picture with these detections, and those before it that have none."""
         pictures = self._waiting.up_to(seen.camera, seen.seq)
-        if pictures and pictures[-1].header.seq == seen.seq:
-            self._write(pictures[:-1])
+        is_there = bool(pictures) and pictures[-1].header.seq == seen.seq
+        self._write(pictures[:-1] if is_there else pictures)
+        if is_there:
             self._seen = seen
             self._write(pictures[-1:])
-        else:
-            self._write(pictures)
 
     def flush(self) -> None:
         """Write all waiting pictures."""
@@ -246,35 +202,25 @@ class _CameraVideo:
             self._container.close()
 
     def _write(self, pictures: list[Picture]) -> None:
-        for picture in pictures:
-            image = self._overlay.image(picture, self._seen)
-            self._encode(image, picture.header.t_frame_ns - self._begin_ns)
-
-    def _encode(self, image: Image.Image, t_ns: int) -> None:
         import av
 
-        with _writing(self._path):
-            frame = av.VideoFrame.from_ndarray(np.asarray(image), format="rgb24")
-            frame.pts, frame.time_base = round(t_ns * TIME_BASE.denominator / SECOND_NS), TIME_BASE
-            self._container.mux(self._stream.encode(frame))
+        for picture in pictures:
+            image = self._overlay.image(picture, self._seen)
+            t_ns = picture.header.t_frame_ns - self._begin_ns
+            with _writing(self._path):
+                frame = av.VideoFrame.from_ndarray(np.asarray(image), format="rgb24")
+                frame.pts = round(t_ns * TIME_BASE.denominator / SECOND_NS)
+                frame.time_base = TIME_BASE
+                self._container.mux(self._stream.encode(frame))
 
 
 @contextmanager
 def _writing(path: Path) -> Iterator[None]:
-    """Turn exceptions of PyAV into those of this package, with the name of the file.
-
-    Raises
-    ------
-    RunFolderError
-        The disk is full or gone.
-    VideoError
-        FFmpeg refuses.
-    """
+    """Convert errors of the disk and of FFmpeg to RunFolderError and VideoError."""
     import av
 
     try:
-        yield
-    except OSError as error:
-        raise disk_failed(str(path), error) from None
+        with writing_to_run(path):
+            yield
     except (av.FFmpegError, ValueError) as error:
         raise VideoError(f"{path} stays as far as it goes: {first_line(error)}") from None

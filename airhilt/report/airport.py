@@ -26,17 +26,8 @@ Json = dict[str, Any]
 class ReportAirport:
     """The shapes of an airport, and where places lie among them.
 
-    Parameters
-    ----------
-    name
-        Name of the airport's file, such as ``kdca``.
-    files
-        Airports that the scenario of the run brought along.
-
-    Raises
-    ------
-    ScenarioError
-        There is none of that name, or its file is wrong.
+    `files` are the airports that the scenario of the run brought along. It raises `ScenarioError`
+    if there is none of that name, or its file is wrong.
     """
 
     def __init__(self, name: str, files: Mapping[str, Any] = MappingProxyType({})) -> None:
@@ -53,10 +44,7 @@ class ReportAirport:
     ) -> float | None:
         """Return when a track first crosses the threshold of a runway in the landing direction.
 
-        Returns
-        -------
-        float or None
-            The time in s; None if the track never crosses it, or there is no such runway.
+        The time is in s, None if the track never crosses it or there is no such runway.
         """
         ends = (end for strip in self._layout.strips.values() for end in strip.ends)
         end = next((end for end in ends if end.ident == ident), None)

@@ -1,8 +1,7 @@
 """Assembles a page from its sections, with Jinja: one HTML file that opens offline.
 
-Texts of a scenario or a worker may be hostile. They are only ever data: in a template Jinja escapes
-them, in the JSON of the page nothing can end the script element, and scripts show them as text. The
-page has no character without a shape, such as those that turn the direction of writing.
+Texts of a scenario or a worker may be hostile. They are only ever data: Jinja escapes them in a
+template, nothing in the JSON of the page ends its script element, and scripts show them as text.
 """
 
 from __future__ import annotations
@@ -11,13 +10,14 @@ import json
 import re
 from collections.abc import Mapping, Sequence
 from importlib import resources
-from typing import TYPE_CHECKING, Any, NamedTuple
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
 
+from airhilt.errors import RunFolderError
+from airhilt.host.files import replace_file
 from airhilt.host.text import readable
 from airhilt.report.page_section import PageSection
-
-if TYPE_CHECKING:
-    from jinja2 import Environment
 
 Json = dict[str, Any]
 
@@ -25,100 +25,69 @@ END_OF_SCRIPT = re.compile(r"</(?=script)|<(?=!--)", re.IGNORECASE)
 """Text that would end a script element, or begin a comment in it."""
 
 
-class _Script(NamedTuple):
-    """A script of the page, and the section that it draws."""
+def assemble(
+    name: str,
+    title: str,
+    shared: Sequence[str],
+    sections: Sequence[PageSection],
+    data: Json,
+    figures: Mapping[str, str] = MappingProxyType({}),
+) -> str:
+    """Return a document of the markup, scripts and data of some sections.
 
-    text: str
-    section: str = ""
-
-
-class Assembly:
-    """Puts the markup, scripts and data of the sections into one document.
-
-    Parameters
-    ----------
-    name
-        Name under which templates find the data that all sections share; the id of its element.
-    title
-        Title of the page until a script sets another.
-    shared
-        Names of the scripts in ``report/shared`` that all sections may use, in the order in which
-        they build on each other.
-    data
-        The data; that of each section is in ``sections``, by name. What cannot be shown is added to
-        its ``notes``.
-    figures
-        Markup of figures by name, for templates only.
+    Templates find the data that all sections share under the name. `shared` are scripts in
+    ``report/shared`` that all sections may use; later ones build on earlier ones. The data of each
+    section is in ``sections``, by name; what cannot be shown is added to ``notes``. `figures` has
+    markup by name, for templates only.
     """
+    # Not at the top: a run is simulated without it.
+    from jinja2 import Environment, StrictUndefined
 
-    def __init__(
-        self,
-        name: str,
-        title: str,
-        shared: Sequence[str],
-        sections: Sequence[PageSection],
-        data: Json,
-        figures: Mapping[str, str] | None = None,
-    ) -> None:
-        # Not at the top: a run is simulated without it.
-        from jinja2 import Environment, StrictUndefined
+    environment = Environment(
+        autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
+    whole: Json = _readable(data)
+    failed = set()
 
-        self._name = name
-        self._title = title
-        self._shared = shared
-        self._sections = sections
-        self._data: Json = _readable(data)
-        self._figures = figures or {}
-        self._failed: set[str] = set()
-        self._environment: Environment = Environment(
-            autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
-        )
-
-    def page(self) -> str:
-        """Return the document."""
-        outer = [self._markup(one) for one in self._sections if not one.within]
-        return self._environment.from_string(_own_file("page.html")).render(
-            name=self._name,
-            title=self._title,
-            style=_own_file("page.css"),
-            sections=outer,
-            data=embeddable(self._data),
-            scripts=self._all_scripts(),
-        )
-
-    def _markup(self, section: PageSection) -> str:
-        """Return the markup of a section; one that fails is noted and left out."""
-        parts = [self._markup(one) for one in self._sections if one.within == section.name]
+    def markup(section: PageSection) -> str:
+        parts = [markup(one) for one in sections if one.within == section.name]
+        own = whole["sections"].get(section.name)
         try:
-            return self._environment.from_string(section.template()).render(
-                {self._name: self._data},
-                data=self._data["sections"].get(section.name),
-                figures=self._figures,
-                parts=parts,
-            )
+            template = environment.from_string(section.template())
+            return template.render({name: whole}, data=own, figures=figures, parts=parts)
         except Exception as error:
-            self._failed.add(section.name)
-            self._data["notes"].append(
-                readable(
-                    f"The template of section {section.name!r} cannot be shown: "
-                    f"{type(error).__name__}: {error}"
-                )
+            failed.add(section.name)
+            problem = f"{type(error).__name__}: {error}"
+            whole["notes"].append(
+                readable(f"The template of section {section.name!r} cannot be shown: {problem}")
             )
             return ""
 
-    def _all_scripts(self) -> list[_Script]:
-        """Return all scripts; that of a section has a scope and an element of its own."""
-        shared = [_Script(_own_file(f"shared/{name}.js")) for name in self._shared]
-        own = [
-            _Script(
-                f"page.section({json.dumps(section.name)}, (data) => {{\n{script}}});\n",
-                section.name,
-            )
-            for section in self._sections
-            if section.name not in self._failed and (script := section.script())
-        ]
-        scripts = [*shared, *own, _Script("page.begin();\n")]
-        return [script._replace(text=inline(script.text)) for script in scripts]
+    outer = [markup(one) for one in sections if not one.within]
+    # The script of a section has a scope and an element of its own.
+    scripts = [("", _own_file(f"shared/{one}.js")) for one in shared]
+    scripts += [
+        (one.name, f"page.section({json.dumps(one.name)}, (data) => {{\n{script}}});\n")
+        for one in sections
+        if one.name not in failed and (script := one.script())
+    ]
+    scripts.append(("", "page.begin();\n"))
+    return environment.from_string(_own_file("page.html")).render(
+        name=name,
+        title=title,
+        style=_own_file("page.css"),
+        sections=outer,
+        data=embeddable(whole),
+        scripts=[{"section": section, "text": inline(script)} for section, script in scripts],
+    )
+
+
+def write_page(page: Path, html: str) -> None:
+    """Write a page, all or nothing; `RunFolderError` if it cannot be written."""
+    try:
+        replace_file(page, f"{html}\n".encode())
+    except OSError as error:
+        raise RunFolderError(f"{page}: cannot be written: {error.strerror}") from None
 
 
 def _own_file(name: str) -> str:
@@ -131,7 +100,6 @@ def inline(script: str) -> str:
 
 
 def _readable(data: Any) -> Any:
-    """Return data whose texts have no character without a shape."""
     match data:
         case str():
             return "\n".join(readable(line, longest=None) for line in data.split("\n"))

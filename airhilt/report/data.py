@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
@@ -56,44 +56,27 @@ FEWEST_POINTS = 40
 
 @dataclass(frozen=True)
 class RunData:
-    """A run as its report shows it.
-
-    Attributes
-    ----------
-    folder, info, summary
-        The run folder and what is in it; the summary is None if the run did not write one.
-    page
-        File that the page is written to; links lead from there.
-    notes
-        Sentences above the page on what is missing. Sections may append to them.
-    end_ns
-        Time of the last message in the log.
-    events
-        Events, as rows of the timeline.
-    locate
-        Returns where a place lies on the plan, in NM east and north of its centre.
-    tracks
-        Track of each actor, by its callsign.
-    pair
-        The two actors whose separation is drawn, None if there is no such pair.
-    pair_is_annotated
-        True if the scenario names the pair.
-    airport
-        The airport of the scenario, None where there is none or it cannot be drawn.
-    """
+    """A run as its report shows it."""
 
     folder: RunFolder
     page: Path
+    """File that the page is written to; links lead from there."""
     info: RunInfo
     summary: Summary | None
+    """The numbers, None if the run did not write them."""
     notes: list[str]
+    """Sentences above the page on what is missing. Sections may append to them."""
     end_ns: int
+    """Time of the last message in the log."""
     events: Events
     locate: Locate
+    """Returns where a place lies on the plan, in NM east and north of its centre."""
     tracks: dict[str, Track]
     pair: list[str] | None
+    """The two actors whose separation is drawn, None if there is no such pair."""
     pair_is_annotated: bool
     airport: ReportAirport | None
+    """The airport of the scenario, None where there is none or it cannot be drawn."""
 
     def link(self, path: Path) -> str:
         """Return a link from the page to a file of the run."""
@@ -102,10 +85,8 @@ class RunData:
     def as_json(self) -> Json:
         """Return what all sections share.
 
-        Raises
-        ------
-        RunFolderError
-            What ``run.json`` says of the scenario has another shape than a run writes.
+        It raises `RunFolderError` if ``run.json`` describes the scenario in another shape than a
+        run writes.
         """
         with _of_record(self.folder):
             info, realised = self.info, self.info.realised
@@ -141,20 +122,8 @@ class RunData:
 def read_run(recorded: Run, page: Path, contents: Sequence[GuardedContent]) -> RunData:
     """Read a run folder, and give the messages of its log to the sections that ask for them.
 
-    Parameters
-    ----------
-    recorded
-        A run that has finished, was stopped, was killed or is still going on.
-    page
-        File that the page is written to.
-    contents
-        Receivers of messages: each gets those with the keys of its section.
-
-    Raises
-    ------
-    RunFolderError
-        The log cannot be read, or what ``run.json`` says of the scenario has another shape than a
-        run writes.
+    The page is the file that is written. It raises `RunFolderError` if the log cannot be read; else
+    as `RunData.as_json`.
     """
     with _of_record(recorded.folder):
         info, folder = recorded.info, recorded.folder
@@ -189,13 +158,7 @@ def read_run(recorded: Run, page: Path, contents: Sequence[GuardedContent]) -> R
 
 @contextmanager
 def _of_record(folder: RunFolder) -> Iterator[None]:
-    """Name ``run.json`` where what it says of the scenario is not what a run writes.
-
-    Raises
-    ------
-    RunFolderError
-        A part of it is missing, or of another kind.
-    """
+    """Name ``run.json`` where what it says of the scenario is not what a run writes."""
     try:
         yield
     except AirhiltError:
@@ -230,13 +193,19 @@ class _Log:
             notes.append(
                 f"The log cannot be read, so there is nothing to draw: {readable(str(error))}"
             )
-        self._parse_states()
+        for thinned in self._thinned.values():
+            for logged in thinned.messages():
+                self._unread.attempt(self._parse_state, logged)
         if note := self._unread.note():
             notes.append(note)
 
     def _take(self, logged: Logged) -> None:
         self.end_ns = max(self.end_ns, logged.t_ns)
-        for content in self._receivers_of(logged.key):
+        if logged.key not in self._receivers:
+            self._receivers[logged.key] = [
+                content for content in self._contents if logged.key.startswith(content.section.keys)
+            ]
+        for content in self._receivers[logged.key]:
             self._unread.attempt(content.take, logged)
         take = self._take_state if logged.key.startswith(STATE) else self.events.take
         self._unread.attempt(take, logged)
@@ -246,23 +215,9 @@ class _Log:
         self.phases.setdefault(actor, Phases()).add(logged.t_ns, logged.data)
         self._thinned.setdefault(actor, ThinnedStates(self._points_a_track)).add(logged)
 
-    def _parse_states(self) -> None:
-        """Parse the states that were kept; an actor without any has no track."""
-
-        def parse(logged: Logged) -> None:
-            state = parse_state(logged.data)
-            self.states.setdefault(logged.key.removeprefix(STATE), []).append(state)
-
-        for thinned in self._thinned.values():
-            for logged in thinned.messages():
-                self._unread.attempt(parse, logged)
-
-    def _receivers_of(self, key: str) -> list[GuardedContent]:
-        if key not in self._receivers:
-            self._receivers[key] = [
-                content for content in self._contents if key.startswith(content.section.keys)
-            ]
-        return self._receivers[key]
+    def _parse_state(self, logged: Logged) -> None:
+        state = parse_state(logged.data)
+        self.states.setdefault(logged.key.removeprefix(STATE), []).append(state)
 
 
 # --- the summary, and how the run ended -----------------------------------------------------
@@ -309,25 +264,20 @@ def _note_how_it_ended(info: RunInfo, log: _Log, notes: list[str]) -> None:
 
 def _points_a_track(info: RunInfo) -> int:
     share = MOST_POINTS_OF_ALL // max(len(info.realised.get("actors", ())), 1)
-    most = MOST_POINTS if _airport_name(info) is None else MOST_POINTS_AT_AIRPORT
+    is_at_airport = info.realised.get("scene", {}).get("type") == "airport"
+    most = MOST_POINTS_AT_AIRPORT if is_at_airport else MOST_POINTS
     return max(min(share, most), FEWEST_POINTS)
 
 
-def _airport_name(info: RunInfo) -> str | None:
-    """Return the name of the airport where the scenario takes place, or None."""
-    scene = info.realised.get("scene", {})
-    return str(scene["airport"]) if scene.get("type") == "airport" else None
-
-
 def _airport(info: RunInfo, notes: list[str]) -> ReportAirport | None:
-    name = _airport_name(info)
-    if name is None:
+    scene = info.realised.get("scene", {})
+    if scene.get("type") != "airport":
         return None
     # Not at the top: reports of other runs do without the libraries behind it.
     from airhilt.report.airport import ReportAirport
 
     try:
-        return ReportAirport(name, info.realised.get("files", {}))
+        return ReportAirport(str(scene["airport"]), info.realised.get("files", {}))
     except AirhiltError as error:
         notes.append(f"The airport cannot be drawn: {readable(str(error))}")
         return None
@@ -336,22 +286,18 @@ def _airport(info: RunInfo, notes: list[str]) -> ReportAirport | None:
 def _kind(actor: Json, files: Json) -> Json:
     """Return the type of an actor, and its size as far as the type is still known here."""
     name = str(actor.get("aircraft") or actor.get("kind") or "")
-    try:
-        size = _dimensions(name, "aircraft" in actor, files) if name else None
-    except AirhiltError:
-        size = None
+    size: Size | None = None
+    with suppress(AirhiltError):
+        if "aircraft" in actor:
+            size = load_aircraft_type(name, files).dimensions
+        elif name:
+            size = load_kind(name).dimensions
     return {
         "type": name,
         "category": actor.get("type", "aircraft"),
         "length_m": None if size is None else round(size.length_m, 1),
         "span_m": None if size is None else round(size.span_m, 1),
     }
-
-
-def _dimensions(name: str, is_aircraft: bool, files: Json) -> Size:
-    if is_aircraft:
-        return load_aircraft_type(name, files).dimensions
-    return load_kind(name).dimensions
 
 
 # --- the pair -------------------------------------------------------------------------------
@@ -364,13 +310,11 @@ def _pair(
     conflict = info.realised.get("conflict")
     if conflict is not None:
         return list(conflict["actors"]), True
-    if len(tracks) < 2:
-        return None, False
     if len(tracks) == 2:
         return list(tracks), False
-    if summary is None or summary.closest_approach is None:
-        return None, False
-    return _nearest_pair(summary.closest_approach, tracks), False
+    if len(tracks) > 2 and summary is not None and summary.closest_approach is not None:
+        return _nearest_pair(summary.closest_approach, tracks), False
+    return None, False
 
 
 def _nearest_pair(closest: ClosestApproach, tracks: dict[str, Track]) -> list[str]:

@@ -13,27 +13,24 @@ Json = dict[str, Any]
 
 MOST_EVENTS = 1500
 """Largest number of events in the page."""
+OF_ADVISORIES = ("id", "revision", "severity", "active", "traffic", "recommendation")
+"""Fields of an advisory that its row has."""
+OF_CONFLICTS = ("phase", "actors", "horizontal_m", "vertical_m")
+"""Fields of a `ConflictTruth` that its row has."""
 END = ("finished", "stopped")
 """Kinds of the event that ends a run."""
 
 
 class Events:
-    """The events of a run.
-
-    Attributes
-    ----------
-    rows
-        Content of the page on each event, in the order of the log.
-    left_out
-        Number of events for which there was no room.
-    ended
-        True if the log has the end of the run.
-    """
+    """The events of a run."""
 
     def __init__(self) -> None:
         self.rows: list[Json] = []
+        """Content of the page on each event, in the order of the log."""
         self.left_out = 0
+        """Number of events for which there was no room."""
         self.ended = False
+        """True if the log has the end of the run."""
 
     def take(self, logged: Logged) -> None:
         """Add a message of the log, if it is an event."""
@@ -49,15 +46,14 @@ class Events:
 
     def as_json(self, info: RunInfo) -> list[Json]:
         """Return the rows; a failure of a radio line has the words of the line with it."""
-        lines = {line["id"]: line for line in info.realised.get("radio", {}).get("lines", ())}
-        return [_with_line(row, lines) for row in self.rows]
-
-
-def _with_line(row: Json, lines: dict[str, Json]) -> Json:
-    line = lines.get(row["who"]) if row["kind"] == "failure" else None
-    if line is None:
-        return row
-    return row | {"speaker": line["speaker"], "line": readable(line["text"])}
+        lines = {
+            line["id"]: {"speaker": line["speaker"], "line": readable(line["text"])}
+            for line in info.realised.get("radio", {}).get("lines", ())
+        }
+        return [
+            row | lines.get(row["who"], {}) if row["kind"] == "failure" else row
+            for row in self.rows
+        ]
 
 
 def event_row(logged: Logged) -> Json | None:
@@ -73,7 +69,6 @@ def event_row(logged: Logged) -> Json | None:
 
 
 def _maker(key: str) -> Any:
-    """Return the function that makes a row of a message with this key, or None."""
     family, _, rest = key.partition("/")
     if family == "asr" and rest.endswith("/partial"):
         return None  # The whole transcript has the same words.
@@ -87,17 +82,11 @@ def _advisory(message: Json, _: Logged) -> Json:
         "kind": "advisory",
         "who": message["recipient"],
         "text": message["message"],
-        "id": message["id"],
-        "revision": message["revision"],
-        "severity": message["severity"],
-        "active": message["active"],
-        "traffic": message["traffic"],
-        "recommendation": message["recommendation"],
+        **{name: message[name] for name in OF_ADVISORIES},
     }
 
 
 def _equipment(message: Json, logged: Logged) -> Json:
-    """Return the row of an alert of equipment, which says that it is one."""
     row = _advisory(message["advisory"], logged)
     name = message["equipment"].replace("_", " ")
     over = "" if row["active"] else "over: "
@@ -105,7 +94,6 @@ def _equipment(message: Json, logged: Logged) -> Json:
 
 
 def _exchange(message: Json, logged: Logged) -> Json | None:
-    """Return the row of an answer of a language model that was not used, or not as a whole."""
     rejected = [f"{each['subject']}: {each['reason']}" for each in message["rejections"]]
     reasons = [message["failure"]] if message["failure"] else rejected
     if not reasons:
@@ -114,22 +102,13 @@ def _exchange(message: Json, logged: Logged) -> Json | None:
 
 
 def _transcript(message: Json, logged: Logged) -> Json:
-    return {
-        "kind": "transcript",
-        "who": logged.publisher,
-        "text": message["text"],
-        "engine": message["engine"],
-        "confidence": message["confidence"],
-    }
+    words = {name: message[name] for name in ("text", "engine", "confidence")}
+    return {"kind": "transcript", "who": logged.publisher, **words}
 
 
 def _status(message: Json, _: Logged) -> Json:
-    return {
-        "kind": "status",
-        "who": message["modality"],
-        "state": message["state"],
-        "text": message["cause"],
-    }
+    what = {"state": message["state"], "text": message["cause"]}
+    return {"kind": "status", "who": message["modality"], **what}
 
 
 def _command(message: Json, logged: Logged) -> Json:
@@ -154,10 +133,7 @@ def _conflict(message: Json, _: Logged) -> Json:
         "kind": "conflict",
         "who": " - ".join(message["actors"]),
         "text": "",
-        "phase": message["phase"],
-        "actors": message["actors"],
-        "horizontal_m": message["horizontal_m"],
-        "vertical_m": message["vertical_m"],
+        **{name: message[name] for name in OF_CONFLICTS},
         "runway": None if runway is None else runway_name(runway),
     }
 

@@ -69,21 +69,11 @@ COLOUR = re.compile("|".join(CSS))
 
 
 class Figures:
-    """The figures of one page.
-
-    Parameters
-    ----------
-    drawn
-        Called after each figure with the number of those that there are.
-
-    Attributes
-    ----------
-    markup
-        Each figure by its name, as it stands in the page.
-    """
+    """The figures of one page; `drawn` is told their number after each."""
 
     def __init__(self, drawn: Callable[[int], None] = lambda _: None) -> None:
         self.markup: dict[str, str] = {}
+        """Each figure by its name, as it stands in the page."""
         self._files: dict[str, bytes] = {}
         self._drawn = drawn
 
@@ -115,13 +105,7 @@ class Figures:
         self._drawn(len(self.markup))
 
     def write(self, folder: Path) -> None:
-        """Write each figure into a folder, as SVG and as PDF.
-
-        Raises
-        ------
-        AirhiltError
-            One cannot be written.
-        """
+        """Write each figure into a folder, as SVG and as PDF; `AirhiltError` if one cannot be."""
         try:
             for name, data in self._files.items():
                 make_folder(folder)

@@ -56,8 +56,7 @@ def seconds(t_ns: int) -> float:
 class BridgedIntervals:
     """Finds intervals in instants at which something was so, without short pauses.
 
-    Pauses of half a second are bridged at first. Once there are too many intervals, longer ones
-    are bridged too.
+    Once there are too many intervals, pauses of over half a second are bridged too.
     """
 
     def __init__(self) -> None:
@@ -74,7 +73,6 @@ class BridgedIntervals:
                 self._append(begin, end)
 
     def _append(self, begin_ns: int, end_ns: int) -> None:
-        """Add an interval, joined with the last one if the pause between them is short."""
         if self._intervals and begin_ns - self._intervals[-1][1] <= self._bridged_ns:
             begin_ns = self._intervals.pop()[0]
         self._intervals.append((begin_ns, end_ns))

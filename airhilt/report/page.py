@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from airhilt.errors import RunFolderError
-from airhilt.host.files import replace_file
 from airhilt.host.text import readable
 from airhilt.record import Run, open_run
 from airhilt.record.damage import Notice, untold
-from airhilt.report.assembly import Assembly
+from airhilt.report.assembly import assemble, write_page
 from airhilt.report.data import read_run
-from airhilt.report.sections import GuardedContent, load_sections
+from airhilt.report.page_section import load_members
+from airhilt.report.sections import FAMILY, GuardedContent
 
 SHARED = (
     "document",
@@ -32,43 +31,21 @@ SHARED = (
 
 
 def write_report(run_folder: Path, out: Path | None = None, notice: Notice = untold) -> Path:
-    """Write the page of a run, by default as ``report.html`` in its folder.
+    """Write the page of a run, by default as ``report.html`` in its folder, and return its path.
 
-    Parameters
-    ----------
-    run_folder
-        Folder of a run that has finished, was stopped, was killed or is still going on.
-    out
-        File to write instead.
-    notice
-        Is told what is damaged; the page says it too.
-
-    Returns
-    -------
-    Path
-        The file written.
-
-    Raises
-    ------
-    RunFolderError
-        There is no run, its ``run.json`` is damaged, or the page cannot be written.
+    The run has finished, was stopped, was killed or is still going on. The notice is told what is
+    damaged; the page says it too. It raises `RunFolderError` if there is no run, its ``run.json``
+    is damaged, or the page cannot be written.
     """
     run = open_run(run_folder, notice)
-    folder = run.folder
-    html = render(run, out or folder.report_path)
-    if out is None:
-        folder.write_report(html)
-        return folder.report_path
-    try:
-        replace_file(out, f"{html}\n".encode())
-    except OSError as error:
-        raise RunFolderError(f"{out}: cannot be written: {error.strerror}") from None
-    return out
+    page = out or run.folder.report_path
+    write_page(page, render(run, page))
+    return page
 
 
 def render(recorded: Run, page: Path) -> str:
     """Return the page of a run as HTML; ``page`` is the file that it will be."""
-    sections, problems = load_sections()
+    sections, problems = load_members(FAMILY)
     contents = [GuardedContent(section, recorded.folder) for section in sections]
     run = read_run(recorded, page, contents)
     own = {content.section.name: content.as_json(run) for content in contents}
@@ -76,4 +53,4 @@ def render(recorded: Run, page: Path) -> str:
     run.notes.extend(map(readable, problems))
     whole = [content.section for content in contents if content.is_whole]
     data = run.as_json() | {"sections": own}
-    return Assembly("run", "AIRHILT run report", SHARED, whole, data).page()
+    return assemble("run", "AIRHILT run report", SHARED, whole, data)

@@ -13,26 +13,16 @@ from airhilt.plugins import Family
 
 @dataclass(frozen=True)
 class PageSection:
-    """One section of a page.
-
-    Attributes
-    ----------
-    name
-        Name of its module or entry point; its data is found by it.
-    order
-        Place among the sections of the page, or of the section that it stands in: a higher number
-        comes later.
-    module
-        ``__file__`` of its module: the template and the script have the same name with ``.html``
-        and ``.js``.
-    within
-        Name of the section that it stands in.
-    """
+    """One section of a page."""
 
     name: str
+    """Name of its module or entry point; its data is found by it."""
     order: int
+    """Place among the sections of the page, or of the section that it stands in."""
     module: str
+    """``__file__`` of its module: the template and the script have its name."""
     within: str = ""
+    """Name of the section that it stands in."""
 
     def template(self) -> str:
         """Return the Jinja template."""
@@ -54,10 +44,8 @@ def cannot_be_shown(section: str, error: Exception) -> str:
 def load_member(family: Family, name: str) -> Any:
     """Return a section whose template and script can be read.
 
-    Raises
-    ------
-    AirhiltError
-        It cannot be loaded, stands in no section, or its template or script cannot be read.
+    It raises `AirhiltError` if it cannot be loaded, or stands in no section, or they cannot be
+    read.
     """
     section: PageSection = family.load(name)
     if section.within and section.within not in family.names():

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from airhilt.errors import RunFolderError, disk_failed, first_line
+from airhilt.errors import RunFolderError, first_line, writing_to_run
 from airhilt.host.files import replace_file
 from airhilt.messages import NasaTlx
 from airhilt.metrics.summary import IsaRating, PersonCall, PersonReaction, PersonSummary
@@ -29,12 +29,8 @@ def write_people_csv(run: Run, path: Path) -> None:
     """Write the people of a run; without any, the file has its head alone.
 
     Each seat has a row ``total``, a row ``reaction`` for each advisory, a row ``isa`` for each
-    question, and a row ``call`` for each call.
-
-    Raises
-    ------
-    RunFolderError
-        There is no summary, or not the one that the run wrote. Or the file cannot be written.
+    question, and a row ``call`` for each call. It raises `RunFolderError` if there is no summary,
+    or not the one that the run wrote, or the file cannot be written.
     """
     summary, folder = run.summary(), run.folder
     table = io.StringIO(newline="")
@@ -49,10 +45,8 @@ def write_people_csv(run: Run, path: Path) -> None:
             f"{folder.summary_path}: its people cannot be read ({first_line(error)}); expected "
             "them as a run writes them"
         ) from None
-    try:
+    with writing_to_run(path):
         replace_file(path, table.getvalue().encode())
-    except OSError as error:
-        raise disk_failed(str(path), error) from None
 
 
 def _rows(person: dict[str, Any]) -> Iterator[dict[str, Any]]:

@@ -182,7 +182,6 @@ class Track(NamedTuple):
         return track
 
     def _on_ground_s(self) -> list[tuple[float, float]]:
-        """Return the times between which the actor was on the ground, in s."""
         intervals: Intervals[bool] = Intervals()
         for state in self.states:
             intervals.update(state.t_ns, [True] if state.on_ground else [])

@@ -33,24 +33,20 @@ class UnreadMessages:
             if self._last is not logged:
                 self._count += 1
                 self._last = logged
-            self._first = self._first or f"{_name(logged)}: {_cause(error)}"
+            place = f"{logged.key} at {logged.t_ns / SECOND_NS:.1f} s"
+            self._first = self._first or f"{place}: {_cause(error)}"
 
     def note(self) -> str:
         """Return a sentence on the messages that were left out, empty if there are none."""
         if not self._count:
             return ""
-        if self._count == 1:
-            begin = "One message of the log is not as this version writes it, and left out"
-        else:
+        begin = "One message of the log is not as this version writes it, and left out"
+        if self._count > 1:
             begin = (
                 f"{self._count} messages of the log are not as this version writes them, and left "
                 "out. The first is"
             )
         return readable(f"{begin}: {self._first}")
-
-
-def _name(logged: Logged) -> str:
-    return f"{logged.key} at {logged.t_ns / SECOND_NS:.1f} s"
 
 
 def _cause(error: Exception) -> str:

@@ -12,7 +12,7 @@ from airhilt.audio.wav import write_wav_pieces
 from airhilt.errors import StationError
 from airhilt.messages import AdvisoryAudio, SeatAudioClosed
 from airhilt.record import Run
-from airhilt.record.frequency import SplicedSound, read_frequency, splice
+from airhilt.report.frequency import SplicedSound, read_frequency, splice
 from airhilt.units import SECOND_NS
 
 ASSISTANT = "assistant"

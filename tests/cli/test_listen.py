@@ -19,7 +19,7 @@ from airhilt.errors import RunFolderError, SpeechError
 from airhilt.messages import Message, SpokenTruth, Transcript, Transmission
 from airhilt.options import Options
 from airhilt.record import LogWriter, RunFolder, RunInfo
-from airhilt.record.frequency import write_frequency
+from airhilt.report.frequency import write_frequency
 
 TOWER_KHZ = 118_300
 SECOND = 1_000_000_000
@@ -159,7 +159,7 @@ def test_the_only_frequency_needs_no_naming_but_one_of_several_does(
     with pytest.raises(RunFolderError, match="--frequency: 118300, 121700"):
         write_frequency(folder)
     written, wav, _ = write_frequency(folder, 121_700, tmp_path / "ground.wav")
-    assert [call.id for call in written.calls] == ["2"]
+    assert [call["id"] for call in written.calls] == ["2"]
     assert at(read_wav(wav), 0.5) == 0.2
 
 

@@ -55,7 +55,7 @@ def test_the_pictures_that_matter_are_kept(finished: Result) -> None:
     assert sorted(name.occasion for name in names if name is not None) == [
         "closest_approach", "first_detection", "first_warning", "start", "start"
     ]  # fmt: skip
-    assert set(folder.pictures_path.iterdir()) <= set(folder.files)
+    assert set(folder.pictures_path.iterdir()) <= set(folder.results)
     nearest = next(name for name in names if name is not None and name.occasion[0] == "c")
     closest = finished.summary.closest_approach
     assert closest is not None
@@ -90,7 +90,7 @@ def test_a_video_of_each_camera_lies_in_the_run_folder(
     folder = RunFolder(camera_run(tmp_path / "run", monkeypatch, video=True).folder)
     videos = sorted(folder.video_path.iterdir())
     assert [path.name for path in videos] == ["nose-AAL123.mp4", "nose-DAL456.mp4"]
-    assert set(videos) <= set(folder.files)
+    assert set(videos) <= set(folder.results)
     with av.open(str(videos[0])) as file:
         assert (file.streams.video[0].frames, file.streams.video[0].average_rate) == (41, 4)
 

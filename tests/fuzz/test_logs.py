@@ -19,7 +19,7 @@ from mcap.opcode import Opcode
 from mcap.records import Chunk
 
 from airhilt.errors import RunFolderError
-from airhilt.record.log_reader import MAGIC, RECORD_HEAD, LogReader
+from airhilt.record.log_reader import MAGIC, LogReader
 from fuzzing import any_input
 
 counts = st.sampled_from([0, 1, 2, 2**31, 2**32 - 1]) | st.integers(0, 2**16 - 1)
@@ -32,7 +32,7 @@ def text(value: str) -> bytes:
 
 
 def record(opcode: int, content: bytes, length: int | None = None) -> bytes:
-    return RECORD_HEAD.pack(opcode, len(content) if length is None else length) + content
+    return struct.pack("<BQ", opcode, len(content) if length is None else length) + content
 
 
 messages = st.builds(

@@ -62,13 +62,6 @@ class OnTheAir:
         return self.calls.statistics(ROSTER, is_recognised=is_recognised)
 
 
-def test_a_silent_radio_has_counts_of_none_and_measures_nothing() -> None:
-    numbers = OnTheAir().numbers()
-    assert (numbers.transmissions, numbers.blocked, numbers.stuck_microphone) == (0, 0, 0)
-    assert (numbers.say_agains, numbers.repeats, numbers.hearing) == (0, 0, {})
-    assert numbers.wer is numbers.transcripts_missing is numbers.hallucinated is None
-
-
 def test_text_that_nobody_recognised_measures_no_recognition() -> None:
     numbers = OnTheAir().say(LANDING, LANDING, engine="text", samples=0).numbers(False)
     assert numbers.transmissions == 1
@@ -99,11 +92,6 @@ def test_a_call_without_a_transcript_is_missing_unless_nobody_could_have_made_on
     air = OnTheAir().say(LANDING, LANDING).say(LANDING).say(LANDING, samples=None)
     assert air.numbers().transcripts_missing == 1
     assert air.numbers(is_recognised=False).transcripts_missing is None
-
-
-def test_a_transcript_without_words_is_none_missing_but_leaves_out_every_word() -> None:
-    numbers = OnTheAir().say(LANDING, "").numbers()
-    assert (numbers.transcripts_missing, numbers.wer) == (0, 1.0)
 
 
 def test_words_of_a_stuck_microphone_are_hallucinated() -> None:

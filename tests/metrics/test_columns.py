@@ -106,24 +106,3 @@ def test_models_within_models_and_stages_have_the_names_of_both() -> None:
     assert row["radio_hearing_understood"] == 2
     assert row["modalities_adsb"] == "on"
     assert not any("mine" in name for name in row)
-
-
-def test_the_row_of_an_earlier_version_is_null_where_it_did_not_tell() -> None:
-    row = metrics_of({"outcome": "finished"})
-    assert row["outcome"] == "finished"
-    assert row["nominal"] is None
-    assert row["warned"] is None
-    assert row["radio_wer"] is None
-
-
-def test_a_field_of_a_model_in_the_summary_says_whose_it_is() -> None:
-    described = {column.name: column.description for column in metric_columns()}
-    assert described["radio_wer"].startswith("radio: ")
-    assert described["duration_s"] == Summary.model_fields["duration_s"].description
-    kinds = {column.name: column.type for column in metric_columns()}
-    assert (kinds["duration_s"], kinds["radio_calls"], kinds["nmac"]) == (
-        "float64",
-        "int64",
-        "bool",
-    )
-    assert kinds["t_first_warning_s"] == "float64"  # None without a warning.

@@ -46,13 +46,6 @@ def test_a_level_complies_from_the_recommended_one_on_in_the_recommended_sense(
     assert with_command(advised, action="altitude", altitude_ft=altitude_ft) is is_complied
 
 
-@pytest.mark.parametrize(("advised", "is_complied"), [(DESCEND, True), (CLIMB, False)])
-def test_an_emergency_descent_to_below_the_level_is_a_descent(
-    advised: dict[str, Any], is_complied: bool
-) -> None:
-    assert with_command(advised, action="emergency_descent", altitude_ft=10_000) is is_complied
-
-
 def test_the_hundred_that_a_selector_has_next_to_an_odd_level_is_that_level() -> None:
     odd = {**DESCEND, "altitude_ft": 34_360}
     assert with_command(odd, action="altitude", altitude_ft=34_400)

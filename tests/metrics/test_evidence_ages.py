@@ -27,17 +27,6 @@ def step(start_s: float, latency_s: float, worker: str = "decision") -> StepReco
     return StepRecord(worker, 0, start_ns, start_ns, seconds_to_ns(latency_s), 0.0, 0)
 
 
-def test_a_worker_that_keeps_up_is_never_without_fresh_reports() -> None:
-    ages = EvidenceAges(["decision"])
-    for second in range(20):
-        ages.take(report(second, second + 0.1))
-        ages.step(step(second + 0.1, 0.2))
-    age = ages.statistics(seconds_to_ns(20))["adsb"]
-    assert age.stale_share == 0.0
-    assert age.max_s == pytest.approx(1.3)
-    assert age.mean_s == pytest.approx(0.8, abs=0.05)
-
-
 def test_what_a_slow_worker_judges_by_is_stale_for_most_of_the_time() -> None:
     ages = EvidenceAges(["decision"])
     for second in range(40):
@@ -88,12 +77,6 @@ def test_steps_of_others_judge_nothing() -> None:
     assert ages.statistics(seconds_to_ns(20))["asr"].stale_share == pytest.approx(0.5)
 
 
-def test_where_nobody_decides_there_is_nothing_to_tell() -> None:
-    ages = EvidenceAges([])
-    ages.take(report(0.0, 0.0))
-    assert ages.statistics(seconds_to_ns(20)) == {}
-
-
 def test_no_time_counts_twice_where_a_quick_worker_overtakes_a_slow_one() -> None:
     ages = EvidenceAges(["slow", "quick"])
     ages.take(report(0.0, 0.0))
@@ -113,24 +96,3 @@ def test_telling_the_ages_changes_nothing() -> None:
     early = ages.statistics(seconds_to_ns(3))
     assert ages.statistics(seconds_to_ns(9)) != early
     assert ages.statistics(seconds_to_ns(3)) == early
-
-
-def test_steps_before_the_first_observation_arrives_change_nothing() -> None:
-    """An observation of 1 s arrives at 3 s, and a step has it from 5 s to 6 s."""
-    for early in ((), (step(0.0, 2.0), step(2.0, 3.0))):
-        ages = EvidenceAges(["decision"])
-        ages.take(report(1.0, 3.0))
-        for record in (*early, step(5.0, 1.0)):
-            ages.step(record)
-        age = ages.statistics(seconds_to_ns(11))["adsb"]
-        assert (age.mean_s, age.max_s, age.stale_share) == pytest.approx((5.0, 10.0, 0.5))
-
-
-def test_calls_have_waited_for_their_mean_and_for_their_longest_time() -> None:
-    ages = EvidenceAges(["decision"])
-    for end_s, wait_s in ((10.0, 1.0), (30.0, 3.0), (50.0, 8.0)):
-        ages.take(call(end_s, end_s))
-        ages.step(step(end_s, wait_s))
-    age = ages.statistics(seconds_to_ns(60))["asr"]
-    assert (age.mean_s, age.max_s) == pytest.approx((4.0, 8.0))
-    assert age.stale_share == pytest.approx(3.0 / 50.0)

@@ -7,7 +7,6 @@ from typing import Any, cast
 import pytest
 
 from airhilt.messages import Advisory, Evidence, Severity
-from airhilt.metrics.collector import WindowTimes
 from airhilt.metrics.first_warning import FirstWarning
 from airhilt.metrics.plans import Plans
 from airhilt.units import SECOND_NS
@@ -31,28 +30,6 @@ def first_of_none() -> FirstWarning:
 
 def at_s(first: FirstWarning) -> float | None:
     return None if first.t_ns is None else first.t_ns / SECOND_NS
-
-
-def test_before_a_warning_there_is_none() -> None:
-    first = first_of_none()
-    assert (first.t_ns, first.advisory) == (None, None)
-    assert first.margin_s("tcas_ta", None) is None
-
-
-def test_what_is_not_spoken_is_read_when_it_is_published() -> None:
-    first, told = first_of_none(), warning("a", 10.0)
-    first.warned(told, is_spoken=False)
-    assert (at_s(first), first.advisory) == (10.0, told)
-
-
-def test_what_is_spoken_counts_when_its_voice_begins() -> None:
-    first, told = first_of_none(), warning("a", 10.0)
-    first.warned(told, is_spoken=True)
-    assert first.advisory is None
-    first.heard(("a", "AAL1", 1), 11 * SECOND_NS)  # Another revision.
-    assert first.advisory is None
-    first.heard(("a", "AAL1", 0), 12 * SECOND_NS)
-    assert (at_s(first), first.advisory) == (12.0, told)
 
 
 def test_the_first_of_several_counts_and_of_one_its_first_revision() -> None:
@@ -109,16 +86,3 @@ def test_an_alert_of_tcas_until_the_warning_was_and_a_later_one_would_have_been(
     alert: Any = "tcas_ta"
     truth = PairTruth(first_ns={} if alert_ns is None else {alert: alert_ns})
     assert first.margin_s(alert, truth) == pytest.approx(margin_s, abs=1e-12)
-
-
-@pytest.mark.parametrize(
-    ("window", "end_ns"),
-    [
-        (WindowTimes(), None),
-        (WindowTimes(begun_ns=1, closed_ns=5), None),
-        (WindowTimes(opened_ns=3), 9),
-        (WindowTimes(opened_ns=3, closed_ns=5), 5),
-    ],
-)
-def test_a_window_ends_where_it_closed_or_now(window: WindowTimes, end_ns: int | None) -> None:
-    assert window.end_ns(9) == end_ns

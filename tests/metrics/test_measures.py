@@ -27,11 +27,6 @@ def test_the_time_of_a_run_whose_alerts_nobody_counted_is_not_counted_either() -
     assert NUISANCE.estimate(RUNS).value == pytest.approx(13 / 2.0)
 
 
-def test_a_share_is_one_of_the_runs_that_have_a_value() -> None:
-    found = AVOIDED.estimate(RUNS)
-    assert (found.n, found.value) == (3, pytest.approx(200 / 3))
-
-
 TEN = pd.DataFrame(
     {
         "nominal": [False] * 10,
@@ -61,9 +56,3 @@ def test_without_the_column_or_without_values_nothing_is_known() -> None:
     for each in MEASURES:
         assert each.estimate(pd.DataFrame({"duration_s": [1.0], "nominal": [True]})).n == 0
     assert NOMINAL_NUISANCE.estimate(TEN).n == 0
-
-
-def test_a_table_needs_the_columns_that_a_number_is_made_of() -> None:
-    for each in MEASURES:
-        assert each.columns == [each.column, "nominal", "duration_s"]
-    assert LEAD.label == "Lead before closest approach (s)"

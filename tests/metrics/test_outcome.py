@@ -61,16 +61,6 @@ def test_of_the_annotated_pair_the_approach_in_the_conflict_window_counts() -> N
     assert outcome({}, PAIR).pair_truth is None
 
 
-def test_the_worst_of_all_incursions_counts_and_each_is_told() -> None:
-    both = outcome({}, None, [incursion("C"), incursion("B", None, "OPS1", None)])
-    assert both.worst_category() == "B"
-    first, second = both.incursions()
-    assert (first.t_s, first.runway, first.closest_m) == (5.0, "01", 30.0)
-    assert (second.user, second.intruder, second.closest_m) == (None, "OPS1", None)
-    assert outcome({}, None, []).worst_category() is None
-    assert outcome({}).incursions() == []
-
-
 @pytest.mark.parametrize(
     ("category", "names", "was_warned", "avoided"),
     [

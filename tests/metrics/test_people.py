@@ -38,7 +38,7 @@ from airhilt.messages import (
     Use,
     WorkloadQuestion,
 )
-from airhilt.metrics.people import FOLLOWED_WITHIN_S, PeopleRecords
+from airhilt.metrics.people import PeopleRecords
 from airhilt.metrics.summary import PersonReaction, PersonSummary
 from airhilt.record import Run, RunFolder, open_run
 from airhilt.report.people_csv import write_people_csv
@@ -144,21 +144,6 @@ def test_the_first_warning_is_answered_by_the_next_press_of_the_button(severity:
     assert found.warning_to_press_s == pytest.approx(2.0)
 
 
-@pytest.mark.parametrize(
-    ("severity", "pace"), [(Severity.ADVISORY, "realtime"), (Severity.WARNING, "virtual")]
-)
-def test_no_press_is_timed_without_a_warning_or_on_another_clock(
-    severity: Severity, pace: str
-) -> None:
-    found = person(
-        (10.0, "advisory/AAL1", advisory().model_copy(update={"severity": severity})),
-        (10.5, "seat/AAL1/do", perceived("seen")),
-        (12.6, "seat/AAL1/do", pressed()),
-        pace=pace,
-    )
-    assert found.warning_to_press_s is None
-
-
 def test_who_acts_on_what_is_drawn_before_it_is_audible_has_reacted_to_that() -> None:
     found = reaction(
         (10.0, "advisory/AAL1", advisory(GoAround(runway="01"))),
@@ -238,33 +223,6 @@ def test_no_reaction_is_measured_while_time_does_not_pass_as_on_the_clock(
     assert found.is_real_time == (reaction_time_s is not None)
 
 
-@pytest.mark.parametrize(
-    ("pace", "changed_s", "reaction_time_s"),
-    [
-        ("realtime", None, 2.0),
-        ("0.5x", None, None),
-        ("4x", None, None),
-        ("4x", 5.0, 2.0),
-        ("4x", 11.0, None),
-        ("virtual", 5.0, None),
-    ],
-)
-def test_the_pace_with_which_the_run_begins_holds_until_it_is_changed(
-    pace: str, changed_s: float | None, reaction_time_s: float | None
-) -> None:
-    """Virtual time stays so: the run goes on as fast as it can, whatever people ask for."""
-    real = Event(kind="pace", subject="run", text="realtime")
-    messages = [
-        (10.0, "advisory/AAL1", advisory()),
-        (10.0, "seat/AAL1/do", perceived("seen")),
-        *([] if changed_s is None else [(changed_s, "truth/event", real)]),
-        (12.0, "seat/AAL1/do", GO_AROUND),
-    ]
-    found = person(*sorted(messages, key=lambda one: one[0]), pace=pace).reactions[0]
-    assert found.reaction_time_s == reaction_time_s
-    assert found.is_real_time == (reaction_time_s is not None)
-
-
 def test_advisories_that_reach_nobody_at_the_seat_are_counted() -> None:
     state = state_of("AAL1", recipients=("AAL1", "a1b2c3"))
     to_others = advisory().model_copy(update={"recipient": "DAL2", "id": "a-2"})
@@ -281,16 +239,6 @@ def test_advisories_that_reach_nobody_at_the_seat_are_counted() -> None:
         (7.0, "advisory/AAL1", advisory().model_copy(update={"id": "a-4"})),
     )
     assert found.unperceived == 1
-
-
-@pytest.mark.parametrize("late_s", [FOLLOWED_WITHIN_S + 1.0, None])
-def test_advice_that_is_done_too_late_or_never_is_not_followed(late_s: float | None) -> None:
-    told = [
-        (10.0, "advisory/AAL1", advisory(GoAround(runway="01"))),
-        (10.0, "seat/AAL1/do", perceived("seen")),
-    ]
-    late = [] if late_s is None else [(10.0 + late_s, "seat/AAL1/do", GO_AROUND)]
-    assert reaction(*told, *late).followed is False
 
 
 @pytest.mark.parametrize("is_unable", [False, True])
@@ -325,69 +273,6 @@ def test_what_the_next_person_does_is_no_reaction_of_the_one_who_has_left() -> N
     assert [(one.t_seen_s, one.reaction_time_s, one.followed) for one in found.reactions] == [
         (10.0, None, False), (20.5, 1.5, True),
     ]  # fmt: skip
-
-
-def test_who_is_told_again_to_have_the_seat_is_the_same_person() -> None:
-    """As when the page is loaded anew."""
-    found = person(
-        at_seat(1.0, is_taken=True),
-        (10.0, "advisory/AAL1", advisory(GoAround(runway="01"))),
-        (10.0, "seat/AAL1/do", perceived("seen")),
-        at_seat(11.0, is_taken=True),
-        (12.0, "seat/AAL1/do", GO_AROUND),
-    )
-    assert [(one.t_seen_s, one.reaction_time_s, one.followed) for one in found.reactions] == [
-        (10.0, 2.0, True)
-    ]
-
-
-def test_who_has_not_perceived_an_advisory_does_not_react_to_it() -> None:
-    found = reaction(
-        at_seat(1.0, is_taken=True),
-        (10.0, "advisory/AAL1", advisory()),
-        (10.0, "seat/AAL1/do", perceived("seen")),
-        at_seat(11.0, is_taken=False),
-        at_seat(78.0, is_taken=True),
-        (79.0, "seat/AAL1/do", pressed()),
-    )
-    assert (found.first_action, found.reaction_time_s) == (None, None)
-
-
-def test_what_is_done_while_nobody_has_the_seat_is_done_by_nobody() -> None:
-    found = person(
-        (1.0, "seat/AAL1/do", GO_AROUND),
-        at_seat(2.0, is_taken=True),
-        (3.0, "seat/AAL1/do", GO_AROUND),
-        at_seat(4.0, is_taken=False),
-        (5.0, "seat/AAL1/do", GO_AROUND),
-    )
-    assert found.commands == 1
-
-
-def test_what_the_person_did_before_is_no_reaction() -> None:
-    found = reaction(
-        (9.0, "seat/AAL1/do", GO_AROUND),
-        (10.0, "advisory/AAL1", advisory()),
-        (10.1, "seat/AAL1/do", perceived("seen")),
-    )
-    assert (found.first_action, found.reaction_time_s) == (None, None)
-
-
-def test_commands_to_other_aircraft_are_of_nobody_at_a_seat() -> None:
-    assert person((1.0, "seat/DAL2/do", GO_AROUND)).commands == 0
-
-
-@pytest.mark.parametrize("times", [0, 2])
-def test_who_is_asked_to_say_again_is_asked_as_often_as_calls_ask(times: int) -> None:
-    asking = [f"line7.say-again-{number + 1}" for number in range(times)]
-    said = [
-        SpokenTruth(
-            id=name, speaker="Tower", addressed="AAL1", frequency_khz=119_100, text="", t_tx_ns=0,
-            t_end_ns=0,
-        )
-        for name in ("line7", *asking)
-    ]  # fmt: skip
-    assert person(*((1.0, "truth/radio/x", one) for one in said)).asked_to_say_again == times
 
 
 def call(
@@ -450,37 +335,15 @@ def test_the_workload_is_what_was_answered_and_what_was_not() -> None:
     assert (found.isa_mean, found.raw_tlx) == (4.0, 50.0)
 
 
-@pytest.mark.parametrize(
-    ("presences", "time_s"),
-    [
-        ([], 0.0),
-        ([(10.0, True)], 90.0),
-        ([(10.0, True), (15.0, False)], 5.0),
-        ([(10.0, True), (15.0, False), (20.0, True), (20.5, False)], 5.5),
-        ([(10.0, True), (12.0, True), (15.0, False), (16.0, False)], 5.0),
-    ],
-)
-def test_the_time_at_the_seat_is_that_for_which_somebody_had_it(
-    presences: list[tuple[float, bool]], time_s: float
-) -> None:
+def test_the_time_at_the_seat_is_that_for_which_somebody_had_it() -> None:
     """The run ends at 100 s."""
-    records = PeopleRecords(["AAL1"])
-    for t_s, is_taken in presences:
-        act = TAKEN if is_taken else LEFT
-        records.take("seat/AAL1/do", act.model_copy(update={"t_ns": round(t_s * SECOND)}))
-    assert records.summaries(100 * SECOND)[0].seat_time_s == time_s
+    times = [(10.0, True), (12.0, True), (15.0, False), (16.0, False), (98.0, True)]
+    assert person(*(at_seat(t_s, is_taken=taken) for t_s, taken in times)).seat_time_s == 7.0
 
 
 @pytest.mark.parametrize(
     ("agreed", "consent"),
-    [
-        ([], None),
-        ([("voice", "words")], "voice"),
-        ([("words",)], "words"),
-        ([()], "none"),
-        ([("voice", "words"), ("words",)], "words"),
-        ([("words",), ()], "none"),
-    ],
+    [([], None), ([("voice", "words")], "voice"), ([("words",), ()], "none")],
 )
 def test_consent_is_what_was_agreed_to_last(
     agreed: list[tuple[Use, ...]], consent: str | None
@@ -573,12 +436,6 @@ def heard(after_s: float = 0.0, call: str = "microphone.AAL1.1") -> SeatAction:
     return done(HearCall(id=call, after_s=after_s))
 
 
-def test_the_delay_between_people_is_from_the_button_to_the_first_audible_sample() -> None:
-    found = of_three(*TALK, (10.5, "seat/Tower/do", heard(after_s=0.25)))
-    (row,) = found.calls
-    assert (row.to_loudspeaker_s, row.heard_at, found.press_to_loudspeaker_s) == (1.0, 1, 1.0)
-
-
 def test_the_delay_to_several_people_is_the_median() -> None:
     """Each is told of once: by the first that a page says of a call."""
     (row,) = of_three(
@@ -639,15 +496,6 @@ def test_no_other_call_may_be_the_answer_of_another_person(
     assert of_three(*TALK, *then).calls[0].next_call is None
 
 
-def test_a_typed_call_counts_from_its_words_and_in_no_median() -> None:
-    found = of_three(
-        (10.0, "seat/AAL1/do", typed("ready")),
-        on_air("seat.AAL1.1", 12.5, 14.0, text="ready"),
-        (13.0, "seat/Tower/do", heard(call="seat.AAL1.1")),
-    )
-    assert (found.calls[0].to_loudspeaker_s, found.press_to_loudspeaker_s) == (3.0, None)
-
-
 def test_a_call_that_was_blocked_and_one_that_never_came_on_the_air_say_so() -> None:
     never, blocked = person(
         (10.0, "seat/AAL1/do", pressed()),
@@ -658,15 +506,6 @@ def test_a_call_that_was_blocked_and_one_that_never_came_on_the_air_say_so() -> 
     assert (never.t_s, never.call, never.blocked) == (10.0, None, None)
     assert (blocked.t_s, blocked.blocked) == (20.0, True)
     assert (never.recognised, blocked.recognised) == (None, "going around")
-
-
-def test_the_calls_of_a_script_without_its_person_have_no_row() -> None:
-    found = person(
-        (5.0, "seat/AAL1/do", TAKEN),
-        (6.0, "seat/AAL1/do", LEFT),
-        on_air("ready", 10.0, 12.0, text="ready"),
-    )
-    assert found.calls == []
 
 
 def test_calls_are_written_as_a_table(recorded_run: Path, tmp_path: Path) -> None:
@@ -693,21 +532,6 @@ def of_people(recorded_run: Path, folder: Path, people: Any) -> Run:
     paths.summary_path.write_text(json.dumps({"people": people}))
     paths.write_info(paths.info().model_copy(update={"files": paths.manifest()}))
     return open_run(folder)
-
-
-def test_reactions_are_written_as_a_table(recorded_run: Path, tmp_path: Path) -> None:
-    summary = person(
-        (10.0, "advisory/AAL1", advisory()),
-        (10.1, "seat/AAL1/do", perceived("seen")),
-    )
-    table = tmp_path / "reactions.csv"
-    write_people_csv(
-        of_people(recorded_run, tmp_path / "run", [summary.model_dump(mode="json")]), table
-    )
-    total, row = csv.DictReader(table.read_text().splitlines())
-    assert (total["row"], total["commands"], row["row"]) == ("total", "0", "reaction")
-    assert (row["seat"], row["severity"], row["t_seen_s"]) == ("AAL1", "WARNING", "10.1")
-    assert row["reaction_time_s"] == ""
 
 
 @pytest.mark.parametrize("people", [[1], [{}], {"a": 1}, 5, [{"seat": "a", "reactions": [0]}]])

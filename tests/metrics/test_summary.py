@@ -19,13 +19,12 @@ from airhilt.messages import (
     HearingTruth,
     Severity,
     SpokenTruth,
-    Status,
     Transcript,
     Transmission,
 )
 from airhilt.metrics.collector import Collector
 from airhilt.metrics.plans import Plans
-from airhilt.metrics.summary import LatencyStatistics, Summary
+from airhilt.metrics.summary import Summary
 from airhilt.phraseology.say import speak_callsign
 from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import RadioLine, ScriptedCommand
@@ -36,20 +35,12 @@ from airhilt.sim import StepRecord
 from airhilt.units import FOOT, FOOT_PER_MINUTE, SECOND_NS
 from airhilt.world.flight import load_aircraft_type
 from airhilt.world.loading import load
-from airhilt.world.truth.gaps import Gap
-from airhilt.world.truth.runways import Incursion
 from straight import Straight, Watch
 
 SCENARIO = load("s02a_headon")
 FIRST, SECOND = (actor.callsign for actor in SCENARIO.actors[:2])
 RUN = {"seed": 1, "assistant": "reference", "outcome": "finished", "inputs_dropped": {},
        "real_time_factor": 1.0, "cpu_s": 1.0}  # fmt: skip
-
-
-def test_the_statistics_of_samples_are_interpolated_between_them() -> None:
-    found = LatencyStatistics.of([4.0, 1.0, 3.0, 2.0])
-    assert (found.n, found.p50_s, found.max_s) == (4, 2.5, 4.0)
-    assert found.p95_s == pytest.approx(3.85)
 
 
 def advisory(
@@ -86,7 +77,7 @@ class FollowedRun:
         )
         self.collector = Collector(scenario, 0.0, self.watch.monitor, None, Plans([], {}, {}))
 
-    def take(self, message: Any) -> Airport | FollowedRun:
+    def take(self, message: Any) -> FollowedRun:
         self.collector.take("", message, b"")
         return self
 
@@ -120,53 +111,12 @@ def test_a_warning_before_the_conflict_begins_has_a_negative_time() -> None:
     assert followed.summary().time_to_first_warning_s == -1.0
 
 
-def test_a_warning_withdrawn_before_the_conflict_begins_is_none_of_it() -> None:
-    followed = FollowedRun().take(advisory(4.0)).take(advisory(6.0, "INFO", active=False))
-    followed.take(conflict(10.0, "begun"))
-    assert followed.summary().t_first_warning_s is None
-    assert followed.take(advisory(13.0, name="b")).summary().time_to_first_warning_s == 3.0
-
-
 def test_the_time_counts_from_the_begin_of_the_conflict_and_not_from_its_window() -> None:
     followed = FollowedRun().take(conflict(2.0, "begun")).take(conflict(5.0, "opened"))
     summary = followed.take(advisory(9.0)).summary()
     assert (summary.t_conflict_s, summary.t_window_s) == (2.0, 5.0)
     assert summary.time_to_first_warning_s == 7.0
     assert summary.time_to_first_warning_after_call_s is None
-
-
-def test_nobody_was_warned_where_nothing_was_said_or_only_of_other_traffic() -> None:
-    assert FollowedRun().summary().t_first_warning_s is None
-    other = FollowedRun().take(advisory(9.0, traffic=(FIRST, "UAL7"))).summary()
-    assert other.t_first_warning_s is None
-    assert other.nuisance_alerts == 1
-
-
-def test_an_alert_of_traffic_by_its_address_is_one_of_that_traffic() -> None:
-    address = SCENARIO.actors[1].icao24
-    summary = FollowedRun().take(advisory(9.0, traffic=(FIRST, address))).summary()
-    assert summary.t_first_warning_s == 9.0
-    assert summary.nuisance_alerts == 0
-    assert summary.advisories[0].traffic == (FIRST, SECOND)
-
-
-@pytest.mark.parametrize(("severity", "alerts"), [("ADVISORY", 0), ("CAUTION", 1), ("WARNING", 1)])
-def test_only_what_is_spoken_can_be_a_nuisance(severity: str, alerts: int) -> None:
-    quiet = SCENARIO.model_copy(update={"conflict": None})
-    assert FollowedRun(quiet).take(advisory(9.0, severity)).summary().nuisance_alerts == alerts
-
-
-def test_the_margin_over_tcas_is_when_it_would_have_spoken_after_the_first_warning() -> None:
-    summary = FollowedRun().take(advisory(1.0)).summary()
-    assert summary.margin_over_tcas_ta_s == pytest.approx(60.0 - 48.0, abs=1.5)
-    assert summary.margin_over_tcas_ra_s == pytest.approx(60.0 - 35.0, abs=1.5)
-
-
-def test_a_warning_that_comes_after_tcas_has_spoken_has_a_negative_margin() -> None:
-    followed = FollowedRun()
-    followed.watch.fly(20.0)
-    summary = followed.take(advisory(20.0)).summary()
-    assert summary.margin_over_tcas_ta_s == pytest.approx((60.0 - 48.0) - 20.0, abs=1.5)
 
 
 def test_a_conflict_is_avoided_if_somebody_was_warned_and_separation_was_kept() -> None:
@@ -197,13 +147,6 @@ def test_the_closest_approach_is_the_closest_in_the_conflict_window() -> None:
     assert summary.lead_before_closest_approach_s == pytest.approx(64.0)
 
 
-def test_what_follows_the_conflict_window_is_no_closest_approach_of_it() -> None:
-    followed = FollowedRun()
-    followed.open_window().watch.fly(50.0)
-    followed.close_window().watch.fly(20.0)
-    assert followed.summary().closest_approach.t_s == pytest.approx(50.0)
-
-
 def test_who_is_warned_after_the_conflict_window_has_not_avoided_the_conflict() -> None:
     followed = FollowedRun()
     followed.open_window().watch.fly(2.0)
@@ -212,13 +155,6 @@ def test_who_is_warned_after_the_conflict_window_has_not_avoided_the_conflict() 
     assert summary.t_first_warning_s == 3.0
     assert summary.lead_before_closest_approach_s is None
     assert summary.avoided is None
-
-
-def test_who_is_warned_as_the_conflict_window_closes_has_avoided_the_conflict() -> None:
-    followed = FollowedRun()
-    followed.open_window().watch.fly(2.0)
-    followed.close_window().take(advisory(2.0))
-    assert followed.summary().avoided is True
 
 
 def unassisted(followed: FollowedRun, assistant: str = "none") -> bool | None:
@@ -254,15 +190,6 @@ def test_the_declared_outcome_or_a_more_severe_one_is_as_declared(
 def test_the_declared_outcome_is_not_asked_for_with_an_assistant_or_without_a_conflict() -> None:
     assert unassisted(FollowedRun().open_window(), "reference") is None
     assert unassisted(FollowedRun(SCENARIO.model_copy(update={"conflict": None}))) is None
-
-
-def test_the_terminal_says_that_a_declared_outcome_did_not_come_about(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
-    run = RUN | {"assistant": "none"}
-    print_summary(FollowedRun().collector.summary(run, 70 * SECOND_NS), tmp_path)
-    shown = " ".join(capsys.readouterr().out.split())
-    assert "the declared outcome did not come about" in shown
 
 
 def test_latencies_are_given_by_stage() -> None:
@@ -326,102 +253,6 @@ def test_a_climb_without_a_rate_is_planned_with_the_usual_one_of_the_type() -> N
     assert feet(at, 25, 145, 265, 500) == [31_000, 32_000, 33_000, 33_000]
 
 
-def test_what_was_carried_out_already_is_in_the_profile_and_not_planned_again() -> None:
-    climbing = VerticalProfile(32_000 * FOOT, 1_500 * FOOT_PER_MINUTE, 33_000 * FOOT)
-    at = plans((20.0, 33_000)).altitude_at("AA", 65 * SECOND_NS, climbing)
-    assert feet(at, 0, 20, 40, 400) == [32_000, 32_500, 33_000, 33_000]
-
-
-def test_one_climb_follows_another_from_where_it_then_is() -> None:
-    at = plans((20.0, 33_000), (60.0, 31_000)).altitude_at("AA", 0, LEVEL)
-    assert feet(at, 65, 105, 300) == [32_000, 31_000, 31_000]
-
-
-def test_a_descent_is_still_planned_after_a_climb_that_was_carried_out() -> None:
-    """At 85 s it is level after the climb, and the line at 90 s lets it descend from 95 s on."""
-    there = VerticalProfile(33_000 * FOOT, 0.0)
-    at = plans((20.0, 33_000), (90.0, 31_000)).altitude_at("AA", 85 * SECOND_NS, there)
-    assert feet(at, 10, 50, 90, 400) == [33_000, 32_000, 31_000, 31_000]
-
-
-def test_nothing_is_planned_for_others() -> None:
-    assert feet(plans((20.0, 33_000)).altitude_at("BB", 0, LEVEL), 500) == [31_000]
-
-
-# --- at an airport --------------------------------------------------------------------------
-
-
-class Runways:
-    """What a runway monitor has found."""
-
-    def __init__(self, *incursions: Incursion) -> None:
-        self.incursions = dict(enumerate(incursions))
-
-
-def incursion(
-    metres: float = 200.0, user: str | None = FIRST, intruder: str = SECOND, collided: bool = False
-) -> Incursion:
-    closest = Gap(metres, 0.0) if user else None
-    return Incursion(5 * SECOND_NS, "01/19", user, intruder, closest, collided)
-
-
-class Airport(FollowedRun):
-    """A collector of a run in which some runway incursions happened."""
-
-    def __init__(self, *incursions: Incursion, scenario: Scenario = SCENARIO) -> None:
-        super().__init__(scenario)
-        plans = Plans([], {}, {})
-        runways = cast(Any, Runways(*incursions))
-        self.collector = Collector(scenario, 0.0, self.watch.monitor, runways, plans)
-        self.collector.window.opened_ns = 0
-
-
-def test_neither_was_one_that_ended_in_a_collision() -> None:
-    summary = Airport(incursion(300.0, collided=True)).summary()
-    assert summary.runway_incursion_category == "accident"
-    assert summary.avoided is False
-
-
-def test_an_incursion_of_others_is_recorded_and_leaves_the_conflict_avoided() -> None:
-    summary = Airport(incursion(10.0, intruder="DEER1"), incursion(user=None)).summary()
-    assert summary.runway_incursion_category == "A"
-    assert [one.category for one in summary.runway_incursions] == ["A", "D"]
-    assert summary.avoided is not False
-
-
-def test_an_incursion_of_others_is_not_the_declared_outcome() -> None:
-    assert SCENARIO.conflict is not None
-    conflict = SCENARIO.conflict.model_copy(update={"unassisted": "runway_incursion"})
-    declaring = SCENARIO.model_copy(update={"conflict": conflict})
-    assert unassisted(Airport(incursion(10.0), scenario=declaring)) is True
-    of_others = Airport(incursion(10.0, intruder="DEER1"), scenario=declaring)
-    assert unassisted(of_others) is False
-
-
-def runway_advisory(*traffic: str) -> Advisory:
-    return advisory(9.0, traffic=traffic).model_copy(update={"kind": "runway_conflict"})
-
-
-def test_in_a_nominal_scenario_a_runway_alert_is_a_nuisance_unless_it_came_true() -> None:
-    quiet = SCENARIO.model_copy(update={"conflict": None})
-    followed = runway_advisory(FIRST, SECOND)
-    assert Airport(scenario=quiet).take(followed).summary().nuisance_alerts == 1
-    came_true = Airport(incursion(user=FIRST, intruder=SECOND), scenario=quiet)
-    assert came_true.take(followed).summary().nuisance_alerts == 0
-    for user in (FIRST, "UAL7"):
-        of_others = Airport(incursion(user=user, intruder="DEER1"), scenario=quiet)
-        assert of_others.take(followed).summary().nuisance_alerts == 1
-
-
-def test_an_alert_about_a_cloud_stays_a_nuisance_where_an_incursion_happens_with_another() -> None:
-    of_cloud = runway_advisory(FIRST, "unidentified").model_copy(
-        update={"evidence": Evidence(sources=("vision", "adsb"))}
-    )
-    summary = Airport(incursion(10.0)).take(of_cloud).summary()
-    assert summary.nuisance_alerts == 1
-    assert summary.t_first_warning_s is None
-
-
 # --- with a voice ---------------------------------------------------------------------------
 
 
@@ -447,28 +278,6 @@ def test_a_warning_that_is_spoken_counts_from_when_its_voice_begins() -> None:
     assert (summary.latencies["tts"].n, summary.latencies["tts"].p50_s) == (1, pytest.approx(0.8))
     (one,) = summary.advisories
     assert (one.t_first_s, one.t_spoken_s) == (9.0, 9.8)
-
-
-def test_a_warning_whose_voice_never_comes_warns_nobody() -> None:
-    summary = told_aloud().take(advisory(9.0)).take(voice(9.8, name="b")).summary()
-    assert summary.t_first_warning_s is None
-    assert summary.advisories[0].t_spoken_s is None
-
-
-def test_where_the_voice_is_lost_what_waits_for_it_is_read_at_once() -> None:
-    followed = told_aloud().take(advisory(9.0))
-    followed.take(Status(t_ns=12 * SECOND_NS, modality="tts", state="lost"))
-    assert followed.summary().t_first_warning_s == 12.0
-    followed = FollowedRun()
-    followed.collector.modalities["tts"] = "lost"
-    assert followed.take(advisory(9.0)).summary().t_first_warning_s == 9.0
-
-
-@pytest.mark.parametrize(("modality", "state"), [("tts", "on"), ("tts", "off"), ("asr", "lost")])
-def test_what_else_changes_leaves_it_waiting_for_its_voice(modality: str, state: Any) -> None:
-    followed = told_aloud().take(advisory(9.0))
-    followed.take(Status(t_ns=12 * SECOND_NS, modality=modality, state=state))
-    assert followed.summary().t_first_warning_s is None
 
 
 @pytest.mark.parametrize(("outcome", "spoken_s"), [("understood", 9.8), ("misheard", None)])
@@ -550,14 +359,3 @@ def test_the_terminal_tells_how_well_speech_was_recognised(
     shown = " ".join(capsys.readouterr().out.split())
     assert "radio 1 transmission" in shown
     assert "word error rate 0.0 %, callsigns 100.0 %, slots 100.0 %, p95 250 ms after" in shown
-
-
-def test_the_terminal_gives_no_share_of_what_was_not_said(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
-    followed = FollowedRun()
-    for message in call("hello", said="hello"):
-        followed.take(message)
-    print_summary(followed.summary(), tmp_path)
-    shown = " ".join(capsys.readouterr().out.split())
-    assert "recognition word error rate 0.0 %, p95 250 ms after" in shown

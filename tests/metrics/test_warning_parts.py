@@ -53,20 +53,10 @@ def test_what_is_waited_for_after_the_transcript_is_evidence() -> None:
     assert rounded(parts) == (4.0, 2.0, 7.0, 1.0, 1.0)
 
 
-def test_the_time_until_a_later_call_begins_is_waiting_for_evidence() -> None:
-    parts = parts_of(ns(5.0), ns(17.0), advisory(16.0, 16.5), READBACK)
-    assert rounded(parts) == (4.0, 2.0, 5.0, 0.5, 0.5)
-
-
 def test_words_that_are_recognised_while_they_are_said_take_no_time_to_recognise() -> None:
     early = transcript("readback", 10.0, 14.0, 13.0)
     parts = parts_of(ns(10.0), ns(14.0), advisory(13.0, 13.5), early)
     assert rounded(parts) == (3.0, 0.0, 0.0, 0.5, 0.5)
-
-
-def test_a_warning_that_rests_on_no_call_waited_for_other_evidence() -> None:
-    parts = parts_of(ns(10.0), ns(12.0), advisory(11.0, 11.5, sources=("adsb",)), None)
-    assert rounded(parts) == (0.0, 0.0, 1.0, 0.5, 0.5)
 
 
 @pytest.mark.parametrize("call", [READBACK, None])

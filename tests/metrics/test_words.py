@@ -36,11 +36,6 @@ def test_words_that_only_sound_alike_are_other_words() -> None:
     assert score("cleared to land", "cleared two land", ROSTER).errors == 1
 
 
-@pytest.mark.parametrize("nothing", ["", "  ", "...", ", - ."])
-def test_nothing_has_no_words(nothing: str) -> None:
-    assert in_words(nothing) == []
-
-
 def test_texts_are_laid_side_by_side() -> None:
     stretches = align("American one two three, go around", "american two three go around now")
     assert [(one.kind, one.said, one.heard) for one in stretches] == [
@@ -50,23 +45,6 @@ def test_texts_are_laid_side_by_side() -> None:
         ("insert", (), ("now",)),
     ]
     assert sum(one.errors for one in stretches) == 2
-
-
-@pytest.mark.parametrize(
-    ("said", "heard", "errors"),
-    [("", "", 0), ("", "cleared to land", 3), ("cleared to land", "", 3), ("one", "two three", 2)],
-)
-def test_words_that_are_wrong_left_out_or_too_many_are_errors(
-    said: str, heard: str, errors: int
-) -> None:
-    assert sum(one.errors for one in align(said, heard)) == errors
-
-
-def test_a_call_recognised_word_by_word_has_all_its_slots() -> None:
-    text = "American one two three, runway zero one, cleared to land"
-    right = score(text, text.lower().replace(",", ""), ROSTER)
-    assert (right.words, right.errors, right.callsign_found) == (10, 0, True)
-    assert (right.slots, right.slots_found, right.false_slots) == (2, 2, 0)
 
 
 def test_a_slot_with_another_value_is_missed_and_another_one_is_false() -> None:
@@ -97,16 +75,6 @@ def test_the_slots_of_a_call_are_those_of_all_its_instructions() -> None:
         [("action", "altitude"), ("altitude_ft", 8000.0), ("action", "heading"),
          ("heading_deg", 90.0), ("action", "contact"), ("frequency_khz", 118_950)]
     )  # fmt: skip
-
-
-def test_shares_of_nothing_are_not_known() -> None:
-    nothing = recognition([], None)
-    assert (nothing.calls, nothing.words) == (0, 0)
-    assert nothing.wer is nothing.callsign_accuracy is nothing.slot_accuracy is None
-    assert nothing.false_slots is None
-    empty = recognition([score("Washington, good day", "washington good day", ROSTER)], 10.0)
-    assert (empty.wer, empty.callsign_accuracy, empty.slot_accuracy) == (0.0, None, None)
-    assert empty.snr_db == 10.0
 
 
 def test_rates_are_over_all_words_and_not_the_mean_of_calls() -> None:

@@ -9,7 +9,7 @@ import pytest
 from PIL import Image
 
 from airhilt.errors import RunFolderError
-from airhilt.messages import CameraFrame, Message, SightingTruth
+from airhilt.messages import Message, SightingTruth
 from airhilt.record.pictures import KeyPictures, Picture, PictureName, WaitingPictures
 from airhilt.sim.payload import Payload
 from sightings import (
@@ -104,11 +104,6 @@ def test_the_first_warning_is_shown_as_whoever_gave_it_had_seen_it(run: Run) -> 
     assert run.seq_of("first_warning") == ("runway", 4)
 
 
-def test_where_nobody_looks_the_first_warning_has_the_newest_picture(run: Run) -> None:
-    run.shoot(0).shoot(1).take(advisory(2))
-    assert run.seq_of("first_warning") == ("tower", 1)
-
-
 def test_the_closest_approach_is_known_when_the_run_is_over(run: Run) -> None:
     for seq in range(12):
         run.closest = min(seq, 7)
@@ -125,14 +120,6 @@ def test_where_the_pair_is_out_of_view_it_is_the_nearest_picture_that_has_it(run
         run.shoot(seq, *([sighting(LEFT)] if visible else []))
     run.pictures.close()
     assert run.seq_of("closest_approach") == ("tower", 17)
-
-
-def test_of_two_cameras_the_closest_approach_has_the_one_that_shows_more(run: Run) -> None:
-    for seq in range(10):
-        run.closest = min(seq, 5)
-        run.shoot(seq, sighting(LEFT)).shoot(seq, sighting(RIGHT), camera="runway")
-    run.pictures.close()
-    assert run.seq_of("closest_approach") == ("runway", 5)
 
 
 def test_without_a_pair_or_a_view_of_it_there_is_no_closest_approach(run: Run) -> None:
@@ -203,10 +190,3 @@ def test_pictures_wait_for_their_detections_as_long_as_there_is_room() -> None:
     assert numbers(waiting.up_to("tower", 2)) == []
     assert numbers(waiting.everything()) == [3]
     assert numbers(waiting.everything()) == []
-
-
-def test_one_picture_waits_however_large_it_is() -> None:
-    waiting = WaitingPictures()
-    header: CameraFrame = frame(0)
-    assert waiting.add(Picture(header, bytes(70_000_000), ())) == []
-    assert numbers(waiting.everything()) == [0]

@@ -4,23 +4,18 @@ from __future__ import annotations
 
 import os
 import re
-import struct
 import tracemalloc
 import zlib
 from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
-from typing import Any
 
-import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 import zstandard
 from mcap.data_stream import RecordBuilder
-from mcap.opcode import Opcode
 from mcap.records import Chunk
-from mcap.stream_reader import get_chunk_data_stream
 
 from airhilt.audio.wav import LARGEST_WAV_BYTES
 from airhilt.configuration import read_configuration
@@ -31,14 +26,7 @@ from airhilt.record import RunFolder, log_reader
 from airhilt.record.audio import recorded_pcm
 from airhilt.record.latency import LONGEST_STEP_BYTES, read_latencies
 from airhilt.record.log import LogWriter
-from airhilt.record.log_reader import (
-    CHUNK_HEAD_BYTES,
-    LARGEST_INDEX_BYTES,
-    MAGIC,
-    RECORD_HEAD,
-    Gap,
-    LogReader,
-)
+from airhilt.record.log_reader import MAGIC, Gap, LogReader
 from airhilt.record.manifest import problem_of
 from airhilt.record.sweep_folder import SweepFolder
 from sweep_tables import grid, write_sweep
@@ -79,14 +67,6 @@ def test_a_record_of_a_run_that_takes_too_much_is_refused(
         _ = folder.info(), folder.summary()
 
 
-def test_a_command_names_a_record_that_takes_too_much(airhilt_command: Any, run_copy: Path) -> None:
-    make_many_values(run_copy / "run.json")
-    done = airhilt_command("report", run_copy)
-    assert done.returncode == 2
-    (line,) = done.stderr.splitlines()
-    assert "run.json: found over 500,000 values; expected fewer" in line
-
-
 @TOO_MUCH
 def test_a_plan_or_configuration_that_takes_too_much_is_refused(
     tmp_path: Path, make: Callable[[Path], None], answer: str
@@ -94,18 +74,6 @@ def test_a_plan_or_configuration_that_takes_too_much_is_refused(
     make(tmp_path / "plan.json")
     with pytest.raises(AirhiltError, match=rf"plan\.json: .*{answer}"):
         read_configuration(tmp_path / "plan.json")
-
-
-@pytest.mark.parametrize("command", ["experiment", "sweep"])
-@pytest.mark.parametrize("text", [b"[" * 100_000, b'{"seeds": ' + b"1" * 5_000 + b"}"])
-def test_a_plan_that_python_cannot_hold_is_refused_in_one_line(
-    airhilt_command: Any, tmp_path: Path, command: str, text: bytes
-) -> None:
-    (tmp_path / "plan.json").write_bytes(text)
-    done = airhilt_command(command, *(["--file"] if command == "sweep" else []), "plan.json")
-    assert done.returncode == 2
-    (line,) = done.stderr.splitlines()
-    assert line.startswith("airhilt: plan.json: ")
 
 
 def test_latencies_with_a_line_without_end_are_refused(tmp_path: Path) -> None:
@@ -122,20 +90,6 @@ def test_sound_that_takes_too_much_is_refused(tmp_path: Path) -> None:
         recorded_pcm(tmp_path / "audio", call)
 
 
-def test_the_end_of_a_log_takes_no_more_memory_than_a_log_needs(tmp_path: Path) -> None:
-    path = tmp_path / "log.mcap"
-    path.write_bytes(MAGIC)
-    os.truncate(path, 2 * LARGEST_INDEX_BYTES)
-    with path.open("ab") as log:
-        log.write(RECORD_HEAD.pack(Opcode.FOOTER, 20) + struct.pack("<QQI", len(MAGIC), 0, 0))
-        log.write(MAGIC)
-    tracemalloc.start()
-    assert list(LogReader(path).messages()) == []
-    _, peak_bytes = tracemalloc.get_traced_memory()
-    tracemalloc.stop()
-    assert peak_bytes < 10_000_000
-
-
 # --- tables of sweeps --------------------------------------------------------------------------
 
 
@@ -144,39 +98,11 @@ def rows_beyond_number() -> pa.Table:
     return pa.table({f"column{n}": pa.nulls(1_000_000) for n in range(300)})
 
 
-def long_text_in_each_row() -> pa.Table:
-    """Return a table of 20 GB of text, of which a file keeps 100 kB."""
-    texts = pa.array(["x" * 100_000])
-    return pa.table({"key": pa.DictionaryArray.from_arrays(np.zeros(200_000, np.int32), texts)})
-
-
-def lists() -> pa.Table:
-    return pa.table({"key": pa.array([["a"]])})
-
-
-@pytest.mark.parametrize(
-    ("make", "answer"),
-    [
-        (rows_beyond_number, "1,000,000 rows of 300 columns"),
-        (long_text_in_each_row, "its texts have over 1,000,000,000 bytes"),
-        (lists, "column key has the type list<element: string>"),
-    ],
-)
-def test_a_table_that_claims_too_much_is_refused(
-    tmp_path: Path, make: Callable[[], pa.Table], answer: str
-) -> None:
+def test_a_table_that_claims_too_much_is_refused(tmp_path: Path) -> None:
     folder = write_sweep(tmp_path / "sweep", grid(["s01a_tight_timing"], ["reference"]))
-    pq.write_table(make(), folder / "sweep.parquet", compression="zstd")
-    with pytest.raises(AirhiltError, match=rf"sweep\.parquet: damaged \(.*{answer}"):
+    pq.write_table(rows_beyond_number(), folder / "sweep.parquet", compression="zstd")
+    with pytest.raises(AirhiltError, match=r"sweep\.parquet: damaged \(.*1,000,000 rows of 300"):
         SweepFolder.open(folder).table()
-
-
-def test_a_table_of_texts_is_read_as_it_was_written(tmp_path: Path) -> None:
-    folder = write_sweep(tmp_path / "sweep", grid(["s01a_tight_timing"], ["reference"]))
-    written = pq.read_table(folder / "sweep.parquet")
-    read = SweepFolder.open(folder).table()
-    assert read.equals(written)
-    assert read.schema.equals(written.schema, check_metadata=True)
 
 
 def test_a_large_file_in_the_place_of_a_small_one_is_not_hashed(run_copy: Path) -> None:
@@ -186,35 +112,6 @@ def test_a_large_file_in_the_place_of_a_small_one_is_not_hashed(run_copy: Path) 
     assert problem_of(run_copy, "summary.json", record) == (
         f"summary.json: damaged or changed: it has {ENDLESS} bytes, and run.json says {size_bytes}"
     )
-
-
-def test_broken_chunks_within_each_other_end_the_log_before_they_hold_its_reader(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Each of them claims all that is behind it."""
-    good = zstandard.compress(bytes(200))
-    broken = good[:-1] + bytes([good[-1] ^ 1])
-    step_bytes, count = RECORD_HEAD.size + CHUNK_HEAD_BYTES + len(broken), 10_000
-    parts = []
-    for left in reversed(range(count)):
-        claimed = len(broken) + step_bytes * left
-        head = struct.pack("<QQQII4sQ", 0, 0, 200, zlib.crc32(bytes(200)), 4, b"zstd", claimed)
-        parts.append(RECORD_HEAD.pack(Opcode.CHUNK, len(head) + claimed) + head + broken)
-    path = tmp_path / "log.mcap"
-    path.write_bytes(MAGIC + b"".join(parts))
-    monkeypatch.setattr(log_reader, "LARGEST_CHUNK_BYTES", 1_000_000)
-    monkeypatch.setattr(log_reader, "MOST_EXPANSION", 10)
-    expanded: list[int] = []
-
-    def counted(chunk: Chunk, **options: bool) -> Any:
-        expanded.append(len(chunk.data))
-        return get_chunk_data_stream(chunk, **options)
-
-    monkeypatch.setattr(log_reader, "get_chunk_data_stream", counted)
-    reader = LogReader(path)
-    assert list(reader.messages()) == []
-    assert reader.gaps == [Gap(0, None, None)]
-    assert 0 < sum(expanded) < 11 * path.stat().st_size + 1_000_000
 
 
 @pytest.mark.parametrize("claimed_bytes", [200, 1_000_000_000_000])
@@ -242,7 +139,6 @@ def test_a_log_that_a_program_has_flooded_with_one_text_is_whole(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(log_reader, "LARGEST_CHUNK_BYTES", 5_000_000)
-    monkeypatch.setattr(log_reader, "MOST_EXPANSION", 1)
     path = tmp_path / "log.mcap"
     with closing(LogWriter(path)) as log:
         for number in range(100):

@@ -66,13 +66,6 @@ def test_a_folder_of_something_else_is_left_as_it_is(tmp_path: Path, name: str) 
     assert [path for path in tmp_path.rglob("*") if path.is_file()] == [mine]
 
 
-def test_each_run_is_on_the_disk_when_it_is_kept(folder: SweepFolder) -> None:
-    assert keys(folder) == []
-    for count, key in enumerate("abc", start=1):
-        folder.keep(run(key))
-        assert len(keys(SweepFolder.open(folder.path))) == count
-
-
 def test_many_parts_become_one_and_no_run_is_lost(folder: SweepFolder) -> None:
     expected = sorted(f"{number:03}" for number in range(MOST_PARTS + 10))
     for key in expected:
@@ -151,29 +144,6 @@ def test_a_part_that_is_none_of_a_sweep_is_set_aside_by_name(
     assert keys(folder) == ["b"]
 
 
-@pytest.mark.parametrize("damage", [b"PAR1 nothing", "half"])
-def test_a_damaged_part_is_set_aside_by_name_and_the_others_count(
-    folder: SweepFolder, damage: bytes | str
-) -> None:
-    folder.keep(run("a"))
-    (part,) = folder.parts_path.glob("*.parquet")
-    folder.keep(run("b"))
-    part.write_bytes(part.read_bytes()[:200] if isinstance(damage, str) else damage)
-    found, told = finished(folder)
-    assert found == ["b"]
-    assert part.name in told[0]
-    assert "damaged" in told[0]
-    assert keys(folder) == ["b"]
-
-
-def test_the_same_tables_have_the_same_bytes(folder: SweepFolder) -> None:
-    written = []
-    for _ in range(2):
-        folder.write_tables(run("a"), run("a", 2.0), INFO)
-        written.append((folder.table_path.read_bytes(), folder.machine_path.read_bytes()))
-    assert written[0] == written[1]
-
-
 def test_tables_are_those_of_the_specification_beside_them(
     folder: SweepFolder, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -195,12 +165,6 @@ def test_tables_are_those_of_the_specification_beside_them(
             read()
 
 
-def test_what_a_sweep_begins_with_is_not_yet_what_its_tables_are_of(folder: SweepFolder) -> None:
-    folder.write_next_info({"format": 1, "grid_sha256": "b"})
-    assert folder.info()["grid_sha256"] == "a"
-    assert folder.table()["key"].to_pylist() == ["before"]
-
-
 def test_a_sweep_that_was_killed_before_it_had_tables_is_told(tmp_path: Path) -> None:
     begun = SweepFolder(tmp_path)
     begun.create()
@@ -219,14 +183,6 @@ def test_one_process_at_a_time_writes_into_a_folder(folder: SweepFolder) -> None
         pass
 
 
-def test_a_folder_that_holds_something_else_is_left_alone(tmp_path: Path) -> None:
-    (tmp_path / "thesis.tex").write_text("")
-    with pytest.raises(AirhiltError, match="no sweep"):
-        SweepFolder(tmp_path).create()
-    with pytest.raises(AirhiltError, match=r"expected a folder with a sweep\.json"):
-        SweepFolder.open(tmp_path)
-
-
 def test_tables_that_are_missing_or_damaged_say_how_to_make_them(folder: SweepFolder) -> None:
     folder.table_path.unlink()
     with pytest.raises(AirhiltError, match="give the command of the sweep again"):
@@ -234,28 +190,6 @@ def test_tables_that_are_missing_or_damaged_say_how_to_make_them(folder: SweepFo
     folder.table_path.write_bytes(b"PAR1")
     with pytest.raises(AirhiltError, match="damaged"):
         folder.table()
-
-
-@pytest.mark.parametrize("content", ['{"format": 2}', "[" * 100_000])
-def test_a_damaged_specification_is_named(folder: SweepFolder, content: str) -> None:
-    folder.info_path.write_text(content)
-    with pytest.raises(AirhiltError, match=r"sweep\.json"):
-        folder.info()
-
-
-def test_a_full_disk_is_told_and_keeps_what_was_finished(
-    folder: SweepFolder, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    folder.keep(run("a"))
-
-    def full(*_: object) -> None:
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr("airhilt.host.files.write_new", full)
-    with pytest.raises(AirhiltError, match="No space left on device"):
-        folder.keep(run("b"))
-    monkeypatch.undo()
-    assert keys(folder) == ["a"]
 
 
 def test_what_a_killed_sweep_left_half_written_is_removed_by_the_next(folder: SweepFolder) -> None:

@@ -5,22 +5,16 @@ from __future__ import annotations
 import base64
 import os
 import shutil
-from contextlib import closing
 from pathlib import Path
 from typing import Any
 
 import pytest
 
-from airhilt.record import LogWriter, RunFolder, read_log
+from airhilt.record import RunFolder
 from airhilt.report import write_report
-from airhilt.report.intervals import MOST_INTERVALS, BridgedIntervals
 from airhilt.report.sections import cameras as camera_section
-from airhilt.units import SECOND_NS
 from camera_run import camera_run
 from report_pages import shown as data
-from sightings import vision
-
-HOSTILE = "</script><img src=x onerror=alert(1)>"
 
 
 @pytest.fixture(scope="module")
@@ -110,13 +104,6 @@ def test_a_picture_or_a_video_that_the_run_did_not_write_is_named_and_not_shown(
     assert "Damaged: video/nose-AAL123.mp4: not written by the run" in notes
 
 
-def test_pictures_of_a_run_that_was_killed_are_shown_without_a_manifest(folder: Path) -> None:
-    whole = len(shown(folder)["pictures"])
-    paths = RunFolder(folder)
-    paths.write_info(paths.info().model_copy(update={"phase": "running", "files": {}}))
-    assert len(shown(folder)["pictures"]) == whole
-
-
 @pytest.mark.parametrize("kind", ["link", "pipe", "folder"])
 def test_a_picture_that_is_no_file_of_the_run_is_named_and_not_read(
     folder: Path, tmp_path: Path, kind: str
@@ -156,49 +143,3 @@ def test_what_is_no_picture_of_the_run_is_not_shown(folder: Path) -> None:
     next(pictures.glob("first_detection-*")).unlink()
     occasions = [picture["occasion"] for picture in shown(folder)["pictures"]]
     assert occasions == ["first_warning", "closest_approach", "start", "start"]
-
-
-def test_a_run_without_cameras_shows_none(folder: Path) -> None:
-    with closing(LogWriter(folder / "log.mcap")):
-        pass
-    shutil.rmtree(folder / "pictures")
-    assert shown(folder) == {"state": "off", "cause": "", "timelines": [], "pictures": []}
-
-
-def rewrite(folder: Path, *statuses: Any) -> None:
-    """Put states of vision in the place of those of the log."""
-    kept = [one for one in read_log(folder / "log.mcap") if one.key != "status/vision"]
-    with closing(LogWriter(folder / "log.mcap")) as log:
-        for one in kept:
-            log.write(one.key, one.publisher, type(statuses[0]), one.t_ns, one.data)
-        for status in statuses:
-            log.write(
-                "status/vision", "run", type(status), status.t_ns, status.model_dump_json().encode()
-            )
-
-
-def test_why_vision_was_not_evaluated_is_told_as_data(folder: Path) -> None:
-    rewrite(folder, vision("not evaluated", HOSTILE))
-    page = write_report(folder)
-    assert "onerror=alert(1)>" not in page.read_text()
-    cameras = data(page)["sections"]["cameras"]
-    assert (cameras["state"], cameras["cause"]) == ("not evaluated", HOSTILE)
-
-
-# --- intervals ------------------------------------------------------------------------------
-
-
-def test_short_pauses_are_bridged_and_long_ones_are_not() -> None:
-    intervals = BridgedIntervals()
-    for t_ns in (0, SECOND_NS // 4, SECOND_NS // 2, 2 * SECOND_NS, 3 * SECOND_NS):
-        intervals.add(t_ns)
-    assert intervals.as_json() == [(0.0, 0.5), (2.0, 2.0), (3.0, 3.0)]
-
-
-def test_many_intervals_are_joined_until_there_is_room() -> None:
-    intervals = BridgedIntervals()
-    for second in range(5_000):
-        intervals.add(second * SECOND_NS)
-    found = intervals.as_json()
-    assert len(found) <= MOST_INTERVALS
-    assert (found[0][0], found[-1][1]) == (0.0, 4_999.0)

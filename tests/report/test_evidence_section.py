@@ -37,8 +37,3 @@ def test_an_advisory_has_one_row_for_all_its_recipients(tmp_path: Path) -> None:
     assert (row["radio"], row["cameras"], row["tracks"]) == (["clearance"], ["tower"], [])
     assert row["shares"] == {"vision": 0.6, "radio": 0.4}
     assert row["time_to_go_s"] == 31.0
-
-
-def test_its_end_has_none(tmp_path: Path) -> None:
-    found = rows(tmp_path, advisory(CONTROLLER), advisory(CONTROLLER, 1, active=False))
-    assert len(found) == 1

@@ -11,7 +11,6 @@ import pytest
 from airhilt.cosim.simulation import run
 from airhilt.options import Options
 from airhilt.report import write_report
-from airhilt.report.sections import radar as radar_section
 from airhilt.scenario import Scenario
 from report_pages import shown
 
@@ -26,12 +25,6 @@ def folder(encounter: Scenario, tmp_path_factory: pytest.TempPathFactory) -> Pat
 
 def data(folder: Path) -> dict[str, Any]:
     return shown(write_report(folder))
-
-
-def test_a_radar_is_shown_with_its_period_and_ranges(folder: Path) -> None:
-    (radar,) = data(folder)["sections"]["radar"]
-    assert (radar["site"], radar["kind"], radar["rotation_s"]) == ("terminal", "terminal", 4.8)
-    assert radar["secondary_range_m"] > radar["primary_range_m"] > 100_000.0
 
 
 def test_each_actor_is_detected_in_most_turns(folder: Path) -> None:
@@ -54,15 +47,6 @@ def test_plots_lie_where_the_actor_was(folder: Path) -> None:
         north_nm = track["north_nm"][index] - plot["north_nm"]
         assert math.hypot(east_nm, north_nm) < 0.4
         assert plot["mode_c_ft"] in (None, *range(34_000, 36_100, 100))
-
-
-def test_more_plots_than_can_be_shown_are_noted(
-    folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(radar_section, "MOST_PLOTS", 3)
-    page = data(folder)
-    assert len(page["sections"]["radar"][0]["plots"]) == 3
-    assert any("radar terminal shows the first 3 plots" in note for note in page["notes"])
 
 
 def test_the_instruments_of_each_cockpit_are_shown_once_a_second(folder: Path) -> None:

@@ -6,7 +6,7 @@ import re
 from pathlib import Path
 
 from airhilt.record import RunFolder
-from airhilt.record.log_reader import COMPRESSION, COMPRESSION_AT
+from airhilt.record.log_reader import BEFORE_COMPRESSION, COMPRESSION
 
 
 def flip(path: Path, bit: int) -> None:
@@ -17,9 +17,9 @@ def flip(path: Path, bit: int) -> None:
 
 
 def chunks(data: bytes) -> list[int]:
-    """Return where the chunks of a log begin."""
+    """Return where the contents of the chunks of a log begin."""
     pattern = re.escape(COMPRESSION) + rb".{8}\x28\xb5\x2f\xfd"
-    return [found.start() - COMPRESSION_AT for found in re.finditer(pattern, data, re.DOTALL)]
+    return [found.start() - BEFORE_COMPRESSION for found in re.finditer(pattern, data, re.DOTALL)]
 
 
 def break_third_chunk(folder: Path) -> None:

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from airhilt import load
-from airhilt.errors import RendererLost, ScenarioError, disk_failed
+from airhilt.errors import RendererLost, RunFolderError, ScenarioError, writing_to_run
 from airhilt.sensors.cameras.renderer_process import RendererProcess
 from airhilt.sweep import runner
 from airhilt.sweep.files import NamedFiles, require_planned
@@ -24,7 +24,7 @@ FULL = OSError(28, "No space left on device")
 @pytest.mark.parametrize(
     ("error", "status"),
     [
-        (disk_failed("log.mcap", FULL), "crashed"),
+        (RunFolderError("log.mcap: cannot be written any more"), "crashed"),
         (MemoryError(), "crashed"),
         (RendererLost("the process that draws has ended"), "crashed"),
         (ScenarioError("a speed that nothing flies"), "failed"),
@@ -49,7 +49,8 @@ def test_the_cause_of_a_full_disk_is_the_same_in_every_run(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def fail(_: Request, folder: Path, *__: object) -> None:
-        raise disk_failed(str(folder / "log.mcap"), FULL)
+        with writing_to_run(folder / "log.mcap"):
+            raise FULL
 
     monkeypatch.setattr(runner, "_summary", fail)
     kept = Request(key="k", scenario={}, options={}, keep="all", folder=str(tmp_path / "run"))

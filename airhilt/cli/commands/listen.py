@@ -36,7 +36,7 @@ Examples:
 @click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
 def listen(run_folder: Path, frequency_khz: int | None, out: Path | None, as_json: bool) -> None:
     """Write a frequency of a run as a WAV file, and who said and heard what beside it."""
-    from airhilt.record.frequency import write_frequency
+    from airhilt.report.frequency import write_frequency
 
     recording, wav, text = write_frequency(run_folder, frequency_khz, out, tell)
     if as_json:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from dataclasses import asdict
 from pathlib import Path
 
 import click
@@ -40,7 +41,7 @@ def verify(folder: Path, key: Path | None, as_json: bool) -> None:
 
     found = verify_folder(folder, key)
     if as_json:
-        click.echo(json.dumps(found.as_dict(), indent=2))
+        click.echo(json.dumps(asdict(found), indent=2))
     else:
         echo(found)
     sys.exit(found.exit_code)

@@ -23,19 +23,8 @@ def compare(
 ) -> RunComparison | SweepComparison:
     """Return what differs between two runs, two sweeps, or two assistants of one sweep.
 
-    Parameters
-    ----------
-    first, second
-        Two run folders or two sweep folders; second is None for two assistants of one sweep.
-    assistants
-        The two assistants, None for two folders.
-    notice
-        Is told what is damaged in a folder. None warns of it, as Python does.
-
-    Raises
-    ------
-    AirhiltError
-        There is nothing that could be compared; the message says why.
+    Without a notice Python warns of what is damaged. It raises `AirhiltError` if there is nothing
+    that could be compared; the message says why.
     """
     if second is None:
         if assistants is None:
@@ -60,13 +49,6 @@ def compare(
 
 
 def _of_assistants(folder: Path, names: tuple[str, str], notice: Notice | None) -> SweepComparison:
-    """Return the comparison of two assistants.
-
-    Raises
-    ------
-    AirhiltError
-        It is no sweep, or the sweep does not have one of them.
-    """
     whole = _side(folder, str(folder), notice)
     known = sorted(whole.runs["assistant"].dropna().unique())
     for name in names:
@@ -89,6 +71,5 @@ def _side(folder: Path, name: str, notice: Notice | None) -> Side:
 
 
 def _name(folder: Path, other: Path) -> str:
-    """Return the name of a folder, with its whole path if another has the same name."""
     name = folder.absolute().name
     return str(folder) if name == other.absolute().name else name

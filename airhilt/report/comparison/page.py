@@ -5,10 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from airhilt.errors import AirhiltError
-from airhilt.host.files import replace_file
 from airhilt.host.text import readable
-from airhilt.report.assembly import Assembly
+from airhilt.report.assembly import assemble, write_page
 from airhilt.report.comparison import runs, sweeps
 from airhilt.report.comparison.runs import RunComparison
 from airhilt.report.comparison.sweeps import MeasureDifference, SweepComparison
@@ -28,55 +26,32 @@ SECTIONS = {
 
 
 def write_comparison(comparison: RunComparison | SweepComparison, page: Path) -> Path:
-    """Write the page of a comparison: one HTML file that opens offline.
-
-    Raises
-    ------
-    AirhiltError
-        It cannot be written.
-    """
+    """Write the page of a comparison: one HTML file that opens offline; else as `write_page`."""
     figures = Figures()
+    own = comparison.as_json()
     if isinstance(comparison, SweepComparison):
-        own = _of_sweeps(comparison, figures)
+        own["drawn"] = _draw(comparison, figures)
+        own["families"] = [
+            {"name": name, "rows": [measure_row(each) for each in found]}
+            for name, found in comparison.families.items()
+        ]
     else:
-        own = _of_runs(comparison)
+        names = (comparison.first, comparison.second)
+        own["metrics"] = [metric_row(each) for each in comparison.metrics]
+        own["runs"] = [
+            {"name": name, "events": events}
+            for name, events in zip(names, comparison.events, strict=True)
+        ]
     title = f"{readable(comparison.second)} compared with {readable(comparison.first)}"
     data = {"title": title, "notes": [], "sections": {comparison.kind: own}}
     sections = [SECTIONS[comparison.kind]]
-    html = Assembly("comparison", title, SHARED, sections, data, figures.markup).page()
-    try:
-        replace_file(page, f"{html}\n".encode())
-    except OSError as error:
-        raise AirhiltError(f"{page}: cannot be written: {error.strerror}") from None
+    html = assemble("comparison", title, SHARED, sections, data, figures.markup)
+    write_page(page, html)
     return page
 
 
-def _of_sweeps(comparison: SweepComparison, figures: Figures) -> Json:
-    return {
-        **comparison.as_json(),
-        "drawn": _draw(comparison, figures),
-        "families": [
-            {"name": name, "rows": [measure_row(each) for each in found]}
-            for name, found in comparison.families.items()
-        ],
-    }
-
-
-def _of_runs(comparison: RunComparison) -> Json:
-    return {
-        **comparison.as_json(),
-        "metrics": [metric_row(each) for each in comparison.metrics],
-        "runs": [
-            {"name": name, "events": events}
-            for name, events in zip(
-                (comparison.first, comparison.second), comparison.events, strict=True
-            )
-        ],
-    }
-
-
 def _draw(comparison: SweepComparison, figures: Figures) -> str:
-    """Draw the differences of all percentages with their intervals; return the figure's name."""
+    """Draw the differences of all percentages; return the figure's name."""
     series = {
         family: [each for each in found if each.measure.unit == "%" and each.difference.n]
         for family, found in comparison.families.items()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Any, ClassVar
@@ -35,31 +36,19 @@ class MetricDifference:
 
 @dataclass(frozen=True)
 class RunComparison:
-    """Two runs.
-
-    Attributes
-    ----------
-    first, second
-        Names of the folders.
-    settings
-        Options that differ: name, and the value of each run.
-    metrics
-        The metrics that differ.
-    equal_metrics
-        Number of metrics that both have with the same value.
-    parted_s
-        Time of the first event that only one of the runs has, None if all are the same.
-    events
-        From that time on, the first events of each run.
-    """
+    """Two runs."""
 
     first: str
     second: str
     settings: dict[str, tuple[str, str]]
+    """Options that differ: name, and the value of each run."""
     metrics: list[MetricDifference]
     equal_metrics: int
+    """Number of metrics that both have with the same value."""
     parted_s: float | None
+    """Time of the first event that only one of the runs has, None if all are the same."""
     events: tuple[list[Json], list[Json]]
+    """From that time on, the first events of each run."""
     kind: ClassVar = "runs"
 
     def as_json(self) -> Json:
@@ -70,15 +59,11 @@ class RunComparison:
 def compare_runs(first: Run, second: Run, names: tuple[str, str]) -> RunComparison:
     """Return what differs between two runs, which have these names.
 
-    Raises
-    ------
-    AirhiltError
-        One has no summary, or is damaged.
+    It raises `AirhiltError` if one has no summary, or is damaged.
     """
     runs = [read_run(each, each.folder.report_path, []) for each in (first, second)]
-    rows = [_metrics(run) for run in runs]
-    differing = [name for name in rows[0] if rows[0][name] != rows[1][name]]
-    columns = {each.name: each for each in metric_columns()}
+    one, other = (_metrics(run) for run in runs)
+    units = {each.name: each.unit for each in metric_columns()}
     parted_s, events = _parting(*(_events(run) for run in runs))
     return RunComparison(
         first=names[0],
@@ -86,15 +71,12 @@ def compare_runs(first: Run, second: Run, names: tuple[str, str]) -> RunComparis
         settings=dict(_settings(runs[0].info, runs[1].info)),
         metrics=[
             MetricDifference(
-                name,
-                columns[name].unit,
-                rows[0][name],
-                rows[1][name],
-                _less(rows[1][name], rows[0][name]),
+                name, units[name], one[name], other[name], _less(other[name], one[name])
             )
-            for name in differing
+            for name in one
+            if one[name] != other[name]
         ],
-        equal_metrics=sum(rows[0][name] == rows[1][name] is not None for name in rows[0]),
+        equal_metrics=sum(one[name] == other[name] is not None for name in one),
         parted_s=parted_s,
         events=events,
     )
@@ -114,7 +96,6 @@ def _less(later: Value, earlier: Value) -> float | None:
 
 
 def _settings(first: RunInfo, second: RunInfo) -> Iterator[tuple[str, tuple[str, str]]]:
-    """Yield what was asked for differently, and which software ran it."""
     pairs = [_asked(info) for info in (first, second)]
     names = dict.fromkeys((*pairs[0], *pairs[1]))
     differing = [name for name in names if pairs[0].get(name) != pairs[1].get(name)]
@@ -146,7 +127,6 @@ def _leaves(given: Any, path: str) -> Iterator[tuple[str, Any]]:
 
 
 def _events(run: RunData) -> list[Json]:
-    """Return the events of a run as time, kind, who and words."""
     names = ("kind", "who", "severity", "phase", "state", "text")
     return [
         {"t_s": row["t"], **{name: str(row[name]) for name in names if row.get(name)}}
@@ -158,10 +138,8 @@ def _parting(
     first: list[Json], second: list[Json]
 ) -> tuple[float | None, tuple[list[Json], list[Json]]]:
     """Return when the first difference is, and the first events of both from there on."""
-    place = next(
-        (i for i, (one, other) in enumerate(zip(first, second, strict=False)) if one != other),
-        min(len(first), len(second)),
-    )
+    pairs = zip(first, second, strict=False)
+    place = len(list(itertools.takewhile(lambda pair: pair[0] == pair[1], pairs)))
     rest = first[place:], second[place:]
     times = [events[0]["t_s"] for events in rest if events]
     shown = rest[0][:MOST_EVENTS], rest[1][:MOST_EVENTS]

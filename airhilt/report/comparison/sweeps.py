@@ -12,6 +12,7 @@ from airhilt.errors import AirhiltError
 from airhilt.metrics.estimates import Estimate
 from airhilt.metrics.measures import HOUR_S, MEASURES, Measure
 from airhilt.metrics.paired import McNemar, mcnemar, mean_difference, share_difference
+from airhilt.report.sweeps.data import families_of
 
 if TYPE_CHECKING:
     from pandas import DataFrame, Series
@@ -20,18 +21,11 @@ Json = dict[str, Any]
 
 ALWAYS = ("scenario", "seed")
 """Columns that the two runs of a pair always share."""
-FIRST, SECOND = "_first", "_second"
 
 
 @dataclass(frozen=True)
 class Side:
-    """One side of a comparison: finished runs of a sweep.
-
-    Attributes
-    ----------
-    parameters
-        Names of the columns that are parameters.
-    """
+    """One side of a comparison: finished runs of a sweep, and the columns that are parameters."""
 
     name: str
     runs: DataFrame
@@ -40,26 +34,17 @@ class Side:
 
 @dataclass(frozen=True)
 class MeasureDifference:
-    """One measure on both sides.
-
-    Attributes
-    ----------
-    first, second
-        The measure over the pairs in which both have a value.
-    difference
-        Mean of second less first over these pairs.
-    test
-        McNemar's test, None for what is no share.
-    one_sided
-        Pairs in which only one of the two has a value; they are left out.
-    """
+    """One measure on both sides, over the pairs in which both have a value."""
 
     measure: Measure
     first: Estimate
     second: Estimate
     difference: Estimate
+    """Mean of second less first."""
     test: McNemar | None
+    """McNemar's test, None for what is no share."""
     one_sided: int
+    """Pairs in which only one of the two has a value; they are left out."""
 
     def as_json(self) -> Json:
         """Return the numbers by name."""
@@ -77,35 +62,22 @@ class MeasureDifference:
 
 @dataclass(frozen=True)
 class SweepComparison:
-    """Two sides, what was paired, and what differs.
-
-    Attributes
-    ----------
-    first, second
-        Names of the sides.
-    paired_by
-        Columns that the two runs of a pair share.
-    differing
-        Columns in which the sides differ as a whole, with the value of each.
-    pairs
-        Number of pairs.
-    draws
-        Number of scenarios with a seed that the pairs are of. Pairs of one draw, which differ in
-        other parameters, depend on each other and count as one group.
-    without_partner
-        Number of runs of each side without a partner.
-    families
-        The differences by family; first of all families if there are more.
-    """
+    """Two sides, what was paired, and what differs."""
 
     first: str
     second: str
     paired_by: tuple[str, ...]
+    """Columns that the two runs of a pair share."""
     differing: dict[str, tuple[str, str]]
+    """Columns in which the sides differ as a whole, with the value of each."""
     pairs: int
     draws: int
+    """Number of scenarios with a seed that the pairs are of. Pairs of one draw, which differ in
+    other parameters, depend on each other and count as one group."""
     without_partner: tuple[int, int]
+    """Number of runs of each side without a partner."""
     families: dict[str, list[MeasureDifference]]
+    """The differences by family; first of all families if there are more."""
     kind: ClassVar = "sweeps"
 
     def as_json(self) -> Json:
@@ -122,10 +94,7 @@ class SweepComparison:
 def compare_sides(first: Side, second: Side) -> SweepComparison:
     """Return the differences of two sides.
 
-    Raises
-    ------
-    AirhiltError
-        They have no runs in common, or a run of one has several partners.
+    It raises `AirhiltError` if they have no runs in common, or a run of one has several partners.
     """
     differing = dict(_differing(first, second))
     shared = [name for name in _settings(first) if name in _settings(second)]
@@ -133,7 +102,7 @@ def compare_sides(first: Side, second: Side) -> SweepComparison:
     for side, other in ((first, second), (second, first)):
         _require_unique(side, by, other)
     one, other = (_comparable(side.runs, by) for side in (first, second))
-    pairs = one.merge(other, on=by, suffixes=(FIRST, SECOND))
+    pairs = one.merge(other, on=by, suffixes=("_first", "_second"))
     if pairs.empty:
         raise AirhiltError(
             f"{first.name}, {second.name}: no run of the one has a partner in the other; expected "
@@ -147,18 +116,20 @@ def compare_sides(first: Side, second: Side) -> SweepComparison:
         pairs=len(pairs),
         draws=pairs.groupby(list(ALWAYS)).ngroups,
         without_partner=(len(first.runs) - len(pairs), len(second.runs) - len(pairs)),
-        families=_by_family(pairs),
+        families=_by_family(
+            first.runs.iloc[pairs["row_first"]].reset_index(drop=True),
+            second.runs.iloc[pairs["row_second"]].reset_index(drop=True),
+        ),
     )
 
 
 def _comparable(runs: DataFrame, by: list[str]) -> DataFrame:
-    """Return runs whose columns to pair by have one type on either side.
+    """Return the columns to pair by, of one type on either side, and the number of each row.
 
     A parameter that only one side leaves to the scenario, or gives as a text, has another there.
     """
-    return runs.assign(
-        **{name: runs[name].astype(object).where(runs[name].notna(), None) for name in by}
-    )
+    columns = {name: runs[name].astype(object).where(runs[name].notna(), None) for name in by}
+    return runs[[]].assign(**columns, row=range(len(runs)))
 
 
 def _settings(side: Side) -> tuple[str, ...]:
@@ -166,7 +137,6 @@ def _settings(side: Side) -> tuple[str, ...]:
 
 
 def _differing(first: Side, second: Side) -> Iterator[tuple[str, tuple[str, str]]]:
-    """Yield the columns with one value on each side that is not that of the other."""
     for name in dict.fromkeys((*_settings(first), *_settings(second))):
         values = [_only(side, name) for side in (first, second)]
         if None not in values and values[0] != values[1]:
@@ -182,13 +152,7 @@ def _only(side: Side, name: str) -> str | None:
 
 
 def _require_unique(side: Side, by: list[str], other: Side) -> None:
-    """Complain about runs of a side that are the same but for what the other side does not have.
-
-    Raises
-    ------
-    AirhiltError
-        There are some.
-    """
+    """Refuse runs of a side that are the same but for what the other side does not have."""
     if not side.runs.duplicated(by).any():
         return
     several = [name for name in _settings(side) if name not in by and side.runs[name].nunique() > 1]
@@ -198,61 +162,51 @@ def _require_unique(side: Side, by: list[str], other: Side) -> None:
     )
 
 
-def _by_family(pairs: DataFrame) -> dict[str, list[MeasureDifference]]:
-    names = pairs[f"family{FIRST}"].fillna("").replace("", "other")
-    groups = {str(name): group for name, group in pairs.groupby(names, sort=True)}
-    whole = {"all": pairs, **groups} if len(groups) > 1 else groups
+def _by_family(first: DataFrame, second: DataFrame) -> dict[str, list[MeasureDifference]]:
+    names = families_of(first)
+    groups = {str(name): rows for name, rows in names.groupby(names, sort=True).groups.items()}
+    whole = {"all": names.index, **groups} if len(groups) > 1 else groups
     return {
-        name: [found for each in MEASURES if (found := _difference(each, group)) is not None]
-        for name, group in whole.items()
+        name: [
+            found
+            for each in MEASURES
+            if (found := _difference(each, first.loc[rows], second.loc[rows])) is not None
+        ]
+        for name, rows in whole.items()
     }
 
 
-def _difference(measure: Measure, pairs: DataFrame) -> MeasureDifference | None:
-    """Return one measure over some pairs, None if no run has a value of it."""
+def _difference(measure: Measure, first: DataFrame, second: DataFrame) -> MeasureDifference | None:
+    """Return one measure over pairs of rows, None if no run has a value of it."""
     if measure.only_nominal:
-        pairs = pairs[_column(pairs, "nominal", FIRST).fillna(False).astype(bool)]
-    first, second = (_values(measure, pairs, side) for side in (FIRST, SECOND))
-    both = (first.notna() & second.notna()).to_numpy(dtype=np.bool_)
-    either = int((first.notna() | second.notna()).sum())
+        nominal = first.get("nominal", first["seed"].isna()).fillna(False).astype(bool)
+        first, second = first[nominal], second[nominal]
+    ones, others = _values(measure, first), _values(measure, second)
+    both = (ones.notna() & others.notna()).to_numpy(dtype=np.bool_)
+    either = int((ones.notna() | others.notna()).sum())
     if not either:
         return None
-    ones, others = (_numbers(values[both]) for values in (first, second))
+    first, second = first[both], second[both]
+    before, after = (values[both].to_numpy(dtype=np.float64) for values in (ones, others))
     is_share = measure.kind == "share"
-    paired = pairs[both]
-    draws = paired.groupby(list(ALWAYS)).ngroup().to_numpy(dtype=np.int64)
+    draws = first.groupby(list(ALWAYS)).ngroup().to_numpy(dtype=np.int64)
     difference = (
-        share_difference(ones > 0, others > 0, draws)
+        share_difference(before > 0, after > 0, draws)
         if is_share
-        else mean_difference(ones, others, draws)
+        else mean_difference(before, after, draws)
     )
-    factor = 100.0 if measure.unit == "%" else 1.0
     return MeasureDifference(
         measure=measure,
-        first=measure.estimate(_one_side(measure, paired, FIRST)),
-        second=measure.estimate(_one_side(measure, paired, SECOND)),
-        difference=difference.times(factor),
-        test=mcnemar(ones > 0, others > 0, draws) if is_share else None,
+        first=measure.estimate(first),
+        second=measure.estimate(second),
+        difference=difference.times(100.0 if measure.unit == "%" else 1.0),
+        test=mcnemar(before > 0, after > 0, draws) if is_share else None,
         one_sided=either - int(both.sum()),
     )
 
 
-def _column(pairs: DataFrame, name: str, side: str) -> Series:
-    return pairs[f"{name}{side}"] if f"{name}{side}" in pairs else pairs[[]].assign(x=None)["x"]
-
-
-def _values(measure: Measure, pairs: DataFrame, side: str) -> Series:
-    """Return what each run of a side adds to a measure; a count by simulated hour."""
-    values = _column(pairs, measure.column, side)
-    if measure.kind != "per_hour":
-        return values
-    return values.astype("Float64") / (_column(pairs, "duration_s", side) / HOUR_S)
-
-
-def _numbers(values: Series) -> np.ndarray[Any, np.dtype[np.float64]]:
-    return np.asarray(values.astype("Float64"), dtype=np.float64)
-
-
-def _one_side(measure: Measure, pairs: DataFrame, side: str) -> DataFrame:
-    names = [name for name in measure.columns if f"{name}{side}" in pairs]
-    return pairs[[f"{name}{side}" for name in names]].set_axis(names, axis="columns")
+def _values(measure: Measure, runs: DataFrame) -> Series:
+    if measure.column not in runs:
+        return runs["seed"].where(False).astype("Float64")
+    values = runs[measure.column].astype("Float64")
+    return values / (runs["duration_s"] / HOUR_S) if measure.kind == "per_hour" else values

@@ -12,8 +12,6 @@ from airhilt.report.sweeps.words import MINUS, SPACE, estimate, number
 Json = dict[str, Any]
 
 LEAST_P = 0.001
-POINTS = "points"
-"""Unit of a difference of percentages."""
 
 
 def signed(value: float) -> str:
@@ -29,24 +27,24 @@ def p_value(value: float) -> str:
 
 def measure_row(found: MeasureDifference) -> Json:
     """Return one measure of two sides as the texts of a row."""
-    unit, difference = found.measure.unit, found.difference
+    unit, difference, test = found.measure.unit, found.difference, found.test
     change, interval = "–", ""
     if difference.value is not None:
-        change = f"{signed(difference.value)}{SPACE}{POINTS if unit == '%' else unit}"
+        change = f"{signed(difference.value)}{SPACE}{'points' if unit == '%' else unit}"
+    is_clear = False
     if difference.low is not None and difference.high is not None:
         interval = f"{signed(difference.low)} to {signed(difference.high)}"
+        is_clear = difference.low > 0.0 or difference.high < 0.0
     return {
         "title": found.measure.title,
         "first": estimate(found.first, unit),
         "second": estimate(found.second, unit),
         "difference": (change, interval),
-        "split": ""
-        if found.test is None
-        else f"{found.test.only_first} : {found.test.only_second}",
-        "p_value": "" if found.test is None else p_value(found.test.p_value),
+        "split": f"{test.only_first} : {test.only_second}" if test else "",
+        "p_value": p_value(test.p_value) if test else "",
         "pairs": difference.n,
         "one_sided": found.one_sided,
-        "is_clear": _excludes_zero(found),
+        "is_clear": is_clear,
     }
 
 
@@ -68,8 +66,3 @@ def value_text(value: Value) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     return number(value) if isinstance(value, float) else str(value)
-
-
-def _excludes_zero(found: MeasureDifference) -> bool:
-    low, high = found.difference.low, found.difference.high
-    return low is not None and high is not None and (low > 0.0 or high < 0.0)

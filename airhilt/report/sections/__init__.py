@@ -1,26 +1,21 @@
 """The sections of a report: one Python module each, with its template and its script beside it.
 
 A section ``radar`` is the module ``radar.py`` with its `SECTION`, the Jinja template ``radar.html``
-and, if anything is to be drawn, the script ``radar.js``. A file in this package needs no
-registration. A section of another package is found by an entry point of the group
-``airhilt.report_sections`` that names the object, such as ``fuel = "my_package.fuel:SECTION"``.
+and, if anything is to be drawn, the script ``radar.js``. One of another package is found by an
+entry point of the group ``airhilt.report_sections`` that names the object.
 
 The template sees `run`, the data that all sections share, `data`, the section's own data, and
 `parts`, the markup of the sections within it. The script is the body of a function of `data`. It
-may use everything in ``report/shared/*.js``, and returns what is drawn::
-
-    return {
-      draw() { ... },                    // once
-      fit() { ... return (t) => ...; },  // again in a window of another width
-    };
-
-Both may return a function, which is then called with each time that is shown, in s.
+may use everything in ``report/shared/*.js``, and returns what is drawn: `draw`, called once, and
+`fit`, called again in a window of another width. Both may return a function of the time shown, in
+s.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
@@ -29,7 +24,7 @@ from pydantic.dataclasses import dataclass
 from airhilt.errors import AirhiltError
 from airhilt.plugins import Family
 from airhilt.record import Logged, RunFolder
-from airhilt.report.page_section import PageSection, cannot_be_shown, load_members
+from airhilt.report.page_section import PageSection, cannot_be_shown
 
 if TYPE_CHECKING:
     from airhilt.report.data import RunData
@@ -38,13 +33,7 @@ Json = dict[str, Any]
 
 
 class Content:
-    """The data of a section, gathered from one run folder and its log.
-
-    Parameters
-    ----------
-    folder
-        The run folder.
-    """
+    """The data of a section, gathered from one run folder and its log."""
 
     def __init__(self, folder: RunFolder) -> None:
         self.folder = folder
@@ -52,11 +41,8 @@ class Content:
     def take(self, logged: Logged) -> None:
         """Receive the next message with one of the section's keys.
 
-        Raises
-        ------
-        ValidationError
-            The message is not as this version writes it: the page leaves it out, and says so. Any
-            other exception costs the section.
+        After a ValidationError the page leaves the message out, and says so. Any other exception
+        costs the section.
         """
 
     def as_json(self, run: RunData) -> Any:
@@ -66,32 +52,18 @@ class Content:
 
 @dataclass(frozen=True)
 class Section(PageSection):
-    """One section of the page of a run.
-
-    Attributes
-    ----------
-    content
-        Called with the run folder to make the receiver of messages; None if the section has no
-        data of its own.
-    keys
-        Beginnings of the keys of the messages that the content receives.
-    """
+    """One section of the page of a run."""
 
     content: Callable[[RunFolder], Content] | None = None
+    """Makes the receiver of messages from the run folder; None if there is no data to receive."""
     keys: tuple[str, ...] = ()
+    """Beginnings of the keys of the messages that the content receives."""
 
 
 class GuardedContent:
     """The content of a section, whose failure costs that section alone.
 
-    Attributes
-    ----------
-    section
-        The section.
-    is_whole
-        False once the content has failed: the section cannot be shown.
-    notes
-        Sentences on what failed.
+    `is_whole` is false once the content has failed; `notes` say why.
     """
 
     def __init__(self, section: Section, folder: RunFolder) -> None:
@@ -99,51 +71,38 @@ class GuardedContent:
         self.is_whole = True
         self.notes: list[str] = []
         self._content: Content | None = None
-        try:
-            self._content = None if section.content is None else section.content(folder)
-        except Exception as error:
-            self._fail(error)
+        if section.content is not None:
+            with self._guarding():
+                self._content = section.content(folder)
 
     def take(self, logged: Logged) -> None:
-        """Hand a message to the content.
-
-        Raises
-        ------
-        ValidationError
-            The message is not as this version writes it.
-        """
-        if self._content is None:
-            return
-        try:
-            self._content.take(logged)
-        except ValidationError:
-            raise
-        except Exception as error:
-            self._fail(error)
+        """Hand a message to the content; ValidationError if it is of another version."""
+        if self._content is not None:
+            with self._guarding(ValidationError):
+                self._content.take(logged)
 
     def as_json(self, run: RunData) -> Any:
         """Return the section's data, None if it failed or JSON cannot hold it."""
-        if self._content is None:
-            return None
-        try:
-            data = self._content.as_json(run)
-            json.dumps(data, allow_nan=False)
-        except Exception as error:
-            self._fail(error)
-            return None
-        return data
+        if self._content is not None:
+            with self._guarding():
+                data = self._content.as_json(run)
+                json.dumps(data, allow_nan=False)
+                return data
+        return None
 
-    def _fail(self, error: Exception) -> None:
-        self.notes.append(cannot_be_shown(self.section.name, error))
-        self.is_whole = False
-        self._content = None
+    @contextmanager
+    def _guarding(self, *passing: type[Exception]) -> Iterator[None]:
+        """Give the content up after an exception, unless that may pass."""
+        try:
+            yield
+        except passing:
+            raise
+        except Exception as error:
+            self.notes.append(cannot_be_shown(self.section.name, error))
+            self.is_whole = False
+            self._content = None
 
 
 FAMILY = Family(
     "report section", "airhilt.report_sections", __name__, "SECTION", Section, AirhiltError
 )
-
-
-def load_sections() -> tuple[list[Section], list[str]]:
-    """Return all sections in their order, and a sentence on each that cannot be shown."""
-    return load_members(FAMILY)

@@ -7,10 +7,11 @@ import os
 from pathlib import Path
 from typing import Any
 
+from airhilt.host.files import open_inside
 from airhilt.host.text import readable
 from airhilt.imaging.boxes import size_px
 from airhilt.imaging.matching import matches
-from airhilt.messages import CameraFrame, CameraInfo, CameraTruth, Detections, SightingTruth, Status
+from airhilt.messages import CameraFrame, CameraInfo, CameraTruth, Detections, Status
 from airhilt.metrics.detection_scores import MOST_PICTURES_BEHIND, must_be_found
 from airhilt.record import Logged, RunFolder
 from airhilt.record.pictures import OCCASIONS, PictureName
@@ -28,6 +29,8 @@ MOST_BOXES = 60
 """Largest number of detections in one picture, and of true boxes."""
 MOST_NAMED = 5
 """Number of damaged pictures that are named; the others are counted."""
+OF_CAMERA = ("camera", "carrier", "width_px", "height_px", "rate_hz", "horizontal_fov_deg")
+"""Fields of `CameraInfo` in the page."""
 MEDIA_TYPES = {".png": "image/png", ".jpg": "image/jpeg"}
 
 
@@ -67,12 +70,7 @@ class CameraTimeline:
         """Return the camera and its intervals."""
         info = self.info
         return {
-            "camera": info.camera,
-            "carrier": info.carrier,
-            "width_px": info.width_px,
-            "height_px": info.height_px,
-            "rate_hz": info.rate_hz,
-            "horizontal_fov_deg": info.horizontal_fov_deg,
+            **{name: getattr(info, name) for name in OF_CAMERA},
             "video": _video(run, info.camera),
             **{name: intervals.as_json() for name, intervals in self._intervals.items()},
         }
@@ -137,7 +135,6 @@ class Cameras(Content):
         }
 
     def _picture(self, name: PictureName, sources: PictureSources) -> Json | None:
-        """Return one picture with its detections and true boxes, None if it is not the run's."""
         place = name.camera, name.seq
         frame = self._frames[place]
         source = sources.of(name)
@@ -157,10 +154,9 @@ class Cameras(Content):
 
 
 def _video(run: RunData, camera: str) -> str | None:
-    """Return a link to the video of a camera, None if it has none that the run wrote."""
     path = run.folder.video_path / f"{camera}.mp4"
     try:
-        with run.folder.open_file(path):
+        with open_inside(run.folder.path, path):
             problem = result_problem(run.folder, run.info, path)
     except FileNotFoundError:
         return None
@@ -175,12 +171,7 @@ def _video(run: RunData, camera: str) -> str | None:
 class PictureSources:
     """Puts pictures into the page, or links to them once there is no room.
 
-    Attributes
-    ----------
-    linked
-        Number of pictures that are links.
-    refused
-        A line for each picture that the run did not write as it is now.
+    `linked` counts the links; `refused` has a line for each picture that the run did not write so.
     """
 
     def __init__(self, run: RunData) -> None:
@@ -190,17 +181,11 @@ class PictureSources:
         self._room = MOST_CHARACTERS
 
     def of(self, name: PictureName) -> Json | None:
-        """Return ``src`` of a picture in the page or ``href`` of its file.
-
-        Returns
-        -------
-        dict
-            None without a file, or if it is not one that the run wrote.
-        """
+        """Return ``src`` of a picture or ``href`` of its file, None if the run did not write it."""
         folder = self._run.folder
         path = name.path(folder.pictures_path)
         try:
-            with folder.open_file(path) as stream:
+            with open_inside(folder.path, path) as stream:
                 problem = result_problem(folder, self._run.info, path)
                 size_bytes = os.fstat(stream.fileno()).st_size
                 has_room = 4 * -(-size_bytes // 3) <= self._room
@@ -219,14 +204,12 @@ class PictureSources:
 
 
 def _pictures(folder: Path) -> list[PictureName]:
-    """Return the pictures in a folder; those of the start come last."""
     found = [name for path in sorted(folder.glob("*")) if (name := PictureName.of(path))]
     order = (*OCCASIONS[1:], OCCASIONS[0])
     return sorted(found, key=lambda name: order.index(name.occasion))
 
 
 def _boxes(truth: CameraTruth | None, seen: Detections | None) -> Json:
-    """Return detections with the actors that they match, and true boxes."""
     sightings = () if truth is None else truth.sightings
     detections = () if seen is None else seen.detections
     matched = matches(sightings, detections)
@@ -245,19 +228,18 @@ def _boxes(truth: CameraTruth | None, seen: Detections | None) -> Json:
             }
             for detection, sighting in list(zip(detections, matched, strict=True))[:MOST_BOXES]
         ],
-        "truth": [_truth(one, one.actor in found) for one in visible[:MOST_BOXES]],
-    }
-
-
-def _truth(sighting: SightingTruth, found: bool) -> Json:
-    return {
-        "actor": sighting.actor,
-        "label": sighting.label,
-        "box": _rounded(sighting.box),
-        "range_m": round(sighting.range_m, 1),
-        "size_px": round(size_px(sighting.box), 1),
-        "found": found,
-        "counts": must_be_found(sighting),
+        "truth": [
+            {
+                "actor": sighting.actor,
+                "label": sighting.label,
+                "box": _rounded(sighting.box),
+                "range_m": round(sighting.range_m, 1),
+                "size_px": round(size_px(sighting.box), 1),
+                "found": sighting.actor in found,
+                "counts": must_be_found(sighting),
+            }
+            for sighting in visible[:MOST_BOXES]
+        ],
     }
 
 

@@ -16,6 +16,8 @@ MOST_ROWS = 300
 """Largest number of advisories in the page, counting each revision."""
 MOST_NAMES = 12
 """Largest number of names in one cell."""
+TIMES = ("time_to_go_s", "time_to_loss_s", "time_to_closest_approach_s")
+"""Fields of the evidence that say how urgent it is; the first one that is known is shown."""
 
 
 class AdvisoryEvidence(Content):
@@ -36,6 +38,7 @@ class AdvisoryEvidence(Content):
             self._left_out += 1
             return
         evidence = advisory.evidence
+        times_s = (getattr(evidence, name) for name in TIMES)
         self._rows[key] = {
             "t": logged.t_ns / SECOND_NS,
             "severity": advisory.severity,
@@ -50,18 +53,7 @@ class AdvisoryEvidence(Content):
             "radio": _names(evidence.radio_ids),
             "cameras": _names(evidence.camera_ids),
             "tracks": _names(evidence.tracks),
-            "time_to_go_s": next(
-                (
-                    time_s
-                    for time_s in (
-                        evidence.time_to_go_s,
-                        evidence.time_to_loss_s,
-                        evidence.time_to_closest_approach_s,
-                    )
-                    if time_s is not None
-                ),
-                None,
-            ),
+            "time_to_go_s": next((time_s for time_s in times_s if time_s is not None), None),
         }
 
     def as_json(self, run: RunData) -> list[Json]:

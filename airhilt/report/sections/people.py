@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-from airhilt.host.text import readable
 from airhilt.report.data import RunData
 from airhilt.report.sections import Content, Section
 
@@ -17,18 +16,7 @@ class People(Content):
     def as_json(self, run: RunData) -> list[Json]:
         """Return one object for each seat."""
         people = () if run.summary is None else run.summary.people
-        return [_readable(person.model_dump(mode="json")) for person in people]
-
-
-def _readable(value: Any) -> Any:
-    match value:
-        case str():
-            return readable(value)
-        case dict():
-            return {name: _readable(inner) for name, inner in value.items()}
-        case list():
-            return [_readable(inner) for inner in value]
-    return value
+        return [person.model_dump(mode="json") for person in people]
 
 
 SECTION = Section("people", order=35, module=__file__, content=People)

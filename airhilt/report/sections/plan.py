@@ -79,9 +79,7 @@ class Plan(Content):
 
 
 def _is_due(looks: Sequence[tuple[int, object]], t_ns: int) -> bool:
-    if not looks:
-        return True
-    return t_ns - looks[-1][0] >= PERIOD_NS and len(looks) < MOST_LOOKS
+    return not looks or (t_ns - looks[-1][0] >= PERIOD_NS and len(looks) < MOST_LOOKS)
 
 
 def _bearing_deg(view: CameraView, box: tuple[float, float, float, float]) -> float:

@@ -23,6 +23,8 @@ Json = dict[str, Any]
 
 MOST_PLOTS = 4_000
 """Largest number of plots of one radar in the page."""
+OF_RADAR = ("site", "kind", "rotation_s", "primary_range_m", "secondary_range_m")
+"""Fields of `RadarInfo` in the page."""
 NEAR_M = 1_500.0
 """A plot is of an actor if it lies within this of the actor's true place, in m, ..."""
 NEAR_RAD = 0.02
@@ -93,11 +95,7 @@ class Radar:
         east_nm, north_nm = run.locate(_place(info), info.altitude_m)
         actors = self._actors(run)
         return {
-            "site": info.site,
-            "kind": info.kind,
-            "rotation_s": info.rotation_s,
-            "primary_range_m": info.primary_range_m,
-            "secondary_range_m": info.secondary_range_m,
+            **{name: getattr(info, name) for name in OF_RADAR},
             "east_nm": round(east_nm, 4),
             "north_nm": round(north_nm, 4),
             "plots": [
@@ -122,7 +120,6 @@ class Radar:
         }
 
     def _actors(self, run: RunData) -> list[str | None]:
-        """Return the actor that each plot is of, as far as the truth tells."""
         if not self._plots or not run.tracks:
             return [None] * len(self._plots)
         t_ns = [plot.t_plot_ns for plot in self._plots]

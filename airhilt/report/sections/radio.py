@@ -7,7 +7,7 @@ from typing import Any
 from airhilt.audio.pcm import SAMPLE_RATE_HZ
 from airhilt.host.text import readable
 from airhilt.messages import AdvisoryAudio, SpokenTruth, Transcript
-from airhilt.metrics.calls import CallRecord, CallRecords, call_message
+from airhilt.metrics.calls import CallRecord, CallRecords
 from airhilt.metrics.words import align
 from airhilt.record import Logged, RunFolder
 from airhilt.report.data import RunData
@@ -27,26 +27,21 @@ class Radio(Content):
     def __init__(self, folder: RunFolder) -> None:
         super().__init__(folder)
         self._calls = CallRecords()
-        self._advisories: list[AdvisoryAudio] = []
 
     def take(self, logged: Logged) -> None:
         """Receive a message about a call, or the audio of an advisory."""
-        model = call_message(logged.key)
-        if model is AdvisoryAudio:
-            self._advisories.append(AdvisoryAudio.model_validate_json(logged.data))
-        elif model is not None:
-            self._calls.take(model.model_validate_json(logged.data))
+        self._calls.read(logged.key, logged.data)
 
     def as_json(self, run: RunData) -> Json:
         """Return calls and spoken advisories, each in the order in which they began."""
-        sounds = Sounds(run)
+        sounds, spoken = Sounds(run), self._calls.spoken
         calls = [(call, said) for call in self._calls if (said := call.said) is not None]
         calls.sort(key=lambda call: (call[1].t_tx_ns, call[1].id))
         radio = {
             "calls": [_call(call, said, sounds) for call, said in calls[:MOST_CALLS]],
-            "advisories": [_advisory(audio, sounds) for audio in self._advisories[:MOST_CALLS]],
+            "advisories": [_advisory(audio, sounds) for audio in spoken[:MOST_CALLS]],
         }
-        left_out = sum(max(len(all_) - MOST_CALLS, 0) for all_ in (calls, self._advisories))
+        left_out = sum(max(len(all_) - MOST_CALLS, 0) for all_ in (calls, spoken))
         if left_out:
             run.notes.append(
                 f"The radio shows the first {MOST_CALLS} calls and spoken advisories; {left_out} "
@@ -78,7 +73,6 @@ def _call(call: CallRecord, said: SpokenTruth, sounds: Sounds) -> Json:
 
 
 def _transcript(transcript: Transcript, said: SpokenTruth) -> Json:
-    """Return what was recognised, beside what was said."""
     return {
         "engine": readable(transcript.engine),
         "confidence": transcript.confidence,

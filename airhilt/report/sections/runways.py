@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -18,11 +18,8 @@ from airhilt.units import NAUTICAL_MILE, SECOND_NS
 Json = dict[str, Any]
 
 
-class Approach(NamedTuple):
-    """An aircraft on its way to a runway, named by the direction of landing."""
-
-    actor: str
-    runway: str
+Approach = tuple[str, str]
+"""An aircraft, and the runway that it is about to land on, by the direction of landing."""
 
 
 class RunwayTimeline:
@@ -37,7 +34,7 @@ class RunwayTimeline:
         """Add the next state of the runway."""
         self._occupants.update(t_ns, truth.occupants)
         self._approaches.update(
-            t_ns, (Approach(arrival.actor, arrival.runway) for arrival in truth.arrivals)
+            t_ns, ((arrival.actor, arrival.runway) for arrival in truth.arrivals)
         )
 
     def as_json(self, run: RunData) -> Json:
@@ -50,8 +47,8 @@ class RunwayTimeline:
             ],
             "approaches": [
                 {
-                    "what": interval.what.actor,
-                    "runway": interval.what.runway,
+                    "what": interval.what[0],
+                    "runway": interval.what[1],
                     "threshold": _threshold_s(interval, run),
                     **interval.times_as_json(),
                 }
@@ -79,8 +76,8 @@ class Runways(Content):
 
 
 def _threshold_s(approach: Interval[Approach], run: RunData) -> float | None:
-    """Return when an approach crossed its threshold, in s, or None if it did not."""
-    track = run.tracks.get(approach.what.actor)
+    actor, runway = approach.what
+    track = run.tracks.get(actor)
     if run.airport is None or track is None:
         return None
     times_s = [state.t_ns / SECOND_NS for state in track.states]
@@ -90,9 +87,7 @@ def _threshold_s(approach: Interval[Approach], run: RunData) -> float | None:
     part = slice(max(first - 1, 0), last + 1)
     east_m = [value * NAUTICAL_MILE for value in track.east_nm[part]]
     north_m = [value * NAUTICAL_MILE for value in track.north_nm[part]]
-    crossed_s = run.airport.threshold_crossed_s(
-        approach.what.runway, times_s[part], east_m, north_m
-    )
+    crossed_s = run.airport.threshold_crossed_s(runway, times_s[part], east_m, north_m)
     return None if crossed_s is None else round(crossed_s, 2)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,41 +30,29 @@ TITLES = {
 """Parameters that have a name in words."""
 
 
-@dataclass(frozen=True)
-class Level:
-    """One value of a parameter, or a bin of values.
+class Level(NamedTuple):
+    """One value of a parameter in words, or a bin of values.
 
-    Attributes
-    ----------
-    label
-        The value in words.
-    position
-        The value, or the mean of those in the bin; a place in the order for what is no number.
-    low, high
-        Limits of a bin; None for one value.
+    Its position is the value, or the mean of those in the bin; a place in the order for what is no
+    number.
     """
 
     label: str
     position: float
-    low: float | None = None
-    high: float | None = None
 
 
 @dataclass(frozen=True)
 class Axis:
-    """One parameter with its levels, in rising order.
-
-    Attributes
-    ----------
-    values
-        The parameter of each run; null where the run leaves it to its scenario.
-    """
+    """One parameter with its levels, in rising order."""
 
     name: str
     unit: str
     is_numeric: bool
     levels: tuple[Level, ...]
-    values: Series
+    places: Series
+    """Place of each run among the levels, -1 where the run leaves the parameter to its scenario."""
+    distinct: int
+    """Number of different values; more than there are levels if these are bins."""
 
     @property
     def title(self) -> str:
@@ -86,29 +74,27 @@ class Axis:
 
     def among(self, runs: DataFrame, level: Level) -> Mask:
         """Return which of some runs are at a level."""
-        return np.asarray(self._at(level).loc[runs.index], dtype=np.bool_)
-
-    def _at(self, level: Level) -> Series:
-        if level.low is not None and level.high is not None:
-            is_last = level is self.levels[-1]
-            below = self.values <= level.high if is_last else self.values < level.high
-            return ((self.values >= level.low) & below).fillna(False)
-        if self.is_numeric:
-            return (self.values == level.position).fillna(False)
-        return (self.values.map(_label, na_action="ignore") == level.label).fillna(False)
+        return np.asarray(self.places.loc[runs.index] == self.levels.index(level))
 
 
 def axis_of(name: str, values: Series, unit: str) -> Axis:
     """Return a parameter as an axis; many numbers are put into bins."""
     present = values.dropna()
-    if not _is_numeric(present):
-        labels = sorted({_label(value) for value in present})
-        levels = [Level(label, float(place)) for place, label in enumerate(labels)]
-        return Axis(name, unit, False, tuple(levels), values)
-    numbers = sorted({float(value) for value in present})
-    if len(numbers) > MOST_LEVELS:
-        return Axis(name, unit, True, _bins(present.to_numpy(dtype=np.float64)), values)
-    return Axis(name, unit, True, tuple(Level(number_text(n), n) for n in numbers), values)
+    is_numeric = len(present) > 0 and present.dtype.kind in "iuf"
+    keys = present.astype("float64") if is_numeric else present.map(_label)
+    distinct = sorted(set(keys))
+    places = keys.map({key: place for place, key in enumerate(distinct)})
+    levels = [Level(str(key), float(place)) for place, key in enumerate(distinct)]
+    if is_numeric and len(distinct) > MOST_LEVELS:
+        limits = np.unique(np.quantile(keys, np.linspace(0.0, 1.0, BINS + 1)))
+        places[:] = np.searchsorted(limits[1:-1], keys, side="right")
+        names = [number_text(float(f"{limit:.3g}")) for limit in limits]
+        means = keys.groupby(places).mean()
+        levels = [Level("–".join(ends), means[n]) for n, ends in enumerate(pairwise(names))]
+    elif is_numeric:
+        levels = [Level(number_text(number), number) for number in distinct]
+    places = places.reindex(values.index, fill_value=-1)
+    return Axis(name, unit, is_numeric, tuple(levels), places, len(distinct))
 
 
 def number_text(number: float) -> str:
@@ -128,10 +114,6 @@ def heat_map_axes(axes: Sequence[Axis]) -> tuple[Axis, Axis] | None:
     return first, second
 
 
-def _is_numeric(values: Series) -> bool:
-    return len(values) > 0 and values.dtype.kind in "iuf"
-
-
 def _unevenness(places: NDArray[np.float64]) -> float:
     """Return the spread of the steps between places, by their mean."""
     steps = np.diff(places)
@@ -142,15 +124,3 @@ def _label(value: Any) -> str:
     if isinstance(value, bool | np.bool_):
         return "yes" if value else "no"
     return str(value)
-
-
-def _bins(numbers: NDArray[np.float64]) -> tuple[Level, ...]:
-    """Return bins with nearly as many runs in each."""
-    limits = np.unique(np.quantile(numbers, np.linspace(0.0, 1.0, BINS + 1)))
-    levels = []
-    for begin, end in pairwise(float(limit) for limit in limits):
-        below = numbers <= end if end == limits[-1] else numbers < end
-        inside = numbers[(numbers >= begin) & below]
-        label = "–".join(number_text(float(f"{limit:.3g}")) for limit in (begin, end))
-        levels.append(Level(label, float(inside.mean()), begin, end))
-    return tuple(levels)

@@ -34,36 +34,23 @@ ALL_FAMILIES = "all"
 
 @dataclass
 class SweepData:
-    """One sweep.
-
-    Attributes
-    ----------
-    folder
-        The sweep folder.
-    info
-        Content of ``sweep.json``.
-    runs
-        Rows of ``sweep.parquet``: runs that finished or failed.
-    machine
-        Rows of ``machine.parquet``: all runs.
-    columns
-        ``unit`` and ``description`` of the columns of `runs`, by name.
-    parameters
-        Names of the columns that are parameters of the grid.
-    page
-        File that the page will be.
-    notes
-        Sentences on what cannot be shown.
-    """
+    """One sweep."""
 
     folder: SweepFolder
     info: Json
+    """Content of ``sweep.json``."""
     runs: DataFrame
+    """Rows of ``sweep.parquet``: runs that finished or failed."""
     machine: DataFrame
+    """Rows of ``machine.parquet``: all runs."""
     columns: dict[str, dict[str, str]]
+    """``unit`` and ``description`` of the columns of `runs`, by name."""
     parameters: tuple[str, ...]
+    """Names of the columns that are parameters of the grid."""
     page: Path
+    """File that the page will be."""
     notes: list[str] = field(default_factory=list)
+    """Sentences on what cannot be shown."""
 
     @property
     def finished(self) -> DataFrame:
@@ -89,13 +76,13 @@ class SweepData:
         """
         wanted = (*BEFORE_PARAMETERS, *self.parameters, *MEASURED)
         runs = self.finished[[name for name in dict.fromkeys(wanted) if name in self.columns]]
-        groups = [(str(name), group) for name, group in runs.groupby(_families(runs), sort=True)]
+        groups = [(str(name), group) for name, group in runs.groupby(families_of(runs), sort=True)]
         return [(ALL_FAMILIES, runs), *groups] if len(groups) > 1 else groups
 
     def failed(self, family: str, assistant: str) -> int:
         """Return how many runs of an assistant failed, in a family or in all of them."""
         failed = self.runs[self.runs[AFTER_PARAMETERS] != "finished"]
-        is_of_family = (_families(failed) == family) | (family == ALL_FAMILIES)
+        is_of_family = (families_of(failed) == family) | (family == ALL_FAMILIES)
         return int((is_of_family & (failed["assistant"] == assistant)).sum())
 
     def link_to(self, path: Path) -> str:
@@ -103,55 +90,38 @@ class SweepData:
         return Path(os.path.relpath(path, self.page.absolute().parent)).as_posix()
 
 
-def _families(runs: DataFrame) -> Series:
+def families_of(runs: DataFrame) -> Series:
     """Return the family of each run, with a name for those that have none."""
     return runs["family"].fillna("").replace("", OTHER_FAMILY)
 
 
 def read_sweep_data(folder: SweepFolder, page: Path) -> SweepData:
-    """Return what the page of a sweep shows.
-
-    Raises
-    ------
-    AirhiltError
-        A table is not there, is damaged, or is not one of a sweep.
-    """
-    info, table = folder.info(), folder.table()
+    """Return what the page of a sweep shows; `AirhiltError` if a table is not there or damaged."""
+    table = folder.table()
+    runs = frame_of(table)
     return SweepData(
         folder=folder,
-        info=info,
-        runs=frame_of(table),
+        info=folder.info(),
+        runs=runs,
         machine=frame_of(folder.machine()),
         columns={each.name: _meaning(each) for each in table.schema},
         parameters=parameters_of(table, str(folder.table_path)),
         page=page,
-        notes=[*(f"Damaged: {line}." for line in folder.damage()), *_notes(table)],
+        notes=[*(f"Damaged: {line}." for line in folder.damage()), *_notes(runs)],
     )
 
 
-def _notes(table: pa.Table) -> list[str]:
-    """Return sentences on numbers that not all runs have."""
-    import pyarrow.compute as pc
-
-    if EXPOSURES_LEFT_OUT not in table.column_names:
-        return []
-    count = pc.sum(pc.greater(table[EXPOSURES_LEFT_OUT], 0)).as_py() or 0
-    if not count:
+def _notes(runs: DataFrame) -> list[str]:
+    if EXPOSURES_LEFT_OUT not in runs or not (count := int((runs[EXPOSURES_LEFT_OUT] > 0).sum())):
         return []
     return [
-        f"Cameras left exposures out in {count} of {table.num_rows} runs (--camera-rate adaptive). "
+        f"Cameras left exposures out in {count} of {len(runs)} runs (--camera-rate adaptive). "
         "Nuisance alerts are not counted there: what is really there decided on the exposures."
     ]
 
 
 def parameters_of(table: pa.Table, origin: str) -> tuple[str, ...]:
-    """Return the names of the columns that are parameters; ``origin`` begins an error message.
-
-    Raises
-    ------
-    AirhiltError
-        It is no table of a sweep.
-    """
+    """Return the columns that are parameters; `AirhiltError` names what is no table of a sweep."""
     names: Sequence[str] = table.column_names
     first = len(BEFORE_PARAMETERS)
     if tuple(names[:first]) != BEFORE_PARAMETERS or AFTER_PARAMETERS not in names:

@@ -16,13 +16,7 @@ PX_PER_IN = 96.0
 def figure_json(
     sweep: SweepData, name: str, caption: str, width_in: float, choice: dict[str, str]
 ) -> Json:
-    """Return a figure as its section shows it.
-
-    Parameters
-    ----------
-    choice
-        Choices by which the figure differs from the others, such as ``{"Measure": "Avoided"}``.
-    """
+    """Return a figure as its section shows it, with the choices by which it differs from others."""
     folder = sweep.folder.figures_path
     return {
         "name": name,

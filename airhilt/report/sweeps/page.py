@@ -7,16 +7,14 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from airhilt.errors import AirhiltError
-from airhilt.host.files import replace_file
 from airhilt.host.text import readable
 from airhilt.record.damage import Notice, untold
 from airhilt.record.sweep_folder import SweepFolder
-from airhilt.report.assembly import Assembly
+from airhilt.report.assembly import assemble, write_page
 from airhilt.report.figures import Figures
-from airhilt.report.page_section import cannot_be_shown
+from airhilt.report.page_section import cannot_be_shown, load_members
 from airhilt.report.sweeps.data import SweepData, read_sweep_data
-from airhilt.report.sweeps.sections import SweepSection, load_sections
+from airhilt.report.sweeps.sections import FAMILY, SweepSection
 
 SHARED = ("document", "page", "words", "tables")
 """Scripts that all sections may use, in the order in which they build on each other."""
@@ -28,28 +26,11 @@ def write_sweep_report(
     drawn: Callable[[int], None] = lambda _: None,
     notice: Notice | None = untold,
 ) -> Path:
-    """Write the page of a sweep, by default as ``report.html`` in its folder, and its figures.
+    """Write the page of a sweep, by default as ``report.html`` in its folder, and return its path.
 
-    Parameters
-    ----------
-    sweep_folder
-        Folder of a sweep whose tables have been written.
-    out
-        File to write the page to instead; the figures stay in ``figures`` of the sweep folder.
-    drawn
-        Called after each figure with the number of those that there are.
-    notice
-        Is told what is damaged; the page says so too.
-
-    Returns
-    -------
-    Path
-        The file written.
-
-    Raises
-    ------
-    AirhiltError
-        There is no sweep, a table is damaged, or the page or a figure cannot be written.
+    The figures go into ``figures`` of the sweep folder; `drawn` is told their number after each.
+    The notice is told what is damaged; the page says so too. It raises `AirhiltError` if there is
+    no sweep, a table is damaged, or the page or a figure cannot be written.
     """
     folder = SweepFolder.open(sweep_folder, notice)
     page = out or folder.report_path
@@ -57,16 +38,13 @@ def write_sweep_report(
     figures = Figures(drawn)
     html = render(sweep, figures)
     figures.write(folder.figures_path)
-    try:
-        replace_file(page, f"{html}\n".encode())
-    except OSError as error:
-        raise AirhiltError(f"{page}: cannot be written: {error.strerror}") from None
+    write_page(page, html)
     return page
 
 
 def render(sweep: SweepData, figures: Figures) -> str:
     """Return the page of a sweep as HTML."""
-    sections, problems = load_sections()
+    sections, problems = load_members(FAMILY)
     shown: list[SweepSection] = []
     own: dict[str, Any] = {}
     for section in sections:
@@ -82,4 +60,4 @@ def render(sweep: SweepData, figures: Figures) -> str:
     title = f"{sweep.folder.path.absolute().name}: AIRHILT sweep"
     notes = [readable(each) for each in (*sweep.notes, *problems)]
     data = {"title": title, "notes": notes, "sections": own}
-    return Assembly("sweep", title, SHARED, shown, data, figures.markup).page()
+    return assemble("sweep", title, SHARED, shown, data, figures.markup)

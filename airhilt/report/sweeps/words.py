@@ -26,8 +26,7 @@ def estimate(found: Estimate, unit: str) -> tuple[str, str]:
     """Return an estimate and its interval in words; the first is a dash if nothing is known."""
     if found.value is None:
         return "–", ""
-    write = short if unit == "%" else (lambda value, _: number(value))
-    text = f"{write(found.value, unit)}{SPACE}{unit}" if unit else write(found.value, unit)
+    text = f"{short(found.value, unit)}{SPACE}{unit}" if unit else short(found.value, unit)
     if found.low is None or found.high is None:
         return text, ""
-    return text, f"{write(found.low, unit)} to {write(found.high, unit)}"
+    return text, f"{short(found.low, unit)} to {short(found.high, unit)}"

@@ -11,7 +11,7 @@ from typing import Any
 
 from airhilt.errors import AirhiltError
 from airhilt.host.files import replace_file, sha256
-from airhilt.report.evaluation.page import render
+from airhilt.report.evaluation.tables import render
 from airhilt.sweep.cases import cases
 from airhilt.sweep.engine import SweepObserver, SweepResult, sweep
 from airhilt.sweep.evaluation.preset import Choice, Preset, Results

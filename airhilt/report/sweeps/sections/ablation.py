@@ -11,7 +11,7 @@ from airhilt.report.sweeps.axes import Axis, axis_of
 from airhilt.report.sweeps.data import SweepData
 from airhilt.report.sweeps.figure_section import HERE, figure_json, section_json
 from airhilt.report.sweeps.sections import SweepSection
-from airhilt.report.sweeps.words import number, short
+from airhilt.report.sweeps.words import short
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -57,7 +57,7 @@ def _groupings(sweep: SweepData, family: str, runs: DataFrame) -> list[Axis]:
     axes = [axis for axis in sweep.axes() if not axis.is_numeric]
     names = ("family", "scenario") if family == "all" else ("scenario",)
     axes += [axis_of(name, sweep.finished[name].replace("", None), "") for name in names]
-    several = [axis for axis in axes if len(set(axis.values.loc[runs.index].dropna())) > 1]
+    several = [axis for axis in axes if len({*axis.places.loc[runs.index]} - {-1}) > 1]
     return several or [axis_of("assistant", sweep.finished["assistant"], "")]
 
 
@@ -108,7 +108,6 @@ def _colour(place: int) -> str:
 
 
 def _bars(axes: Axes, measure: Measure, bars: list[Estimate], place: int, among: int) -> None:
-    """Draw the bars of one series, each with its interval and its value in words."""
     thick = 0.8 / among
     for level, found in enumerate(bars):
         y = level - 0.4 + thick * (place + 0.5)
@@ -120,9 +119,8 @@ def _bars(axes: Axes, measure: Measure, bars: list[Estimate], place: int, among:
         if found.low is not None and found.high is not None:
             axes.plot([found.low, found.high], [y, y], color=INK, linewidth=1.1)
             end = max(end, found.high)
-        text = short(found.value, "%") if measure.unit == "%" else number(found.value)
-        axes.annotate(text, (end, y), (4, 0), textcoords="offset points", va="center",
-                      fontsize=7.5)  # fmt: skip
+        text = short(found.value, measure.unit)
+        axes.annotate(text, (end, y), (4, 0), textcoords="offset points", va="center", fontsize=7.5)
 
 
 SECTION = SweepSection("ablation", order=25, module=HERE, content=content)

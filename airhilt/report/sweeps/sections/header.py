@@ -41,8 +41,8 @@ def _names(names: list[str]) -> str:
 
 def _levels(axis: Axis) -> str:
     names = _names([level.label for level in axis.levels])
-    is_binned = axis.levels[0].low is not None
-    return f"{axis.values.nunique()} values, in bins {names}" if is_binned else names
+    is_binned = axis.distinct > len(axis.levels)
+    return f"{axis.distinct} values, in bins {names}" if is_binned else names
 
 
 SECTION = SweepSection("header", order=10, module=__file__, content=content)

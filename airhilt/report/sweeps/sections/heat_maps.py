@@ -52,11 +52,6 @@ class _Cells:
                 if found.value is not None:
                     self.values[row, column] = found.value
 
-    @property
-    def is_empty(self) -> bool:
-        """True if nothing is known in any cell."""
-        return bool(np.isnan(self.values).all())
-
 
 def content(sweep: SweepData, figures: Figures) -> dict[str, Any] | None:
     """Return the heat maps, None without two parameters to draw them over."""
@@ -70,7 +65,7 @@ def content(sweep: SweepData, figures: Figures) -> dict[str, Any] | None:
                 assistant: _Cells(measure, axes, runs[runs["assistant"] == assistant])
                 for assistant in sweep.assistants
             }
-            panels = {name: cells for name, cells in panels.items() if not cells.is_empty}
+            panels = {name: cells for name, cells in panels.items() if cells.counts.any()}
             if panels:
                 name = figures.name_for("heat_map", measure.name, family)
                 width_in = _draw(figures, name, measure, axes, panels)
@@ -126,7 +121,8 @@ def _draw(
 
 
 def _panel(axes: Axes, cells: _Cells, measure: Measure, colours: Any) -> None:
-    """Draw the cells of one assistant with their values."""
+    from matplotlib.patches import Rectangle
+
     rows, columns = cells.values.shape
     axes.set(xlim=(-0.5, columns - 0.5), ylim=(-0.5, rows - 0.5))
     axes.spines[:].set_visible(False)
@@ -137,20 +133,13 @@ def _panel(axes: Axes, cells: _Cells, measure: Measure, colours: Any) -> None:
             axes.text(column, row, "–", ha="center", va="center", color=DIM, in_layout=False)
             continue
         red, green, blue, _ = colours.to_rgba(value)
-        _square(axes, column, row, (red, green, blue))
+        place, colour = (column - 0.5, row - 0.5), (red, green, blue)
+        axes.add_patch(Rectangle(place, 1, 1, facecolor=colour, edgecolor=PANEL, linewidth=1.2))
         luminance = 0.2126 * red + 0.7152 * green + 0.0722 * blue
         ink = WHITE if luminance < DARK else BLACK
         own: dict[str, Any] = {"ha": "center", "va": "center", "color": ink, "in_layout": False}
         axes.text(column, row + 0.1, short(value, measure.unit), fontsize=8.5, **own)
         axes.text(column, row - 0.28, f"n={cells.counts[row, column]}", fontsize=5.5, **own)
-
-
-def _square(axes: Axes, column: int, row: int, colour: tuple[float, float, float]) -> None:
-    from matplotlib.patches import Rectangle
-
-    axes.add_patch(
-        Rectangle((column - 0.5, row - 0.5), 1, 1, facecolor=colour, edgecolor=PANEL, linewidth=1.2)
-    )
 
 
 SECTION = SweepSection("heat_maps", order=30, module=HERE, content=content)

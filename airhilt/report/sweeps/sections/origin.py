@@ -46,7 +46,6 @@ def _costs(machine: DataFrame) -> Iterator[tuple[str, str]]:
 
 
 def _flat(given: Any, path: str = "") -> Iterator[tuple[str, str]]:
-    """Yield the single values of a JSON document, each with the names that lead to it."""
     if isinstance(given, dict):
         for name, value in given.items():
             yield from _flat(value, f"{path} {name}".strip())

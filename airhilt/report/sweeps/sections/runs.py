@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from airhilt.host.text import readable
 from airhilt.report.figures import Figures
 from airhilt.report.sweeps.data import BEFORE_PARAMETERS, SweepData
 from airhilt.report.sweeps.sections import SweepSection
-
-if TYPE_CHECKING:
-    from pandas import Series
 
 SHOWN = (
     "time_to_first_warning_s",
@@ -76,18 +73,16 @@ def content(sweep: SweepData, figures: Figures) -> dict[str, Any]:  # noqa: ARG0
                 **sweep.columns[name],
                 "shown": name in always,
                 "is_parameter": name in sweep.parameters or name in BEFORE_PARAMETERS,
-                "values": _values(runs[name]),
+                "values": [
+                    _value(value)
+                    for value in runs[name].astype(object).where(runs[name].notna(), None)
+                ],
             }
             for name in names
         ],
         "keys": [str(key)[:16] for key in runs["key"]],
         "links": [_link(sweep, kept.get(key, "")) for key in runs["key"]],
     }
-
-
-def _values(column: Series) -> list[Any]:
-    """Return the values of a column as JSON has them: null where there is none."""
-    return [_value(value) for value in column.astype(object).where(column.notna(), None)]
 
 
 def _value(value: Any) -> Any:
@@ -97,7 +92,6 @@ def _value(value: Any) -> Any:
 
 
 def _link(sweep: SweepData, folder: str) -> str:
-    """Return the address of a run that is kept: its page if it has one, else its folder."""
     path = sweep.folder.path / folder
     if not folder or not path.resolve().is_relative_to(sweep.folder.path.resolve()):
         return ""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import asdict, dataclass, field, replace
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -16,44 +16,20 @@ from airhilt.audio.wav import write_wav_pieces
 from airhilt.errors import RunFolderError, SpeechError, first_problem
 from airhilt.host.files import replace_file
 from airhilt.host.text import LONGEST_LINE, readable
-from airhilt.messages import SpokenTruth, Transcript, Transmission
+from airhilt.messages import Transmission
+from airhilt.metrics.calls import CallRecord, CallRecords
 from airhilt.quantities import LONGEST_RUN_S
+from airhilt.record import Run, RunFolder, open_run
 from airhilt.record.audio import MessageWithSound, audio_file, recorded_pcm
 from airhilt.record.damage import Notice, untold
-from airhilt.record.folder import RunFolder
-from airhilt.record.run import Run, open_run
 from airhilt.units import SECOND_NS
+
+Json = dict[str, Any]
 
 SILENCE_SAMPLES = 10 * SAMPLE_RATE_HZ
 """Greatest number of samples of silence in a piece of sound."""
 LATEST_NS = round((LONGEST_RUN_S + 60.0) * SECOND_NS)
 """Latest time of what was said in a run, in ns: a call may last beyond its end."""
-
-
-@dataclass(frozen=True, slots=True)
-class Recognition:
-    """One recogniser's transcript of a call."""
-
-    text: str
-    confidence: float
-    engine: str
-    after_end_s: float
-    """Time from the end of the call to its transcript, in s."""
-
-
-@dataclass(frozen=True, slots=True)
-class RecordedCall:
-    """One transmission on the frequency, as it was said and recognised."""
-
-    id: str
-    t_tx_s: float
-    t_end_s: float
-    snr_db: float | None
-    speaker: str
-    addressed: str | None
-    said: str
-    blocked_by: tuple[str, ...]
-    heard: tuple[Recognition, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,10 +58,7 @@ class SplicedSound:
     def pieces(self) -> Iterator[Audio]:
         """Yield the sound by pieces, so that no day of silence is ever in memory.
 
-        Raises
-        ------
-        RunFolderError
-            A sound file is missing, or not what was received.
+        It raises `RunFolderError` if a sound file is missing, or not what was received.
         """
         at = 0
         for one in self.placed:
@@ -107,7 +80,8 @@ class FrequencyRecording:
 
     run: str
     frequency_khz: int
-    calls: tuple[RecordedCall, ...]
+    calls: list[Json]
+    """The calls as they were said and recognised, with times in s."""
     sound: SplicedSound = field(repr=False)
     notes: tuple[str, ...] = ()
     """Files of the run that are damaged."""
@@ -124,13 +98,13 @@ class FrequencyRecording:
         lines = "\n\n".join([head, *notes, *map(_paragraph, self.calls)]).split("\n")
         return "".join(f"{readable(line, LONGEST_LINE)}\n" for line in lines)
 
-    def as_dict(self) -> dict[str, Any]:
+    def as_dict(self) -> Json:
         """Return everything but the sound, for JSON."""
         return {
             "run": self.run,
             "frequency_khz": self.frequency_khz,
             "duration_s": self.duration_s,
-            "calls": [asdict(call) for call in self.calls],
+            "calls": self.calls,
             "notes": list(self.notes),
         }
 
@@ -141,30 +115,14 @@ def write_frequency(
     out: Path | None = None,
     notice: Notice = untold,
 ) -> tuple[FrequencyRecording, Path, Path]:
-    """Write the sound of a frequency with the timing of the run, and its transcript.
+    """Write the sound of a frequency with the timing of the run, and its transcript beside it.
 
-    Parameters
-    ----------
-    frequency_khz
-        The frequency; None takes the only one of the run.
-    out
-        The WAV file; the transcript has the same name with ``.txt``. None writes both into the
-        run folder, under the name of the frequency.
-    notice
-        Is told what is damaged; the transcript says it too.
+    Without a frequency it takes the only one of the run; without a WAV file it writes into the run
+    folder, under the name of the frequency. The notice is told what is damaged; the transcript says
+    it too. The recording, the WAV file and the transcript's file are returned.
 
-    Returns
-    -------
-    tuple
-        The recording, the WAV file and the transcript's file.
-
-    Raises
-    ------
-    RunFolderError
-        There is no run, nothing was said on that frequency, or a sound file is not what was
-        received.
-    SpeechError
-        The run has no sound.
+    It raises `RunFolderError` if there is no run, nothing was said there, or a sound file is not
+    what was received, and `SpeechError` if the run has no sound.
     """
     run = open_run(run_folder, notice)
     recording = read_frequency(run, frequency_khz)
@@ -181,63 +139,26 @@ def write_frequency(
 
 
 def read_frequency(run: Run, frequency_khz: int | None = None) -> FrequencyRecording:
-    """Return the sound of a frequency with the timing of the run, and what was said on it.
-
-    Parameters
-    ----------
-    frequency_khz
-        The frequency; None takes the only one of the run.
-
-    Raises
-    ------
-    RunFolderError, SpeechError
-        As `write_frequency`.
-    """
-    folder = run.folder
-    transmissions: list[Transmission] = []
-    spoken: dict[str, SpokenTruth] = {}
-    transcripts: dict[str, list[Transcript]] = {}
+    """Return the sound of a frequency, and what was said on it; else as `write_frequency`."""
+    records = CallRecords()
     try:
         for logged in run.messages():
-            kind = logged.key.split("/")
-            if kind[0] == "radio" and kind[-1] == "tx":
-                transmissions.append(Transmission.model_validate_json(logged.data))
-            elif kind[:2] == ["truth", "radio"]:
-                truth = SpokenTruth.model_validate_json(logged.data)
-                spoken[truth.id] = truth
-            elif kind[0] == "asr" and kind[-1] != "partial":
-                transcript = Transcript.model_validate_json(logged.data)
-                transcripts.setdefault(transcript.id, []).append(transcript)
+            records.read(logged.key, logged.data)
     except ValidationError as error:
         raise RunFolderError(
-            f"{folder.log_path}: {first_problem(error)}; expected a log of this version of AIRHILT"
+            f"{run.folder.log_path}: {first_problem(error)}; expected a log of this version of "
+            "AIRHILT"
         ) from None
-    for tx in transmissions:
-        for end_ns in (tx.t_end_ns, *(each.t_ns for each in transcripts.get(tx.id, ()))):
-            _require_in_run(folder, tx.id, tx.t_tx_ns, end_ns)
-    chosen = _choose(folder, transmissions, frequency_khz)
-    tuned = sorted(
-        (tx for tx in transmissions if tx.frequency_khz == chosen),
-        key=lambda tx: (tx.t_tx_ns, tx.id),
-    )
-    calls = tuple(_call(tx, spoken.get(tx.id), transcripts.get(tx.id, ())) for tx in tuned)
-    sound = splice(folder, ((tx.t_tx_ns, tx.t_end_ns, tx) for tx in tuned))
+    received = [(call, tx) for call in records if (tx := call.received) is not None]
+    chosen = _choose(run.folder, sorted({tx.frequency_khz for _, tx in received}), frequency_khz)
+    tuned = [(call, tx) for call, tx in received if tx.frequency_khz == chosen]
+    tuned.sort(key=lambda one: (one[1].t_tx_ns, one[1].id))
+    sound = splice(run.folder, ((tx.t_tx_ns, tx.t_end_ns, tx) for _, tx in tuned))
+    calls = [_call(call, tx) for call, tx in tuned]
     return FrequencyRecording(run.info.run, chosen, calls, sound, run.damage)
 
 
-def _require_in_run(folder: RunFolder, name: str, begin_ns: int, end_ns: int) -> None:
-    """Complain about a time before the run, or after the longest one that there can be."""
-    if not 0 <= begin_ns <= end_ns <= LATEST_NS:
-        raise RunFolderError(
-            f"{folder.log_path}: {readable(name)} has times that no run has; expected a beginning "
-            f"and an end within {LONGEST_RUN_S:.0f} s"
-        )
-
-
-def _choose(
-    folder: RunFolder, transmissions: Sequence[Transmission], frequency_khz: int | None
-) -> int:
-    used = sorted({tx.frequency_khz for tx in transmissions})
+def _choose(folder: RunFolder, used: Sequence[int], frequency_khz: int | None) -> int:
     if not used:
         raise RunFolderError(f"{folder.path}: nobody said anything in this run")
     names = ", ".join(map(str, used))
@@ -255,56 +176,47 @@ def _choose(
     return frequency_khz
 
 
-def _call(
-    tx: Transmission, truth: SpokenTruth | None, transcripts: Sequence[Transcript]
-) -> RecordedCall:
-    return RecordedCall(
-        id=tx.id,
-        t_tx_s=tx.t_tx_ns / SECOND_NS,
-        t_end_s=tx.t_end_ns / SECOND_NS,
-        snr_db=tx.snr_db,
-        speaker=truth.speaker if truth else "",
-        addressed=truth.addressed if truth else None,
-        said=truth.text if truth else "",
-        blocked_by=truth.blocked_by if truth else (),
-        heard=tuple(
-            Recognition(
-                transcript.text,
-                transcript.confidence,
-                transcript.engine,
-                (transcript.t_ns - tx.t_end_ns) / SECOND_NS,
-            )
-            for transcript in transcripts
-        ),
-    )
+def _call(call: CallRecord, tx: Transmission) -> Json:
+    said = call.said
+    return {
+        "id": tx.id,
+        "t_tx_s": tx.t_tx_ns / SECOND_NS,
+        "t_end_s": tx.t_end_ns / SECOND_NS,
+        "snr_db": tx.snr_db,
+        "speaker": said.speaker if said else "",
+        "addressed": said.addressed if said else None,
+        "said": said.text if said else "",
+        "blocked_by": said.blocked_by if said else (),
+        "heard": [
+            {
+                "text": transcript.text,
+                "confidence": transcript.confidence,
+                "engine": transcript.engine,
+                "after_end_s": (transcript.t_ns - tx.t_end_ns) / SECOND_NS,
+            }
+            for transcript in call.transcripts
+        ],
+    }
 
 
 def splice(folder: RunFolder, heard: Iterable[tuple[int, int, MessageWithSound]]) -> SplicedSound:
-    """Return the sound of messages from the start of the run, each at its time.
-
-    No file is read yet.
+    """Return the sound of messages from the start of the run, each at its time in ns.
 
     Two transmissions that blocked each other were both received mixed: the second is taken from
     where the first ends. A call that begins during the squelch tail of the one before cuts it off.
-
-    Parameters
-    ----------
-    heard
-        Begin and end of each message in ns, and the message; begins rise.
-
-    Raises
-    ------
-    RunFolderError
-        A message has a time that no run has.
-    SpeechError
-        None of them has sound.
+    Begins of messages rise. It raises `RunFolderError` for a message at a time that no run has, and
+    `SpeechError` if none has sound.
     """
     placed: list[_Placed] = []
     free_at = 0
     for begin_ns, end_ns, message in heard:
+        if not 0 <= begin_ns <= end_ns <= LATEST_NS:
+            raise RunFolderError(
+                f"{folder.log_path}: {readable(message.id)} has times that no run has; expected a "
+                f"beginning and an end within {LONGEST_RUN_S:.0f} s"
+            )
         if message.samples == 0:
             continue
-        _require_in_run(folder, message.id, begin_ns, end_ns)
         first = _sample(begin_ns)
         begin, end = max(first, free_at), first + message.samples
         if end > begin:
@@ -323,24 +235,22 @@ def _sample(t_ns: int) -> int:
     return round(t_ns * SAMPLE_RATE_HZ / SECOND_NS)
 
 
-def _clock(seconds: float) -> str:
-    minutes, rest = divmod(seconds, 60.0)
-    return f"{int(minutes):02d}:{rest:04.1f}"
-
-
-def _paragraph(call: RecordedCall) -> str:
-    who = call.speaker or "somebody"
-    notes = [f"{call.t_end_s - call.t_tx_s:.1f} s"]
-    if call.snr_db is not None:
-        notes.append(f"{call.snr_db:.0f} dB")
-    if call.blocked_by:
-        notes.append(f"blocked by {', '.join(call.blocked_by)}")
-    to = f" to {call.addressed}" if call.addressed else ""
-    lines = [f"{_clock(call.t_tx_s)}  {who}{to}  [{call.id}: {', '.join(notes)}]"]
-    lines.append(f"         said   {call.said or '(nothing)'}")
-    for one in call.heard:
+def _paragraph(call: Json) -> str:
+    minutes, rest = divmod(call["t_tx_s"], 60.0)
+    notes = [f"{call['t_end_s'] - call['t_tx_s']:.1f} s"]
+    if call["snr_db"] is not None:
+        notes.append(f"{call['snr_db']:.0f} dB")
+    if call["blocked_by"]:
+        notes.append(f"blocked by {', '.join(call['blocked_by'])}")
+    to = f" to {call['addressed']}" if call["addressed"] else ""
+    lines = [
+        f"{int(minutes):02d}:{rest:04.1f}  {call['speaker'] or 'somebody'}{to}  "
+        f"[{call['id']}: {', '.join(notes)}]",
+        f"         said   {call['said'] or '(nothing)'}",
+    ]
+    for one in call["heard"]:
         lines.append(
-            f"         heard  {one.text or '(nothing)'}  [{one.engine}, confidence "
-            f"{one.confidence:.2f}, {one.after_end_s:.2f} s after the call]"
+            f"         heard  {one['text'] or '(nothing)'}  [{one['engine']}, confidence "
+            f"{one['confidence']:.2f}, {one['after_end_s']:.2f} s after the call]"
         )
     return "\n".join(lines)
