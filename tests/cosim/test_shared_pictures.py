@@ -56,7 +56,7 @@ def test_a_run_that_shares_has_the_log_of_one_that_does_not(
     plain = log_of(tmp_path / "plain")
     assert not (cache / "detections").exists()
     assert log_of(tmp_path / "first", share_pictures=True) == plain
-    assert {each.name for each in cache.iterdir()} >= {"detections", "pictures", "rays"}
+    assert {each.name for each in cache.iterdir()} >= {"detections", "pictures"}
     monkeypatch.setattr(EmbeddedDetector, "proposed", None)  # Nothing is looked at again.
     drawn = drawings(monkeypatch)
     assert log_of(tmp_path / "second", share_pictures=True) == plain

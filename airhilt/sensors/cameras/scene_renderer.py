@@ -91,7 +91,7 @@ class SceneRenderer:
     keeps_backgrounds
         True if other processes may draw for the same fixed cameras: see `BackgroundCache`.
     shares_pictures
-        True if other runs may have the same pictures; see `SharedRays` and `identity`.
+        True if other runs may have the same pictures; see `identity`.
 
     Attributes
     ----------
@@ -132,7 +132,7 @@ class SceneRenderer:
                 landscape.require_free(camera.name, camera.at.position_m)
         self._bodies = VisibleBodies(self._models, light, supersampling)
         self.renderer, self._renderer = open_renderer(
-            renderer, landscape.mesh, self._bodies.shapes, light, shares_pictures
+            renderer, landscape.mesh, self._bodies.shapes, light
         )
         self._supersampling = supersampling
         self._fixed_lights = Lights.of(landscape.lights)

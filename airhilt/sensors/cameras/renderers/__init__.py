@@ -84,14 +84,6 @@ class Renderer(Protocol):
 
 
 @runtime_checkable
-class SharesRays(Renderer, Protocol):
-    """A renderer that can share with other processes what rays meet."""
-
-    def share_rays(self, library: str) -> None:
-        """Share it from now on; the library casts the rays, and is named with its version."""
-
-
-@runtime_checkable
 class RendererBackend(Protocol):
     """A library that draws, as ``--renderer`` names it."""
 
@@ -151,11 +143,7 @@ def require_known(name: str) -> None:
 
 
 def open_renderer(
-    name: str,
-    landscape: Mesh,
-    shapes: Mapping[str, Mesh],
-    light: Illumination,
-    shares_rays: bool = False,
+    name: str, landscape: Mesh, shapes: Mapping[str, Mesh], light: Illumination
 ) -> tuple[str, Renderer]:
     """Return the name of the renderer that draws, and the renderer.
 
@@ -165,8 +153,6 @@ def open_renderer(
         Name of a renderer; ``auto`` takes the first of `PREFERRED` that can draw here.
     shapes
         Shapes of the bodies, by name.
-    shares_rays
-        True to share with other processes what rays meet, if the renderer can.
 
     Raises
     ------
@@ -176,9 +162,6 @@ def open_renderer(
     taken, renderer = _first_of(PREFERRED if name == AUTO else (name,), landscape, light)
     for shape, mesh in shapes.items():
         renderer.add_shape(shape, mesh)
-    library = library_of(taken) if shares_rays else ""
-    if library and isinstance(renderer, SharesRays):
-        renderer.share_rays(library)
     return taken, renderer
 
 
