@@ -14,7 +14,6 @@ from typing import TYPE_CHECKING, Any
 from airhilt.errors import AirhiltError
 from airhilt.record.sweep_folder import GRID, SweepFolder, SweepFolderError
 from airhilt.sweep.cases import Case, cases
-from airhilt.sweep.crashes import SAME_CRASHES, Crashes
 from airhilt.sweep.dask_client import Workers, described, outcomes, prepared
 from airhilt.sweep.dask_worker import RunnerPlugin, probe_in
 from airhilt.sweep.environment import Environment, environment
@@ -28,6 +27,9 @@ from airhilt.sweep.work import Work, default_workers
 
 if TYPE_CHECKING:
     import pyarrow as pa
+
+MOST_CRASHES = 20
+"""Crashes in a row after which a sweep ends: a full disk crashes every run, within seconds."""
 
 
 class SweepObserver:
@@ -231,7 +233,7 @@ def _run_missing(
 ) -> None:
     """Let the workers of a scheduler run what is missing; keep each outcome as it comes.
 
-    After many crashes with one cause no more is begun.
+    After many crashes in a row no more is begun.
 
     Raises
     ------
@@ -239,10 +241,10 @@ def _run_missing(
         The workers cannot be used, or the scheduler is lost.
     """
     count = min(work.workers or default_workers(plugin.renderer), len(requests))
-    total, crashes = int(info["runs"]), Crashes()
+    total, crashes = int(info["runs"]), 0
 
     def stops() -> bool:
-        return observer.stops or crashes.are_enough
+        return observer.stops or crashes >= MOST_CRASHES
 
     with connect(work.scheduler, count, work.dashboard) as client:
         if notice := openness(client.scheduler_info()["address"]):
@@ -258,6 +260,6 @@ def _run_missing(
             for outcome in outcomes(client, plugin.name, ordered, workers, stops):
                 folder.keep(part_of([outcome]))
                 observer.ended(outcome)
-                crashes.add(outcome)
-    if crashes.are_enough:
-        observer.notice(f"ended after {SAME_CRASHES} crashes in a row with one cause, to be mended")
+                crashes = crashes + 1 if outcome.status == "crashed" else 0
+    if crashes >= MOST_CRASHES:
+        observer.notice(f"ended after {MOST_CRASHES} crashes in a row, whose cause is to be mended")

@@ -16,8 +16,7 @@ from airhilt.host.child_process import available_cores
 from airhilt.record.sweep_folder import SweepFolder
 from airhilt.record.verification import verify
 from airhilt.sweep import engine
-from airhilt.sweep.crashes import SAME_CRASHES
-from airhilt.sweep.engine import SweepObserver, SweepResult, sweep
+from airhilt.sweep.engine import MOST_CRASHES, SweepObserver, SweepResult, sweep
 from airhilt.sweep.environment import environment
 from airhilt.sweep.estimate import estimate
 from airhilt.sweep.outcome import Outcome, Request
@@ -124,10 +123,6 @@ def test_a_sweep_that_is_refused_leaves_tables_and_specification_as_they_were(
     sweeps: Sweeps,
 ) -> None:
     sweeps.run(finishes)
-    other = FakeClient(versions={"worker": {"dask": "2020.1.0"}})
-    with pytest.raises(AirhiltError, match=r"has dask 2020\.1\.0"):
-        sweeps.run(finishes, seeds=3, fake=other)
-    assert sweeps.seeds_of_tables() == (2, [0, 1])
     with pytest.raises(ZeroDivisionError):
         sweeps.run(lambda _: 1 // 0, seeds=3)  # type: ignore[arg-type,return-value]
     assert sweeps.seeds_of_tables() == (2, [0, 1])
@@ -157,11 +152,11 @@ def test_crashes_are_no_results_and_are_done_again_when_asked(sweeps: Sweeps) ->
 
 
 def test_a_full_disk_ends_a_sweep_and_leaves_the_rest_to_do(sweeps: Sweeps) -> None:
-    seeds = SAME_CRASHES + 10
+    seeds = MOST_CRASHES + 10
     result, notices = sweeps.run(crashes, seeds=seeds)
-    assert SAME_CRASHES <= result.failed < seeds
+    assert MOST_CRASHES <= result.failed < seeds
     assert result.missing == seeds - result.failed
-    assert any(f"ended after {SAME_CRASHES} crashes in a row" in each for each in notices)
+    assert any(f"ended after {MOST_CRASHES} crashes in a row" in each for each in notices)
     result, _ = sweeps.run(finishes, seeds=seeds, retry=True)
     assert result.rows == seeds
 

@@ -108,11 +108,11 @@ def frames() -> dict[str, float]:
     for name in installed():
         with RendererProcess(scenario, ["runway_01"], name) as renderer:
             for taken in range(10_001):
-                renderer.shoot(["runway_01"], scene[taken % len(scene)], 0)
+                renderer.take(["runway_01"], scene[taken % len(scene)], 0)
                 if taken in (1_000, 10_000):
-                    held = memory_mb(renderer.process_id, "VmRSS")
+                    held = memory_mb(renderer.processes[0].process_id, "VmRSS")
                     found[f"{name}_mb_after_{taken}"] = held
-            found[f"{name}_mb_at_most"] = memory_mb(renderer.process_id, "VmHWM")
+            found[f"{name}_mb_at_most"] = memory_mb(renderer.processes[0].process_id, "VmHWM")
     return found
 
 

@@ -18,7 +18,7 @@ from airhilt.imaging.masks import Mask, grown
 from airhilt.imaging.view import Pose, View
 from airhilt.sensors.cameras import AUTO, STILL_SAMPLES
 from airhilt.sensors.cameras.camera_state import CameraState
-from airhilt.sensors.cameras.frame import Frame
+from airhilt.sensors.cameras.frame import Frame, Prospect
 from airhilt.sensors.cameras.mounts import Camera, Mount, find_camera
 from airhilt.sensors.cameras.renderers import Part, Samples, open_renderer
 from airhilt.sensors.cameras.scene.background import Background
@@ -178,10 +178,10 @@ class SceneRenderer:
         lights = self._bodies.lights(there, t_ns)
         return [self._picture(self.cameras[name], there, poses, lights, t_ns) for name in names]
 
-    def has_body(
+    def prospects(
         self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
-    ) -> dict[str, bool]:
-        """Return whether a picture would show another body of two pixels, or a light, by camera.
+    ) -> dict[str, Prospect]:
+        """Return what pictures of an instant would show, by camera, without taking them.
 
         A body counts, hidden or not, if it would change a pixel through the air that there is. An
         exposure without a body counts as taken by the rain, which is the same with or without it.
@@ -199,11 +199,12 @@ class SceneRenderer:
             camera = self.cameras[name]
             view = camera.view(there)
             others = [body for actor, body in there.items() if actor != camera.carrier]
-            found[name] = bool(self._bodies.spots(view, lights, poses, camera.carrier)) or any(
+            has_body = bool(self._bodies.spots(view, lights, poses, camera.carrier)) or any(
                 (seen := self._bodies.seen(body, poses[body.actor], view)) and seen.is_large
                 for body in others
             )
-            self._taken[name] += not found[name]
+            found[name] = Prospect(view, has_body)
+            self._taken[name] += not has_body
         return found
 
     def state(self, name: str) -> CameraState:

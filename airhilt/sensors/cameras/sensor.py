@@ -24,8 +24,8 @@ from airhilt.messages import (
     SightingTruth,
 )
 from airhilt.scenario.models import Camera
+from airhilt.sensors.cameras.frame import CameraPicture, PictureSource
 from airhilt.sensors.cameras.mounts import local_frame_of
-from airhilt.sensors.cameras.pictures import CameraPicture, PictureSource
 from airhilt.sensors.cameras.scene.bodies import BodyState, states_of
 from airhilt.sim import Director, Priority
 from airhilt.sim.payload import Payload

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 import pytest
@@ -19,8 +20,7 @@ from airhilt.imaging.masks import Mask
 from airhilt.imaging.view import Intrinsics, Pose, View, attitude
 from airhilt.messages import CameraFrame, CameraInfo, CameraTruth, Message
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras.frame import Frame, Prospect, Sighting
-from airhilt.sensors.cameras.pictures import DrawnPictures
+from airhilt.sensors.cameras.frame import CameraPicture, Prospect, Sighting
 from airhilt.sensors.cameras.scene.bodies import BodyState
 from airhilt.sensors.cameras.scene.projected_box import Box
 from airhilt.sensors.cameras.sensor import CameraSensor, Exposures, angles_of, view_message
@@ -52,17 +52,18 @@ class Fake:
             name: Prospect(view, t_ns >= self.body_from_ns.get(name, t_ns + 1)) for name in names
         }
 
-    def shoot(self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int) -> list[Frame]:
+    def take(
+        self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
+    ) -> list[CameraPicture]:
         if self.fails_at_ns is not None and t_ns >= self.fails_at_ns:
             raise RendererError("the driver has died")
         self.shots.append((t_ns, tuple(names)))
         self.places.append({body.actor: (body.east_m, body.north_m) for body in bodies})
         view = View(LENS, Pose.of((10.0, 20.0, 30.0), 1.0, 0.1, -0.2))
-        blank = np.full((36, 64, 3), len(self.shots) % 256, dtype=np.uint8)
-        distance = np.full((36, 64), np.inf, dtype=np.float32)
-        instance = np.zeros((36, 64), dtype=np.uint8)
+        pixels = bytes([len(self.shots) % 256]) * (36 * 64 * 3)
+        sha256 = hashlib.sha256(pixels).hexdigest()
         seen = Sighting(bodies[0].actor, "airplane", Box(1, 2, 3, 4), 4.0, 1.0, 0.0, 900.0, 0.5)
-        return [Frame(name, t_ns, view, blank, distance, instance, (seen,)) for name in names]
+        return [CameraPicture(name, view, (seen,), sha256, pixels) for name in names]
 
 
 class Run:
@@ -78,7 +79,7 @@ class Run:
         self.director = Director(Virtual())
         self.sensor = CameraSensor(
             self.director,
-            DrawnPictures(cast(Any, frame_source)),
+            frame_source,
             scenario.cameras,
             site,
             self.cast,
