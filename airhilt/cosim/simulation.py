@@ -37,8 +37,7 @@ from airhilt.cosim.setup import Setup, set_up
 from airhilt.cosim.workload_questions import WorkloadQuestions
 from airhilt.cosim.world_loop import WorldLoop
 from airhilt.errors import AirhiltError
-from airhilt.host.child_process import cpu_s
-from airhilt.host.memory import give_memory_back
+from airhilt.host.machine import cpu_s, give_memory_back
 from airhilt.host.text import LONGEST_LINE, readable
 from airhilt.messages import WorkerDescription
 from airhilt.metrics.collector import Collector

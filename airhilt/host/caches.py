@@ -11,13 +11,14 @@ import hashlib
 import os
 import re
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
 from airhilt.errors import AirhiltError, shown
+from airhilt.host.files import replace_file
 from airhilt.host.library import nearest
 
 LIMIT = "AIRHILT_CACHE_LIMIT_MB"
@@ -100,7 +101,8 @@ class CacheFolder:
 
     def _write(self, path: Path, content: bytes) -> None:
         with suppress(OSError):
-            _replace(path, hashlib.sha256(content).digest() + content)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            replace_file(path, hashlib.sha256(content).digest() + content)
             # A look takes seconds where there are many small entries. It is left to some of those
             # who write, chosen by names, which are evenly spread: the more often, the more it is.
             if int(path.name[:8], 16) / 16**8 < len(content) / (GROWTH * self._limit_bytes):
@@ -175,7 +177,7 @@ def _entries(folder: Path) -> Iterator[_File]:
                     yield _File(each.path, stat.st_size, stat.st_mtime_ns)
 
 
-def _usage(kind: str, files: Iterator[_File] | list[_File]) -> Usage:
+def _usage(kind: str, files: Iterable[_File]) -> Usage:
     sizes = [file.size_bytes for file in files]
     return Usage(kind, len(sizes), sum(sizes))
 
@@ -202,11 +204,10 @@ def _all_entries(base: Path) -> Iterator[_File]:
 
 
 def _delete(path: str) -> bool:
-    """Return whether a file is gone."""
+    """Delete a file; return whether it is gone."""
     with suppress(OSError):
         Path(path).unlink(missing_ok=True)
-        return True
-    return False
+    return not os.path.lexists(path)
 
 
 def _read(path: Path) -> bytes | None:
@@ -221,16 +222,3 @@ def _read(path: Path) -> bytes | None:
     with suppress(OSError):
         os.utime(path)
     return content
-
-
-def _replace(path: Path, data: bytes) -> None:
-    """Write a file all or nothing; other processes never see a part of it."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    number, partial = tempfile.mkstemp(".partial", path.stem, path.parent)
-    try:
-        with os.fdopen(number, "wb") as stream:
-            stream.write(data)
-        Path(partial).replace(path)
-    except OSError:
-        Path(partial).unlink(missing_ok=True)
-        raise

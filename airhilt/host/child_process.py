@@ -7,7 +7,6 @@ why the child ended. A child ends as soon as its parent does.
 from __future__ import annotations
 
 import os
-import resource
 import subprocess
 import sys
 import tempfile
@@ -20,8 +19,6 @@ from pathlib import Path
 from queue import SimpleQueue
 from threading import Thread
 from typing import Any
-
-import psutil
 
 from airhilt.errors import AirhiltError
 
@@ -181,24 +178,6 @@ def serve(server: object) -> None:
         except AirhiltError as error:
             answer = error
         connection.send(answer)
-
-
-def cpu_s() -> float:
-    """Return the CPU time of this process and of its children, ended or not, in s."""
-    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
-    total = sum(each.ru_utime + each.ru_stime for each in used)
-    for child in psutil.Process().children():
-        with suppress(psutil.Error):
-            living = child.cpu_times()
-            total += living.user + living.system
-    return total
-
-
-def available_cores() -> int:
-    """Return the number of cores that this process may use, at least 1."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1  # macOS binds no process to cores.
 
 
 def _environment(more: Mapping[str, str | None]) -> dict[str, str]:

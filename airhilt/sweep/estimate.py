@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from airhilt.errors import AirhiltError
-from airhilt.host.child_process import available_cores
+from airhilt.host.machine import available_cores
 from airhilt.record.sweep_folder import SweepFolder
 from airhilt.sweep.cases import Case, cases
 from airhilt.sweep.engine import by_keys, missing_of, renderer_of

@@ -17,7 +17,8 @@ from shutil import rmtree
 from airhilt.cosim.observer import Observer
 from airhilt.cosim.simulation import run
 from airhilt.errors import AirhiltError, failure_in, is_of_machine
-from airhilt.host.child_process import cpu_s, serve
+from airhilt.host.child_process import serve
+from airhilt.host.machine import cpu_s
 from airhilt.metrics.columns import metrics_of
 from airhilt.metrics.summary import Summary
 from airhilt.options import Options

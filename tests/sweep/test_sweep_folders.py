@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 import pytest
 
 from airhilt.errors import AirhiltError
-from airhilt.host.child_process import available_cores
+from airhilt.host.machine import available_cores
 from airhilt.record.sweep_folder import SweepFolder
 from airhilt.record.verification import verify
 from airhilt.sweep import engine

@@ -13,7 +13,7 @@ import numpy.typing as npt
 import airhilt.imaging
 import airhilt.sensors.cameras
 from airhilt.host.files import packages_sha256
-from airhilt.host.processor import processor_sha256
+from airhilt.host.machine import processor_sha256
 from airhilt.imaging.view import View
 
 

@@ -11,7 +11,8 @@ from dataclasses import replace
 from typing import Any, Literal
 
 from airhilt.errors import RendererLost
-from airhilt.host.child_process import ChildProcess, Ended, NoAnswer, available_cores
+from airhilt.host.child_process import ChildProcess, Ended, NoAnswer
+from airhilt.host.machine import available_cores
 from airhilt.imaging.masks import Mask
 from airhilt.imaging.view import View
 from airhilt.scenario import Scenario

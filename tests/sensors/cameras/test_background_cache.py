@@ -100,7 +100,7 @@ def test_other_code_and_another_processor_have_it_drawn(
     drawn = Drawn()
     backgrounds().get(View(LENS, EYE), 3, drawn)
     (tmp_path / "cpuinfo").write_text("model name: another one\n")
-    monkeypatch.setattr("airhilt.host.processor.PROCESSOR", tmp_path / "cpuinfo")
+    monkeypatch.setattr("airhilt.host.machine.PROCESSOR", tmp_path / "cpuinfo")
     backgrounds().get(View(LENS, EYE), 3, drawn)
     monkeypatch.setattr(
         "airhilt.sensors.cameras.drawing_keys.packages_sha256", lambda *_: "other code"
