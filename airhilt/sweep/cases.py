@@ -120,7 +120,11 @@ def cases(specification: Specification, allowed: Sequence[Path] = ()) -> list[Ca
     """
     scenarios = [load(path, allowed) for path in _paths(specification.scenarios)]
     seeds = _seeds(specification)
-    _require_countable(specification, len(scenarios) * len(seeds))
+    drawn = 1 if specification.sample is None else specification.sample.count
+    sizes = (len(_distinct(listed(values))) for values in specification.axes.values())
+    total = len(scenarios) * len(seeds) * drawn * math.prod(sizes)
+    if total > MOST_RUNS:
+        raise AirhiltError(f"the grid has {total} runs; expected at most {MOST_RUNS}")
     combinations = list(_combinations(specification))
     checks, files = RunChecks(seeds), NamedFiles()
     found: list[Case] = []
@@ -139,7 +143,14 @@ def cases(specification: Specification, allowed: Sequence[Path] = ()) -> list[Ca
                 continue
             parameters = {each.path: each.value(plan) for each, _ in combination}
             found += [Case(plan.document, plan.options, seed, parameters, named) for seed in seeds]
-    _require_none(problems)
+    if problems:
+        lines = [
+            f"{where[0]}: {problem}" + (f" ({len(where) - 1} more)" if len(where) > 1 else "")
+            for problem, where in problems.items()
+        ]
+        more = len(lines) - SHOWN_PROBLEMS
+        tail = [f"... and {more} more"] if more > 0 else []
+        raise AirhiltError("\n".join([*lines[:SHOWN_PROBLEMS], *tail]))
     return found
 
 
@@ -166,21 +177,6 @@ def _seeds(specification: Specification) -> list[int]:
         if isinstance(seed, bool) or not isinstance(seed, int) or not 0 <= seed < 2**63:
             raise AirhiltError(f"seeds: found {shown(seed)}; expected integers from 0 to 2^63 - 1")
     return seeds  # type: ignore[return-value]  # checked one by one
-
-
-def _require_countable(specification: Specification, each: int) -> None:
-    """Complain about more runs than a sweep may have, before any of them is made.
-
-    Parameters
-    ----------
-    each
-        Number of runs of one combination: scenarios times seeds.
-    """
-    drawn = 1 if specification.sample is None else specification.sample.count
-    sizes = (len(_distinct(listed(values))) for values in specification.axes.values())
-    total = each * drawn * math.prod(sizes)
-    if total > MOST_RUNS:
-        raise AirhiltError(f"the grid has {total} runs; expected at most {MOST_RUNS}")
 
 
 Combination = tuple[tuple[Parameter, JsonValue], ...]
@@ -211,29 +207,6 @@ def _distinct(values: Sequence[JsonValue]) -> list[JsonValue]:
     return list(first.values())
 
 
-def _require_none(problems: Mapping[str, Sequence[str]]) -> None:
-    """Complain about the problems of a grid, each with the first of the runs that have it.
-
-    Parameters
-    ----------
-    problems
-        Runs by the problem that they have.
-
-    Raises
-    ------
-    AirhiltError
-        There are some.
-    """
-    lines = [
-        f"{where[0]}: {problem}" + (f" ({len(where) - 1} more)" if len(where) > 1 else "")
-        for problem, where in problems.items()
-    ]
-    if lines:
-        more = len(lines) - SHOWN_PROBLEMS
-        tail = [f"... and {more} more"] if more > 0 else []
-        raise AirhiltError("\n".join([*lines[:SHOWN_PROBLEMS], *tail]))
-
-
 def _named(scenario: str, combination: Combination) -> str:
     """Return the runs of a scenario with some values in words."""
     values = ", ".join(f"{each.path}={json.dumps(value)}" for each, value in combination)
@@ -241,32 +214,29 @@ def _named(scenario: str, combination: Combination) -> str:
 
 
 def _plan(document: Json, options: Json, combination: Combination, checks: RunChecks) -> Plan:
-    """Return a checked run in the making; options are those that were given, as JSON has them.
-
-    Raises
-    ------
-    AirhiltError
-        A value is not what the scenario or the option takes.
-    """
+    """Return a checked run in the making; options are those that were given, as JSON has them."""
     plan = Plan(document, {ASSISTANT_OPTION: None, **options})
     for each, value in combination:
         plan = each.put(plan, value)
     assistant = plan.options[ASSISTANT_OPTION] or ASSISTANTS.default
-    plan = Plan(plan.document, plan.options | {ASSISTANT_OPTION: assistant})
+    options, is_changed = (
+        plan.options | {ASSISTANT_OPTION: assistant},
+        plan.document is not document,
+    )
     problems: list[str] = []
     try:
-        scenario = _scenario(plan.document, is_changed=plan.document is not document)
+        scenario = _scenario(plan.document, is_changed=is_changed)
     except AirhiltError as error:
         problems += getattr(error, "problems", (str(error),))
     try:
-        checked = Options(**plan.options)
+        checked = Options(**options)
     except ValidationError as error:
         problems += [f"option {problem}" for problem in problems_of(error, Options)]
     if not problems:
         problems += checks.problems(checked, scenario)
     if problems:
         raise ScenarioError("\n".join(problems), tuple(problems))
-    written = scenario.model_dump(mode="json") if plan.document is not document else document
+    written = scenario.model_dump(mode="json") if is_changed else document
     return Plan(written, checked.model_dump(mode="json", exclude_defaults=True))
 
 

@@ -29,26 +29,28 @@ class RunChecks:
     def problems(self, options: Options, scenario: Scenario) -> list[str]:
         """Return all that is wrong with the runs of a scenario with some options."""
         problems = []
-        for check in (
-            check_options,
-            _require_own_assistant,
-            self._require_latency,
-            self._require_channel,
-        ):
+        for check in (check_options, self._require_assistant, self._require_latency,
+                      self._require_channel):  # fmt: skip
             try:
                 check(options, scenario)
             except AirhiltError as error:
                 problems.append(str(error))
         return problems
 
+    def _require_assistant(self, options: Options, _: Scenario) -> None:
+        if options.assistant == EXTERNAL:
+            raise AirhiltError(
+                "--assistant external: no worker or program of yours attaches to the runs of a "
+                "sweep, so nobody would decide; expected an assistant that `airhilt doctor` names, "
+                "one of a package of yours, or the address of a service (docs/decision.md)"
+            )
+
     def _require_latency(self, options: Options, scenario: Scenario) -> None:
         is_replay = options.latency is not None and options.latency.startswith(REPLAY)
-        seeds = self._seeds if is_replay else self._seeds[:1]
-        for seed in seeds:
+        for seed in self._seeds if is_replay else self._seeds[:1]:
             requested_latency(options.latency, scenario, seed)
 
     def _require_channel(self, options: Options, scenario: Scenario) -> None:
-        """Complain about a radio channel that cannot be loaded."""
         if not options.speech:
             return
         profile = with_requested_radio(options, scenario).radio.profile or DEFAULT_PROFILE
@@ -79,12 +81,3 @@ def require_different_places(parameters: Sequence[Parameter], document: dict[str
                     f"parameters {other} and {path}: one would replace the other in "
                     f"{document['name']!r}; expected only one of them"
                 )
-
-
-def _require_own_assistant(options: Options, _scenario: Scenario) -> None:
-    if options.assistant == EXTERNAL:
-        raise AirhiltError(
-            "--assistant external: no worker or program of yours attaches to the runs of a sweep, "
-            "so nobody would decide; expected an assistant that `airhilt doctor` names, one of a "
-            "package of yours, or the address of a service (docs/decision.md)"
-        )

@@ -6,10 +6,13 @@ than there are workers at a time. Each outcome is on the disk before the next on
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from pydantic import JsonValue
 
 from airhilt.errors import AirhiltError
 from airhilt.record.sweep_folder import GRID, SweepFolder, SweepFolderError
@@ -18,7 +21,7 @@ from airhilt.sweep.dask_client import Workers, described, outcomes, prepared
 from airhilt.sweep.dask_worker import RunnerPlugin, probe_in
 from airhilt.sweep.environment import Environment, environment
 from airhilt.sweep.order import apart
-from airhilt.sweep.outcome import OF_THE_MACHINE, Outcome, Request
+from airhilt.sweep.outcome import OF_THE_MACHINE, Keep, Outcome, Request
 from airhilt.sweep.runner_process import Limits, RunnerProcess
 from airhilt.sweep.scheduler import connect, openness, require_scheduler
 from airhilt.sweep.specification import Specification
@@ -91,7 +94,7 @@ def sweep(
         finished = _finished(folder, by_key, observer)
         missing = missing_of(by_key, finished, work.retry)
         if missing:
-            requests = list(_requests(missing, by_key, work))
+            requests = _requests(missing, by_key, work)
             with ExitStack() as stack:
                 is_kept = any(request.keep != "none" for request in requests)
                 probe = stack.enter_context(probe_in(folder.runs_path)) if is_kept else None
@@ -202,25 +205,43 @@ def missing_of(
     return [key for key in keys if key not in finished or finished[key]["status"] in again]
 
 
-def _requests(missing: Sequence[str], by_key: Mapping[str, Case], work: Work) -> Iterator[Request]:
-    """Yield what the workers are asked for."""
+def _requests(missing: Sequence[str], by_key: Mapping[str, Case], work: Work) -> list[Request]:
+    """Return what the workers are asked for."""
     sampled = set(sorted(by_key)[: work.sample])
     runs = (work.out / "runs").absolute()
-    for key in missing:
-        case = by_key[key]
-        yield Request(
-            key=key,
-            scenario=case.document,
-            options=case.options | _unseen_options(case),
+    return [
+        request_of(
+            key,
+            by_key[key],
+            runs / folder_name(key),
             keep="all" if key in sampled else work.keep,
-            folder=str(runs / folder_name(key)),
-            files=case.files,
+            # Sharing is no parameter: it changes no run.
+            **({"share_pictures": True} if by_key[key].may_share_pictures else {}),
         )
+        for key in missing
+    ]
 
 
-def _unseen_options(case: Case) -> dict[str, Any]:
-    """Return the options that are no parameters: the seed, and one that changes no run."""
-    return {"seed": case.seed, **({"share_pictures": True} if case.may_share_pictures else {})}
+def request_of(
+    key: str, case: Case, folder: Path, keep: Keep = "none", **options: JsonValue
+) -> Request:
+    """Return the request for a run.
+
+    Parameters
+    ----------
+    folder
+        Place of the run folder if it stays.
+    options
+        Options besides those of the case.
+    """
+    return Request(
+        key=key,
+        scenario=case.document,
+        options=case.options | {"seed": case.seed} | options,
+        keep=keep,
+        folder=str(folder),
+        files=case.files,
+    )
 
 
 def _run_missing(
@@ -234,11 +255,6 @@ def _run_missing(
     """Let the workers of a scheduler run what is missing; keep each outcome as it comes.
 
     After many crashes in a row no more is begun.
-
-    Raises
-    ------
-    AirhiltError
-        The workers cannot be used, or the scheduler is lost.
     """
     count = min(work.workers or default_workers(plugin.renderer), len(requests))
     total, crashes = int(info["runs"]), 0
