@@ -8,7 +8,7 @@ Geometry, 2nd ed., section 6.1). Pixel (0, 0) is the upper left one and its cent
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from functools import cached_property
 
 import numpy as np
@@ -152,6 +152,12 @@ class View:
         """The camera's x, y and z in the world, as columns."""
         right, ahead, up = self.pose.rotation.T
         return np.column_stack((right, -up, ahead))
+
+    @property
+    def key(self) -> list[float]:
+        """Numbers of lens and pose, which tell it from other views."""
+        pose = self.pose
+        return [*astuple(self.intrinsics), *pose.position_m, *pose.rotation.ravel().tolist()]
 
     @property
     def whole(self) -> Window:

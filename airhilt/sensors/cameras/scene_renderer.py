@@ -18,20 +18,19 @@ from airhilt.imaging.masks import Mask, grown
 from airhilt.imaging.view import Pose, View
 from airhilt.sensors.cameras import AUTO, STILL_SAMPLES
 from airhilt.sensors.cameras.camera_state import CameraState
-from airhilt.sensors.cameras.frame import Frame, Prospect
+from airhilt.sensors.cameras.frame import Frame, Prospect, Sighting
 from airhilt.sensors.cameras.mounts import Camera, Mount, find_camera
 from airhilt.sensors.cameras.renderers import Part, Samples, open_renderer
 from airhilt.sensors.cameras.scene.background import Background
-from airhilt.sensors.cameras.scene.background_cache import BackgroundCache
 from airhilt.sensors.cameras.scene.bodies import BodyState, Model, numbered
-from airhilt.sensors.cameras.scene.identity import scene_identity
+from airhilt.sensors.cameras.scene.identity import landscape_identity, scene_identity
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.landscape import Landscape
 from airhilt.sensors.cameras.scene.layers import Layer, by_sample
 from airhilt.sensors.cameras.scene.lights import Lights, Spot, shine
 from airhilt.sensors.cameras.scene.rain import Streaks
 from airhilt.sensors.cameras.scene.shadows import darken
-from airhilt.sensors.cameras.scene.sightings import Sightings
+from airhilt.sensors.cameras.scene.sightings import sightings_of
 from airhilt.sensors.cameras.scene.visible_bodies import VisibleBodies, VisibleBody
 from airhilt.shapes.lights import Light
 from airhilt.shapes.mesh import Floats
@@ -89,7 +88,7 @@ class SceneRenderer:
     supersampling
         Samples along each side of a pixel, at least.
     keeps_backgrounds
-        True if other processes may draw for the same fixed cameras: see `BackgroundCache`.
+        True if other processes may draw for the same fixed cameras: see `kept_background`.
     shares_pictures
         True if other runs may have the same pictures; see `identity`.
 
@@ -134,9 +133,18 @@ class SceneRenderer:
         self.renderer, self._renderer = open_renderer(
             renderer, landscape.mesh, self._bodies.shapes, light
         )
-        self._supersampling = supersampling
         self._fixed_lights = Lights.of(landscape.lights)
-        self._backgrounds = self._open_backgrounds(landscape if keeps_backgrounds else None)
+        identity = ""
+        if shares_pictures or keeps_backgrounds:
+            identity = landscape_identity(self.renderer, landscape, light)
+        samples = max(STILL_SAMPLES, supersampling)
+        kept_as = identity if keeps_backgrounds else ""
+        self._backgrounds = {
+            camera.name: Background(self._renderer, samples, self._light_up, kept_as)
+            if camera.is_fixed
+            else Background(self._renderer, supersampling)
+            for camera in self.cameras.values()
+        }
         self._plain: dict[str, _Plain] = {}
         self._own: dict[str, _OwnAircraft] = {}
         self._streaks = {
@@ -147,14 +155,10 @@ class SceneRenderer:
             if rain_mm_h > 0.0
         }
         self._taken = dict.fromkeys(self.cameras, 0)
-        labels = {actor: model.label for actor, model in self._models.items()}
-        self._sightings = Sightings(labels, light.extinction_per_m)
-        self.identity = (
-            scene_identity(self.renderer, landscape, light, rain_mm_h, self._models,
-                           self.cameras.values(), supersampling)
-            if shares_pictures
-            else ""
-        )  # fmt: skip
+        self.identity = ""
+        if shares_pictures:
+            cameras = self.cameras.values()
+            self.identity = scene_identity(identity, rain_mm_h, models, cameras, supersampling)
 
     @property
     def actors(self) -> tuple[str, ...]:
@@ -275,9 +279,9 @@ class SceneRenderer:
         is_plain = not (content.is_busy or camera.name in self._streaks)
         last = self._plain.get(camera.name)
         if is_plain and last and last.drawn == background.drawn and last.own is content.own:
-            sightings = self._sightings.of([], content.faint)
+            sightings = self._sightings(camera, [], content)
             return replace(last.frame, t_ns=t_ns, view=view, sightings=sightings, unchanged=True)
-        frame = self._draw(camera.name, t_ns, view, background, content)
+        frame = self._draw(camera, t_ns, view, background, content)
         if is_plain:
             self._plain[camera.name] = _Plain(background.drawn, content.own, frame)
         else:
@@ -314,9 +318,10 @@ class SceneRenderer:
         )
 
     def _draw(
-        self, name: str, t_ns: int, view: View, background: Background, content: _Content
+        self, camera: Camera, t_ns: int, view: View, background: Background, content: _Content
     ) -> Frame:
         """Return the picture of a camera: its background, and everything before that."""
+        name = camera.name
         colour, distance = background.colour.copy(), background.distance_m.copy()
         instance = np.zeros(distance.shape, dtype=np.uint8)
         drawn, shadows = content.drawn, content.shadows
@@ -338,21 +343,16 @@ class SceneRenderer:
             bright = 40.0 + 170.0 * (1.0 - self._light.darkness)
             self._streaks[name].fall(colour, self._taken[name], bright)
         self._taken[name] += 1
-        sightings = self._sightings.of(layers, content.faint, content.own)
+        sightings = self._sightings(camera, layers, content)
         return Frame(name, t_ns, view, colour, distance, instance, sightings).sealed()
 
-    def _open_backgrounds(self, kept: Landscape | None) -> dict[str, Background]:
-        """Return the background of each camera; those of fixed cameras may be kept."""
-        cameras, cache = self.cameras.values(), None
-        if kept is not None and any(camera.is_fixed for camera in cameras):
-            cache = BackgroundCache.of(self.renderer, kept, self._light)
-        samples = max(STILL_SAMPLES, self._supersampling)
-        return {
-            camera.name: Background(self._renderer, samples, self._light_up, cache)
-            if camera.is_fixed
-            else Background(self._renderer, self._supersampling)
-            for camera in cameras
+    def _sightings(
+        self, camera: Camera, layers: Sequence[Layer], content: _Content
+    ) -> tuple[Sighting, ...]:
+        labels = {
+            actor: model.label for actor, model in self._models.items() if actor != camera.carrier
         }
+        return sightings_of(layers, content.faint, labels, self._light.extinction_per_m)
 
     def _light_up(self, colour: npt.NDArray[np.uint8], distance_m: Floats, view: View) -> None:
         """Draw the lights of the landscape, which are always on, into what is drawn once."""

@@ -10,17 +10,15 @@ same as the last one for as long as can be.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import TYPE_CHECKING, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from airhilt.imaging.view import NEAR_M, Intrinsics, View, Window
 from airhilt.sensors.cameras.renderers import Renderer, Samples
+from airhilt.sensors.cameras.scene.background_cache import kept_background
 from airhilt.shapes.mesh import Floats
-
-if TYPE_CHECKING:  # A landscape brings in Shapely.
-    from airhilt.sensors.cameras.scene.background_cache import BackgroundCache
 
 KEPT_PX = 0.5
 """Greatest distance, in pixels, by which anything that is kept may be out of its place."""
@@ -50,8 +48,9 @@ class Background:
         Number of samples along each side of a pixel.
     finish
         Called with colours, distances and view of each picture that has been drawn whole.
-    cache
-        Where the picture of a camera that stands still is kept; None for one that moves.
+    kept_as
+        Identity of the landscape, by which the picture of a camera that stands still is kept;
+        empty: it is not.
 
     Attributes
     ----------
@@ -68,12 +67,12 @@ class Background:
         renderer: Renderer,
         samples: int,
         finish: Callable[[npt.NDArray[np.uint8], Floats, View], None] | None = None,
-        cache: BackgroundCache | None = None,
+        kept_as: str = "",
     ) -> None:
         self._renderer = renderer
         self._samples = samples
         self._finish = finish
-        self._cache = cache
+        self._kept_as = kept_as
         self.colour = np.zeros((0, 0, 3), dtype=np.uint8)
         self.distance_m = np.zeros((0, 0), dtype=np.float32)
         self.drawn = 0
@@ -85,7 +84,7 @@ class Background:
         """Draw what has moved since it was drawn."""
         if not self._views:
             self._draw_all(view)
-        if self._has(view):
+        if all(kept.pose is view.pose for kept in self._views):
             return
         moved_px = self._moved_px(view)
         if moved_px.max() > KEPT_PX:
@@ -101,10 +100,6 @@ class Background:
         for view, first, end in drawings:
             self._draw(view, first, end)
 
-    def _has(self, view: View) -> bool:
-        """Return whether every band was drawn from this pose."""
-        return all(kept.pose is view.pose for kept in self._views)
-
     def _begin(self, view: View) -> None:
         lens = view.intrinsics
         rows, columns = lens.height_px, lens.width_px
@@ -116,10 +111,10 @@ class Background:
 
     def _draw_all(self, view: View) -> None:
         self._begin(view)
-        if self._cache is None:
+        if not self._kept_as:
             self._draw_whole(view)
             return
-        kept = self._cache.get(view, self._samples, lambda: self._draw_whole(view))
+        kept = kept_background(self._kept_as, view, self._samples, lambda: self._draw_whole(view))
         self.colour, self.distance_m = kept
         self._watch(view, 0, len(self._views), self.distance_m)
         self.drawn += 1
@@ -143,13 +138,13 @@ class Background:
             self.distance_m[window.slices] = drawn.distance_m
             self._views[band:past] = [view] * (past - band)
             self._watch(view, band, past, drawn.distance_m)
-        self.drawings = (
-            *(each for each in self.drawings if self._is_left(each)), Drawing(view, first, end)
-        )  # fmt: skip
+        left = [
+            each
+            for each in self.drawings
+            if any(kept is each.view for kept in self._views[each.first : each.end])
+        ]
+        self.drawings = (*left, Drawing(view, first, end))
         self.drawn += 1
-
-    def _is_left(self, drawing: Drawing) -> bool:
-        return any(view is drawing.view for view in self._views[drawing.first : drawing.end])
 
     def _aim(self, lens: Intrinsics, bands: int) -> None:
         """Choose what is watched: squares in the order of their bands, of shape (3, bands, n)."""

@@ -39,6 +39,7 @@ class Layer:
         Distance of the body's nearest sample in each pixel, infinite where there is none.
     """
 
+    actor: str
     number: int
     window: Window
     box: Box
@@ -63,6 +64,7 @@ class Layer:
             colour = np.where(hidden[..., None], np.uint8(0), colour)
         count = np.float32(samples**2)
         return cls(
+            body.body.actor,
             number,
             body.window,
             body.box,

@@ -8,53 +8,48 @@ from collections.abc import Mapping, Sequence
 from airhilt.messages import VisibleClass
 from airhilt.sensors.cameras.frame import Sighting
 from airhilt.sensors.cameras.scene.layers import Layer
-from airhilt.sensors.cameras.scene.projected_box import Box
 from airhilt.sensors.cameras.scene.visible_bodies import VisibleBody
 
 
-class Sightings:
-    """Computes the truth about the bodies in a picture.
+def sightings_of(
+    layers: Sequence[Layer],
+    faint: Sequence[VisibleBody],
+    labels: Mapping[str, VisibleClass],
+    extinction_per_m: float,
+) -> tuple[Sighting, ...]:
+    """Return the sighting of each body, the nearest first.
 
     Parameters
     ----------
+    layers
+        Bodies that are drawn, from far to near; those of actors without a label only hide others.
+    faint
+        Bodies that change no pixel.
     labels
-        Class of each actor, in the order of the numbers of actors in ``Frame.instance``.
+        Class of each actor that is told.
     """
-
-    def __init__(self, labels: Mapping[str, VisibleClass], extinction_per_m: float) -> None:
-        self._labels = labels
-        self._actors = tuple(labels)
-        self._extinction_per_m = extinction_per_m
-
-    def of(
-        self, layers: Sequence[Layer], faint: Sequence[VisibleBody], own: Layer | None = None
-    ) -> tuple[Sighting, ...]:
-        """Return the sighting of each body; layers are ordered from far to near."""
-        found = [self._sighting(one.body.actor, one.box, one.whole, one.range_m) for one in faint]
-        for index, layer in enumerate(layers):
-            if layer is own:
-                continue
-            seen = layer.cover.copy()
-            for nearer in layers[index + 1 :]:
-                nearer.hide(seen, layer.window)
-            pixels = float(seen.sum())
-            fraction = min(pixels / layer.silhouette, 1.0) if layer.silhouette else 0.0
-            actor = self._actors[layer.number - 1]
-            found.append(
-                self._sighting(actor, layer.box, layer.whole, layer.range_m, pixels, fraction)
-            )
-        return tuple(sorted(found, key=lambda sighting: sighting.range_m))
-
-    def _sighting(
-        self,
-        actor: str,
-        box: Box,
-        whole: Box,
-        range_m: float,
-        pixels: float = 0.0,
-        visible_fraction: float = 0.0,
-    ) -> Sighting:
-        inside = min(box.area / max(whole.area, 1e-9), 1.0)
-        left = math.exp(-self._extinction_per_m * range_m)
-        label = self._labels[actor]
-        return Sighting(actor, label, box, pixels, visible_fraction, 1.0 - inside, range_m, left)
+    found: list[tuple[Layer | VisibleBody, str, float, float]] = [
+        (body, body.body.actor, 0.0, 0.0) for body in faint
+    ]
+    for index, layer in enumerate(layers):
+        seen = layer.cover.copy()
+        for nearer in layers[index + 1 :]:
+            nearer.hide(seen, layer.window)
+        pixels = float(seen.sum())
+        fraction = min(pixels / layer.silhouette, 1.0) if layer.silhouette else 0.0
+        found.append((layer, layer.actor, pixels, fraction))
+    sightings = [
+        Sighting(
+            actor=actor,
+            label=labels[actor],
+            box=body.box,
+            pixels=pixels,
+            visible_fraction=fraction,
+            truncation=1.0 - min(body.box.area / max(body.whole.area, 1e-9), 1.0),
+            range_m=body.range_m,
+            transmission=math.exp(-extinction_per_m * body.range_m),
+        )
+        for body, actor, pixels, fraction in found
+        if actor in labels
+    ]
+    return tuple(sorted(sightings, key=lambda sighting: sighting.range_m))
