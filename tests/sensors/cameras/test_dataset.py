@@ -194,8 +194,8 @@ def test_pictures_can_all_be_empty(empty_folder: Path) -> None:
 @pytest.mark.slow
 def test_at_an_airport_things_stand_on_the_ground_and_cameras_too() -> None:
     pictures = list(random_pictures(30, 1, ["kdca"], "embree", SIZE, 0.0))
-    assert {picture.airport for picture in pictures} == {"KDCA"}
-    assert {picture.station for picture in pictures} >= {"fixed", "nose"}
+    assert {picture.about["airport"] for picture in pictures} == {"KDCA"}
+    assert {picture.about["camera_kind"] for picture in pictures} >= {"fixed", "nose"}
     labels = {sighting.label for picture in pictures for sighting in picture.frame.sightings}
     assert len(labels) >= 4
 
@@ -235,7 +235,7 @@ def frames(count: int) -> Iterator[Picture]:
     plane = np.zeros((16, 32), dtype=np.uint8)
     frame = Frame("field", 0, view, colour, plane.astype(np.float32), plane, ())
     for _ in range(count):
-        yield Picture(frame, (), None, 10_000.0, 12.0, 50.0, 0.0, "fixed", None)
+        yield Picture(frame, (), None, {})
 
 
 def test_a_folder_that_cannot_be_made_is_named_with_what_to_do(tmp_path: Path) -> None:
