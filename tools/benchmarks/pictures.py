@@ -19,7 +19,7 @@ from airhilt.assistant.vision.detectors.embedded import EmbeddedDetector
 from airhilt.assistant.vision.gating import Gate
 from airhilt.errors import RendererError
 from airhilt.sensors.cameras.renderer_process import RendererProcess, probe
-from airhilt.sensors.cameras.renderers import renderer_names
+from airhilt.sensors.cameras.renderers import FAMILY
 from airhilt.sensors.cameras.scene.bodies import BodyState
 from benchmarks.landing import LandingScene, watched_landing
 from benchmarks.rounds import ROUNDS
@@ -138,7 +138,7 @@ def sight() -> dict[str, float]:
 def installed() -> list[str]:
     """Return the names of the renderers that can draw here."""
     found = []
-    for name in renderer_names():
+    for name in FAMILY.names():
         with suppress(RendererError):
             probe(name)
             found.append(name)

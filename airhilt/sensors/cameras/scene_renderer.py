@@ -18,7 +18,7 @@ from airhilt.imaging.masks import Mask, grown
 from airhilt.imaging.view import Pose, View
 from airhilt.sensors.cameras import AUTO, STILL_SAMPLES
 from airhilt.sensors.cameras.camera_state import CameraState
-from airhilt.sensors.cameras.frame import Frame, Prospect, Sighting
+from airhilt.sensors.cameras.frame import Frame, Prospect
 from airhilt.sensors.cameras.mounts import Camera, Mount, find_camera
 from airhilt.sensors.cameras.renderers import Part, Samples, open_renderer
 from airhilt.sensors.cameras.scene.background import Background
@@ -41,23 +41,6 @@ OWN_MARGIN_PX = 2
 AT_ORIGIN = Pose.of((0.0, 0.0, 0.0), 0.0)
 TURN_STEPS = 24
 """Steps a radian: a picture of the own aircraft is kept until the light has turned by one."""
-
-
-class _Content(NamedTuple):
-    """Content of a picture, besides the landscape and rain."""
-
-    drawn: list[VisibleBody]
-    faint: list[VisibleBody]
-    """Bodies that change no pixel."""
-    shadows: list[Part]
-    own: Layer | None
-    """The aircraft that carries the camera."""
-    spots: list[Spot]
-
-    @property
-    def is_busy(self) -> bool:
-        """True if there is more than the own aircraft."""
-        return bool(self.drawn or self.shadows or self.spots)
 
 
 class _OwnAircraft(NamedTuple):
@@ -262,8 +245,6 @@ class SceneRenderer:
             covered[window.slices] |= np.isfinite(drawn).any(axis=0)
         return grown(covered, OWN_MARGIN_PX)
 
-    # --- one picture ----------------------------------------------------------------------
-
     def _picture(
         self,
         camera: Camera,
@@ -272,59 +253,54 @@ class SceneRenderer:
         lights: Mapping[str, Sequence[Light]],
         t_ns: int,
     ) -> Frame:
-        view = camera.view(bodies)
-        background = self._backgrounds[camera.name]
+        name, view = camera.name, camera.view(bodies)
+        background = self._backgrounds[name]
         background.look(view)
-        content = self._content(camera, view, bodies, poses, lights)
-        is_plain = not (content.is_busy or camera.name in self._streaks)
-        last = self._plain.get(camera.name)
-        if is_plain and last and last.drawn == background.drawn and last.own is content.own:
-            sightings = self._sightings(camera, [], content)
-            return replace(last.frame, t_ns=t_ns, view=view, sightings=sightings, unchanged=True)
-        frame = self._draw(camera, t_ns, view, background, content)
-        if is_plain:
-            self._plain[camera.name] = _Plain(background.drawn, content.own, frame)
-        else:
-            self._plain.pop(camera.name, None)
-        return frame
-
-    def _content(
-        self,
-        camera: Camera,
-        view: View,
-        bodies: Mapping[str, BodyState],
-        poses: Mapping[str, Pose],
-        lights: Mapping[str, Sequence[Light]],
-    ) -> _Content:
-        """Return the content of a picture."""
-        mount = camera.at if isinstance(camera.at, Mount) else None
         others = [body for actor, body in bodies.items() if actor != camera.carrier]
         seen = [one for body in others if (one := self._bodies.seen(body, poses[body.actor], view))]
+        drawn = [one for one in seen if one.leaves_a_trace]
         shadows = [
             part for body in others if (part := self._bodies.shadow(body, poses[body.actor], view))
         ]
         own = None
-        if mount is not None and mount.sees_own_aircraft:
-            own = self._own_layer(camera.name, bodies[mount.actor], poses[mount.actor], view)
+        if isinstance(camera.at, Mount) and camera.at.sees_own_aircraft:
+            carrier = camera.at.actor
+            own = self._own_layer(name, bodies[carrier], poses[carrier], view)
         spots = self._bodies.spots(view, lights, poses, camera.carrier)
         if not camera.is_fixed and self._light.needs_lights:
             spots.extend(self._fixed_lights.seen(view, self._light))
-        return _Content(
-            drawn=[one for one in seen if one.leaves_a_trace],
-            faint=[one for one in seen if not one.leaves_a_trace],
-            shadows=shadows,
-            own=own,
-            spots=spots,
+        is_plain = not (drawn or shadows or spots or name in self._streaks)
+        last = self._plain.pop(name, None)
+        layers: list[Layer] = []
+        unchanged = False
+        if is_plain and last and last.drawn == background.drawn and last.own is own:
+            frame, unchanged = last.frame, True
+        else:
+            frame, layers = self._draw(name, t_ns, view, background, drawn, shadows, own, spots)
+        if is_plain:
+            self._plain[name] = _Plain(background.drawn, own, frame)
+        sightings = sightings_of(
+            layers,
+            [one for one in seen if not one.leaves_a_trace],
+            {actor: one.label for actor, one in self._models.items() if actor != camera.carrier},
+            self._light.extinction_per_m,
         )
+        return replace(frame, t_ns=t_ns, view=view, sightings=sightings, unchanged=unchanged)
 
     def _draw(
-        self, camera: Camera, t_ns: int, view: View, background: Background, content: _Content
-    ) -> Frame:
-        """Return the picture of a camera: its background, and everything before that."""
-        name = camera.name
+        self,
+        name: str,
+        t_ns: int,
+        view: View,
+        background: Background,
+        drawn: Sequence[VisibleBody],
+        shadows: Sequence[Part],
+        own: Layer | None,
+        spots: Sequence[Spot],
+    ) -> tuple[Frame, list[Layer]]:
+        """Return a picture without its sightings, and its layers from far to near."""
         colour, distance = background.colour.copy(), background.distance_m.copy()
         instance = np.zeros(distance.shape, dtype=np.uint8)
-        drawn, shadows = content.drawn, content.shadows
         parts = [self._bodies.part(one) for one in drawn]
         pictures = self._renderer.parts(view, [*shadows, *parts])
         for part, picture in zip(shadows, pictures, strict=False):
@@ -333,26 +309,17 @@ class SceneRenderer:
             self._layer(one, part, picture, background.distance_m[one.window.slices])
             for one, part, picture in zip(drawn, parts, pictures[len(shadows) :], strict=True)
         ]
-        if content.own is not None:
-            layers.append(content.own)
+        if own is not None:
+            layers.append(own)
         layers.sort(key=lambda layer: -layer.range_m)
         for layer in layers:
             layer.lay(colour, distance, instance)
-        shine(colour, distance, content.spots)
+        shine(colour, distance, spots)
         if name in self._streaks:
             bright = 40.0 + 170.0 * (1.0 - self._light.darkness)
             self._streaks[name].fall(colour, self._taken[name], bright)
         self._taken[name] += 1
-        sightings = self._sightings(camera, layers, content)
-        return Frame(name, t_ns, view, colour, distance, instance, sightings).sealed()
-
-    def _sightings(
-        self, camera: Camera, layers: Sequence[Layer], content: _Content
-    ) -> tuple[Sighting, ...]:
-        labels = {
-            actor: model.label for actor, model in self._models.items() if actor != camera.carrier
-        }
-        return sightings_of(layers, content.faint, labels, self._light.extinction_per_m)
+        return Frame(name, t_ns, view, colour, distance, instance, ()).sealed(), layers
 
     def _light_up(self, colour: npt.NDArray[np.uint8], distance_m: Floats, view: View) -> None:
         """Draw the lights of the landscape, which are always on, into what is drawn once."""

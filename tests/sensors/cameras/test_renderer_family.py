@@ -14,7 +14,7 @@ from airhilt.errors import AirhiltError, RendererError
 from airhilt.record import RunFolder
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import AUTO, renderers
-from airhilt.sensors.cameras.renderers import FAMILY, open_renderer, renderer_names
+from airhilt.sensors.cameras.renderers import FAMILY, open_renderer
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.shapes.mesh import Mesh
 from engine_package import installed
@@ -65,7 +65,7 @@ def test_a_renderer_of_another_package_draws_a_run(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, glance: Scenario
 ) -> None:
     with installed(tmp_path, monkeypatch, "airhilt.renderers", "violet", VIOLET):
-        assert "violet" in renderer_names()
+        assert "violet" in FAMILY.names()
         done = run(glance, out=tmp_path / "run", renderer="violet", latency="fixed", speech=False)
         assert replay(done.folder).identical
     info = RunFolder.open(done.folder).info()

@@ -30,7 +30,7 @@ from airhilt.sensors.cameras.dataset.placement import cast
 from airhilt.sensors.cameras.dataset.scenes import EN_ROUTE, Casting, Sitting, station_of
 from airhilt.sensors.cameras.frame import Frame, Sighting
 from airhilt.sensors.cameras.mounts import local_frame_of
-from airhilt.sensors.cameras.scene.bodies import state_of
+from airhilt.sensors.cameras.scene.bodies import states_of
 from airhilt.sensors.cameras.scene.builder import light_of, open_scene_renderer
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene_renderer import SceneRenderer
@@ -199,10 +199,10 @@ def _moving(realised: Scenario, count: int, seed: int, renderer: str) -> Iterato
                     if actor.body.ended is None:
                         actor.body.advance()
             tick = due
-            t_s = tick * TICK_S
-            bodies = [state_of(each, local_frame, site.ground_m, t_s) for each in actors]
+            t_ns = seconds_to_ns(tick * TICK_S)
+            bodies = states_of(actors, local_frame, site.ground_m, t_ns, t_ns)
             wanted = names[: count - index * len(names)]
-            for taken in scene_renderer.shoot(wanted, bodies, seconds_to_ns(t_s)):
+            for taken in scene_renderer.shoot(wanted, bodies, t_ns):
                 camera = cameras[taken.camera]
                 station = "fixed" if camera.mount.type == "fixed" else camera.mount.station
                 about = _about(airport, station, light, realised.weather, realised.daylight)

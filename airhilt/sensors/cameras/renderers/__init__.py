@@ -110,11 +110,6 @@ FAMILY = Family(
 )
 
 
-def renderer_names() -> list[str]:
-    """Return the names of all renderers that can be asked for, sorted, without ``auto``."""
-    return FAMILY.names()
-
-
 def library_of(name: str) -> str:
     """Return the library whose version alone determines what a renderer draws, with its version.
 
@@ -135,7 +130,7 @@ def require_known(name: str) -> None:
     AirhiltError
         There is no renderer of that name.
     """
-    names = [AUTO, *renderer_names()]
+    names = [AUTO, *FAMILY.names()]
     if name not in names:
         raise AirhiltError(
             f"no renderer named {name!r}{nearest(name, names)}; expected one of {', '.join(names)}"
@@ -159,19 +154,17 @@ def open_renderer(
     RendererError
         There is none of that name, or something that it needs is not installed.
     """
-    taken, renderer = _first_of(PREFERRED if name == AUTO else (name,), landscape, light)
+    *others, taken = PREFERRED if name == AUTO else (name,)
+    renderer = None
+    for other in others:
+        with suppress(RendererError):
+            renderer = FAMILY.load(other).open(landscape, light)
+            taken = other
+            break
+    renderer = renderer or FAMILY.load(taken).open(landscape, light)
     for shape, mesh in shapes.items():
         renderer.add_shape(shape, mesh)
     return taken, renderer
-
-
-def _first_of(names: Sequence[str], landscape: Mesh, light: Illumination) -> tuple[str, Renderer]:
-    """Return the first renderer that can be opened; complain as the last of them does."""
-    *others, last = names
-    for name in others:
-        with suppress(RendererError):
-            return name, FAMILY.load(name).open(landscape, light)
-    return last, FAMILY.load(last).open(landscape, light)
 
 
 def require_renderer(name: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -12,7 +13,6 @@ import numpy.typing as npt
 from airhilt.errors import RendererError, first_line
 from airhilt.imaging.view import NEAR_M, View, Window
 from airhilt.sensors.cameras.opengl import shaders
-from airhilt.sensors.cameras.opengl.canvas import Canvas
 from airhilt.sensors.cameras.opengl.shaders import FAR_M
 from airhilt.sensors.cameras.renderers import Part, Samples
 from airhilt.sensors.cameras.scene.illumination import Illumination
@@ -21,6 +21,59 @@ from airhilt.shapes.mesh import Floats, Mesh
 SYSTEM_LIBRARIES = "libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri"
 SHELF_PX = 1024
 """Width of a row of windows that are drawn together, in pixels."""
+CANVAS_STEP_PX = 64
+"""Step in which frame buffers grow."""
+TOUCHED, UNTOUCHED = ((True,) * 4,) * 2, ((False,) * 4,) * 2
+"""Masks that let colours and distances be written, or not."""
+
+
+class _Canvas:
+    """Draws into the upper left corner of a frame buffer that only grows.
+
+    There is never more than one: a buffer for each size would in time take all memory.
+    """
+
+    def __init__(self, context: Any) -> None:
+        self._context = context
+        self._room = 0, 0
+        self._owned: list[Any] = []
+        self.frame: Any = None
+        self.size = 0, 0
+
+    def clear(self, size: tuple[int, int], *, is_filled: bool = False) -> None:
+        """Begin a drawing of some size; colours are not cleared if all of it will be filled."""
+        width, height = (
+            max(CANVAS_STEP_PX * math.ceil(side / CANVAS_STEP_PX), room)
+            for side, room in zip(size, self._room, strict=True)
+        )
+        if (width, height) != self._room:
+            self._replace((width, height))
+        self.size = size
+        self.frame.use()
+        self.frame.viewport = 0, 0, *size
+        self.frame.color_mask = UNTOUCHED if is_filled else TOUCHED
+        self.frame.clear(viewport=(0, 0, *size))
+        self.frame.color_mask = TOUCHED
+
+    def _replace(self, room: tuple[int, int]) -> None:
+        for owned in self._owned:
+            owned.release()
+        context = self._context
+        colour, distance = context.texture(room, 4), context.texture(room, 1, dtype="f4")
+        depth = context.depth_renderbuffer(room)
+        self.frame = context.framebuffer([colour, distance], depth)
+        self._owned = [self.frame, colour, distance, depth]
+        self._room = room
+
+    def read(self) -> Samples:
+        """Return colours, and what has been drawn for distances."""
+        width, height = self.size
+        colour = self.frame.read(self.size, components=3, alignment=1)
+        distance = self.frame.read(self.size, components=1, attachment=1, dtype="f4")
+        return Samples(
+            np.frombuffer(colour, dtype=np.uint8).reshape(height, width, 3),
+            np.frombuffer(distance, dtype=np.float32).reshape(height, width),
+        )
 
 
 @dataclass(frozen=True)
@@ -45,7 +98,7 @@ class ModernGLRenderer:
         context.front_face = "cw"
         context.depth_func = "<="
         self._light = light
-        self._behind, self._before = Canvas(context), Canvas(context)
+        self._behind, self._before = _Canvas(context), _Canvas(context)
         self._bodies: dict[str, _Body] = {}
         self._landscape_program = context.program(
             shaders.LANDSCAPE_VERTEX, shaders.LANDSCAPE_FRAGMENT

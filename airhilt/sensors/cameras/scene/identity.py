@@ -64,10 +64,10 @@ def scene_identity(
         for shapes in (model.shapes, model.far):
             parts += ((name, _arrays(mesh.arrays)) for name, mesh in shapes.items())
     for camera in cameras:
-        at, carried = camera.at, None
-        if isinstance(at, Mount):
-            at, carried = at.pose, (at.actor, at.sees_own_aircraft)
-        parts.append((camera.name, carried, View(camera.intrinsics, at).key))
+        mount = camera.at if isinstance(camera.at, Mount) else None
+        pose = camera.at.pose if isinstance(camera.at, Mount) else camera.at
+        carried = None if mount is None else (mount.actor, mount.sees_own_aircraft)
+        parts.append((camera.name, carried, View(camera.intrinsics, pose).key))
     return _sha256(parts)
 
 
