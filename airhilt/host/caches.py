@@ -14,6 +14,7 @@ import tempfile
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
 
@@ -96,17 +97,14 @@ class CacheFolder:
         if content is None:
             content = make()
             if len(content) + _DIGEST_BYTES <= self._limit_bytes:
-                self._write(path, content)
+                with suppress(OSError):
+                    path.parent.mkdir(parents=True, exist_ok=True)
+                    replace_file(path, hashlib.sha256(content).digest() + content)
+                    # A look takes seconds where there are many entries. Some of those who write do
+                    # it, chosen by names, which are evenly spread: the more often, the more it is.
+                    if int(path.name[:8], 16) / 16**8 < len(content) / (GROWTH * self._limit_bytes):
+                        _shrink(self._base, self._limit_bytes)
         return content
-
-    def _write(self, path: Path, content: bytes) -> None:
-        with suppress(OSError):
-            path.parent.mkdir(parents=True, exist_ok=True)
-            replace_file(path, hashlib.sha256(content).digest() + content)
-            # A look takes seconds where there are many small entries. It is left to some of those
-            # who write, chosen by names, which are evenly spread: the more often, the more it is.
-            if int(path.name[:8], 16) / 16**8 < len(content) / (GROWTH * self._limit_bytes):
-                _shrink(self._base, self._limit_bytes)
 
 
 @dataclass(frozen=True)
@@ -186,21 +184,19 @@ def _shrink(base: Path, limit_bytes: int) -> None:
     """Delete the least recently used entries of all kinds until the rest is within the limit."""
     import numpy as np
 
-    pairs = ((file.used_ns, file.size_bytes) for file in _all_entries(base))
+    def entries() -> Iterator[_File]:
+        return chain.from_iterable(_entries(base / kind) for kind in _kinds(base))
+
+    pairs = ((file.used_ns, file.size_bytes) for file in entries())
     used_ns, sizes = np.fromiter(pairs, dtype=(np.int64, 2)).T  # There may be a million.
     excess = int(sizes.sum()) - limit_bytes
     if excess <= 0:
         return
     order = np.argsort(used_ns)
     last = order[np.searchsorted(np.cumsum(sizes[order]), excess)]
-    for file in _all_entries(base):
+    for file in entries():
         if file.used_ns <= used_ns[last]:
             _delete(file.path)
-
-
-def _all_entries(base: Path) -> Iterator[_File]:
-    for kind in _kinds(base):
-        yield from _entries(base / kind)
 
 
 def _delete(path: str) -> bool:

@@ -100,19 +100,12 @@ class RunnerPlugin(WorkerPlugin):
 
 
 def run_case(request: Request, plugin: str) -> Outcome:
-    """Return the outcome of a run; a task of Dask.
+    """Return what `RunnerPlugin.run` does; a task of Dask.
 
     Parameters
     ----------
     plugin
         Name of the sweep's `RunnerPlugin`.
-
-    Raises
-    ------
-    AirhiltError
-        The worker cannot run anything.
-    Reschedule
-        The worker has been ended meanwhile.
     """
     found = get_worker().plugins[plugin]
     assert isinstance(found, RunnerPlugin)

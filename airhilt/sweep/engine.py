@@ -88,10 +88,16 @@ def sweep(
     by_key = {case.key(own): case for case in grid}
     folder = SweepFolder(work.out)
     folder.create()
+    info = {
+        "format": specification.format,
+        "specification": specification.model_dump(mode="json", by_alias=True, exclude_none=True),
+        "environment": own.model_dump(),
+        "runs": len(by_key),
+        GRID: grid_sha256(by_key),
+    }
     with folder.locked():
-        info = _info(specification, own, by_key)
         _tell_replaced(folder, info, observer)
-        finished = _finished(folder, by_key, observer)
+        finished = by_keys(folder.finished(part_schema(), observer.notice), by_key)
         missing = missing_of(by_key, finished, work.retry)
         if missing:
             requests = _requests(missing, by_key, work)
@@ -100,10 +106,15 @@ def sweep(
                 probe = stack.enter_context(probe_in(folder.runs_path)) if is_kept else None
                 plugin = RunnerPlugin(renderer, work.limits, own, probe)
                 _run_missing(requests, info, folder, work, plugin, observer)
-            finished = _finished(folder, by_key, observer)
+            finished = by_keys(folder.finished(part_schema(), observer.notice), by_key)
         table, machine = tables_of(by_key, finished)
         folder.write_tables(table, machine, info)
-    _tell_of_machine(finished.values(), observer)
+    ended = sum(row["status"] in OF_THE_MACHINE for row in finished.values())
+    if ended:
+        observer.notice(
+            f"{ended} run{'s' * (ended != 1)} ended by a crash or a limit, which is no result: "
+            "the same command with --retry and the same --out does them again"
+        )
     left = sum(key not in finished for key in by_key)
     failed = sum(row["status"] != "finished" for row in finished.values())
     return SweepResult(folder, len(by_key), table.num_rows, failed, left)
@@ -134,19 +145,6 @@ def _own_environment(renderer: str, limits: Limits) -> Environment:
     return runner.environment
 
 
-def _info(
-    specification: Specification, own: Environment, by_key: Mapping[str, Case]
-) -> dict[str, Any]:
-    """Return the content of ``sweep.json``."""
-    return {
-        "format": specification.format,
-        "specification": specification.model_dump(mode="json", by_alias=True, exclude_none=True),
-        "environment": own.model_dump(),
-        "runs": len(by_key),
-        GRID: grid_sha256(by_key),
-    }
-
-
 def _tell_replaced(folder: SweepFolder, info: Mapping[str, Any], observer: SweepObserver) -> None:
     """Say that the tables in a folder will be of another sweep than they were."""
     if not folder.info_path.is_file():
@@ -160,23 +158,6 @@ def _tell_replaced(folder: SweepFolder, info: Mapping[str, Any], observer: Sweep
                 f"{folder.path} holds {which}, of {before.get('runs')} runs: its tables make "
                 f"room for those of this one, of {info['runs']}; what finished stays in parts"
             )
-
-
-def _tell_of_machine(rows: Iterable[Mapping[str, Any]], observer: SweepObserver) -> None:
-    """Say how to have the runs done again that might end otherwise."""
-    count = sum(row["status"] in OF_THE_MACHINE for row in rows)
-    if count:
-        observer.notice(
-            f"{count} run{'s' * (count != 1)} ended by a crash or a limit, which is no result: "
-            "the same command with --retry and the same --out does them again"
-        )
-
-
-def _finished(
-    folder: SweepFolder, by_key: Mapping[str, Case], observer: SweepObserver
-) -> dict[str, dict[str, Any]]:
-    """Return the rows of the store that belong to this sweep, by key."""
-    return by_keys(folder.finished(part_schema(), observer.notice), by_key)
 
 
 def by_keys(store: pa.Table, keys: Container[str]) -> dict[str, dict[str, Any]]:

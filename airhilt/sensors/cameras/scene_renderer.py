@@ -236,7 +236,7 @@ class SceneRenderer:
         view = View(lens, camera.at.pose)
         for name in model.shapes:
             shape = f"{model.kind}/{name}"
-            whole = self._bodies.outline(shape).box(AT_ORIGIN, view)
+            whole = self._bodies.outlines[shape].box(AT_ORIGIN, view)
             if whole is None or whole.within(view).area <= 0.0:
                 continue
             window = whole.within(view).window(view)
