@@ -1,4 +1,4 @@
-"""The runs of a sweep: each with its scenario, its options and a key that tells them apart."""
+"""The runs of a sweep, each with its scenario and options, checked before the first of them."""
 
 from __future__ import annotations
 
@@ -16,17 +16,19 @@ from typing import Any
 from pydantic import JsonValue, ValidationError
 
 from airhilt.cosim.latency_presets import PRESETS
-from airhilt.cosim.requested_latency import is_vision_measured
-from airhilt.engine_families import ASSISTANTS, DETECTORS
+from airhilt.cosim.option_checks import check_options
+from airhilt.cosim.requested_latency import is_vision_measured, requested_latency
+from airhilt.cosim.requested_radio import with_requested_radio
+from airhilt.engine_families import ASSISTANTS, DETECTORS, EXTERNAL
 from airhilt.errors import AirhiltError, ScenarioError, shown
 from airhilt.host import library
 from airhilt.options import Options
 from airhilt.scenario import Scenario, loading
 from airhilt.scenario.documents import require_bounded
 from airhilt.scenario.problems import error_for, problems_of
+from airhilt.sensors.radio.backends.selection import DEFAULT_PROFILE, select_channel
 from airhilt.sim import parse_latency
 from airhilt.sweep.axes import listed
-from airhilt.sweep.checks import RunChecks, require_different_places
 from airhilt.sweep.environment import Environment
 from airhilt.sweep.files import NamedFiles
 from airhilt.sweep.parameters import ASSISTANT as ASSISTANT_OPTION
@@ -35,6 +37,8 @@ from airhilt.sweep.specification import Specification
 from airhilt.world.checks import check
 from airhilt.world.loading import load
 
+REPLAY = "replay:"
+"""Beginning of the latency sources that are a run, of one scenario and one seed."""
 MOST_RUNS = 10_000_000
 SHOWN_PROBLEMS = 20
 """Problems of a grid that one error shows."""
@@ -250,3 +254,67 @@ def _scenario(document: Json, *, is_changed: bool) -> Scenario:
     if is_changed:
         check(scenario, scenario.name)
     return scenario
+
+
+class RunChecks:
+    """Says what is wrong with runs; a radio channel is loaded once however many have it."""
+
+    def __init__(self, seeds: Sequence[int]) -> None:
+        self._seeds = seeds
+        self._channels: dict[str, AirhiltError | None] = {}
+
+    def problems(self, options: Options, scenario: Scenario) -> list[str]:
+        """Return all that is wrong with the runs of a scenario with some options."""
+        problems = []
+        for require in (check_options, self._require_assistant, self._require_latency,
+                      self._require_channel):  # fmt: skip
+            try:
+                require(options, scenario)
+            except AirhiltError as error:
+                problems.append(str(error))
+        return problems
+
+    def _require_assistant(self, options: Options, _: Scenario) -> None:
+        if options.assistant == EXTERNAL:
+            raise AirhiltError(
+                "--assistant external: no worker or program of yours attaches to the runs of a "
+                "sweep, so nobody would decide; expected an assistant that `airhilt doctor` names, "
+                "one of a package of yours, or the address of a service (docs/decision.md)"
+            )
+
+    def _require_latency(self, options: Options, scenario: Scenario) -> None:
+        is_replay = options.latency is not None and options.latency.startswith(REPLAY)
+        for seed in self._seeds if is_replay else self._seeds[:1]:
+            requested_latency(options.latency, scenario, seed)
+
+    def _require_channel(self, options: Options, scenario: Scenario) -> None:
+        if not options.speech:
+            return
+        profile = with_requested_radio(options, scenario).radio.profile or DEFAULT_PROFILE
+        if profile not in self._channels:
+            self._channels[profile] = None
+            try:
+                select_channel(profile)
+            except AirhiltError as error:
+                self._channels[profile] = error
+        if problem := self._channels[profile]:
+            raise problem
+
+
+def require_different_places(parameters: Sequence[Parameter], document: dict[str, Any]) -> None:
+    """Complain about two parameters of which one would replace the value of the other.
+
+    Raises
+    ------
+    AirhiltError
+        Both are one place, or one is within the other.
+    """
+    places = [(each.path, place) for each in parameters if (place := each.place(document))]
+    for index, (path, place) in enumerate(places):
+        for other, inner in places[:index]:
+            shorter = min(len(place), len(inner))
+            if place[:shorter] == inner[:shorter]:
+                raise AirhiltError(
+                    f"parameters {other} and {path}: one would replace the other in "
+                    f"{document['name']!r}; expected only one of them"
+                )

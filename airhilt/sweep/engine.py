@@ -6,9 +6,11 @@ than there are workers at a time. Each outcome is on the disk before the next on
 
 from __future__ import annotations
 
+import json
 from collections.abc import Container, Iterable, Mapping, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
+from itertools import zip_longest
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,11 +18,11 @@ from pydantic import JsonValue
 
 from airhilt.errors import AirhiltError
 from airhilt.record.sweep_folder import GRID, SweepFolder, SweepFolderError
+from airhilt.sensors.cameras import UNSEEN_FIELDS
 from airhilt.sweep.cases import Case, cases
 from airhilt.sweep.dask_client import Workers, described, outcomes, prepared
 from airhilt.sweep.dask_worker import RunnerPlugin, probe_in
 from airhilt.sweep.environment import Environment, environment
-from airhilt.sweep.order import apart
 from airhilt.sweep.outcome import OF_THE_MACHINE, Keep, Outcome, Request
 from airhilt.sweep.runner_process import Limits, RunnerProcess
 from airhilt.sweep.scheduler import connect, openness, require_scheduler
@@ -31,6 +33,8 @@ from airhilt.sweep.work import Work, default_workers
 if TYPE_CHECKING:
     import pyarrow as pa
 
+SEEN_OPTIONS = ("seed", "visibility_m")
+"""Options that cameras see, besides those that all runs of a sweep have in common."""
 MOST_CRASHES = 20
 """Crashes in a row after which a sweep ends: a full disk crashes every run, within seconds."""
 
@@ -260,3 +264,33 @@ def _run_missing(
                 crashes = crashes + 1 if outcome.status == "crashed" else 0
     if crashes >= MOST_CRASHES:
         observer.notice(f"ended after {MOST_CRASHES} crashes in a row, whose cause is to be mended")
+
+
+def apart(requests: Sequence[Request], workers: int) -> list[Request]:
+    """Return runs in an order in which no two workers draw the same pictures at once.
+
+    The first of the runs that share pictures draws them. A second one at the same time would draw
+    them too. So each worker begins with other pictures, and runs that share follow one another.
+    """
+    sharing: dict[str, list[Request]] = {}
+    for request in requests:
+        sharing.setdefault(_pictures_of(request), []).append(request)
+    groups = list(sharing.values())
+    return [
+        request
+        for first in range(0, len(groups), workers)
+        for abreast in zip_longest(*groups[first : first + workers])
+        for request in abreast
+        if request is not None
+    ]
+
+
+def _pictures_of(request: Request) -> str:
+    """Return what is the same for runs that share pictures, and for no others."""
+    if not request.options.get("share_pictures"):
+        return request.key
+    scenario = {
+        name: value for name, value in request.scenario.items() if name not in UNSEEN_FIELDS
+    }
+    options = [request.options.get(name) for name in SEEN_OPTIONS]
+    return json.dumps([scenario, options], sort_keys=True)

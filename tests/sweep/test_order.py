@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from airhilt.sweep.order import apart
+from airhilt.sweep.engine import apart
 from airhilt.sweep.outcome import Request
 
 

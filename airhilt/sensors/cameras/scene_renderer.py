@@ -26,11 +26,9 @@ from airhilt.sensors.cameras.scene.bodies import BodyState, Model, numbered
 from airhilt.sensors.cameras.scene.identity import landscape_identity, scene_identity
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.landscape import Landscape
-from airhilt.sensors.cameras.scene.layers import Layer, by_sample
+from airhilt.sensors.cameras.scene.layers import Layer, by_sample, darken, sightings_of
 from airhilt.sensors.cameras.scene.lights import Lights, Spot, shine
 from airhilt.sensors.cameras.scene.rain import Streaks
-from airhilt.sensors.cameras.scene.shadows import darken
-from airhilt.sensors.cameras.scene.sightings import sightings_of
 from airhilt.sensors.cameras.scene.visible_bodies import VisibleBodies, VisibleBody
 from airhilt.shapes.lights import Light
 from airhilt.shapes.mesh import Floats

@@ -13,7 +13,7 @@ from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.sensors.cameras.frame import Frame
 from airhilt.sensors.cameras.mounts import Camera
 from airhilt.sensors.cameras.renderers import Samples
-from airhilt.sensors.cameras.scene.background_cache import kept_background
+from airhilt.sensors.cameras.scene.background import kept_background
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.landscape import Landscape
 from airhilt.sensors.cameras.scene_renderer import SceneRenderer

@@ -11,9 +11,9 @@ import pytest
 from airhilt.errors import CameraError
 from airhilt.imaging.masks import mask_of, runs_of
 from airhilt.imaging.view import Intrinsics, Pose, View
+from airhilt.sensors.cameras.scene.illumination import sun_direction
 from airhilt.sensors.cameras.scene.projected_box import Outline
 from airhilt.sensors.cameras.scene.rain import rain_visibility_m
-from airhilt.sensors.cameras.scene.sun import sun_direction
 from airhilt.shapes.mesh import box
 
 LENS = Intrinsics(640, 360, math.radians(60.0))
