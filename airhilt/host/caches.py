@@ -70,8 +70,6 @@ class CacheFolder:
 
     Parameters
     ----------
-    kind
-        Name of the folder in ``base``.
     base
         Folder of all kinds; None takes `cache_folder`.
     limit_bytes
@@ -85,13 +83,7 @@ class CacheFolder:
         self._limit_bytes = cache_limit_bytes() if limit_bytes is None else limit_bytes
 
     def get(self, key: str, make: Callable[[], bytes]) -> bytes:
-        """Return the content of an entry, made if it is not there.
-
-        Parameters
-        ----------
-        key
-            Everything that determines the content, as text.
-        """
+        """Return the content of an entry, made if it is not there."""
         path = self._folder / f"{hashlib.sha256(key.encode()).hexdigest()}.entry"
         content = _read(path)
         if content is None:

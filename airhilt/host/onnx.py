@@ -35,8 +35,6 @@ def open_network(
         Words for its purpose, at the head of error messages.
     expected
         Kind of network, at the end of error messages.
-    error
-        Class of all errors.
     threads
         Number of threads; it does not change the output.
 

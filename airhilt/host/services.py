@@ -35,14 +35,10 @@ class HttpService:
     ----------
     subject
         Words at the head of error messages for what calls the service, such as ``voice http``.
-    url
-        Address, with ``http`` or ``https``.
     timeout_s
         Wall time for connecting, for each part of an answer, and for all of it.
     maximum_bytes
         Size of the largest answer that is accepted.
-    failure
-        Class of all errors.
 
     Raises
     ------

@@ -51,8 +51,6 @@ class Case:
 
     Attributes
     ----------
-    document
-        The scenario, with the values of the parameters in it.
     options
         Options of the run that differ from their defaults, as JSON has them.
     parameters

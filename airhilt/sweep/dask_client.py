@@ -31,13 +31,7 @@ LOST = (OSError, RuntimeError, ValueError, CancelledError)
 
 
 class Workers:
-    """The workers of a scheduler, counted from time to time; it tells if there are none.
-
-    Parameters
-    ----------
-    notice
-        Is called with the text.
-    """
+    """The workers of a scheduler, counted from time to time; it tells if there are none."""
 
     def __init__(self, client: Client, notice: Callable[[str], None]) -> None:
         self._client = client
@@ -121,11 +115,6 @@ def outcomes(
     stops: Callable[[], bool],
 ) -> Iterator[Outcome]:
     """Yield the outcomes as they come; no more runs are given out once ``stops`` is true.
-
-    Parameters
-    ----------
-    plugin
-        Name of the sweep's `RunnerPlugin`.
 
     Raises
     ------

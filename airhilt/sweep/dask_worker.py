@@ -31,8 +31,6 @@ class RunnerPlugin(WorkerPlugin):
 
     Parameters
     ----------
-    renderer
-        Renderer that the runs ask for; empty without cameras.
     expected
         Environment of the sweep; a worker with another one refuses to run anything.
     probe
@@ -100,13 +98,7 @@ class RunnerPlugin(WorkerPlugin):
 
 
 def run_case(request: Request, plugin: str) -> Outcome:
-    """Return what `RunnerPlugin.run` does; a task of Dask.
-
-    Parameters
-    ----------
-    plugin
-        Name of the sweep's `RunnerPlugin`.
-    """
+    """Return what `RunnerPlugin.run` does; a task of Dask."""
     found = get_worker().plugins[plugin]
     assert isinstance(found, RunnerPlugin)
     return found.run(request)

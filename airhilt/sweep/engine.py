@@ -181,8 +181,6 @@ def missing_of(
 
     Parameters
     ----------
-    finished
-        Rows of the store by their keys.
     retry
         True: runs that a limit ended are among them.
     """
@@ -214,8 +212,6 @@ def request_of(
 
     Parameters
     ----------
-    folder
-        Place of the run folder if it stays.
     options
         Options besides those of the case.
     """

@@ -25,16 +25,12 @@ class Estimate:
 
     Attributes
     ----------
-    runs
-        Number of runs.
     finished
         Number of those that the sweep's folder has already, and that are not run again.
     run_s
         Wall time of the probe, one run alone on this machine; None: no run is left.
     run_mb
         Most memory of the probe; None: no run is left.
-    workers
-        Number of workers that would be asked for.
     at_once
         Number of runs that would go on at a time; None: only the scheduler knows.
     total_s

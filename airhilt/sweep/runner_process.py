@@ -50,16 +50,6 @@ class _OverMemory(Exception):
 class RunnerProcess:
     """One runner; a new process takes the place of one that has ended when the next run comes.
 
-    Parameters
-    ----------
-    renderer
-        Renderer that the runs ask for; empty without cameras.
-
-    Attributes
-    ----------
-    environment
-        Environment of its process.
-
     Raises
     ------
     AirhiltError

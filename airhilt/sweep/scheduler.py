@@ -57,10 +57,6 @@ def connect(scheduler: str, workers: int, dashboard: str | None) -> Iterator[Cli
 
     Parameters
     ----------
-    scheduler
-        ``local``, the address of a scheduler, or a scheduler file of Dask.
-    workers
-        Number of local workers to start, each with one thread.
     dashboard
         Address of Dask's dashboard on this machine, such as ``127.0.0.1:8787``; None: off.
 
@@ -77,13 +73,7 @@ def connect(scheduler: str, workers: int, dashboard: str | None) -> Iterator[Cli
 
 
 def openness(address: str) -> str:
-    """Return a notice on a scheduler that anybody in its network can reach, empty if nobody can.
-
-    Parameters
-    ----------
-    address
-        Address of the scheduler, such as ``tcp://host:8786``.
-    """
+    """Return a notice on a scheduler that anybody in its network can reach, empty if nobody can."""
     scheme, _, _ = address.partition("://")
     host = urlsplit(address).hostname or ""
     if scheme in ENCRYPTED or host == "localhost" or host.startswith("127.") or host == "::1":

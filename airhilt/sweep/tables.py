@@ -77,8 +77,6 @@ def tables_of(
 
     Parameters
     ----------
-    cases
-        Runs of the sweep by their keys.
     finished
         Rows of the parts by their keys; rows of other runs are left out.
     """
@@ -113,13 +111,7 @@ def tables_of(
 
 
 def grid_sha256(cases: Mapping[str, Case]) -> str:
-    """Return the SHA-256 of the keys and parameters of a sweep, which identifies its tables.
-
-    Parameters
-    ----------
-    cases
-        Runs of the sweep by their keys; their order is of no matter.
-    """
+    """Return the SHA-256 of the keys and parameters of a sweep, which identifies its tables."""
     digest = hashlib.sha256()
     for name in (*sorted(_column_names(cases.values()).values()), *sorted(cases)):
         digest.update(f"{name}\n".encode())

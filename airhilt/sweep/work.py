@@ -28,8 +28,6 @@ class Work:
 
     Attributes
     ----------
-    out
-        Folder of the sweep.
     scheduler
         ``local``, the address of a Dask scheduler, or its scheduler file.
     workers

@@ -103,8 +103,6 @@ class CameraPicture:
 
     Attributes
     ----------
-    sha256
-        SHA-256 of the pixels.
     pixels
         Colours in 8-bit sRGB, row by row.
     """

@@ -52,11 +52,6 @@ class RendererProcess:
 
     Attributes
     ----------
-    renderer
-        Name of the renderer that draws.
-    own_aircraft
-        Pixels that the aircraft which carries the camera may cover, by camera; shape (rows,
-        columns).
     identity
         Identity of the scene if pictures are shared: see `SceneRenderer`.
 
@@ -119,15 +114,7 @@ class RendererProcess:
         t_ns: int,
         states: States,
     ) -> tuple[dict[str, Any], States]:
-        """Return pictures or prospects by camera, and states of the cameras as `RendererServer`.
-
-        Raises
-        ------
-        CameraError
-            A pose is not finite, or a camera is mounted on something that is not there.
-        RendererLost
-            A process has died, or does not answer.
-        """
+        """Return pictures or prospects by camera, and states of the cameras as `RendererServer`."""
         asked = [
             (process, (its, bodies, t_ns, {name: states[name] for name in its if states}))
             for process, share in self._shares

@@ -62,8 +62,6 @@ class SceneRenderer:
 
     Parameters
     ----------
-    models
-        Appearance of each actor, by callsign.
     rain_mm_h
         Rain of which streaks are drawn; what the rain does to the visibility is in ``light``.
     supersampling
@@ -75,10 +73,6 @@ class SceneRenderer:
 
     Attributes
     ----------
-    cameras
-        The cameras, by name.
-    renderer
-        Name of the renderer that draws.
     identity
         Hash of all that reaches into pictures but bodies and time; empty if that is not known, or
         pictures are not shared.
@@ -170,11 +164,6 @@ class SceneRenderer:
 
         A body counts, hidden or not, if it would change a pixel through the air that there is. An
         exposure without a body counts as taken by the rain, which is the same with or without it.
-
-        Raises
-        ------
-        CameraError
-            As `shoot`.
         """
         there = {body.actor: body for body in bodies}
         poses = {actor: body.pose for actor, body in there.items()}
@@ -219,11 +208,6 @@ class SceneRenderer:
 
         It is in its place with wheels up or down, and some pixels larger; none of a camera that
         does not see the aircraft that carries it.
-
-        Raises
-        ------
-        CameraError
-            There is no such camera.
         """
         camera = find_camera(self.cameras, name)
         lens = camera.intrinsics

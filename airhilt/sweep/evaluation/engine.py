@@ -31,10 +31,6 @@ class Evaluation:
     folder
         Folder with the tables as ``evaluation.json``, ``evaluation.md`` and ``evaluation.html``,
         and a sweep folder for each sweep.
-    sweeps
-        Results of its sweeps by their names.
-    tables
-        Tables of their rows.
     """
 
     folder: Path

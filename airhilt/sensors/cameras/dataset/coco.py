@@ -215,11 +215,6 @@ def export(pictures: Iterable[Picture], folder: Path, about: Mapping[str, Any]) 
     If the export stops early, the annotations of the pictures written so far are complete. Nothing
     is written before the first picture.
 
-    Parameters
-    ----------
-    about
-        Content of ``info``, beside the version.
-
     Raises
     ------
     AirhiltError

@@ -60,14 +60,10 @@ class Sitting:
 
     Attributes
     ----------
-    place
-        ICAO location indicator, or `EN_ROUTE`.
     models
         Models by actor: some carry cameras, the others are named after their kind.
     cameras
         Cameras by their names, which begin with their stations.
-    order
-        The cameras of the pictures to take, in turn.
     """
 
     place: str
@@ -89,13 +85,6 @@ def station_of(camera: str) -> str:
 
 class Casting:
     """Draws sittings and shots, and keeps what all of them share.
-
-    Parameters
-    ----------
-    places
-        ICAO location indicators, or `EN_ROUTE`, in turn.
-    size
-        Width and height of the pictures.
 
     Raises
     ------

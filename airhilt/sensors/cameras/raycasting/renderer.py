@@ -69,15 +69,7 @@ class RayCaster:
 
 
 class RayRenderer:
-    """Draws by casting rays.
-
-    Parameters
-    ----------
-    landscape
-        Mesh of all that stands still.
-    build
-        Returns the scene of triangles into which rays are cast.
-    """
+    """Draws by casting rays."""
 
     def __init__(self, landscape: Mesh, light: Illumination, build: SceneBuilder) -> None:
         self._build = build

@@ -40,15 +40,7 @@ class Embree(RayCaster):
 
 
 class EmbreeScene:
-    """Triangles in Embree.
-
-    Parameters
-    ----------
-    device
-        Device of embreex, which several scenes share.
-    corners
-        Corners of the triangles, shape (n, 3, 3).
-    """
+    """Triangles in Embree."""
 
     def __init__(self, device: Any, corners: Floats) -> None:
         from embreex.mesh_construction import TriangleMesh

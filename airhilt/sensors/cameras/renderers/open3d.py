@@ -45,15 +45,7 @@ class Open3D(RayCaster):
 
 
 class Open3DScene:
-    """Triangles in a `RaycastingScene`.
-
-    Parameters
-    ----------
-    open3d
-        Bindings of Open3D.
-    corners
-        Corners of the triangles, shape (n, 3, 3).
-    """
+    """Triangles in a `RaycastingScene`."""
 
     def __init__(self, open3d: Any, corners: Floats) -> None:
         self._tensor = open3d.core.Tensor.from_numpy

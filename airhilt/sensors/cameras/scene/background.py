@@ -51,8 +51,6 @@ class Background:
 
     Parameters
     ----------
-    samples
-        Number of samples along each side of a pixel.
     finish
         Called with colours, distances and view of each picture that has been drawn whole.
     kept_as
@@ -210,15 +208,7 @@ def resolved(drawn: Samples, samples: int) -> Samples:
 def kept_background(
     landscape: str, view: View, samples: int, draw: Callable[[], Samples]
 ) -> Samples:
-    """Return the picture of a camera that stands still, drawn if it is not in the cache.
-
-    Parameters
-    ----------
-    landscape
-        Identity of the landscape.
-    samples
-        Number of samples along each side of a pixel.
-    """
+    """Return the picture of a camera that stands still, drawn if it is not in the cache."""
 
     def packed() -> bytes:
         drawn = draw()

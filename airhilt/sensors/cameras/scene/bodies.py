@@ -65,8 +65,6 @@ class Model:
     ----------
     kind
         Actors of one kind share their shapes.
-    shapes
-        Its meshes by their names.
     lights
         Returns its lights, in its own axes, at a time in seconds, with landing lights or without.
     far

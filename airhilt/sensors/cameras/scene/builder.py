@@ -72,13 +72,6 @@ def open_scene_renderer(
 ) -> SceneRenderer:
     """Return the renderer for cameras of a scenario: those named, or those that it declares.
 
-    Parameters
-    ----------
-    keeps_backgrounds
-        True if other processes may draw for the same fixed cameras.
-    shares_pictures
-        True if other runs may have the same pictures.
-
     Raises
     ------
     CameraError

@@ -49,11 +49,6 @@ def scene_identity(
 
     It is empty if not all is known: the landscape, or the lights of a kind of actor from another
     package, which are a function.
-
-    Parameters
-    ----------
-    landscape
-        Identity of its landscape.
     """
     own = {point.name for point in FAMILY.own()}
     if not landscape or any(not each.aircraft and each.kind not in own for each in models.values()):

@@ -33,8 +33,6 @@ class Layer:
 
     Attributes
     ----------
-    number
-        Number of the actor in `Frame.instance`.
     box, whole
         Boxes about the body: within the picture, and with what lies beyond it; pixels.
     silhouette

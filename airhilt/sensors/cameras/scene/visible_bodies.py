@@ -54,13 +54,6 @@ class VisibleBody(NamedTuple):
 class VisibleBodies:
     """The bodies of a scene, projected into the pictures of its cameras.
 
-    Parameters
-    ----------
-    models
-        Appearance of each actor, by callsign.
-    supersampling
-        Samples along each side of a pixel, at least.
-
     Attributes
     ----------
     shapes
