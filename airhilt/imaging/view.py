@@ -15,43 +15,20 @@ import numpy as np
 import numpy.typing as npt
 
 from airhilt.errors import CameraError
-from airhilt.imaging.lenses import GREATEST_SIDE_PX, NARROWEST_DEG, SMALLEST_SIDE_PX, WIDEST_DEG
 
 Floats = npt.NDArray[np.float32]
 Matrix = npt.NDArray[np.float64]
 NEAR_M = 0.3
 """Least depth that is drawn, in m."""
-LARGEST_MB = 8 * GREATEST_SIDE_PX**2 // 10**6
-"""Size of the largest picture in MB: colour, instance and distance."""
 
 
 @dataclass(frozen=True)
 class Intrinsics:
-    """A pinhole with square pixels whose axis goes through the middle of the picture.
-
-    Raises
-    ------
-    CameraError
-        It is no camera that can be drawn.
-    """
+    """A pinhole with square pixels whose axis goes through the middle of the picture."""
 
     width_px: int
     height_px: int
     horizontal_fov_rad: float
-
-    def __post_init__(self) -> None:
-        for name, side in (("width_px", self.width_px), ("height_px", self.height_px)):
-            if not SMALLEST_SIDE_PX <= side <= GREATEST_SIDE_PX:
-                raise CameraError(
-                    f"{name} is {side}; expected {SMALLEST_SIDE_PX} to {GREATEST_SIDE_PX} pixels "
-                    f"(a picture of the largest takes {LARGEST_MB} MB)"
-                )
-        fov_rad = self.horizontal_fov_rad
-        if not math.radians(NARROWEST_DEG) <= fov_rad <= math.radians(WIDEST_DEG):
-            raise CameraError(
-                f"the horizontal field of view is {math.degrees(fov_rad):g} degrees; expected "
-                f"{NARROWEST_DEG:g} to {WIDEST_DEG:g}"
-            )
 
     @property
     def focal_px(self) -> float:

@@ -90,12 +90,6 @@ class Frame:
     sightings: tuple[Sighting, ...]
     unchanged: bool = False
 
-    def sealed(self) -> Frame:
-        """Return it, its arrays being safe from writing: several frames may have them."""
-        for plane in (self.colour, self.distance_m, self.instance):
-            plane.flags.writeable = False
-        return self
-
 
 @dataclass(frozen=True)
 class CameraPicture:

@@ -301,7 +301,9 @@ class SceneRenderer:
             bright = 40.0 + 170.0 * (1.0 - self._light.darkness)
             self._streaks[name].fall(colour, self._taken[name], bright)
         self._taken[name] += 1
-        return Frame(name, t_ns, view, colour, distance, instance, ()).sealed(), layers
+        for plane in (colour, distance, instance):
+            plane.flags.writeable = False  # Several frames may have it.
+        return Frame(name, t_ns, view, colour, distance, instance, ()), layers
 
     def _light_up(self, colour: npt.NDArray[np.uint8], distance_m: Floats, view: View) -> None:
         """Draw the lights of the landscape, which are always on, into what is drawn once."""

@@ -26,7 +26,7 @@ from airhilt.sensors.cameras.scene.projected_box import Box
 from airhilt.sim.payload import DeferredBytes
 
 COMPRESSION = 1
-"""Level of zlib. States differ little from those before, which are its dictionary."""
+"""Level of zlib."""
 
 
 class SharedPictures:
@@ -113,12 +113,9 @@ class SharedPictures:
 
         def make() -> bytes:
             found, after = self._renderer.ask(what, names, bodies, t_ns, states)
-            packer = zlib.compressobj(COMPRESSION, zdict=key.encode())
-            return packer.compress(json.dumps([told(found), after]).encode()) + packer.flush()
+            return zlib.compress(json.dumps([told(found), after]).encode(), COMPRESSION)
 
-        kept = self._folder.get(key, make)
-        unpacker = zlib.decompressobj(zdict=key.encode())
-        known, after = json.loads(unpacker.decompress(kept) + unpacker.flush())
+        known, after = json.loads(zlib.decompress(self._folder.get(key, make)))
         self._states.update(after)
         return views, known
 

@@ -94,7 +94,6 @@ class Casting:
 
     def __init__(self, places: Sequence[str], size: tuple[int, int]) -> None:
         self._size = size
-        Intrinsics(*size, 1.0)
         self._layouts = {
             place: None if place == EN_ROUTE else Layout(load_airport(place)) for place in places
         }

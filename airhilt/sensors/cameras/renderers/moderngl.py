@@ -218,22 +218,8 @@ class ModernGLRenderer:
 
     def _array(self, program: Any, layout: str, names: tuple[str, ...], data: Floats) -> Any:
         """Return triangles for drawing."""
-        corners, triangles = _alike(data)
-        buffer, indices = self._context.buffer(corners), self._context.buffer(triangles)
-        return self._context.vertex_array(program, [(buffer, layout, *names)], indices)
-
-
-def _alike(data: Floats) -> tuple[Floats, npt.NDArray[np.uint32]]:
-    """Return corners that are alike once, and the numbers of those of each triangle.
-
-    They are stored, and lit, once, in the order of their use for the sake of the caches.
-    """
-    corners = np.ascontiguousarray(data, dtype=np.float32).reshape(-1, data.shape[2])
-    rows = corners.view(np.dtype((np.void, corners.itemsize * corners.shape[1]))).reshape(-1)
-    _, first, number = np.unique(rows, return_index=True, return_inverse=True)
-    rank = np.empty(len(first), dtype=np.uint32)
-    rank[np.argsort(first)] = np.arange(len(first), dtype=np.uint32)
-    return corners[np.sort(first)], rank[number].reshape(-1, 3)
+        buffer = self._context.buffer(np.ascontiguousarray(data, dtype=np.float32))
+        return self._context.vertex_array(program, [(buffer, layout, *names)])
 
 
 def _shelves(
