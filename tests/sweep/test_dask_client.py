@@ -49,10 +49,6 @@ def test_a_scheduler_without_workers_is_told_once(no_waiting: None) -> None:
     assert len(notices) == 1, "of workers that come at once nothing is told"
 
 
-def test_the_user_need_not_wait_for_workers(no_waiting: None) -> None:
-    Workers(client(), lambda _: None).wait(lambda: True)
-
-
 def test_a_scheduler_that_goes_is_lost(no_waiting: None) -> None:
     with pytest.raises(SchedulerError, match="tcp://head:8786 is lost; what was finished is kept"):
         Workers(client(-1), lambda _: None).threads()

@@ -50,19 +50,6 @@ def test_a_disk_or_memory_that_is_full_is_no_result_of_the_run(
     assert outcome.metrics == {}
 
 
-def test_the_cause_of_a_full_disk_is_the_same_in_every_run(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def fail(_: Request, folder: Path, *__: object) -> None:
-        raise disk_failed(str(folder / "log.mcap"), FULL)
-
-    monkeypatch.setattr(runner, "_summary", fail)
-    kept = Request(key="k", scenario={}, options={}, keep="all", folder=str(tmp_path / "run"))
-    causes = {run_request(each).cause for each in (kept, kept.model_copy(update={"keep": "none"}))}
-    assert len(causes) == 1
-    assert causes.pop().startswith("log.mcap: cannot be written any more: No space left")
-
-
 @pytest.mark.parametrize("strict", mostly_slow([False, True], False))
 def test_a_run_whose_renderer_was_killed_is_no_result_of_it(
     strict: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

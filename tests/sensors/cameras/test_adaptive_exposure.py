@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -118,8 +117,3 @@ def test_one_exposure_of_the_grid_begins_each_second(rate_hz: float, second: int
         if (exposures.end_ns(seq) - 250) // SECOND_NS == second
     ]
     assert [seq for seq in inside if exposures.begins_second(seq)] == inside[:1]
-
-
-def test_a_rate_below_one_a_second_leaves_nothing_out() -> None:
-    assert all(Exposures(0.7, 0).begins_second(seq) for seq in range(50))
-    assert all(replace(Exposures(1.0, 0), phase_ns=9).begins_second(seq) for seq in range(50))

@@ -13,7 +13,7 @@ from airhilt.cosim.replay import replay
 from airhilt.errors import AirhiltError, RendererError
 from airhilt.record import RunFolder
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras import AUTO, renderers
+from airhilt.sensors.cameras import AUTO
 from airhilt.sensors.cameras.renderers import FAMILY, open_renderer
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.shapes.mesh import Mesh
@@ -96,18 +96,6 @@ def test_a_renderer_that_does_not_exist_is_refused_with_the_nearest(
     with pytest.raises(AirhiltError, match=r"no renderer named 'embre'.*did you mean 'embree'"):
         run(glance, out=tmp_path / "run", renderer="embre")
     assert not (tmp_path / "run").exists()
-
-
-@pytest.mark.slow
-def test_auto_is_recorded_as_what_it_took_and_a_replay_takes_that(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, glance: Scenario
-) -> None:
-    done = run(glance, out=tmp_path / "run", latency="fixed", speech=False)
-    info = RunFolder.open(done.folder).info()
-    assert info.options.renderer == AUTO
-    assert info.renderer in renderers.PREFERRED
-    again = replay(done.folder)
-    assert again.identical
 
 
 @pytest.mark.parametrize(

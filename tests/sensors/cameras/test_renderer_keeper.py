@@ -51,12 +51,6 @@ def bodies(step: int) -> list[BodyState]:
     ]
 
 
-@pytest.mark.slow
-def test_each_run_has_the_pictures_that_a_process_of_its_own_draws(keeper: RendererKeeper) -> None:
-    for scenario in (meeting(CLEAR), meeting(HAZE), meeting(CLEAR, width_px=96)):
-        assert pictures(scenario, keeper) == pictures(scenario, None)
-
-
 @linux_only
 def test_one_process_draws_for_all_runs_and_nothing_piles_up(keeper: RendererKeeper) -> None:
     first = pictures(meeting(CLEAR), keeper)
@@ -74,13 +68,4 @@ def test_a_process_that_has_died_is_replaced(keeper: RendererKeeper) -> None:
     with pytest.raises(RendererError, match="has ended"):
         renderer.take([NOSE], bodies(0), 0)
     assert keeper.process().process_id != first.process_id
-    assert pictures(meeting(CLEAR), keeper)
-
-
-@pytest.mark.slow
-def test_a_scene_that_cannot_be_opened_does_not_end_the_process(keeper: RendererKeeper) -> None:
-    process = keeper.process()
-    with pytest.raises(RendererError, match="no renderer named"):
-        RendererProcess(meeting(CLEAR), renderer="crayons", processes=[process])
-    assert keeper.process() is process
     assert pictures(meeting(CLEAR), keeper)

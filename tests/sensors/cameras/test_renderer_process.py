@@ -17,16 +17,12 @@ import pytest
 
 from airhilt import load
 from airhilt.errors import CameraError, RendererError, RendererLost
-from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import renderer_process
-from airhilt.sensors.cameras.frame import CameraPicture
 from airhilt.sensors.cameras.renderer_process import RendererProcess, probe
 from airhilt.sensors.cameras.renderers import open3d, require_renderer
 from airhilt.sensors.cameras.scene.bodies import BodyState
-from airhilt.sensors.cameras.snapshot import TICK_S, snapshot, write_png
-from airhilt.world.actors import build_actors
-from airhilt.world.site import ScenarioSite
+from airhilt.sensors.cameras.snapshot import snapshot, write_png
 from opening_bodies import bodies_of
 
 CAMERA = {
@@ -106,43 +102,12 @@ def test_a_camera_that_nobody_has_declared_is_refused_with_the_nearest() -> None
         RendererProcess(washington(), ["runway_011"], "embree")
 
 
-def test_a_still_is_written_as_a_png(tmp_path: Path) -> None:
-    frame = snapshot(washington(), "field", 1.0, renderer="embree")
-    write_png(frame, tmp_path / "still.png", boxes=True)
-    assert (tmp_path / "still.png").read_bytes().startswith(b"\x89PNG")
-
-
-@pytest.mark.slow
-def test_a_still_between_two_ticks_shows_bodies_further_on() -> None:
-    """As the run's own picture of that time does, which a tick is too coarse for."""
-    scenario = washington()
-    early, late = (snapshot(scenario, "field", at_s, renderer="embree") for at_s in (4.0, 4.04))
-    site = ScenarioSite.of(scenario)
-    cast = build_actors(scenario, site, 0, TICK_S)
-    for _ in range(80):
-        for actor in cast.values():
-            actor.body.advance()
-    speed = cast["AAL123"].body.state.ground_speed_m_s
-    nearer_m = early.sightings[0].range_m - late.sightings[0].range_m
-    assert nearer_m == pytest.approx(0.04 * speed, rel=0.05)
-
-
-def test_a_still_that_cannot_be_written_is_named_with_what_to_do(tmp_path: Path) -> None:
-    (tmp_path / "file").touch()
-    view = View(Intrinsics(32, 16, 1.0), Pose.of((0.0, 0.0, 9.0), 0.0))
-    blank = CameraPicture("field", view, (), "", bytes(3 * 32 * 16))
+def test_a_still_is_written_as_a_png_or_the_reason_is_told(tmp_path: Path) -> None:
+    picture = snapshot(washington(), "field", 1.0, renderer="embree")
+    write_png(picture, tmp_path / "file", boxes=True)
+    assert (tmp_path / "file").read_bytes().startswith(b"\x89PNG")
     with pytest.raises(CameraError, match=r"a\.png: cannot be written: Not a dir.* another --out"):
-        write_png(blank, tmp_path / "file" / "a.png")
-
-
-def test_a_renderer_that_cannot_be_started_is_lost(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(subprocess, "Popen", full_disk)
-    with pytest.raises(RendererLost, match="cannot be started: No space left"):
-        RendererProcess(washington(), ["runway_01"], "embree")
-
-
-def full_disk(*_: object, **__: Any) -> None:
-    raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        write_png(picture, tmp_path / "file" / "a.png")
 
 
 def test_a_renderer_without_its_libraries_says_what_to_install(
@@ -159,19 +124,24 @@ def test_a_renderer_without_its_libraries_says_what_to_install(
         assert "\n" not in str(caught.value)
 
 
-def test_open3d_without_its_libraries_says_what_to_install(
+def test_a_renderer_that_cannot_be_started_is_lost(monkeypatch: pytest.MonkeyPatch) -> None:
+    def full(*_: object, **__: Any) -> None:
+        raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+    monkeypatch.setattr(subprocess, "Popen", full)
+    with pytest.raises(RendererLost, match="cannot be started: No space left"):
+        RendererProcess(washington(), ["runway_01"], "embree")
+
+
+def test_ray_casters_without_their_libraries_say_what_to_install(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    def lacks_a_library() -> None:
+        raise ImportError("libGL.so.1: cannot open shared object file")
+
     monkeypatch.setattr(open3d, "_bindings", lacks_a_library)
     with pytest.raises(RendererError, match=r"apt install libgl1 .*libGL.*--renderer embree"):
         require_renderer("open3d")
-
-
-def lacks_a_library() -> None:
-    raise ImportError("libGL.so.1: cannot open shared object file")
-
-
-def test_embree_without_its_package_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "embreex.rtcore", None)
     with pytest.raises(RendererError, match="pip install embreex"):
         require_renderer("embree")
@@ -185,21 +155,6 @@ def test_the_renderer_imports_nothing_from_the_folder_in_which_it_starts(
     probe("embree")
 
 
-def test_the_renderer_is_that_of_the_package_that_starts_it(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A checkout that is not installed has its own renderer too."""
-    package = tmp_path / "airhilt" / "sensors" / "cameras"
-    package.mkdir(parents=True)
-    for folder in (package, package.parent, package.parent.parent):
-        (folder / "__init__.py").touch()
-    (package / "renderer_server.py").write_text("raise SystemExit('the one of this path')")
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(sys, "path", ["", *sys.path])
-    with pytest.raises(RendererError, match="the one of this path"):
-        probe("embree")
-
-
 @pytest.mark.slow
 def test_a_renderer_that_hangs_is_given_up_and_says_what_to_do(
     bodies: list[BodyState], monkeypatch: pytest.MonkeyPatch
@@ -209,29 +164,6 @@ def test_a_renderer_that_hangs_is_given_up_and_says_what_to_do(
         os.kill(opened.processes[0].process_id, signal.SIGSTOP)
         with pytest.raises(RendererLost, match=r"not answered for 2 s.*take smaller"):
             opened.take(["field"], bodies, 0)
-
-
-@pytest.mark.slow
-def test_memory_stays_flat_over_10000_pictures(
-    process: RendererProcess, bodies: list[BodyState]
-) -> None:
-    held = []
-    for number in range(10_001):
-        shift = number % 50
-        process.take(["field"], [one._replace(east_m=one.east_m + shift) for one in bodies], 0)
-        if number in (500, 10_000):
-            held.append(held_mb(process.processes[0].process_id))
-    assert held[1] < 1.02 * held[0]
-    assert held[1] < 1000.0
-
-
-def held_mb(process_id: int) -> float:
-    """Return the memory that a process holds, where the system tells it."""
-    status = Path(f"/proc/{process_id}/status")
-    if not status.exists():
-        pytest.skip("this system has no /proc")
-    lines = dict(line.split(":", 1) for line in status.read_text().splitlines())
-    return float(lines["VmRSS"].split()[0]) / 1024.0
 
 
 def test_nothing_is_drawn_again_when_nothing_changes(process: RendererProcess) -> None:

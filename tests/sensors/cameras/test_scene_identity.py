@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from airhilt.host.files import source_sha256
 from airhilt.imaging.view import Intrinsics, Pose
 from airhilt.sensors.cameras.mounts import Camera, Mount
 from airhilt.sensors.cameras.renderers import embree
@@ -91,11 +90,3 @@ def test_a_scene_of_which_not_all_is_known_has_none() -> None:
     foreign = replace(kind_model("follow_me"), kind="drone")
     assert identity(models={"OPS1": foreign}) == ""
     assert identity(renderer="moderngl") == ""
-
-
-def test_code_that_is_edited_while_a_process_lives_is_not_the_code_it_runs(tmp_path: Path) -> None:
-    """A process that draws for hours keeps pictures under the code that it has read."""
-    (tmp_path / "drawing.py").write_text("LEVELS = 255")
-    read = source_sha256(tmp_path)
-    (tmp_path / "drawing.py").write_text("LEVELS = 15")
-    assert source_sha256(tmp_path) == read

@@ -115,12 +115,3 @@ def test_a_run_that_leaves_the_others_draws_what_it_would_have_drawn_alone(
     expected = shown(taken(alone, aside_m=25.0))
     assert expected[-3:] != shown(others)[-3:]
     assert shown(taken(SharedPictures(process), aside_m=25.0)) == expected
-
-
-def test_a_damaged_picture_is_drawn_again(process: RendererProcess, cache: Path) -> None:
-    first = taken(SharedPictures(process))
-    kept = sorted(cache.iterdir())
-    for entry in kept[::2]:
-        entry.write_bytes(entry.read_bytes()[:-1])
-    assert shown(taken(SharedPictures(process))) == shown(first)
-    assert sorted(cache.iterdir()) == kept
