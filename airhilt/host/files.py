@@ -157,19 +157,6 @@ def _content(stream: BufferedReader, path: Path, most_bytes: int) -> bytes:
     return b"".join(blocks)
 
 
-def regular(path: Path) -> Path:
-    """Return a path, unless it leads to something that may be read without an end.
-
-    Raises
-    ------
-    OSError
-        It is a pipe, a device, a folder or the like.
-    """
-    if path.exists() and not path.is_file():
-        raise OSError(errno.EINVAL, "no regular file", str(path))
-    return path
-
-
 def sha256(path: Path) -> str:
     """Return the SHA-256 of a file in hexadecimal."""
     with path.open("rb") as stream:

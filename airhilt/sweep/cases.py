@@ -139,16 +139,19 @@ def cases(specification: Specification, allowed: Sequence[Path] = ()) -> list[Ca
                 plan = _plan(document, specification.options, combination, checks)
                 named = files.of(plan.document, plan.options)
             except AirhiltError as error:
+                values = ", ".join(
+                    f"{each.path}={json.dumps(value)}" for each, value in combination
+                )
+                where = f"{scenario.name} with {values}" if values else scenario.name
                 for problem in getattr(error, "problems", (str(error),)):
-                    told = problem.removeprefix(f"{scenario.name}: ")
-                    problems[told].append(_named(scenario.name, combination))
+                    problems[problem.removeprefix(f"{scenario.name}: ")].append(where)
                 continue
             parameters = {each.path: each.value(plan) for each, _ in combination}
             found += [Case(plan.document, plan.options, seed, parameters, named) for seed in seeds]
     if problems:
         lines = [
-            f"{where[0]}: {problem}" + (f" ({len(where) - 1} more)" if len(where) > 1 else "")
-            for problem, where in problems.items()
+            f"{runs[0]}: {problem}" + (f" ({len(runs) - 1} more)" if len(runs) > 1 else "")
+            for problem, runs in problems.items()
         ]
         more = len(lines) - SHOWN_PROBLEMS
         tail = [f"... and {more} more"] if more > 0 else []
@@ -207,12 +210,6 @@ def _distinct(values: Sequence[JsonValue]) -> list[JsonValue]:
         is_number = isinstance(value, int | float)
         first.setdefault((type(value) is bool, value) if is_number else json.dumps(value), value)
     return list(first.values())
-
-
-def _named(scenario: str, combination: Combination) -> str:
-    """Return the runs of a scenario with some values in words."""
-    values = ", ".join(f"{each.path}={json.dumps(value)}" for each, value in combination)
-    return f"{scenario} with {values}" if values else scenario
 
 
 def _plan(document: Json, options: Json, combination: Combination, checks: RunChecks) -> Plan:

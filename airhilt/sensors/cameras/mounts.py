@@ -105,13 +105,7 @@ def cameras_of(scenario: Scenario, site: ScenarioSite) -> dict[str, Camera]:
 
 
 def cameras_named(scenario: Scenario, names: Sequence[str]) -> dict[str, Camera]:
-    """Return cameras of a scenario or of its airport by their names.
-
-    Raises
-    ------
-    CameraError
-        There is no camera of one of the names, or it is invalid.
-    """
+    """Return cameras of a scenario or of its airport by name; errors as `find_camera`."""
     known = cameras_of(scenario, ScenarioSite.of(scenario))
     return {name: find_camera(known, name) for name in names}
 

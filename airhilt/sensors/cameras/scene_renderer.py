@@ -64,8 +64,6 @@ class SceneRenderer:
     ----------
     rain_mm_h
         Rain of which streaks are drawn; what the rain does to the visibility is in ``light``.
-    supersampling
-        Samples along each side of a pixel, at least.
     keeps_backgrounds
         True if other processes may draw for the same fixed cameras: see `kept_background`.
     shares_pictures

@@ -27,8 +27,6 @@ from airhilt.sensors.cameras.dataset.coco import (
 )
 from airhilt.sensors.cameras.frame import Frame
 
-image_module = pytest.importorskip("PIL.Image")
-
 SIZE = (320, 192)
 
 

@@ -66,7 +66,6 @@ class Sitting:
         Cameras by their names, which begin with their stations.
     """
 
-    place: str
     weather: Weather
     daylight: Daylight
     light: Illumination
@@ -134,9 +133,7 @@ class Casting:
                 cameras[name] = self._fixed(name, layout, landscape, draws)
         order = [name for name in cameras for _ in range(SHOTS_OF_A_CAMERA)]
         order = [order[index] for index in draws.permutation(len(order))]
-        return Sitting(
-            place, weather, daylight, light, landscape, layout, height, models, cameras, order
-        )
+        return Sitting(weather, daylight, light, landscape, layout, height, models, cameras, order)
 
     def _lens(self, draws: np.random.Generator) -> Intrinsics:
         fov = math.exp(draws.uniform(*np.log(FIELDS_OF_VIEW)))

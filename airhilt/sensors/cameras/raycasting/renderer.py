@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -31,6 +31,8 @@ Number = TypeVar("Number", bound=np.generic)
 Doubles = npt.NDArray[np.float64]
 Pieces = npt.NDArray[np.intp]
 """Numbers of pieces of the landscape."""
+Glare = tuple[npt.NDArray[np.intp], Floats]
+"""Samples in which light about the sun is, and the light, shape (3, n)."""
 MISSED = 0
 """Number of the piece that is the sky."""
 
@@ -41,31 +43,6 @@ class _Body:
     normals: Floats
     colours: Floats
     glow: Floats
-
-
-class _Glare(NamedTuple):
-    """Light about the sun, shape (3, n), and in which samples it is."""
-
-    at: npt.NDArray[np.intp]
-    colour: Floats
-
-
-class RayCaster:
-    """A library that casts rays, as a backend of pictures."""
-
-    def open(self, landscape: Mesh, light: Illumination) -> RayRenderer:
-        """Return a renderer of a landscape.
-
-        Raises
-        ------
-        RendererError
-            The library, or one of the system that it needs, is not installed.
-        """
-        return RayRenderer(landscape, light, self.scene_builder())
-
-    def scene_builder(self) -> SceneBuilder:
-        """Return what makes scenes of triangles; it raises what `open` does."""
-        raise NotImplementedError
 
 
 class RayRenderer:
@@ -185,7 +162,7 @@ class RayRenderer:
 
     def _look_up(
         self, view: View, x: Floats, y: Floats, length: Floats, pieces: Pieces, sky: Mask
-    ) -> _Glare | None:
+    ) -> Glare | None:
         """Tell pieces of the sky apart by their elevation; return the glare of the sun on them."""
         rows = np.flatnonzero(sky.any(axis=1))
         if not len(rows):
@@ -203,7 +180,7 @@ class RayRenderer:
         if not len(near) or not self._light.glare.any():
             return None
         apart = np.float32(1.0) - (across / length[block]).reshape(-1)[near].astype(np.float32)
-        return _Glare(near + block.start * pieces.shape[1], self._light.glare_at(apart))
+        return near + block.start * pieces.shape[1], self._light.glare_at(apart)
 
     def _slopes(self, view: View, pieces: Pieces) -> Floats:
         """Return how the inverse depth grows to the right and down, and ahead.
@@ -224,7 +201,7 @@ class RayRenderer:
         return slopes
 
     def _colour_of(
-        self, pieces: Pieces, left: Floats, glare: _Glare | None
+        self, pieces: Pieces, left: Floats, glare: Glare | None
     ) -> npt.NDArray[np.uint8]:
         """Return what pieces look like when some of their light is left."""
         colour = np.empty((*pieces.shape, 3), dtype=np.uint8)
@@ -233,7 +210,7 @@ class RayRenderer:
             seen *= left
             seen += np.float32(air * LEVELS)
             if glare is not None:
-                seen.reshape(-1)[glare.at] += glare.colour[index] * np.float32(LEVELS)
+                seen.reshape(-1)[glare[0]] += glare[1][index] * np.float32(LEVELS)
             colour[..., index] = encode_levels(seen)
         return colour
 

@@ -146,8 +146,6 @@ def open_renderer(
     ----------
     name
         Name of a renderer; ``auto`` takes the first of `PREFERRED` that can draw here.
-    shapes
-        Shapes of the bodies, by name.
 
     Raises
     ------

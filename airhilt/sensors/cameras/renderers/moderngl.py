@@ -84,13 +84,7 @@ class _Body:
 
 
 class ModernGLRenderer:
-    """Draws by OpenGL.
-
-    Raises
-    ------
-    RendererError
-        moderngl or EGL is not installed.
-    """
+    """Draws by OpenGL."""
 
     def __init__(self, landscape: Mesh, light: Illumination) -> None:
         self._context = context = _open_context()
@@ -295,13 +289,7 @@ class ModernGL:
     needs = f"pip install 'airhilt[moderngl]' and apt install {SYSTEM_LIBRARIES}"
 
     def open(self, landscape: Mesh, light: Illumination) -> ModernGLRenderer:
-        """Return a renderer of a landscape.
-
-        Raises
-        ------
-        RendererError
-            moderngl or EGL is not installed.
-        """
+        """Return a renderer of a landscape; RendererError if moderngl or EGL is not installed."""
         return ModernGLRenderer(landscape, light)
 
 
