@@ -88,9 +88,10 @@ class RendererProcess:
         except BaseException:
             self.close()
             raise
-        self.identity: str
+        self.identity = ""
         self.own_aircraft: dict[str, Mask] = {}
-        for self.renderer, self.identity, own_aircraft in opened:
+        for name, identity, own_aircraft in opened:
+            self.renderer, self.identity = name, identity
             self.own_aircraft |= own_aircraft
 
     def take(
