@@ -18,7 +18,7 @@ from hypothesis import settings
 
 from airhilt import load, run
 from airhilt.cli import main
-from airhilt.host.child_process import available_cores
+from airhilt.host.machine import available_cores
 from airhilt.scenario import Scenario
 from airhilt.world.loading import load_text
 from devtools import BROWSERS, Page, browser_page

@@ -14,7 +14,7 @@ from typing import BinaryIO
 
 from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ, Audio, from_pcm, to_pcm
 from airhilt.errors import SpeechError
-from airhilt.host.files import read_file, regular, replacing
+from airhilt.host.files import read_file, replacing
 
 LARGEST_WAV_BYTES = 100_000_000
 """Size of the largest file that is read: 52 minutes."""
@@ -86,8 +86,10 @@ def read_wav(path: Path) -> Audio:
     SpeechError
         It cannot be read, or as `decode_wav`.
     """
+    if path.exists() and not path.is_file():  # A pipe may have no end.
+        raise SpeechError(f"{path}: cannot be read: no regular file")
     try:
-        data = read_file(regular(path), LARGEST_WAV_BYTES)
+        data = read_file(path, LARGEST_WAV_BYTES)
     except OSError as error:
         raise SpeechError(f"{path}: cannot be read: {error.strerror}") from None
     return decode_wav(data, str(path))

@@ -158,9 +158,9 @@ def _members(
 
 def _renderers() -> list[Finding]:
     """Let each renderer of camera pictures draw something; the one of a plain install first."""
-    from airhilt.sensors.cameras.renderers import renderer_names
+    from airhilt.sensors.cameras.renderers import FAMILY
 
-    others = [name for name in renderer_names() if name != EMBREE]
+    others = [name for name in FAMILY.names() if name != EMBREE]
     return [_renderer(EMBREE, needed=True), *[_renderer(name, needed=False) for name in others]]
 
 

@@ -23,10 +23,8 @@ from airhilt.sensors.cameras import AUTO
 from airhilt.sim import Director, StepRecord
 
 if TYPE_CHECKING:
-    from airhilt.sensors.cameras.pictures import PictureSource
-    from airhilt.sensors.cameras.renderer_link import RendererKeeper, RendererLink
-    from airhilt.sensors.cameras.renderer_pool import RendererPool
-    from airhilt.sensors.cameras.renderer_process import RendererProcess
+    from airhilt.host.child_process import ChildProcess
+    from airhilt.sensors.cameras.renderer_process import RendererKeeper, RendererProcess
     from airhilt.sensors.cameras.sensor import CameraSensor
 
 
@@ -48,7 +46,7 @@ class Vision:
     def __init__(
         self,
         setup: Setup,
-        renderer: RendererProcess | RendererPool | None,
+        renderer: RendererProcess | None,
         unavailable_reason: str,
         is_watched: bool,
         notice: Callable[[str], None],
@@ -93,8 +91,6 @@ class Vision:
         """
         if self._renderer is None:
             return
-        from airhilt.sensors.cameras.pictures import DrawnPictures
-        from airhilt.sensors.cameras.renderer_process import RendererProcess
         from airhilt.sensors.cameras.sensor import CameraSensor
         from airhilt.sensors.cameras.shared_pictures import SharedPictures
 
@@ -109,12 +105,9 @@ class Vision:
         for recorder in self._recorders:
             router.observe(recorder.take)
         renderer = self._renderer
-        source: PictureSource = DrawnPictures(renderer)
-        if isinstance(renderer, RendererProcess) and renderer.identity:
-            source = SharedPictures(renderer)
         self._sensor = CameraSensor(
             director,
-            source,
+            SharedPictures(renderer) if renderer.identity else renderer,
             setup.scenario.cameras,
             setup.site,
             setup.actors,
@@ -154,7 +147,7 @@ def started_renderers(
     recorded: Recorded,
     is_watched: bool,
     keeper: RendererKeeper | None,
-) -> Iterator[Sequence[RendererLink]]:
+) -> Iterator[Sequence[ChildProcess]]:
     """Start the processes that draw while a run is set up, if somebody may look at its pictures.
 
     Parameters
@@ -177,30 +170,30 @@ def started_renderers(
         )
     )
     with ExitStack() as stack:
-        links: list[RendererLink] = []
+        processes: list[ChildProcess] = []
         if options.cameras and scenario.cameras and (may_look or recorded.has_pictures):
-            with suppress(OSError):  # A later start tells what is wrong.
+            with suppress(RendererError):  # A later start tells what is wrong.
                 if keeper is not None:
-                    links.append(keeper.link())
+                    processes.append(keeper.process())
                 else:
-                    for link in _start_renderers(scenario, options):
-                        stack.callback(link.close)
-                        links.append(link)
-        yield links
+                    for process in _start_renderers(scenario, options):
+                        stack.callback(process.close)
+                        processes.append(process)
+        yield processes
 
 
 @contextmanager
 def open_vision(
     setup: Setup,
     participants: Participants,
-    links: Sequence[RendererLink],
+    processes: Sequence[ChildProcess],
     observer: Observer,
 ) -> Iterator[Vision]:
     """Open the renderer for the time of a run, if somebody might look at its pictures.
 
     Parameters
     ----------
-    links
+    processes
         Processes that have been started to draw.
     observer
         Is told what a user should know at once, such as why nothing can be drawn.
@@ -216,7 +209,7 @@ def open_vision(
     """
     options, recorded = setup.options, setup.recorded
     unavailable_reason = recorded.unavailable_reason
-    renderer: RendererProcess | RendererPool | None = None
+    renderer: RendererProcess | None = None
     if options.cameras and options.renderer != AUTO and not recorded.is_replay:
         from airhilt.sensors.cameras.renderers import require_known
 
@@ -224,7 +217,7 @@ def open_vision(
     with ExitStack() as stack:
         if not unavailable_reason and (_has_viewers(setup, participants) or recorded.has_pictures):
             try:
-                renderer = _open_renderer(setup.scenario, options, links)
+                renderer = _open_renderer(setup.scenario, options, processes)
                 stack.callback(renderer.close)
             except RendererError as error:
                 if recorded.is_replay:
@@ -251,27 +244,23 @@ def _has_viewers(setup: Setup, participants: Participants) -> bool:
     return options.cameras and bool(setup.scenario.cameras) and (is_watched or options.video)
 
 
-def _start_renderers(scenario: Scenario, options: Options) -> Iterator[RendererLink]:
+def _start_renderers(scenario: Scenario, options: Options) -> Iterator[ChildProcess]:
     """Yield processes that draw for one run, as they are started."""
-    from airhilt.sensors.cameras.renderer_link import RendererLink
-    from airhilt.sensors.cameras.renderer_pool import processes_for
+    from airhilt.sensors.cameras.renderer_process import processes_for, start_renderer
 
     for _ in range(1 if options.share_pictures else processes_for(scenario)):
-        yield RendererLink()
+        yield start_renderer()
 
 
 def _open_renderer(
-    scenario: Scenario, options: Options, links: Sequence[RendererLink]
-) -> RendererProcess | RendererPool:
+    scenario: Scenario, options: Options, processes: Sequence[ChildProcess]
+) -> RendererProcess:
     # Not at the top: a run without cameras starts without the libraries behind them.
-    from airhilt.sensors.cameras.renderer_pool import RendererPool
     from airhilt.sensors.cameras.renderer_process import RendererProcess
 
-    if len(links) > 1:
-        return RendererPool(scenario, links, options.renderer)
     return RendererProcess(
         scenario,
         renderer=options.renderer,
-        link=links[0] if links else None,
+        processes=processes,
         shares_pictures=options.share_pictures,
     )

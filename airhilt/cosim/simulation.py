@@ -37,8 +37,7 @@ from airhilt.cosim.setup import Setup, set_up
 from airhilt.cosim.workload_questions import WorkloadQuestions
 from airhilt.cosim.world_loop import WorldLoop
 from airhilt.errors import AirhiltError
-from airhilt.host.child_process import cpu_s
-from airhilt.host.memory import give_memory_back
+from airhilt.host.machine import cpu_s, give_memory_back
 from airhilt.host.text import LONGEST_LINE, readable
 from airhilt.messages import WorkerDescription
 from airhilt.metrics.collector import Collector
@@ -64,7 +63,7 @@ from airhilt.world.actors.advisory_delivery import AdvisoryDelivery
 from airhilt.world.flight import Aircraft
 
 if TYPE_CHECKING:
-    from airhilt.sensors.cameras.renderer_link import RendererKeeper
+    from airhilt.sensors.cameras.renderer_process import RendererKeeper
 
 END_PERIOD_NS = SECOND_NS // 2
 """Period at which the conditions that end the run are evaluated, in ns."""
@@ -118,7 +117,7 @@ def _run(
     keeper: RendererKeeper | None,
 ) -> Result:
     with ExitStack() as stack:
-        links = stack.enter_context(
+        processes = stack.enter_context(
             started_renderers(scenario, options, recorded, bool(workers), keeper)
         )
         setup = set_up(scenario, options, recorded)
@@ -134,7 +133,7 @@ def _run(
         has_programs = bool(participants.programs) and not setup.recorded.programs
         if options.pace is None and (has_people or has_programs):
             pace = RealTime()
-        vision = stack.enter_context(open_vision(setup, participants, links, observer))
+        vision = stack.enter_context(open_vision(setup, participants, processes, observer))
         setup.folder.create(options.overwrite)
         info = setup.info(participants, pace, bus.endpoint, vision.renderer)
         setup.folder.write_info(info)

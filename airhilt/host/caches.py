@@ -11,19 +11,21 @@ import hashlib
 import os
 import re
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from typing import NamedTuple
 
 from airhilt.errors import AirhiltError, shown
+from airhilt.host.files import replace_file
 from airhilt.host.library import nearest
 
 LIMIT = "AIRHILT_CACHE_LIMIT_MB"
 """Environment variable with the greatest size of all entries together, in MB."""
 DEFAULT_LIMIT_MB = 2000.0
-KINDS = ("aircraft", "backgrounds", "detections", "pictures", "rays", "voices")
+KINDS = ("aircraft", "backgrounds", "detections", "pictures", "voices")
 """Kinds of entries that AIRHILT keeps itself; each is a folder in `cache_folder`."""
 ENTRY = re.compile(r"[0-9a-f]{64}.*\.(entry|partial)")
 """Name of an entry, and of one that is being written."""
@@ -68,8 +70,6 @@ class CacheFolder:
 
     Parameters
     ----------
-    kind
-        Name of the folder in ``base``.
     base
         Folder of all kinds; None takes `cache_folder`.
     limit_bytes
@@ -83,28 +83,20 @@ class CacheFolder:
         self._limit_bytes = cache_limit_bytes() if limit_bytes is None else limit_bytes
 
     def get(self, key: str, make: Callable[[], bytes]) -> bytes:
-        """Return the content of an entry, made if it is not there.
-
-        Parameters
-        ----------
-        key
-            Everything that determines the content, as text.
-        """
+        """Return the content of an entry, made if it is not there."""
         path = self._folder / f"{hashlib.sha256(key.encode()).hexdigest()}.entry"
         content = _read(path)
         if content is None:
             content = make()
             if len(content) + _DIGEST_BYTES <= self._limit_bytes:
-                self._write(path, content)
+                with suppress(OSError):
+                    path.parent.mkdir(parents=True, exist_ok=True)
+                    replace_file(path, hashlib.sha256(content).digest() + content)
+                    # A look takes seconds where there are many entries. Some of those who write do
+                    # it, chosen by names, which are evenly spread: the more often, the more it is.
+                    if int(path.name[:8], 16) / 16**8 < len(content) / (GROWTH * self._limit_bytes):
+                        _shrink(self._base, self._limit_bytes)
         return content
-
-    def _write(self, path: Path, content: bytes) -> None:
-        with suppress(OSError):
-            _replace(path, hashlib.sha256(content).digest() + content)
-            # A look takes seconds where there are many small entries. It is left to some of those
-            # who write, chosen by names, which are evenly spread: the more often, the more it is.
-            if int(path.name[:8], 16) / 16**8 < len(content) / (GROWTH * self._limit_bytes):
-                _shrink(self._base, self._limit_bytes)
 
 
 @dataclass(frozen=True)
@@ -175,7 +167,7 @@ def _entries(folder: Path) -> Iterator[_File]:
                     yield _File(each.path, stat.st_size, stat.st_mtime_ns)
 
 
-def _usage(kind: str, files: Iterator[_File] | list[_File]) -> Usage:
+def _usage(kind: str, files: Iterable[_File]) -> Usage:
     sizes = [file.size_bytes for file in files]
     return Usage(kind, len(sizes), sum(sizes))
 
@@ -184,29 +176,26 @@ def _shrink(base: Path, limit_bytes: int) -> None:
     """Delete the least recently used entries of all kinds until the rest is within the limit."""
     import numpy as np
 
-    pairs = ((file.used_ns, file.size_bytes) for file in _all_entries(base))
+    def entries() -> Iterator[_File]:
+        return chain.from_iterable(_entries(base / kind) for kind in _kinds(base))
+
+    pairs = ((file.used_ns, file.size_bytes) for file in entries())
     used_ns, sizes = np.fromiter(pairs, dtype=(np.int64, 2)).T  # There may be a million.
     excess = int(sizes.sum()) - limit_bytes
     if excess <= 0:
         return
     order = np.argsort(used_ns)
     last = order[np.searchsorted(np.cumsum(sizes[order]), excess)]
-    for file in _all_entries(base):
+    for file in entries():
         if file.used_ns <= used_ns[last]:
             _delete(file.path)
 
 
-def _all_entries(base: Path) -> Iterator[_File]:
-    for kind in _kinds(base):
-        yield from _entries(base / kind)
-
-
 def _delete(path: str) -> bool:
-    """Return whether a file is gone."""
+    """Delete a file; return whether it is gone."""
     with suppress(OSError):
         Path(path).unlink(missing_ok=True)
-        return True
-    return False
+    return not os.path.lexists(path)
 
 
 def _read(path: Path) -> bytes | None:
@@ -221,16 +210,3 @@ def _read(path: Path) -> bytes | None:
     with suppress(OSError):
         os.utime(path)
     return content
-
-
-def _replace(path: Path, data: bytes) -> None:
-    """Write a file all or nothing; other processes never see a part of it."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    number, partial = tempfile.mkstemp(".partial", path.stem, path.parent)
-    try:
-        with os.fdopen(number, "wb") as stream:
-            stream.write(data)
-        Path(partial).replace(path)
-    except OSError:
-        Path(partial).unlink(missing_ok=True)
-        raise

@@ -1,25 +1,26 @@
 """Child processes: each answers the questions that this process asks it.
 
-Questions and answers are lines of JSON on two pipes. A third pipe takes what the child prints; its
-last line says why the child ended. A child ends as soon as its parent does.
+Questions and answers go through a socket. What a child prints goes to a file, whose last line says
+why the child ended. A child ends as soon as its parent does.
 """
 
 from __future__ import annotations
 
-import json
 import os
-import resource
 import subprocess
 import sys
+import tempfile
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from contextlib import suppress
+from multiprocessing import Pipe
+from multiprocessing.connection import Connection
 from pathlib import Path
-from queue import Empty, SimpleQueue
+from queue import SimpleQueue
 from threading import Thread
 from typing import Any
 
-import psutil
+from airhilt.errors import AirhiltError
 
 WATCH_S = 0.5
 """Period at which a process that owes an answer is watched, in s."""
@@ -36,17 +37,12 @@ class Ended(Exception):
 
 
 class ChildProcess:
-    """A process of AIRHILT's own that runs `serve`.
+    """A process of AIRHILT's own.
 
     Parameters
     ----------
-    command
-        Program and first arguments, such as `command_of` returns. The next two arguments are the
-        descriptors on which it reads questions and writes answers.
-    arguments
-        Its further arguments.
-    pass_fds
-        Further descriptors that it inherits.
+    module
+        Module that runs `serve`.
     environment
         Variables that it has besides those of this process; None for one that it does not have.
 
@@ -56,37 +52,27 @@ class ChildProcess:
         It cannot be started.
     """
 
-    def __init__(
-        self,
-        command: Sequence[str],
-        arguments: Sequence[str] = (),
-        pass_fds: Sequence[int] = (),
-        environment: Mapping[str, str | None] | None = None,
-    ) -> None:
-        questions, ask = os.pipe()
-        answers, answer = os.pipe()
-        self._questions, self._answers = os.fdopen(ask, "wb"), os.fdopen(answers, "rb")
+    def __init__(self, module: str, environment: Mapping[str, str | None]) -> None:
+        self._connection, theirs = Pipe()
+        self._printed = tempfile.TemporaryFile()  # noqa: SIM115 - closed with the process
         try:
             self._process = subprocess.Popen(  # noqa: S603 - our own module
-                [*command, str(questions), str(answer), *arguments],
+                # -P: nothing is imported from the current folder.
+                [sys.executable, "-P", "-m", module, str(theirs.fileno())],
                 stdin=subprocess.DEVNULL,
-                stdout=subprocess.PIPE,
+                stdout=self._printed,
                 stderr=subprocess.STDOUT,
                 # Ctrl-C is for this process, which then ends the other one itself.
                 start_new_session=True,
-                pass_fds=(questions, answer, *pass_fds),
-                env=environment_with(environment or {}),
+                pass_fds=[theirs.fileno()],
+                env=_environment(environment),
             )
         except OSError:
-            self._questions.close()
-            self._answers.close()
+            self._connection.close()
+            self._printed.close()
             raise
         finally:
-            os.close(questions)
-            os.close(answer)
-        self._last_printed = b""
-        self._printing = Thread(target=self._read_printed, daemon=True)
-        self._printing.start()
+            theirs.close()
 
     @property
     def process_id(self) -> int:
@@ -98,8 +84,27 @@ class ChildProcess:
         """True if it can be asked."""
         return self._process.poll() is None
 
-    def ask(self, question: Any, patience_s: float, watch: Callable[[], None] | None = None) -> Any:
-        """Return the answer to a question. If there is none, for any reason, the process is killed.
+    def ask(
+        self,
+        what: str,
+        *arguments: Any,
+        patience_s: float,
+        watch: Callable[[], None] = lambda: None,
+    ) -> Any:
+        """Return what a method of the child's server returns; what it raises is raised here.
+
+        Errors are those of `answer`.
+        """
+        self.tell(what, *arguments)
+        return self.answer(patience_s, watch)
+
+    def tell(self, what: str, *arguments: Any) -> None:
+        """Ask without waiting: `answer` returns the answer, or says that the process has ended."""
+        with suppress(OSError):
+            self._connection.send((what, arguments))
+
+    def answer(self, patience_s: float, watch: Callable[[], None] = lambda: None) -> Any:
+        """Return the answer that is owed. If there is none, for any reason, the process is killed.
 
         Parameters
         ----------
@@ -108,146 +113,75 @@ class ChildProcess:
 
         Raises
         ------
+        AirhiltError
+            It is the answer.
         NoAnswer
             There was none within the patience.
         Ended
             The process has ended.
         """
-        line, answers = json.dumps(question).encode() + b"\n", SimpleQueue[bytes]()
-        Thread(target=self._exchange, args=(line, answers), daemon=True).start()
+        until_s = time.monotonic() + patience_s
         try:
-            answer = _within(patience_s, answers, watch)
+            while not self._connection.poll(min(max(until_s - time.monotonic(), 0.0), WATCH_S)):
+                watch()
+                if time.monotonic() >= until_s:
+                    raise NoAnswer
+            answer = self._connection.recv()
+        except (EOFError, ConnectionError):
+            raise Ended(self._how_it_ended()) from None
         except BaseException:  # The answer that is still owed must not be taken for the next one.
             self.kill()
             raise
-        if not answer.endswith(b"\n"):
-            raise Ended(self._how_it_ended())
-        return json.loads(answer)
+        if isinstance(answer, AirhiltError):
+            raise answer
+        return answer
 
     def kill(self) -> None:
-        """Kill the process and all that it has started; another thread may be asking it."""
-        if self.is_alive:
-            with suppress(psutil.Error):
-                for each in psutil.Process(self.process_id).children(recursive=True):
-                    with suppress(psutil.Error):
-                        each.kill()
-            self._process.kill()
+        """Kill the process; another thread may be asking it."""
+        self._process.kill()
         self._process.wait()
 
     def close(self) -> None:
         """End the process."""
         self.kill()
-        self._printing.join(1.0)
-        with suppress(OSError):  # A question that it has not read is lost with it.
-            self._questions.close()
-        self._answers.close()
-
-    def _exchange(self, question: bytes, answers: SimpleQueue[bytes]) -> None:
-        """Ask a question; the answer is not a whole line if the process has ended."""
-        answer = b""
-        with suppress(OSError, ValueError):
-            self._questions.write(question)
-            self._questions.flush()
-            answer = self._answers.readline()
-        answers.put(answer)
-
-    def _read_printed(self) -> None:
-        """Keep the end of what the process prints, however much that is."""
-        assert self._process.stdout is not None
-        with self._process.stdout as printed:
-            while part := os.read(printed.fileno(), 1 << 16):
-                self._last_printed = (self._last_printed + part)[-LAST_PRINTED_BYTES:]
+        self._connection.close()
+        self._printed.close()
 
     def _how_it_ended(self) -> str:
         with suppress(subprocess.TimeoutExpired):
             self._process.wait(5.0)
         self.kill()
-        self._printing.join(1.0)
-        code = self._process.returncode
-        last = self._last_printed.decode(errors="replace").strip().splitlines()[-1:]
+        code, file = self._process.returncode, self._printed.fileno()
+        end = max(os.fstat(file).st_size - LAST_PRINTED_BYTES, 0)
+        printed = os.pread(file, LAST_PRINTED_BYTES, end).decode(errors="replace")
+        last = printed.strip().splitlines()[-1:]
         cause = f": {last[0]}" if last else ""
         return f"(signal {-code}){cause}" if code < 0 else f"(exit code {code}){cause}"
 
 
-def _within(
-    patience_s: float, answers: SimpleQueue[bytes], watch: Callable[[], None] | None
-) -> bytes:
-    until_s = time.monotonic() + patience_s
-    while (left_s := until_s - time.monotonic()) > 0.0:
-        with suppress(Empty):
-            return answers.get(timeout=min(left_s, WATCH_S))
-        if watch is not None:
-            watch()
-    raise NoAnswer
-
-
-def serve(
-    questions: int,
-    answers: int,
-    answer: Callable[[Any], str],
-    at_end: Callable[[], None] = lambda: None,
-) -> None:
-    """Answer the questions of the parent; end this process with them, whatever it is doing.
-
-    Parameters
-    ----------
-    questions, answers
-        Descriptors that the process was given by its `ChildProcess`.
-    answer
-        Returns the answer to a question, as a line of JSON.
-    at_end
-        Is called when there are no more questions.
-    """
-    waiting: SimpleQueue[bytes] = SimpleQueue()
+def serve(server: object) -> None:
+    """Answer the parent with the methods of an object; end with it, whatever is going on."""
+    connection = Connection(int(sys.argv[1]))
+    questions: SimpleQueue[tuple[str, tuple[Any, ...]]] = SimpleQueue()
 
     def read() -> None:
-        with os.fdopen(questions, "rb") as lines:
-            for line in lines:
-                waiting.put(line)
-        at_end()
+        with suppress(EOFError, OSError):
+            while True:
+                questions.put(connection.recv())
         os._exit(0)
 
     Thread(target=read, daemon=True).start()
-    with os.fdopen(answers, "wb") as told:
-        while True:
-            try:
-                told.write(answer(json.loads(waiting.get())).encode() + b"\n")
-            except MemoryError:
-                sys.exit("out of memory")
-            told.flush()
+    while True:
+        what, arguments = questions.get()
+        try:
+            answer = getattr(server, what)(*arguments)
+        except AirhiltError as error:
+            answer = error
+        connection.send(answer)
 
 
-def cpu_s() -> float:
-    """Return the CPU time of this process and of its children, ended or not, in s."""
-    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
-    total = sum(each.ru_utime + each.ru_stime for each in used)
-    for child in psutil.Process().children():
-        with suppress(psutil.Error):
-            living = child.cpu_times()
-            total += living.user + living.system
-    return total
-
-
-def available_cores() -> int:
-    """Return the number of cores that this process may use, at least 1."""
-    if hasattr(os, "sched_getaffinity"):
-        return len(os.sched_getaffinity(0))
-    return os.cpu_count() or 1  # macOS binds no process to cores.
-
-
-def command_of(module: str) -> tuple[str, ...]:
-    """Return the command that runs a module; the current folder is not imported from."""
-    return (sys.executable, "-P", "-m", module)
-
-
-def environment_with(more: Mapping[str, str | None]) -> dict[str, str]:
-    """Return the environment of the other side, which imports from where this one does.
-
-    Parameters
-    ----------
-    more
-        Variables that take the place of this process's; None leaves one out.
-    """
+def _environment(more: Mapping[str, str | None]) -> dict[str, str]:
+    """Return the environment of a child, which imports from where this process does."""
     places = [str(Path(place).absolute()) for place in sys.path]
     own = {**os.environ, **more, "PYTHONPATH": os.pathsep.join(places)}
     return {name: value for name, value in own.items() if value is not None}

@@ -22,8 +22,6 @@ PARTIAL = ".partial"
 """End of the name of a file that is being written."""
 BLOCK_BYTES = 1 << 20
 """Number of bytes that are read at a time."""
-NOT_INSIDE = (errno.ELOOP, errno.ENOTDIR, errno.EMLINK, errno.ENXIO)
-"""Errors of the system for a link that is not followed, and for a socket."""
 
 
 def replace_file(path: Path, data: bytes) -> None:
@@ -116,29 +114,13 @@ def open_inside(folder: Path, path: Path) -> BufferedReader:
         It is not there, or is not a regular file of that folder: a link, a pipe, a device, or
         behind a link to another folder.
     """
-    parts = path.relative_to(folder).parts
-    refused = OSError(errno.EINVAL, "no regular file of its folder", str(path))
-    if not parts or ".." in parts:
-        raise refused
-    *between, name = parts
-    reached = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
     try:
-        for part in between:
-            inner = os.open(part, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW, dir_fd=reached)
-            os.close(reached)
-            reached = inner
-        # Nonblocking: the other end of a pipe may never be opened.
-        opened = os.open(name, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK, dir_fd=reached)
-    except OSError as error:
-        raise (refused if error.errno in NOT_INSIDE else error) from None
+        found = Path(os.path.realpath(path, strict=True))
     except ValueError:  # No file can have such a name.
         raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(path)) from None
-    finally:
-        os.close(reached)
-    if not stat.S_ISREG(os.fstat(opened).st_mode):
-        os.close(opened)
-        raise refused
-    return os.fdopen(opened, "rb")
+    if found != Path(os.path.realpath(folder)) / path.relative_to(folder) or not found.is_file():
+        raise OSError(errno.EINVAL, "no regular file of its folder", str(path))
+    return found.open("rb")
 
 
 def read_inside(folder: Path, path: Path, most_bytes: int) -> bytes:
@@ -173,19 +155,6 @@ def _content(stream: BufferedReader, path: Path, most_bytes: int) -> bytes:
         if size_bytes > most_bytes:
             raise OSError(errno.EFBIG, f"has over {most_bytes:,} bytes", str(path))
     return b"".join(blocks)
-
-
-def regular(path: Path) -> Path:
-    """Return a path, unless it leads to something that may be read without an end.
-
-    Raises
-    ------
-    OSError
-        It is a pipe, a device, a folder or the like.
-    """
-    if path.exists() and not path.is_file():
-        raise OSError(errno.EINVAL, "no regular file", str(path))
-    return path
 
 
 def sha256(path: Path) -> str:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from threading import Timer
@@ -17,8 +16,6 @@ LARGEST_FILE_BYTES = 500_000_000
 """Size of the largest file that is loaded."""
 LARGEST_MEMORY_BYTES = 4_000_000_000
 """Memory that all networks of a process may have at a time."""
-LONGEST_LOAD_S = 60.0
-"""Wall time after which a network is not loaded any more; it stops at its next step."""
 FIRST_LOOK_S = 20.0
 """Longest wall time of the first look of a network, in s; a loop in it may never end."""
 
@@ -38,8 +35,6 @@ def open_network(
         Words for its purpose, at the head of error messages.
     expected
         Kind of network, at the end of error messages.
-    error
-        Class of all errors.
     threads
         Number of threads; it does not change the output.
 
@@ -60,10 +55,7 @@ def open_network(
     options.log_severity_level = 4
     options.add_session_config_entry("session.use_env_allocators", "1")
     try:
-        with _after(LONGEST_LOAD_S, lambda: options.set_load_cancellation_flag(True)):
-            return onnxruntime.InferenceSession(
-                str(path), options, providers=["CPUExecutionProvider"]
-            )
+        return onnxruntime.InferenceSession(str(path), options, providers=["CPUExecutionProvider"])
     except Exception as cause:  # onnxruntime raises classes of its own that share no base
         raise error(
             f"{subject}: no ONNX model that can be run: {first_line(cause)}; expected {expected}"
@@ -88,13 +80,17 @@ def first_look(
     limit_s = FIRST_LOOK_S if limit_s is None else limit_s
     options = onnxruntime.RunOptions()
     options.log_severity_level = 4
+    timer = Timer(limit_s, setattr, (options, "terminate", True))
+    timer.daemon = True
+    timer.start()
     try:
-        with _after(limit_s, lambda: setattr(options, "terminate", True)):
-            found: list[Any] = network.run(None, dict(inputs), options)
+        found: list[Any] = network.run(None, dict(inputs), options)
     except Exception:
         if options.terminate:
             raise TimeoutError(f"does not end within {limit_s:g} s") from None
         raise
+    finally:
+        timer.cancel()
     return found
 
 
@@ -109,15 +105,3 @@ def _bound_memory() -> None:
     )
     limit = onnxruntime.OrtArenaCfg({"max_mem": LARGEST_MEMORY_BYTES})
     onnxruntime.create_and_register_allocator(where, limit)
-
-
-@contextmanager
-def _after(limit_s: float, stop: Callable[[], None]) -> Iterator[None]:
-    """Stop what is done here if it has not ended after some wall time."""
-    timer = Timer(limit_s, stop)
-    timer.daemon = True
-    timer.start()
-    try:
-        yield
-    finally:
-        timer.cancel()

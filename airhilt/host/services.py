@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import ipaddress
 import re
-import threading
+import time
 from collections.abc import Mapping
-from contextlib import suppress
 from typing import TYPE_CHECKING, TypeVar
 from urllib.parse import urlsplit
 
@@ -36,14 +35,10 @@ class HttpService:
     ----------
     subject
         Words at the head of error messages for what calls the service, such as ``voice http``.
-    url
-        Address, with ``http`` or ``https``.
     timeout_s
-        Wall time for a whole request, from the lookup of the name to the last byte.
+        Wall time for connecting, for each part of an answer, and for all of it.
     maximum_bytes
         Size of the largest answer that is accepted.
-    failure
-        Class of all errors.
 
     Raises
     ------
@@ -97,10 +92,21 @@ class HttpService:
         """
         import httpx  # Not at the top: most runs call no service, and importing it takes time.
 
+        sent = {
+            **(headers or {}),
+            "Content-Type": content_type,
+            "Accept-Encoding": "identity",
+            **({"Authorization": f"Bearer {key}"} if key else {}),
+        }
+        until_s = time.monotonic() + self._timeout_s
+        # The certificates take time to load.
+        verify = self.url.startswith("https")
         try:
-            with self._client() as client:
-                request = {**(headers or {}), "Content-Type": content_type}
-                return _Request(self, client, body, request, key).within(self._timeout_s)
+            with (
+                httpx.Client(timeout=self._timeout_s, trust_env=False, verify=verify) as client,
+                client.stream("POST", self.url, content=body, headers=sent) as answer,
+            ):
+                content = self._content(answer, until_s)
         except (TimeoutError, httpx.TimeoutException):
             raise self.error(
                 f"has not answered for {self._timeout_s:g} s",
@@ -112,51 +118,29 @@ class HttpService:
             raise self.error(
                 f"broke off: {type(error).__name__}: {error}", "a complete answer"
             ) from None
+        if answer.status_code != 200:
+            # The key first: half of it would not be found any more.
+            text = without_key(content.decode("utf-8", "replace"), key)
+            quoted = text[:QUOTED_LENGTH].strip()
+            raise self.error(
+                f"answered with HTTP status {answer.status_code}"
+                f"{f': {quoted!r}' if quoted else ''}",
+                "200",
+            )
+        return content
 
-    def _client(self) -> httpx.Client:
-        """Return a client whose single steps take no longer than a whole request may."""
-        import httpx
-
-        return httpx.Client(
-            timeout=self._timeout_s,
-            trust_env=False,
-            verify=self.url.startswith("https"),  # The certificates take time to load.
-            headers={"Accept-Encoding": "identity"},
-        )
-
-    def ask(self, client: httpx.Client, body: bytes, headers: Mapping[str, str], key: str) -> bytes:
-        """Return what the service answers to one request.
-
-        Raises
-        ------
-        AirhiltError
-            The service says that it failed, or answers too much.
-        """
-        sent = {**headers, "Authorization": f"Bearer {key}"} if key else headers
-        with client.stream("POST", self.url, content=body, headers=sent) as answer:
-            if answer.status_code != 200:
-                # The key first: half of it would not be found any more.
-                text = without_key(self._read(answer).decode("utf-8", "replace"), key)
-                quoted = text[:QUOTED_LENGTH].strip()
-                raise self.error(
-                    f"answered with HTTP status {answer.status_code}"
-                    f"{f': {quoted!r}' if quoted else ''}",
-                    "200",
-                )
-            return self._read(answer)
-
-    def _read(self, answer: httpx.Response) -> bytes:
-        blocks: list[bytes] = []
-        size = 0
+    def _content(self, answer: httpx.Response, until_s: float) -> bytes:
+        """Return the body of an answer; httpx limits the time of each part, not of the whole."""
+        content = bytearray()
         for block in answer.iter_raw():
-            size += len(block)
-            if size > self._maximum_bytes:
+            content += block
+            if len(content) > self._maximum_bytes:
                 raise self.error(
-                    f"answers with more than {self._maximum_bytes} bytes",
-                    "no more than that",
+                    f"answers with more than {self._maximum_bytes} bytes", "no more than that"
                 )
-            blocks.append(block)
-        return b"".join(blocks)
+            if time.monotonic() > until_s:
+                raise TimeoutError
+        return bytes(content)
 
     def parsed(self, data: bytes, model: type[Answer], expected: str) -> Answer:
         """Return an answer in JSON as a model.
@@ -219,50 +203,3 @@ def _is_address(url: str) -> bool:
         return bool(httpx.URL(url).host and parts.hostname) and parts.port != 0
     except (httpx.InvalidURL, ValueError):
         return False
-
-
-class _Request(threading.Thread):
-    """One request and its answer, in a thread that can be left alone if the service is slow.
-
-    httpx limits the time of each step, a connect or a read, and not of the whole.
-    """
-
-    def __init__(
-        self,
-        service: HttpService,
-        client: httpx.Client,
-        body: bytes,
-        headers: Mapping[str, str],
-        key: str,
-    ) -> None:
-        super().__init__(name=service.subject, daemon=True)
-        self._service = service
-        self._client = client
-        self._request = (body, headers, key)
-        self._answer = b""
-        self._failure: Exception | None = None
-
-    def within(self, timeout_s: float) -> bytes:
-        """Return the answer if it comes in time.
-
-        Raises
-        ------
-        TimeoutError
-            It does not.
-        """
-        self.start()
-        self.join(timeout_s)
-        if self.is_alive():
-            with suppress(Exception):  # Whatever the thread was in the middle of.
-                self._client.close()
-            raise TimeoutError
-        if self._failure is not None:
-            raise self._failure
-        return self._answer
-
-    def run(self) -> None:
-        """Ask the service."""
-        try:
-            self._answer = self._service.ask(self._client, *self._request)
-        except Exception as error:
-            self._failure = error

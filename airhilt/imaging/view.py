@@ -8,50 +8,27 @@ Geometry, 2nd ed., section 6.1). Pixel (0, 0) is the upper left one and its cent
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
 
 from airhilt.errors import CameraError
-from airhilt.imaging.lenses import GREATEST_SIDE_PX, NARROWEST_DEG, SMALLEST_SIDE_PX, WIDEST_DEG
 
 Floats = npt.NDArray[np.float32]
 Matrix = npt.NDArray[np.float64]
 NEAR_M = 0.3
 """Least depth that is drawn, in m."""
-LARGEST_MB = 8 * GREATEST_SIDE_PX**2 // 10**6
-"""Size of the largest picture in MB: colour, instance and distance."""
 
 
 @dataclass(frozen=True)
 class Intrinsics:
-    """A pinhole with square pixels whose axis goes through the middle of the picture.
-
-    Raises
-    ------
-    CameraError
-        It is no camera that can be drawn.
-    """
+    """A pinhole with square pixels whose axis goes through the middle of the picture."""
 
     width_px: int
     height_px: int
     horizontal_fov_rad: float
-
-    def __post_init__(self) -> None:
-        for name, side in (("width_px", self.width_px), ("height_px", self.height_px)):
-            if not SMALLEST_SIDE_PX <= side <= GREATEST_SIDE_PX:
-                raise CameraError(
-                    f"{name} is {side}; expected {SMALLEST_SIDE_PX} to {GREATEST_SIDE_PX} pixels "
-                    f"(a picture of the largest takes {LARGEST_MB} MB)"
-                )
-        fov_rad = self.horizontal_fov_rad
-        if not math.radians(NARROWEST_DEG) <= fov_rad <= math.radians(WIDEST_DEG):
-            raise CameraError(
-                f"the horizontal field of view is {math.degrees(fov_rad):g} degrees; expected "
-                f"{NARROWEST_DEG:g} to {WIDEST_DEG:g}"
-            )
 
     @property
     def focal_px(self) -> float:
@@ -152,6 +129,12 @@ class View:
         """The camera's x, y and z in the world, as columns."""
         right, ahead, up = self.pose.rotation.T
         return np.column_stack((right, -up, ahead))
+
+    @property
+    def key(self) -> list[float]:
+        """Numbers of lens and pose, which tell it from other views."""
+        pose = self.pose
+        return [*astuple(self.intrinsics), *pose.position_m, *pose.rotation.ravel().tolist()]
 
     @property
     def whole(self) -> Window:

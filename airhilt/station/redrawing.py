@@ -133,7 +133,7 @@ class _Scene:
 
     def colour(self, camera: str, t_ns: int, states: dict[str, Table]) -> npt.NDArray[np.uint8]:
         bodies = list(self._bodies(t_ns, states))
-        return self._renderer.shoot([camera], bodies, t_ns)[0].colour
+        return self._renderer.take([camera], bodies, t_ns)[0].colour
 
     def _bodies(self, t_ns: int, states: dict[str, Table]) -> Iterator[BodyState]:
         for callsign, actor in self._actors.items():

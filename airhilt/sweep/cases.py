@@ -1,4 +1,4 @@
-"""The runs of a sweep: each with its scenario, its options and a key that tells them apart."""
+"""The runs of a sweep, each with its scenario and options, checked before the first of them."""
 
 from __future__ import annotations
 
@@ -16,17 +16,19 @@ from typing import Any
 from pydantic import JsonValue, ValidationError
 
 from airhilt.cosim.latency_presets import PRESETS
-from airhilt.cosim.requested_latency import is_vision_measured
-from airhilt.engine_families import ASSISTANTS, DETECTORS
+from airhilt.cosim.option_checks import check_options
+from airhilt.cosim.requested_latency import is_vision_measured, requested_latency
+from airhilt.cosim.requested_radio import with_requested_radio
+from airhilt.engine_families import ASSISTANTS, DETECTORS, EXTERNAL
 from airhilt.errors import AirhiltError, ScenarioError, shown
 from airhilt.host import library
 from airhilt.options import Options
 from airhilt.scenario import Scenario, loading
 from airhilt.scenario.documents import require_bounded
 from airhilt.scenario.problems import problems_of, validated
+from airhilt.sensors.radio.backends.selection import DEFAULT_PROFILE, select_channel
 from airhilt.sim import parse_latency
 from airhilt.sweep.axes import listed
-from airhilt.sweep.checks import RunChecks, require_different_places
 from airhilt.sweep.environment import Environment
 from airhilt.sweep.files import NamedFiles
 from airhilt.sweep.parameters import ASSISTANT as ASSISTANT_OPTION
@@ -35,6 +37,8 @@ from airhilt.sweep.specification import Specification
 from airhilt.world.checks import check
 from airhilt.world.loading import load
 
+REPLAY = "replay:"
+"""Beginning of the latency sources that are a run, of one scenario and one seed."""
 MOST_RUNS = 10_000_000
 SHOWN_PROBLEMS = 20
 """Problems of a grid that one error shows."""
@@ -47,8 +51,6 @@ class Case:
 
     Attributes
     ----------
-    document
-        The scenario, with the values of the parameters in it.
     options
         Options of the run that differ from their defaults, as JSON has them.
     parameters
@@ -120,7 +122,11 @@ def cases(specification: Specification, allowed: Sequence[Path] = ()) -> list[Ca
     """
     scenarios = [load(path, allowed) for path in _paths(specification.scenarios)]
     seeds = _seeds(specification)
-    _require_countable(specification, len(scenarios) * len(seeds))
+    drawn = 1 if specification.sample is None else specification.sample.count
+    sizes = (len(_distinct(listed(values))) for values in specification.axes.values())
+    total = len(scenarios) * len(seeds) * drawn * math.prod(sizes)
+    if total > MOST_RUNS:
+        raise AirhiltError(f"the grid has {total} runs; expected at most {MOST_RUNS}")
     combinations = list(_combinations(specification))
     checks, files = RunChecks(seeds), NamedFiles()
     found: list[Case] = []
@@ -133,13 +139,23 @@ def cases(specification: Specification, allowed: Sequence[Path] = ()) -> list[Ca
                 plan = _plan(document, specification.options, combination, checks)
                 named = files.of(plan.document, plan.options)
             except AirhiltError as error:
+                values = ", ".join(
+                    f"{each.path}={json.dumps(value)}" for each, value in combination
+                )
+                where = f"{scenario.name} with {values}" if values else scenario.name
                 for problem in getattr(error, "problems", (str(error),)):
-                    told = problem.removeprefix(f"{scenario.name}: ")
-                    problems[told].append(_named(scenario.name, combination))
+                    problems[problem.removeprefix(f"{scenario.name}: ")].append(where)
                 continue
             parameters = {each.path: each.value(plan) for each, _ in combination}
             found += [Case(plan.document, plan.options, seed, parameters, named) for seed in seeds]
-    _require_none(problems)
+    if problems:
+        lines = [
+            f"{runs[0]}: {problem}" + (f" ({len(runs) - 1} more)" if len(runs) > 1 else "")
+            for problem, runs in problems.items()
+        ]
+        more = len(lines) - SHOWN_PROBLEMS
+        tail = [f"... and {more} more"] if more > 0 else []
+        raise AirhiltError("\n".join([*lines[:SHOWN_PROBLEMS], *tail]))
     return found
 
 
@@ -166,21 +182,6 @@ def _seeds(specification: Specification) -> list[int]:
         if isinstance(seed, bool) or not isinstance(seed, int) or not 0 <= seed < 2**63:
             raise AirhiltError(f"seeds: found {shown(seed)}; expected integers from 0 to 2^63 - 1")
     return seeds  # type: ignore[return-value]  # checked one by one
-
-
-def _require_countable(specification: Specification, each: int) -> None:
-    """Complain about more runs than a sweep may have, before any of them is made.
-
-    Parameters
-    ----------
-    each
-        Number of runs of one combination: scenarios times seeds.
-    """
-    drawn = 1 if specification.sample is None else specification.sample.count
-    sizes = (len(_distinct(listed(values))) for values in specification.axes.values())
-    total = each * drawn * math.prod(sizes)
-    if total > MOST_RUNS:
-        raise AirhiltError(f"the grid has {total} runs; expected at most {MOST_RUNS}")
 
 
 Combination = tuple[tuple[Parameter, JsonValue], ...]
@@ -211,62 +212,30 @@ def _distinct(values: Sequence[JsonValue]) -> list[JsonValue]:
     return list(first.values())
 
 
-def _require_none(problems: Mapping[str, Sequence[str]]) -> None:
-    """Complain about the problems of a grid, each with the first of the runs that have it.
-
-    Parameters
-    ----------
-    problems
-        Runs by the problem that they have.
-
-    Raises
-    ------
-    AirhiltError
-        There are some.
-    """
-    lines = [
-        f"{where[0]}: {problem}" + (f" ({len(where) - 1} more)" if len(where) > 1 else "")
-        for problem, where in problems.items()
-    ]
-    if lines:
-        more = len(lines) - SHOWN_PROBLEMS
-        tail = [f"... and {more} more"] if more > 0 else []
-        raise AirhiltError("\n".join([*lines[:SHOWN_PROBLEMS], *tail]))
-
-
-def _named(scenario: str, combination: Combination) -> str:
-    """Return the runs of a scenario with some values in words."""
-    values = ", ".join(f"{each.path}={json.dumps(value)}" for each, value in combination)
-    return f"{scenario} with {values}" if values else scenario
-
-
 def _plan(document: Json, options: Json, combination: Combination, checks: RunChecks) -> Plan:
-    """Return a checked run in the making; options are those that were given, as JSON has them.
-
-    Raises
-    ------
-    AirhiltError
-        A value is not what the scenario or the option takes.
-    """
+    """Return a checked run in the making; options are those that were given, as JSON has them."""
     plan = Plan(document, {ASSISTANT_OPTION: None, **options})
     for each, value in combination:
         plan = each.put(plan, value)
     assistant = plan.options[ASSISTANT_OPTION] or ASSISTANTS.default
-    plan = Plan(plan.document, plan.options | {ASSISTANT_OPTION: assistant})
+    options, is_changed = (
+        plan.options | {ASSISTANT_OPTION: assistant},
+        plan.document is not document,
+    )
     problems: list[str] = []
     try:
-        scenario = _scenario(plan.document, is_changed=plan.document is not document)
+        scenario = _scenario(plan.document, is_changed=is_changed)
     except AirhiltError as error:
         problems += getattr(error, "problems", (str(error),))
     try:
-        checked = Options(**plan.options)
+        checked = Options(**options)
     except ValidationError as error:
         problems += [f"option {problem}" for problem in problems_of(error, Options)]
     if not problems:
         problems += checks.problems(checked, scenario)
     if problems:
         raise ScenarioError("\n".join(problems), tuple(problems))
-    written = scenario.model_dump(mode="json") if plan.document is not document else document
+    written = scenario.model_dump(mode="json") if is_changed else document
     return Plan(written, checked.model_dump(mode="json", exclude_defaults=True))
 
 
@@ -277,3 +246,67 @@ def _scenario(document: Json, *, is_changed: bool) -> Scenario:
     if is_changed:
         check(scenario, scenario.name)
     return scenario
+
+
+class RunChecks:
+    """Says what is wrong with runs; a radio channel is loaded once however many have it."""
+
+    def __init__(self, seeds: Sequence[int]) -> None:
+        self._seeds = seeds
+        self._channels: dict[str, AirhiltError | None] = {}
+
+    def problems(self, options: Options, scenario: Scenario) -> list[str]:
+        """Return all that is wrong with the runs of a scenario with some options."""
+        problems = []
+        for require in (check_options, self._require_assistant, self._require_latency,
+                      self._require_channel):  # fmt: skip
+            try:
+                require(options, scenario)
+            except AirhiltError as error:
+                problems.append(str(error))
+        return problems
+
+    def _require_assistant(self, options: Options, _: Scenario) -> None:
+        if options.assistant == EXTERNAL:
+            raise AirhiltError(
+                "--assistant external: no worker or program of yours attaches to the runs of a "
+                "sweep, so nobody would decide; expected an assistant that `airhilt doctor` names, "
+                "one of a package of yours, or the address of a service (docs/decision.md)"
+            )
+
+    def _require_latency(self, options: Options, scenario: Scenario) -> None:
+        is_replay = options.latency is not None and options.latency.startswith(REPLAY)
+        for seed in self._seeds if is_replay else self._seeds[:1]:
+            requested_latency(options.latency, scenario, seed)
+
+    def _require_channel(self, options: Options, scenario: Scenario) -> None:
+        if not options.speech:
+            return
+        profile = with_requested_radio(options, scenario).radio.profile or DEFAULT_PROFILE
+        if profile not in self._channels:
+            self._channels[profile] = None
+            try:
+                select_channel(profile)
+            except AirhiltError as error:
+                self._channels[profile] = error
+        if problem := self._channels[profile]:
+            raise problem
+
+
+def require_different_places(parameters: Sequence[Parameter], document: dict[str, Any]) -> None:
+    """Complain about two parameters of which one would replace the value of the other.
+
+    Raises
+    ------
+    AirhiltError
+        Both are one place, or one is within the other.
+    """
+    places = [(each.path, place) for each in parameters if (place := each.place(document))]
+    for index, (path, place) in enumerate(places):
+        for other, inner in places[:index]:
+            shorter = min(len(place), len(inner))
+            if place[:shorter] == inner[:shorter]:
+                raise AirhiltError(
+                    f"parameters {other} and {path}: one would replace the other in "
+                    f"{document['name']!r}; expected only one of them"
+                )

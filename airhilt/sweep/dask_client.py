@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import math
 import queue
 import time
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError
 from contextlib import contextmanager, suppress
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from distributed import KilledWorker
 
-from airhilt.errors import AirhiltError, first_line
+from airhilt.errors import first_line
 from airhilt.sweep.dask_worker import RunnerPlugin, run_case
 from airhilt.sweep.outcome import Machine, Outcome, Request
 from airhilt.sweep.scheduler import SchedulerError
@@ -25,22 +26,12 @@ COUNT_PERIOD_S = 1.0
 """Period at which the threads of all workers are counted, in s."""
 QUIET_S = 5.0
 """Time without a worker after which that is told, in s."""
-NOTICE_PERIOD_S = 60.0
-"""Period at which it is told again, in s."""
-SAME_VERSIONS = ("dask", "distributed")
-"""Packages whose versions decide whether processes of Dask understand each other."""
 LOST = (OSError, RuntimeError, ValueError, CancelledError)
 """Errors of Dask if the scheduler is not there any more; TimeoutError is an OSError."""
 
 
 class Workers:
-    """The workers of a scheduler, counted from time to time; it tells if there are none.
-
-    Parameters
-    ----------
-    notice
-        Is called with the text.
-    """
+    """The workers of a scheduler, counted from time to time; it tells if there are none."""
 
     def __init__(self, client: Client, notice: Callable[[str], None]) -> None:
         self._client = client
@@ -60,13 +51,18 @@ class Workers:
         now = time.monotonic()
         if now < self._count_at:
             return self._threads
-        self._threads = _threads(self._client)
         self._count_at = now + COUNT_PERIOD_S
+        if self._client.status != "running":
+            raise _lost(self._client)
+        try:
+            self._threads = sum(self._client.nthreads().values())
+        except LOST:
+            raise _lost(self._client) from None
         if self._threads:
             self._tell_at = now + QUIET_S
         elif now > self._tell_at:
-            self._tell_at = now + NOTICE_PERIOD_S
-            self._notice(f"{address(self._client)} has no workers; waiting for one, Ctrl-C stops")
+            self._tell_at = math.inf
+            self._notice(f"{_address(self._client)} has no workers; waiting for one, Ctrl-C stops")
         return self._threads
 
     def wait(self, stops: Callable[[], bool]) -> None:
@@ -77,23 +73,20 @@ class Workers:
 
 @contextmanager
 def prepared(client: Client, plugin: RunnerPlugin) -> Iterator[None]:
-    """Compare the versions of Dask, and have the runners' plugin in all workers meanwhile.
+    """Have the runners' plugin in all workers meanwhile.
 
     Raises
     ------
     SchedulerError
-        Versions differ, or a worker refuses or cannot load it.
+        A worker cannot load it.
     """
-    _require_same_dask(client)
     try:
         client.register_plugin(plugin)
-    except AirhiltError:
-        raise
     except LOST:
         raise _lost(client) from None
     except Exception as error:  # What a worker raised; most often it has no AIRHILT to import.
         raise SchedulerError(
-            f"{address(client)}: workers cannot be prepared ({first_line(error)}); expected "
+            f"{_address(client)}: workers cannot be prepared ({first_line(error)}); expected "
             "AIRHILT to be installed there, as here"
         ) from None
     try:
@@ -102,30 +95,6 @@ def prepared(client: Client, plugin: RunnerPlugin) -> Iterator[None]:
         if client.status == "running":
             with suppress(*LOST):
                 client.unregister_worker_plugin(plugin.name)
-
-
-def _require_same_dask(client: Client) -> None:
-    try:
-        found: Any = client.get_versions()
-    except LOST:
-        raise _lost(client) from None
-    own = found["client"]["packages"]
-    others: dict[str, Any] = {address(client): found["scheduler"]}
-    others |= {f"worker {where}": versions for where, versions in found["workers"].items()}
-    for where, versions in others.items():
-        for name in SAME_VERSIONS:
-            theirs = versions["packages"].get(name)
-            if theirs != own[name]:
-                raise SchedulerError(
-                    f"{where} has {name} {theirs}, and this process {own[name]}; expected the same "
-                    "version everywhere"
-                )
-
-
-def address(client: Client) -> str:
-    """Return where the scheduler is, for messages."""
-    scheduler = client.scheduler
-    return f"scheduler {scheduler.address if scheduler else '(lost)'}"
 
 
 def described(client: Client, has_dashboard: bool) -> str:
@@ -147,32 +116,19 @@ def outcomes(
 ) -> Iterator[Outcome]:
     """Yield the outcomes as they come; no more runs are given out once ``stops`` is true.
 
-    Parameters
-    ----------
-    plugin
-        Name of the sweep's `RunnerPlugin`.
-
     Raises
     ------
     AirhiltError
         A worker cannot run anything, or the scheduler is lost.
     """
     waiting = iter(requests)
-    in_hand: dict[Future[str], Request] = {}
-    completed: queue.SimpleQueue[Future[str]] = queue.SimpleQueue()
+    in_hand: dict[Future[Outcome], Request] = {}
+    completed: queue.SimpleQueue[Future[Outcome]] = queue.SimpleQueue()
     while True:
         limit = max(workers.threads(), 1) * IN_HAND_PER_THREAD
-        while not stops() and len(in_hand) < limit:
-            request = next(waiting, None)
-            if request is None:
-                break
-            future = client.submit(
-                run_case,
-                request.model_dump_json(),
-                plugin,
-                key=f"{plugin}-{request.key}",
-                pure=False,
-            )
+        while not stops() and len(in_hand) < limit and (request := next(waiting, None)):
+            key = f"{plugin}-{request.key}"
+            future = client.submit(run_case, request, plugin, key=key, pure=False)
             in_hand[future] = request
             future.add_done_callback(completed.put)
         if not in_hand:
@@ -182,27 +138,10 @@ def outcomes(
             yield _outcome(client, future, in_hand.pop(future))
 
 
-def _threads(client: Client) -> int:
-    if client.status != "running":
-        raise _lost(client)
+def _outcome(client: Client, future: Future[Outcome], request: Request) -> Outcome:
+    """Return the outcome of a task; errors as `outcomes`."""
     try:
-        return sum(client.nthreads().values())
-    except LOST:
-        raise _lost(client) from None
-
-
-def _outcome(client: Client, future: Future[str], request: Request) -> Outcome:
-    """Return the outcome of a task.
-
-    Raises
-    ------
-    AirhiltError
-        The worker cannot run anything, or the scheduler is lost.
-    """
-    try:
-        return Outcome.model_validate_json(future.result())
-    except AirhiltError:
-        raise
+        return future.result()
     except KilledWorker as error:
         last = getattr(error.last_worker, "address", "")
         machine = Machine(wall_s=0.0, cpu_s=None, peak_memory_mb=0.0, host=last, process=0)
@@ -212,13 +151,19 @@ def _outcome(client: Client, future: Future[str], request: Request) -> Outcome:
         if future.status != "error":  # It is not the task that has raised it.
             raise _lost(client) from None
         raise SchedulerError(
-            f"{address(client)}: a worker cannot run anything: {first_line(error)}; what was "
+            f"{_address(client)}: a worker cannot run anything: {first_line(error)}; what was "
             "finished is kept, and the same command with the same --out does the rest"
         ) from None
 
 
+def _address(client: Client) -> str:
+    """Return where the scheduler is, for messages."""
+    scheduler = client.scheduler
+    return f"scheduler {scheduler.address if scheduler else '(lost)'}"
+
+
 def _lost(client: Client) -> SchedulerError:
     return SchedulerError(
-        f"{address(client)} is lost; what was finished is kept, and the same command with "
+        f"{_address(client)} is lost; what was finished is kept, and the same command with "
         "the same --out does the rest"
     )

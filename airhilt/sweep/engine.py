@@ -6,20 +6,24 @@ than there are workers at a time. Each outcome is on the disk before the next on
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+import json
+from collections.abc import Container, Iterable, Mapping, Sequence
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
+from itertools import zip_longest
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+from pydantic import JsonValue
 
 from airhilt.errors import AirhiltError
 from airhilt.record.sweep_folder import GRID, SweepFolder, SweepFolderError
+from airhilt.sensors.cameras import UNSEEN_FIELDS
 from airhilt.sweep.cases import Case, cases
-from airhilt.sweep.crashes import SAME_CRASHES, Crashes
 from airhilt.sweep.dask_client import Workers, described, outcomes, prepared
 from airhilt.sweep.dask_worker import RunnerPlugin, probe_in
 from airhilt.sweep.environment import Environment, environment
-from airhilt.sweep.order import apart
-from airhilt.sweep.outcome import OF_THE_MACHINE, Outcome, Request
+from airhilt.sweep.outcome import OF_THE_MACHINE, Keep, Outcome, Request
 from airhilt.sweep.runner_process import Limits, RunnerProcess
 from airhilt.sweep.scheduler import connect, openness, require_scheduler
 from airhilt.sweep.specification import Specification
@@ -28,6 +32,11 @@ from airhilt.sweep.work import Work, default_workers
 
 if TYPE_CHECKING:
     import pyarrow as pa
+
+SEEN_OPTIONS = ("seed", "visibility_m")
+"""Options that cameras see, besides those that all runs of a sweep have in common."""
+MOST_CRASHES = 20
+"""Crashes in a row after which a sweep ends: a full disk crashes every run, within seconds."""
 
 
 class SweepObserver:
@@ -83,22 +92,33 @@ def sweep(
     by_key = {case.key(own): case for case in grid}
     folder = SweepFolder(work.out)
     folder.create()
+    info = {
+        "format": specification.format,
+        "specification": specification.model_dump(mode="json", by_alias=True, exclude_none=True),
+        "environment": own.model_dump(),
+        "runs": len(by_key),
+        GRID: grid_sha256(by_key),
+    }
     with folder.locked():
-        info = _info(specification, own, by_key)
         _tell_replaced(folder, info, observer)
-        finished = _finished(folder, by_key, observer)
+        finished = by_keys(folder.finished(part_schema(), observer.notice), by_key)
         missing = missing_of(by_key, finished, work.retry)
         if missing:
-            requests = list(_requests(missing, by_key, work))
+            requests = _requests(missing, by_key, work)
             with ExitStack() as stack:
                 is_kept = any(request.keep != "none" for request in requests)
                 probe = stack.enter_context(probe_in(folder.runs_path)) if is_kept else None
                 plugin = RunnerPlugin(renderer, work.limits, own, probe)
                 _run_missing(requests, info, folder, work, plugin, observer)
-            finished = _finished(folder, by_key, observer)
+            finished = by_keys(folder.finished(part_schema(), observer.notice), by_key)
         table, machine = tables_of(by_key, finished)
         folder.write_tables(table, machine, info)
-    _tell_of_machine(finished.values(), observer)
+    ended = sum(row["status"] in OF_THE_MACHINE for row in finished.values())
+    if ended:
+        observer.notice(
+            f"{ended} run{'s' * (ended != 1)} ended by a crash or a limit, which is no result: "
+            "the same command with --retry and the same --out does them again"
+        )
     left = sum(key not in finished for key in by_key)
     failed = sum(row["status"] != "finished" for row in finished.values())
     return SweepResult(folder, len(by_key), table.num_rows, failed, left)
@@ -129,19 +149,6 @@ def _own_environment(renderer: str, limits: Limits) -> Environment:
     return runner.environment
 
 
-def _info(
-    specification: Specification, own: Environment, by_key: Mapping[str, Case]
-) -> dict[str, Any]:
-    """Return the content of ``sweep.json``."""
-    return {
-        "format": specification.format,
-        "specification": specification.model_dump(mode="json", by_alias=True, exclude_none=True),
-        "environment": own.model_dump(),
-        "runs": len(by_key),
-        GRID: grid_sha256(by_key),
-    }
-
-
 def _tell_replaced(folder: SweepFolder, info: Mapping[str, Any], observer: SweepObserver) -> None:
     """Say that the tables in a folder will be of another sweep than they were."""
     if not folder.info_path.is_file():
@@ -155,23 +162,6 @@ def _tell_replaced(folder: SweepFolder, info: Mapping[str, Any], observer: Sweep
                 f"{folder.path} holds {which}, of {before.get('runs')} runs: its tables make "
                 f"room for those of this one, of {info['runs']}; what finished stays in parts"
             )
-
-
-def _tell_of_machine(rows: Iterable[Mapping[str, Any]], observer: SweepObserver) -> None:
-    """Say how to have the runs done again that might end otherwise."""
-    count = sum(row["status"] in OF_THE_MACHINE for row in rows)
-    if count:
-        observer.notice(
-            f"{count} run{'s' * (count != 1)} ended by a crash or a limit, which is no result: "
-            "the same command with --retry and the same --out does them again"
-        )
-
-
-def _finished(
-    folder: SweepFolder, by_key: Mapping[str, Case], observer: SweepObserver
-) -> dict[str, dict[str, Any]]:
-    """Return the rows of the store that belong to this sweep, by key."""
-    return by_keys(folder.finished(part_schema(), observer.notice), by_key)
 
 
 def by_keys(store: pa.Table, keys: Container[str]) -> dict[str, dict[str, Any]]:
@@ -191,8 +181,6 @@ def missing_of(
 
     Parameters
     ----------
-    finished
-        Rows of the store by their keys.
     retry
         True: runs that a limit ended are among them.
     """
@@ -200,25 +188,41 @@ def missing_of(
     return [key for key in keys if key not in finished or finished[key]["status"] in again]
 
 
-def _requests(missing: Sequence[str], by_key: Mapping[str, Case], work: Work) -> Iterator[Request]:
-    """Yield what the workers are asked for."""
+def _requests(missing: Sequence[str], by_key: Mapping[str, Case], work: Work) -> list[Request]:
+    """Return what the workers are asked for."""
     sampled = set(sorted(by_key)[: work.sample])
     runs = (work.out / "runs").absolute()
-    for key in missing:
-        case = by_key[key]
-        yield Request(
-            key=key,
-            scenario=case.document,
-            options=case.options | _unseen_options(case),
+    return [
+        request_of(
+            key,
+            by_key[key],
+            runs / folder_name(key),
             keep="all" if key in sampled else work.keep,
-            folder=str(runs / folder_name(key)),
-            files=case.files,
+            # Sharing is no parameter: it changes no run.
+            **({"share_pictures": True} if by_key[key].may_share_pictures else {}),
         )
+        for key in missing
+    ]
 
 
-def _unseen_options(case: Case) -> dict[str, Any]:
-    """Return the options that are no parameters: the seed, and one that changes no run."""
-    return {"seed": case.seed, **({"share_pictures": True} if case.may_share_pictures else {})}
+def request_of(
+    key: str, case: Case, folder: Path, keep: Keep = "none", **options: JsonValue
+) -> Request:
+    """Return the request for a run.
+
+    Parameters
+    ----------
+    options
+        Options besides those of the case.
+    """
+    return Request(
+        key=key,
+        scenario=case.document,
+        options=case.options | {"seed": case.seed} | options,
+        keep=keep,
+        folder=str(folder),
+        files=case.files,
+    )
 
 
 def _run_missing(
@@ -231,18 +235,13 @@ def _run_missing(
 ) -> None:
     """Let the workers of a scheduler run what is missing; keep each outcome as it comes.
 
-    After many crashes with one cause no more is begun.
-
-    Raises
-    ------
-    AirhiltError
-        The workers cannot be used, or the scheduler is lost.
+    After many crashes in a row no more is begun.
     """
     count = min(work.workers or default_workers(plugin.renderer), len(requests))
-    total, crashes = int(info["runs"]), Crashes()
+    total, crashes = int(info["runs"]), 0
 
     def stops() -> bool:
-        return observer.stops or crashes.are_enough
+        return observer.stops or crashes >= MOST_CRASHES
 
     with connect(work.scheduler, count, work.dashboard) as client:
         if notice := openness(client.scheduler_info()["address"]):
@@ -258,6 +257,36 @@ def _run_missing(
             for outcome in outcomes(client, plugin.name, ordered, workers, stops):
                 folder.keep(part_of([outcome]))
                 observer.ended(outcome)
-                crashes.add(outcome)
-    if crashes.are_enough:
-        observer.notice(f"ended after {SAME_CRASHES} crashes in a row with one cause, to be mended")
+                crashes = crashes + 1 if outcome.status == "crashed" else 0
+    if crashes >= MOST_CRASHES:
+        observer.notice(f"ended after {MOST_CRASHES} crashes in a row, whose cause is to be mended")
+
+
+def apart(requests: Sequence[Request], workers: int) -> list[Request]:
+    """Return runs in an order in which no two workers draw the same pictures at once.
+
+    The first of the runs that share pictures draws them. A second one at the same time would draw
+    them too. So each worker begins with other pictures, and runs that share follow one another.
+    """
+    sharing: dict[str, list[Request]] = {}
+    for request in requests:
+        sharing.setdefault(_pictures_of(request), []).append(request)
+    groups = list(sharing.values())
+    return [
+        request
+        for first in range(0, len(groups), workers)
+        for abreast in zip_longest(*groups[first : first + workers])
+        for request in abreast
+        if request is not None
+    ]
+
+
+def _pictures_of(request: Request) -> str:
+    """Return what is the same for runs that share pictures, and for no others."""
+    if not request.options.get("share_pictures"):
+        return request.key
+    scenario = {
+        name: value for name, value in request.scenario.items() if name not in UNSEEN_FIELDS
+    }
+    options = [request.options.get(name) for name in SEEN_OPTIONS]
+    return json.dumps([scenario, options], sort_keys=True)

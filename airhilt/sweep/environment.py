@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from importlib.metadata import distributions
 from importlib.util import find_spec
@@ -84,8 +84,13 @@ def require_same(expected: Environment, found: Environment, where: str) -> None:
         Something differs; the message names the worker and all of it.
     """
     differences = [
-        *_different_versions(expected.versions, found.versions),
-        *_different_versions(expected.packages, found.packages),
+        f"{name} {theirs.get(name, 'missing')} instead of {own.get(name, 'none')}"
+        for own, theirs in (
+            (expected.versions, found.versions),
+            (expected.packages, found.packages),
+        )
+        for name in sorted(own.keys() | theirs.keys())
+        if theirs.get(name) != own.get(name)
     ]
     if found.renderer != expected.renderer:
         differences.append(
@@ -95,25 +100,13 @@ def require_same(expected: Environment, found: Environment, where: str) -> None:
     if not differences and found.code_sha256 != expected.code_sha256:
         differences.append("other code, models, aircraft or airports of AIRHILT")
     if not differences and found.packages_sha256 != expected.packages_sha256:
-        names = [
-            name
-            for name, code in found.packages_sha256.items()
-            if code != expected.packages_sha256.get(name)
-        ]
-        differences.append(f"other code of {', '.join(sorted(names))}")
+        other = dict(found.packages_sha256.items() - expected.packages_sha256.items())
+        differences.append(f"other code of {', '.join(sorted(other))}")
     if differences:
         raise AirhiltError(
             f"worker {where}: {'; '.join(differences)}; expected the same software everywhere, or "
             "the rows of one table would not be comparable"
         )
-
-
-def _different_versions(expected: Mapping[str, str], found: Mapping[str, str]) -> list[str]:
-    return [
-        f"{name} {found.get(name, 'missing')} instead of {expected.get(name, 'none')}"
-        for name in sorted(expected.keys() | found.keys())
-        if found.get(name) != expected.get(name)
-    ]
 
 
 def _own_files() -> Iterator[tuple[Path, Path]]:
@@ -157,10 +150,8 @@ def _files_of_module(module: str) -> Iterator[tuple[Path, Path]]:
         spec = find_spec(module)
     if spec is None:
         return
-    for place in spec.submodule_search_locations or ():
-        folder = Path(place)
-        for path in sorted(folder.rglob("*")):
+    for place in spec.submodule_search_locations or [spec.origin or module]:
+        root = Path(place)
+        for path in sorted(root.rglob("*")) if root.is_dir() else [root]:
             if path.suffix in PACKAGE_FILES and path.is_file():
-                yield folder, path
-    if spec.submodule_search_locations is None and spec.origin:
-        yield Path(spec.origin).parent, Path(spec.origin)
+                yield root if root.is_dir() else root.parent, path

@@ -8,11 +8,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from airhilt.errors import AirhiltError
-from airhilt.host.child_process import available_cores
+from airhilt.host.machine import available_cores
 from airhilt.record.sweep_folder import SweepFolder
-from airhilt.sweep.cases import Case, cases
-from airhilt.sweep.engine import by_keys, missing_of, renderer_of
-from airhilt.sweep.outcome import Machine, Request
+from airhilt.sweep.cases import cases
+from airhilt.sweep.engine import by_keys, missing_of, renderer_of, request_of
 from airhilt.sweep.runner_process import RunnerProcess
 from airhilt.sweep.scheduler import LOCAL, require_scheduler
 from airhilt.sweep.specification import Specification
@@ -26,16 +25,12 @@ class Estimate:
 
     Attributes
     ----------
-    runs
-        Number of runs.
     finished
         Number of those that the sweep's folder has already, and that are not run again.
     run_s
         Wall time of the probe, one run alone on this machine; None: no run is left.
     run_mb
         Most memory of the probe; None: no run is left.
-    workers
-        Number of workers that would be asked for.
     at_once
         Number of runs that would go on at a time; None: only the scheduler knows.
     total_s
@@ -65,54 +60,32 @@ def estimate(specification: Specification, work: Work) -> Estimate:
     require_scheduler(work.scheduler)
     grid = cases(specification, work.allowed)
     renderer = renderer_of(grid)
-    folder = SweepFolder(work.out)
-    folder.require_usable()
+    store = SweepFolder(work.out)
+    store.require_usable()
     runner = RunnerProcess(renderer, work.limits)
     try:
         by_key = {case.key(runner.environment): case for case in grid}
-        finished = by_keys(folder.finished(part_schema(), None), by_key)
+        finished = by_keys(store.finished(part_schema(), None), by_key)
         left = missing_of(by_key, finished, work.retry)
-        probe = _probe(left[0], by_key[left[0]], runner) if left else None
+        probe = None
+        if left:
+            with tempfile.TemporaryDirectory(prefix="airhilt-probe-") as scratch:
+                key, folder = left[0], Path(scratch) / "run"
+                probe = runner.run(request_of(key, by_key[key], folder))
     finally:
         runner.close()
+    if probe is not None and probe.status != "finished":
+        raise AirhiltError(f"the first run, a probe, {probe.status}: {probe.cause}")
+    run_s = None if probe is None else probe.machine.wall_s
     workers = work.workers or default_workers(renderer)
     at_once = min(workers, available_cores()) if work.scheduler == LOCAL else None
+    total_s = None if at_once is None else math.ceil(len(left) / at_once) * (run_s or 0.0)
     return Estimate(
         runs=len(by_key),
         finished=len(by_key) - len(left),
-        run_s=probe.wall_s if probe else None,
-        run_mb=probe.peak_memory_mb if probe else None,
+        run_s=run_s,
+        run_mb=None if probe is None else probe.machine.peak_memory_mb,
         workers=workers,
         at_once=at_once,
-        total_s=_total_s(len(left), probe.wall_s if probe else 0.0, at_once),
+        total_s=total_s if left else 0.0,
     )
-
-
-def _total_s(runs: int, run_s: float, at_once: int | None) -> float | None:
-    if not runs:
-        return 0.0
-    return None if at_once is None else math.ceil(runs / at_once) * run_s
-
-
-def _probe(key: str, case: Case, runner: RunnerProcess) -> Machine:
-    """Return what a run takes.
-
-    Raises
-    ------
-    AirhiltError
-        It failed.
-    """
-    with tempfile.TemporaryDirectory(prefix="airhilt-probe-") as scratch:
-        outcome = runner.run(
-            Request(
-                key=key,
-                scenario=case.document,
-                options=case.options | {"seed": case.seed},
-                keep="none",
-                folder=str(Path(scratch) / "run"),
-                files=case.files,
-            )
-        )
-    if outcome.status != "finished":
-        raise AirhiltError(f"the first run, a probe, {outcome.status}: {outcome.cause}")
-    return outcome.machine

@@ -36,9 +36,13 @@ class NamedFiles:
     def _sha256(self, text: str, *, may_be_folder: bool) -> str:
         key = text, may_be_folder
         if key not in self._known:
-            path = _path_in(text)
+            # After NAME:, or what looks like a path.
+            path = text.partition(":")[2] or (text if "/" in text or Path(text).suffix else "")
             is_there = os.path.exists if may_be_folder else os.path.isfile
-            self._known[key] = _read(path) if path and is_there(path) else ""
+            try:
+                self._known[key] = content_sha256(Path(path)) if path and is_there(path) else ""
+            except OSError as error:
+                raise AirhiltError(f"{path}: cannot be read: {error.strerror}") from None
         return self._known[key]
 
 
@@ -83,16 +87,3 @@ def _texts(value: Any) -> Iterator[str]:
     elif isinstance(value, list | tuple):
         for each in value:
             yield from _texts(each)
-
-
-def _path_in(text: str) -> str:
-    """Interpret a text as a path; empty if it is a name."""
-    argument = text.partition(":")[2]
-    return argument or (text if "/" in text or Path(text).suffix else "")
-
-
-def _read(path: str) -> str:
-    try:
-        return content_sha256(Path(path))
-    except OSError as error:
-        raise AirhiltError(f"{path}: cannot be read: {error.strerror}") from None

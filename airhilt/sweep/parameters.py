@@ -63,11 +63,11 @@ class Parameter:
         AirhiltError
             The scenario has no such place; the message gives the nearest.
         """
+        first, *rest = self.path.split(".")
         if self.path in Options.model_fields:
             return Plan(plan.document, plan.options | {self.path: value})
-        first, _, rest = self.path.partition(".")
         if first == ASSISTANT:
-            settings = _with_setting(plan.options.get("assistant_config"), rest.split("."), value)
+            settings = _with_setting(plan.options.get("assistant_config"), rest, value)
             return Plan(plan.document, plan.options | {"assistant_config": settings})
         return Plan(_with_value(plan.document, self.path, value), plan.options)
 
@@ -75,7 +75,7 @@ class Parameter:
         """Return the keys that lead to its value; empty if nothing else can replace that."""
         if self.path in Options.model_fields:
             return PLACES_OF_OPTIONS.get(self.path, ())
-        if self.path.partition(".")[0] == ASSISTANT:
+        if self.path.startswith(f"{ASSISTANT}."):
             return tuple(self.path.split("."))
         try:
             return place_of(document, self.path.replace(".", "/"))
@@ -84,11 +84,11 @@ class Parameter:
 
     def value(self, plan: Plan) -> Any:
         """Return the value that a checked plan has of it."""
+        first, *rest = self.path.split(".")
         if self.path in Options.model_fields:
             return plan.options.get(self.path, Options.model_fields[self.path].default)
-        first, _, rest = self.path.partition(".")
         if first == ASSISTANT:
-            return reduce(getitem, rest.split("."), plan.options["assistant_config"])
+            return reduce(getitem, rest, plan.options["assistant_config"])
         container, key = locate(plan.document, self.path.replace(".", "/"))
         return container[key]
 

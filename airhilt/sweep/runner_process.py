@@ -11,11 +11,11 @@ from dataclasses import dataclass
 import psutil
 
 from airhilt.errors import AirhiltError
-from airhilt.host.child_process import ChildProcess, Ended, NoAnswer, command_of
+from airhilt.host.child_process import ChildProcess, Ended, NoAnswer
 from airhilt.sweep.environment import Environment
 from airhilt.sweep.outcome import Machine, Outcome, Request, Status
 
-COMMAND = command_of("airhilt.sweep.runner")
+MODULE = "airhilt.sweep.runner"
 ENVIRONMENT = {
     "MALLOC_TRIM_THRESHOLD_": None,
     "OMP_NUM_THREADS": "1",
@@ -43,48 +43,38 @@ class RunnerError(AirhiltError):
     """A runner cannot be started."""
 
 
-class RunnerStopped(Exception):
-    """A runner was ended with a run in hand."""
-
-
 class _OverMemory(Exception):
     """A run has taken more memory than it may."""
 
 
 class RunnerProcess:
-    """One runner; a new process takes the place of one that was ended.
-
-    Parameters
-    ----------
-    renderer
-        Renderer that the runs ask for; empty without cameras.
+    """One runner; a new process takes the place of one that has ended when the next run comes.
 
     Raises
     ------
-    RunnerError
-        It cannot be started; the message says why.
+    AirhiltError
+        It cannot be started, or the renderer cannot draw; the message says why.
     """
+
+    environment: Environment
 
     def __init__(self, renderer: str, limits: Limits) -> None:
         self._renderer = renderer
         self._limits = limits
         self._peak_mb = 0.0
-        self._is_stopped = False
         self._start()
 
     def run(self, request: Request) -> Outcome:
-        """Run one case and return its outcome, even after a crash.
-
-        Raises
-        ------
-        RunnerStopped
-            It was ended by `stop`.
-        """
+        """Run one case and return its outcome, even after a crash."""
+        if not self._child.is_alive:
+            self._start()
         begun = time.perf_counter()
         self._peak_mb = 0.0
         status: Status
         try:
-            answer = self._child.ask(request.model_dump(), self._limits.wall_s, self._watch)
+            outcome: Outcome = self._child.ask(
+                "run", request, patience_s=self._limits.wall_s, watch=self._watch
+            )
         except NoAnswer:
             status = "over_time"
             cause = f"took longer than {self._limits.wall_s:g} s (--run-timeout)"
@@ -95,7 +85,6 @@ class RunnerProcess:
             status, cause = "crashed", f"its process has ended {ended}"
         else:
             self._measure()
-            outcome = Outcome.model_validate(answer)
             machine = outcome.machine.model_copy(update={"peak_memory_mb": self._peak_mb})
             return outcome.model_copy(update={"machine": machine})
         machine = Machine(
@@ -106,23 +95,19 @@ class RunnerProcess:
             process=self._child.process_id,
         )
         self.close()
-        if self._is_stopped:
-            raise RunnerStopped
         is_kept = False
         with suppress(OSError):  # The run has its cause already.
             is_kept = request.settle(request.partial_folder, status)
-        self._start()
         return Outcome(
             key=request.key, status=status, cause=cause, is_kept=is_kept, machine=machine
         )
 
-    def stop(self) -> None:
-        """End the process, while another thread waits for it; `close` does the rest."""
-        self._is_stopped = True
+    def kill(self) -> None:
+        """End the process while another thread waits for a run, which then has crashed."""
         self._child.kill()
 
     def close(self) -> None:
-        """End the process and what it has started, and remove what its runs have left."""
+        """End the process, and remove what its runs have left."""
         self._child.close()
         self._scratch.cleanup()
 
@@ -131,18 +116,20 @@ class RunnerProcess:
             self._scratch = tempfile.TemporaryDirectory(  # The runner may be killed.
                 prefix="airhilt-runner-", ignore_cleanup_errors=True
             )
-            self._child = ChildProcess(COMMAND, [self._scratch.name], environment=ENVIRONMENT)
+            self._child = ChildProcess(MODULE, ENVIRONMENT | {"TMPDIR": self._scratch.name})
         except OSError as error:
             raise _not_started(
                 f"({error.strerror or error}); expected a few kB where temporary files are "
                 "(TMPDIR), and room for one more process"
             ) from None
         try:
-            found = self._child.ask({"renderer": self._renderer}, STARTING_S)
+            self.environment = self._child.ask("environment", self._renderer, patience_s=STARTING_S)
         except (Ended, NoAnswer) as problem:
             self.close()
             raise _not_started(str(problem) or f"within {STARTING_S:.0f} s") from None
-        self.environment = Environment.model_validate(found)
+        except AirhiltError:
+            self.close()
+            raise
 
     def _watch(self) -> None:
         """Measure the memory of the run; complain if it is too much."""

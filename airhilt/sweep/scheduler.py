@@ -57,10 +57,6 @@ def connect(scheduler: str, workers: int, dashboard: str | None) -> Iterator[Cli
 
     Parameters
     ----------
-    scheduler
-        ``local``, the address of a scheduler, or a scheduler file of Dask.
-    workers
-        Number of local workers to start, each with one thread.
     dashboard
         Address of Dask's dashboard on this machine, such as ``127.0.0.1:8787``; None: off.
 
@@ -69,23 +65,15 @@ def connect(scheduler: str, workers: int, dashboard: str | None) -> Iterator[Cli
     SchedulerError
         The scheduler cannot be reached, or nothing can be started.
     """
-    with _quiet_dask():
-        if scheduler == LOCAL:
-            with _local(workers, dashboard) as client:
-                yield client
-        else:
-            with _existing(scheduler) as client:
-                yield client
+    with (
+        _quiet_dask(),
+        _local(workers, dashboard) if scheduler == LOCAL else _existing(scheduler) as client,
+    ):
+        yield client
 
 
 def openness(address: str) -> str:
-    """Return a notice on a scheduler that anybody in its network can reach, empty if nobody can.
-
-    Parameters
-    ----------
-    address
-        Address of the scheduler, such as ``tcp://host:8786``.
-    """
+    """Return a notice on a scheduler that anybody in its network can reach, empty if nobody can."""
     scheme, _, _ = address.partition("://")
     host = urlsplit(address).hostname or ""
     if scheme in ENCRYPTED or host == "localhost" or host.startswith("127.") or host == "::1":
@@ -127,7 +115,7 @@ def _local(workers: int, dashboard: str | None) -> Iterator[Client]:
                     host=HOST,
                     security=Security.temporary(),  # A port of the loopback is everybody's.
                     dashboard_address=dashboard or f"{HOST}:0",
-                    silence_logs=False if _is_log_configured() else logging.CRITICAL,
+                    silence_logs=False if dask.config.get("logging", None) else logging.CRITICAL,
                     memory_limit=0,  # Of the runs, each runner's own process is watched.
                 )
         except (OSError, RuntimeError) as error:
@@ -160,20 +148,13 @@ def _uninterrupted() -> Iterator[None]:
         signal.signal(signal.SIGINT, earlier)
 
 
-def _is_log_configured() -> bool:
-    return bool(dask.config.get("logging", None))
-
-
 @contextmanager
 def _quiet_dask() -> Iterator[None]:
     """Print nothing that Dask logs, unless its own configuration says what is logged.
 
     What matters of it comes as an error or a notice; the rest are tracebacks of lost connections.
     """
-    if _is_log_configured():
-        yield
-        return
-    loggers = [logging.getLogger(name) for name in LOGGERS]
+    loggers = [] if dask.config.get("logging", None) else [*map(logging.getLogger, LOGGERS)]
     levels = [logger.level for logger in loggers]
     for logger in loggers:
         logger.setLevel(logging.CRITICAL + 1)

@@ -76,13 +76,7 @@ class Specification(BaseModel):
 
 
 def first_seeds(count: int) -> dict[str, int]:
-    """Return the seeds 0, 1 ... of a number of them, as a sweep file has them.
-
-    Raises
-    ------
-    AirhiltError
-        The number is not positive.
-    """
+    """Return the seeds 0, 1 ... of a number of them, as a sweep file has them."""
     if count < 1:
         raise AirhiltError(f"seeds {count}: expected at least 1, for the seed 0")
     return {"from": 0, "to": count - 1, "step": 1}

@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Iterable, Mapping, Sequence
-from pathlib import PurePosixPath
 from typing import Any
 
 import pyarrow as pa
@@ -57,7 +56,17 @@ def part_schema() -> pa.Schema:
 
 def part_of(outcomes: Iterable[Outcome]) -> pa.Table:
     """Return a part of the store: machine columns and metrics of some runs that are finished."""
-    rows = [_part_row(outcome) for outcome in outcomes]
+    rows = [
+        {
+            "key": outcome.key,
+            "status": outcome.status,
+            "cause": outcome.cause,
+            **outcome.machine.model_dump(),
+            "folder": f"runs/{folder_name(outcome.key)}" if outcome.is_kept else "",
+            **outcome.metrics,
+        }
+        for outcome in outcomes
+    ]
     return _table((*MACHINE, *metric_columns()), rows)
 
 
@@ -68,47 +77,45 @@ def tables_of(
 
     Parameters
     ----------
-    cases
-        Runs of the sweep by their keys.
     finished
         Rows of the parts by their keys; rows of other runs are left out.
     """
     keys = sorted(key for key in cases if key in finished)
     names = _column_names(cases.values())
     results = [
-        _result_row(key, cases[key], finished[key], names)
+        {
+            **finished[key],
+            **{names[path]: value for path, value in case.parameters.items()},
+            "key": key,
+            "scenario": case.scenario,
+            "family": case.family,
+            "assistant": case.assistant,
+            "seed": case.seed,
+        }
         for key in keys
         if finished[key]["status"] not in OF_THE_MACHINE
+        for case in (cases[key],)
     ]
-    parameters = _parameter_columns(list(cases.values()), names)
+    known = {column.name for column in IDENTITY}
+    parameters = [
+        column_of(
+            name,
+            _kind(case.parameters.get(path) for case in cases.values()),
+            "parameter of the sweep",
+        )
+        for path, name in names.items()
+        if name not in known
+    ]
     columns = (*IDENTITY, *parameters, *ENDING, *metric_columns())
     return _table(columns, results), _table(MACHINE, [finished[key] for key in keys])
 
 
 def grid_sha256(cases: Mapping[str, Case]) -> str:
-    """Return the SHA-256 of the keys and parameters of a sweep, which identifies its tables.
-
-    Parameters
-    ----------
-    cases
-        Runs of the sweep by their keys; their order is of no matter.
-    """
+    """Return the SHA-256 of the keys and parameters of a sweep, which identifies its tables."""
     digest = hashlib.sha256()
     for name in (*sorted(_column_names(cases.values()).values()), *sorted(cases)):
         digest.update(f"{name}\n".encode())
     return digest.hexdigest()
-
-
-def _part_row(outcome: Outcome) -> dict[str, Any]:
-    kept = str(PurePosixPath("runs") / folder_name(outcome.key)) if outcome.is_kept else ""
-    return {
-        "key": outcome.key,
-        "status": outcome.status,
-        "cause": outcome.cause,
-        **outcome.machine.model_dump(),
-        "folder": kept,
-        **outcome.metrics,
-    }
 
 
 def folder_name(key: str) -> str:
@@ -116,37 +123,11 @@ def folder_name(key: str) -> str:
     return key[:16]
 
 
-def _result_row(
-    key: str, case: Case, finished: Mapping[str, Any], names: Mapping[str, str]
-) -> dict[str, Any]:
-    identity = {
-        "key": key,
-        "scenario": case.scenario,
-        "family": case.family,
-        "assistant": case.assistant,
-        "seed": case.seed,
-    }
-    parameters = {names[path]: value for path, value in case.parameters.items()}
-    return {**finished, **parameters, **identity}
-
-
 def _column_names(cases: Iterable[Case]) -> dict[str, str]:
     """Return the column of each parameter: its path, or another name if a metric has that one."""
     measured = {column.name for column in metric_columns()}
     paths = dict.fromkeys(path for case in cases for path in case.parameters)
     return {path: f"parameter.{path}" if path in measured else path for path in paths}
-
-
-def _parameter_columns(cases: Sequence[Case], names: Mapping[str, str]) -> list[Column]:
-    """Return a column for each parameter that is not among the first columns already."""
-    known = {column.name for column in IDENTITY}
-    return [
-        column_of(
-            name, _kind(case.parameters.get(path) for case in cases), "parameter of the sweep"
-        )
-        for path, name in names.items()
-        if name not in known
-    ]
 
 
 def _kind(values: Iterable[Any]) -> Kind:

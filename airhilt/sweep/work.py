@@ -11,7 +11,7 @@ import psutil
 
 from airhilt.engines import Package
 from airhilt.errors import AirhiltError
-from airhilt.host.child_process import available_cores
+from airhilt.host.machine import available_cores
 from airhilt.sweep.outcome import Keep
 from airhilt.sweep.runner_process import MEGABYTE, Limits
 from airhilt.sweep.scheduler import LOCAL
@@ -28,8 +28,6 @@ class Work:
 
     Attributes
     ----------
-    out
-        Folder of the sweep.
     scheduler
         ``local``, the address of a Dask scheduler, or its scheduler file.
     workers

@@ -19,7 +19,6 @@ from airhilt.options import Options
 from airhilt.record import RunFolder, read_log
 from airhilt.record.pictures import PictureName
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras.frame import Frame
 from airhilt.units import SECOND_NS
 from camera_run import camera_run, passing
 from oracle import BlankSceneRenderer
@@ -220,11 +219,11 @@ def test_cameras_are_lost_in_a_replay_at_the_very_moment_at_which_they_were(
 
 def dying(patch: pytest.MonkeyPatch, at_s: float) -> None:
     """Let the renderer die at a time."""
-    shoot = BlankSceneRenderer.shoot
+    take = BlankSceneRenderer.take
 
-    def shooting(self: BlankSceneRenderer, names: Any, bodies: Any, t_ns: int) -> list[Frame]:
+    def taking(self: BlankSceneRenderer, names: Any, bodies: Any, t_ns: int) -> Any:
         if t_ns >= at_s * SECOND_NS:
             raise RendererError("the renderer has died")
-        return shoot(self, names, bodies, t_ns)
+        return take(self, names, bodies, t_ns)
 
-    patch.setattr(BlankSceneRenderer, "shoot", shooting)
+    patch.setattr(BlankSceneRenderer, "take", taking)

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import gc
 import json
-import os
-import signal
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -19,12 +17,12 @@ from airhilt.cosim.observer import Observer, Snapshot
 from airhilt.cosim.replay import replay
 from airhilt.cosim.simulation import run
 from airhilt.errors import AirhiltError, RendererError, RunStopped
+from airhilt.host.child_process import ChildProcess
 from airhilt.messages import CameraFrame, Detections, Status
 from airhilt.options import Options
 from airhilt.record import Logged, read_log
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras.frame import Frame
-from airhilt.sensors.cameras.renderer_link import RendererLink
 from airhilt.units import SECOND_NS
 
 SEEN = Options(renderer="embree", speech=False, latency="fixed")
@@ -179,15 +177,14 @@ def test_a_renderer_that_is_killed_costs_the_pictures_and_nothing_else(
     opened = []
     open_scene_renderer = vision._open_renderer
 
-    def opening(scenario: Scenario, options: Options, links: Sequence[RendererLink]) -> object:
-        opened.append(links)
-        return open_scene_renderer(scenario, options, links)
+    def opening(scenario: Scenario, options: Options, processes: Sequence[ChildProcess]) -> object:
+        opened.append(processes)
+        return open_scene_renderer(scenario, options, processes)
 
     class Killer(Observer):
         def snapshot(self, snapshot: Snapshot) -> None:
             if snapshot.t_s == 1.0:
-                links = opened[0]
-                os.kill(links[0].process_id, signal.SIGKILL)
+                opened[0][0].kill()
 
     monkeypatch.setattr(vision, "_open_renderer", opening)
     result = run(small, SEEN.model_copy(update={"out": tmp_path / "run"}), Killer())

@@ -13,8 +13,8 @@ import airhilt
 from airhilt.assistant import asr
 from airhilt.cosim import replay as replaying
 from airhilt.cosim.replay import replay
-from airhilt.host.child_process import cpu_s
 from airhilt.host.files import content_sha256
+from airhilt.host.machine import cpu_s
 from airhilt.record import RunFolder, read_log
 from airhilt.record.folder import versions
 from airhilt.scenario import Scenario

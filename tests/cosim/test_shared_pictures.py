@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-import os
-import signal
 from collections.abc import Sequence
-from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +18,6 @@ from airhilt.messages import InputSpec, Status, WorkerDescription
 from airhilt.options import Options
 from airhilt.record import RunFolder, read_log
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras.frame import Frame
 from airhilt.sensors.cameras.renderer_process import RendererProcess
 from airhilt.workers import Input, Step
 
@@ -56,7 +52,7 @@ def test_a_run_that_shares_has_the_log_of_one_that_does_not(
     plain = log_of(tmp_path / "plain")
     assert not (cache / "detections").exists()
     assert log_of(tmp_path / "first", share_pictures=True) == plain
-    assert {each.name for each in cache.iterdir()} >= {"detections", "pictures", "rays"}
+    assert {each.name for each in cache.iterdir()} >= {"detections", "pictures"}
     monkeypatch.setattr(EmbeddedDetector, "proposed", None)  # Nothing is looked at again.
     drawn = drawings(monkeypatch)
     assert log_of(tmp_path / "second", share_pictures=True) == plain
@@ -72,13 +68,13 @@ def key_pictures(out: Path) -> dict[str, bytes]:
 def drawings(monkeypatch: pytest.MonkeyPatch) -> list[object]:
     """Return a list that grows with each call in which pictures are drawn."""
     drawn: list[object] = []
-    shoot = RendererProcess.shoot
+    ask = RendererProcess.ask
 
-    def counted(process: RendererProcess, *asked: Any) -> list[Frame]:
+    def counted(renderer: RendererProcess, *asked: Any) -> Any:
         drawn.append(asked)
-        return shoot(process, *asked)
+        return ask(renderer, *asked)
 
-    monkeypatch.setattr(RendererProcess, "shoot", counted)
+    monkeypatch.setattr(RendererProcess, "ask", counted)
     return drawn
 
 
@@ -118,10 +114,9 @@ def test_a_killed_renderer_costs_pictures_that_others_have_drawn_and_nothing_els
     log_of(tmp_path / "first", share_pictures=True)
     views = RendererProcess.views
 
-    def killed(process: RendererProcess, *asked: Any) -> Any:
-        with suppress(ProcessLookupError):
-            os.kill(process.process_id, signal.SIGKILL)
-        return views(process, *asked)
+    def killed(renderer: RendererProcess, *asked: Any) -> Any:
+        renderer.processes[0].kill()
+        return views(renderer, *asked)
 
     with monkeypatch.context() as patch:
         patch.setattr(RendererProcess, "views", killed)

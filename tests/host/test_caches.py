@@ -103,17 +103,6 @@ def test_a_process_that_writes_on_and_on_stays_within_the_limit(tmp_path: Path) 
     assert sum(path.stat().st_size for path in entries(tmp_path)) <= 10_500
 
 
-def test_processes_that_write_little_seldom_look_at_all_entries(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A look takes seconds where there are a million entries, and each run writes some."""
-    looks: list[Path] = []
-    monkeypatch.setattr("airhilt.host.caches._shrink", lambda base, _: looks.append(base))
-    for n in range(200):
-        CacheFolder("pictures", tmp_path, limit_bytes=1_000_000).get(f"key {n}", Made(bytes(2_500)))
-    assert 2 <= len(looks) <= 30, "ten for each time that 5 % of the limit are written"
-
-
 def test_what_is_larger_than_the_limit_is_not_kept_and_pushes_nothing_out(tmp_path: Path) -> None:
     CacheFolder("voices", tmp_path, limit_bytes=1_000).get("small", Made(bytes(500)))
     CacheFolder("voices", tmp_path, limit_bytes=1_000).get("large", Made(bytes(1_000)))
@@ -187,14 +176,6 @@ def test_only_entries_are_deleted(tmp_path: Path) -> None:
     assert {each.kind: each.files for each in usage(base) if each.files} == {"aircraft": 1}
     assert outside.read_text() == (base / "voices" / "notes.txt").read_text() == "mine"
     assert sum(each.files for each in clear(base)) == 1
-
-
-@pytest.mark.parametrize("kind", ["voice", "../outside", ""])
-def test_what_is_no_kind_is_not_cleared(kind: str, tmp_path: Path) -> None:
-    CacheFolder("voices", tmp_path).get("key", Made())
-    with pytest.raises(AirhiltError, match="no kind of cache is named"):
-        clear(tmp_path, ("voices", kind))
-    assert len(entries(tmp_path)) == 1
 
 
 def test_the_command_shows_and_clears(

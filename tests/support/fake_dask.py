@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from typing import Any
 
 from airhilt.sweep.dask_worker import RunnerPlugin
 from airhilt.sweep.outcome import Machine, Outcome, Request, Status
 
-DASK = {"dask": "2026.8.0", "distributed": "2026.8.0"}
 MACHINE = Machine(wall_s=0.0, cpu_s=0.0, peak_memory_mb=0.0, host="h", process=1)
 
 
@@ -26,11 +24,11 @@ class FakeFuture:
     ended: Outcome | BaseException
     status: str = "finished"
 
-    def result(self) -> str:
-        """Return the outcome as JSON, or raise."""
+    def result(self) -> Outcome:
+        """Return the outcome, or raise."""
         if isinstance(self.ended, BaseException):
             raise self.ended
-        return self.ended.model_dump_json()
+        return self.ended
 
     def add_done_callback(self, done: Callable[[FakeFuture], None]) -> None:
         """Call at once."""
@@ -39,13 +37,12 @@ class FakeFuture:
 
 @dataclass
 class FakeClient:
-    """A client of a scheduler with some workers and some versions.
+    """A client of a scheduler with some workers.
 
     ``threads`` are the numbers of threads of its worker, one after the other; the last one stays.
     """
 
     threads: list[int] = field(default_factory=lambda: [1])
-    versions: dict[str, dict[str, str]] = field(default_factory=dict)
     ends: Callable[[Request], Outcome | FakeFuture] = lambda request: outcome(request.key)
 
     def __post_init__(self) -> None:
@@ -65,12 +62,6 @@ class FakeClient:
         """Return where it is, with TLS."""
         return {"address": "tls://head:8786"}
 
-    def get_versions(self) -> dict[str, Any]:
-        """Return the versions of Dask everywhere."""
-        workers = {"tcp://w:1": {"packages": DASK | self.versions.get("worker", {})}}
-        scheduler = {"packages": DASK | self.versions.get("scheduler", {})}
-        return {"client": {"packages": DASK}, "scheduler": scheduler, "workers": workers}
-
     def register_plugin(self, plugin: RunnerPlugin) -> None:
         """Keep its name."""
         self.plugins.append(plugin.name)
@@ -79,10 +70,10 @@ class FakeClient:
         """Forget it."""
         self.plugins.remove(name)
 
-    def submit(self, _task: object, request: str, *_: object, **__: object) -> FakeFuture:
+    def submit(self, _task: object, request: Request, *_: object, **__: object) -> FakeFuture:
         """Return the task, which has ended."""
-        self.submitted.append(Request.model_validate_json(request))
-        ended = self.ends(self.submitted[-1])
+        self.submitted.append(request)
+        ended = self.ends(request)
         return ended if isinstance(ended, FakeFuture) else FakeFuture(ended)
 
     @contextmanager

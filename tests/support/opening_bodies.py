@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras.mounts import local_frame_of
-from airhilt.sensors.cameras.scene.bodies import BodyState, state_of
+from airhilt.sensors.cameras.scene.bodies import BodyState, states_of
 from airhilt.sensors.cameras.snapshot import TICK_S
 from airhilt.world.actors import build_actors
 from airhilt.world.site import ScenarioSite
@@ -15,4 +15,4 @@ def bodies_of(scenario: Scenario) -> list[BodyState]:
     site = ScenarioSite.of(scenario)
     cast = build_actors(scenario, site, 0, TICK_S)
     frame = local_frame_of(site)
-    return [state_of(actor, frame, site.ground_m, 0.0) for actor in cast.values()]
+    return states_of(cast.values(), frame, site.ground_m, 0, 0)

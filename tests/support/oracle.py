@@ -6,9 +6,11 @@ something is missed. For tests of what is made of detections, quickly and withou
 
 from __future__ import annotations
 
+import hashlib
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from functools import cache
 from pathlib import Path
 from typing import Any, cast
 
@@ -35,7 +37,7 @@ from airhilt.messages import (
 from airhilt.metrics.summary import Summary
 from airhilt.options import Options
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras.frame import Frame, Sighting
+from airhilt.sensors.cameras.frame import CameraPicture, Sighting
 from airhilt.sensors.cameras.mounts import cameras_of
 from airhilt.sensors.cameras.scene.bodies import BodyState, model_of
 from airhilt.sensors.cameras.scene.projected_box import Outline
@@ -55,10 +57,17 @@ SURE = 0.4
 HIDDEN_EVERY_NS, HIDDEN_NS = 10 * SECOND_NS, 3 * SECOND_NS // 2
 
 
+@cache
+def _blank(size: int) -> tuple[bytes, str]:
+    """Return black pixels and their SHA-256."""
+    return bytes(size), hashlib.sha256(bytes(size)).hexdigest()
+
+
 class BlankSceneRenderer:
     """Takes pictures without colours, with what is true of the bodies in them."""
 
     renderer = "blank"
+    identity = ""
 
     def __init__(self, scenario: Scenario) -> None:
         site = ScenarioSite.of(scenario)
@@ -75,26 +84,24 @@ class BlankSceneRenderer:
         self.own_aircraft: Mapping[str, Mask] = {}
         self.sightings: dict[tuple[str, int], tuple[Sighting, ...]] = {}
         """By camera and time."""
-        self._blanks: dict[tuple[int, int], np.ndarray] = {}
 
     def close(self) -> None:
         """Do nothing."""
 
-    def shoot(self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int) -> list[Frame]:
+    def take(
+        self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
+    ) -> list[CameraPicture]:
         return [self._picture(name, {body.actor: body for body in bodies}, t_ns) for name in names]
 
-    def _picture(self, name: str, bodies: Mapping[str, BodyState], t_ns: int) -> Frame:
+    def _picture(self, name: str, bodies: Mapping[str, BodyState], t_ns: int) -> CameraPicture:
         camera = self._cameras[name]
         view = camera.view(bodies)
         others = [body for body in bodies.values() if body.actor != camera.carrier]
         found = [self._sighting(body, view) for body in others]
         sightings = tuple(each for each in found if each is not None)
         self.sightings[name, t_ns] = sightings
-        size = view.intrinsics.height_px, view.intrinsics.width_px
-        if size not in self._blanks:
-            self._blanks[size] = np.zeros((*size, 3), dtype=np.uint8)
-        blank = self._blanks[size]
-        return Frame(name, t_ns, view, blank, blank[..., 0], blank[..., 0], sightings, True)
+        blank, sha256 = _blank(3 * view.intrinsics.height_px * view.intrinsics.width_px)
+        return CameraPicture(name, view, sightings, sha256, blank)
 
     def _sighting(self, body: Any, view: Any) -> Any:
         whole = self._outlines[body.actor, body.shape].box(body.pose, view)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 
 import pytest
@@ -13,32 +12,37 @@ from airhilt.sweep.outcome import Keep, Request
 
 ENVIRONMENT = Environment(versions={"airhilt": "1"}, code_sha256="0" * 64, renderer="")
 SOURCE = f"""
-import json, os, sys, time
-questions, answers = os.fdopen(int(sys.argv[1])), os.fdopen(int(sys.argv[2]), "w")
-for line in questions:
-    asked = json.loads(line)
-    if "renderer" in asked:
-        print({ENVIRONMENT.model_dump_json()!r}, file=answers, flush=True)
-        continue
-    key = asked["key"]
-    scratch = sys.argv[3] + "/" + key
-    os.makedirs(scratch if asked["keep"] == "none" else asked["folder"] + ".partial")
-    if key == "eats":
-        eaten = b"x" * 200_000_000
-    if key == "dies":
-        os.kill(os.getpid(), 9)
-    if key in ("hangs", "eats"):
-        time.sleep(3600.0)
-    machine = dict(wall_s=0.0, cpu_s=0.0, peak_memory_mb=0.0, host="h", process=os.getpid())
-    print(json.dumps(dict(key=key, status="finished", machine=machine)), file=answers, flush=True)
+import os, time
+from airhilt.host.child_process import serve
+from airhilt.sweep.environment import Environment
+from airhilt.sweep.outcome import Machine, Outcome
+
+class Runner:
+    def environment(self, renderer):
+        return Environment.model_validate_json({ENVIRONMENT.model_dump_json()!r})
+
+    def run(self, request):
+        key = request.key
+        scratch = os.environ["TMPDIR"] + "/" + key
+        os.makedirs(scratch if request.keep == "none" else request.folder + ".partial")
+        if key == "eats":
+            eaten = b"x" * 300_000_000
+        if key == "dies":
+            os.kill(os.getpid(), 9)
+        if key in ("hangs", "eats"):
+            time.sleep(3600.0)
+        machine = Machine(wall_s=0.0, cpu_s=0.0, peak_memory_mb=0.0, host="h", process=os.getpid())
+        return Outcome(key=key, status="finished", machine=machine)
+
+serve(Runner())
 """
 
 
 def use_as_runner(folder: Path, patch: pytest.MonkeyPatch) -> None:
     """Have this program started instead of the runner."""
-    program = folder / "runner.py"
-    program.write_text(SOURCE)
-    patch.setattr(runner_process, "COMMAND", (sys.executable, "-S", str(program)))
+    (folder / "runner_of_tests.py").write_text(SOURCE)
+    patch.syspath_prepend(folder)
+    patch.setattr(runner_process, "MODULE", "runner_of_tests")
 
 
 def request(key: str, keep: Keep = "none", folder: str = "") -> Request:

@@ -2,23 +2,16 @@
 
 from __future__ import annotations
 
-import json
-import shutil
 from pathlib import Path
 from typing import Any
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from pydantic import JsonValue
 
 import airhilt
-from airhilt import load
 from airhilt.errors import AirhiltError
-from airhilt.host import library
-from airhilt.host.files import content_sha256
 from airhilt.scenario import Scenario
-from airhilt.sweep import files
 from airhilt.sweep.cases import Case, cases
 from airhilt.sweep.environment import PACKAGE_FILES, Environment, environment, require_same
 from airhilt.sweep.files import NamedFiles
@@ -199,29 +192,7 @@ def test_two_parameters_of_one_place_are_refused_by_name(one: str, other: str) -
         grid(axes={one: [250], other: [260]})
 
 
-def test_a_scenario_file_that_is_none_is_named(tmp_path: Path) -> None:
-    broken = tmp_path / "broken.json"
-    broken.write_text("{")
-    with pytest.raises(AirhiltError, match=r"broken\.json"):
-        grid(scenarios=[str(broken)])
-
-
 # --- keys -----------------------------------------------------------------------------------
-
-
-def test_a_scenario_may_name_files_of_the_folders_that_are_allowed(tmp_path: Path) -> None:
-    (tmp_path / "mine").mkdir()
-    (tmp_path / "jets").mkdir()
-    shutil.copy(library.folder("aircraft") / "737.json", tmp_path / "jets" / "jet.json")
-    document = load("s02a_headon").model_dump(mode="json")
-    document["actors"][0]["aircraft"] = "../jets/jet.json"
-    path = tmp_path / "mine" / "scenario.json"
-    path.write_text(json.dumps(document))
-    wanted = given_as(scenarios=[str(path)])
-    with pytest.raises(AirhiltError, match="--allow-path"):
-        cases(wanted)
-    (case,) = cases(wanted, [tmp_path / "jets"])
-    assert "../jets/jet.json" in case.document["files"]
 
 
 def test_whatever_changes_a_run_changes_its_key() -> None:
@@ -249,44 +220,6 @@ def test_an_option_that_is_written_out_is_the_same_run() -> None:
     assert keys(grid()) == keys(grid(axes={"assistant": ["reference"]}, options={"speech": True}))
 
 
-def test_a_channel_that_a_scenario_names_is_part_of_the_key(tmp_path: Path) -> None:
-    channel = tmp_path / "mine.onnx"
-    found = []
-    for content in (b"one", b"two", b"one"):
-        channel.write_bytes(content)
-        path = scenario_with(tmp_path, radio={"profile": str(channel)})
-        (case,) = grid(scenarios=[str(path)], options={"speech": False})
-        found.append(case.key(HERE))
-    assert found[0] == found[2] != found[1]
-
-
-def scenario_with(folder: Path, **changes: dict[str, JsonValue]) -> Path:
-    """Write a scenario with some other values."""
-    document = load("s02a_headon").model_dump(mode="json")
-    for part, values in changes.items():
-        document[part] |= values
-    path = folder / "mine.json"
-    path.write_text(json.dumps(document))
-    return path
-
-
-def test_a_model_is_read_once_however_many_runs_have_it(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    model = tmp_path / "mine.onnx"
-    model.write_bytes(b"one")
-    reads: list[Path] = []
-
-    def counted(path: Path) -> str:
-        reads.append(path)
-        return content_sha256(path)
-
-    monkeypatch.setattr(files, "content_sha256", counted)
-    found = grid(options={"asr": f"embedded:{model}"}, seeds=[0, 1], axes={"snr_db": [0, 5]})
-    assert len(keys(found)) == 4
-    assert reads == [model]
-
-
 def test_another_package_that_has_changed_makes_other_keys(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -303,13 +236,6 @@ def test_another_package_that_has_changed_makes_other_keys(
         require_same(here[1], here[0], "tcp://a")
     with pytest.raises(AirhiltError, match="tcp://a: other code of outside_keyed; expected"):
         require_same(here[1], here[2], "tcp://a")
-
-
-def test_software_that_differs_is_told_by_name() -> None:
-    require_same(HERE, HERE, "tcp://here")
-    other = HERE.model_copy(update={"versions": {"airhilt": "2"}, "renderer": "moderngl"})
-    with pytest.raises(AirhiltError, match=r"tcp://a: airhilt 2 instead of 1; .*moderngl"):
-        require_same(HERE, other, "tcp://a")
 
 
 # --- samples --------------------------------------------------------------------------------

@@ -31,44 +31,27 @@ def no_waiting(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(time, "sleep", lambda _: None)
 
 
-def client(*threads: int, **versions: dict[str, str]) -> Any:
-    return FakeClient(list(threads) or [1], versions)
+def client(*threads: int) -> Any:
+    return FakeClient(list(threads) or [1])
 
 
 def plugin() -> RunnerPlugin:
     return RunnerPlugin("", Limits(1.0, 1.0), ENVIRONMENT)
 
 
-def test_a_scheduler_without_workers_is_told_once_a_minute(no_waiting: None) -> None:
+def test_a_scheduler_without_workers_is_told_once(no_waiting: None) -> None:
     notices: list[str] = []
     workers = Workers(client(*[0] * 30, 2), notices.append)
     workers.wait(lambda: False)
     text = "scheduler tcp://head:8786 has no workers; waiting for one, Ctrl-C stops"
-    assert notices == [text] * 2
+    assert notices == [text]
     Workers(client(0, 3), notices.append).wait(lambda: False)
-    assert len(notices) == 2, "of workers that come at once nothing is told"
-
-
-def test_the_user_need_not_wait_for_workers(no_waiting: None) -> None:
-    Workers(client(), lambda _: None).wait(lambda: True)
+    assert len(notices) == 1, "of workers that come at once nothing is told"
 
 
 def test_a_scheduler_that_goes_is_lost(no_waiting: None) -> None:
     with pytest.raises(SchedulerError, match="tcp://head:8786 is lost; what was finished is kept"):
         Workers(client(-1), lambda _: None).threads()
-
-
-@pytest.mark.parametrize(
-    ("where", "name"), [("scheduler", "scheduler tcp://head:8786"), ("worker", "worker tcp://w:1")]
-)
-def test_another_version_of_dask_is_refused_by_name(where: str, name: str) -> None:
-    other = client(**{where: {"distributed": "2020.1.0"}})
-    with (
-        pytest.raises(SchedulerError, match=f"{name} has distributed 2020.1.0, and this process"),
-        prepared(other, plugin()),
-    ):
-        pass
-    assert other.plugins == []
 
 
 def test_nothing_of_a_sweep_stays_on_the_workers() -> None:

@@ -8,7 +8,6 @@ import signal
 import subprocess
 import sys
 import time
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,11 +15,9 @@ import pytest
 
 import airhilt
 from airhilt.cosim.replay import replay
-from airhilt.errors import AirhiltError
 from airhilt.metrics.columns import metrics_of
 from airhilt.scenario import Scenario
 from airhilt.sweep.engine import SweepObserver, SweepResult, sweep
-from airhilt.sweep.estimate import estimate
 from airhilt.sweep.outcome import Outcome
 from airhilt.sweep.runner_process import Limits
 from airhilt.sweep.specification import Specification, specification_of
@@ -161,21 +158,6 @@ def test_one_worker_gives_the_bytes_of_two(
     assert again.folder.table_path.read_bytes() == done.folder.table_path.read_bytes()
 
 
-@pytest.mark.slow
-def test_runs_whose_part_was_damaged_are_done_again(
-    done: SweepResult, scenario_file: Path, tmp_path: Path
-) -> None:
-    copy = tmp_path / "copy"
-    subprocess.run(["cp", "-r", str(done.folder.path), str(copy)], check=True)
-    damaged = sorted((copy / "parts").glob("*.parquet"))[0]
-    damaged.write_bytes(b"no parquet")
-    observer = Noted()
-    result = sweep(specification(scenario_file), Work(copy, UNLIMITED, workers=1), observer)
-    assert len(observer.outcomes) == 1
-    assert damaged.name in observer.notices[0]
-    assert result.folder.table_path.read_bytes() == done.folder.table_path.read_bytes()
-
-
 def test_a_sweep_that_was_killed_goes_on_where_it_was(
     done: SweepResult, scenario_file: Path, tmp_path: Path
 ) -> None:
@@ -199,37 +181,3 @@ def test_a_sweep_that_was_killed_goes_on_where_it_was(
     assert (finished.returncode, finished.stdout) == (0, "")
     assert all("failed: short" in line for line in finished.stderr.splitlines())
     assert table.read_bytes() == done.folder.table_path.read_bytes()
-
-
-@pytest.mark.slow
-def test_runs_in_hand_finish_when_the_user_stops(scenario_file: Path, tmp_path: Path) -> None:
-    class Stopping(Noted):
-        @property
-        def stops(self) -> bool:
-            return bool(self.outcomes)
-
-    observer = Stopping()
-    work = Work(tmp_path / "stopped", UNLIMITED, workers=1)
-    result = sweep(specification(scenario_file), work, observer)
-    assert 1 <= len(observer.outcomes) <= 3
-    assert result.missing == 8 - len(observer.outcomes)
-    assert len(rows(result)) == len(observer.outcomes)
-
-
-@pytest.mark.slow
-def test_a_limit_ends_a_run_and_not_the_sweep(scenario_file: Path, tmp_path: Path) -> None:
-    work = Work(tmp_path / "limited", Limits(wall_s=0.02, memory_mb=4000.0), workers=1)
-    few = specification(scenario_file, axes={}, seeds=[1, 3])
-    result = sweep(few, work, observer := Noted())
-    assert [outcome.status for outcome in observer.outcomes] == ["over_time"] * 2
-    assert (result.rows, result.failed, result.missing) == (0, 2, 0)
-    assert {row["status"] for row in result.folder.machine().to_pylist()} == {"over_time"}
-    retried = sweep(few, replace(work, limits=UNLIMITED, retry=True), Noted())
-    assert (retried.rows, retried.failed) == (2, 0)
-
-
-def test_a_dry_run_refuses_the_scheduler_that_a_sweep_would(
-    scenario_file: Path, tmp_path: Path
-) -> None:
-    with pytest.raises(AirhiltError, match="nonsense"):
-        estimate(specification(scenario_file), Work(tmp_path / "s", scheduler="nonsense"))

@@ -10,7 +10,6 @@ from typing import Any
 
 import pytest
 
-from airhilt.cli.commands.evaluate import COMMAND
 from airhilt.errors import AirhiltError
 from airhilt.host import library
 from airhilt.record.sweep_folder import SweepFolder
@@ -29,7 +28,6 @@ from airhilt.sweep.evaluation.scores import (
     nuisance_per_hour,
 )
 from airhilt.sweep.evaluation.tables import Quantity, Table, number, share
-from airhilt.sweep.runner_process import Limits
 from airhilt.sweep.work import Work
 from shortened import shortened
 from sweep_tables import sweep_row, write_sweep
@@ -109,14 +107,6 @@ def test_severity_is_judged_by_the_advisories_that_a_loss_followed() -> None:
 
 def paper_tables(rows: Sequence[Row], choice: Choice = NO_CAMERAS) -> dict[str, Table]:
     return {table.name: table for table in paper.tables(Results(choice, {"s01a": rows}))}
-
-
-def test_all_variants_with_a_conflict_are_run_as_in_the_paper() -> None:
-    assert "s01a_misaddressed_takeoff" in paper.variants()
-    assert "s01a_nominal" not in paper.variants()
-    (only,) = paper.specifications(Choice(10, {"cameras": False})).values()
-    assert listed(only.seeds) == tuple(range(10))
-    assert only.options == {"assistant": "paper", "latency": "paper", "cameras": False}
 
 
 def test_the_paper_has_its_numbers_beside_ours() -> None:
@@ -249,13 +239,6 @@ def test_cells_have_their_numbers_and_a_text() -> None:
     assert share(UNKNOWN).text == number(UNKNOWN).text == "-"
 
 
-def test_a_table_is_markdown() -> None:
-    table = Table(name="x", title="T", columns=("a", "long"), rows=(("one", 2),), notes=("Note.",))
-    assert table.markdown() == (
-        "**T**\n\n| a   | long |\n|-----|------|\n| one | 2    |\n\nNote.\n"
-    )
-
-
 # --- with real runs -------------------------------------------------------------------------
 
 
@@ -352,11 +335,3 @@ def test_tables_of_others_are_not_replaced(small: Preset, tmp_path: Path) -> Non
     with pytest.raises(AirhiltError, match=r"evaluation\.md of no evaluation"):
         evaluate(small, Choice(1, {}), Work(tmp_path), unwatched)
     assert (tmp_path / "evaluation.md").read_text() == "mine"
-
-
-def test_the_help_tells_the_limits_of_a_run() -> None:
-    import click
-
-    helps = {one.name: one.help for one in COMMAND.params if isinstance(one, click.Option)}
-    assert f"[default: {Limits().wall_s:g}]" in str(helps["wall_s"])
-    assert f"[default: {Limits().memory_mb:g}]" in str(helps["memory_mb"])

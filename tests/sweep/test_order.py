@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from airhilt.sweep.order import apart
+from airhilt.sweep.engine import apart
 from airhilt.sweep.outcome import Request
 
 
@@ -35,8 +35,3 @@ def test_each_worker_begins_with_pictures_of_its_own(workers: int, order: str) -
 
 def test_runs_that_share_nothing_keep_their_order() -> None:
     assert keys(grid(shares=False), 2) == "012345"
-
-
-def test_seeds_see_different_things() -> None:
-    seeds = [request(number, seed=number // 2, share_pictures=True) for number in range(4)]
-    assert keys(seeds, 2) == "0213"

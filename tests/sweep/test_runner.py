@@ -2,23 +2,28 @@
 
 from __future__ import annotations
 
-import os
-import signal
-from contextlib import suppress
+from contextlib import closing
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from airhilt import load
-from airhilt.errors import RendererLost, RunFolderError, ScenarioError, writing_to_run
+from airhilt.errors import RendererLost, RunFolderError, ScenarioError
 from airhilt.sensors.cameras.renderer_process import RendererProcess
 from airhilt.sweep import runner
 from airhilt.sweep.files import NamedFiles, require_planned
-from airhilt.sweep.outcome import Request
+from airhilt.sweep.outcome import Outcome, Request
 from breadth import mostly_slow
 
 FULL = OSError(28, "No space left on device")
+
+
+def run_request(request: Request) -> Outcome:
+    """Return the outcome of a run that is done in this process."""
+    opened = runner.Runner()
+    with closing(opened.keeper):
+        return opened.run(request)
 
 
 @pytest.mark.parametrize(
@@ -39,26 +44,10 @@ def test_a_disk_or_memory_that_is_full_is_no_result_of_the_run(
 
     monkeypatch.setattr(runner, "_summary", fail)
     request = Request(key="k", scenario={}, options={}, keep="none", folder=str(tmp_path / "run"))
-    outcome = runner.run_request(request)
+    outcome = run_request(request)
     assert outcome.status == status
     assert outcome.cause
     assert outcome.metrics == {}
-
-
-def test_the_cause_of_a_full_disk_is_the_same_in_every_run(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def fail(_: Request, folder: Path, *__: object) -> None:
-        with writing_to_run(folder / "log.mcap"):
-            raise FULL
-
-    monkeypatch.setattr(runner, "_summary", fail)
-    kept = Request(key="k", scenario={}, options={}, keep="all", folder=str(tmp_path / "run"))
-    causes = {
-        runner.run_request(each).cause for each in (kept, kept.model_copy(update={"keep": "none"}))
-    }
-    assert len(causes) == 1
-    assert causes.pop().startswith("log.mcap: cannot be written any more: No space left")
 
 
 @pytest.mark.parametrize("strict", mostly_slow([False, True], False))
@@ -66,19 +55,18 @@ def test_a_run_whose_renderer_was_killed_is_no_result_of_it(
     strict: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """The run itself goes on without pictures, and would finish on any machine with them."""
-    views = RendererProcess.views
+    take = RendererProcess.take
 
-    def killed(process: RendererProcess, *asked: Any) -> Any:
-        with suppress(ProcessLookupError):
-            os.kill(process.process_id, signal.SIGKILL)
-        return views(process, *asked)
+    def killed(renderer: RendererProcess, *asked: Any) -> Any:
+        renderer.processes[0].kill()
+        return take(renderer, *asked)
 
-    monkeypatch.setattr(RendererProcess, "views", killed)
+    monkeypatch.setattr(RendererProcess, "take", killed)
     scenario = load("s02a_headon").model_dump(mode="json") | {"duration_s": 0.5}
     options = {"speech": False, "latency": "fixed", "renderer": "embree", "strict": strict}
     folder = str(tmp_path / "run")
     request = Request(key="k", scenario=scenario, options=options, keep="failed", folder=folder)
-    outcome = runner.run_request(request)
+    outcome = run_request(request)
     assert (outcome.status, outcome.metrics) == ("crashed", {})
     assert "the process of renderer embree has ended (signal 9)" in outcome.cause
     assert outcome.is_kept
@@ -103,6 +91,6 @@ def test_a_run_whose_file_is_not_that_of_its_key_is_not_done(
     (here / "noise.onnx").write_bytes(b"changed")
     for folder, problem in ((here, "another file than"), (elsewhere, "not the file that was")):
         monkeypatch.chdir(folder)
-        found = runner.run_request(request)
+        found = run_request(request)
         assert found.status == "crashed"
         assert f"noise.onnx: {problem}" in found.cause

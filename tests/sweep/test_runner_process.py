@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
@@ -10,10 +9,10 @@ from pathlib import Path
 import psutil
 import pytest
 
-from airhilt.sweep.runner_process import Limits, RunnerError, RunnerProcess, RunnerStopped
+from airhilt.sweep.runner_process import Limits, RunnerError, RunnerProcess
 from runners import request, use_as_runner
 
-LIMITS = Limits(wall_s=60.0, memory_mb=150.0)
+LIMITS = Limits(wall_s=60.0, memory_mb=250.0)
 
 
 @pytest.fixture(autouse=True)
@@ -30,8 +29,8 @@ def runner() -> Iterator[RunnerProcess]:
 @pytest.mark.parametrize(
     ("key", "limits", "status", "cause"),
     [
-        ("hangs", Limits(0.2, 150.0), "over_time", "took longer than 0.2 s (--run-timeout)"),
-        ("eats", LIMITS, "over_memory", "took more than 150 MB (--run-memory)"),
+        ("hangs", Limits(0.2, 250.0), "over_time", "took longer than 0.2 s (--run-timeout)"),
+        ("eats", LIMITS, "over_memory", "took more than 250 MB (--run-memory)"),
         ("dies", LIMITS, "crashed", "its process has ended (signal 9)"),
     ],
 )
@@ -49,7 +48,7 @@ def test_a_run_that_ends_badly_has_its_cause_and_the_next_one_runs(
 
 def test_the_folder_of_a_run_that_a_limit_ended_stays_if_it_is_to(tmp_path: Path) -> None:
     folder = tmp_path / "runs" / "k"
-    with closing(RunnerProcess("", Limits(0.2, 150.0))) as runner:
+    with closing(RunnerProcess("", Limits(0.2, 250.0))) as runner:
         assert runner.run(request("hangs", "failed", str(folder))).is_kept
     assert [each.name for each in folder.parent.iterdir()] == ["k"]
 
@@ -61,23 +60,16 @@ def test_a_runner_that_is_killed_leaves_no_temporary_files(
     temporary = tmp_path / "temporary"
     temporary.mkdir()
     monkeypatch.setattr("tempfile.tempdir", str(temporary))
-    with closing(RunnerProcess("", Limits(0.2, 150.0))) as runner:
+    with closing(RunnerProcess("", Limits(0.2, 250.0))) as runner:
         assert not runner.run(request("hangs")).is_kept
-        (own,) = temporary.iterdir()
-        assert not list(own.iterdir())
+        assert not list(temporary.iterdir())
         runner.run(request("good"))
-        assert list(own.iterdir())
+        assert list(temporary.glob("*/good"))
     assert not list(temporary.iterdir())
 
 
 def test_the_memory_of_a_run_is_told(runner: RunnerProcess) -> None:
     assert 1.0 < runner.run(request("good")).machine.peak_memory_mb < LIMITS.memory_mb
-
-
-def test_a_runner_that_is_stopped_gives_its_run_back(runner: RunnerProcess) -> None:
-    threading.Timer(0.1, runner.stop).start()
-    with pytest.raises(RunnerStopped):
-        runner.run(request("hangs"))
 
 
 def test_a_runner_has_one_thread_and_its_own_memory_whoever_starts_it(

@@ -19,7 +19,7 @@ from airhilt.assistant.vision.detectors.embedded import EmbeddedDetector
 from airhilt.assistant.vision.gating import Gate
 from airhilt.errors import RendererError
 from airhilt.sensors.cameras.renderer_process import RendererProcess, probe
-from airhilt.sensors.cameras.renderers import renderer_names
+from airhilt.sensors.cameras.renderers import FAMILY
 from airhilt.sensors.cameras.scene.bodies import BodyState
 from benchmarks.landing import LandingScene, watched_landing
 from benchmarks.rounds import ROUNDS
@@ -108,11 +108,11 @@ def frames() -> dict[str, float]:
     for name in installed():
         with RendererProcess(scenario, ["runway_01"], name) as renderer:
             for taken in range(10_001):
-                renderer.shoot(["runway_01"], scene[taken % len(scene)], 0)
+                renderer.take(["runway_01"], scene[taken % len(scene)], 0)
                 if taken in (1_000, 10_000):
-                    held = memory_mb(renderer.process_id, "VmRSS")
+                    held = memory_mb(renderer.processes[0].process_id, "VmRSS")
                     found[f"{name}_mb_after_{taken}"] = held
-            found[f"{name}_mb_at_most"] = memory_mb(renderer.process_id, "VmHWM")
+            found[f"{name}_mb_at_most"] = memory_mb(renderer.processes[0].process_id, "VmHWM")
     return found
 
 
@@ -138,7 +138,7 @@ def sight() -> dict[str, float]:
 def installed() -> list[str]:
     """Return the names of the renderers that can draw here."""
     found = []
-    for name in renderer_names():
+    for name in FAMILY.names():
         with suppress(RendererError):
             probe(name)
             found.append(name)

@@ -48,7 +48,7 @@ from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.messages import CONFIRMED_HITS, CameraView
 from airhilt.sensors.cameras.dataset.coco import scene_renderer_of
 from airhilt.sensors.cameras.dataset.placement import cast
-from airhilt.sensors.cameras.dataset.scenes import Casting, Sitting
+from airhilt.sensors.cameras.dataset.scenes import Casting, Sitting, station_of
 from airhilt.sensors.cameras.scene.bodies import BodyState
 from airhilt.sensors.cameras.scene_renderer import SceneRenderer
 from airhilt.sensors.cameras.sensor import view_message
@@ -110,7 +110,7 @@ def runs(
                 draws = stream(seed, "minutes/run", number, done)
                 begin = cast(sitting, camera, draws, empty=1.0)
                 yield (
-                    sitting.stations[camera],
+                    station_of(camera),
                     shots(sitting, drawing, camera, begin, seconds),
                 )
                 done += 1

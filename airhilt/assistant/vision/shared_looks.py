@@ -22,7 +22,7 @@ from airhilt.assistant.vision.gating import Look, SeesParts
 from airhilt.assistant.vision.tiling import Tile
 from airhilt.host.caches import CacheFolder
 from airhilt.host.files import source_sha256
-from airhilt.host.processor import processor_sha256
+from airhilt.host.machine import processor_sha256
 
 
 @runtime_checkable

@@ -8,6 +8,9 @@ import click
 
 from airhilt.cli.parameters import renderer_option
 from airhilt.errors import AirhiltError
+from airhilt.imaging.lenses import GREATEST_SIDE_PX, SMALLEST_SIDE_PX
+
+SIDE = click.IntRange(SMALLEST_SIDE_PX, GREATEST_SIDE_PX)
 
 
 @click.group()
@@ -51,8 +54,8 @@ Examples:
     help="Part of random pictures with nobody in them.",
 )
 @renderer_option
-@click.option("--width", type=int, metavar="PIXELS", help="[default: 640, or the scenario's]")
-@click.option("--height", type=int, metavar="PIXELS", help="[default: 360, or the scenario's]")
+@click.option("--width", type=SIDE, metavar="PIXELS", help="[default: 640, or the scenario's]")
+@click.option("--height", type=SIDE, metavar="PIXELS", help="[default: 360, or the scenario's]")
 def export(
     out: Path,
     images: int,

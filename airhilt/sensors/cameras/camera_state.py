@@ -44,15 +44,9 @@ class CameraState(NamedTuple):
     @classmethod
     def of_json(cls, given: Sequence[Any], lens: Intrinsics) -> CameraState:
         """Return the state that `to_json` returned."""
-        drawings, own, taken = given
-        return cls(
-            tuple(_drawing(each, lens) for each in drawings),
-            None if own is None else BodyState(*own),
-            taken,
-        )
-
-
-def _drawing(given: Sequence[float], lens: Intrinsics) -> Drawing:
-    east, north, up, *rotation, first, end = given
-    pose = Pose((east, north, up), np.array(rotation).reshape(3, 3))
-    return Drawing(View(lens, pose), int(first), int(end))
+        drawn, own, taken = given
+        drawings = []
+        for east, north, up, *rotation, first, end in drawn:
+            pose = Pose((east, north, up), np.array(rotation).reshape(3, 3))
+            drawings.append(Drawing(View(lens, pose), first, end))
+        return cls(tuple(drawings), None if own is None else BodyState(*own), taken)

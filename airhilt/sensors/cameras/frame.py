@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 import numpy.typing as npt
 
+from airhilt.imaging.masks import Mask
 from airhilt.imaging.view import View
 from airhilt.messages import VisibleClass
+from airhilt.sensors.cameras.scene.bodies import BodyState
 from airhilt.sensors.cameras.scene.projected_box import Box
 from airhilt.shapes.mesh import Floats
+from airhilt.sim.payload import Payload
 
 
 @dataclass(frozen=True)
@@ -86,8 +90,55 @@ class Frame:
     sightings: tuple[Sighting, ...]
     unchanged: bool = False
 
-    def sealed(self) -> Frame:
-        """Return it, its arrays being safe from writing: several frames may have them."""
-        for plane in (self.colour, self.distance_m, self.instance):
-            plane.flags.writeable = False
-        return self
+
+@dataclass(frozen=True)
+class CameraPicture:
+    """A picture as a run publishes it.
+
+    Attributes
+    ----------
+    pixels
+        Colours in 8-bit sRGB, row by row.
+    """
+
+    camera: str
+    view: View
+    sightings: tuple[Sighting, ...]
+    sha256: str
+    pixels: Payload
+
+    @property
+    def colour(self) -> npt.NDArray[np.uint8]:
+        """The pixels as an array of shape (rows, columns, 3)."""
+        lens = self.view.intrinsics
+        pixels = np.frombuffer(bytes(self.pixels), np.uint8)
+        return pixels.reshape(lens.height_px, lens.width_px, 3)
+
+
+class PictureSource(Protocol):
+    """Source of the pictures of all cameras that are due at an instant."""
+
+    @property
+    def own_aircraft(self) -> Mapping[str, Mask]:
+        """Pixels that a camera's own aircraft may cover, by camera; shape (rows, columns)."""
+        ...
+
+    def take(
+        self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
+    ) -> list[CameraPicture]:
+        """Take the pictures.
+
+        Raises
+        ------
+        CameraError
+            A pose is not finite, or a camera is mounted on something that is not there.
+        RendererError
+            No more pictures can be taken.
+        """
+        ...
+
+    def prospects(
+        self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
+    ) -> dict[str, Prospect]:
+        """Return what the pictures would show, by camera, without taking them; errors as `take`."""
+        ...

@@ -11,13 +11,12 @@ from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.host.library import nearest
 from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.scenario import Scenario
-from airhilt.scenario.models import ActorMount, AircraftSpec, FixedMount
+from airhilt.scenario.models import ActorMount, AircraftSpec
 from airhilt.scenario.models import Camera as DeclaredCamera
 from airhilt.sensors.cameras.scene.bodies import BodyState
 from airhilt.units import DEGREE, FOOT
 from airhilt.world.flight.aircraft_type import AircraftType, load_aircraft_type
 from airhilt.world.site import ScenarioSite
-from airhilt.world.surface.airport import Camera as AirportCamera
 
 AIRPORT_CAMERA_PX = (640, 360)
 NOSE_LOOKS_DOWN_RAD = 4.0 * DEGREE
@@ -89,7 +88,6 @@ def cameras_of(scenario: Scenario, site: ScenarioSite) -> dict[str, Camera]:
     CameraError
         A camera is invalid.
     """
-    local_frame = local_frame_of(site)
     types = {
         actor.callsign: load_aircraft_type(actor.aircraft, scenario.files)
         for actor in scenario.actors
@@ -98,20 +96,16 @@ def cameras_of(scenario: Scenario, site: ScenarioSite) -> dict[str, Camera]:
     cameras: dict[str, Camera] = {}
     if site.layout is not None:
         for given in site.layout.airport.cameras:
-            cameras[given.name] = _of_airport(given, local_frame)
+            lens = Intrinsics(*AIRPORT_CAMERA_PX, given.horizontal_fov_deg * DEGREE)
+            pose = _pose(site, given.place, given.height_m, given.azimuth_deg, given.elevation_deg)
+            cameras[given.name] = Camera(given.name, lens, pose)
     for declared in scenario.cameras:
-        cameras[declared.name] = _declared(declared, site, local_frame, types)
+        cameras[declared.name] = _camera(declared, site, types)
     return cameras
 
 
 def cameras_named(scenario: Scenario, names: Sequence[str]) -> dict[str, Camera]:
-    """Return cameras of a scenario or of its airport by their names.
-
-    Raises
-    ------
-    CameraError
-        There is no camera of one of the names, or it is invalid.
-    """
+    """Return cameras of a scenario or of its airport by name; errors as `find_camera`."""
     known = cameras_of(scenario, ScenarioSite.of(scenario))
     return {name: find_camera(known, name) for name in names}
 
@@ -129,34 +123,28 @@ def find_camera(cameras: Mapping[str, Camera], name: str) -> Camera:
     return cameras[name]
 
 
-def _of_airport(given: AirportCamera, local_frame: LocalFrame) -> Camera:
-    east, north = local_frame.to_local(given.place)
-    pose = Pose.of(
-        (east, north, given.height_m), given.azimuth_deg * DEGREE, given.elevation_deg * DEGREE
-    )
-    lens = Intrinsics(*AIRPORT_CAMERA_PX, given.horizontal_fov_deg * DEGREE)
-    return Camera(given.name, lens, pose)
-
-
-def _declared(
-    declared: DeclaredCamera,
-    site: ScenarioSite,
-    local_frame: LocalFrame,
-    types: Mapping[str, AircraftType],
+def _camera(
+    declared: DeclaredCamera, site: ScenarioSite, types: Mapping[str, AircraftType]
 ) -> Camera:
     lens = Intrinsics(declared.width_px, declared.height_px, declared.horizontal_fov_deg * DEGREE)
-    match declared.mount:
-        case FixedMount() as fixed:
-            east, north = local_frame.to_local(site.place(fixed.position))
-            pose = Pose.of(
-                (east, north, fixed.height_ft * FOOT),
-                fixed.azimuth_deg * DEGREE,
-                fixed.elevation_deg * DEGREE,
-            )
-            return Camera(declared.name, lens, pose)
-        case ActorMount(actor=actor, station=station):
-            mount = station_mount(declared.name, actor, station, types.get(actor))
-            return Camera(declared.name, lens, mount)
+    mount = declared.mount
+    if isinstance(mount, ActorMount):
+        at = station_mount(declared.name, mount.actor, mount.station, types.get(mount.actor))
+        return Camera(declared.name, lens, at)
+    place, height_m = site.place(mount.position), mount.height_ft * FOOT
+    pose = _pose(site, place, height_m, mount.azimuth_deg, mount.elevation_deg)
+    return Camera(declared.name, lens, pose)
+
+
+def _pose(
+    site: ScenarioSite,
+    place: tuple[float, float],
+    height_m: float,
+    azimuth_deg: float,
+    elevation_deg: float,
+) -> Pose:
+    east, north = local_frame_of(site).to_local(place)
+    return Pose.of((east, north, height_m), azimuth_deg * DEGREE, elevation_deg * DEGREE)
 
 
 def station_mount(name: str, actor: str, station: str, kind: AircraftType | None) -> Mount:

@@ -1,59 +1,59 @@
-"""Pictures from a process of its own, so that a renderer that crashes takes no run with it."""
+"""Pictures from processes of their own, so that a renderer that crashes takes no run with it.
+
+`airhilt.sensors.cameras.renderer_server` is the other side.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from contextlib import closing
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import closing, contextmanager
 from dataclasses import replace
-from typing import Any
+from typing import Any, Literal
 
 from airhilt.errors import RendererLost
-from airhilt.imaging.masks import Mask, mask_of
+from airhilt.host.child_process import ChildProcess, Ended, NoAnswer
+from airhilt.host.machine import available_cores
+from airhilt.imaging.masks import Mask
 from airhilt.imaging.view import View
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras import AUTO, STILL_SAMPLES
-from airhilt.sensors.cameras.camera_state import CameraState
-from airhilt.sensors.cameras.frame import Frame, Prospect, Sighting
+from airhilt.sensors.cameras import AUTO
+from airhilt.sensors.cameras.frame import CameraPicture, Prospect
 from airhilt.sensors.cameras.mounts import Camera, cameras_named, find_camera
-from airhilt.sensors.cameras.renderer_link import Planes, RendererLink, pixels_bytes, planes_of
 from airhilt.sensors.cameras.scene.bodies import BodyState
-from airhilt.sensors.cameras.scene.projected_box import Box
+from airhilt.sim.payload import Payload
 
-STARTING_S = 120.0
-"""Time that the process has to open its scene, in s."""
-PATIENCE_S = 60.0
-"""Time that it has for the pictures of one instant, in s."""
-SLOWEST_SAMPLES_PER_S = 250_000.0
-"""Samples that a renderer on a busy core draws in a second; it is given the time for all."""
+States = dict[str, Any]
+"""States of cameras by name, as `CameraState.to_json` returns them."""
+MODULE = "airhilt.sensors.cameras.renderer_server"
+ENVIRONMENT = {"EGL_PLATFORM": "surfaceless", "OMP_NUM_THREADS": "1", "LP_NUM_THREADS": "2"}
+"""Environment for drivers without a display. A run waits while pictures are drawn: two threads
+draw some of them sooner."""
+MOST_PROCESSES = 4
+"""Most processes of a run; each takes some 300 MB for the scene."""
+PATIENCE_S = 600.0
+"""Time that it has for an answer, in s: a busy core draws the first picture of a fixed camera of
+4096 by 4096 pixels, with nine samples each, in that time."""
 
 
 class RendererProcess:
-    """Takes pictures as a `SceneRenderer` does, in another process.
+    """Takes pictures as a `SceneRenderer` does, in other processes; a `PictureSource`.
+
+    What a process draws does not depend on the others: their number changes no picture.
 
     Parameters
     ----------
     names
         Names of the cameras; None takes those that the scenario declares.
-    patience_s
-        Time for the pictures of one instant, before the renderer is given up. The time to draw
-        all that the cameras see, sample by sample, is added.
-    link
-        A process that has been started before, which stays; None: a new one, which ends with this.
+    processes
+        Processes of `start_renderer`, which stay; each draws for some of the cameras. None: one
+        that ends with this.
     shares_pictures
         True if other runs may have the same pictures.
 
     Attributes
     ----------
-    renderer
-        Name of the renderer that draws.
-    own_aircraft
-        Pixels that the aircraft which carries the camera may cover, by camera; shape (rows,
-        columns).
     identity
         Identity of the scene if pictures are shared: see `SceneRenderer`.
-    states
-        States of the cameras as JSON, from which their next pictures are drawn if pictures are
-        shared: see `CameraState.to_json`. Each picture changes them, and so may the caller.
 
     Raises
     ------
@@ -69,71 +69,72 @@ class RendererProcess:
         names: Sequence[str] | None = None,
         renderer: str = AUTO,
         supersampling: int = 1,
-        patience_s: float = PATIENCE_S,
-        link: RendererLink | None = None,
+        processes: Sequence[ChildProcess] = (),
         shares_pictures: bool = False,
     ) -> None:
-        self.renderer = renderer
         wanted = [camera.name for camera in scenario.cameras] if names is None else list(names)
         self._cameras = cameras_named(scenario, wanted)
-        samples = sum(_samples(camera, supersampling) for camera in self._cameras.values())
-        drawing_s = samples / SLOWEST_SAMPLES_PER_S
-        self._patience_s = patience_s + drawing_s
-        self._last: dict[str, Frame] = {}
-        self._shares_pictures = shares_pictures
-        self.states: dict[str, Any] = dict.fromkeys(self._cameras, CameraState().to_json())
-        self._planes: dict[str, Planes] = {}
-        self._owned = link is None
+        self.renderer = renderer
+        self._pixels: dict[str, Payload] = {}
+        self._owned = [] if processes else [start_renderer(renderer)]
+        self.processes = [*processes, *self._owned]
+        shares = shared_out(self._cameras.values(), len(self.processes))
+        self._shares = list(zip(self.processes, shares, strict=True))
+        opening = (renderer, supersampling, shares_pictures)
         try:
-            self._link = link or RendererLink()
-        except OSError as error:
-            raise _not_started(renderer, error) from None
-        try:
-            self._planes = self._share_memory()
-            opened = self._link.draw(
-                {
-                    "scenario": scenario.model_dump(mode="json"),
-                    "cameras": wanted,
-                    "renderer": renderer,
-                    "supersampling": supersampling,
-                    "shares_pictures": shares_pictures,
-                },
-                STARTING_S + drawing_s,
-                renderer,
+            opened = self._answers(
+                "open", [(process, (scenario, share, *opening)) for process, share in self._shares]
             )
         except BaseException:
             self.close()
             raise
-        self.renderer = opened["renderer"]
-        self.identity: str = opened["identity"]
-        self.own_aircraft: Mapping[str, Mask] = {
-            name: _mask(runs, self._cameras[name]) for name, runs in opened["own_aircraft"].items()
-        }
+        self.identity = ""
+        self.own_aircraft: dict[str, Mask] = {}
+        for name, identity, own_aircraft in opened:
+            self.renderer, self.identity = name, identity
+            self.own_aircraft |= own_aircraft
 
-    def shoot(self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int) -> list[Frame]:
-        """Take the pictures of all cameras that are due at an instant.
-
-        Raises
-        ------
-        CameraError
-            A pose is not finite, or a camera is mounted on something that is not there.
-        RendererLost
-            The renderer's process has died, or does not answer.
-        """
-        views = self.views(names, bodies)
-        pictures = self._ask_of(names, bodies, t_ns, draw=True)["pictures"]
-        return [self._frame(name, t_ns, views[name], pictures[name]) for name in names]
+    def take(
+        self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
+    ) -> list[CameraPicture]:
+        """Take the pictures of all cameras that are due at an instant."""
+        taken, _ = self.ask("take", names, bodies, t_ns, {})
+        return [taken[name] for name in names]
 
     def prospects(
         self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
     ) -> dict[str, Prospect]:
-        """Return what the pictures of an instant would show, by camera, without taking them.
+        """Return what the pictures of an instant would show, by camera, without taking them."""
+        return self.ask("prospects", names, bodies, t_ns, {})[0]
 
-        It raises what `shoot` does.
-        """
-        views = self.views(names, bodies)
-        has_body = self._ask_of(names, bodies, t_ns, draw=False)["has_body"]
-        return {name: Prospect(views[name], has_body[name]) for name in names}
+    def ask(
+        self,
+        what: Literal["take", "prospects"],
+        names: Sequence[str],
+        bodies: Sequence[BodyState],
+        t_ns: int,
+        states: States,
+    ) -> tuple[dict[str, Any], States]:
+        """Return pictures or prospects by camera, and states of the cameras as `RendererServer`."""
+        asked = [
+            (process, (its, bodies, t_ns, {name: states[name] for name in its if states}))
+            for process, share in self._shares
+            if (its := [name for name in names if name in share])
+        ]
+        found: dict[str, Any] = {}
+        after: States = {}
+        for its_found, its_after in self._answers(what, asked):
+            found |= its_found
+            after |= its_after
+        if what == "take":
+            found = {name: self._whole(picture) for name, picture in found.items()}
+        return found, after
+
+    def _whole(self, picture: CameraPicture) -> CameraPicture:
+        """Return a picture with its pixels, which are the last ones if it has none."""
+        pixels = picture.pixels or self._pixels[picture.camera]
+        self._pixels[picture.camera] = pixels
+        return replace(picture, pixels=pixels)
 
     def views(self, names: Sequence[str], bodies: Sequence[BodyState]) -> dict[str, View]:
         """Return the views of cameras by name.
@@ -141,45 +142,24 @@ class RendererProcess:
         Raises
         ------
         CameraError
-            As `shoot`.
+            As `ask`.
         """
         there = {body.actor: body for body in bodies}
         return {name: find_camera(self._cameras, name).view(there) for name in names}
 
-    def _ask_of(
-        self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int, *, draw: bool
-    ) -> Any:
-        question = {
-            "cameras": list(names),
-            "bodies": [list(body) for body in bodies],
-            "t_ns": t_ns,
-            "draw": draw,
-        }
-        if self._shares_pictures:
-            question["states"] = [self.states[name] for name in names]
-        answer = self._link.draw(question, self._patience_s, self.renderer)
-        if self._shares_pictures:
-            self.states.update(zip(names, answer["states"], strict=True))
-        return answer
-
-    def _frame(self, name: str, t_ns: int, view: View, answer: Mapping[str, Any]) -> Frame:
-        sightings = tuple(sighting_of(found) for found in answer["sightings"])
-        last = self._last.get(name)
-        if answer["unchanged"] and last is not None:
-            return replace(last, t_ns=t_ns, view=view, sightings=sightings, unchanged=True)
-        colour, distance, instance = self._planes[name]
-        frame = Frame(
-            name, t_ns, view, colour.copy(), distance.copy(), instance.copy(), sightings
-        ).sealed()
-        self._last[name] = frame
-        return frame
+    def _answers(
+        self, what: str, asked: Sequence[tuple[ChildProcess, tuple[Any, ...]]]
+    ) -> list[Any]:
+        """Return what each process answers; all are asked at once."""
+        for process, arguments in asked:
+            process.tell(what, *arguments)
+        with _lost_if_silent(self.renderer):
+            return [process.answer(PATIENCE_S) for process, _ in asked]
 
     def close(self) -> None:
         """End the process, unless it was given."""
-        self._planes.clear()
-        self._last.clear()
-        if self._owned:
-            self._link.close()
+        for process in self._owned:
+            process.close()
 
     def __enter__(self) -> RendererProcess:
         return self
@@ -187,18 +167,58 @@ class RendererProcess:
     def __exit__(self, *_: object) -> None:
         self.close()
 
-    @property
-    def process_id(self) -> int:
-        """Identifier of the other process."""
-        return self._link.process_id
 
-    def _share_memory(self) -> dict[str, Planes]:
-        lenses = {name: camera.intrinsics for name, camera in self._cameras.items()}
-        try:
-            self._link.shared.truncate(max(pixels_bytes(lenses.values()), 1))
-            return planes_of(self._link.shared.fileno(), lenses)
-        except OSError as error:
-            raise _not_started(self.renderer, error) from None
+class RendererKeeper:
+    """Keeps one process that draws for run after run; a new one takes its place if it dies."""
+
+    def __init__(self) -> None:
+        self._process: ChildProcess | None = None
+
+    def process(self) -> ChildProcess:
+        """Return a process that can draw; errors as `start_renderer`."""
+        if self._process is None or not self._process.is_alive:
+            self.close()
+            self._process = start_renderer()
+        return self._process
+
+    def close(self) -> None:
+        """End the process."""
+        if self._process is not None:
+            self._process.close()
+        self._process = None
+
+
+def start_renderer(renderer: str = AUTO) -> ChildProcess:
+    """Return a process that can draw.
+
+    Raises
+    ------
+    RendererLost
+        It cannot be started.
+    """
+    try:
+        return ChildProcess(MODULE, ENVIRONMENT)
+    except OSError as error:
+        raise RendererLost(
+            f"the renderer {renderer} cannot be started: {error.strerror}; expected memory for one "
+            "more process and its pictures"
+        ) from None
+
+
+def processes_for(scenario: Scenario) -> int:
+    """Return how many processes draw for the cameras of a scenario, at least 1.
+
+    Half of the cores draw: the run and its detector have the others. A fixed camera's background
+    is drawn once; only those that move are worth a process.
+    """
+    moving = sum(camera.carrier is not None for camera in scenario.cameras)
+    return max(min(available_cores() // 2, moving, MOST_PROCESSES), 1)
+
+
+def shared_out(cameras: Iterable[Camera], processes: int) -> list[list[str]]:
+    """Return the cameras of each process: moving and fixed ones in turn."""
+    ordered = sorted(cameras, key=lambda camera: camera.is_fixed)
+    return [[camera.name for camera in ordered[at::processes]] for at in range(processes)]
 
 
 def probe(renderer: str) -> None:
@@ -209,27 +229,21 @@ def probe(renderer: str) -> None:
     RendererError
         It could not.
     """
-    with closing(RendererLink()) as link:
-        link.draw({"probe": renderer}, STARTING_S, renderer)
+    with closing(start_renderer(renderer)) as process, _lost_if_silent(renderer):
+        process.ask("probe", renderer, patience_s=PATIENCE_S)
 
 
-def _not_started(renderer: str, error: OSError) -> RendererLost:
-    return RendererLost(
-        f"the renderer {renderer} cannot be started: {error.strerror}; expected memory for one "
-        "more process and its pictures"
-    )
-
-
-def _samples(camera: Camera, supersampling: int) -> int:
-    """Return how many samples a picture has at most; a fixed camera's first one has more."""
-    along = max(supersampling, STILL_SAMPLES) if camera.is_fixed else supersampling
-    return camera.intrinsics.width_px * camera.intrinsics.height_px * along**2
-
-
-def _mask(runs: Sequence[int], camera: Camera) -> Mask:
-    return mask_of(runs, camera.intrinsics.height_px, camera.intrinsics.width_px)
-
-
-def sighting_of(found: Mapping[str, Any]) -> Sighting:
-    """Return a sighting from what `dataclasses.asdict` makes of it, read from JSON."""
-    return Sighting(**{**found, "box": Box(*found["box"])})
+@contextmanager
+def _lost_if_silent(renderer: str) -> Iterator[None]:
+    """Raise RendererLost if a process does not answer."""
+    try:
+        yield
+    except NoAnswer:
+        raise RendererLost(
+            f"the renderer {renderer} has not answered for {PATIENCE_S:.0f} s; no more "
+            "pictures are drawn: take smaller ones (width_px, height_px) or another --renderer"
+        ) from None
+    except Ended as ended:
+        raise RendererLost(
+            f"the process of renderer {renderer} has ended {ended}; no more pictures are drawn"
+        ) from None

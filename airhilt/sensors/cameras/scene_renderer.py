@@ -18,20 +18,17 @@ from airhilt.imaging.masks import Mask, grown
 from airhilt.imaging.view import Pose, View
 from airhilt.sensors.cameras import AUTO, STILL_SAMPLES
 from airhilt.sensors.cameras.camera_state import CameraState
-from airhilt.sensors.cameras.frame import Frame
+from airhilt.sensors.cameras.frame import Frame, Prospect
 from airhilt.sensors.cameras.mounts import Camera, Mount, find_camera
 from airhilt.sensors.cameras.renderers import Part, Samples, open_renderer
 from airhilt.sensors.cameras.scene.background import Background
-from airhilt.sensors.cameras.scene.background_cache import BackgroundCache
 from airhilt.sensors.cameras.scene.bodies import BodyState, Model, numbered
-from airhilt.sensors.cameras.scene.identity import scene_identity
+from airhilt.sensors.cameras.scene.identity import landscape_identity, scene_identity
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.landscape import Landscape
-from airhilt.sensors.cameras.scene.layers import Layer, by_sample
+from airhilt.sensors.cameras.scene.layers import Layer, by_sample, darken, sightings_of
 from airhilt.sensors.cameras.scene.lights import Lights, Spot, shine
 from airhilt.sensors.cameras.scene.rain import Streaks
-from airhilt.sensors.cameras.scene.shadows import darken
-from airhilt.sensors.cameras.scene.sightings import Sightings
 from airhilt.sensors.cameras.scene.visible_bodies import VisibleBodies, VisibleBody
 from airhilt.shapes.lights import Light
 from airhilt.shapes.mesh import Floats
@@ -42,23 +39,6 @@ OWN_MARGIN_PX = 2
 AT_ORIGIN = Pose.of((0.0, 0.0, 0.0), 0.0)
 TURN_STEPS = 24
 """Steps a radian: a picture of the own aircraft is kept until the light has turned by one."""
-
-
-class _Content(NamedTuple):
-    """Content of a picture, besides the landscape and rain."""
-
-    drawn: list[VisibleBody]
-    faint: list[VisibleBody]
-    """Bodies that change no pixel."""
-    shadows: list[Part]
-    own: Layer | None
-    """The aircraft that carries the camera."""
-    spots: list[Spot]
-
-    @property
-    def is_busy(self) -> bool:
-        """True if there is more than the own aircraft."""
-        return bool(self.drawn or self.shadows or self.spots)
 
 
 class _OwnAircraft(NamedTuple):
@@ -82,23 +62,15 @@ class SceneRenderer:
 
     Parameters
     ----------
-    models
-        Appearance of each actor, by callsign.
     rain_mm_h
         Rain of which streaks are drawn; what the rain does to the visibility is in ``light``.
-    supersampling
-        Samples along each side of a pixel, at least.
     keeps_backgrounds
-        True if other processes may draw for the same fixed cameras: see `BackgroundCache`.
+        True if other processes may draw for the same fixed cameras: see `kept_background`.
     shares_pictures
-        True if other runs may have the same pictures; see `SharedRays` and `identity`.
+        True if other runs may have the same pictures; see `identity`.
 
     Attributes
     ----------
-    cameras
-        The cameras, by name.
-    renderer
-        Name of the renderer that draws.
     identity
         Hash of all that reaches into pictures but bodies and time; empty if that is not known, or
         pictures are not shared.
@@ -132,11 +104,20 @@ class SceneRenderer:
                 landscape.require_free(camera.name, camera.at.position_m)
         self._bodies = VisibleBodies(self._models, light, supersampling)
         self.renderer, self._renderer = open_renderer(
-            renderer, landscape.mesh, self._bodies.shapes, light, shares_pictures
+            renderer, landscape.mesh, self._bodies.shapes, light
         )
-        self._supersampling = supersampling
         self._fixed_lights = Lights.of(landscape.lights)
-        self._backgrounds = self._open_backgrounds(landscape if keeps_backgrounds else None)
+        identity = ""
+        if shares_pictures or keeps_backgrounds:
+            identity = landscape_identity(self.renderer, landscape, light)
+        samples = max(STILL_SAMPLES, supersampling)
+        kept_as = identity if keeps_backgrounds else ""
+        self._backgrounds = {
+            camera.name: Background(self._renderer, samples, self._light_up, kept_as)
+            if camera.is_fixed
+            else Background(self._renderer, supersampling)
+            for camera in self.cameras.values()
+        }
         self._plain: dict[str, _Plain] = {}
         self._own: dict[str, _OwnAircraft] = {}
         self._streaks = {
@@ -147,14 +128,10 @@ class SceneRenderer:
             if rain_mm_h > 0.0
         }
         self._taken = dict.fromkeys(self.cameras, 0)
-        labels = {actor: model.label for actor, model in self._models.items()}
-        self._sightings = Sightings(labels, light.extinction_per_m)
-        self.identity = (
-            scene_identity(self.renderer, landscape, light, rain_mm_h, self._models,
-                           self.cameras.values(), supersampling)
-            if shares_pictures
-            else ""
-        )  # fmt: skip
+        self.identity = ""
+        if shares_pictures:
+            cameras = self.cameras.values()
+            self.identity = scene_identity(identity, rain_mm_h, models, cameras, supersampling)
 
     @property
     def actors(self) -> tuple[str, ...]:
@@ -178,18 +155,13 @@ class SceneRenderer:
         lights = self._bodies.lights(there, t_ns)
         return [self._picture(self.cameras[name], there, poses, lights, t_ns) for name in names]
 
-    def has_body(
+    def prospects(
         self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
-    ) -> dict[str, bool]:
-        """Return whether a picture would show another body of two pixels, or a light, by camera.
+    ) -> dict[str, Prospect]:
+        """Return what pictures of an instant would show, by camera, without taking them.
 
         A body counts, hidden or not, if it would change a pixel through the air that there is. An
         exposure without a body counts as taken by the rain, which is the same with or without it.
-
-        Raises
-        ------
-        CameraError
-            As `shoot`.
         """
         there = {body.actor: body for body in bodies}
         poses = {actor: body.pose for actor, body in there.items()}
@@ -199,11 +171,12 @@ class SceneRenderer:
             camera = self.cameras[name]
             view = camera.view(there)
             others = [body for actor, body in there.items() if actor != camera.carrier]
-            found[name] = bool(self._bodies.spots(view, lights, poses, camera.carrier)) or any(
+            has_body = bool(self._bodies.spots(view, lights, poses, camera.carrier)) or any(
                 (seen := self._bodies.seen(body, poses[body.actor], view)) and seen.is_large
                 for body in others
             )
-            self._taken[name] += not found[name]
+            found[name] = Prospect(view, has_body)
+            self._taken[name] += not has_body
         return found
 
     def state(self, name: str) -> CameraState:
@@ -233,11 +206,6 @@ class SceneRenderer:
 
         It is in its place with wheels up or down, and some pixels larger; none of a camera that
         does not see the aircraft that carries it.
-
-        Raises
-        ------
-        CameraError
-            There is no such camera.
         """
         camera = find_camera(self.cameras, name)
         lens = camera.intrinsics
@@ -248,7 +216,7 @@ class SceneRenderer:
         view = View(lens, camera.at.pose)
         for name in model.shapes:
             shape = f"{model.kind}/{name}"
-            whole = self._bodies.outline(shape).box(AT_ORIGIN, view)
+            whole = self._bodies.outlines[shape].box(AT_ORIGIN, view)
             if whole is None or whole.within(view).area <= 0.0:
                 continue
             window = whole.within(view).window(view)
@@ -256,8 +224,6 @@ class SceneRenderer:
             drawn = by_sample(self._renderer.parts(view, [part])[0].distance_m, OWN_SAMPLES)
             covered[window.slices] |= np.isfinite(drawn).any(axis=0)
         return grown(covered, OWN_MARGIN_PX)
-
-    # --- one picture ----------------------------------------------------------------------
 
     def _picture(
         self,
@@ -267,58 +233,54 @@ class SceneRenderer:
         lights: Mapping[str, Sequence[Light]],
         t_ns: int,
     ) -> Frame:
-        view = camera.view(bodies)
-        background = self._backgrounds[camera.name]
+        name, view = camera.name, camera.view(bodies)
+        background = self._backgrounds[name]
         background.look(view)
-        content = self._content(camera, view, bodies, poses, lights)
-        is_plain = not (content.is_busy or camera.name in self._streaks)
-        last = self._plain.get(camera.name)
-        if is_plain and last and last.drawn == background.drawn and last.own is content.own:
-            sightings = self._sightings.of([], content.faint)
-            return replace(last.frame, t_ns=t_ns, view=view, sightings=sightings, unchanged=True)
-        frame = self._draw(camera.name, t_ns, view, background, content)
-        if is_plain:
-            self._plain[camera.name] = _Plain(background.drawn, content.own, frame)
-        else:
-            self._plain.pop(camera.name, None)
-        return frame
-
-    def _content(
-        self,
-        camera: Camera,
-        view: View,
-        bodies: Mapping[str, BodyState],
-        poses: Mapping[str, Pose],
-        lights: Mapping[str, Sequence[Light]],
-    ) -> _Content:
-        """Return the content of a picture."""
-        mount = camera.at if isinstance(camera.at, Mount) else None
         others = [body for actor, body in bodies.items() if actor != camera.carrier]
         seen = [one for body in others if (one := self._bodies.seen(body, poses[body.actor], view))]
+        drawn = [one for one in seen if one.leaves_a_trace]
         shadows = [
             part for body in others if (part := self._bodies.shadow(body, poses[body.actor], view))
         ]
         own = None
-        if mount is not None and mount.sees_own_aircraft:
-            own = self._own_layer(camera.name, bodies[mount.actor], poses[mount.actor], view)
+        if isinstance(camera.at, Mount) and camera.at.sees_own_aircraft:
+            carrier = camera.at.actor
+            own = self._own_layer(name, bodies[carrier], poses[carrier], view)
         spots = self._bodies.spots(view, lights, poses, camera.carrier)
         if not camera.is_fixed and self._light.needs_lights:
             spots.extend(self._fixed_lights.seen(view, self._light))
-        return _Content(
-            drawn=[one for one in seen if one.leaves_a_trace],
-            faint=[one for one in seen if not one.leaves_a_trace],
-            shadows=shadows,
-            own=own,
-            spots=spots,
+        is_plain = not (drawn or shadows or spots or name in self._streaks)
+        last = self._plain.pop(name, None)
+        layers: list[Layer] = []
+        unchanged = False
+        if is_plain and last and last.drawn == background.drawn and last.own is own:
+            frame, unchanged = last.frame, True
+        else:
+            frame, layers = self._draw(name, t_ns, view, background, drawn, shadows, own, spots)
+        if is_plain:
+            self._plain[name] = _Plain(background.drawn, own, frame)
+        sightings = sightings_of(
+            layers,
+            [one for one in seen if not one.leaves_a_trace],
+            {actor: one.label for actor, one in self._models.items() if actor != camera.carrier},
+            self._light.extinction_per_m,
         )
+        return replace(frame, t_ns=t_ns, view=view, sightings=sightings, unchanged=unchanged)
 
     def _draw(
-        self, name: str, t_ns: int, view: View, background: Background, content: _Content
-    ) -> Frame:
-        """Return the picture of a camera: its background, and everything before that."""
+        self,
+        name: str,
+        t_ns: int,
+        view: View,
+        background: Background,
+        drawn: Sequence[VisibleBody],
+        shadows: Sequence[Part],
+        own: Layer | None,
+        spots: Sequence[Spot],
+    ) -> tuple[Frame, list[Layer]]:
+        """Return a picture without its sightings, and its layers from far to near."""
         colour, distance = background.colour.copy(), background.distance_m.copy()
         instance = np.zeros(distance.shape, dtype=np.uint8)
-        drawn, shadows = content.drawn, content.shadows
         parts = [self._bodies.part(one) for one in drawn]
         pictures = self._renderer.parts(view, [*shadows, *parts])
         for part, picture in zip(shadows, pictures, strict=False):
@@ -327,31 +289,19 @@ class SceneRenderer:
             self._layer(one, part, picture, background.distance_m[one.window.slices])
             for one, part, picture in zip(drawn, parts, pictures[len(shadows) :], strict=True)
         ]
-        if content.own is not None:
-            layers.append(content.own)
+        if own is not None:
+            layers.append(own)
         layers.sort(key=lambda layer: -layer.range_m)
         for layer in layers:
             layer.lay(colour, distance, instance)
-        shine(colour, distance, content.spots)
+        shine(colour, distance, spots)
         if name in self._streaks:
             bright = 40.0 + 170.0 * (1.0 - self._light.darkness)
             self._streaks[name].fall(colour, self._taken[name], bright)
         self._taken[name] += 1
-        sightings = self._sightings.of(layers, content.faint, content.own)
-        return Frame(name, t_ns, view, colour, distance, instance, sightings).sealed()
-
-    def _open_backgrounds(self, kept: Landscape | None) -> dict[str, Background]:
-        """Return the background of each camera; those of fixed cameras may be kept."""
-        cameras, cache = self.cameras.values(), None
-        if kept is not None and any(camera.is_fixed for camera in cameras):
-            cache = BackgroundCache.of(self.renderer, kept, self._light)
-        samples = max(STILL_SAMPLES, self._supersampling)
-        return {
-            camera.name: Background(self._renderer, samples, self._light_up, cache)
-            if camera.is_fixed
-            else Background(self._renderer, self._supersampling)
-            for camera in cameras
-        }
+        for plane in (colour, distance, instance):
+            plane.flags.writeable = False  # Several frames may have it.
+        return Frame(name, t_ns, view, colour, distance, instance, ()), layers
 
     def _light_up(self, colour: npt.NDArray[np.uint8], distance_m: Floats, view: View) -> None:
         """Draw the lights of the landscape, which are always on, into what is drawn once."""

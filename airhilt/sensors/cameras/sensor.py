@@ -6,7 +6,7 @@ import hashlib
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
-from typing import Literal, Protocol
+from typing import Literal
 
 import numpy as np
 import numpy.typing as npt
@@ -20,13 +20,12 @@ from airhilt.messages import (
     CameraInfo,
     CameraTruth,
     CameraView,
-    Message,
     SightingTruth,
 )
 from airhilt.scenario.models import Camera
+from airhilt.sensors.cameras.frame import CameraPicture, PictureSource
 from airhilt.sensors.cameras.mounts import local_frame_of
-from airhilt.sensors.cameras.pictures import CameraPicture, PictureSource
-from airhilt.sensors.cameras.scene.bodies import BodyState, states_of
+from airhilt.sensors.cameras.scene.bodies import states_of
 from airhilt.sim import Director, Priority
 from airhilt.sim.payload import Payload
 from airhilt.units import DEGREE, SECOND_NS, seconds_to_ns
@@ -34,12 +33,6 @@ from airhilt.world.actors.actor import Actor
 from airhilt.world.site import ScenarioSite
 
 NO_PIXELS_SHA256 = hashlib.sha256(b"").hexdigest()
-
-
-class PublishPictures(Protocol):
-    """Publishes a message; ``raw`` is the payload of a key whose message is only its header."""
-
-    def __call__(self, key: str, message: Message, *, raw: Payload | None = None) -> None: ...  # noqa: D102
 
 
 @dataclass(frozen=True)
@@ -61,10 +54,10 @@ class Exposures:
 
     def begins_second(self, seq: int) -> bool:
         """Return whether an exposure is the first of its second; seconds begin with exposure 0."""
-        return seq == 0 or self._second(seq) > self._second(seq - 1)
-
-    def _second(self, seq: int) -> int:
-        return (self.end_ns(seq) - self.phase_ns) // SECOND_NS
+        before, now = (
+            (self.end_ns(each) - self.phase_ns) // SECOND_NS for each in (max(seq - 1, 0), seq)
+        )
+        return seq == 0 or now > before
 
 
 class CameraSensor:
@@ -83,6 +76,9 @@ class CameraSensor:
         True for adaptive exposure.
     state_at_ns
         Returns the time that the states of the actors are of.
+    publish
+        Called with a key and a message; ``raw`` is the payload of a key whose message is only its
+        header.
     lost
         Called when there will be no more pictures, with the cause, and true if that is of the
         machine.
@@ -101,7 +97,7 @@ class CameraSensor:
         *,
         is_adaptive: bool = False,
         state_at_ns: Callable[[], int],
-        publish: PublishPictures,
+        publish: Callable[..., None],
         lost: Callable[[str, bool], None],
         loss: tuple[int, str] | None = None,
     ) -> None:
@@ -165,7 +161,7 @@ class CameraSensor:
             return
         for name in able:
             if name in left_out:
-                self._publish_left_out(name, left_out[name])
+                self._publish_frame(name, left_out[name], "none", NO_PIXELS_SHA256, b"")
             else:
                 self._publish_picture(pictures[name])
         for name in due:
@@ -176,7 +172,9 @@ class CameraSensor:
         self, names: Sequence[str], now_ns: int
     ) -> tuple[dict[str, View], dict[str, CameraPicture]]:
         """Return the views of cameras whose exposures are left out, and the pictures of others."""
-        bodies = self._bodies()
+        bodies = states_of(
+            self._actors.values(), self._local_frame, self._ground_m, now_ns, self._state_at_ns()
+        )
         doubtful = [
             name
             for name in names
@@ -193,15 +191,6 @@ class CameraSensor:
         carrier = camera.carrier
         return carrier is not None and self._actors[carrier].body.ended is not None
 
-    def _bodies(self) -> list[BodyState]:
-        return states_of(
-            self._actors.values(),
-            self._local_frame,
-            self._ground_m,
-            self._director.now_ns,
-            self._state_at_ns(),
-        )
-
     def _publish_picture(self, picture: CameraPicture) -> None:
         now_ns, name = self._director.now_ns, picture.camera
         truth = CameraTruth(
@@ -212,18 +201,13 @@ class CameraSensor:
             sightings=tuple(SightingTruth(**asdict(each)) for each in picture.sightings),
         )
         self._publish(f"truth/camera/{name}", truth)
-        header = self._header(name, picture.view, "rgb8", picture.sha256)
-        self._publish(f"camera/{name}/frame", header, raw=picture.pixels)
+        self._publish_frame(name, picture.view, "rgb8", picture.sha256, picture.pixels)
 
-    def _publish_left_out(self, name: str, view: View) -> None:
-        header = self._header(name, view, "none", NO_PIXELS_SHA256)
-        self._publish(f"camera/{name}/frame", header, raw=b"")
-
-    def _header(
-        self, name: str, view: View, encoding: Literal["rgb8", "none"], sha256: str
-    ) -> CameraFrame:
+    def _publish_frame(
+        self, name: str, view: View, encoding: Literal["rgb8", "none"], sha256: str, pixels: Payload
+    ) -> None:
         now_ns = self._director.now_ns
-        return CameraFrame(
+        header = CameraFrame(
             t_ns=now_ns,
             camera=name,
             seq=self._passed[name],
@@ -232,6 +216,7 @@ class CameraSensor:
             encoding=encoding,
             sha256=sha256,
         )
+        self._publish(f"camera/{name}/frame", header, raw=pixels)
 
 
 def view_message(view: View, local_frame: LocalFrame, carrier: str | None) -> CameraView:

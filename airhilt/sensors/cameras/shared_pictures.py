@@ -10,72 +10,70 @@ from __future__ import annotations
 
 import json
 import zlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
 from functools import partial
-from typing import Any
+from typing import Any, Literal
 
 from airhilt.errors import RendererError
 from airhilt.host.caches import CacheFolder
+from airhilt.imaging.view import View
 from airhilt.sensors.cameras.camera_state import CameraState
-from airhilt.sensors.cameras.frame import Prospect
-from airhilt.sensors.cameras.pictures import CameraPicture, DrawnPictures
-from airhilt.sensors.cameras.renderer_process import RendererProcess, sighting_of
+from airhilt.sensors.cameras.frame import CameraPicture, Prospect, Sighting
+from airhilt.sensors.cameras.renderer_process import RendererProcess, States
 from airhilt.sensors.cameras.scene.bodies import BodyState
+from airhilt.sensors.cameras.scene.projected_box import Box
 from airhilt.sim.payload import DeferredBytes
 
 COMPRESSION = 1
-"""Level of zlib. States differ little from those before, which are its dictionary."""
+"""Level of zlib."""
 
 
 class SharedPictures:
-    """Takes pictures as `DrawnPictures` does, and draws those that no run has drawn before.
+    """Takes pictures as `RendererProcess` does, and draws those that no run has drawn before.
 
     Parameters
     ----------
-    process
-        Process that draws, opened to share its pictures, with an identity of its scene.
+    renderer
+        Draws; opened to share its pictures, with an identity of its scene.
     """
 
-    def __init__(self, process: RendererProcess) -> None:
-        self.own_aircraft = process.own_aircraft
-        self._process = process
-        self._drawn = DrawnPictures(process)
+    def __init__(self, renderer: RendererProcess) -> None:
+        self.own_aircraft = renderer.own_aircraft
+        self._renderer = renderer
         self._folder = CacheFolder("pictures")
-        self._states: dict[str, Any] = dict.fromkeys(process.states, CameraState().to_json())
+        self._states: States = {}
         self._failure: RendererError | None = None
         """Reason why pixels that somebody wanted to read could not be drawn."""
 
     def take(
         self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
     ) -> list[CameraPicture]:
-        """Take the pictures; it raises what `RendererProcess.shoot` does.
+        """Take the pictures; it raises what `RendererProcess.take` does.
 
         So it does, though it may know them, when the pixels of earlier ones could not be drawn.
         """
-        self._require_renderer()
-        views = self._process.views(names, bodies)
-        before = dict(self._states)
+        states = self._states_of(names)
         drawn: dict[str, CameraPicture] = {}
 
-        def draw() -> dict[str, Any]:
-            drawn.update({each.camera: each for each in self._drawn.take(names, bodies, t_ns)})
+        def told(taken: dict[str, CameraPicture]) -> dict[str, Any]:
+            drawn.update(taken)
             return {
                 name: {"sightings": [asdict(one) for one in each.sightings], "sha256": each.sha256}
-                for name, each in drawn.items()
+                for name, each in taken.items()
             }
 
-        known = self._known("picture", names, bodies, t_ns, draw)
+        views, known = self._known("take", names, bodies, t_ns, told)
         return [
             drawn.get(name)
             or CameraPicture(
                 name,
                 view,
-                tuple(sighting_of(found) for found in known[name]["sightings"]),
+                tuple(_sighting(found) for found in known[name]["sightings"]),
                 known[name]["sha256"],
                 DeferredBytes(
                     3 * view.intrinsics.width_px * view.intrinsics.height_px,
-                    partial(self._pixels, name, bodies, t_ns, before[name]),
+                    partial(self._pixels, name, bodies, t_ns, states[name]),
                 ),
             )
             for name, view in views.items()
@@ -85,41 +83,44 @@ class SharedPictures:
         self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
     ) -> dict[str, Prospect]:
         """Return what pictures would show; it raises what `take` does."""
-        self._require_renderer()
-        views = self._process.views(names, bodies)
 
-        def look() -> dict[str, bool]:
-            found = self._process.prospects(names, bodies, t_ns)
+        def told(found: dict[str, Prospect]) -> dict[str, bool]:
             return {name: each.has_body for name, each in found.items()}
 
-        known = self._known("prospect", names, bodies, t_ns, look)
+        views, known = self._known("prospects", names, bodies, t_ns, told)
         return {name: Prospect(view, known[name]) for name, view in views.items()}
 
     def _known(
         self,
-        question: str,
+        what: Literal["take", "prospects"],
         names: Sequence[str],
         bodies: Sequence[BodyState],
         t_ns: int,
-        answer: Callable[[], dict[str, Any]],
-    ) -> dict[str, Any]:
-        """Return the answer to a question, and take over the states that it leaves behind."""
-        states = {name: self._states[name] for name in names}
-        key = json.dumps([self._process.identity, question, states, bodies, t_ns])
+        told: Callable[[dict[str, Any]], dict[str, Any]],
+    ) -> tuple[dict[str, View], dict[str, Any]]:
+        """Return the views of cameras and what is kept of an answer; take over the states after it.
+
+        Parameters
+        ----------
+        told
+            Returns what is kept of an answer of the renderer, as JSON.
+        """
+        if self._failure is not None:
+            raise self._failure
+        views = self._renderer.views(names, bodies)
+        states = self._states_of(names)
+        key = json.dumps([self._renderer.identity, what, states, bodies, t_ns])
 
         def make() -> bytes:
-            self._process.states.update(states)
-            made = answer()
-            after = {name: self._process.states[name] for name in names}
-            packer = zlib.compressobj(COMPRESSION, zdict=key.encode())
-            return packer.compress(json.dumps([made, after]).encode()) + packer.flush()
+            found, after = self._renderer.ask(what, names, bodies, t_ns, states)
+            return zlib.compress(json.dumps([told(found), after]).encode(), COMPRESSION)
 
-        kept = self._folder.get(key, make)
-        unpacker = zlib.decompressobj(zdict=key.encode())
-        known, after = json.loads(unpacker.decompress(kept) + unpacker.flush())
+        known, after = json.loads(zlib.decompress(self._folder.get(key, make)))
         self._states.update(after)
-        found: dict[str, Any] = known
-        return found
+        return views, known
+
+    def _states_of(self, names: Sequence[str]) -> States:
+        return {name: self._states.get(name) or CameraState().to_json() for name in names}
 
     def _pixels(self, name: str, bodies: Sequence[BodyState], t_ns: int, state: Any) -> bytes:
         """Return the pixels of a picture that another run has drawn.
@@ -129,13 +130,14 @@ class SharedPictures:
         RendererError
             They cannot be drawn; those who read them go on without, and the next `take` says why.
         """
-        self._process.states[name] = state
         try:
-            return bytes(self._drawn.take([name], bodies, t_ns)[0].pixels)
+            taken, _ = self._renderer.ask("take", [name], bodies, t_ns, {name: state})
         except RendererError as error:
             self._failure = error
             raise
+        return bytes(taken[name].pixels)
 
-    def _require_renderer(self) -> None:
-        if self._failure is not None:
-            raise self._failure
+
+def _sighting(found: Mapping[str, Any]) -> Sighting:
+    """Return a sighting from what `dataclasses.asdict` makes of it, read from JSON."""
+    return Sighting(**{**found, "box": Box(*found["box"])})

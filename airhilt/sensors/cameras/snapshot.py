@@ -11,7 +11,7 @@ from airhilt.errors import CameraError
 from airhilt.host.files import replace_file
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import AUTO
-from airhilt.sensors.cameras.frame import Frame
+from airhilt.sensors.cameras.frame import CameraPicture
 from airhilt.sensors.cameras.mounts import local_frame_of
 from airhilt.sensors.cameras.renderer_process import RendererProcess
 from airhilt.sensors.cameras.scene.bodies import states_of
@@ -32,7 +32,7 @@ def snapshot(
     at_s: float,
     seed: int = 0,
     renderer: str = AUTO,
-) -> Frame:
+) -> CameraPicture:
     """Return what a camera sees at a time, in a run in which nothing is said.
 
     Between two control ticks everybody has moved straight on, as in the pictures of a run.
@@ -46,7 +46,7 @@ def snapshot(
     ticks = now_ns // tick_ns
     realised, _ = draw(scenario, seed)
     site = ScenarioSite.of(realised)
-    with RendererProcess(realised, [camera], renderer, SUPERSAMPLING) as scene_renderer:
+    with RendererProcess(realised, [camera], renderer, SUPERSAMPLING) as renderer_process:
         actors = build_actors(realised, site, seed, TICK_S)
         for _ in range(ticks):
             for actor in actors.values():
@@ -54,10 +54,10 @@ def snapshot(
                     actor.body.advance()
         local_frame = local_frame_of(site)
         bodies = states_of(actors.values(), local_frame, site.ground_m, now_ns, ticks * tick_ns)
-        return scene_renderer.shoot([camera], bodies, now_ns)[0]
+        return renderer_process.take([camera], bodies, now_ns)[0]
 
 
-def write_png(frame: Frame, path: Path, boxes: bool = False) -> None:
+def write_png(picture: CameraPicture, path: Path, boxes: bool = False) -> None:
     """Write a picture, with the boxes of what is in it if wanted: all of the file or nothing.
 
     Raises
@@ -65,17 +65,17 @@ def write_png(frame: Frame, path: Path, boxes: bool = False) -> None:
     CameraError
         The file cannot be written.
     """
-    picture = Image.fromarray(frame.colour)
+    image = Image.fromarray(picture.colour)
     if boxes:
-        pen = ImageDraw.Draw(picture)
-        for sighting in frame.sightings:
+        pen = ImageDraw.Draw(image)
+        for sighting in picture.sightings:
             left, top, right, bottom = sighting.box
             pen.rectangle((left - 2, top - 2, right + 1, bottom + 1), outline=(255, 220, 40))
             text = f"{sighting.label} {sighting.range_m:.0f} m"
             above = (left, max(top - 14, 0))
             pen.text(above, text, (255, 220, 40), stroke_width=2, stroke_fill="black")
     buffer = io.BytesIO()
-    picture.save(buffer, format="PNG")
+    image.save(buffer, format="PNG")
     try:
         replace_file(path, buffer.getvalue())
     except OSError as error:

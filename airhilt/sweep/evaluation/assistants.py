@@ -26,8 +26,6 @@ class Assistant:
 
     Attributes
     ----------
-    name
-        Name of the decision engine.
     pattern
         Names of the scenarios that it is made for: those on runways (``s01*``), those in the air
         (``s02*``), or all.

@@ -31,10 +31,6 @@ class Evaluation:
     folder
         Folder with the tables as ``evaluation.json``, ``evaluation.md`` and ``evaluation.html``,
         and a sweep folder for each sweep.
-    sweeps
-        Results of its sweeps by their names.
-    tables
-        Tables of their rows.
     """
 
     folder: Path
@@ -58,6 +54,10 @@ class Evaluation:
         """True if every run finished."""
         return not any(each.failed or each.missing for each in self.sweeps.values())
 
+    def markdown(self) -> str:
+        """Return the tables as Markdown."""
+        return "\n".join(table.markdown() for table in self.tables)
+
     def document(self) -> dict[str, Any]:
         """Return ``evaluation.json``."""
         return {
@@ -78,9 +78,27 @@ class Evaluation:
             "tables": [table.model_dump(mode="json") for table in self.tables],
         }
 
-    def markdown(self) -> str:
-        """Return the tables as Markdown."""
-        return "\n".join(table.markdown() for table in self.tables)
+    def write(self) -> None:
+        """Write ``evaluation.json``, ``evaluation.md`` and ``evaluation.html``.
+
+        Raises
+        ------
+        AirhiltError
+            The disk takes no more.
+        """
+        document = self.document()
+        texts = {
+            "json": f"{json.dumps(document, indent=2)}\n",
+            "md": self.markdown(),
+            "html": f"{render(document)}\n",
+        }
+        try:
+            for ending, text in texts.items():
+                replace_file(self.folder / f"evaluation.{ending}", text.encode())
+        except OSError as error:
+            raise AirhiltError(
+                f"{self.folder}: cannot be written: {error.strerror}; the runs are kept"
+            ) from None
 
 
 def evaluate(
@@ -108,15 +126,22 @@ def evaluate(
     AirhiltError
         Something that was given is wrong, or the folder cannot be written.
     """
-    _require_own(work.out)
+    found = [ending for ending in ("md", "html") if (work.out / f"evaluation.{ending}").exists()]
+    if found and not (work.out / "evaluation.json").exists():
+        raise AirhiltError(
+            f"{work.out}: holds evaluation.{found[0]} of no evaluation; choose another folder with "
+            "--out"
+        )
     sweeps: dict[str, SweepResult] = {}
     for name, specification in specifications_of(preset, choice).items():
         with watched(name) as observer:
-            own = replace(work, out=work.out / name)
-            sweeps[name] = sweep(specification, own, observer)
+            sweeps[name] = sweep(specification, replace(work, out=work.out / name), observer)
             if observer.stops:
                 return None
-    rows = {name: _finished(each) for name, each in sweeps.items()}
+    rows = {
+        name: [row for row in each.folder.table().to_pylist() if row["status"] == "finished"]
+        for name, each in sweeps.items()
+    }
     failed = _absent({name: each.failed for name, each in sweeps.items()}, "failed")
     missing = _absent({name: each.missing for name, each in sweeps.items()}, "did not begin")
     tables = tuple(
@@ -124,7 +149,7 @@ def evaluate(
         for table in preset.tables(Results(choice, rows))
     )
     evaluation = Evaluation(work.out, preset.name, choice, sweeps, tables)
-    _write(evaluation)
+    evaluation.write()
     return evaluation
 
 
@@ -143,15 +168,7 @@ def specifications_of(preset: Preset, choice: Choice) -> Mapping[str, Specificat
 
 
 def _absent(counts: Mapping[str, int], how: str) -> tuple[str, ...]:
-    """Return a note on runs that are in no number of the tables, none without such runs.
-
-    Parameters
-    ----------
-    counts
-        Number of these runs of each sweep.
-    how
-        What became of them: ``failed`` or ``did not begin``.
-    """
+    """Return a note on the runs of each sweep that are in no number of the tables, if any."""
     total = sum(counts.values())
     if not total:
         return ()
@@ -159,49 +176,3 @@ def _absent(counts: Mapping[str, int], how: str) -> tuple[str, ...]:
     words = f"1 run {how} and is" if total == 1 else f"{total} runs {how} and are"
     cause = ": the causes are in machine.parquet there" if how == "failed" else ""
     return (f"{words} left out of the tables ({where}){cause}.",)
-
-
-def _require_own(folder: Path) -> None:
-    """Complain about a folder with files of another origin that the tables would replace.
-
-    Raises
-    ------
-    AirhiltError
-        There are some.
-    """
-    own = folder / "evaluation.json"
-    others = [f"evaluation.{ending}" for ending in ("md", "html")]
-    found = [name for name in others if (folder / name).exists()]
-    if found and not own.exists():
-        raise AirhiltError(
-            f"{folder}: holds {' and '.join(found)} of no evaluation; choose another folder with "
-            "--out"
-        )
-
-
-def _finished(result: SweepResult) -> list[dict[str, Any]]:
-    rows: list[dict[str, Any]] = result.folder.table().to_pylist()
-    return [row for row in rows if row["status"] == "finished"]
-
-
-def _write(evaluation: Evaluation) -> None:
-    """Write ``evaluation.json``, ``evaluation.md`` and ``evaluation.html``, each all or nothing.
-
-    Raises
-    ------
-    AirhiltError
-        The disk takes no more.
-    """
-    document = evaluation.document()
-    texts = {
-        "json": f"{json.dumps(document, indent=2)}\n",
-        "md": evaluation.markdown(),
-        "html": f"{render(document)}\n",
-    }
-    try:
-        for ending, text in texts.items():
-            replace_file(evaluation.folder / f"evaluation.{ending}", text.encode())
-    except OSError as error:
-        raise AirhiltError(
-            f"{evaluation.folder}: cannot be written: {error.strerror}; the runs are kept"
-        ) from None

@@ -82,16 +82,10 @@ class Preset:
 
     Attributes
     ----------
-    name
-        Name on the command line.
-    summary
-        Description in one line.
     seeds
         Number of seeds unless the user gives one.
     specifications
         Returns the sweeps by their names, which are those of their folders.
-    tables
-        Returns the tables.
     """
 
     name: str

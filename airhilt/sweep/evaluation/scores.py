@@ -132,11 +132,6 @@ def followed_by_loss(
 
     Its number of runs is that of those with such an advisory. Advisories of one run share their
     fate, so the interval is that of a bootstrap over runs; of runs that all end alike, Wilson's.
-
-    Parameters
-    ----------
-    is_lost
-        Returns whether a run counts as one with a loss.
     """
     count = SEVERITIES[severity]
     having = [(count(row), is_lost(row)) for row in rows if count(row)]

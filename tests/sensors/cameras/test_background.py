@@ -57,13 +57,6 @@ def background(plain: Plain) -> Background:
     return looking
 
 
-def test_a_camera_that_stands_is_drawn_once(plain: Plain, background: Background) -> None:
-    for _ in range(3):
-        background.look(at(0.0))
-    assert not plain.windows
-    assert background.drawn == 1
-
-
 def test_a_step_that_moves_nothing_by_half_a_pixel_keeps_it(
     plain: Plain, background: Background
 ) -> None:
@@ -100,13 +93,6 @@ def test_what_would_be_drawn_soon_is_drawn_with_the_first(
 def test_a_small_turn_brings_all_anew(plain: Plain, background: Background) -> None:
     background.look(at(0.0, heading_rad=0.002))
     assert plain.windows == [at(0.0).whole]
-
-
-def test_small_steps_add_up(plain: Plain, background: Background) -> None:
-    for step in range(1, 30):
-        background.look(at(5.0 * step))
-    assert plain.windows
-    assert len(plain.windows) < 20
 
 
 def test_a_large_picture_is_drawn_in_parts_of_moderate_size(plain: Plain) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
@@ -13,8 +12,8 @@ import pytest
 from airhilt.imaging.view import Intrinsics, Pose, View
 from airhilt.sensors.cameras.frame import Frame
 from airhilt.sensors.cameras.mounts import Camera
-from airhilt.sensors.cameras.renderers import Samples, library_of
-from airhilt.sensors.cameras.scene.background_cache import BackgroundCache
+from airhilt.sensors.cameras.renderers import Samples
+from airhilt.sensors.cameras.scene.background import kept_background
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.landscape import Landscape
 from airhilt.sensors.cameras.scene_renderer import SceneRenderer
@@ -24,7 +23,6 @@ from airhilt.shapes.mesh import Mesh
 LENS = Intrinsics(64, 36, math.radians(60.0))
 CORNERS = ((-900.0, -900.0, 0.0), (900.0, -900.0, 0.0), (900.0, 900.0, 0.0), (-900.0, 900.0, 0.0))
 GROUND = Mesh.of(CORNERS, (0, 1, 2, 0, 2, 3), (0.2, 0.5, 0.3))
-DIM = Mesh.of(CORNERS, (0, 1, 2, 0, 2, 3), (0.1, 0.2, 0.1))
 LAMP = Light((0.0, 200.0, 2.0), (1.0, 1.0, 1.0), 5_000.0)
 FIELD = Landscape(GROUND, (LAMP,), ())
 NIGHT = Illumination(np.array((0.0, 0.8, -0.6)), visibility_m=9_000.0, overcast=0.0)
@@ -54,16 +52,9 @@ class Drawn:
         return Samples(colour, distance)
 
 
-def backgrounds(
-    *, library: str = "embreex 2", landscape: Landscape = FIELD, light: Illumination = NIGHT
-) -> BackgroundCache:
-    return BackgroundCache("embree", library, landscape, light)
-
-
 def test_what_is_kept_is_what_was_drawn() -> None:
     drawn = Drawn()
-    first = backgrounds().get(View(LENS, EYE), 3, drawn)
-    kept = backgrounds().get(View(LENS, EYE), 3, drawn)
+    first, kept = (kept_background("field", View(LENS, EYE), 3, drawn) for _ in range(2))
     assert drawn.times == 1
     for picture in (first, kept):
         assert np.array_equal(picture.colour, drawn().colour)
@@ -71,42 +62,20 @@ def test_what_is_kept_is_what_was_drawn() -> None:
 
 
 @pytest.mark.parametrize(
-    ("other", "view", "samples"),
+    ("landscape", "view", "samples"),
     [
-        (backgrounds, View(LENS, replace(EYE, position_m=(3.0, -50.0, 12.01))), 3),
-        (backgrounds, View(LENS, Pose.of(EYE.position_m, 0.1001, -0.1)), 3),
-        (backgrounds, View(replace(LENS, horizontal_fov_rad=1.0), EYE), 3),
-        (backgrounds, View(LENS, EYE), 4),
-        (lambda: backgrounds(library="embreex 3"), View(LENS, EYE), 3),
-        (lambda: backgrounds(light=replace(NIGHT, visibility_m=8_999.0)), View(LENS, EYE), 3),
-        (lambda: backgrounds(light=replace(NIGHT, overcast=0.1)), View(LENS, EYE), 3),
-        (lambda: backgrounds(landscape=replace(FIELD, mesh=DIM)), View(LENS, EYE), 3),
-        (lambda: backgrounds(landscape=replace(FIELD, lights=())), View(LENS, EYE), 3),
+        ("field", View(LENS, replace(EYE, position_m=(3.0, -50.0, 12.01))), 3),
+        ("field", View(LENS, Pose.of(EYE.position_m, 0.1001, -0.1)), 3),
+        ("field", View(replace(LENS, horizontal_fov_rad=1.0), EYE), 3),
+        ("field", View(LENS, EYE), 4),
+        ("another field", View(LENS, EYE), 3),
     ],
-)  # fmt: skip
-def test_whatever_changes_the_picture_has_it_drawn(
-    other: Callable[[], BackgroundCache], view: View, samples: int
-) -> None:
+)
+def test_another_view_is_drawn(landscape: str, view: View, samples: int) -> None:
     drawn = Drawn()
-    backgrounds().get(View(LENS, EYE), 3, drawn)
-    other().get(view, samples, drawn)
+    kept_background("field", View(LENS, EYE), 3, drawn)
+    kept_background(landscape, view, samples, drawn)
     assert drawn.times == 2
-
-
-def test_other_code_and_another_processor_have_it_drawn(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """The instructions of a processor decide the last bits of what libraries compute."""
-    drawn = Drawn()
-    backgrounds().get(View(LENS, EYE), 3, drawn)
-    (tmp_path / "cpuinfo").write_text("model name: another one\n")
-    monkeypatch.setattr("airhilt.host.processor.PROCESSOR", tmp_path / "cpuinfo")
-    backgrounds().get(View(LENS, EYE), 3, drawn)
-    monkeypatch.setattr(
-        "airhilt.sensors.cameras.drawing_keys.packages_sha256", lambda *_: "other code"
-    )
-    backgrounds().get(View(LENS, EYE), 3, drawn)
-    assert drawn.times == 3
 
 
 def frames(*, keeps: bool) -> list[Frame]:
@@ -127,9 +96,3 @@ def test_a_scene_has_the_same_pictures_with_and_without_the_cache(cache: Path) -
             assert np.array_equal(was.colour, now_is.colour)
             assert np.array_equal(was.distance_m, now_is.distance_m)
     assert len(list(cache.iterdir())) == 1
-
-
-def test_nothing_is_kept_of_a_renderer_whose_pictures_depend_on_a_graphics_card() -> None:
-    assert library_of("embree").startswith("embreex ")
-    assert library_of("moderngl") == ""
-    assert BackgroundCache.of("moderngl", FIELD, NIGHT) is None

@@ -3,19 +3,15 @@
 from __future__ import annotations
 
 import json
-import math
 
 import pytest
 
 from airhilt import load
 from airhilt.errors import ScenarioError
-from airhilt.imaging.view import Intrinsics
 from airhilt.scenario import Scenario
-from airhilt.scenario.models import Camera
 from airhilt.sensors.cameras.mounts import station_mount
 from airhilt.world.flight.aircraft_type import load_aircraft_type
 from airhilt.world.loading import load_text
-from airhilt.world.surface.airport import Camera as AirportCamera
 
 
 def with_cameras(*changes: dict[str, object]) -> Scenario:
@@ -23,21 +19,6 @@ def with_cameras(*changes: dict[str, object]) -> Scenario:
     document = load("s02a_headon").model_dump(mode="json")
     document["cameras"] = [document["cameras"][0] | change for change in changes]
     return load_text(json.dumps(document), "test")
-
-
-@pytest.mark.parametrize("end", ["minimum", "maximum"])
-@pytest.mark.parametrize("field", ["horizontal_fov_deg", "width_px", "height_px"])
-def test_whatever_lens_a_scenario_may_declare_can_be_drawn(field: str, end: str) -> None:
-    limit = Camera.model_json_schema()["properties"][field][end]
-    (camera,) = with_cameras({field: limit}).cameras
-    fov_rad = math.radians(camera.horizontal_fov_deg)
-    assert Intrinsics(camera.width_px, camera.height_px, fov_rad)
-
-
-@pytest.mark.parametrize("end", ["minimum", "maximum"])
-def test_an_airport_may_declare_the_same_lenses_as_a_scenario(end: str) -> None:
-    declared = [model.model_json_schema()["properties"] for model in (Camera, AirportCamera)]
-    assert len({each["horizontal_fov_deg"][end] for each in declared}) == 1
 
 
 @pytest.mark.parametrize("fov_deg", [0.01, 179.9])

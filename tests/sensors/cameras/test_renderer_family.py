@@ -13,8 +13,8 @@ from airhilt.cosim.replay import replay
 from airhilt.errors import AirhiltError, RendererError
 from airhilt.record import RunFolder
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras import AUTO, renderers
-from airhilt.sensors.cameras.renderers import FAMILY, open_renderer, renderer_names
+from airhilt.sensors.cameras import AUTO
+from airhilt.sensors.cameras.renderers import FAMILY, open_renderer
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.shapes.mesh import Mesh
 from engine_package import installed
@@ -65,7 +65,7 @@ def test_a_renderer_of_another_package_draws_a_run(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, glance: Scenario
 ) -> None:
     with installed(tmp_path, monkeypatch, "airhilt.renderers", "violet", VIOLET):
-        assert "violet" in renderer_names()
+        assert "violet" in FAMILY.names()
         done = run(glance, out=tmp_path / "run", renderer="violet", latency="fixed", speech=False)
         assert replay(done.folder).identical
     info = RunFolder.open(done.folder).info()
@@ -96,18 +96,6 @@ def test_a_renderer_that_does_not_exist_is_refused_with_the_nearest(
     with pytest.raises(AirhiltError, match=r"no renderer named 'embre'.*did you mean 'embree'"):
         run(glance, out=tmp_path / "run", renderer="embre")
     assert not (tmp_path / "run").exists()
-
-
-@pytest.mark.slow
-def test_auto_is_recorded_as_what_it_took_and_a_replay_takes_that(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, glance: Scenario
-) -> None:
-    done = run(glance, out=tmp_path / "run", latency="fixed", speech=False)
-    info = RunFolder.open(done.folder).info()
-    assert info.options.renderer == AUTO
-    assert info.renderer in renderers.PREFERRED
-    again = replay(done.folder)
-    assert again.identical
 
 
 @pytest.mark.parametrize(

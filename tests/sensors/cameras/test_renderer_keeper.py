@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import signal
 from collections.abc import Iterator
 
 import pytest
@@ -11,8 +9,7 @@ import pytest
 from airhilt import load
 from airhilt.errors import RendererError
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras.renderer_link import RendererKeeper
-from airhilt.sensors.cameras.renderer_process import RendererProcess
+from airhilt.sensors.cameras.renderer_process import RendererKeeper, RendererProcess
 from airhilt.sensors.cameras.scene.bodies import BodyState
 from resources import held, linux_only
 
@@ -38,12 +35,12 @@ def meeting(weather: dict[str, float], **size: int) -> Scenario:
 
 def pictures(scenario: Scenario, keeper: RendererKeeper | None) -> list[bytes]:
     """Return what the cameras of a run see while one aircraft comes nearer."""
-    link = None if keeper is None else keeper.link()
-    with RendererProcess(scenario, renderer="embree", link=link) as process:
+    processes = [] if keeper is None else [keeper.process()]
+    with RendererProcess(scenario, renderer="embree", processes=processes) as renderer:
         return [
-            frame.colour.tobytes()
+            bytes(picture.pixels)
             for step in range(6)
-            for frame in process.shoot([NOSE, TAIL], bodies(step), step)
+            for picture in renderer.take([NOSE, TAIL], bodies(step), step)
         ]
 
 
@@ -54,36 +51,21 @@ def bodies(step: int) -> list[BodyState]:
     ]
 
 
-@pytest.mark.slow
-def test_each_run_has_the_pictures_that_a_process_of_its_own_draws(keeper: RendererKeeper) -> None:
-    for scenario in (meeting(CLEAR), meeting(HAZE), meeting(CLEAR, width_px=96)):
-        assert pictures(scenario, keeper) == pictures(scenario, None)
-
-
 @linux_only
 def test_one_process_draws_for_all_runs_and_nothing_piles_up(keeper: RendererKeeper) -> None:
     first = pictures(meeting(CLEAR), keeper)
-    process_id, before = keeper.link().process_id, held()
+    process_id, before = keeper.process().process_id, held()
     clear, haze, again = (pictures(meeting(one), keeper) for one in (CLEAR, HAZE, CLEAR))
     assert clear == again == first != haze
-    assert keeper.link().process_id == process_id
+    assert keeper.process().process_id == process_id
     assert held() == before
 
 
 def test_a_process_that_has_died_is_replaced(keeper: RendererKeeper) -> None:
-    first = keeper.link()
-    with RendererProcess(meeting(CLEAR), renderer="embree", link=first) as process:
-        os.kill(first.process_id, signal.SIGKILL)
-        with pytest.raises(RendererError, match="has ended"):
-            process.shoot([NOSE], bodies(0), 0)
-    assert keeper.link().process_id != first.process_id
-    assert pictures(meeting(CLEAR), keeper)
-
-
-@pytest.mark.slow
-def test_a_scene_that_cannot_be_opened_does_not_end_the_process(keeper: RendererKeeper) -> None:
-    link = keeper.link()
-    with pytest.raises(RendererError, match="no renderer named"):
-        RendererProcess(meeting(CLEAR), renderer="crayons", link=link)
-    assert keeper.link() is link
+    first = keeper.process()
+    renderer = RendererProcess(meeting(CLEAR), renderer="embree", processes=[first])
+    first.kill()
+    with pytest.raises(RendererError, match="has ended"):
+        renderer.take([NOSE], bodies(0), 0)
+    assert keeper.process().process_id != first.process_id
     assert pictures(meeting(CLEAR), keeper)

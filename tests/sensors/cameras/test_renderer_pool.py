@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import signal
 from collections.abc import Iterator
 from contextlib import closing
 
@@ -12,14 +11,14 @@ import pytest
 from airhilt import load
 from airhilt.errors import RendererError
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras.renderer_link import RendererLink
-from airhilt.sensors.cameras.renderer_pool import (
+from airhilt.sensors.cameras.mounts import cameras_named
+from airhilt.sensors.cameras.renderer_process import (
     MOST_PROCESSES,
-    RendererPool,
+    RendererProcess,
     processes_for,
     shared_out,
+    start_renderer,
 )
-from airhilt.sensors.cameras.renderer_process import RendererProcess
 from opening_bodies import bodies_of
 
 SIZE = {"width_px": 160, "height_px": 90}
@@ -38,16 +37,16 @@ def names(scenario: Scenario) -> list[str]:
 
 
 @pytest.fixture
-def links() -> Iterator[list[RendererLink]]:
-    with closing(RendererLink()) as one, closing(RendererLink()) as other:
-        yield [one, other]
+def pool(scenario: Scenario) -> Iterator[RendererProcess]:
+    with closing(start_renderer()) as one, closing(start_renderer()) as other:
+        yield RendererProcess(scenario, renderer="embree", processes=[one, other])
 
 
 def test_each_camera_has_one_process_and_moving_ones_are_shared_out_evenly(
     scenario: Scenario, names: list[str]
 ) -> None:
     moving = {camera.name for camera in scenario.cameras if camera.carrier is not None}
-    shares = shared_out(scenario, 2)
+    shares = shared_out(cameras_named(scenario, names).values(), 2)
     assert sorted(name for share in shares for name in share) == sorted(names)
     counts = [len(moving.intersection(share)) for share in shares]
     assert max(counts) - min(counts) <= 1
@@ -65,34 +64,25 @@ def test_half_of_the_cores_draw_and_not_more_than_cameras_move(
 
 
 @pytest.mark.slow
-def test_a_pool_takes_the_same_pictures_as_one_process(
-    scenario: Scenario, names: list[str], links: list[RendererLink]
+def test_two_processes_take_the_same_pictures_as_one(
+    scenario: Scenario, names: list[str], pool: RendererProcess
 ) -> None:
-    bodies, pool = bodies_of(scenario), RendererPool(scenario, links, "embree")
+    bodies = bodies_of(scenario)
     with RendererProcess(scenario, renderer="embree") as alone:
         assert pool.renderer == alone.renderer
         assert set(pool.own_aircraft) == set(alone.own_aircraft)
         assert pool.prospects(names, bodies, 0).keys() == set(names)
         for wanted in (names, names[::-1], names[1:2], []):
-            taken, expected = pool.shoot(wanted, bodies, 7), alone.shoot(wanted, bodies, 7)
-            assert [frame.camera for frame in taken] == wanted
-            for frame, other in zip(taken, expected, strict=True):
-                assert (frame.colour == other.colour).all()
-                assert (frame.instance == other.instance).all()
-                assert frame.sightings == other.sightings
+            taken, expected = pool.take(wanted, bodies, 7), alone.take(wanted, bodies, 7)
+            assert [picture.camera for picture in taken] == wanted
+            for picture, other in zip(taken, expected, strict=True):
+                assert picture.pixels == other.pixels
+                assert picture.sightings == other.sightings
 
 
 def test_if_one_process_dies_no_more_pictures_are_drawn(
-    scenario: Scenario, names: list[str], links: list[RendererLink]
+    scenario: Scenario, names: list[str], pool: RendererProcess
 ) -> None:
-    pool = RendererPool(scenario, links, "embree")
-    os.kill(links[1].process_id, signal.SIGKILL)
+    pool.processes[1].kill()
     with pytest.raises(RendererError, match=r"has ended \(signal 9\)"):
-        pool.shoot(names, bodies_of(scenario), 0)
-
-
-def test_a_renderer_that_is_unknown_is_refused(
-    scenario: Scenario, links: list[RendererLink]
-) -> None:
-    with pytest.raises(RendererError, match="crayons"):
-        RendererPool(scenario, links, "crayons")
+        pool.take(names, bodies_of(scenario), 0)

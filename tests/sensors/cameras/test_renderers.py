@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from importlib.util import find_spec
 
 import numpy as np
@@ -12,7 +11,6 @@ import pytest
 from airhilt import load
 from airhilt.errors import CameraError
 from airhilt.geodesy.positions import RunwayPosition
-from airhilt.imaging.boxes import size_px
 from airhilt.imaging.view import Intrinsics, Pose
 from airhilt.sensors.cameras.frame import Frame
 from airhilt.sensors.cameras.mounts import Camera, Mount, cameras_of, local_frame_of
@@ -116,21 +114,6 @@ def pairs(
     return list(zip(frames, drawing["moderngl"].shoot(names, airfield.bodies, 0), strict=True))
 
 
-def test_masks_of_what_is_larger_than_12_pixels_agree(
-    airfield: Airfield, drawing: dict[str, SceneRenderer], pairs: list[tuple[Frame, Frame]]
-) -> None:
-    actors, compared = drawing["embree"].actors, 0
-    for first, second in pairs:
-        for sighting in first.sightings:
-            if size_px(sighting.box) < 12.0:
-                continue
-            number = actors.index(sighting.actor) + 1
-            one, other = first.instance == number, second.instance == number
-            assert (one & other).sum() >= 0.9 * (one | other).sum()
-            compared += 1
-    assert compared >= 4
-
-
 def test_boxes_and_visible_parts_agree(pairs: list[tuple[Frame, Frame]]) -> None:
     for first, second in pairs:
         for one, other in zip(first.sightings, second.sightings, strict=True):
@@ -194,23 +177,6 @@ def test_the_own_aircraft_is_lit_anew_when_it_turns(
     own = (shots[0].instance > 0) & (shots[1].instance > 0)
     change = np.abs(shots[0].colour[own].astype(int) - shots[1].colour[own])
     assert change.mean() > 3.0
-
-
-def test_rain_falls_through_pictures(airfield: Airfield) -> None:
-    """Streaks are in a few pixels, and in others in each picture."""
-    camera = replace(airfield.cameras[0], intrinsics=Intrinsics(160, 90, 40.0 * DEGREE))
-    dry, wet = (
-        SceneRenderer(airfield.landscape, airfield.light, {}, [camera], "embree", rain_mm_h)
-        for rain_mm_h in (0.0, 50.0)
-    )
-    clear, first, second = (
-        scene_renderer.shoot([camera.name], [], 0)[0].colour for scene_renderer in (dry, wet, wet)
-    )
-    streaks = [(rainy != clear).any(axis=2) for rainy in (first, second)]
-    assert all(0.005 < there.mean() < 0.2 for there in streaks)
-    assert (streaks[0] != streaks[1]).any()
-    dry.close()
-    wet.close()
 
 
 def test_more_actors_than_pictures_tell_apart_are_refused(airfield: Airfield) -> None:
@@ -305,13 +271,3 @@ def test_what_stands_before_a_body_takes_from_what_is_seen_of_it(
     seen = {sighting.actor: sighting for sighting in frame.sightings}
     assert seen["fire_truck"].visible_fraction < 0.6
     assert seen["737"].visible_fraction == pytest.approx(1.0, abs=0.02)
-
-
-@pytest.mark.parametrize("renderer", RENDERERS)
-def test_a_camera_within_a_body_sees_nothing_else(
-    airfield: Airfield, drawing: dict[str, SceneRenderer], renderer: str
-) -> None:
-    carrier = airfield.bodies[3]
-    around = carrier._replace(actor="737", shape="clean", up_m=carrier.up_m - 1.5)
-    frame = drawing[renderer].shoot(["nose"], [around, carrier], 0)[0]
-    assert (frame.instance == drawing[renderer].actors.index("737") + 1).mean() > 0.99

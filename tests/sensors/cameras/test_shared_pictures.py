@@ -4,20 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple, cast
+from typing import Any, NamedTuple
 
 import pytest
 
 from airhilt import load
-from airhilt.imaging.masks import Mask
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras.frame import Frame, Prospect
-from airhilt.sensors.cameras.pictures import CameraPicture, DrawnPictures, PictureSource
+from airhilt.sensors.cameras.frame import CameraPicture, PictureSource
 from airhilt.sensors.cameras.renderer_process import RendererProcess
 from airhilt.sensors.cameras.scene.bodies import BodyState
-from airhilt.sensors.cameras.scene.builder import open_scene_renderer
 from airhilt.sensors.cameras.shared_pictures import SharedPictures
-from airhilt.world.site import ScenarioSite
 from breadth import mostly_slow
 
 CAMERAS = ("nose_aal123", "tail_aal123", "runway_01")
@@ -58,22 +54,10 @@ def process(scenario: Scenario) -> Iterator[RendererProcess]:
         yield opened
 
 
-class Alone:
-    """Draws in this process what nobody else has drawn before."""
-
-    def __init__(self, scenario: Scenario) -> None:
-        self._renderer = open_scene_renderer(scenario, ScenarioSite.of(scenario), None, "embree")
-        self.own_aircraft: dict[str, Mask] = {name: self._renderer.own_aircraft(name)
-                                              for name in CAMERAS}  # fmt: skip
-
-    def shoot(self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int) -> list[Frame]:
-        return self._renderer.shoot(names, bodies, t_ns)
-
-    def prospects(
-        self, names: Sequence[str], bodies: Sequence[BodyState], t_ns: int
-    ) -> dict[str, Prospect]:
-        self._renderer.has_body(names, bodies, t_ns)
-        return {}
+@pytest.fixture
+def alone(scenario: Scenario) -> Iterator[RendererProcess]:
+    with RendererProcess(scenario, renderer="embree") as opened:
+        yield opened
 
 
 class Shown(NamedTuple):
@@ -109,35 +93,25 @@ def shown(pictures: Sequence[CameraPicture]) -> list[Shown]:
 
 
 def test_what_is_found_what_is_drawn_and_what_is_drawn_later_are_what_a_run_alone_draws(
-    scenario: Scenario, process: RendererProcess, monkeypatch: pytest.MonkeyPatch
+    alone: RendererProcess, process: RendererProcess, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    alone = shown(taken(DrawnPictures(cast(Any, Alone(scenario)))))
-    assert shown(taken(SharedPictures(process))) == alone
+    expected = shown(taken(alone))
+    assert shown(taken(SharedPictures(process))) == expected
     with monkeypatch.context() as patch:
-        patch.setattr(process, "shoot", None)  # Nothing is drawn.
-        patch.setattr(process, "prospects", None)
+        patch.setattr(process, "ask", None)  # Nothing is drawn.
         found = taken(SharedPictures(process))
-    assert [each.sha256 for each in found] == [each.sha256 for each in alone]
-    assert [each.sightings for each in found] == [each.sightings for each in alone]
+    assert [each.sha256 for each in found] == [each.sha256 for each in expected]
+    assert [each.sightings for each in found] == [each.sightings for each in expected]
     assert len({each.sha256 for each in found}) > STEPS
     # Pixels in any order.
-    assert shown(found[::-1]) == alone[::-1]
+    assert shown(found[::-1]) == expected[::-1]
 
 
 @pytest.mark.slow
 def test_a_run_that_leaves_the_others_draws_what_it_would_have_drawn_alone(
-    scenario: Scenario, process: RendererProcess
+    alone: RendererProcess, process: RendererProcess
 ) -> None:
     others = taken(SharedPictures(process))
-    alone = shown(taken(DrawnPictures(cast(Any, Alone(scenario))), aside_m=25.0))
-    assert alone[-3:] != shown(others)[-3:]
-    assert shown(taken(SharedPictures(process), aside_m=25.0)) == alone
-
-
-def test_a_damaged_picture_is_drawn_again(process: RendererProcess, cache: Path) -> None:
-    first = taken(SharedPictures(process))
-    kept = sorted(cache.iterdir())
-    for entry in kept[::2]:
-        entry.write_bytes(entry.read_bytes()[:-1])
-    assert shown(taken(SharedPictures(process))) == shown(first)
-    assert sorted(cache.iterdir()) == kept
+    expected = shown(taken(alone, aside_m=25.0))
+    assert expected[-3:] != shown(others)[-3:]
+    assert shown(taken(SharedPictures(process), aside_m=25.0)) == expected

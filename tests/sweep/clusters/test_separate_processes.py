@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import shutil
 import signal
-import subprocess
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -12,7 +10,6 @@ import psutil
 import pytest
 
 from dask_processes import Cluster, Machine, kill, machines, wait_until
-from paths import ROOT
 
 from .conftest import RUNS, SweepCommand
 
@@ -69,19 +66,6 @@ def test_a_sweep_outlives_a_worker_and_goes_on_after_the_loss_of_the_scheduler(
     assert (out / "sweep.parquet").read_bytes() == table_bytes
 
 
-def test_a_sweep_without_workers_says_so_and_goes_on_when_one_comes(
-    places: list[Machine], sweep_command: SweepCommand, tmp_path: Path
-) -> None:
-    log = tmp_path / "sweep.log"
-    with Cluster(places, tmp_path) as cluster:
-        cluster.start_scheduler()
-        command = sweep_command(tmp_path / "sweep", "--scheduler", cluster.address, "--seeds", "1")
-        sweep = started(places[0], command, tmp_path)
-        wait_until(lambda: "has no workers; waiting for one" in log.read_text())
-        cluster.start_worker(1)
-        assert sweep.wait(120.0) == 0
-
-
 def test_a_worker_without_airhilt_is_told(
     places: list[Machine], sweep_command: SweepCommand, tmp_path: Path
 ) -> None:
@@ -103,98 +87,6 @@ def test_a_worker_without_airhilt_is_told(
     assert "Traceback" not in told
 
 
-def test_a_worker_that_does_not_see_the_folder_is_told_before_the_first_run(
-    places: list[Machine], sweep_command: SweepCommand, tmp_path: Path
-) -> None:
-    out = tmp_path / "hidden" / "sweep"
-    with Cluster(places, tmp_path) as cluster:
-        cluster.start_scheduler()
-        out.parent.mkdir()
-        hide = f'mount -t tmpfs none {out.parent} && exec "$@"'
-        cluster.start_worker(1, prefix=("unshare", "--mount", "sh", "-c", hide, "sh"))
-        command = sweep_command(out, "--scheduler", cluster.address, "--keep", "all")
-        sweep = started(places[0], command, tmp_path)
-        assert sweep.wait(120.0) == 2
-    told = (tmp_path / "sweep.log").read_text()
-    assert f"does not see {out / 'runs'}" in told
-    assert "Traceback" not in told
-    assert parts(out) == 0
-
-
-@pytest.fixture
-def certificates(tmp_path: Path, places: list[Machine]) -> Path:
-    """A folder with Dask's configuration of TLS, as docs/clusters.md has it."""
-    folder = tmp_path / "dask"
-    folder.mkdir()
-    subject = ("-subj", "/CN=airhilt")
-    subprocess.run(
-        [
-            *("openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "1", *subject),
-            *("-keyout", folder / "key.pem", "-out", folder / "cert.pem"),
-        ],
-        check=True,
-        capture_output=True,
-    )
-    own = f"\n          cert: {folder}/cert.pem\n          key: {folder}/key.pem"
-    (folder / "tls.yaml").write_text(
-        f"""
-distributed:
-  comm:
-    require-encryption: true
-    tls:
-        ca-file: {folder}/cert.pem
-        scheduler:{own}
-        worker:{own}
-        client:{own}
-"""
-    )
-    return folder
-
-
-def test_connections_are_encrypted_as_dask_is_configured(
-    places: list[Machine],
-    certificates: Path,
-    sweep_command: SweepCommand,
-    table_bytes: bytes,
-    monkeypatch: pytest.MonkeyPatch,
-    tmp_path: Path,
-) -> None:
-    monkeypatch.setenv("DASK_CONFIG", str(certificates))
-    out = tmp_path / "sweep"
-    with Cluster(places, tmp_path, "tls") as cluster:
-        cluster.start_scheduler()
-        cluster.start_worker(1)
-        command = sweep_command(out, "--scheduler", cluster.address)
-        assert started(places[0], command, tmp_path).wait(300.0) == 0
-        monkeypatch.delenv("DASK_CONFIG")
-        without = started(places[0], sweep_command(tmp_path / "no", *command[-2:]), tmp_path)
-        assert without.wait(60.0) == 2
-    assert (out / "sweep.parquet").read_bytes() == table_bytes
-    told = (tmp_path / "sweep.log").read_text()
-    assert f"scheduler {cluster.address}: not there" in told
-    assert "Traceback" not in told
-
-
-def test_a_worker_with_other_code_is_refused_by_name(
-    places: list[Machine], sweep_command: SweepCommand, tmp_path: Path
-) -> None:
-    other = tmp_path / "other"
-    shutil.copytree(ROOT / "airhilt", other / "airhilt")
-    for kind in ("aircraft", "airports", "scenarios", "bridges"):
-        (other / kind).symlink_to(ROOT / kind)
-    with (other / "airhilt" / "units.py").open("a") as module:
-        module.write("# changed\n")
-    with Cluster(places, tmp_path) as cluster:
-        cluster.start_scheduler()
-        cluster.start_worker(1, {"PYTHONPATH": str(other)})
-        command = sweep_command(tmp_path / "sweep", "--scheduler", cluster.address)
-        assert started(places[0], command, tmp_path).wait(120.0) == 2
-    told = (tmp_path / "sweep.log").read_text()
-    assert f"worker tcp://{places[1].address}:" in told
-    assert "other code, models, aircraft or airports of AIRHILT" in told
-    assert "Traceback" not in told
-
-
 def test_a_sweep_that_stops_takes_its_runners_from_the_workers(
     places: list[Machine],
     sweep_command: SweepCommand,
@@ -210,7 +102,7 @@ def test_a_sweep_that_stops_takes_its_runners_from_the_workers(
         wait_until(lambda: parts(out) >= 2)
         kill(killed)
         left = cluster.runners("worker1")
-        assert len(left) == 1, "until it has been idle for some minutes"
+        assert len(left) == 1
 
         stopped = started(places[0], command, tmp_path)
         wait_until(lambda: parts(out) >= 6)

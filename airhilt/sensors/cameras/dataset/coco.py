@@ -9,6 +9,7 @@ from __future__ import annotations
 import io
 import json
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -23,13 +24,15 @@ from airhilt.host.files import replace_file
 from airhilt.imaging.masks import Mask, runs_of
 from airhilt.messages import VisibleClass
 from airhilt.scenario import Scenario
+from airhilt.scenario.models import Daylight, Weather
 from airhilt.sensors.cameras import AUTO
 from airhilt.sensors.cameras.dataset.placement import cast
-from airhilt.sensors.cameras.dataset.scenes import EN_ROUTE, Casting, Sitting
+from airhilt.sensors.cameras.dataset.scenes import EN_ROUTE, Casting, Sitting, station_of
 from airhilt.sensors.cameras.frame import Frame, Sighting
 from airhilt.sensors.cameras.mounts import local_frame_of
-from airhilt.sensors.cameras.scene.bodies import state_of
+from airhilt.sensors.cameras.scene.bodies import states_of
 from airhilt.sensors.cameras.scene.builder import light_of, open_scene_renderer
+from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene_renderer import SceneRenderer
 from airhilt.sensors.cameras.snapshot import TICK_S
 from airhilt.sim.streams import stream
@@ -51,17 +54,22 @@ LAST_INSTANT_NS = 100 * 10**9
 
 @dataclass(frozen=True)
 class Picture:
-    """A frame, and under what conditions it was taken."""
+    """A frame, and under what conditions it was taken.
+
+    Attributes
+    ----------
+    actors
+        Actors of the numbers in ``frame.instance``, from 1.
+    carrier
+        The actor that carries the camera; None if it stands.
+    about
+        What ``annotations.json`` tells of the picture besides, such as the weather.
+    """
 
     frame: Frame
     actors: tuple[str, ...]
-    airport: str | None
-    visibility_m: float
-    solar_time_h: float
-    sun_elevation_deg: float
-    rain_mm_h: float
-    station: str
     carrier: str | None
+    about: Mapping[str, Any]
 
 
 def random_pictures(
@@ -98,27 +106,34 @@ def _shots(
     taken = number = 0
     while taken < count:
         sitting = casting.sitting(number, stream(seed, "dataset", number))
-        scene_renderer = scene_renderer_of(sitting, renderer)
-        try:
-            for turn, camera in enumerate(sitting.order[: count - taken]):
+        airport = None if sitting.layout is None else sitting.layout.airport.icao
+        with closing(scene_renderer_of(sitting, renderer)) as scene_renderer:
+            for turn, name in enumerate(sitting.order[: count - taken]):
                 draws = stream(seed, "dataset/shot", number, turn)
-                bodies = cast(sitting, camera, draws, empty)
+                bodies = cast(sitting, name, draws, empty)
                 t_ns = int(draws.integers(LAST_INSTANT_NS))
                 yield Picture(
-                    scene_renderer.shoot([camera], bodies, t_ns)[0],
+                    scene_renderer.shoot([name], bodies, t_ns)[0],
                     scene_renderer.actors,
-                    None if sitting.layout is None else sitting.place,
-                    sitting.light.visibility_m,
-                    sitting.daylight.solar_time_h,
-                    sitting.light.sun_elevation_rad / DEGREE,
-                    sitting.weather.rain_mm_h,
-                    sitting.stations[camera],
-                    sitting.cameras[camera].carrier,
-                )
-        finally:
-            scene_renderer.close()
+                    sitting.cameras[name].carrier,
+                    _about(airport, station_of(name), sitting.light, sitting.weather,
+                           sitting.daylight),
+                )  # fmt: skip
         taken += len(sitting.order)
         number += 1
+
+
+def _about(
+    airport: str | None, station: str, light: Illumination, weather: Weather, daylight: Daylight
+) -> dict[str, Any]:
+    return {
+        "airport": airport,
+        "camera_kind": station,
+        "visibility_m": round(light.visibility_m, 1),
+        "rain_mm_h": round(weather.rain_mm_h, 2),
+        "solar_time_h": round(daylight.solar_time_h, 3),
+        "sun_elevation_deg": round(light.sun_elevation_rad / DEGREE, 2),
+    }
 
 
 def scene_renderer_of(sitting: Sitting, renderer: str) -> SceneRenderer:
@@ -169,17 +184,13 @@ def scenario_pictures(
 def _moving(realised: Scenario, count: int, seed: int, renderer: str) -> Iterator[Picture]:
     site = ScenarioSite.of(realised)
     light, local_frame = light_of(realised, site), local_frame_of(site)
+    airport = None if site.layout is None else site.layout.airport.icao
     actors = list(build_actors(realised, site, seed, TICK_S).values())
-    stations = {
-        camera.name: "fixed" if camera.mount.type == "fixed" else camera.mount.station
-        for camera in realised.cameras
-    }
-    carriers = {camera.name: camera.carrier for camera in realised.cameras}
-    names = list(stations)
+    cameras = {camera.name: camera for camera in realised.cameras}
+    names = list(cameras)
     instants = -(-count // len(names))
     ticks = round(realised.duration_s / TICK_S)
-    scene_renderer = open_scene_renderer(realised, site, None, renderer)
-    try:
+    with closing(open_scene_renderer(realised, site, None, renderer)) as scene_renderer:
         tick = 0
         for index in range(instants):
             due = ticks * index // instants
@@ -188,23 +199,14 @@ def _moving(realised: Scenario, count: int, seed: int, renderer: str) -> Iterato
                     if actor.body.ended is None:
                         actor.body.advance()
             tick = due
-            t_s = tick * TICK_S
-            bodies = [state_of(each, local_frame, site.ground_m, t_s) for each in actors]
+            t_ns = seconds_to_ns(tick * TICK_S)
+            bodies = states_of(actors, local_frame, site.ground_m, t_ns, t_ns)
             wanted = names[: count - index * len(names)]
-            for taken in scene_renderer.shoot(wanted, bodies, seconds_to_ns(t_s)):
-                yield Picture(
-                    taken,
-                    scene_renderer.actors,
-                    None if site.layout is None else site.layout.airport.icao,
-                    light.visibility_m,
-                    realised.daylight.solar_time_h,
-                    light.sun_elevation_rad / DEGREE,
-                    realised.weather.rain_mm_h,
-                    stations[taken.camera],
-                    carriers[taken.camera],
-                )
-    finally:
-        scene_renderer.close()
+            for taken in scene_renderer.shoot(wanted, bodies, t_ns):
+                camera = cameras[taken.camera]
+                station = "fixed" if camera.mount.type == "fixed" else camera.mount.station
+                about = _about(airport, station, light, realised.weather, realised.daylight)
+                yield Picture(taken, scene_renderer.actors, camera.carrier, about)
 
 
 def export(pictures: Iterable[Picture], folder: Path, about: Mapping[str, Any]) -> dict[str, int]:
@@ -213,18 +215,14 @@ def export(pictures: Iterable[Picture], folder: Path, about: Mapping[str, Any]) 
     If the export stops early, the annotations of the pictures written so far are complete. Nothing
     is written before the first picture.
 
-    Parameters
-    ----------
-    about
-        Content of ``info``, beside the version.
-
     Raises
     ------
     AirhiltError
         The folder is not empty or cannot be written, or pictures cannot be drawn.
     """
     images: list[dict[str, Any]] = []
-    annotations: list[tuple[dict[str, Any], VisibleClass]] = []
+    annotations: list[dict[str, Any]] = []
+    labels: list[VisibleClass] = []
     try:
         if folder.exists() and any(folder.iterdir()):
             raise CameraError(f"{folder} is not empty; expected a new folder: choose another --out")
@@ -235,49 +233,36 @@ def export(pictures: Iterable[Picture], folder: Path, about: Mapping[str, Any]) 
                 images.append(_image(number, name, picture))
                 for sighting in picture.frame.sightings:
                     if sighting.pixels >= FAINTEST_PX:
-                        identity = len(annotations) + 1
-                        annotation = _annotation(identity, number, picture, sighting)
-                        annotations.append((annotation, sighting.label))
+                        labels.append(sighting.label)
+                        annotations.append(_annotation(len(labels), number, picture, sighting))
         finally:
             if images:
-                document = _document(images, annotations, about)
+                classes = _classes(labels)
+                for annotation, label in zip(annotations, labels, strict=True):
+                    annotation["category_id"] = classes.index(label) + 1
+                document = {
+                    "info": {"description": "AIRHILT", "version": __version__, **about},
+                    "images": images,
+                    "annotations": annotations,
+                    "categories": [
+                        {"id": number, "name": name} for number, name in enumerate(classes, start=1)
+                    ],
+                }
                 data = json.dumps(document, separators=(",", ":")).encode()
                 replace_file(folder / "annotations.json", data)
     except OSError as error:
         raise CameraError(
             f"{folder}: cannot be written: {error.strerror}; make room, or choose another --out"
         ) from None
-    found = [label for _, label in annotations]
-    return {name: found.count(name) for name in _classes(found)}
+    return {name: labels.count(name) for name in _classes(labels)}
 
 
 def _write_jpeg(path: Path, picture: Picture) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     buffer = io.BytesIO()
-    Image.fromarray(picture.frame.colour).save(
-        buffer, format="JPEG", quality=QUALITY, subsampling=0
-    )
+    image = Image.fromarray(picture.frame.colour)
+    image.save(buffer, format="JPEG", quality=QUALITY, subsampling=0)
     replace_file(path, buffer.getvalue())
-
-
-def _document(
-    images: Sequence[dict[str, Any]],
-    annotations: Sequence[tuple[dict[str, Any], VisibleClass]],
-    about: Mapping[str, Any],
-) -> dict[str, Any]:
-    """Return the content of ``annotations.json``."""
-    classes = _classes(label for _, label in annotations)
-    return {
-        "info": {"description": "AIRHILT", "version": __version__, **about},
-        "images": images,
-        "annotations": [
-            {**annotation, "category_id": classes.index(label) + 1}
-            for annotation, label in annotations
-        ],
-        "categories": [
-            {"id": number, "name": name} for number, name in enumerate(classes, start=1)
-        ],
-    }
 
 
 def _classes(found: Iterable[VisibleClass]) -> tuple[VisibleClass, ...]:
@@ -296,14 +281,9 @@ def _image(number: int, name: str, picture: Picture) -> dict[str, Any]:
         "file_name": name,
         "width": lens.width_px,
         "height": lens.height_px,
-        "airport": picture.airport,
         "camera": picture.frame.camera,
-        "camera_kind": picture.station,
         "horizontal_fov_deg": round(lens.horizontal_fov_rad / DEGREE, 3),
-        "visibility_m": round(picture.visibility_m, 1),
-        "rain_mm_h": round(picture.rain_mm_h, 2),
-        "solar_time_h": round(picture.solar_time_h, 3),
-        "sun_elevation_deg": round(picture.sun_elevation_deg, 2),
+        **picture.about,
         **own,
     }
 

@@ -93,20 +93,22 @@ def _placed(
     if model.aircraft is not None:
         wheels = model.aircraft.dimensions.wheel_height_offset_m
     seen_m = min(-math.log(FAINTEST) / EXTINCTION * sitting.light.visibility_m, FARTHEST_M)
+    lens = view.intrinsics
     for _ in range(TRIES):
         size = math.exp(draws.uniform(math.log(SMALLEST_PX), math.log(LARGEST_PX)))
         # What is seen of the greatest extent, from most sides.
-        away = 0.85 * _EXTENT_M[kind] * view.intrinsics.focal_px / size
+        away = 0.85 * _EXTENT_M[kind] * lens.focal_px / size
         if away > seen_m or away < _EXTENT_M[kind]:
             continue
         place = _place(sitting, view, away, aloft, wheels, draws)
         if place is None:
             continue
         position, heading = place
-        pixel = view.in_camera(position)
-        if pixel[2] <= 0.0 or not _within(view, view.pixels(pixel)):
+        at = view.in_camera(position)
+        if at[2] <= 0.0 or math.dist(position, view.pose.position_m) > seen_m:
             continue
-        if math.dist(position, view.pose.position_m) > seen_m:
+        column, row = view.pixels(at)
+        if not (0.0 <= column < lens.width_px and 0.0 <= row < lens.height_px):
             continue
         if any(
             position[2] < block.height_m and block.outline.covers(Point(*position[:2]))
@@ -158,11 +160,6 @@ def _place(
     east = camera[0] + level * math.sin(azimuth)
     north = camera[1] + level * math.cos(azimuth)
     return (east, north, wheels_m), heading
-
-
-def _within(view: View, pixel: np.ndarray) -> bool:
-    lens = view.intrinsics
-    return bool(0.0 <= pixel[0] < lens.width_px and 0.0 <= pixel[1] < lens.height_px)
 
 
 def _body(

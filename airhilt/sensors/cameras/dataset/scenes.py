@@ -14,7 +14,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from airhilt.errors import CameraError
-from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.imaging.view import Intrinsics, Pose
 from airhilt.scenario.models import Daylight, Weather
 from airhilt.sensors.cameras.mounts import Camera, station_mount
@@ -49,6 +48,8 @@ KINDS: tuple[tuple[Callable[[str], Model], tuple[tuple[str, int, float], ...]], 
     (kind_model, VEHICLES),
     (kind_model, (*BIRDS, *GAME)),
 )
+_HOURS = ((6.0, 90.0), (-6.0, 6.0), (-30.0, -6.0))
+"""Elevations of the sun in degrees: day, twilight, night."""
 _COPIES = 3
 """Bodies of one kind in a picture, at most."""
 
@@ -59,15 +60,12 @@ class Sitting:
 
     Attributes
     ----------
-    place
-        ICAO location indicator, or `EN_ROUTE`.
     models
         Models by actor: some carry cameras, the others are named after their kind.
-    order
-        The cameras of the pictures to take, in turn.
+    cameras
+        Cameras by their names, which begin with their stations.
     """
 
-    place: str
     weather: Weather
     daylight: Daylight
     light: Illumination
@@ -76,19 +74,16 @@ class Sitting:
     height_m: float
     models: Mapping[str, Model]
     cameras: Mapping[str, Camera]
-    stations: Mapping[str, str]
     order: Sequence[str]
+
+
+def station_of(camera: str) -> str:
+    """Return the station of a camera of a sitting: ``fixed``, ``nose`` or ``tail``."""
+    return camera.partition("-")[0]
 
 
 class Casting:
     """Draws sittings and shots, and keeps what all of them share.
-
-    Parameters
-    ----------
-    places
-        ICAO location indicators, or `EN_ROUTE`, in turn.
-    size
-        Width and height of the pictures.
 
     Raises
     ------
@@ -98,7 +93,6 @@ class Casting:
 
     def __init__(self, places: Sequence[str], size: tuple[int, int]) -> None:
         self._size = size
-        Intrinsics(*size, 1.0)
         self._layouts = {
             place: None if place == EN_ROUTE else Layout(load_airport(place)) for place in places
         }
@@ -109,8 +103,9 @@ class Casting:
         place = list(self._layouts)[number % len(self._layouts)]
         layout = self._layouts[place]
         latitude = math.radians(float(draws.uniform(*FLIGHT_LATITUDES)))
-        local_frame = LocalFrame((latitude, 0.0)) if layout is None else layout.local_frame
-        weather, daylight, light = _weather(local_frame, layout is None, draws)
+        if layout is not None:
+            latitude = layout.local_frame.origin[0]
+        weather, daylight, light = _weather(latitude, layout is None, draws)
         height = math.exp(draws.uniform(math.log(400.0), math.log(9000.0)))
         if layout is not None:
             landscape = airport_landscape(layout, light)
@@ -123,7 +118,6 @@ class Casting:
             for copy in range(_COPIES)
         }
         cameras: dict[str, Camera] = {}
-        stations: dict[str, str] = {}
         for index in range(5 if layout is not None else 8):
             carrier = f"carrier-{index}"
             kind, *_ = AIRCRAFT[int(draws.integers(len(AIRCRAFT)))]
@@ -133,27 +127,13 @@ class Casting:
             name = f"{station}-{index}"
             mount = station_mount(name, carrier, station, model.aircraft)
             cameras[name] = Camera(name, self._lens(draws), mount)
-            stations[name] = station
         if layout is not None:
             for index in range(FIXED_CAMERAS):
                 name = f"fixed-{index}"
                 cameras[name] = self._fixed(name, layout, landscape, draws)
-                stations[name] = "fixed"
         order = [name for name in cameras for _ in range(SHOTS_OF_A_CAMERA)]
         order = [order[index] for index in draws.permutation(len(order))]
-        return Sitting(
-            place,
-            weather,
-            daylight,
-            light,
-            landscape,
-            layout,
-            height,
-            models,
-            cameras,
-            stations,
-            order,
-        )
+        return Sitting(weather, daylight, light, landscape, layout, height, models, cameras, order)
 
     def _lens(self, draws: np.random.Generator) -> Intrinsics:
         fov = math.exp(draws.uniform(*np.log(FIELDS_OF_VIEW)))
@@ -173,7 +153,7 @@ class Casting:
 
 
 def _weather(
-    local_frame: LocalFrame, en_route: bool, draws: np.random.Generator
+    latitude_rad: float, en_route: bool, draws: np.random.Generator
 ) -> tuple[Weather, Daylight, Illumination]:
     """Return weather and daylight: day, twilight and night in turn by chance."""
     visibility = math.exp(draws.uniform(math.log(800.0), math.log(30_000.0)))
@@ -185,13 +165,9 @@ def _weather(
         daylight = Daylight(
             date=datetime.date(2026, 1, 1) + day, solar_time_h=float(draws.uniform(0.0, 24.0))
         )
-        light = air_and_sun(weather, daylight, local_frame.origin[0], en_route)
+        light = air_and_sun(weather, daylight, latitude_rad, en_route)
         if low <= math.degrees(light.sun_elevation_rad) < high:
             return weather, daylight, light
-
-
-_HOURS = ((6.0, 90.0), (-6.0, 6.0), (-30.0, -6.0))
-"""Elevations of the sun in degrees: day, twilight, night."""
 
 
 def _standpoint(layout: Layout, draws: np.random.Generator) -> Pose:

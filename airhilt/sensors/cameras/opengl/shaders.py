@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from airhilt.imaging.view import NEAR_M
 from airhilt.sensors.cameras.scene.illumination import DISC, GLARE_ENDS, LOWEST_SKY
+
+FAR_M = 600_000.0
+"""Greatest depth that is drawn, in m."""
 
 AIR = """
 uniform vec3 airlight;
@@ -33,17 +37,19 @@ void main() {
 LANDSCAPE_FRAGMENT = (
     "#version 330\n"
     + AIR
-    + """
+    + f"""
 uniform vec4 focal_plane;
 flat in vec3 colour;
 layout(location = 0) out vec4 out_colour;
 layout(location = 1) out float out_distance;
-void main() {
+void main() {{
     vec2 aside = focal_plane.xy * gl_FragCoord.xy + focal_plane.zw;
     float away = sqrt(dot(aside, aside) + 1.0) / gl_FragCoord.w;
     out_colour = vec4(encode(through_air(colour, away)), 1.0);
     out_distance = away;
-}
+    // By the logarithm of the depth: 24 bits of it tell apart 1 m in a thousand kilometres.
+    gl_FragDepth = -log(gl_FragCoord.w * {NEAR_M}) / log({FAR_M} / {NEAR_M});
+}}
 """
 )
 SKY_VERTEX = """
@@ -57,7 +63,8 @@ void main() {
 }
 """
 SKY_FRAGMENT = (
-    AIR
+    "#version 330\n"
+    + AIR
     + f"""
 uniform sampler2D sky;
 uniform vec3 sun;
@@ -70,11 +77,9 @@ layout(location = 1) out float out_distance;
 void main() {{
     vec3 d = normalize(towards);
     vec3 colour = texture(sky, vec2((d.z - ({LOWEST_SKY})) / (1.0 - ({LOWEST_SKY})), 0.5)).rgb;
-#ifdef GLARE
     float apart = 1.0 - dot(d, sun);
     if (apart < {GLARE_ENDS} / sharpness)
         colour += (exp(-sharpness * apart) + disc * exp(-{DISC} * apart)) * glare;
-#endif
     out_colour = vec4(encode(colour), 1.0);
     out_distance = uintBitsToFloat(0x7F800000u);
 }}

@@ -1,8 +1,7 @@
 """Pictures by casting rays: what a library that casts them must provide.
 
 `airhilt.sensors.cameras.raycasting.renderer` makes pictures of what rays meet. Libraries differ in
-nothing but how fast they find it: `airhilt.sensors.cameras.renderers.embree` and
-`airhilt.sensors.cameras.renderers.open3d` give the same pictures.
+nothing but how fast they find it.
 """
 
 from __future__ import annotations

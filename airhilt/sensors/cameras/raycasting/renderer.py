@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -17,7 +17,6 @@ import numpy.typing as npt
 from airhilt.imaging.masks import Mask
 from airhilt.imaging.view import Pose, View, Window
 from airhilt.sensors.cameras.raycasting import RayScene, SceneBuilder
-from airhilt.sensors.cameras.raycasting.shared_rays import Pieces, SharedRays
 from airhilt.sensors.cameras.renderers import Part, Samples
 from airhilt.sensors.cameras.scene.illumination import (
     LEVELS,
@@ -30,11 +29,10 @@ from airhilt.shapes.mesh import Floats, Mesh
 
 Number = TypeVar("Number", bound=np.generic)
 Doubles = npt.NDArray[np.float64]
-RAISED_M = 0.5
-"""Height above the ground, in m: what reaches higher may stand before the sky."""
-LEAST_RADIUS_M, SQUARES = 4.0, 8.0
-"""Least radius of triangles, in m, and side of the squares in which what stands is taken together,
-as a multiple of the radius."""
+Pieces = npt.NDArray[np.intp]
+"""Numbers of pieces of the landscape."""
+Glare = tuple[npt.NDArray[np.intp], Floats]
+"""Samples in which light about the sun is, and the light, shape (3, n)."""
 MISSED = 0
 """Number of the piece that is the sky."""
 
@@ -47,67 +45,21 @@ class _Body:
     glow: Floats
 
 
-class _Glare(NamedTuple):
-    """Light about the sun, shape (3, n), and in which samples it is."""
-
-    at: npt.NDArray[np.intp]
-    colour: Floats
-
-
-class RayCaster:
-    """A library that casts rays, as a backend of pictures."""
-
-    def open(self, landscape: Mesh, light: Illumination) -> RayRenderer:
-        """Return a renderer of a landscape.
-
-        Raises
-        ------
-        RendererError
-            The library, or one of the system that it needs, is not installed.
-        """
-        return RayRenderer(landscape, light, self.scene_builder())
-
-    def scene_builder(self) -> SceneBuilder:
-        """Return what makes scenes of triangles; it raises what `open` does."""
-        raise NotImplementedError
-
-
 class RayRenderer:
-    """Draws by casting rays.
-
-    Parameters
-    ----------
-    landscape
-        Mesh of all that stands still.
-    build
-        Returns the scene of triangles into which rays are cast.
-    """
+    """Draws by casting rays."""
 
     def __init__(self, landscape: Mesh, light: Illumination, build: SceneBuilder) -> None:
         self._build = build
         self._light = light
         self._landscape = build(landscape.corners)
-        self._corners = landscape.corners
-        self._shared_rays: SharedRays | None = None
         self._piece_of, self._normals, self._heights, colours = _pieces(landscape, light)
         tables = np.concatenate((colours, light.sky.T), axis=1) - light.airlight[:, None]
         self._beyond_air = np.ascontiguousarray(tables * np.float32(LEVELS))
-        self._raised = _raised(landscape)
         self._bodies: dict[str, _Body] = {}
 
     def add_shape(self, name: str, mesh: Mesh) -> None:
         """Keep the shape of a body, to draw it by this name."""
         self._bodies[name] = _Body(self._build(mesh.corners), mesh.normals, mesh.colours, mesh.glow)
-
-    def share_rays(self, library: str) -> None:
-        """Share with other processes what rays of moving cameras meet.
-
-        Parameters
-        ----------
-        library
-            Library that casts the rays, with its version.
-        """
-        self._shared_rays = SharedRays(library, self._corners, self._piece_of)
 
     def close(self) -> None:
         """Release the shapes."""
@@ -116,9 +68,7 @@ class RayRenderer:
     def landscape(self, view: View, window: Window, samples: int = 1) -> Samples:
         """Return the landscape behind all bodies, with the sky and the air."""
         x, y = view.on_focal_plane(*view.sample_places(window, samples))
-        if samples == 1 and self._shared_rays is not None:
-            pieces = self._shared_rays.get(view, window, lambda: self._adaptively(view, x, y))
-        elif samples == 1:
+        if samples == 1:
             pieces = self._adaptively(view, x, y)
         else:
             pieces = self._pieces_at(view, *np.broadcast_arrays(x, y))
@@ -204,26 +154,15 @@ class RayRenderer:
 
     def _pieces_at(self, view: View, x: Floats, y: Floats) -> Pieces:
         """Return the pieces towards places of the focal plane, of their shape."""
-        towards = _towards(view, x.reshape(-1), y.reshape(-1))
-        pieces = np.full(x.size, MISSED, dtype=np.intp)
-        eye = np.asarray(view.pose.position_m)
-        # Whatever looks higher than all that stands looks into the sky.
-        asked = np.flatnonzero(towards[2] <= self._highest(eye) * np.hypot(*towards[:2]))
+        axes = view.axes.astype(np.float32)
+        towards = np.stack([x.ravel() * row[0] + y.ravel() * row[1] + row[2] for row in axes])
+        met = self._landscape.triangles(np.asarray(view.pose.position_m), towards)
         # The first entry is that of a miss, whose number is -1.
-        pieces[asked] = _of(self._piece_of, self._landscape.triangles(eye, towards[:, asked]) + 1)
-        return pieces.reshape(x.shape)
-
-    def _highest(self, eye: Doubles) -> np.float32:
-        """Return the slope (height over distance, at least 0) above which there is only sky."""
-        middles, radii, tops = self._raised
-        if not len(tops):
-            return np.float32(0.0)
-        along = np.hypot(middles[:, 0] - eye[0], middles[:, 1] - eye[1]) - radii
-        return np.float32(max(float(((tops - eye[2]) / np.maximum(along, 1.0)).max()), 0.0))
+        return _of(self._piece_of, met + 1).reshape(x.shape)
 
     def _look_up(
         self, view: View, x: Floats, y: Floats, length: Floats, pieces: Pieces, sky: Mask
-    ) -> _Glare | None:
+    ) -> Glare | None:
         """Tell pieces of the sky apart by their elevation; return the glare of the sun on them."""
         rows = np.flatnonzero(sky.any(axis=1))
         if not len(rows):
@@ -241,7 +180,7 @@ class RayRenderer:
         if not len(near) or not self._light.glare.any():
             return None
         apart = np.float32(1.0) - (across / length[block]).reshape(-1)[near].astype(np.float32)
-        return _Glare(near + block.start * pieces.shape[1], self._light.glare_at(apart))
+        return near + block.start * pieces.shape[1], self._light.glare_at(apart)
 
     def _slopes(self, view: View, pieces: Pieces) -> Floats:
         """Return how the inverse depth grows to the right and down, and ahead.
@@ -262,7 +201,7 @@ class RayRenderer:
         return slopes
 
     def _colour_of(
-        self, pieces: Pieces, left: Floats, glare: _Glare | None
+        self, pieces: Pieces, left: Floats, glare: Glare | None
     ) -> npt.NDArray[np.uint8]:
         """Return what pieces look like when some of their light is left."""
         colour = np.empty((*pieces.shape, 3), dtype=np.uint8)
@@ -271,7 +210,7 @@ class RayRenderer:
             seen *= left
             seen += np.float32(air * LEVELS)
             if glare is not None:
-                seen.reshape(-1)[glare.at] += glare.colour[index] * np.float32(LEVELS)
+                seen.reshape(-1)[glare[0]] += glare[1][index] * np.float32(LEVELS)
             colour[..., index] = encode_levels(seen)
         return colour
 
@@ -279,37 +218,6 @@ class RayRenderer:
 def _of(table: npt.NDArray[Number], entries: npt.NDArray[np.integer]) -> npt.NDArray[Number]:
     """Return entries of a table; clipping spares NumPy a look at each before."""
     return table.take(entries, mode="clip")
-
-
-def _raised(landscape: Mesh) -> tuple[Doubles, Doubles, Doubles]:
-    """Return what stands up from the ground: circles about parts of it, and how high they are.
-
-    A part is what has about the same size and stands in one square of `SQUARES` times that.
-    """
-    tops = landscape.corners[..., 2].max(axis=1).astype(np.float64)
-    standing, tops = (
-        landscape.corners[tops > RAISED_M][..., :2].astype(np.float64),
-        tops[tops > RAISED_M],
-    )
-    middles = standing.mean(axis=1)
-    radii = np.linalg.norm(standing - middles[:, None], axis=2).max(axis=1)
-    level = np.ceil(np.log2(np.maximum(radii, LEAST_RADIUS_M)))
-    squares = np.floor(middles / (SQUARES * 2.0**level)[:, None])
-    _, part = np.unique(np.column_stack((level, squares)), axis=0, return_inverse=True)
-    order = np.argsort(part.reshape(-1), kind="stable")
-    first = np.flatnonzero(np.diff(part.reshape(-1)[order], prepend=-1))
-    if not len(first):
-        return np.zeros((0, 2)), np.zeros(0), np.zeros(0)
-    low = np.minimum.reduceat(standing.min(axis=1)[order], first)
-    high = np.maximum.reduceat(standing.max(axis=1)[order], first)
-    half = (high - low) / 2.0
-    return low + half, np.hypot(*half.T), np.maximum.reduceat(tops[order], first)
-
-
-def _towards(view: View, x: Floats, y: Floats) -> Floats:
-    """Return the ways, of depth 1, towards n places of the focal plane; shape (3, n)."""
-    axes = view.axes.astype(np.float32)
-    return np.stack([x * axis[0] + y * axis[1] + axis[2] for axis in axes])
 
 
 def _pieces(landscape: Mesh, light: Illumination) -> tuple[Pieces, Doubles, Doubles, Floats]:

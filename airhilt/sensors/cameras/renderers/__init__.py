@@ -84,14 +84,6 @@ class Renderer(Protocol):
 
 
 @runtime_checkable
-class SharesRays(Renderer, Protocol):
-    """A renderer that can share with other processes what rays meet."""
-
-    def share_rays(self, library: str) -> None:
-        """Share it from now on; the library casts the rays, and is named with its version."""
-
-
-@runtime_checkable
 class RendererBackend(Protocol):
     """A library that draws, as ``--renderer`` names it."""
 
@@ -118,11 +110,6 @@ FAMILY = Family(
 )
 
 
-def renderer_names() -> list[str]:
-    """Return the names of all renderers that can be asked for, sorted, without ``auto``."""
-    return FAMILY.names()
-
-
 def library_of(name: str) -> str:
     """Return the library whose version alone determines what a renderer draws, with its version.
 
@@ -143,7 +130,7 @@ def require_known(name: str) -> None:
     AirhiltError
         There is no renderer of that name.
     """
-    names = [AUTO, *renderer_names()]
+    names = [AUTO, *FAMILY.names()]
     if name not in names:
         raise AirhiltError(
             f"no renderer named {name!r}{nearest(name, names)}; expected one of {', '.join(names)}"
@@ -151,11 +138,7 @@ def require_known(name: str) -> None:
 
 
 def open_renderer(
-    name: str,
-    landscape: Mesh,
-    shapes: Mapping[str, Mesh],
-    light: Illumination,
-    shares_rays: bool = False,
+    name: str, landscape: Mesh, shapes: Mapping[str, Mesh], light: Illumination
 ) -> tuple[str, Renderer]:
     """Return the name of the renderer that draws, and the renderer.
 
@@ -163,32 +146,23 @@ def open_renderer(
     ----------
     name
         Name of a renderer; ``auto`` takes the first of `PREFERRED` that can draw here.
-    shapes
-        Shapes of the bodies, by name.
-    shares_rays
-        True to share with other processes what rays meet, if the renderer can.
 
     Raises
     ------
     RendererError
         There is none of that name, or something that it needs is not installed.
     """
-    taken, renderer = _first_of(PREFERRED if name == AUTO else (name,), landscape, light)
+    *others, taken = PREFERRED if name == AUTO else (name,)
+    renderer = None
+    for other in others:
+        with suppress(RendererError):
+            renderer = FAMILY.load(other).open(landscape, light)
+            taken = other
+            break
+    renderer = renderer or FAMILY.load(taken).open(landscape, light)
     for shape, mesh in shapes.items():
         renderer.add_shape(shape, mesh)
-    library = library_of(taken) if shares_rays else ""
-    if library and isinstance(renderer, SharesRays):
-        renderer.share_rays(library)
     return taken, renderer
-
-
-def _first_of(names: Sequence[str], landscape: Mesh, light: Illumination) -> tuple[str, Renderer]:
-    """Return the first renderer that can be opened; complain as the last of them does."""
-    *others, last = names
-    for name in others:
-        with suppress(RendererError):
-            return name, FAMILY.load(name).open(landscape, light)
-    return last, FAMILY.load(last).open(landscape, light)
 
 
 def require_renderer(name: str) -> str:

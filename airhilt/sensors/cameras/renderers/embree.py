@@ -11,14 +11,15 @@ import numpy.typing as npt
 from airhilt.errors import RendererError, first_line
 from airhilt.imaging.masks import Mask
 from airhilt.sensors.cameras.raycasting import Hits, SceneBuilder, Triangles
-from airhilt.sensors.cameras.raycasting.renderer import RayCaster
-from airhilt.shapes.mesh import Floats
+from airhilt.sensors.cameras.raycasting.renderer import RayRenderer
+from airhilt.sensors.cameras.scene.illumination import Illumination
+from airhilt.shapes.mesh import Floats, Mesh
 
 NOTHING = -1
 """Embree's number of the geometry that a ray meets where it meets none."""
 
 
-class Embree(RayCaster):
+class Embree:
     """Draws with Embree.
 
     embreex casts ray by ray on one thread and holds Python's interpreter lock meanwhile.
@@ -27,6 +28,10 @@ class Embree(RayCaster):
     name = "embree"
     distributions = ("embreex",)
     needs = "pip install embreex (there are wheels for Linux x86-64, macOS and Windows)"
+
+    def open(self, landscape: Mesh, light: Illumination) -> RayRenderer:
+        """Return a renderer of a landscape; errors as `scene_builder`."""
+        return RayRenderer(landscape, light, self.scene_builder())
 
     def scene_builder(self) -> SceneBuilder:
         """Return what makes scenes of triangles."""
@@ -40,15 +45,7 @@ class Embree(RayCaster):
 
 
 class EmbreeScene:
-    """Triangles in Embree.
-
-    Parameters
-    ----------
-    device
-        Device of embreex, which several scenes share.
-    corners
-        Corners of the triangles, shape (n, 3, 3).
-    """
+    """Triangles in Embree."""
 
     def __init__(self, device: Any, corners: Floats) -> None:
         from embreex.mesh_construction import TriangleMesh

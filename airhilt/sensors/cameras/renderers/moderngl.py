@@ -13,18 +13,67 @@ import numpy.typing as npt
 from airhilt.errors import RendererError, first_line
 from airhilt.imaging.view import NEAR_M, View, Window
 from airhilt.sensors.cameras.opengl import shaders
-from airhilt.sensors.cameras.opengl.canvas import Canvas
-from airhilt.sensors.cameras.opengl.tiles import Tiles, edges
+from airhilt.sensors.cameras.opengl.shaders import FAR_M
 from airhilt.sensors.cameras.renderers import Part, Samples
 from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.shapes.mesh import Floats, Mesh
 
 SYSTEM_LIBRARIES = "libegl1 libgl1 libegl-mesa0 libgl1-mesa-dri"
-FAR_M = 600_000.0
-WITHIN = 0.99
-"""Near plane, as a part of the depth of what is nearest: depths are rounded."""
 SHELF_PX = 1024
 """Width of a row of windows that are drawn together, in pixels."""
+CANVAS_STEP_PX = 64
+"""Step in which frame buffers grow."""
+TOUCHED, UNTOUCHED = ((True,) * 4,) * 2, ((False,) * 4,) * 2
+"""Masks that let colours and distances be written, or not."""
+
+
+class _Canvas:
+    """Draws into the upper left corner of a frame buffer that only grows.
+
+    There is never more than one: a buffer for each size would in time take all memory.
+    """
+
+    def __init__(self, context: Any) -> None:
+        self._context = context
+        self._room = 0, 0
+        self._owned: list[Any] = []
+        self.frame: Any = None
+        self.size = 0, 0
+
+    def clear(self, size: tuple[int, int], *, is_filled: bool = False) -> None:
+        """Begin a drawing of some size; colours are not cleared if all of it will be filled."""
+        width, height = (
+            max(CANVAS_STEP_PX * math.ceil(side / CANVAS_STEP_PX), room)
+            for side, room in zip(size, self._room, strict=True)
+        )
+        if (width, height) != self._room:
+            self._replace((width, height))
+        self.size = size
+        self.frame.use()
+        self.frame.viewport = 0, 0, *size
+        self.frame.color_mask = UNTOUCHED if is_filled else TOUCHED
+        self.frame.clear(viewport=(0, 0, *size))
+        self.frame.color_mask = TOUCHED
+
+    def _replace(self, room: tuple[int, int]) -> None:
+        for owned in self._owned:
+            owned.release()
+        context = self._context
+        colour, distance = context.texture(room, 4), context.texture(room, 1, dtype="f4")
+        depth = context.depth_renderbuffer(room)
+        self.frame = context.framebuffer([colour, distance], depth)
+        self._owned = [self.frame, colour, distance, depth]
+        self._room = room
+
+    def read(self) -> Samples:
+        """Return colours, and what has been drawn for distances."""
+        width, height = self.size
+        colour = self.frame.read(self.size, components=3, alignment=1)
+        distance = self.frame.read(self.size, components=1, attachment=1, dtype="f4")
+        return Samples(
+            np.frombuffer(colour, dtype=np.uint8).reshape(height, width, 3),
+            np.frombuffer(distance, dtype=np.float32).reshape(height, width),
+        )
 
 
 @dataclass(frozen=True)
@@ -35,13 +84,7 @@ class _Body:
 
 
 class ModernGLRenderer:
-    """Draws by OpenGL.
-
-    Raises
-    ------
-    RendererError
-        moderngl or EGL is not installed.
-    """
+    """Draws by OpenGL."""
 
     def __init__(self, landscape: Mesh, light: Illumination) -> None:
         self._context = context = _open_context()
@@ -49,33 +92,28 @@ class ModernGLRenderer:
         context.front_face = "cw"
         context.depth_func = "<="
         self._light = light
-        self._behind, self._before = Canvas(context), Canvas(context)
+        self._behind, self._before = _Canvas(context), _Canvas(context)
         self._bodies: dict[str, _Body] = {}
         self._landscape_program = context.program(
             shaders.LANDSCAPE_VERTEX, shaders.LANDSCAPE_FRAGMENT
         )
-        self._sky_programs = [
-            context.program(shaders.SKY_VERTEX, version + shaders.SKY_FRAGMENT)
-            for version in ("#version 330\n", "#version 330\n#define GLARE\n")
-        ]
+        self._sky_program = context.program(shaders.SKY_VERTEX, shaders.SKY_FRAGMENT)
         self._body_program = context.program(shaders.BODY_VERTEX, shaders.BODY_FRAGMENT)
         self._shadow_program = context.program(shaders.SHADOW_VERTEX, shaders.SHADOW_FRAGMENT)
-        self._sky = context.texture((len(light.sky), 1), 3, light.sky.tobytes(), dtype="f4")
-        self._sky.repeat_x = False
-        self._sky.filter = context.NEAREST, context.NEAREST
-        self._skies = [context.vertex_array(program, []) for program in self._sky_programs]
-        self._tiles = Tiles.of(landscape.corners)
+        colours = context.texture((len(light.sky), 1), 3, light.sky.tobytes(), dtype="f4")
+        colours.repeat_x = False
+        colours.filter = context.NEAREST, context.NEAREST
+        colours.use(0)
+        self._sky = context.vertex_array(self._sky_program, [])
         colours = np.broadcast_to(light.baked(landscape)[:, None], landscape.corners.shape)
-        data = np.concatenate((landscape.corners, colours), axis=2)[self._tiles.order]
-        corners, self._triangles = _alike(data)
-        self._shown = context.buffer(reserve=self._triangles.nbytes)
-        layout = (context.buffer(corners), "3f 3f", "in_place", "in_colour")
-        self._landscape = context.vertex_array(self._landscape_program, [layout], self._shown)
+        data = np.concatenate((landscape.corners, colours), axis=2)
+        names = ("in_place", "in_colour")
+        self._landscape = self._array(self._landscape_program, "3f 3f", names, data)
         self._set_light()
 
     def _set_light(self) -> None:
         light = self._light
-        for program in (self._landscape_program, *self._sky_programs, self._body_program):
+        for program in (self._landscape_program, self._sky_program, self._body_program):
             for name, value in (
                 ("airlight", tuple(light.airlight)),
                 ("extinction", light.extinction_per_m),
@@ -121,37 +159,19 @@ class ModernGLRenderer:
         canvas = self._behind
         canvas.clear((window.width * samples, window.height * samples), is_filled=True)
         context.enable_only(context.DEPTH_TEST | context.CULL_FACE)
-        left, top, right, bottom = edges(view, window)
+        left, top, right, bottom = _edges(view, window)
         width, height = canvas.size
-        shown = self._tiles.shown_in(view, window, samples)
-        if len(shown.places):
-            # As far away as can be: 24 bits of depth tell apart what is not much farther.
-            near = max(NEAR_M, WITHIN * shown.depth_m)
-            program["projection"].write(_columns(_projection(view, window, near)))
-            program["eye"] = view.pose.position_m
-            pixel = (right - left) / width, (bottom - top) / height
-            program["focal_plane"] = *pixel, left, top
-            triangles = self._triangles[shown.places]
-            self._shown.write(triangles)
-            self._landscape.render(vertices=triangles.size)
+        program["projection"].write(_columns(_projection(view, window, NEAR_M)))
+        program["eye"] = view.pose.position_m
+        program["focal_plane"] = (right - left) / width, (bottom - top) / height, left, top
+        self._landscape.render()
         # Last, and as far as can be: only where nothing else is.
         x, y, ahead = view.axes.T
         middle = ahead + (left + right) / 2.0 * x + (top + bottom) / 2.0 * y
         corners = np.column_stack(((right - left) / 2.0 * x, (bottom - top) / 2.0 * y, middle))
-        has_glare = self._has_glare(view, window)
-        self._sky.use(0)
-        self._sky_programs[has_glare]["corners"].write(_columns(corners))
-        self._skies[has_glare].render(vertices=3)
+        self._sky_program["corners"].write(_columns(corners))
+        self._sky.render(vertices=3)
         return canvas.read()
-
-    def _has_glare(self, view: View, window: Window) -> bool:
-        """Return whether the bright sky about the sun may reach into a window."""
-        light = self._light
-        left, top, right, bottom = (abs(edge) for edge in edges(view, window))
-        reach = math.atan(math.hypot(max(left, right), max(top, bottom)))
-        reach += math.acos(max(light.glare_from, -1.0))
-        ahead = float(view.axes[:, 2] @ light.sun)
-        return bool(light.glare.any()) and math.acos(min(max(ahead, -1.0), 1.0)) < reach
 
     def parts(self, view: View, parts: Sequence[Part]) -> list[Samples]:
         """Return bodies through the air, and shadows: all are drawn on one canvas."""
@@ -192,22 +212,8 @@ class ModernGLRenderer:
 
     def _array(self, program: Any, layout: str, names: tuple[str, ...], data: Floats) -> Any:
         """Return triangles for drawing."""
-        corners, triangles = _alike(data)
-        buffer, indices = self._context.buffer(corners), self._context.buffer(triangles)
-        return self._context.vertex_array(program, [(buffer, layout, *names)], indices)
-
-
-def _alike(data: Floats) -> tuple[Floats, npt.NDArray[np.uint32]]:
-    """Return corners that are alike once, and the numbers of those of each triangle.
-
-    They are stored, and lit, once, in the order of their use for the sake of the caches.
-    """
-    corners = np.ascontiguousarray(data, dtype=np.float32).reshape(-1, data.shape[2])
-    rows = corners.view(np.dtype((np.void, corners.itemsize * corners.shape[1]))).reshape(-1)
-    _, first, number = np.unique(rows, return_index=True, return_inverse=True)
-    rank = np.empty(len(first), dtype=np.uint32)
-    rank[np.argsort(first)] = np.arange(len(first), dtype=np.uint32)
-    return corners[np.sort(first)], rank[number].reshape(-1, 3)
+        buffer = self._context.buffer(np.ascontiguousarray(data, dtype=np.float32))
+        return self._context.vertex_array(program, [(buffer, layout, *names)])
 
 
 def _shelves(
@@ -231,7 +237,7 @@ def _projection(view: View, window: Window, near_m: float) -> npt.NDArray[np.flo
 
     OpenGL keeps the lowest row first, so drawing upside down saves turning what is read.
     """
-    left, top, right, bottom = edges(view, window)
+    left, top, right, bottom = _edges(view, window)
     frustum = np.array((
         (2.0 / (right - left), 0.0, -(right + left) / (right - left), 0.0),
         (0.0, 2.0 / (bottom - top), -(bottom + top) / (bottom - top), 0.0),
@@ -241,6 +247,19 @@ def _projection(view: View, window: Window, near_m: float) -> npt.NDArray[np.flo
     turn = np.eye(4)
     turn[:3, :3] = view.axes.T
     return np.asarray(frustum @ turn)
+
+
+def _edges(view: View, window: Window) -> tuple[float, float, float, float]:
+    """Return left, top, right and bottom of a window at a depth of 1."""
+    lens = view.intrinsics
+    across, down = lens.width_px / 2.0, lens.height_px / 2.0
+    focal = lens.focal_px
+    return (
+        (window.left - across) / focal,
+        (window.top - down) / focal,
+        (window.right - across) / focal,
+        (window.bottom - down) / focal,
+    )
 
 
 def _columns(matrix: npt.NDArray[np.float64]) -> bytes:
@@ -270,13 +289,7 @@ class ModernGL:
     needs = f"pip install 'airhilt[moderngl]' and apt install {SYSTEM_LIBRARIES}"
 
     def open(self, landscape: Mesh, light: Illumination) -> ModernGLRenderer:
-        """Return a renderer of a landscape.
-
-        Raises
-        ------
-        RendererError
-            moderngl or EGL is not installed.
-        """
+        """Return a renderer of a landscape; RendererError if moderngl or EGL is not installed."""
         return ModernGLRenderer(landscape, light)
 
 

@@ -16,8 +16,9 @@ import numpy.typing as npt
 from airhilt.errors import RendererError, first_line
 from airhilt.imaging.masks import Mask
 from airhilt.sensors.cameras.raycasting import Hits, SceneBuilder, Triangles
-from airhilt.sensors.cameras.raycasting.renderer import RayCaster
-from airhilt.shapes.mesh import Floats
+from airhilt.sensors.cameras.raycasting.renderer import RayRenderer
+from airhilt.sensors.cameras.scene.illumination import Illumination
+from airhilt.shapes.mesh import Floats, Mesh
 
 BINDINGS = "open3d.cpu.pybind"
 SYSTEM_LIBRARIES = "libgl1 libegl1 libx11-6 libudev1 libgomp1"
@@ -25,12 +26,16 @@ THREADS = 2
 """Threads of a cast: a run waits while its pictures are drawn."""
 
 
-class Open3D(RayCaster):
+class Open3D:
     """Draws with Open3D."""
 
     name = "open3d"
     distributions = ("open3d-cpu", "open3d")
     needs = f"pip install 'airhilt[open3d]' and apt install {SYSTEM_LIBRARIES}"
+
+    def open(self, landscape: Mesh, light: Illumination) -> RayRenderer:
+        """Return a renderer of a landscape; errors as `scene_builder`."""
+        return RayRenderer(landscape, light, self.scene_builder())
 
     def scene_builder(self) -> SceneBuilder:
         """Return what makes scenes of triangles."""
@@ -45,15 +50,7 @@ class Open3D(RayCaster):
 
 
 class Open3DScene:
-    """Triangles in a `RaycastingScene`.
-
-    Parameters
-    ----------
-    open3d
-        Bindings of Open3D.
-    corners
-        Corners of the triangles, shape (n, 3, 3).
-    """
+    """Triangles in a `RaycastingScene`."""
 
     def __init__(self, open3d: Any, corners: Floats) -> None:
         self._tensor = open3d.core.Tensor.from_numpy

@@ -65,8 +65,6 @@ class Model:
     ----------
     kind
         Actors of one kind share their shapes.
-    shapes
-        Its meshes by their names.
     lights
         Returns its lights, in its own axes, at a time in seconds, with landing lights or without.
     far
@@ -126,53 +124,35 @@ def kind_model(name: str) -> Model:
 def states_of(
     actors: Iterable[Actor], local_frame: LocalFrame, ground_m: float, now_ns: int, ticked_ns: int
 ) -> list[BodyState]:
-    """Return where everybody is; those that have ended lie where they did.
+    """Return where everybody is, in the axes of the scene; those that have ended stay there.
+
+    The scene is flat: heights are altitudes less that of the ground, wherever that is. Between
+    two actors at one height this leaves out the fall of the Earth, 0.04 degrees in 10 km.
 
     Parameters
     ----------
     ticked_ns
-        Time of the control tick that their states are of.
+        Time of the control tick that their states are of: they have moved straight on since, and
+        have the attitudes that they had then.
     """
     elapsed_s = (now_ns - ticked_ns) / SECOND_NS
-    return [
-        state_of(
-            actor,
-            local_frame,
-            ground_m,
-            now_ns / SECOND_NS,
-            elapsed_s if actor.body.ended is None else 0.0,
-        )
-        for actor in actors
-    ]
-
-
-def state_of(
-    actor: Actor, local_frame: LocalFrame, ground_m: float, t_s: float, elapsed_s: float = 0.0
-) -> BodyState:
-    """Return where an actor is, in the axes of the scene.
-
-    Parameters
-    ----------
-    t_s
-        Now.
-    elapsed_s
-        Since the control tick that its state is of: it has moved straight on since, and has the
-        attitude that it had then.
-
-    The scene is flat: heights are altitudes less that of the ground, wherever that is. Between
-    two actors at one height this leaves out the fall of the Earth, 0.04 degrees in 10 km.
-    """
-    state = carried_on(actor.body.state, elapsed_s)
-    east, north = local_frame.to_local((state.latitude_rad, state.longitude_rad))
-    up = state.altitude_m - ground_m
-    callsign = actor.spec.callsign
-    body = actor.body
-    shape = actor.mesh(t_s)
-    if isinstance(body, Aircraft):
-        lit = has_landing_lights_on(body.state.height_agl_m, state.ground_speed_m_s)
-        angles = body.state.heading_rad, body.state.pitch_rad, body.state.roll_rad
-        return BodyState(callsign, east, north, up, *angles, shape, lit)
-    return BodyState(callsign, east, north, up, state.heading_rad, 0.0, 0.0, shape, True)
+    found = []
+    for actor in actors:
+        body, callsign, shape = actor.body, actor.spec.callsign, actor.mesh(now_ns / SECOND_NS)
+        state = carried_on(body.state, elapsed_s if body.ended is None else 0.0)
+        east, north = local_frame.to_local((state.latitude_rad, state.longitude_rad))
+        pitch = roll = 0.0
+        heading, lit = state.heading_rad, True
+        if isinstance(body, Aircraft):
+            heading, pitch, roll = (
+                body.state.heading_rad,
+                body.state.pitch_rad,
+                body.state.roll_rad,
+            )
+            lit = has_landing_lights_on(body.state.height_agl_m, state.ground_speed_m_s)
+        up = state.altitude_m - ground_m
+        found.append(BodyState(callsign, east, north, up, heading, pitch, roll, shape, lit))
+    return found
 
 
 def has_landing_lights_on(height_agl_m: float, ground_speed_m_s: float) -> bool:

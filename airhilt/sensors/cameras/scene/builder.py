@@ -9,10 +9,9 @@ from airhilt.scenario.models import Airborne, Daylight, Weather
 from airhilt.sensors.cameras import AUTO
 from airhilt.sensors.cameras.mounts import Camera, cameras_of, find_camera, local_frame_of
 from airhilt.sensors.cameras.scene.bodies import Model, model_of
-from airhilt.sensors.cameras.scene.illumination import Illumination
+from airhilt.sensors.cameras.scene.illumination import Illumination, sun_direction
 from airhilt.sensors.cameras.scene.landscape import Landscape, airport_landscape, open_country
 from airhilt.sensors.cameras.scene.rain import rain_visibility_m
-from airhilt.sensors.cameras.scene.sun import sun_direction
 from airhilt.sensors.cameras.scene_renderer import SceneRenderer
 from airhilt.units import FOOT
 from airhilt.world.site import ScenarioSite
@@ -72,13 +71,6 @@ def open_scene_renderer(
     shares_pictures: bool = False,
 ) -> SceneRenderer:
     """Return the renderer for cameras of a scenario: those named, or those that it declares.
-
-    Parameters
-    ----------
-    keeps_backgrounds
-        True if other processes may draw for the same fixed cameras.
-    shares_pictures
-        True if other runs may have the same pictures.
 
     Raises
     ------

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -76,17 +76,13 @@ def _surfaces(area: BaseGeometry) -> BaseGeometry:
     return shapely.union_all(parts[shapely.get_dimensions(parts) == 2])
 
 
-def _split(area: BaseGeometry, shadows: BaseGeometry) -> Iterator[tuple[BaseGeometry, float]]:
-    """Yield what of an area the sun reaches, and what lies in the shadow."""
+def _split(area: BaseGeometry, shadows: BaseGeometry) -> list[tuple[BaseGeometry, float]]:
+    """Return what of an area the sun reaches, and what lies in the shadow."""
     if not shadows.intersects(area):
-        yield area, 1.0
-        return
-    for part, sunlit in (
-        (shapely.difference(area, shadows, grid_size=GRID_M), 1.0),
-        (shapely.intersection(area, shadows, grid_size=GRID_M), 0.0),
-    ):
-        if not part.is_empty:
-            yield part, sunlit
+        return [(area, 1.0)]
+    lit = shapely.difference(area, shadows, grid_size=GRID_M)
+    shaded = shapely.intersection(area, shadows, grid_size=GRID_M)
+    return [(part, sun) for part, sun in ((lit, 1.0), (shaded, 0.0)) if not part.is_empty]
 
 
 def _triangles(areas: Sequence[BaseGeometry], looks: Sequence[tuple[float, ...]]) -> Mesh:
@@ -124,10 +120,9 @@ def drop_m(distance_m: Floats | float) -> Floats:
 
 def ring(inner_m: float, outer_m: float) -> BaseGeometry:
     """Return the ground between two distances from the origin."""
-    outer = Point(0.0, 0.0).buffer(outer_m, quad_segs=24)
-    if inner_m <= 0.0:
-        return outer
-    return outer.difference(Point(0.0, 0.0).buffer(inner_m, quad_segs=24))
+    middle = Point(0.0, 0.0)
+    outer = middle.buffer(outer_m, quad_segs=24)
+    return outer.difference(middle.buffer(inner_m, quad_segs=24)) if inner_m > 0.0 else outer
 
 
 def cells(

@@ -1,20 +1,28 @@
-"""Bodies before the landscape: one layer each in its own window; what layers hide is counted."""
+"""Bodies before the landscape, one layer each, their shadows, and what is true of them."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
-from airhilt.imaging.view import Window
-from airhilt.sensors.cameras.renderers import Samples
+from airhilt.imaging.view import View, Window
+from airhilt.messages import VisibleClass
+from airhilt.sensors.cameras.frame import Sighting
+from airhilt.sensors.cameras.renderers import Part, Samples
+from airhilt.sensors.cameras.scene.background import KEPT_PX, Background
+from airhilt.sensors.cameras.scene.illumination import Illumination
 from airhilt.sensors.cameras.scene.projected_box import Box
 from airhilt.sensors.cameras.scene.visible_bodies import VisibleBody
 from airhilt.shapes.mesh import Floats
 
 Number = TypeVar("Number", bound=np.generic)
+ON_GROUND_M = 0.3
+"""Distance from the ground, in m, up to which a surface is part of it."""
 TOUCHES_M = 0.25
 """Distance behind a surface, in m, up to which a body still lies on it."""
 
@@ -25,8 +33,6 @@ class Layer:
 
     Attributes
     ----------
-    number
-        Number of the actor in `Frame.instance`.
     box, whole
         Boxes about the body: within the picture, and with what lies beyond it; pixels.
     silhouette
@@ -39,6 +45,7 @@ class Layer:
         Distance of the body's nearest sample in each pixel, infinite where there is none.
     """
 
+    actor: str
     number: int
     window: Window
     box: Box
@@ -63,6 +70,7 @@ class Layer:
             colour = np.where(hidden[..., None], np.uint8(0), colour)
         count = np.float32(samples**2)
         return cls(
+            body.body.actor,
             number,
             body.window,
             body.box,
@@ -110,3 +118,71 @@ def by_sample(drawn: npt.NDArray[Number], samples: int) -> npt.NDArray[Number]:
     blocks = drawn.reshape(rows, samples, columns, samples, *drawn.shape[2:])
     order = blocks.transpose(1, 3, 0, 2, *range(4, blocks.ndim))
     return order.reshape(samples**2, rows, columns, *drawn.shape[2:])
+
+
+def sightings_of(
+    layers: Sequence[Layer],
+    faint: Sequence[VisibleBody],
+    labels: Mapping[str, VisibleClass],
+    extinction_per_m: float,
+) -> tuple[Sighting, ...]:
+    """Return the sighting of each body, the nearest first.
+
+    Parameters
+    ----------
+    layers
+        Bodies that are drawn, from far to near; those of actors without a label only hide others.
+    faint
+        Bodies that change no pixel.
+    labels
+        Class of each actor that is told.
+    """
+    found: list[tuple[Layer | VisibleBody, str, float, float]] = [
+        (body, body.body.actor, 0.0, 0.0) for body in faint
+    ]
+    for index, layer in enumerate(layers):
+        seen = layer.cover.copy()
+        for nearer in layers[index + 1 :]:
+            nearer.hide(seen, layer.window)
+        pixels = float(seen.sum())
+        fraction = min(pixels / layer.silhouette, 1.0) if layer.silhouette else 0.0
+        found.append((layer, layer.actor, pixels, fraction))
+    sightings = [
+        Sighting(
+            actor=actor,
+            label=labels[actor],
+            box=body.box,
+            pixels=pixels,
+            visible_fraction=fraction,
+            truncation=1.0 - min(body.box.area / max(body.whole.area, 1e-9), 1.0),
+            range_m=body.range_m,
+            transmission=math.exp(-extinction_per_m * body.range_m),
+        )
+        for body, actor, pixels, fraction in found
+        if actor in labels
+    ]
+    return tuple(sorted(sightings, key=lambda sighting: sighting.range_m))
+
+
+def darken(
+    colour: npt.NDArray[np.uint8],
+    part: Part,
+    drawn: Samples,
+    view: View,
+    background: Background,
+    light: Illumination,
+) -> None:
+    """Darken the flat ground where a body keeps the sun off."""
+    shaded = np.isfinite(by_sample(drawn.distance_m, part.samples))
+    down = view.directions(*view.sample_places(part.window, 1))[2]
+    away = background.distance_m[part.window.slices]
+    with np.errstate(invalid="ignore"):
+        # The ground may have been drawn when it was a little out of its place.
+        near = np.float32(ON_GROUND_M) + np.float32(KEPT_PX / view.intrinsics.focal_px) * away
+        on_ground = np.abs(away * down + np.float32(view.pose.position_m[2])) < near
+        kept = shaded.mean(axis=0, dtype=np.float32) * on_ground
+        kept *= np.exp(-np.float32(light.extinction_per_m) * away)
+    lit = light.diffuse + light.direct * max(float(light.sun[2]), 0.0)
+    darker = 1.0 - (light.diffuse / lit) ** (1.0 / 2.2)
+    ground = colour[part.window.slices]
+    ground[...] = (ground * (1.0 - kept[..., None] * darker)).astype(np.uint8)

@@ -34,7 +34,7 @@ FAINTEST_LIGHT = 0.02
 
 def airport_lights(layout: Layout) -> tuple[Light, ...]:
     """Return the lights of runways and taxiways."""
-    return tuple(_runway_lights(layout)) + tuple(_taxiway_lights(layout))
+    return (*_runway_lights(layout), *_taxiway_lights(layout))
 
 
 def _runway_lights(layout: Layout) -> Iterator[Light]:
@@ -50,15 +50,14 @@ def _runway_lights(layout: Layout) -> Iterator[Light]:
             for side in (-half, half):
                 yield _light(np.asarray(low) + part * ahead + side * across, WHITE, EDGE_CD)
         for corner, way in ((low, 1.0), (high, -1.0)):
+            out = (-way * float(ahead[0]), -way * float(ahead[1]), 0.05)
+            inwards = (-out[0], -out[1], 0.05)
             for side in np.linspace(-half, half, 12):
                 place = np.asarray(corner) - way * 2.0 * ahead + side * across
-                out = (-way * float(ahead[0]), -way * float(ahead[1]), 0.05)
-                inwards = (-out[0], -out[1], 0.05)
                 yield _light(place, GREEN, THRESHOLD_CD, out, 1.0)
                 yield _light(place, RED, THRESHOLD_CD, inwards, 1.0)
             for row in range(1, 15):
                 place = np.asarray(corner) - way * row * 30.0 * ahead
-                out = (-way * float(ahead[0]), -way * float(ahead[1]), 0.05)
                 for side in np.linspace(-2.0, 2.0, 5) if row != 10 else np.linspace(-15, 15, 15):
                     yield _light(place + side * across, WHITE, 4 * EDGE_CD, out, 2.0)
 
@@ -168,25 +167,22 @@ class Lights:
 
 
 def shine(picture: npt.NDArray[np.uint8], distance_m: Floats, spots: Sequence[Spot]) -> None:
-    """Add lights to a picture where nothing stands before them."""
-    for spot in spots:
-        if distance_m[int(spot.row), int(spot.column)] >= spot.away_m - 1.5:
-            _splat(picture, spot)
+    """Screen lights over a picture where nothing stands before them.
 
-
-def _splat(picture: npt.NDArray[np.uint8], spot: Spot) -> None:
-    """Screen a spot over a picture; what is brighter than white grows instead."""
-    column, row, _, strength, colour = spot
-    peak = min(strength, 1.0)
-    radius = min(0.7 + 0.45 * math.log2(1.0 + strength), GREATEST_RADIUS_PX)
-    reach = math.ceil(2.2 * radius)
-    top, left = max(int(row) - reach, 0), max(int(column) - reach, 0)
-    part = picture[top : int(row) + reach + 1, left : int(column) + reach + 1]
-    rows = np.arange(top, top + part.shape[0])[:, None] + 0.5 - row
-    columns = np.arange(left, left + part.shape[1])[None, :] + 0.5 - column
-    light = peak * np.exp(-(rows**2 + columns**2) / (0.5 * radius * radius))
-    core = min(1.0, strength / 20.0)
-    tint = np.asarray(colour) ** (1.0 / 2.2)
-    tint = tint + (1.0 - tint) * core * 0.7
-    covered = light[..., None] * tint
-    part[...] = (255.0 - (255.0 - part) * (1.0 - covered)).astype(np.uint8)
+    What is brighter than white grows instead.
+    """
+    for column, row, away_m, strength, colour in spots:
+        if distance_m[int(row), int(column)] < away_m - 1.5:
+            continue
+        radius = min(0.7 + 0.45 * math.log2(1.0 + strength), GREATEST_RADIUS_PX)
+        reach = math.ceil(2.2 * radius)
+        top, left = max(int(row) - reach, 0), max(int(column) - reach, 0)
+        part = picture[top : int(row) + reach + 1, left : int(column) + reach + 1]
+        rows = np.arange(top, top + part.shape[0])[:, None] + 0.5 - row
+        columns = np.arange(left, left + part.shape[1])[None, :] + 0.5 - column
+        peak = min(strength, 1.0)
+        light = peak * np.exp(-(rows**2 + columns**2) / (0.5 * radius * radius))
+        tint = np.asarray(colour) ** (1.0 / 2.2)
+        tint = tint + (1.0 - tint) * min(1.0, strength / 20.0) * 0.7
+        covered = light[..., None] * tint
+        part[...] = (255.0 - (255.0 - part) * (1.0 - covered)).astype(np.uint8)

@@ -69,23 +69,22 @@ class Outline:
         radius_m = float(np.linalg.norm(points, axis=1).max(initial=0.0)) + ROUNDING_M
         return cls(points.astype(np.float64), np.unique(edges, axis=0), radius_m)
 
-    def may_be_in(self, view: View, pose: Pose) -> bool:
-        """Return false if no part of the body can be in the picture."""
-        return view.may_show(pose.position_m, self.radius_m)
-
-    def shadow_may_be_in(self, view: View, pose: Pose, sun: npt.NDArray[np.float64]) -> bool:
-        """Return false if no part of the body's shadow on flat ground can be in the picture."""
-        centre = np.asarray(pose.position_m)
-        on_ground = centre - sun * (max(float(centre[2]), 0.0) / sun[2])
-        return view.may_show(on_ground, self.radius_m * (1.0 + 1.0 / float(sun[2])))
-
     def box(self, pose: Pose, view: View) -> Box | None:
-        """Return the box about the body, also outside of the picture; None behind the camera."""
+        """Return the box about the body, which may lie beside the picture.
+
+        None if no part of the body can be in the picture.
+        """
+        if not view.may_show(pose.position_m, self.radius_m):
+            return None
         return self._box(self.points @ pose.rotation.T + np.asarray(pose.position_m), view)
 
     def shadow_box(self, pose: Pose, view: View, sun: npt.NDArray[np.float64]) -> Box | None:
-        """Return the box about the body's shadow on flat ground."""
-        world = self.points @ pose.rotation.T + np.asarray(pose.position_m)
+        """Return the box about the body's shadow on flat ground; None as `box`."""
+        centre = np.asarray(pose.position_m)
+        on_ground = centre - sun * (max(float(centre[2]), 0.0) / sun[2])
+        if not view.may_show(on_ground, self.radius_m * (1.0 + 1.0 / float(sun[2]))):
+            return None
+        world = self.points @ pose.rotation.T + centre
         return self._box(world - np.outer(np.maximum(world[:, 2], 0.0) / sun[2], sun), view)
 
     def _box(self, world: npt.NDArray[np.float64], view: View) -> Box | None:

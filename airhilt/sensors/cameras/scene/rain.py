@@ -27,13 +27,7 @@ def rain_visibility_m(rain_mm_h: float) -> float:
 
 
 class Streaks:
-    """Streaks of drops, drawn once and then used in turn.
-
-    Parameters
-    ----------
-    size
-        Width and height of the pictures.
-    """
+    """Streaks of drops, drawn once and then used in turn."""
 
     def __init__(self, size: tuple[int, int], rain_mm_h: float, name: str) -> None:
         width, height = size

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import shapely
@@ -34,8 +35,8 @@ LIT_WINDOW = 3.0
 
 def building(outline: Polygon, height_m: float) -> Mesh:
     """Return a block with bands of windows and plant on its roof."""
-    parts = [_walls(shapely.geometry.polygon.orient(outline), 0.0, height_m, PLASTER)]
-    parts += [_roof(outline, height_m, ROOF)]
+    walls = _walls(shapely.geometry.polygon.orient(outline), 0.0, height_m, PLASTER)
+    parts = [walls, _roof(outline, height_m, ROOF)]
     storeys = max(int(height_m // STOREY_M), 1)
     wider = shapely.geometry.polygon.orient(outline.buffer(0.12, join_style="mitre"))
     for number in range(storeys):
@@ -53,11 +54,7 @@ def tower(outline: Polygon, height_m: float) -> Mesh:
     """Return a control tower: a shaft that ends in a cab of slanting glass."""
     middle = outline.centroid
     half = 0.5 * math.sqrt(outline.area)
-    angles = np.linspace(0.0, math.tau, 8, endpoint=False) + math.pi / 8.0
-
-    def ring(radius: float, up: float) -> list[tuple[float, float, float]]:
-        return [(radius * math.cos(a), radius * math.sin(a), up) for a in angles]
-
+    ring = partial(_ring, 8, math.pi / 8.0)
     cab = height_m - 7.0
     parts = [
         loft([ring(0.62 * half, 0.0), ring(0.5 * half, cab - 5.0)], TOWER_WHITE, closed=True),
@@ -68,6 +65,11 @@ def tower(outline: Polygon, height_m: float) -> Mesh:
              closed=True),
     ]  # fmt: skip
     return join(parts).moved(middle.x, middle.y)
+
+
+def _ring(corners: int, turn: float, radius: float, up: float) -> list[tuple[float, float, float]]:
+    angles = np.linspace(0.0, math.tau, corners, endpoint=False) + turn
+    return [(radius * math.cos(a), radius * math.sin(a), up) for a in angles]
 
 
 def trees(places: Sequence[tuple[float, float]], seed: int) -> Mesh | None:
@@ -85,11 +87,7 @@ def trees(places: Sequence[tuple[float, float]], seed: int) -> Mesh | None:
 
 
 def _tree(colour: Colour, pointed: bool) -> Mesh:
-    angles = np.linspace(0.0, math.tau, 5, endpoint=False)
-
-    def ring(radius: float, up: float) -> list[tuple[float, float, float]]:
-        return [(radius * math.cos(a), radius * math.sin(a), up) for a in angles]
-
+    ring = partial(_ring, 5, 0.0)
     if pointed:
         return loft([ring(0.28, 0.08), ring(0.02, 1.0)], colour, crease_rad=1.0)
     return loft([ring(0.22, 0.0), ring(0.5, 0.45), ring(0.2, 1.0)], colour)
@@ -107,11 +105,8 @@ def houses(places: Sequence[tuple[float, float]], seed: int) -> Mesh | None:
         size = draws.uniform(12.0, 36.0, size=2)
         block = kinds[colour].stretched(float(size[0]), float(size[1]), height)
         turn = float(draws.uniform(0.0, math.pi))
-        sin, cos = math.sin(turn), math.cos(turn)
         low = -float(drop_m(math.hypot(east, north)))
-        found.append(
-            block.turned(((cos, -sin, 0), (sin, cos, 0), (0, 0, 1))).moved(east, north, low)
-        )
+        found.append(_turned(block, turn).moved(east, north, low))
     return join(found) if found else None
 
 
@@ -132,11 +127,8 @@ def clouds(base_m: float, tops_m: float, reach_m: float, count: int, seed: int) 
         tall = (tops_m - base_m) * float(draws.uniform(0.35, 1.0))
         wide = min(max(tall, NARROWEST_CLOUD_M), WIDEST_CLOUD_M) * float(draws.uniform(1.0, 2.2))
         kind = kinds[int(draws.integers(len(kinds)))].stretched(wide, wide, tall)
-        sin, cos = math.sin(turn), math.cos(turn)
         low = base_m - float(drop_m(distance))
-        found.append(
-            kind.turned(((cos, -sin, 0), (sin, cos, 0), (0, 0, 1))).moved(east, north, low)
-        )
+        found.append(_turned(kind, turn).moved(east, north, low))
     return join(found)
 
 
@@ -191,9 +183,12 @@ def scattered(
 def sign(east: float, north: float, heading_rad: float, colour: Colour) -> Mesh:
     """Return a board beside a taxiway that faces traffic of some heading."""
     board = box(colour, 2.4, 0.3, 0.9).moved(up_m=0.5)
-    sin, cos = math.sin(heading_rad), math.cos(heading_rad)
-    turned = board.turned(((cos, sin, 0), (-sin, cos, 0), (0, 0, 1)))
-    return turned.moved(east, north)
+    return _turned(board, -heading_rad).moved(east, north)
+
+
+def _turned(mesh: Mesh, turn_rad: float) -> Mesh:
+    sin, cos = math.sin(turn_rad), math.cos(turn_rad)
+    return mesh.turned(((cos, -sin, 0), (sin, cos, 0), (0, 0, 1)))
 
 
 def _walls(outline: Polygon, low_m: float, high_m: float, colour: Colour) -> Mesh:

@@ -54,17 +54,12 @@ class VisibleBody(NamedTuple):
 class VisibleBodies:
     """The bodies of a scene, projected into the pictures of its cameras.
 
-    Parameters
-    ----------
-    models
-        Appearance of each actor, by callsign.
-    supersampling
-        Samples along each side of a pixel, at least.
-
     Attributes
     ----------
     shapes
         All meshes of the bodies, the coarse ones too, by name.
+    outlines
+        Outlines of the others, by name.
     """
 
     def __init__(
@@ -73,33 +68,23 @@ class VisibleBodies:
         self._models = models
         self._light = light
         self._supersampling = supersampling
-        near = {
-            f"{model.kind}/{name}": mesh
-            for model in models.values()
-            for name, mesh in model.shapes.items()
+        self.shapes: dict[str, Mesh] = {}
+        for model in models.values():
+            for name, mesh in model.shapes.items():
+                self.shapes[f"{model.kind}/{name}"] = mesh
+            for name, mesh in model.far.items():
+                self.shapes[f"{model.kind}/{name}/far"] = mesh
+        self.outlines = {
+            name: Outline.of(mesh)
+            for name, mesh in self.shapes.items()
+            if not name.endswith("/far")
         }
-        far = {
-            f"{model.kind}/{name}/far": mesh
-            for model in models.values()
-            for name, mesh in model.far.items()
-        }
-        self._outlines = {name: Outline.of(mesh) for name, mesh in near.items()}
-        self._far = frozenset(far)
-        self.shapes: Mapping[str, Mesh] = near | far
-
-    def outline(self, shape: str) -> Outline:
-        """Return the outline of a shape that is not a coarse one."""
-        return self._outlines[shape]
 
     def seen(self, body: BodyState, pose: Pose, view: View) -> VisibleBody | None:
         """Return a body if it is in the picture, hidden or not."""
         shape = self._shape(body)
-        outline = self._outlines[shape]
-        whole = outline.box(pose, view) if outline.may_be_in(view, pose) else None
-        if whole is None:
-            return None
-        box = whole.within(view)
-        if box.area <= 0.0:
+        whole = self.outlines[shape].box(pose, view)
+        if whole is None or (box := whole.within(view)).area <= 0.0:
             return None
         away = math.dist(pose.position_m, view.pose.position_m)
         window = box.window(view)
@@ -116,10 +101,7 @@ class VisibleBodies:
         ):
             return None
         shape = self._shape(body)
-        outline = self._outlines[shape]
-        if not outline.shadow_may_be_in(view, pose, light.sun):
-            return None
-        whole = outline.shadow_box(pose, view, light.sun)
+        whole = self.outlines[shape].shadow_box(pose, view, light.sun)
         if whole is None:
             return None
         box = whole.within(view)
@@ -157,7 +139,7 @@ class VisibleBodies:
     def _fitting(self, shape: str, window: Window) -> str:
         """Return the mesh of a shape that fits the size in which it is seen."""
         far = f"{shape}/far"
-        return far if window.area < SMALL_PX and far in self._far else shape
+        return far if window.area < SMALL_PX and far in self.shapes else shape
 
     def _shape(self, body: BodyState) -> str:
         return f"{self._models[body.actor].kind}/{body.shape}"
