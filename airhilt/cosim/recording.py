@@ -6,7 +6,6 @@ from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from pydantic import TypeAdapter
 
@@ -36,14 +35,11 @@ from airhilt.options import Options
 from airhilt.record import Logged, RunFolder, RunInfo
 from airhilt.record.audio import recorded_pcm
 from airhilt.record.latency import RecordedLatencies
-from airhilt.sensors.radio.on_air import OnAir
+from airhilt.sensors.radio.on_air import BackgroundNoise, OnAir
 from airhilt.sim import Input, LatencySpec, Output, Reply, WorkerLost
 from airhilt.units import SECOND_NS
 from airhilt.voices.engines import FAMILY as VOICES
 from airhilt.workers.pool import Participant
-
-if TYPE_CHECKING:
-    from airhilt.sensors.radio.channel import BackgroundNoise
 
 UNENDING_S = 86_400.0
 """Length of a call, in s, that its run has cut off: longer than any run."""

@@ -11,6 +11,7 @@ from threading import Event
 from typing import Protocol
 
 from airhilt.sim.pace import Pace
+from airhilt.units import seconds_to_ns
 
 Action = Callable[[], None]
 
@@ -85,6 +86,10 @@ class Director:
             raise ValueError(f"event at {t_ns} ns, but it is already {self.now_ns} ns")
         heapq.heappush(self._heap, (t_ns, priority, self._sequence, action))
         self._sequence += 1
+
+    def after(self, delay_s: float, action: Action) -> None:
+        """Schedule ``action`` at a delay in s from now, as a part of the script."""
+        self.at(self.now_ns + seconds_to_ns(delay_s), action, Priority.SCRIPT)
 
     def every(self, period_ns: int, action: Action, priority: Priority, first_ns: int = 0) -> None:
         """Schedule ``action`` at ``first_ns`` and then once every ``period_ns``.

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, NamedTuple, Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,9 +21,7 @@ from scipy.fft import irfft, next_fast_len, rfft
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.errors import SpeechError
 from airhilt.scenario.radio_profiles import ChannelProfile
-
-BackgroundNoise = Literal["cockpit", "tower", "none"]
-"""Noise around the microphone."""
+from airhilt.sensors.radio.on_air import BackgroundNoise
 
 LEVEL_RMS = 0.1
 """RMS of active speech in the received audio: -20 dB of full scale, as ITU-T P.56 recommends."""

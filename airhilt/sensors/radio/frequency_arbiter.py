@@ -14,7 +14,6 @@ import numpy as np
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.sensors.radio.on_air import OnAir, Utterance
-from airhilt.sensors.radio.open_microphone import OpenMicrophone
 from airhilt.sim import Director, Priority
 from airhilt.units import seconds_to_ns
 
@@ -48,8 +47,8 @@ class FrequencyArbiter:
         speak: Speak,
         audible: Callable[[str, str], bool],
         *,
-        began: Callable[[OnAir], None],
-        ended: Callable[[OnAir], None],
+        began: Callable[[OnAir], object],
+        ended: Callable[[OnAir], object],
     ) -> None:
         self._director = director
         self._speak = speak
@@ -71,15 +70,27 @@ class FrequencyArbiter:
         end_ns = now_ns + seconds_to_ns(for_s)
         self._transmit(OnAir(utterance, now_ns, end_ns, None, is_carrier=True, is_open_ended=True))
 
-    def press(self, utterance: Utterance) -> OpenMicrophone:
-        """Transmit from now on what a microphone gives, until its button is released.
+    def press(self, utterance: Utterance) -> OnAir:
+        """Transmit from now on what is fed to a microphone, until its button is released.
 
         Whoever presses the button of a transmitter is on the air at once, over all others.
         """
         silence = np.zeros(0, np.float32)
         on_air = OnAir(utterance, self._director.now_ns, None, silence, is_open_ended=True)
         self._transmit(on_air)
-        return OpenMicrophone(self._director, on_air, partial(self._end, on_air))
+        return on_air
+
+    def release(self, on_air: OnAir) -> None:
+        """End a transmission that was pressed; if more was fed than time has passed, after that.
+
+        What has not been fed by then is silence.
+        """
+        said_until_ns = on_air.known_until_ns(self._director.now_ns)
+        if said_until_ns <= self._director.now_ns:
+            self._end(on_air)
+        else:
+            on_air.end_ns = said_until_ns
+            self._director.at(said_until_ns, partial(self._end, on_air), Priority.SCRIPT)
 
     def close(self) -> list[OnAir]:
         """Cut off what is on the air, and return it; nothing is told of from now on."""

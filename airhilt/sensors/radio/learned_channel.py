@@ -19,12 +19,12 @@ from airhilt.host.onnx import first_look, open_network
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.channel import (
     LEVEL_RMS,
-    BackgroundNoise,
     Other,
     VhfChannel,
     active,
     with_voice,
 )
+from airhilt.sensors.radio.on_air import BackgroundNoise
 
 EXPECTED = "one input and one output, both float32 of shape [1, n] with any n: 16 kHz, mono"
 TRIAL_SAMPLES = (1_600, 2_311)

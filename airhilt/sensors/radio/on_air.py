@@ -4,9 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.units import SECOND_NS
+
+BackgroundNoise = Literal["cockpit", "tower", "none"]
+"""Noise around the microphone."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,6 +68,11 @@ class OnAir:
         if self.end_ns is None:
             raise ValueError(f"{self.utterance.id}: still on the air, and its end is not known")
         return self.end_ns
+
+    def feed(self, samples: Audio) -> None:
+        """Add what its microphone has picked up since its button was pressed, or last time."""
+        assert self.speech is not None
+        self.speech = np.concatenate([self.speech, samples])
 
     def has_ended(self, now_ns: int) -> bool:
         """Return whether it is over."""

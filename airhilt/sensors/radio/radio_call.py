@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 from airhilt.scenario.conversation import needed_lines
 from airhilt.scenario.failures import EffectiveLine
@@ -65,11 +66,6 @@ class RadioCall:
             return None
         return self.scripted.declared
 
-    @property
-    def is_first_time(self) -> bool:
-        """True if it has been made once only."""
-        return self.times_said == 1
-
     def recipients(self) -> list[str]:
         """Return who has yet to take it: its addressee, and all that it gives commands to."""
         names = (self.addressed, *(scripted.actor for scripted in self.meant))
@@ -78,6 +74,11 @@ class RadioCall:
             for name in dict.fromkeys(names)
             if name is not None and name != self.speaker and name not in self.taken_by
         ]
+
+    def reply(self, kind: str, speaker: str, text: str, **more: Any) -> RadioCall:
+        """Return a call that somebody makes to the speaker of this one in reply to it."""
+        name, khz = f"{self.id}.{kind}", self.frequency_khz
+        return RadioCall(name, khz, speaker, self.speaker, text, in_reply_to=self, **more)
 
     def once_taken_by(self, name: str, action: Callable[[], None]) -> None:
         """Call an action as soon as a recipient has taken it."""

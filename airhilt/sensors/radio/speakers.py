@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from airhilt.seats import Seats
+from functools import partial
+
+from airhilt.sensors.radio.context import RadioContext
+from airhilt.sensors.radio.frequency_arbiter import FrequencyArbiter
 from airhilt.sensors.radio.on_air import Utterance
 from airhilt.sensors.radio.radio_call import RadioCall
-from airhilt.sensors.radio.stations import Stations
-from airhilt.sensors.radio.transmissions import Transmissions
 
 
 class Speakers:
@@ -21,18 +22,21 @@ class Speakers:
         made.
     """
 
-    def __init__(self, transmissions: Transmissions, stations: Stations, seats: Seats) -> None:
+    def __init__(self, context: RadioContext, arbiter: FrequencyArbiter) -> None:
         self.on_air: dict[str, RadioCall] = {}
         self.said: dict[str, RadioCall] = {}
-        self._transmissions = transmissions
-        self._stations = stations
-        self._seats = seats
+        self._context = context
+        self._arbiter = arbiter
+
+    def say_later(self, call: RadioCall, delay_s: float) -> None:
+        """Make a call after a delay in s."""
+        self._context.director.after(delay_s, partial(self.say, call))
 
     def say(self, call: RadioCall) -> None:
         """Make a call."""
-        if not self._stations.is_there(call.speaker):
+        if not self._context.stations.is_there(call.speaker):
             return
-        if self._seats.has_person(call.speaker) and not call.is_of_person:
+        if self._context.seats.has_person(call.speaker) and not call.is_of_person:
             return
         again = call.times_said
         call.times_said += 1
@@ -51,4 +55,4 @@ class Speakers:
         )
         call.transmission = utterance.id
         self.on_air[utterance.id] = self.said[utterance.id] = call
-        self._transmissions.say(utterance)
+        self._arbiter.say(utterance)

@@ -15,7 +15,6 @@ from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.backends.audio import AudioRadio
 from airhilt.sensors.radio.channel import (
     WHISTLES_HZ,
-    BackgroundNoise,
     Channel,
     Other,
     VhfChannel,
@@ -26,7 +25,7 @@ from airhilt.sensors.radio.channel import (
     active,
     with_voice,
 )
-from airhilt.sensors.radio.on_air import OnAir, Utterance
+from airhilt.sensors.radio.on_air import BackgroundNoise, OnAir, Utterance
 from airhilt.voices.engines.espeak import Espeak
 
 

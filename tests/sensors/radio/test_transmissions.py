@@ -31,15 +31,14 @@ from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.backends import FallbackRadio, RadioBackend, TextRadio
 from airhilt.sensors.radio.backends.audio import AudioRadio
 from airhilt.sensors.radio.channel import VhfChannel
-from airhilt.sensors.radio.frequency_arbiter import GAP_S
+from airhilt.sensors.radio.frequency_arbiter import GAP_S, FrequencyArbiter
 from airhilt.sensors.radio.on_air import OnAir, Utterance
-from airhilt.sensors.radio.open_microphone import OpenMicrophone
-from airhilt.sensors.radio.stations import Stations
 from airhilt.sensors.radio.transmissions import Transmissions
 from airhilt.sim import Director, Priority, Virtual
 from airhilt.sim.streams import stream
 from airhilt.units import SECOND_NS, seconds_to_ns
 from airhilt.voices.engine import VoiceSpec
+from conversations import radio_context
 
 SEED = 7
 SNR_DB = 10.0
@@ -103,15 +102,22 @@ class Air:
         self.director = Director(Virtual())
         self.stations = Everywhere()
         self.published: list[tuple[str, Message, bytes]] = []
-        self.transmissions = Transmissions(
+        backend = backend or audio_radio(radio=radio)
+        context = radio_context(
+            director=self.director,
+            scenario=SimpleNamespace(radio=radio, actors=()),
+            stations=self.stations,
+            backend=backend,
+            publish=self.publish,
+            seats=[SimpleNamespace(seat=seat) for seat in seats],
+        )
+        self.transmissions = Transmissions(context)
+        self.arbiter = FrequencyArbiter(
             self.director,
-            radio,
-            cast(Stations, self.stations),
-            backend or audio_radio(radio=radio),
-            self.publish,
-            began=lambda said: None,
-            ended=lambda ended: None,
-            seats=seats,
+            backend.speak,
+            self.stations.audible,
+            began=self.transmissions.open,
+            ended=self.transmissions.finish,
         )
 
     def publish(self, key: str, message: Message, *, raw: bytes | None = None) -> None:
@@ -126,28 +132,29 @@ class Air:
     ) -> None:
         text = "x" * round(10 * seconds)
         said = Utterance(name, KHZ, speaker or name, None, text, **more)
-        self.at(t_s, partial(self.transmissions.say, said))
+        self.at(t_s, partial(self.arbiter.say, said))
 
     def press(
         self, t_s: float, name: str, fed: list[tuple[float, Audio]], release_s: float
     ) -> None:
         """Press a button, feed samples at times, and release it."""
-        open_microphones: list[OpenMicrophone] = []
+        on_air: list[OnAir] = []
 
         def begin() -> None:
             said = Utterance(name, KHZ, name, None, "")
-            open_microphones.append(self.transmissions.press(said))
+            on_air.append(self.arbiter.press(said))
 
         self.at(t_s, begin)
         for at_s, samples in fed:
-            self.at(at_s, lambda samples=samples: open_microphones[0].feed(samples))  # type: ignore[misc]
-        self.at(release_s, lambda: open_microphones[0].release())
+            self.at(at_s, lambda samples=samples: on_air[0].feed(samples))  # type: ignore[misc]
+        self.at(release_s, lambda: self.arbiter.release(on_air[0]))
 
     def run(self, until_s: float | None = None) -> Air:
         if until_s is not None:
             self.director.at(seconds_to_ns(until_s), self.director.stop, Priority.OBSERVE)
         self.director.run()
-        self.transmissions.close()
+        for on_air in self.arbiter.close():
+            self.transmissions.finish(on_air)
         return self
 
     def of(self, model: type[M], name: str) -> list[tuple[M, bytes]]:
@@ -302,7 +309,7 @@ def test_two_calls_at_once_are_mixed_as_if_both_had_been_known_before() -> None:
         air.say(10.0, "first", 3.0)
         air.say(11.2, "second", 3.0, listens_first=False)
     streamed.run()
-    known.transmissions._receiver._streams._stream = lambda on_air: None
+    known.transmissions._receiver._stream = lambda on_air: None
     known.run()
     for name in ("first", "second"):
         assert streamed.whole(name) == known.whole(name)
@@ -351,7 +358,7 @@ def test_a_speaker_who_comes_into_reach_in_the_middle_of_a_call_is_received_as_a
 def test_a_stuck_microphone_is_streamed_like_any_transmission() -> None:
     air = Air()
     carrier = Utterance("stuck", KHZ, "AAL123", None, "")
-    air.at(10.0, partial(air.transmissions.transmit_carrier, carrier, 8.0))
+    air.at(10.0, partial(air.arbiter.transmit_carrier, carrier, 8.0))
     air.say(12.0, "call", 3.0)
     air.run()
     assert air.truth("call").blocked_by == ("stuck",)
@@ -667,17 +674,6 @@ def test_a_person_who_speaks_at_the_end_of_the_run_is_cut_off() -> None:
     air.run(until_s=11.3)
     assert air.closed("AAL123").t_end_ns == 11.3 * SECOND_NS
     check_stream(air, "AAL123")
-
-
-def test_a_microphone_whose_button_was_released_takes_no_more() -> None:
-    air = Air()
-    microphone = air.transmissions.press(Utterance("AAL123", KHZ, "AAL123", None, ""))
-    microphone.feed(spoken(0.1))
-    microphone.release()
-    microphone.release()
-    assert not microphone.is_open
-    with pytest.raises(ValueError, match="AAL123: the button has been released"):
-        microphone.feed(spoken(0.1))
 
 
 @settings(max_examples=15, deadline=None)

@@ -7,8 +7,8 @@ import numpy as np
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio, to_pcm
 from airhilt.messages import Transcript
 from airhilt.scenario.models import Radio
-from airhilt.sensors.radio.channel import WHISTLES_HZ, BackgroundNoise, Channel, Other
-from airhilt.sensors.radio.on_air import OnAir
+from airhilt.sensors.radio.channel import WHISTLES_HZ, Channel, Other
+from airhilt.sensors.radio.on_air import BackgroundNoise, OnAir
 from airhilt.sensors.radio.reception import Receptions
 from airhilt.sim.streams import stream
 from airhilt.units import SECOND_NS

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 from airhilt.host.files import sha256
 from airhilt.scenario.models import Radio
 from airhilt.scenario.radio_profiles import PROFILES, is_learned
-from airhilt.sensors.radio.backends.base import RadioBackend
-from airhilt.sensors.radio.backends.text import TextRadio
+from airhilt.sensors.radio.backends.base import RadioBackend, TextRadio
 
 if TYPE_CHECKING:
     from airhilt.sensors.radio.channel import Channel
