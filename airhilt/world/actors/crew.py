@@ -38,7 +38,7 @@ from airhilt.world.actors.envelope import too_low, unflyable
 from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
 from airhilt.world.actors.runway_operations import RunwayOperations
 from airhilt.world.flight.aircraft import Aircraft
-from airhilt.world.flight.procedures.emergency_descent import EmergencyDescent
+from airhilt.world.flight.procedures.en_route import EmergencyDescent
 from airhilt.world.site import ScenarioSite
 
 GEAR_DOWN_BELOW_M = 600.0

@@ -6,7 +6,6 @@ from airhilt.shapes.aircraft.spec import AircraftDimensions
 from airhilt.world.flight.aircraft_type import AircraftType
 from airhilt.world.flight.airframe import Airframe
 from airhilt.world.flight.control import FlightControl
-from airhilt.world.flight.en_route_commands import EnRouteCommands
 from airhilt.world.flight.ground import GroundLaw
 from airhilt.world.flight.guard import FlightGuard
 from airhilt.world.flight.phases import AircraftSystems
@@ -43,7 +42,7 @@ class Aircraft:
     Attributes
     ----------
     kind : AircraftType
-    en_route : EnRouteCommands
+    en_route : FlightControl
         Commands for track, route, altitude and airspeed.
     procedures : ProcedureCommands
         Commands that begin a taxi, a takeoff, an approach or an emergency procedure.
@@ -83,19 +82,18 @@ class Aircraft:
         systems = AircraftSystems(
             kind, airframe, autopilot, GroundLaw(airframe, kind, tick_s), tick_s
         )
-        self._control = control = FlightControl(systems, initial, terrain_elevation_m)
-        self.en_route = EnRouteCommands(control)
-        self.procedures = ProcedureCommands(control)
+        self.en_route = FlightControl(systems, initial, terrain_elevation_m)
+        self.procedures = ProcedureCommands(self.en_route)
 
     @property
     def state(self) -> AircraftState:
         """True state after the last `advance`."""
-        return self._control.state
+        return self.en_route.state
 
     @property
     def phase(self) -> str:
         """Phase of flight, such as ``en_route``, ``glide`` or ``go_around``."""
-        return self._control.phase.name
+        return self.en_route.phase.name
 
     @property
     def on_ground(self) -> bool:
@@ -125,23 +123,23 @@ class Aircraft:
     @property
     def target_altitude_m(self) -> float:
         """Altitude that is flown to, or held, in m."""
-        return self._control.en_route.vertical.clearance.altitude_m
+        return self.en_route.guidance.vertical.clearance.altitude_m
 
     @property
     def target_vertical_rate_m_s(self) -> float:
         """Vertical rate commanded now, in m/s, positive up; 0 at the target altitude."""
-        return self._control.en_route.vertical.vertical_rate(self.state)
+        return self.en_route.guidance.vertical.vertical_rate(self.state)
 
     @property
     def target_speed_m_s(self) -> float:
         """Calibrated airspeed that is flown to, or held as far as the Mach limit allows, in m/s."""
-        return self._control.en_route.speed.target_m_s
+        return self.en_route.guidance.speed.target_m_s
 
     def advance(self) -> None:
         """Fly one tick; do nothing once the flight has ended."""
         if self.ended is not None:
             return
-        control, airframe = self._control, self._airframe
+        control, airframe = self.en_route, self._airframe
         state = control.state
         control.phase = phase = control.phase.fly(state)
         if isinstance(phase, Standing) and phase.at_rest:

@@ -17,7 +17,8 @@ from airhilt.world.flight import (
     load_aircraft_type,
     standard_atmosphere,
 )
-from airhilt.world.flight.airframe import Airframe, heading_to_track
+from airhilt.world.flight.airframe import Airframe
+from airhilt.world.flight.starting import heading_to_track
 from airhilt.world.surface.runway import RunwayEnd
 
 

@@ -9,7 +9,7 @@ from typing import Any, cast
 import pytest
 
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, wrap_angle
-from airhilt.world.flight.procedures.engine_failure import DriftDown
+from airhilt.world.flight.procedures.en_route import DriftDown
 from airhilt.world.surface.runway import RunwayEnd
 from breadth import mostly_slow
 from stand_ins import state_at

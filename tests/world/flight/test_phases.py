@@ -15,13 +15,10 @@ from airhilt.units import DEGREE, KNOT
 from airhilt.world.flight import load_aircraft_type
 from airhilt.world.flight.modes import GuidanceModes
 from airhilt.world.flight.phases import AircraftSystems, FlightPhase
-from airhilt.world.flight.procedures.approach import Glide
-from airhilt.world.flight.procedures.emergency_descent import EmergencyDescent
-from airhilt.world.flight.procedures.en_route import EnRoute
-from airhilt.world.flight.procedures.engine_failure import DriftDown
+from airhilt.world.flight.procedures.en_route import DriftDown, EmergencyDescent, EnRoute
 from airhilt.world.flight.procedures.final import Final
 from airhilt.world.flight.procedures.go_around import GoAround
-from airhilt.world.flight.procedures.landing import Flare, Rollout
+from airhilt.world.flight.procedures.landing import Flare, Glide, Rollout
 from airhilt.world.flight.procedures.takeoff import (
     ClimbOut,
     RejectedTakeoff,
@@ -619,7 +616,7 @@ def test_who_stands_is_at_rest_once_nothing_moves(speed_m_s: float, at_rest: boo
 
 def test_rolling_out_it_takes_no_en_route_command(on_the_ground: Callable[..., Any]) -> None:
     aircraft = on_the_ground("737")
-    control = aircraft._control
+    control = aircraft.en_route
     control.phase = Rollout(control.systems, cast(Any, FINAL), ())
     with pytest.raises(ValueError, match="in phase rollout on the ground; expected in the air"):
         aircraft.en_route.hold_track(1.0)

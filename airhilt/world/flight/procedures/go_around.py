@@ -17,23 +17,20 @@ STOP_M_S2 = 1.5
 """Upward acceleration that stops the descent, in m/s2."""
 
 
-class GoAround:
+class GoAround(FlightPhase):
     """Goes around, cleans up, and levels off into what follows.
 
     Parameters
     ----------
-    systems
-        Airframe, autopilot and ground law.
     then
         En route on the track, to the altitude and at the clean airspeed that follow.
     """
 
     name = "go_around"
     commandable = True
-    may_touch = False
 
     def __init__(self, systems: AircraftSystems, then: EnRoute) -> None:
-        self._systems = systems
+        super().__init__(systems)
         self._then = then
         self._airspeed = systems.kind.speeds.climb_safety_kt * KNOT
         self._stopped = False

@@ -27,13 +27,7 @@ FLAPS_UP_MARGIN_M_S = 20.0 * KNOT
 
 
 def require_lined_up(state: AircraftState, line: Final) -> None:
-    """Check that a takeoff can begin here.
-
-    Raises
-    ------
-    ValueError
-        The aircraft is not on the runway, or does not point along it.
-    """
+    """Raise ValueError unless the aircraft is on the runway, and points along it."""
     runway = line.runway
     off, turn = abs(line.cross_track_m(state)), abs(line.crab_rad(state))
     rolled = line.along_m(state) + runway.displaced_m
@@ -49,13 +43,11 @@ def require_lined_up(state: AircraftState, line: Final) -> None:
         )
 
 
-class TakeoffRoll:
+class TakeoffRoll(FlightPhase):
     """Rolls along the centre line to rotation speed.
 
     Parameters
     ----------
-    systems
-        Airframe, autopilot and ground law.
     line
         The runway's centre line.
     then
@@ -63,12 +55,11 @@ class TakeoffRoll:
     """
 
     name = "takeoff_roll"
-    commandable = False
     may_touch = True
 
     def __init__(self, systems: AircraftSystems, line: Final, then: EnRoute) -> None:
         self.line = line
-        self._systems = systems
+        super().__init__(systems)
         self._then = then
         self._lever = 0.0
         kind = systems.kind
@@ -89,12 +80,12 @@ class TakeoffRoll:
         return self
 
 
-class Rotate:
+class Rotate(FlightPhase):
     """Raises the nose, and holds it until the runway is safely below.
 
     Parameters
     ----------
-    systems, line, then
+    line, then
         As for `TakeoffRoll`.
     state
         State of the aircraft now.
@@ -107,7 +98,7 @@ class Rotate:
     def __init__(
         self, systems: AircraftSystems, line: Final, then: EnRoute, state: AircraftState
     ) -> None:
-        self._systems = systems
+        super().__init__(systems)
         self._line = line
         self._then = then
         takeoff = systems.kind.takeoff
@@ -129,21 +120,20 @@ class Rotate:
         return self
 
 
-class ClimbOut:
+class ClimbOut(FlightPhase):
     """Climbs at full thrust, cleans up, accelerates, and levels off into what follows.
 
     Parameters
     ----------
-    systems, line, then
+    line, then
         As for `TakeoffRoll`.
     """
 
     name = "climb_out"
     commandable = True
-    may_touch = False
 
     def __init__(self, systems: AircraftSystems, line: Final, then: EnRoute) -> None:
-        self._systems = systems
+        super().__init__(systems)
         self._line = line
         self._then = then
         self._safety_speed = systems.kind.speeds.climb_safety_kt * KNOT
@@ -169,15 +159,14 @@ class ClimbOut:
         return self
 
 
-class RejectedTakeoff:
+class RejectedTakeoff(FlightPhase):
     """Idle, brakes, and to a stand on the centre line."""
 
     name = "rejected_takeoff"
-    commandable = False
     may_touch = True
 
     def __init__(self, systems: AircraftSystems, line: Final) -> None:
-        self._systems = systems
+        super().__init__(systems)
         self._line = line
         self._deceleration = systems.kind.takeoff.rejected_deceleration_m_s2
         systems.ground.reset()
