@@ -96,13 +96,9 @@ class Director:
 
         Raises
         ------
-        TypeError
-            ``period_ns`` or ``first_ns`` is no int.
         ValueError
             ``period_ns`` is not positive.
         """
-        if not isinstance(period_ns, int):
-            raise TypeError(f"period of {period_ns!r} ns; expected an int")
         if period_ns <= 0:
             raise ValueError(f"period of {period_ns} ns; it must be positive")
 

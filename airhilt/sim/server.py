@@ -5,6 +5,7 @@ from __future__ import annotations
 from array import array
 from collections import Counter, deque
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 from airhilt.errors import WorkerError
@@ -141,35 +142,28 @@ class Server:
             self.name, seq, t_in_ns, now_ns, known_ns or 0, 0.0, 0, finished=False
         )
         if known_ns is None:
-            self._director.at(now_ns, lambda: self._settle(pending, step), Priority.SETTLE)
+            due_ns, priority = now_ns, Priority.SETTLE
         else:
-            due_ns = now_ns + known_ns
-            self._director.at(due_ns, lambda: self._collect_due(pending, step), Priority.RESULT)
+            due_ns, priority = now_ns + known_ns, Priority.RESULT
+        collect = partial(self._collect, pending, step, is_known=known_ns is not None)
+        self._director.at(due_ns, collect, priority)
 
-    def _settle(self, pending: Pending, step: StepRecord) -> None:
-        """Wait for a step whose latency only its result tells."""
-        reply = self._collect(pending)
-        if reply is None:
+    def _collect(self, pending: Pending, step: StepRecord, *, is_known: bool) -> None:
+        """Wait for the result of a step, which may be what tells its latency."""
+        if self.is_lost:
+            return
+        try:
+            reply = pending.result()
+        except WorkerLost as lost:
+            self.lose(str(lost), lost.is_of_machine)
+            return
+        if is_known:
+            self._finish(reply, step)
             return
         latency_ns = self._latency.settled_ns(reply.compute_s, len(reply.outputs))
         self._in_hand = settled = step._replace(latency_ns=latency_ns)
-        self._director.at(
-            step.t_start_ns + latency_ns, lambda: self._finish(reply, settled), Priority.RESULT
-        )
-
-    def _collect_due(self, pending: Pending, step: StepRecord) -> None:
-        reply = self._collect(pending)
-        if reply is not None:
-            self._finish(reply, step)
-
-    def _collect(self, pending: Pending) -> Reply | None:
-        if self.is_lost:
-            return None
-        try:
-            return pending.result()
-        except WorkerLost as lost:
-            self.lose(str(lost), lost.is_of_machine)
-            return None
+        due_ns = step.t_start_ns + latency_ns
+        self._director.at(due_ns, partial(self._finish, reply, settled), Priority.RESULT)
 
     def _finish(self, reply: Reply, step: StepRecord) -> None:
         if self.is_lost:
