@@ -12,9 +12,10 @@ from airhilt.geodesy.wgs84 import (
     ECCENTRICITY_SQUARED,
     SEMI_MAJOR_AXIS_M,
     Place,
-    Vector,
     curvature_radii_m,
+    dot,
     earth_centred,
+    horizontal_axes,
     vertical,
 )
 
@@ -44,11 +45,6 @@ class LocalFrame:
     ------
     ValueError
         The origin is no place on Earth, or is a pole.
-
-    Notes
-    -----
-    The rotation from Earth-centred axes is that of east, north and up in NIMA TR8350.2 and in
-    P. Misra and P. Enge, Global Positioning System, 2nd ed., section 4.A.
     """
 
     def __init__(self, origin: Place, height_m: float = 0.0) -> None:
@@ -58,11 +54,8 @@ class LocalFrame:
         self.origin = origin
         meridional, prime_vertical = curvature_radii_m(latitude)
         self._scale = 1.0 + height_m / math.sqrt(meridional * prime_vertical)
-        sin_lat, cos_lat = math.sin(latitude), math.cos(latitude)
-        sin_lon, cos_lon = math.sin(longitude), math.cos(longitude)
         self._centre = earth_centred(origin)
-        self._east = (-sin_lon, cos_lon, 0.0)
-        self._north = (-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat)
+        self._east, self._north = horizontal_axes(origin)
         self._up = vertical(origin)
 
     def to_local(self, place: Place) -> tuple[float, float]:
@@ -74,7 +67,7 @@ class LocalFrame:
             there[2] - self._centre[2],
         )
         scale = self._scale
-        return scale * _dot(self._east, offset), scale * _dot(self._north, offset)
+        return scale * dot(self._east, offset), scale * dot(self._north, offset)
 
     def to_place(self, east_m: float, north_m: float) -> Place:
         """Return the place whose east and north these are.
@@ -100,7 +93,3 @@ class LocalFrame:
         rise = -c / (b + math.sqrt(b * b - a * c))
         x, y, z = x + ux * rise, y + uy * rise, z + uz * rise
         return math.atan2(z, k * math.hypot(x, y)), math.atan2(y, x)
-
-
-def _dot(a: Vector, b: Vector) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

@@ -23,7 +23,9 @@ from airhilt.messages import BUS_MESSAGES, WORKER_OUTPUTS, Message
 from airhilt.plugins import Family
 from airhilt.scenario.models import Scenario
 from airhilt.sim import LatencySpec, Scheduler, StepRecord
+from airhilt.units import SECOND_NS
 from airhilt.world.actors.actor import Actor
+from airhilt.world.mover import Motion, Mover, carried_on
 from airhilt.world.site import ScenarioSite
 
 
@@ -76,6 +78,11 @@ class SensorContext:
     subscribed: frozenset[str] = frozenset()
     settings: Mapping[str, Any] | None = None
 
+    def state_of(self, body: Mover, before_s: float = 0.0) -> Motion:
+        """Return the motion of a body now, or a time in s before, carried on from its state."""
+        age_s = (self.director.now_ns - self.state_at_ns()) / SECOND_NS
+        return carried_on(body.state, age_s - before_s)
+
 
 class Sensor(Protocol):
     """A part of a run that measures the true world and publishes what it finds."""
@@ -84,21 +91,17 @@ class Sensor(Protocol):
         """Schedule the first measurements; the run begins."""
 
     def unfinished(self) -> Sequence[StepRecord]:
-        """Return latency records of measurements that are not published when the run ends."""
+        """Return latency records of measurements that are not published when the run ends.
 
-
-class UntimedSensor(Sensor):
-    """Base class of sensors without a latency of their own in the latency log."""
-
-    def unfinished(self) -> Sequence[StepRecord]:
-        """Return nothing: there are no latency records."""
+        There are none unless a sensor has a latency of its own in the latency log.
+        """
         return ()
 
 
-class SensorGroup(UntimedSensor):
+class SensorGroup(Sensor):
     """Several sensors of one type, such as all radars of a scenario."""
 
-    def __init__(self, sensors: Sequence[UntimedSensor]) -> None:
+    def __init__(self, sensors: Sequence[Sensor]) -> None:
         self._sensors = sensors
 
     def start(self) -> None:

@@ -17,16 +17,16 @@ import numpy as np
 from airhilt.geodesy.wgs84 import Place, displaced, distance_m
 from airhilt.messages import Message, PlotKind, SurfaceTrack
 from airhilt.scenario.models import SurfaceSurveillance, WildlifeSpec
-from airhilt.sensors.base import SensorContext, UntimedSensor
+from airhilt.sensors.base import Sensor, SensorContext
 from airhilt.sensors.radar import cross_section_m2, plot_kind
 from airhilt.sim import Priority
 from airhilt.sim.streams import stream
 from airhilt.surveillance import surface
 from airhilt.surveillance.squitters import ALTITUDE_STEP_FT, quantise
 from airhilt.surveillance.transponders import STANDING_BELOW_M_S
-from airhilt.units import DEGREE, FOOT, KNOT, SECOND_NS, bearing_degrees, seconds_to_ns
+from airhilt.units import DEGREE, FOOT, KNOT, bearing_degrees, seconds_to_ns
 from airhilt.world.actors.actor import Actor
-from airhilt.world.mover import Motion, carried_on
+from airhilt.world.mover import Motion
 
 SPEED_STEP_KT = 0.1
 """Resolution of a track's speed, in kt."""
@@ -81,7 +81,7 @@ class _Target:
         return not isinstance(spec, WildlifeSpec) and spec.transponder.equipped
 
 
-class SurfaceSensor(UntimedSensor):
+class SurfaceSensor(Sensor):
     """Measures all targets once a second, and publishes their tracks.
 
     Parameters
@@ -96,7 +96,7 @@ class SurfaceSensor(UntimedSensor):
         layout = context.site.airport
         self._director = context.director
         self._publish = context.publish
-        self._state_at_ns = context.state_at_ns
+        self._state_of = context.state_of
         self._airport = layout.airport.icao
         self._declared = declared
         self._numbers = itertools.count(1)
@@ -118,12 +118,11 @@ class SurfaceSensor(UntimedSensor):
     def _measure(self) -> None:
         """Measure all targets, and publish the tracks when they are ready."""
         now_ns = self._director.now_ns
-        age_s = (now_ns - self._state_at_ns()) / SECOND_NS
         tracks = [
             track
             for target in self._targets
             if target.actor.body.ended is None
-            and (track := self._track(target, carried_on(target.actor.body.state, age_s), now_ns))
+            and (track := self._track(target, self._state_of(target.actor.body), now_ns))
         ]
         out_ns = now_ns + surface.LATENCY_NS
 

@@ -29,7 +29,7 @@ import numpy as np
 
 from airhilt.messages import Message, TcasReply
 from airhilt.scenario.models import AircraftSpec
-from airhilt.sensors.base import SensorContext, SensorGroup, UntimedSensor
+from airhilt.sensors.base import Sensor, SensorContext, SensorGroup
 from airhilt.sim import Priority
 from airhilt.sim.streams import stream
 from airhilt.surveillance.horizon import radio_horizon_m
@@ -37,7 +37,7 @@ from airhilt.surveillance.radar import MODE_C_STEP_FT, Antenna
 from airhilt.surveillance.squitters import ALTITUDE_STEP_FT, quantise
 from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, SECOND_NS, seconds_to_ns
 from airhilt.world.actors.actor import Actor
-from airhilt.world.mover import Motion, carried_on
+from airhilt.world.mover import Motion
 
 PERIOD_NS = SECOND_NS
 """Period of the interrogations, in ns."""
@@ -100,7 +100,7 @@ class _Target:
     bias_m: float
 
 
-class Interrogator(UntimedSensor):
+class Interrogator(Sensor):
     """One aircraft's interrogations, once a second from a phase that is drawn.
 
     Parameters
@@ -116,7 +116,7 @@ class Interrogator(UntimedSensor):
     def __init__(self, callsign: str, carriers: Collection[str], context: SensorContext) -> None:
         self._callsign = callsign
         self._director = context.director
-        self._state_at_ns = context.state_at_ns
+        self._state_of = context.state_of
         self._publish = context.publish
         self._ground_m = context.site.ground_m
         self._own = context.actors[callsign]
@@ -146,13 +146,11 @@ class Interrogator(UntimedSensor):
         body = self._own.body
         if body.ended is not None or body.on_ground:
             return
-        age_s = (self._director.now_ns - self._state_at_ns()) / SECOND_NS
-        own = carried_on(body.state, age_s)
+        own = self._state_of(body)
         antenna = Antenna(own.latitude_rad, own.longitude_rad, own.altitude_m)
         for target in self._targets:
             if target.actor.body.ended is None:
-                state = carried_on(target.actor.body.state, age_s)
-                reply = self._reply(target, state, own, antenna)
+                reply = self._reply(target, self._state_of(target.actor.body), own, antenna)
                 if reply is not None:
                     self._publish(f"tcas/{self._callsign}", reply)
 

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from airhilt.geodesy.relative_motion import relative
 from airhilt.surveillance import transponders
-from airhilt.surveillance.receivers import Receiver, Reception
+from airhilt.surveillance.receivers import Receiver
 from airhilt.surveillance.squitters import (
     NACP_95_PERCENT_M,
     movement_kt,
@@ -192,15 +192,6 @@ def test_the_first_report_needs_an_even_and_an_odd_position_and_a_velocity() -> 
     assert (report.t_adsb_in_ns, report.t_adsb_out_ns, report.t_ns) == (3, 9, 9)
     assert report.latitude_deg == pytest.approx(47.0, abs=1e-3)
     assert report.longitude_deg == pytest.approx(8.0, abs=1e-3)
-
-
-def test_a_velocity_and_positions_of_one_format_are_not_enough() -> None:
-    sender, station = transponder(), receiver()
-    station.decode(sender, sender.velocity(HERE), 0)
-    for n in range(6):
-        squitter = sender.position(HERE, n)
-        if not squitter.position.odd:
-            assert station.decode(sender, squitter, n) is None
 
 
 def test_a_pair_is_decoded_together_up_to_its_longest_time(subtests: pytest.Subtests) -> None:
@@ -419,70 +410,3 @@ def test_who_has_moved_by_10_m_has_not_moved_by_more(
     monkeypatch.setattr(transponders, "horizontal_distance_m", lambda *_: moved_m)
     assert rate.is_stationary(STANDING, 30 * SECOND_NS) is stands
     assert not SurfaceRate().is_stationary(STANDING, 60 * SECOND_NS)
-
-
-def test_who_creeps_on_is_not_stationary() -> None:
-    rate = SurfaceRate()
-    assert not any(stationary(rate, 0.4 * t, t) for t in np.arange(0.0, 200.0, 0.5))
-
-
-# --- losses and outages ---------------------------------------------------------------------
-
-
-def heard_of(reception: Reception, squitters: int, t_ns: int = 0) -> list[Any]:
-    sender = transponder()
-    return [
-        reception.receive(sender, sender.velocity(HERE), HERE, t_ns)
-        or reception.receive(sender, sender.position(HERE, t_ns), HERE, t_ns)
-        for _ in range(squitters)
-    ]
-
-
-@pytest.mark.parametrize(
-    ("probability", "least", "most"), [(0.0, 1, 1), (0.3, 0.63, 0.77), (1.0, 0, 0)]
-)
-def test_squitters_are_lost_with_the_given_probability(
-    probability: float, least: float, most: float
-) -> None:
-    sender = transponder()
-    reception = Reception([receiver()], probability, [])
-    for _ in range(20):
-        reception.receive(sender, sender.velocity(HERE), HERE, 0)
-    for _ in range(20):
-        reception.receive(sender, sender.position(HERE, 0), HERE, 0)
-    heard = [
-        reception.receive(sender, sender.position(HERE, 0), HERE, 0) is not None
-        for _ in range(1000)
-    ]
-    assert least <= np.mean(heard) <= most
-
-
-def test_in_an_outage_nothing_is_received_and_after_it_all_is_as_if_it_had_not_been() -> None:
-    begin, end = 10 * SECOND_NS, 12 * SECOND_NS
-    without, with_outage = (
-        (transponder(), Reception([receiver()], 0.2, outages)) for outages in ([], [(begin, end)])
-    )
-    heard = {}
-    for name, (sender, reception) in (("without", without), ("with", with_outage)):
-        reports = []
-        for n in range(60):
-            t_ns = n * SECOND_NS // 2
-            reception.receive(sender, sender.velocity(HERE), HERE, t_ns)
-            decoded = reception.receive(sender, sender.position(HERE, t_ns), HERE, t_ns)
-            reports.append(decoded and (decoded.position_deg, decoded.altitude_ft, t_ns))
-        heard[name] = reports
-    assert heard["with"][20:24] == [None] * 4
-    assert any(heard["without"][20:24])
-    assert [r and r[0] for r in heard["with"][24:]] == [r and r[0] for r in heard["without"][24:]]
-    assert heard["with"][:20] == heard["without"][:20]
-
-
-def test_the_first_receiver_that_is_in_view_gives_the_report() -> None:
-    deaf, near = receiver("deaf", range_m=0.001, height_m=0.0), receiver("near")
-    deaf.site = FixedSite(10.0 * DEGREE, 8.0 * DEGREE)
-    decoded = [d for d in heard_of(Reception([deaf, near], 0.0, []), 3) if d is not None]
-    assert {d.receiver for d in decoded} == {"near"}
-
-
-def test_where_no_receiver_hears_there_is_no_report() -> None:
-    assert heard_of(Reception([], 0.0, []), 3) == [None] * 3

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from geographiclib.geodesic import Geodesic
 
-from airhilt.geodesy.wgs84 import Place, Vector, earth_centred, vertical
+from airhilt.geodesy.wgs84 import Place, Vector, dot, earth_centred, vertical
 from airhilt.world.flight.state import AircraftState
 
 LONGEST_LEG_M = 100_000.0
@@ -47,7 +47,7 @@ class Leg:
         self.start = start
         self.end = end
         self.right = _unit(_cross(chord, middle))
-        self.length_m = math.sqrt(_dot(chord, chord))
+        self.length_m = math.sqrt(dot(chord, chord))
         self._origin = a
         self._end = b
         self._forward_at_end = _cross(vertical(end), self.right)
@@ -129,8 +129,8 @@ class Arc:
             state.ecef_y_m - self._place[1],
             state.ecef_z_m - self._place[2],
         )
-        east = _dot(offset, self._east) - self._centre_east
-        north = _dot(offset, self._north) - self._centre_north
+        east = dot(offset, self._east) - self._centre_east
+        north = dot(offset, self._north) - self._centre_north
         outside = math.hypot(east, north) - self.radius_m
         return Guide(
             -self.side * outside,
@@ -187,10 +187,6 @@ def _scaled(a: Vector, factor: float) -> Vector:
     return a[0] * factor, a[1] * factor, a[2] * factor
 
 
-def _dot(a: Vector, b: Vector) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
 def _cross(a: Vector, b: Vector) -> Vector:
     return (
         a[1] * b[2] - a[2] * b[1],
@@ -200,4 +196,4 @@ def _cross(a: Vector, b: Vector) -> Vector:
 
 
 def _unit(a: Vector) -> Vector:
-    return _scaled(a, 1.0 / math.sqrt(_dot(a, a)))
+    return _scaled(a, 1.0 / math.sqrt(dot(a, a)))
