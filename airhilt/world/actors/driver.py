@@ -39,13 +39,7 @@ class Driver:
         return self.kind.mesh_of(self.body, t_s)
 
     def command(self, command: Command) -> None:
-        """Carry out a command.
-
-        Raises
-        ------
-        Unable
-            There is no way there, or drivers of this kind have no such command.
-        """
+        """Carry out a command; raise `Unable` without a way, or if its kind has no such command."""
         if not isinstance(command, self.kind.understands):
             raise Unable(f"unable, a driver does not {command.action.replace('_', ' ')}")
         self._carry_out(command)
@@ -61,25 +55,16 @@ class Driver:
     def hear(self, advisory: Advisory) -> Reaction | None:
         """Return the driver's reaction to an advisory; None if there is none."""
         recommendation = advisory.recommendation
-        if (
-            recommendation is None
-            or not advisory.active
-            or advisory.severity.rank < FOLLOWED_FROM.rank
-        ):
+        is_urgent = advisory.active and advisory.severity.rank >= FOLLOWED_FROM.rank
+        if recommendation is None or not is_urgent:
             return None
         command = self.kind.command_for(recommendation)
         if command is None or not self.reactions.complies(advisory.id):
             return None
-        does = (
-            "holds position"
-            if isinstance(recommendation, HoldPosition)
-            else f"follows {recommendation.action}"
-        )
-        return Reaction(
-            self.reactions.delay_s(advisory, again=False),
-            lambda: self._carry_out(command),
-            does,
-        )
+        holds = isinstance(recommendation, HoldPosition)
+        does = "holds position" if holds else f"follows {recommendation.action}"
+        delay_s = self.reactions.delay_s(advisory, again=False)
+        return Reaction(delay_s, lambda: self._carry_out(command), does)
 
     def follows(self, recommendation: Recommendation) -> bool:
         """Return whether drivers of its kind have a command for such a recommendation."""

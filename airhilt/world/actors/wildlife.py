@@ -40,13 +40,7 @@ class Animal:
         return self.kind.mesh_of(self.body, t_s)
 
     def command(self, command: Command) -> None:
-        """Move as the plan says.
-
-        Raises
-        ------
-        Unable
-            Animals have no such command, or there is no such place.
-        """
+        """Move as the plan says; raise `Unable` if animals do not do that, or it is no place."""
         if not isinstance(command, self.kind.understands):
             raise Unable(f"animals do not {command.action.replace('_', ' ')}")
         try:
