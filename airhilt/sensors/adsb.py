@@ -63,13 +63,7 @@ SENSOR = AdsbType()
 
 
 class AdsbSensor(Sensor):
-    """Schedules the squitters of all transponders, and publishes what the receivers report.
-
-    Parameters
-    ----------
-    context
-        Parts of the run that the sensor uses.
-    """
+    """Schedules the squitters of all transponders, and publishes what the receivers report."""
 
     def __init__(self, context: SensorContext) -> None:
         scenario = context.scenario

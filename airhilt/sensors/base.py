@@ -154,11 +154,6 @@ def load_sensor_types(asked: Collection[str] = ()) -> tuple[list[SensorType], li
     Types of AIRHILT and requested types must be there. A broken type of another package
     that nobody asked for is left out, with a sentence on it.
 
-    Parameters
-    ----------
-    asked
-        Names of sensor types that a scenario has settings for.
-
     Raises
     ------
     SensorError
@@ -187,10 +182,7 @@ def load_sensor_types(asked: Collection[str] = ()) -> tuple[list[SensorType], li
 def load_sensor_type(name: str) -> SensorType:
     """Return a sensor type.
 
-    Raises
-    ------
-    SensorError
-        It cannot be loaded, or its name or its keys belong to something else.
+    A SensorError says that it cannot be loaded, or that its name or its keys are not a sensor's.
     """
     sensor_type: SensorType = FAMILY.load(name)
     taken = {key.split("/")[0] for key in BUS_MESSAGES} | {"worker", *WORKER_OUTPUTS}

@@ -48,15 +48,7 @@ SENSOR = CockpitType()
 
 
 class Cockpits(Sensor):
-    """The instruments of all aircraft that show them.
-
-    Parameters
-    ----------
-    callsigns
-        Callsigns of the actors that show them if they are aircraft or vehicles.
-    context
-        Parts of the run that the sensor uses.
-    """
+    """The instruments of those of some actors that are aircraft or vehicles."""
 
     def __init__(self, callsigns: Sequence[str], context: SensorContext) -> None:
         self._director = context.director
@@ -102,10 +94,7 @@ def instruments_of(
 ) -> CockpitInstruments:
     """Return what the instruments of an aircraft show at a time.
 
-    Parameters
-    ----------
-    variation_deg
-        Magnetic variation, positive east; None if it is not known, and the compass shows true.
+    The magnetic variation is positive east; None if it is not known, and the compass shows true.
     """
     state, from_true_deg = aircraft.state, variation_deg or 0.0
     return CockpitInstruments(

@@ -78,15 +78,7 @@ class _Target:
 
 
 class TurningRadar(Sensor):
-    """One radar: turns its antenna and publishes its plots.
-
-    Parameters
-    ----------
-    declared
-        The radar as the scenario declares it.
-    context
-        Parts of the run that the sensor uses.
-    """
+    """One radar: turns its antenna and publishes its plots."""
 
     def __init__(self, declared: Radar, context: SensorContext) -> None:
         self._site = declared.name

@@ -21,10 +21,7 @@ from airhilt.units import SECOND_NS
 def start_sensors(types: Iterable[SensorType], context: SensorContext) -> list[Sensor]:
     """Start a sensor of each type that has something to do in a run.
 
-    Raises
-    ------
-    AirhiltError
-        The scenario asks for a sensor that cannot exist, or one does not start.
+    An AirhiltError says that a sensor cannot exist or does not start.
     """
     sensors: list[Sensor] = []
     for sensor_type in types:

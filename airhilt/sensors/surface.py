@@ -82,15 +82,7 @@ class _Target:
 
 
 class SurfaceSensor(Sensor):
-    """Measures all targets once a second, and publishes their tracks.
-
-    Parameters
-    ----------
-    context
-        Parts of the run that the sensor uses.
-    declared
-        Losses and outages.
-    """
+    """Measures all targets once a second, and publishes their tracks."""
 
     def __init__(self, context: SensorContext, declared: SurfaceSurveillance) -> None:
         layout = context.site.airport

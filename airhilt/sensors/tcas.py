@@ -101,17 +101,7 @@ class _Target:
 
 
 class Interrogator(Sensor):
-    """One aircraft's interrogations, once a second from a phase that is drawn.
-
-    Parameters
-    ----------
-    callsign
-        Callsign of the aircraft.
-    carriers
-        Callsigns of all aircraft that carry TCAS.
-    context
-        Parts of the run that the sensor uses.
-    """
+    """One aircraft's interrogations, once a second from a phase that is drawn."""
 
     def __init__(self, callsign: str, carriers: Collection[str], context: SensorContext) -> None:
         self._callsign = callsign

@@ -76,13 +76,7 @@ class LatencySpec:
         return self.kind if self.given_s is None else f"{self.kind}:{self.given_s:g}"
 
     def of(self, stage: str, is_of_user: bool = False) -> LatencySpec:
-        """Return the latency source of a stage, such as ``asr``.
-
-        Parameters
-        ----------
-        is_of_user
-            True if the user brings the worker, or the engine that it is made of.
-        """
+        """Return the latency source of a stage such as ``asr``, or of what a user brings for it."""
         others = self.of_users if is_of_user and self.of_users else self
         return self.stages.get(stage, others)
 

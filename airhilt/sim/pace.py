@@ -78,13 +78,7 @@ class Paused(Pace):
 
 
 def parse_pace(text: str) -> Pace:
-    """Return the pace called ``virtual``, ``realtime``, or a factor such as ``4x``.
-
-    Raises
-    ------
-    AirhiltError
-        It is none of these.
-    """
+    """Return the pace called ``virtual``, ``realtime``, or a factor such as ``4x``."""
     if text == "virtual":
         return Virtual()
     if text == "realtime":

@@ -86,16 +86,7 @@ class Receiver:
 
     A report needs a velocity, which the surface format brings along, and a decoded position. The
     first position takes an even and an odd squitter of one format, later ones are decoded from the
-    one before.
-
-    Attributes
-    ----------
-    site
-        Place of the antenna.
-    range_m
-        Greatest distance at which a squitter is received.
-    ground_m
-        Altitude above which heights for the radio horizon count.
+    one before. Heights for the radio horizon count above ``ground_m``.
     """
 
     name: str

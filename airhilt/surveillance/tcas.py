@@ -142,12 +142,7 @@ def alert(motion: Relative, gap_m: float, gap_rate_m_s: float, own: Own) -> Aler
 def alert_at(motion: RangeMotion, gap_m: float, gap_rate_m_s: float, own: Own) -> Alert | None:
     """Return the alert that TCAS II on the own aircraft gives at this instant; None if none.
 
-    Parameters
-    ----------
-    motion
-        Range of the intruder.
-    gap_m, gap_rate_m_s
-        The intruder's altitude less the own one, and its rate of change.
+    The gap is the intruder's altitude less the own one.
     """
     if own.height_m < TRAFFIC_INHIBITED_BELOW_M:
         return None

@@ -69,12 +69,10 @@ def select(
     required: Sense | None,
     may_descend: bool,
 ) -> Resolution:
-    """Return the first advisory against an intruder.
+    """Return the first advisory against an intruder, by the time to the closest approach.
 
     Parameters
     ----------
-    time_s
-        Time to the closest approach.
     required
         Sense that the coordination with the intruder, or an advisory in force, leaves; None for
         either.

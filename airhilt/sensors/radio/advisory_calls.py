@@ -30,16 +30,10 @@ PAUSE_S = 2.0
 
 
 class AdvisoryChannel(NamedTuple):
-    """The use of the frequencies for advisories.
+    """The use of the frequencies for advisories at or above a severity.
 
-    Attributes
-    ----------
-    is_voiced
-        True if a worker speaks advisories; otherwise their words are transmitted as text.
-    speak_min_level
-        Least severity that is said.
-    delivery
-        Gets each advisory that its recipient has heard to the end.
+    Without a voice their words are transmitted as text. The delivery gets each advisory that its
+    recipient has heard to the end.
     """
 
     is_voiced: bool

@@ -135,10 +135,7 @@ class VhfChannel:
     ) -> Parts:
         """Return the parts of what is received, each as long as ``speech``.
 
-        Raises
-        ------
-        SpeechError
-            The speech is empty, or a sample or the ratio is no number.
+        A SpeechError says that the speech is empty, or a sample or the ratio is no number.
         """
         speech = _checked(speech)
         if snr_db is not None and not np.isfinite(snr_db):
@@ -205,12 +202,9 @@ class VhfChannel:
 
 
 def with_voice(heard: Audio, speech: Audio, wet: float) -> Audio:
-    """Return what is heard of a channel, mixed with the voice as it was spoken.
+    """Return what is heard of a channel, mixed with the voice as it was spoken, at the usual level.
 
-    Parameters
-    ----------
-    wet
-        Part of the channel, in [0, 1]; the rest is the voice, at the usual level.
+    ``wet`` is the part of the channel, in [0, 1].
     """
     if wet == 1.0:
         return heard

@@ -21,11 +21,6 @@ class Confirmations:
 
     Who is asked says the call again if it was its own, and else asks its speaker to. The other
     reads an instruction back as it has taken it. A call that was not taken is made once more.
-
-    Parameters
-    ----------
-    policy
-        Knows the readbacks in the script, and makes a call that was not taken once more.
     """
 
     def __init__(self, context: RadioContext, speakers: Speakers, policy: ReadbackPolicy) -> None:

@@ -48,12 +48,8 @@ BLOCKED = "Your call was blocked: somebody else was on the air at the same time.
 class RadioConversation:
     """Lets the calls of a scenario happen.
 
-    Parameters
-    ----------
-    advisory_channel
-        Channel of the advisories to crews and drivers; None if they are heard in the cockpit.
-    hearing
-        Draws what people hear; None takes the model of `hearing` with the seed of the run.
+    Without a channel, advisories to crews and drivers are heard in the cockpit. Without a model of
+    hearing, that of `hearing` draws what people hear, with the seed of the run.
     """
 
     def __init__(

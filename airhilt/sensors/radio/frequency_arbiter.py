@@ -31,14 +31,8 @@ Speak = Callable[[str, str], tuple[Audio | None, float]]
 class FrequencyArbiter:
     """All frequencies of a run.
 
-    Parameters
-    ----------
-    audible
-        Returns whether its second argument, a listener, is in reach of the first, a speaker.
-    began
-        Called with each transmission when it begins.
-    ended
-        Called with each transmission when it ends.
+    ``audible`` returns whether its second argument, a listener, is in reach of the first, a
+    speaker. ``began`` and ``ended`` are called with each transmission.
     """
 
     def __init__(

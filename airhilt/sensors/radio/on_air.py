@@ -58,13 +58,7 @@ class OnAir:
 
     @property
     def t_end_ns(self) -> int:
-        """End of a transmission that has ended, or whose end was planned.
-
-        Raises
-        ------
-        ValueError
-            The end is not known yet.
-        """
+        """End of a transmission that has ended, or whose end was planned."""
         if self.end_ns is None:
             raise ValueError(f"{self.utterance.id}: still on the air, and its end is not known")
         return self.end_ns

@@ -36,11 +36,6 @@ class PersonCalls:
 
     The words of a call that is spoken are those that the recogniser under test gives. Below
     `TAU_ASR`, without words, or without a callsign in the call of a unit, nobody is sure of it.
-
-    Parameters
-    ----------
-    said
-        Calls by the ids of their transmissions, in the order in which they were made.
     """
 
     def __init__(self, context: RadioContext, said: Mapping[str, RadioCall]) -> None:

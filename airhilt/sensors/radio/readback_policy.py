@@ -25,13 +25,7 @@ MOST_REPEATS = 2
 
 
 class ReadbackPolicy:
-    """Decides what is said because of what was understood.
-
-    Parameters
-    ----------
-    calls
-        Calls of the script, by id.
-    """
+    """Decides what is said because of what was understood."""
 
     def __init__(
         self, context: RadioContext, calls: Mapping[str, RadioCall], speakers: Speakers

@@ -18,10 +18,7 @@ from airhilt.units import seconds_to_ns
 class RadioScript:
     """Says each line not before its time, nor before its condition is true; microphones get stuck.
 
-    Parameters
-    ----------
-    say
-        Called with each line when it is to be said, with the words that failures give it.
+    A line is said with the words that failures give it.
     """
 
     def __init__(
@@ -77,13 +74,7 @@ class RadioScript:
 
 
 def planned_ends_ns(lines: Sequence[EffectiveLine], backend: RadioBackend) -> dict[str, int]:
-    """Return the end of each line, by its id, if nothing delays it.
-
-    Raises
-    ------
-    airhilt.errors.SpeechError
-        The voices have failed.
-    """
+    """Return the end of each line, by its id, if nothing delays it, or raise SpeechError."""
     ends_ns = {}
     for effective in lines:
         line = effective.line or effective.declared

@@ -41,25 +41,13 @@ class AdvisoryDelivery:
     """Delivers advisories to actors, and schedules the reactions.
 
     An active advisory at or above a severity is spoken: its recipient gets it when the voice
-    begins to be heard. All others, and all in a run without a voice, are read as soon as they are
-    published. So are alerts of equipment, which has a voice or a light of its own.
+    begins to be heard, or, on the recipients' frequencies, has been heard to the end. All others,
+    and all in a run without a voice, are read as soon as they are published. So are alerts of
+    equipment, which has a voice or a light of its own.
 
     While equipment tells a crew what to do, the crew does that, whatever the assistant says: a
-    resolution advisory has priority (ICAO Doc 8168, volume III, section 4, 3.2).
-
-    Parameters
-    ----------
-    is_voiced
-        True if a worker speaks advisories.
-    speak_min_level
-        Least severity that is spoken.
-    is_on_frequency
-        True if advisories are spoken on the recipients' frequencies: they get them when they have
-        heard them to the end there.
-    seats
-        Seats of people, who act as they like.
-    event
-        Called with the kind, the subject and the text of a reaction.
+    resolution advisory has priority (ICAO Doc 8168, volume III, section 4, 3.2). People at seats
+    act as they like.
     """
 
     def __init__(

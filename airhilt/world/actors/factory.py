@@ -61,10 +61,7 @@ def build_actors(
 ) -> dict[str, Actor]:
     """Return the actors of a scenario by callsign.
 
-    Raises
-    ------
-    ScenarioError
-        An actor cannot begin as the scenario says, or cannot carry out its first commands.
+    A ScenarioError says which actor cannot begin so, or cannot carry out its first commands.
     """
     builder = _Builder(scenario, site, seed, tick_s, {})
     for actor in scenario.actors:

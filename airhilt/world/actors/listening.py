@@ -79,7 +79,7 @@ class Listener:
         """Return the understanding of a call by its addressee.
 
         A listener by ear who heard the words that were said is certain of them. A reader of a
-        transcript does not know what was said, and goes by its confidence.
+        transcript does not know what was said, and goes by the confidence of each word.
 
         Parameters
         ----------
@@ -88,8 +88,6 @@ class Listener:
             Without any, the listener takes the call as addressed.
         bound_runway
             Runway of a call that names none: the one that the listener is going to use.
-        word_confidences
-            Confidence of each word of a transcript; None by ear.
         """
         is_the_same = words(heard) == words(said)
         if is_the_same and word_confidences is None:

@@ -20,28 +20,19 @@ class Aircraft:
 
     It begins standing on the ground, or in steady flight on its track, holding its altitude and its
     airspeed (or, with an initial vertical rate, climbing to its ceiling or descending to the ground
-    at that rate, until it gets an altitude).
+    at that rate, until it gets an altitude). The air is there from the first instant.
 
     Parameters
     ----------
-    kind
-        Type of the aircraft.
-    initial
-        Place where it begins, and its flight there.
     seed
         Seed of its turbulence. The same seed and commands give the same flight, bit by bit.
-    atmosphere
-        The air, there from the first instant.
     terrain_elevation_m
         Elevation of the flat ground below it, above WGS84.
     tick_s
-        Time between two calls of `advance`, in s; the laws work once in it.
-    substeps
-        Steps of the flight dynamics in a tick.
+        Time between two calls of `advance`, in s, divided into steps of the flight dynamics.
 
     Attributes
     ----------
-    kind : AircraftType
     en_route : FlightControl
         Commands for track, route, altitude and airspeed.
     procedures : ProcedureCommands
@@ -165,12 +156,8 @@ class Aircraft:
     def fail_engine(self, engine: int) -> None:
         """Stop an engine, counted from 0, for good; the present phase goes on.
 
-        It stops at the end of the next tick: JSBSim undoes what is set before the first one.
-
-        Raises
-        ------
-        ValueError
-            There is no such engine.
+        It stops at the end of the next tick: JSBSim undoes what is set before the first one. A
+        ValueError says that there is no such engine.
         """
         self._airframe.require_engine(engine)
         self._failing.append(engine)

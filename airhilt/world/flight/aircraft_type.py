@@ -211,12 +211,7 @@ class AircraftType(_Section):
 
 
 def load_aircraft_type(name: str, files: Mapping[str, Any] = MappingProxyType({})) -> AircraftType:
-    """Return the aircraft type of that name.
-
-    Parameters
-    ----------
-    files
-        JSON objects by their names, of types that do not ship with AIRHILT.
+    """Return the aircraft type of that name, from ``files`` or from those that ship with AIRHILT.
 
     Raises
     ------

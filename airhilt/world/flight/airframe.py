@@ -40,18 +40,7 @@ Writer = Callable[[float], object]
 
 
 class Airframe:
-    """A JSBSim aircraft.
-
-    Parameters
-    ----------
-    kind
-        Type of the aircraft.
-    step_s
-        Time step of the flight dynamics, in s.
-    seed
-        Seed of its turbulence.
-    terrain_elevation_m
-        Elevation of the flat ground below it.
+    """A JSBSim aircraft on, or above, flat ground at an elevation; the seed is that of turbulence.
 
     Raises
     ------
@@ -226,13 +215,7 @@ class Airframe:
         self.set_throttle(CRUISE_LEVER)
 
     def trim(self) -> None:
-        """Find and set the controls and the attitude of steady flight.
-
-        Raises
-        ------
-        ModelError
-            There is no steady flight at this condition.
-        """
+        """Find and set the controls and the attitude of steady flight, or raise `ModelError`."""
         try:
             self._fdm.do_trim(int(jsbsim.TrimMode.FULL))
         except jsbsim.TrimFailureError as error:

@@ -62,18 +62,11 @@ class PitchLaw(NamedTuple):
 
 
 class Autopilot:
-    """Flies one airframe.
+    """Flies one airframe that is in steady flight.
 
-    Parameters
-    ----------
-    airframe
-        Airframe in steady flight.
-    kind
-        Its type.
-    tick_s
-        Time between two calls of `fly`, in s.
-    state
-        State of the airframe now.
+    Turn rates are those of the track, in rad/s, positive to the right; vertical rates are in m/s,
+    positive up; airspeeds are calibrated, in m/s. A lever is the wanted position of all throttle
+    levers (0..1), which move there at their own rate.
     """
 
     def __init__(
@@ -119,15 +112,7 @@ class Autopilot:
         self.take_over(state)
 
     def take_over(self, state: AircraftState, elevator: float | None = None) -> None:
-        """Start from the present flight and the present controls.
-
-        Parameters
-        ----------
-        state
-            State of the airframe now.
-        elevator
-            Elevator to start from (-1..1); by default the present one.
-        """
+        """Start from the present flight and controls, or with another elevator (-1..1)."""
         airframe = self._airframe
         speed = max(state.true_airspeed_m_s, 1.0)
         # The integrals begin at what steady flight needs.
@@ -168,20 +153,9 @@ class Autopilot:
         *,
         closely: bool = False,
     ) -> None:
-        """Set the controls.
+        """Set the controls so that the lever holds the airspeed.
 
-        Parameters
-        ----------
-        state
-            State of the aircraft now.
-        turn_rate
-            Turn rate of the track, positive to the right (rad/s).
-        vertical_rate
-            Wanted vertical rate, positive up (m/s).
-        airspeed
-            Wanted calibrated airspeed (m/s).
-        closely
-            True to follow the vertical rate as closely as in a flare.
+        ``closely`` is true to follow the vertical rate as closely as in a flare.
         """
         climb_angle = vertical_rate / state.true_airspeed_m_s
         self._sense_energy(state, airspeed)
@@ -203,18 +177,7 @@ class Autopilot:
     ) -> None:
         """Set the controls so that the climb angle holds the airspeed, whatever the thrust.
 
-        Parameters
-        ----------
-        state
-            State of the aircraft now.
-        turn_rate
-            Turn rate of the track, positive to the right (rad/s).
-        airspeed
-            Wanted calibrated airspeed (m/s).
-        lever
-            Wanted position of all throttle levers (0..1); they move there at their own rate.
-        steepest_climb, steepest_descent
-            Limits of the climb angle (rad), both positive.
+        The limits of the climb angle are in rad, both positive.
         """
         self._sense_energy(state, airspeed)
         climb_angle = self._potential_climb - SPEED_TO_CLIMB * self._shortfall
@@ -234,18 +197,8 @@ class Autopilot:
     ) -> None:
         """Set the controls so that the nose comes to a pitch and stays there.
 
-        Parameters
-        ----------
-        state
-            State of the aircraft now.
-        pitch
-            Wanted pitch, positive up (rad).
-        pitch_rate
-            Greatest pitch rate on the way there (rad/s).
-        turn_rate
-            Turn rate of the track, positive to the right (rad/s); None while the wheels steer.
-        lever
-            Wanted position of all throttle levers (0..1); they move there at their own rate.
+        Pitch is in rad, positive up; its rate on the way there is at most ``pitch_rate``, in rad/s.
+        The turn rate is None while the wheels steer.
         """
         self._sense_energy(state, state.calibrated_airspeed_m_s)
         self._move_lever(state, 0.0, lever)
@@ -276,16 +229,8 @@ class Autopilot:
 
         Parameters
         ----------
-        state
-            State of the aircraft now.
-        turn_rate
-            Turn rate of the track, positive to the right (rad/s).
-        vertical_rate
-            Wanted vertical rate, positive up (m/s).
         vertical_acceleration
             Rate of change of the vertical rate (m/s2).
-        lever
-            Wanted position of all throttle levers (0..1); they move there at their own rate.
         crab
             Angle from the wanted heading of the nose to its present heading, positive to the right
             (rad); None to fly without sideslip.

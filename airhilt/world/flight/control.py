@@ -20,20 +20,8 @@ class FlightControl:
     A command ends an approach; it changes what a climb or a descent procedure leads to. All raise
     ValueError on the ground, and for what cannot be flown at all.
 
-    Parameters
-    ----------
-    systems
-        Airframe, autopilot and ground law.
-    initial
-        Place where the aircraft begins.
-    terrain_elevation_m
-        Elevation of the flat ground above WGS84.
-
     Attributes
     ----------
-    systems : AircraftSystems
-    modes : GuidanceModes
-        Makes the modes of this type.
     state : AircraftState
         State after the last tick.
     phase : FlightPhase
@@ -65,13 +53,9 @@ class FlightControl:
             )
 
     def fly_route(self, waypoints: Sequence[tuple[float, float]]) -> None:
-        """Fly from here through waypoints, then hold the last leg's track.
+        """Fly from here through waypoints, each (latitude, longitude) in rad, then hold the track.
 
-        Parameters
-        ----------
-        waypoints
-            Each (latitude, longitude) in radians. Legs are geodesics; turns cut the corners. One
-            at least is away from here.
+        Legs are geodesics; turns cut the corners. One waypoint at least is away from here.
         """
         state = self.state
         legs = legs_through((state.latitude_rad, state.longitude_rad), waypoints)
@@ -100,14 +84,9 @@ class FlightControl:
         self.commanded().lateral = self.modes.track(track, angle_rad)
 
     def hold_altitude(self, altitude_m: float, vertical_rate_m_s: float | None = None) -> None:
-        """Climb or descend to an altitude, level off, and hold it.
+        """Climb or descend to an altitude, the service ceiling at most, level off, and hold it.
 
-        Parameters
-        ----------
-        altitude_m
-            Above the service ceiling, the ceiling is taken.
-        vertical_rate_m_s
-            Positive; above the type's greatest rate, that is taken. By default the type's own.
+        The rate is positive, and at most the greatest of the type; by default the type's own.
         """
         if vertical_rate_m_s is None:
             vertical_rate_m_s = self.systems.kind.speeds.climb_rate_fpm * FOOT_PER_MINUTE
@@ -119,11 +98,8 @@ class FlightControl:
     def hold_speed(self, calibrated_airspeed_m_s: float) -> None:
         """Accelerate or decelerate to a calibrated airspeed, and hold it.
 
-        Parameters
-        ----------
-        calibrated_airspeed_m_s
-            Brought between the type's slowest clean speed and its greatest speed and Mach number,
-            at the present altitude.
+        It is brought between the type's slowest clean speed and its greatest speed and Mach number,
+        at the present altitude.
         """
         slowest, greatest = self.modes.speed_limits_m_s(self.state.altitude_m)
         accepted = min(max(calibrated_airspeed_m_s, slowest), greatest)

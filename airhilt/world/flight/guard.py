@@ -49,14 +49,7 @@ class FlightGuard:
     ) -> str | None:
         """Return the named cause for which the flight ends in this state, or None.
 
-        Parameters
-        ----------
-        state
-            State of the aircraft now.
-        may_touch
-            True if the wheels may touch the ground.
-        on_ground
-            True if a wheel carries weight.
+        ``may_touch`` is true if wheels may touch the ground, ``on_ground`` if one carries weight.
         """
         # Infinity and NaN survive every sum.
         if not math.isfinite(sum(state)):

@@ -41,16 +41,10 @@ class LateralMode(Protocol):
 
 
 class Track:
-    """Turns to a track over the ground and holds it.
+    """Turns to a true track over the ground and holds it.
 
-    Parameters
-    ----------
-    track_rad
-        True track.
-    gain
-        Turn rate per course error (1/s).
-    turn_rad
-        Angle to turn through on the way, positive to the right; None for the shorter side.
+    The gain is the turn rate per course error, in 1/s. ``turn_rad`` is the angle to turn through on
+    the way, positive to the right; None for the shorter side.
     """
 
     def __init__(self, track_rad: float, gain: float, turn_rad: float | None = None) -> None:
@@ -80,14 +74,7 @@ class Track:
 class Route:
     """Flies legs one after the other, cutting the corners, then holds the last one's track.
 
-    Parameters
-    ----------
-    legs
-        Legs, in order.
-    gain
-        Turn rate per course error (1/s).
-    bank_limit_rad
-        Greatest bank of the aircraft.
+    The gain is the turn rate per course error, in 1/s.
     """
 
     def __init__(self, legs: tuple[Leg, ...], gain: float, bank_limit_rad: float) -> None:
@@ -172,12 +159,7 @@ class Route:
 class Altitude:
     """Climbs or descends at a rate, then levels off and holds.
 
-    Parameters
-    ----------
-    clearance
-        The altitude and the rate.
-    gain
-        Vertical rate per altitude error (1/s).
+    The gain is the vertical rate per altitude error, in 1/s.
     """
 
     def __init__(self, clearance: AltitudeClearance, gain: float) -> None:
@@ -197,15 +179,7 @@ class Altitude:
 
 
 class Airspeed:
-    """Holds a calibrated airspeed, up to a Mach number: the lower of the two in a climb.
-
-    Parameters
-    ----------
-    airspeed_m_s
-        Calibrated airspeed.
-    maximum_mach
-        Greatest Mach number.
-    """
+    """Holds a calibrated airspeed, up to a Mach number: the lower of the two in a climb."""
 
     def __init__(self, airspeed_m_s: float, maximum_mach: float) -> None:
         self.target_m_s = airspeed_m_s

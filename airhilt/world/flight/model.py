@@ -30,12 +30,7 @@ def load_model(model: str) -> jsbsim.FGFDMExec:
     """Return a fresh FGFDMExec with the model loaded, silent and alone.
 
     JSBSim's logger belongs to a thread: what a model has to say later, in a thread in which none
-    was loaded, goes to stdout.
-
-    Raises
-    ------
-    ModelError
-        The installed JSBSim has no such model, or cannot load it.
+    was loaded, goes to stdout. `ModelError` says that there is no such model, or it cannot load.
     """
     jsbsim.set_logger(_SILENCE)
     root = Path(jsbsim.get_default_root_dir())

@@ -20,13 +20,7 @@ from airhilt.world.flight.state import InitialCondition
 
 @dataclass(frozen=True, slots=True)
 class GuidanceModes:
-    """Makes the guidance modes of one aircraft type.
-
-    Attributes
-    ----------
-    kind
-        The type: its gains, speeds and service ceiling.
-    """
+    """Makes the guidance modes of one aircraft type."""
 
     kind: AircraftType
 

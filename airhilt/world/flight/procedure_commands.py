@@ -37,16 +37,9 @@ class ProcedureCommands:
     def taxi(
         self, path: Sequence[Place], speed_m_s: float | None = None, *, then: Stand = "standing"
     ) -> None:
-        """Taxi along a path from here, and stand at its end.
+        """Taxi along a path from here, at the type's taxi speed by default, and stand at its end.
 
-        Parameters
-        ----------
-        path
-            Places to pass, in order.
-        speed_m_s
-            Greatest speed; by default the type's taxi speed.
-        then
-            Name of standing at the end: ``lined_up`` on a runway.
+        ``then`` is the name of standing there: ``lined_up`` on a runway.
         """
         control = self._control
         control.require_on_ground("taxi", FASTEST_TAXI_M_S)
@@ -78,15 +71,7 @@ class ProcedureCommands:
     # --- takeoff ----------------------------------------------------------------------------
 
     def take_off(self, runway: RunwayEnd, climb_to_m: float) -> None:
-        """Take off from where the aircraft is, climb on the runway's course, and level off.
-
-        Parameters
-        ----------
-        runway
-            Runway on which the aircraft stands or taxies, in its direction.
-        climb_to_m
-            Altitude to level off at.
-        """
+        """Take off on the runway where the aircraft is, climb on its course, and level off."""
         control = self._control
         control.require_on_ground("take_off", FASTEST_TAXI_M_S)
         line = Final(runway, control.systems.kind)
@@ -107,15 +92,9 @@ class ProcedureCommands:
     def land(self, runway: RunwayEnd, exit_path: Sequence[Place] = ()) -> None:
         """Join the final approach of a runway, land on it, and leave it.
 
-        Below the glide path the present altitude is held until the path is met.
-
-        Parameters
-        ----------
-        runway
-            Runway to land on.
-        exit_path
-            Way from the runway's centre line to where the aircraft stands at the end; without one
-            it stops on the runway.
+        Below the glide path the present altitude is held until the path is met. The exit path leads
+        from the runway's centre line to where the aircraft stands at the end; without one it stops
+        on the runway.
         """
         self._control.require_airborne("land")
         final = Final(runway, self._control.systems.kind)
@@ -123,13 +102,7 @@ class ProcedureCommands:
         self._approach(final, exit_path)
 
     def side_step(self, runway: RunwayEnd, exit_path: Sequence[Place] = ()) -> None:
-        """Leave the approach that is flown for that of another runway.
-
-        Parameters
-        ----------
-        runway, exit_path
-            The other runway, and the path by which the aircraft leaves it.
-        """
+        """Leave the approach that is flown for that of another runway, with its exit path."""
         phase = self._control.phase
         if not isinstance(phase, Glide):
             raise ValueError(f"side_step in phase {phase.name}; expected glide")

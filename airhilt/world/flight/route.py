@@ -94,13 +94,7 @@ class Leg:
 class Arc:
     """The arc that leads from one leg into the next without passing their common end.
 
-    Parameters
-    ----------
-    before, after
-        The legs.
-    lead_m
-        Distance from the beginning of the arc on ``before`` to the common end. The arc ends as far
-        behind that end on ``after``.
+    It begins at a lead in m before that end, and ends as far behind it.
     """
 
     def __init__(self, before: Leg, after: Leg, lead_m: float) -> None:
@@ -140,13 +134,7 @@ class Arc:
 
 
 def legs_through(start: Place, waypoints: Sequence[Place]) -> tuple[Leg, ...]:
-    """Return the legs from a place through waypoints, each (latitude, longitude) in radians.
-
-    Raises
-    ------
-    ValueError
-        No waypoint is away from the start.
-    """
+    """Return the legs from a place through waypoints, one of which at least is away from it."""
     ends: list[Place] = [start]
     for waypoint in waypoints:
         ends.extend(_divided(ends[-1], waypoint))

@@ -78,13 +78,7 @@ class Start:
         return Autopilot(self.airframe, self.kind, self.tick_s, self.airframe.state())
 
     def _settled(self, initial: InitialCondition, heading_rad: float) -> Autopilot:
-        """Start the engines in flight, and fly to the initial altitude until all is steady.
-
-        Raises
-        ------
-        ModelError
-            The airspeed does not settle.
-        """
+        """Start the engines in flight, and fly to the initial altitude until all is steady."""
         airframe, modes = self.airframe, GuidanceModes(self.kind)
         rate, wanted = initial.vertical_rate_m_s, initial.calibrated_airspeed_m_s
         before = initial.altitude_m - rate * SETTLING_TIME_S
@@ -138,10 +132,7 @@ class Start:
 def heading_to_track(initial: InitialCondition, atmosphere: Atmosphere) -> float:
     """Return the heading (rad, in [-pi, pi)) that makes good the initial track in the wind.
 
-    Raises
-    ------
-    ValueError
-        The wind across is stronger than the airspeed.
+    A wind across that is stronger than the airspeed raises ValueError.
     """
     airspeed = standard_atmosphere.true_airspeed(
         initial.calibrated_airspeed_m_s, initial.altitude_m

@@ -36,13 +36,7 @@ class AudioRadio:
         self._receptions = Receptions(radio)
 
     def speak(self, speaker: str, text: str) -> tuple[Audio, float]:
-        """Return a text in the voice of a speaker, and its duration in s.
-
-        Raises
-        ------
-        airhilt.errors.SpeechError
-            The voices have failed.
-        """
+        """Return a text in the voice of a speaker, and its duration in s."""
         speech = self._voices.synthesise(text, self._voices.voice_of(speaker))
         return speech, len(speech) / SAMPLE_RATE_HZ
 

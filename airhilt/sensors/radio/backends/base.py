@@ -20,13 +20,7 @@ class RadioBackend(Protocol):
         ...
 
     def speak(self, speaker: str, text: str) -> tuple[Audio | None, float]:
-        """Return a text as speech, None without sound, and its duration in s.
-
-        Raises
-        ------
-        airhilt.errors.SpeechError
-            The voices have failed.
-        """
+        """Return a text as speech, None without sound, and its duration in s, or raise SpeechError."""
         ...
 
     def receive(
@@ -38,10 +32,11 @@ class RadioBackend(Protocol):
         now_ns: int,
         listener: str | None = None,
     ) -> bytes:
-        """Return what a receiver gives out of a transmission, as far as it can be known.
+        """Return what a receiver gives out of a transmission, as far as it can be known, as PCM.
 
         The result is the whole of a transmission whose speech was known when it began, and the
-        part that has been on the air by now of any other.
+        part that has been on the air by now of any other. It is 16 kHz, mono, 16 bits,
+        little-endian; empty without sound. A SpeechError says that the channel has failed.
 
         Parameters
         ----------
@@ -53,16 +48,6 @@ class RadioBackend(Protocol):
             First sample that is asked for. The samples before it have been given out already.
         listener
             Owner of the receiver; None: it is the one at the units' site.
-
-        Returns
-        -------
-        bytes
-            PCM, 16 kHz, mono, 16 bits, little-endian; empty without sound.
-
-        Raises
-        ------
-        airhilt.errors.SpeechError
-            The channel has failed.
         """
         ...
 
@@ -119,16 +104,8 @@ class FallbackRadio:
     """A radio with sound until its voices or its channel fail, and without sound from then on.
 
     Calls then take the time of their words and arrive without samples. Their words do not arrive
-    either: nobody knows what a recogniser would have made of them.
-
-    Parameters
-    ----------
-    backend
-        Radio that is used until it fails.
-    words_per_minute
-        Rate of speaking without sound.
-    lost
-        Called once when the backend fails, with the cause, and true if that is of the machine.
+    either: nobody knows what a recogniser would have made of them. ``lost`` is called once when the
+    backend fails, with the cause, and true if that is of the machine.
     """
 
     def __init__(

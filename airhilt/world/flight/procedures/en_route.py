@@ -20,13 +20,7 @@ SPOOL_DOWN_S = 20.0
 
 
 class EnRoute(FlightPhase):
-    """Holds one mode in each direction; a command replaces one of them.
-
-    Parameters
-    ----------
-    lateral, vertical, speed
-        The modes.
-    """
+    """Holds one mode in each direction; a command replaces one of them."""
 
     name = "en_route"
     commandable = True
@@ -51,13 +45,7 @@ class EnRoute(FlightPhase):
 
 
 class EmergencyDescent(FlightPhase):
-    """Descends as fast as the aircraft safely can, and levels off into what follows.
-
-    Parameters
-    ----------
-    then
-        En route on the track and to the altitude that follow.
-    """
+    """Descends as fast as the aircraft safely can, and levels off into what follows."""
 
     name = "emergency_descent"
     commandable = True
@@ -89,12 +77,8 @@ class EmergencyDescent(FlightPhase):
 class DriftDown(FlightPhase):
     """Holds the drift-down speed on pitch at the greatest thrust, never climbing, then levels.
 
-    It levels where the engines keep the altitude, or at a commanded altitude above that.
-
-    Parameters
-    ----------
-    then
-        En route on the track, at the airspeed and down to the altitude that follow.
+    It levels where the engines keep the altitude, or at a commanded altitude above that, into what
+    follows.
     """
 
     name = "drift_down"

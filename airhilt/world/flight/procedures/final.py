@@ -32,15 +32,7 @@ JOINED_M = 200.0 * FOOT / math.tan(3.0 * DEGREE)
 
 
 class Final:
-    """The final approach course and the glide path to one runway, for one type of aircraft.
-
-    Parameters
-    ----------
-    runway
-        The end of the runway to which the approach leads.
-    kind
-        The type: its landing aim, and the height of its reference point above its wheels.
-    """
+    """The final approach course and the glide path to a runway, for one type of aircraft."""
 
     def __init__(self, runway: RunwayEnd, kind: AircraftType) -> None:
         self.runway = runway

@@ -18,13 +18,7 @@ STOP_M_S2 = 1.5
 
 
 class GoAround(FlightPhase):
-    """Goes around, cleans up, and levels off into what follows.
-
-    Parameters
-    ----------
-    then
-        En route on the track, to the altitude and at the clean airspeed that follow.
-    """
+    """Goes around, cleans up, and levels off into what follows."""
 
     name = "go_around"
     commandable = True

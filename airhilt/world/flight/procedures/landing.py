@@ -35,15 +35,6 @@ class Glide(FlightPhase):
 
     Below the glide path it keeps its altitude until the path is met; at ``configure_m`` from the
     threshold it lowers the gear, sets the flaps and slows down to approach speed.
-
-    Parameters
-    ----------
-    final
-        Approach to fly.
-    exit_path
-        Way along which the runway is left after landing.
-    altitude_m
-        Altitude that is held until the glide path is met.
     """
 
     name = "glide"
@@ -104,16 +95,8 @@ class Glide(FlightPhase):
 class Flare(FlightPhase):
     """Lets the sink rate die away with the height, and the nose turn along the runway.
 
-    The levers come back to idle with the height; at touchdown the rollout begins.
-
-    Parameters
-    ----------
-    final
-        The approach that was flown.
-    exit_path
-        Path by which the aircraft leaves the runway.
-    height_m
-        Height of the main wheels at which the flare begins, in m.
+    The levers come back to idle with the height of the main wheels from that at which the flare
+    begins; at touchdown the rollout begins.
     """
 
     name = "flare"
@@ -155,13 +138,8 @@ class Flare(FlightPhase):
 class Rollout(FlightPhase):
     """Lowers the nose, brakes along the centre line to taxi speed, then leaves the runway.
 
-    Parameters
-    ----------
-    final
-        The approach that was flown.
-    exit_path
-        Along which the runway is left, from its centre line. Without one, or if its beginning is
-        passed too fast to turn, the aircraft stops on the centre line.
+    Without an exit path, or if its beginning is passed too fast to turn, the aircraft stops on the
+    centre line.
     """
 
     name = "rollout"

@@ -44,15 +44,7 @@ def require_lined_up(state: AircraftState, line: Final) -> None:
 
 
 class TakeoffRoll(FlightPhase):
-    """Rolls along the centre line to rotation speed.
-
-    Parameters
-    ----------
-    line
-        The runway's centre line.
-    then
-        En route on it, to the altitude and at the clean airspeed that follow.
-    """
+    """Rolls along the centre line to rotation speed; ``then`` is the climb that follows."""
 
     name = "takeoff_roll"
     may_touch = True
@@ -81,15 +73,7 @@ class TakeoffRoll(FlightPhase):
 
 
 class Rotate(FlightPhase):
-    """Raises the nose, and holds it until the runway is safely below.
-
-    Parameters
-    ----------
-    line, then
-        As for `TakeoffRoll`.
-    state
-        State of the aircraft now.
-    """
+    """Raises the nose, and holds it until the runway is safely below."""
 
     name = "rotate"
     commandable = True
@@ -121,13 +105,7 @@ class Rotate(FlightPhase):
 
 
 class ClimbOut(FlightPhase):
-    """Climbs at full thrust, cleans up, accelerates, and levels off into what follows.
-
-    Parameters
-    ----------
-    line, then
-        As for `TakeoffRoll`.
-    """
+    """Climbs at full thrust, cleans up, accelerates, and levels off into what follows."""
 
     name = "climb_out"
     commandable = True

@@ -18,12 +18,7 @@ Way = Literal["taxi", "line_up", "vacate"]
 
 
 class Standing(FlightPhase):
-    """Stands with the brakes set.
-
-    Parameters
-    ----------
-    name
-        ``lined_up`` on a runway, ready to take off.
+    """Stands with the brakes set; ``lined_up`` on a runway, ready to take off.
 
     Attributes
     ----------
@@ -49,14 +44,7 @@ class Standing(FlightPhase):
 class Taxi(FlightPhase):
     """Follows a path and stands at its end.
 
-    Parameters
-    ----------
-    path
-        Path to follow.
-    way
-        Name of the phase on the way; it is ``standing`` where the aircraft has stopped.
-    then
-        Name of standing at the end.
+    The name of the phase is that of the way, and ``standing`` while the aircraft is held.
     """
 
     may_touch = True
