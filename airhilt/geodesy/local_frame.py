@@ -24,7 +24,7 @@ REACH_M = 100_000.0
 
 
 class LocalFrame:
-    """East and north in metres from an origin on the ellipsoid.
+    """East and north in metres from an origin on the ellipsoid that is no pole.
 
     ``to_place`` undoes ``to_local`` to less than a micrometre within 10 km of the origin. The
     projection leaves out the Earth's curvature, so the distance between two places comes out
@@ -33,18 +33,8 @@ class LocalFrame:
     that of the origin: a bearing in the frame differs from a true azimuth by the convergence of
     the meridians, at most 0.03 degrees for each kilometre east at latitude 72, 0.007 at 39.
 
-    Parameters
-    ----------
-    origin
-        Latitude and longitude in radians, not at a pole.
-    height_m
-        Height above the ellipsoid at which distances are true: those on the ellipsoid are stretched
-        by its share in the mean radius of curvature at the origin.
-
-    Raises
-    ------
-    ValueError
-        The origin is no place on Earth, or is a pole.
+    Distances are true at ``height_m`` above the ellipsoid: those on the ellipsoid are stretched by
+    its share in the mean radius of curvature at the origin.
     """
 
     def __init__(self, origin: Place, height_m: float = 0.0) -> None:
@@ -70,13 +60,7 @@ class LocalFrame:
         return scale * dot(self._east, offset), scale * dot(self._north, offset)
 
     def to_place(self, east_m: float, north_m: float) -> Place:
-        """Return the place whose east and north these are.
-
-        Raises
-        ------
-        ValueError
-            It would lie more than 100 km from the origin.
-        """
+        """Return the place whose east and north these are; a ValueError if it is beyond 100 km."""
         if not math.hypot(east_m, north_m) <= REACH_M:
             raise ValueError(
                 f"east {east_m:.0f} m, north {north_m:.0f} m is beyond the local frame's 100 km"

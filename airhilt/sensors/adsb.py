@@ -56,7 +56,7 @@ class AdsbType:
     def create(self, context: SensorContext) -> AdsbSensor | None:
         """Return the sensor of a run; None if no actor has a transponder."""
         sensor = AdsbSensor(context)
-        return sensor if sensor.is_needed else None
+        return sensor if sensor.sources else None
 
 
 SENSOR = AdsbType()
@@ -81,20 +81,15 @@ class AdsbSensor(Sensor):
         self._outages_ns = [
             (seconds_to_ns(begin), seconds_to_ns(end)) for begin, end in scenario.adsb.outages_s
         ]
-        self._sources = [
+        self.sources = [
             _Source(actor, spec, context.seed)
             for actor in context.actors.values()
             if not isinstance(spec := actor.spec, WildlifeSpec) and spec.transponder.has_adsb
         ]
 
-    @property
-    def is_needed(self) -> bool:
-        """True if any actor has a transponder."""
-        return bool(self._sources)
-
     def start(self) -> None:
         """Schedule the first squitters of all transponders."""
-        for source in self._sources:
+        for source in self.sources:
             for squitter, (within_s, _) in (
                 (source.position, POSITION_INTERVAL_S),
                 (source.velocity, VELOCITY_INTERVAL_S),

@@ -125,10 +125,7 @@ class SensorType(Protocol):
     def create(self, context: SensorContext) -> Sensor | None:
         """Return the sensor for a run; None if there is nothing for it to do.
 
-        Raises
-        ------
-        AirhiltError
-            The scenario asks for a sensor that cannot exist.
+        An AirhiltError says that the scenario asks for a sensor that cannot exist.
         """
 
 

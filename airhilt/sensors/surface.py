@@ -143,7 +143,11 @@ class SurfaceSensor(Sensor):
     def _detected(self, target: _Target, state: Motion, now_ns: int) -> PlotKind | None:
         """Return by what a target is detected; None if it is not."""
         echo, reply, lost = target.generator.random(3)
-        if lost < self._declared.loss_probability or self._is_out(now_ns):
+        is_out = any(
+            seconds_to_ns(begin) <= now_ns < seconds_to_ns(end)
+            for begin, end in self._declared.outages_s
+        )
+        if lost < self._declared.loss_probability or is_out:
             return None
         away_m = min(
             distance_m((state.latitude_rad, state.longitude_rad), place) for place in self._places
@@ -162,12 +166,6 @@ class SurfaceSensor(Sensor):
             and reply < surface.TRANSPONDER_PROBABILITY
         )
         return plot_kind(has_echo, has_reply) if has_echo or has_reply else None
-
-    def _is_out(self, now_ns: int) -> bool:
-        return any(
-            seconds_to_ns(begin) <= now_ns < seconds_to_ns(end)
-            for begin, end in self._declared.outages_s
-        )
 
     def _fused(self, target: _Target, state: Motion, kind: PlotKind, now_ns: int) -> SurfaceTrack:
         """Return the track of a detected target, with its errors."""

@@ -110,7 +110,8 @@ class Interrogator(Sensor):
         self._publish = context.publish
         self._ground_m = context.site.ground_m
         self._own = context.actors[callsign]
-        self._icao24 = _icao24(self._own)
+        assert isinstance(self._own.spec, AircraftSpec)  # The checks of a scenario see to it.
+        self._icao24 = self._own.spec.icao24
         self._phase_s = stream(context.seed, f"tcas/{callsign}").uniform(0.0, 1.0)
         self._targets = [
             _Target(
@@ -180,8 +181,3 @@ class Interrogator(Sensor):
             on_ground=on_ground,
             has_tcas=target.has_tcas,
         )
-
-
-def _icao24(actor: Actor) -> str:
-    assert isinstance(actor.spec, AircraftSpec)  # The checks of a scenario see to it.
-    return actor.spec.icao24

@@ -100,17 +100,9 @@ class LatencySource:
         """Return the latency of step ``seq``, or None when only its result tells.
 
         A source that knows it beforehand lets the simulation go on while the worker computes.
-
-        Parameters
-        ----------
-        lasted_ns
-            Time since the begin of what the step works on, such as a call, in ns; None if that
-            was of one instant.
-
-        Raises
-        ------
-        AirhiltError
-            An earlier run that is replayed had no such step: the two have diverged.
+        ``lasted_ns`` is the time since the begin of what the step works on, such as a call; None
+        if that was of one instant. An AirhiltError says that an earlier run that is replayed had
+        no such step.
         """
         match self.spec.kind:
             case "measured" | "on_output":
@@ -161,18 +153,9 @@ def parse_latency(text: str | None, presets: Mapping[str, str] | None = None) ->
     """Return the latency source that a text such as ``fixed,asr=lognormal:5.9`` says.
 
     One source is for the stages that are not named; without it they have `DEFAULT`, and so have all
-    stages if the text is None. The recorded latencies of ``replay:RUN`` are for the caller to fill
-    in.
-
-    Parameters
-    ----------
-    presets
-        Texts by the names that may stand for them, in the place of the one source.
-
-    Raises
-    ------
-    AirhiltError
-        It is none of the sources, or a stage is named twice.
+    stages if the text is None. Presets are texts by names that may stand for the one source. The
+    recorded latencies of ``replay:RUN`` are for the caller to fill in. An AirhiltError says that
+    it is none of the sources, or a stage is named twice.
     """
     if text is None:
         return DEFAULT

@@ -39,15 +39,9 @@ class Server:
     later. With a latency that is known beforehand the result is only collected when it is due,
     so the simulation goes on while the worker computes.
 
-    Parameters
-    ----------
-    deliver
-        Called with each output at the time it leaves the worker.
-    done
-        Called with the record of each finished step.
-    lost
-        Called once when the worker is lost, with the cause, and true if that is of the machine;
-        the worker is never called again.
+    ``deliver`` is called with each output at the time it leaves the worker, ``done`` with the
+    record of each finished step, and ``lost`` once when the worker is lost, with the cause, and
+    true if that is of the machine; the worker is never called again.
     """
 
     def __init__(
@@ -66,6 +60,8 @@ class Server:
         self.offered: Counter[str] = Counter()
         self.latencies_ns = array("q")
         self.is_lost = False
+        self.in_hand: StepRecord | None = None
+        """Step that is not finished yet."""
         self._director = director
         self._endpoint = endpoint
         self._latency = latency
@@ -76,7 +72,6 @@ class Server:
         self._busy = False
         self._seq = 0
         self._wake_ns: int | None = None
-        self._in_hand: StepRecord | None = None
 
     def offer(self, item: Input, policy: Policy) -> None:
         """Queue an input that has reached the worker now."""
@@ -95,10 +90,6 @@ class Server:
             self.is_lost = True
             self._waiting.clear()
             self._lost(cause, is_of_machine)
-
-    def unfinished(self) -> StepRecord | None:
-        """Return the step in hand, if there is one."""
-        return self._in_hand
 
     def _replace_older(self, item: Input) -> bool:
         """Put an input in the place of the one of its key that waits, if there is one.
@@ -138,7 +129,7 @@ class Server:
         lasted_ns = None if begun_ns is None else now_ns - begun_ns
         known_ns = self._latency.known_ns(seq, lasted_ns)
         t_in_ns = inputs[0].t_in_ns if inputs else now_ns
-        self._in_hand = step = StepRecord(
+        self.in_hand = step = StepRecord(
             self.name, seq, t_in_ns, now_ns, known_ns or 0, 0.0, 0, finished=False
         )
         if known_ns is None:
@@ -161,7 +152,7 @@ class Server:
             self._finish(reply, step)
             return
         latency_ns = self._latency.settled_ns(reply.compute_s, len(reply.outputs))
-        self._in_hand = settled = step._replace(latency_ns=latency_ns)
+        self.in_hand = settled = step._replace(latency_ns=latency_ns)
         due_ns = step.t_start_ns + latency_ns
         self._director.at(due_ns, partial(self._finish, reply, settled), Priority.RESULT)
 
@@ -177,7 +168,7 @@ class Server:
         )
         self.latencies_ns.append(done.latency_ns)
         self._done(done)
-        self._in_hand = None
+        self.in_hand = None
         for output in reply.outputs:
             self._send(output, step.t_start_ns)
         if self._waiting:

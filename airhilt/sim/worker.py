@@ -111,12 +111,7 @@ class Pending(Protocol):
     def result(self) -> Reply:
         """Wait for the reply.
 
-        Raises
-        ------
-        WorkerLost
-            None came.
-        airhilt.errors.WorkerError
-            It broke the contract.
+        WorkerLost says that none came, WorkerError that it broke the contract.
         """
         ...
 

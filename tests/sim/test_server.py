@@ -375,7 +375,7 @@ def test_the_run_can_end_before_a_step_does() -> None:
     bench.offer_at(7, b"a")
     bench.director.at(50, bench.director.stop, Priority.OBSERVE)
     bench.run()
-    step = bench.server.unfinished()
+    step = bench.server.in_hand
     assert step is not None
     assert (step.t_start_ns, step.latency_ns, step.finished) == (7, 100, False)
     assert bench.steps == []
@@ -384,7 +384,7 @@ def test_the_run_can_end_before_a_step_does() -> None:
 def test_a_worker_that_is_idle_has_nothing_unfinished() -> None:
     bench = Bench(echo, fixed(10))
     bench.offer_at(0, b"a")
-    assert bench.run().server.unfinished() is None
+    assert bench.run().server.in_hand is None
 
 
 # --- latencies that depend on the input or on the result ------------------------------------

@@ -19,15 +19,10 @@ from airhilt.sim import Director
 
 
 class RadioWorld(Protocol):
-    """The world in which calls are made and acted upon.
-
-    Attributes
-    ----------
-    ended_lines
-        Ids of the calls that have been on the air.
-    """
+    """The world in which calls are made and acted upon."""
 
     ended_lines: set[str]
+    """Ids of the calls that have been on the air."""
 
     def line_begun(self, line: str) -> None:
         """Take in that a call begins, also when it is said again."""

@@ -51,10 +51,6 @@ class FrequencyArbiter:
         self._ended = ended
         self._on_air: dict[int, list[OnAir]] = {}
 
-    def say(self, utterance: Utterance) -> None:
-        """Say something as soon as its speaker finds the frequency free."""
-        self._try_to_speak(utterance, has_waited=False)
-
     def transmit_carrier(self, utterance: Utterance, for_s: float) -> None:
         """Transmit a carrier without words for a time in s, as a stuck microphone does.
 
@@ -101,10 +97,11 @@ class FrequencyArbiter:
         self._began = self._ended = lambda _on_air: None
         return cut
 
-    def _try_to_speak(self, utterance: Utterance, *, has_waited: bool) -> None:
+    def say(self, utterance: Utterance, *, has_waited: bool = False) -> None:
+        """Say something as soon as its speaker finds the frequency free."""
         heard = self._heard_by(utterance, has_waited)
         if heard:
-            again = partial(self._try_to_speak, utterance, has_waited=True)
+            again = partial(self.say, utterance, has_waited=True)
             self._after_all(heard, again)
             return
         if utterance.speech is None:

@@ -15,6 +15,7 @@ from airhilt.messages import (
     TransmissionOpened,
     key_chunk,
 )
+from airhilt.sensors.radio.backends import SoundRequest
 from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.on_air import OnAir
 from airhilt.sim import Priority
@@ -37,10 +38,7 @@ AT_SEAT: dict[type[AudioHeader], type[SeatAudioOpened | SeatAudioChunk | SeatAud
 class RadioReceiver:
     """Streams what one receiver gets: a call opens, comes in chunks while it lasts, and closes.
 
-    Parameters
-    ----------
-    seat
-        Seat whose receiver it is, on the frequencies of the seat; None for that of the units' site.
+    It is the receiver of the units' site, or that of a seat on the frequencies of the seat.
     """
 
     def __init__(self, context: RadioContext, seat: str | None = None) -> None:
@@ -198,9 +196,8 @@ class _ReceivedAudio:
         known = (is_over, on_air.known_until_ns(now_ns), others)
         if known != self._ahead_of:
             background = context.stations.background_of(on_air.utterance.speaker)
-            self._ahead = context.backend.receive(
-                on_air, mixed_with, background, self.samples, now_ns, self._seat
-            )
+            request = SoundRequest(on_air, mixed_with, background, self.samples, now_ns, self._seat)
+            self._ahead = context.backend.receive(request)
             self._ahead_of = known
 
     def _give(self, size: int, now_ns: int) -> list[tuple[TransmissionChunk, bytes]]:

@@ -14,7 +14,7 @@ from airhilt.commands import (
 )
 from airhilt.units import FOOT, KNOT
 from airhilt.world.flight.aircraft import Aircraft
-from airhilt.world.flight.modes import GuidanceModes
+from airhilt.world.flight.guidance import GuidanceModes
 
 LOWEST_HEIGHT_FT = 500
 """Lowest height to fly level at, in ft: 14 CFR 91.119(c), but for takeoff and landing."""

@@ -26,9 +26,8 @@ from airhilt.sim.streams import stream
 from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE
 from airhilt.world.actors.actor import Actor, Unable
 from airhilt.world.actors.crew import Crew
-from airhilt.world.actors.driver import Driver
 from airhilt.world.actors.reactions import ReactionModel
-from airhilt.world.actors.wildlife import Animal
+from airhilt.world.actors.surface_actors import Animal, Driver
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.flight.aircraft_type import load_aircraft_type
 from airhilt.world.flight.model import ModelError
@@ -134,7 +133,7 @@ class _Builder:
             place, heading, ground_m=self.site.ground_m, tick_s=self.tick_s, seed=self.seed
         )
         reactions = ReactionModel(actor.callsign, actor.driver, self.seed)
-        driver = Driver(actor, kind, body, self.site, reactions)
+        driver = Driver(kind, body, self.site, actor, reactions)
         for command in actor.commands:
             driver.command(command)
         return driver
@@ -150,7 +149,7 @@ class _Builder:
             seed=self._seed_of(f"wildlife/{actor.callsign}"),
             height_m=actor.height_ft * FOOT,
         )
-        return Animal(actor, kind, body, self.site, self.actors)
+        return Animal(kind, body, self.site, actor, self.actors)
 
 
 def _airborne(initial: Airborne, site: ScenarioSite, route: list[Place]) -> InitialCondition:

@@ -11,7 +11,7 @@ from airhilt.scenario.problems import Problem
 from airhilt.units import FOOT, KNOT
 from airhilt.world.checks.altitudes import not_above_ground
 from airhilt.world.flight.aircraft_type import AircraftType, load_aircraft_type
-from airhilt.world.flight.modes import GuidanceModes
+from airhilt.world.flight.guidance import GuidanceModes
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.kinds import load_kind
 

@@ -35,6 +35,17 @@ A slower aircraft feels a part of them in proportion. The models' coefficients a
 angle of attack, which reaches 180 degrees in a tailwind and is undefined in a pure crosswind: they
 would rear a standing aircraft up."""
 
+STATE = (
+    ("position/lat-geod-rad", 1.0), ("position/long-gc-rad", 1.0), ("position/geod-alt-ft", FOOT),
+    ("velocities/v-north-fps", FOOT), ("velocities/v-east-fps", FOOT),
+    ("velocities/v-down-fps", FOOT), ("attitude/phi-rad", 1.0), ("attitude/theta-rad", 1.0),
+    ("attitude/psi-rad", 1.0), ("velocities/vt-fps", FOOT), ("velocities/vc-kts", KNOT),
+    ("velocities/mach", 1.0), ("position/ecef-x-ft", FOOT), ("position/ecef-y-ft", FOOT),
+    ("position/ecef-z-ft", FOOT),
+)  # fmt: skip
+"""Properties of an `AircraftState` in the order of its fields, without the height above ground, and
+their units."""
+
 Reader = Callable[[], float]
 Writer = Callable[[float], object]
 
@@ -74,21 +85,7 @@ class Airframe:
     def _find_motion(self) -> None:
         """Look up the properties of the aircraft's motion."""
         reader = self._reader
-        self._latitude = reader("position/lat-geod-rad")
-        self._longitude = reader("position/long-gc-rad")
-        self._altitude_ft = reader("position/geod-alt-ft")
-        self._north_fps = reader("velocities/v-north-fps")
-        self._east_fps = reader("velocities/v-east-fps")
-        self._down_fps = reader("velocities/v-down-fps")
-        self._roll = reader("attitude/phi-rad")
-        self._pitch = reader("attitude/theta-rad")
-        self._heading = reader("attitude/psi-rad")
-        self._true_airspeed_fps = reader("velocities/vt-fps")
-        self._calibrated_airspeed_kt = reader("velocities/vc-kts")
-        self._mach = reader("velocities/mach")
-        self._x_ft = reader("position/ecef-x-ft")
-        self._y_ft = reader("position/ecef-y-ft")
-        self._z_ft = reader("position/ecef-z-ft")
+        self._state = [(reader(path), unit) for path, unit in STATE]
         self._dynamic_pressure_psf = reader("aero/qbar-psf")
 
         self.angle_of_attack = reader("aero/alpha-rad")
@@ -219,16 +216,17 @@ class Airframe:
         try:
             self._fdm.do_trim(int(jsbsim.TrimMode.FULL))
         except jsbsim.TrimFailureError as error:
+            state = self.state()
             raise ModelError(
-                f"{self._kind.name} cannot fly steadily at {self._calibrated_airspeed_kt():.0f} kt "
-                f"at {self._altitude_ft():.0f} ft"
+                f"{self._kind.name} cannot fly steadily at "
+                f"{state.calibrated_airspeed_m_s / KNOT:.0f} kt at {state.altitude_m / FOOT:.0f} ft"
             ) from error
 
     def release(self, initial: InitialCondition, atmosphere: Atmosphere) -> None:
         """Move the aircraft, as it flies now in still air, to a place and into moving air."""
         fdm = self._fdm
-        north, east, down = self._north_fps(), self._east_fps(), self._down_fps()
-        roll, pitch, heading = self._roll(), self._pitch(), self._heading()
+        north, east, down = (fdm[f"velocities/v-{way}-fps"] for way in ("north", "east", "down"))
+        roll, pitch, heading = (fdm[f"attitude/{angle}-rad"] for angle in ("phi", "theta", "psi"))
         rates = self.roll_rate(), self.pitch_rate(), self.yaw_rate()
         wind_north, wind_east = atmosphere.wind_north_m_s / FOOT, atmosphere.wind_east_m_s / FOOT
         self._keep_wind(atmosphere)
@@ -322,25 +320,9 @@ class Airframe:
 
     def state(self) -> AircraftState:
         """Read the state."""
-        altitude = self._altitude_ft() * FOOT
-        return AircraftState(
-            self._latitude(),
-            self._longitude(),
-            altitude,
-            altitude - self._wheels_on_ground_m,
-            self._north_fps() * FOOT,
-            self._east_fps() * FOOT,
-            self._down_fps() * FOOT,
-            self._roll(),
-            self._pitch(),
-            self._heading(),
-            self._true_airspeed_fps() * FOOT,
-            self._calibrated_airspeed_kt() * KNOT,
-            self._mach(),
-            self._x_ft() * FOOT,
-            self._y_ft() * FOOT,
-            self._z_ft() * FOOT,
-        )
+        values = [read() * unit for read, unit in self._state]
+        height_m = values[2] - self._wheels_on_ground_m
+        return AircraftState._make([*values[:3], height_m, *values[3:]])
 
     def _reader(self, path: str) -> Reader:
         read: Reader = self._node(path).get_double_value

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from airhilt.units import FOOT_PER_MINUTE, KNOT, wrap_angle
-from airhilt.world.flight.guidance import LateralMode, Route
-from airhilt.world.flight.modes import GuidanceModes
+from airhilt.world.flight.guidance import GuidanceModes, LateralMode, Route
 from airhilt.world.flight.phases import AircraftSystems, FlightPhase
 from airhilt.world.flight.procedures.en_route import EnRoute
 from airhilt.world.flight.procedures.taxi import Standing

@@ -9,9 +9,13 @@ from airhilt.units import KNOT
 from airhilt.world.flight.control import FlightControl
 from airhilt.world.flight.procedures.en_route import DriftDown, EmergencyDescent, EnRoute
 from airhilt.world.flight.procedures.final import Final, require_side_step
-from airhilt.world.flight.procedures.go_around import GoAround
 from airhilt.world.flight.procedures.landing import Flare, Glide
-from airhilt.world.flight.procedures.takeoff import RejectedTakeoff, TakeoffRoll, require_lined_up
+from airhilt.world.flight.procedures.takeoff import (
+    GoAround,
+    RejectedTakeoff,
+    TakeoffRoll,
+    require_lined_up,
+)
 from airhilt.world.flight.procedures.taxi import Stand, Standing, Taxi, Way
 from airhilt.world.flight.taxi_path import TaxiPath
 from airhilt.world.surface.runway import RunwayEnd

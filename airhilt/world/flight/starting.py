@@ -10,8 +10,8 @@ from airhilt.world.flight import standard_atmosphere
 from airhilt.world.flight.aircraft_type import AircraftType
 from airhilt.world.flight.airframe import Airframe
 from airhilt.world.flight.autopilot import Autopilot
+from airhilt.world.flight.guidance import GuidanceModes
 from airhilt.world.flight.model import ModelError
-from airhilt.world.flight.modes import GuidanceModes
 from airhilt.world.flight.state import Atmosphere, InitialCondition, OnGround
 
 SETTLING_TIME_S = 40.0

@@ -12,6 +12,7 @@ from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio, from_pcm
 from airhilt.errors import SpeechError
 from airhilt.scenario.models import Radio
 from airhilt.scenario.radio_profiles import PROFILES
+from airhilt.sensors.radio.backends import SoundRequest
 from airhilt.sensors.radio.backends.audio import AudioRadio
 from airhilt.sensors.radio.channel import (
     WHISTLES_HZ,
@@ -212,7 +213,8 @@ def test_two_that_block_each_other_whistle_alike_whichever_is_received() -> None
     spoken = AudioRadio(Espeak(), VhfChannel(PROFILES["vhf"]), 5, Radio())
 
     def whistle_hz(said: OnAir, over: OnAir) -> float:
-        heard = from_pcm(spoken.receive(said, (over,), "none", 0, said.t_end_ns))
+        request = SoundRequest(said, (over,), "none", 0, said.t_end_ns)
+        heard = from_pcm(spoken.receive(request))
         spectrum = np.abs(np.fft.rfft(heard))
         return float(np.fft.rfftfreq(len(heard), 1 / SAMPLE_RATE_HZ)[spectrum.argmax()])
 

@@ -28,7 +28,7 @@ from airhilt.messages import (
 )
 from airhilt.scenario.models import Radio
 from airhilt.scenario.radio_profiles import PROFILES
-from airhilt.sensors.radio.backends import FallbackRadio, RadioBackend, TextRadio
+from airhilt.sensors.radio.backends import FallbackRadio, RadioBackend, SoundRequest, TextRadio
 from airhilt.sensors.radio.backends.audio import AudioRadio
 from airhilt.sensors.radio.channel import VhfChannel
 from airhilt.sensors.radio.frequency_arbiter import GAP_S, FrequencyArbiter
@@ -442,9 +442,9 @@ class Counting(AudioRadio):
         super().__init__(Buzzing(), VhfChannel(PROFILES["vhf"]), SEED, radio)
         self.asked: set[str | None] = set()
 
-    def receive(self, on_air: OnAir, *rest: Any) -> bytes:
-        self.asked.add(rest[-1])
-        return super().receive(on_air, *rest)
+    def receive(self, request: SoundRequest) -> bytes:
+        self.asked.add(request.listener)
+        return super().receive(request)
 
 
 def test_a_seat_gets_nothing_of_a_call_into_whose_reach_it_comes_in_the_middle() -> None:
@@ -508,14 +508,10 @@ class Failing(AudioRadio):
         super().__init__(Buzzing(), VhfChannel(PROFILES["vhf"]), SEED, RADIO)
         self._at_ns = seconds_to_ns(at_s)
 
-    def receive(self, on_air: OnAir, *rest: Any) -> bytes:
-        if self._now_ns(rest) >= self._at_ns:
+    def receive(self, request: SoundRequest) -> bytes:
+        if request.now_ns >= self._at_ns:
             raise SpeechError("worn out")
-        return super().receive(on_air, *rest)
-
-    @staticmethod
-    def _now_ns(rest: tuple[Any, ...]) -> int:
-        return int(rest[3])
+        return super().receive(request)
 
 
 def test_a_call_in_which_the_sound_is_lost_has_no_samples_though_some_were_streamed() -> None:
@@ -560,7 +556,8 @@ def test_what_ended_when_a_piece_of_a_persons_call_begins_is_not_heard_in_it() -
     other = OnAir(said, begun_ns, first * sample_ns, spoken(1.0))
 
     def received(mixed_with: tuple[OnAir, ...]) -> bytes:
-        return audio_radio().receive(person, mixed_with, "none", begin, 5 * SECOND_NS)
+        request = SoundRequest(person, mixed_with, "none", begin, 5 * SECOND_NS)
+        return audio_radio().receive(request)
 
     assert received((other,)) == received(())
 
@@ -580,7 +577,7 @@ def test_a_piece_of_a_persons_call_is_levelled_with_the_two_seconds_before_it(
     said = Utterance("person", KHZ, "AAL1", None, "")
     person = OnAir(said, 0, 5 * SECOND_NS, spoken(5.0), is_open_ended=True)
     begin = round(begin_s * SAMPLE_RATE_HZ)
-    given_out = radio.receive(person, (), "none", begin, 5 * SECOND_NS)
+    given_out = radio.receive(SoundRequest(person, (), "none", begin, 5 * SECOND_NS))
     (piece,) = pieces
     assert len(piece) / SAMPLE_RATE_HZ == pytest.approx(5.0 - begin_s + context_s)
     assert len(given_out) == 2 * (5 * SAMPLE_RATE_HZ - begin)

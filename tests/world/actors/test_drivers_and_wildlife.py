@@ -14,7 +14,7 @@ from airhilt.geodesy.wgs84 import distance_m
 from airhilt.messages import Advisory, Evidence, GoAround, HoldPosition, Severity
 from airhilt.units import KNOT
 from airhilt.world.actors import Actor, Unable, build_actors
-from airhilt.world.actors.driver import Driver
+from airhilt.world.actors.surface_actors import Driver
 from airhilt.world.actors.triggers import Triggers
 from airhilt.world.site import ScenarioSite
 

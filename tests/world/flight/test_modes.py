@@ -6,8 +6,7 @@ import pytest
 
 from airhilt.units import FOOT, KNOT
 from airhilt.world.flight import InitialCondition, load_aircraft_type
-from airhilt.world.flight.guidance import AltitudeClearance
-from airhilt.world.flight.modes import GuidanceModes
+from airhilt.world.flight.guidance import AltitudeClearance, GuidanceModes
 from stand_ins import state_at
 
 KIND = load_aircraft_type("737")

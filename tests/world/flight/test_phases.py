@@ -13,14 +13,14 @@ import pytest
 from airhilt.geodesy.wgs84 import Place
 from airhilt.units import DEGREE, KNOT
 from airhilt.world.flight import load_aircraft_type
-from airhilt.world.flight.modes import GuidanceModes
+from airhilt.world.flight.guidance import GuidanceModes
 from airhilt.world.flight.phases import AircraftSystems, FlightPhase
 from airhilt.world.flight.procedures.en_route import DriftDown, EmergencyDescent, EnRoute
 from airhilt.world.flight.procedures.final import Final
-from airhilt.world.flight.procedures.go_around import GoAround
 from airhilt.world.flight.procedures.landing import Flare, Glide, Rollout
 from airhilt.world.flight.procedures.takeoff import (
     ClimbOut,
+    GoAround,
     RejectedTakeoff,
     Rotate,
     TakeoffRoll,

@@ -10,7 +10,7 @@ import pytest
 from airhilt.units import FOOT, KNOT
 from airhilt.world.flight import load_aircraft_type
 from airhilt.world.flight.airframe import Airframe
-from airhilt.world.flight.modes import GuidanceModes
+from airhilt.world.flight.guidance import GuidanceModes
 
 
 def limits_kt(name: str, altitude_ft: float) -> tuple[float, ...]:

@@ -3,12 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from airhilt.audio.pcm import Audio
 from airhilt.errors import SpeechError
 from airhilt.messages import Transcript
 from airhilt.sensors.radio.on_air import BackgroundNoise, OnAir
+
+
+class SoundRequest(NamedTuple):
+    """What a receiver is to give out of a transmission."""
+
+    on_air: OnAir
+    mixed_with: tuple[OnAir, ...]
+    """Transmissions that are received at the same time."""
+    background: BackgroundNoise
+    """Noise around the speaker."""
+    begin: int
+    """First sample that is asked for. The samples before it have been given out already."""
+    now_ns: int
+    listener: str | None = None
+    """Owner of the receiver; None: it is the one at the units' site."""
 
 
 class RadioBackend(Protocol):
@@ -20,34 +35,18 @@ class RadioBackend(Protocol):
         ...
 
     def speak(self, speaker: str, text: str) -> tuple[Audio | None, float]:
-        """Return a text as speech, None without sound, and its duration in s, or raise SpeechError."""
+        """Return a text as speech, None without sound, and its duration in s.
+
+        A SpeechError says that the voices have failed.
+        """
         ...
 
-    def receive(
-        self,
-        on_air: OnAir,
-        mixed_with: tuple[OnAir, ...],
-        background: BackgroundNoise,
-        begin: int,
-        now_ns: int,
-        listener: str | None = None,
-    ) -> bytes:
+    def receive(self, request: SoundRequest) -> bytes:
         """Return what a receiver gives out of a transmission, as far as it can be known, as PCM.
 
         The result is the whole of a transmission whose speech was known when it began, and the
         part that has been on the air by now of any other. It is 16 kHz, mono, 16 bits,
         little-endian; empty without sound. A SpeechError says that the channel has failed.
-
-        Parameters
-        ----------
-        mixed_with
-            Transmissions that are received at the same time.
-        background
-            Noise around the speaker.
-        begin
-            First sample that is asked for. The samples before it have been given out already.
-        listener
-            Owner of the receiver; None: it is the one at the units' site.
         """
         ...
 
@@ -71,15 +70,7 @@ class TextRadio:
         """Return no speech, and the time in s that the words take."""
         return None, len(text.split()) * self._seconds_per_word
 
-    def receive(
-        self,
-        on_air: OnAir,  # noqa: ARG002
-        mixed_with: tuple[OnAir, ...],  # noqa: ARG002
-        background: BackgroundNoise,  # noqa: ARG002
-        begin: int,  # noqa: ARG002
-        now_ns: int,  # noqa: ARG002
-        listener: str | None = None,  # noqa: ARG002
-    ) -> bytes:
+    def receive(self, request: SoundRequest) -> bytes:  # noqa: ARG002
         """Return no samples."""
         return b""
 
@@ -130,21 +121,11 @@ class FallbackRadio:
                 self._lose(error)
         return self._text.speak(speaker, text)
 
-    def receive(
-        self,
-        on_air: OnAir,
-        mixed_with: tuple[OnAir, ...],
-        background: BackgroundNoise,
-        begin: int,
-        now_ns: int,
-        listener: str | None = None,
-    ) -> bytes:
+    def receive(self, request: SoundRequest) -> bytes:
         """Return what the backend receives; no samples once it has failed."""
         if not self.is_lost:
             try:
-                return self._backend.receive(
-                    on_air, mixed_with, background, begin, now_ns, listener
-                )
+                return self._backend.receive(request)
             except SpeechError as error:
                 self._lose(error)
         return b""

@@ -20,10 +20,7 @@ Way = Literal["taxi", "line_up", "vacate"]
 class Standing(FlightPhase):
     """Stands with the brakes set; ``lined_up`` on a runway, ready to take off.
 
-    Attributes
-    ----------
-    at_rest : bool
-        Whether it has come to rest: nothing moves it any more.
+    ``at_rest`` is true once it has come to rest: nothing moves it any more.
     """
 
     may_touch = True
