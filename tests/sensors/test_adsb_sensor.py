@@ -247,13 +247,6 @@ def test_a_squitter_has_the_place_of_its_instant_and_not_that_of_the_tick_before
         assert other.latitude_deg == pytest.approx(one.latitude_deg, abs=4e-5)
 
 
-def test_a_gliding_aircraft_is_reported_where_it_is(run: Run) -> None:
-    for report in run.reports:
-        assert report.latitude_deg == pytest.approx(38.9, abs=2e-3)
-        assert report.altitude_ft == 35_000.0
-    assert run.steps[0]._replace(seq=0) == run.steps[0]
-
-
 # --- on the ground --------------------------------------------------------------------------
 
 
@@ -404,11 +397,3 @@ def test_callsigns_of_those_who_stand_come_every_ten_seconds(
         assert len(gaps) > 10
         assert min(gaps) >= 9.8
         assert max(gaps) <= 10.2
-
-
-def test_a_standing_position_is_reported_to_within_its_accuracy() -> None:
-    for report in grounded(seconds=30.0).go().reports:
-        north_m = (report.latitude_deg - 38.9) * 111_000.0
-        east_m = (report.longitude_deg + 77.0) * 111_000.0 * math.cos(38.9 * DEGREE)
-        assert math.hypot(north_m, east_m) < 60.0
-        assert report.ground_speed_kt == 0.0

@@ -133,15 +133,6 @@ def test_an_input_starts_when_it_has_come_and_the_worker_is_free(
     assert [step.t_in_ns for step in bench.steps] == [t_in for t_in, *_ in expected]
 
 
-def test_fifo_takes_one_a_step_in_the_order_of_arrival() -> None:
-    bench = Bench(echo, fixed(10))
-    for t_ns, name in ((0, b"a"), (1, b"b"), (2, b"c")):
-        bench.offer_at(t_ns, name)
-    bench.run()
-    assert bench.out == [(10, b"a"), (20, b"b"), (30, b"c")]
-    assert not bench.server.dropped.total()
-
-
 def test_latest_keeps_the_newest_of_each_key_and_counts_what_it_drops() -> None:
     bench = Bench(echo, fixed(10))
     for t_ns, name in ((0, b"a"), (1, b"b"), (2, b"c"), (3, b"d")):
@@ -168,15 +159,6 @@ def test_of_several_keys_that_are_too_fast_each_has_its_turn() -> None:
             bench.offer_at(t_ns, key.encode(), "latest", key=key)
     bench.run()
     assert [payload for _, payload in bench.out] == [b"left", b"right", b"behind"] * 3
-
-
-def test_latest_never_takes_back_what_the_worker_has_in_hand() -> None:
-    bench = Bench(echo, fixed(10))
-    bench.offer_at(0, b"a", "latest")
-    bench.offer_at(5, b"b", "latest")
-    bench.run()
-    assert bench.out == [(10, b"a"), (20, b"b")]
-    assert not bench.server.dropped.total()
 
 
 def test_a_batch_takes_all_batched_inputs_that_wait() -> None:
@@ -352,15 +334,6 @@ def test_what_waits_for_a_lost_worker_is_dropped_and_its_step_in_hand_gives_noth
     assert len(bench.calls) == 1
 
 
-def test_what_reaches_a_lost_worker_does_not_count_as_dropped() -> None:
-    bench = Bench(echo, fixed(100))
-    bench.director.at(50, lambda: bench.server.lose("gone"), Priority.SCRIPT)
-    for at_ns in (60, 70, 80):
-        bench.offer_at(at_ns, b"frame", "latest")
-    bench.run()
-    assert not bench.server.dropped
-
-
 def test_an_output_that_a_lost_worker_held_back_is_not_sent() -> None:
     bench = Bench(lambda *_: Reply((Output("out", b"x", 150),), 0.0), fixed(10))
     bench.offer_at(100, b"a")
@@ -379,12 +352,6 @@ def test_the_run_can_end_before_a_step_does() -> None:
     assert step is not None
     assert (step.t_start_ns, step.latency_ns, step.finished) == (7, 100, False)
     assert bench.steps == []
-
-
-def test_a_worker_that_is_idle_has_nothing_unfinished() -> None:
-    bench = Bench(echo, fixed(10))
-    bench.offer_at(0, b"a")
-    assert bench.run().server.in_hand is None
 
 
 # --- latencies that depend on the input or on the result ------------------------------------

@@ -238,14 +238,6 @@ def test_callsign_and_category_are_known_once_an_identification_came_through() -
     assert (report.callsign, report.emitter_category) == ("AAL123", "A3")
 
 
-def test_a_receiver_hears_within_its_range_and_not_beyond() -> None:
-    station = receiver(range_m=100_000.0)
-    north = 47.0 * DEGREE + np.array([99_000.0, 101_000.0]) / 6.37e6
-    near, far = (replace(HERE, latitude_rad=float(lat)) for lat in north)
-    assert station.in_view(near)
-    assert not station.in_view(far)
-
-
 @pytest.mark.parametrize(("altitude_ft", "horizon_nm"), [(1_000, 39), (10_000, 123), (35_000, 230)])
 def test_a_receiver_hears_what_is_above_the_radio_horizon(
     altitude_ft: int, horizon_nm: int
@@ -256,16 +248,6 @@ def test_a_receiver_hears_what_is_above_the_radio_horizon(
         away = nautical_miles * NAUTICAL_MILE / 6.37e6
         state = replace(HERE, latitude_rad=HERE.latitude_rad + away, altitude_m=altitude_ft * FOOT)
         assert station.in_view(state) == heard
-
-
-@pytest.mark.parametrize(("away_m", "heard"), [(5_750.0, True), (5_950.0, False)])
-def test_an_antenna_on_the_ground_hears_one_of_2_m_within_5_8_km(
-    away_m: float, heard: bool
-) -> None:
-    """The root of twice the height and 4/3 of the Earth's radius."""
-    station = Receiver("field", FixedSite(47.0 * DEGREE, 8.0 * DEGREE, 400.0), EVERYWHERE, 400.0)
-    there = replace(HERE, latitude_rad=HERE.latitude_rad + away_m / 6.37e6, altitude_m=400.0)
-    assert station.in_view(there) is heard
 
 
 # --- on the surface -------------------------------------------------------------------------

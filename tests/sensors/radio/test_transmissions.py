@@ -315,14 +315,6 @@ def test_two_calls_at_once_are_mixed_as_if_both_had_been_known_before() -> None:
         assert streamed.whole(name) == known.whole(name)
 
 
-def test_a_call_that_the_end_of_the_run_cuts_off_is_as_long_as_it_was_on_the_air() -> None:
-    air = Air()
-    air.say(10.0, "call", 5.0)
-    air.run(until_s=12.2)
-    assert air.closed("call").t_end_ns == 12.2 * SECOND_NS
-    check_stream(air, "call")
-
-
 def test_nothing_is_streamed_of_a_speaker_who_is_out_of_reach() -> None:
     air = Air()
     air.stations.out_of_reach.add("far")
@@ -652,25 +644,6 @@ def test_a_person_who_presses_during_a_call_blocks_it_and_both_are_told() -> Non
     mixed = air.whole("Tower")[1]
     assert mixed[: 2 * SAMPLE_RATE_HZ] == alone[: 2 * SAMPLE_RATE_HZ]
     assert mixed != alone
-
-
-def test_two_persons_at_once_block_each_other() -> None:
-    air = Air()
-    air.press(10.0, "AAL123", packets(10.0, spoken(2.0), IRREGULAR_S), 12.0)
-    air.press(11.0, "DAL456", packets(11.0, spoken(2.0, 700.0), IRREGULAR_S), 13.0)
-    air.run()
-    assert air.truth("AAL123").blocked_by == ("DAL456",)
-    assert air.truth("DAL456").blocked_by == ("AAL123",)
-    for name in ("AAL123", "DAL456"):
-        check_stream(air, name)
-
-
-def test_a_person_who_speaks_at_the_end_of_the_run_is_cut_off() -> None:
-    air = Air()
-    air.press(10.0, "AAL123", packets(10.0, spoken(2.0), IRREGULAR_S), 12.0)
-    air.run(until_s=11.3)
-    assert air.closed("AAL123").t_end_ns == 11.3 * SECOND_NS
-    check_stream(air, "AAL123")
 
 
 @settings(max_examples=15, deadline=None)

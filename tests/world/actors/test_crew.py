@@ -111,13 +111,6 @@ def test_a_turn_with_a_climb_is_flown_too(aircraft: Aircraft) -> None:
     assert aircraft.state.track_rad == pytest.approx(before_rad, abs=3 * DEGREE)
 
 
-def test_it_goes_back_to_its_level_when_the_conflict_is_over(aircraft: Aircraft) -> None:
-    crew = crew_of(aircraft)
-    crew.hear(advisory()).act()
-    crew.hear(over()).act()
-    assert level_ft(aircraft) == pytest.approx(5_000)
-
-
 def test_a_level_to_maintain_is_maintained(aircraft: Aircraft) -> None:
     crew_of(aircraft).hear(advisory(MaintainLevel(altitude_ft=5_200))).act()
     assert level_ft(aircraft) == pytest.approx(5_200)
@@ -225,15 +218,6 @@ def test_a_level_commanded_during_an_advisory_is_flown_afterwards(aircraft: Airc
     assert level_ft(aircraft) == pytest.approx(7_000)
 
 
-def test_a_speed_commanded_during_an_advisory_is_flown_afterwards(aircraft: Aircraft) -> None:
-    crew = crew_of(aircraft)
-    crew.hear(advisory()).act()
-    crew.command(SpeedCommand(action="speed", cas_kt=80))
-    assert aircraft.target_speed_m_s == pytest.approx(95 * KNOT)
-    crew.hear(over()).act()
-    assert aircraft.target_speed_m_s == pytest.approx(80 * KNOT)
-
-
 def fly(aircraft: Aircraft, seconds: int) -> float:
     for _ in range(round(seconds * 20)):
         aircraft.advance()
@@ -247,16 +231,6 @@ def test_a_track_commanded_during_a_climb_is_flown_afterwards(aircraft: Aircraft
     assert fly(aircraft, 10) == pytest.approx(60.0, abs=2.0)
     crew.hear(over()).act()
     assert fly(aircraft, 60) == pytest.approx(100.0, abs=2.0)
-
-
-def test_after_a_turn_it_goes_back_to_its_track(aircraft: Aircraft) -> None:
-    fly(aircraft, 60)
-    crew = crew_of(aircraft)
-    before = aircraft.state.track_rad / DEGREE
-    crew.hear(advisory(Turn(degrees=30))).act()
-    assert fly(aircraft, 40) == pytest.approx(before + 30.0, abs=2.0)
-    crew.hear(over()).act()
-    assert fly(aircraft, 60) == pytest.approx(before, abs=2.0)
 
 
 def test_of_two_advisories_both_must_be_over(aircraft: Aircraft) -> None:
@@ -289,16 +263,6 @@ def test_a_revision_that_comes_too_late_is_not_followed_after_the_end(aircraft: 
     assert level_ft(aircraft) == pytest.approx(5_000)
 
 
-def test_an_end_that_is_told_twice_is_no_harm(aircraft: Aircraft) -> None:
-    crew = crew_of(aircraft)
-    crew.hear(advisory()).act()
-    ends = [crew.hear(over()), crew.hear(over())]
-    for end in ends:
-        if end is not None:
-            end.act()
-    assert level_ft(aircraft) == pytest.approx(5_000)
-
-
 def test_a_crew_is_unable_to_fly_what_its_aircraft_cannot(
     subtests: pytest.Subtests, aircraft: Aircraft
 ) -> None:
@@ -326,16 +290,6 @@ def test_a_crew_is_unable_to_fly_what_its_aircraft_cannot(
                 crew_of(aircraft).command(command)
             assert level_ft(aircraft) == pytest.approx(5_000)
             assert aircraft.target_speed_m_s == speed_m_s
-
-
-def test_a_crew_flies_up_to_the_limits_of_its_aircraft(aircraft: Aircraft) -> None:
-    crew = crew_of(aircraft)
-    crew.command(AltitudeCommand(action="altitude", altitude_ft=13_000, vertical_rate_fpm=700))
-    assert level_ft(aircraft) == pytest.approx(13_000)
-    crew.command(AltitudeCommand(action="altitude", altitude_ft=500, vertical_rate_fpm=1_000))
-    assert level_ft(aircraft) == pytest.approx(500)
-    crew.command(SpeedCommand(action="speed", cas_kt=127))
-    assert aircraft.target_speed_m_s == pytest.approx(127 * KNOT)
 
 
 @pytest.mark.parametrize(

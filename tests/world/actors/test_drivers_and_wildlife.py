@@ -145,11 +145,6 @@ def test_what_waits_is_done_once_as_soon_as_it_is_true() -> None:
     assert done == ["b", "a"]
 
 
-def test_a_driver_who_has_no_way_to_go_on_with_says_so(driver: Driver) -> None:
-    with pytest.raises(Unable, match="no path to go on with"):
-        tell(driver, "continue")
-
-
 def test_a_driver_drives_across_the_grass_if_told_and_no_faster_than_told(driver: Driver) -> None:
     before = driver.body.state
     tell(driver, "taxi", to={"type": "node", "node": "K/E"}, off_taxiways=True, speed_kt=10.0)
@@ -199,20 +194,6 @@ def test_an_animal_stands_still_when_its_plan_says_so() -> None:
     tell(deer, "stand")
     advance(deer, 10.0)
     assert deer.body.phase == "standing"
-
-
-def test_a_trigger_that_another_sets_is_evaluated_the_next_time() -> None:
-    """Also where it is true already: no action runs twice or is forgotten."""
-    done: list[str] = []
-    triggers = Triggers()
-    triggers.once(
-        lambda _: True, lambda: triggers.once(lambda _: True, lambda: done.append("second"))
-    )
-    triggers.evaluate(0)
-    assert done == []
-    triggers.evaluate(1)
-    triggers.evaluate(2)
-    assert done == ["second"]
 
 
 def test_of_two_that_come_true_at_once_the_one_that_waited_longer_is_done_first() -> None:

@@ -175,12 +175,6 @@ def test_cleared_for_takeoff_at_a_hold_it_lines_up_first_and_rolls_then() -> Non
     assert plane.told[1:] == [("take_off", "01", 4000)]
 
 
-def test_away_from_every_hold_it_is_unable_to_line_up() -> None:
-    plane = Plane(place=kdca().airport.node("gate_b12"))
-    with pytest.raises(Unable, match="not at a hold-short position of runway 01"):
-        tell(crew_of(plane), "line_up", runway="01")
-
-
 def test_a_takeoff_is_cancelled_before_it_rolls() -> None:
     plane = at_hold()
     crew = crew_of(plane)
@@ -267,11 +261,6 @@ def test_an_advised_go_around_is_flown_and_on_the_ground_it_is_not() -> None:
     assert not crew_of(landed).hear(advisory(GoAround(runway="01"))).act()
     assert flying.names == ["go_around"]
     assert landed.names == []
-
-
-def test_an_exit_that_does_not_exist_is_named_with_those_that_do() -> None:
-    with pytest.raises(Unable, match="has no exit Z; there are: B_"):
-        tell(crew_of(on_final(5_000.0)), "land", runway="01", exit="Z")
 
 
 # --- taxiing --------------------------------------------------------------------------------

@@ -69,33 +69,6 @@ def test_a_value_out_of_range_is_refused(wrong: Callable[..., Any]) -> None:
         load_aircraft_type("wrong")
 
 
-POSITIVE = (
-    "dimensions.length_m", "dimensions.span_m", "speeds.approach_kt", "speeds.climb_safety_kt",
-    "speeds.cruise_kt", "speeds.maximum_mach", "speeds.climb_rate_fpm",
-    "gains.pitch.rate_limit_deg_s", "gains.roll.bank_limit_deg", "gains.thrust.lever_rate_per_s",
-    "gains.guidance.course_per_s", "ground.nose_wheel_limit_deg", "ground.deceleration_m_s2",
-    "ground.taxi_speed_kt", "ground.look_ahead_m", "takeoff.pitch_rate_deg_s",
-    "landing.configure_m", "landing.flare.time_constant_s",
-    "mesh.fuselage_diameter_m",
-)  # fmt: skip
-
-
-@pytest.mark.parametrize("place", POSITIVE)
-def test_a_number_that_must_be_positive_is_refused_at_zero(
-    place: str, wrong: Callable[..., Any]
-) -> None:
-    *folders, name = place.split(".")
-
-    def zero(content: Any) -> None:
-        for folder in folders:
-            content = content[folder]
-        content[name] = 0.0
-
-    wrong(zero)
-    with pytest.raises(ScenarioError, match=re.escape(place)):
-        load_aircraft_type("wrong")
-
-
 def numbers(value: Any, *place: str | int) -> Iterator[tuple[str | int, ...]]:
     """Yield the place of each number in a document."""
     if isinstance(value, dict | list):

@@ -469,6 +469,7 @@ def test_wheels_touch_softly_and_alone(change: dict[str, float], ends: bool) -> 
     guard = FlightGuard(B737)
     assert (guard.check(state, may_touch=True, on_ground=True) is not None) is ends
     assert guard.check(state, may_touch=True, on_ground=False) is None
+    assert guard.check(state, may_touch=False, on_ground=True) == "ground_contact"
 
 
 @pytest.mark.parametrize(

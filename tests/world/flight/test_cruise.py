@@ -96,12 +96,3 @@ def test_the_state_is_consistent_with_itself(
     assert path == pytest.approx(after.ground_speed_m_s * 10 * geodetic, rel=2e-3)
     wheels = aircraft.kind.dimensions.wheel_height_offset_m
     assert after.height_agl_m == pytest.approx(after.altitude_m - 400.0 - wheels)
-
-
-def test_a_condition_that_no_aircraft_can_have_is_refused(in_cruise: Callable[..., Any]) -> None:
-    with pytest.raises(ValueError, match="service ceiling of c172p"):
-        in_cruise("c172p", altitude_ft=30_000)
-    with pytest.raises(ValueError, match="calibrated_airspeed_m_s is 51"):
-        in_cruise("737", airspeed_kt=100)
-    with pytest.raises(ValueError, match="more airspeed than wind"):
-        in_cruise("c172p", atmosphere=Atmosphere(wind_north_m_s=80.0))

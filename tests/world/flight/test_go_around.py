@@ -75,43 +75,6 @@ def test_it_turns_when_told_and_climbs_on(
     assert turned == pytest.approx(30 * DEGREE, abs=1 * DEGREE)
 
 
-def test_once_more_it_lands(
-    on_final: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
-) -> None:
-    aircraft = on_final("c172p", distance_nm=3.0)
-    aircraft.procedures.land(runway)
-    *_, _ = states(aircraft, 10)
-    aircraft.procedures.go_around(400.0)
-    *_, _ = states(aircraft, 15)
-    aircraft.procedures.land(runway)
-    for _ in states(aircraft, 300):
-        if aircraft.on_ground:
-            break
-    assert aircraft.ended is None
-    assert aircraft.on_ground
-
-
-def test_after_touchdown_it_is_refused(
-    on_final: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
-) -> None:
-    aircraft = on_final("c172p", distance_nm=0.5)
-    aircraft.procedures.land(runway)
-    for _ in states(aircraft, 100):
-        if aircraft.on_ground:
-            break
-    with pytest.raises(ValueError, match="expected glide or flare"):
-        aircraft.procedures.go_around(500.0)
-
-
 def test_without_an_approach_it_is_refused(on_final: Callable[..., Any]) -> None:
     with pytest.raises(ValueError, match="go_around in phase en_route; expected glide or flare"):
         on_final("737").procedures.go_around(1_000.0)
-
-
-def test_an_altitude_that_is_not_above_is_refused(
-    on_final: Callable[..., Any], runway: RunwayEnd
-) -> None:
-    aircraft = on_final("737")
-    aircraft.procedures.land(runway)
-    with pytest.raises(ValueError, match="expected more than the altitude now"):
-        aircraft.procedures.go_around(50.0)

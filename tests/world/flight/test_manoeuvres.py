@@ -66,17 +66,6 @@ def test_it_turns_by_an_angle(
     assert max(abs(state.altitude_m - altitude) for state in flown) < 50 * FOOT
 
 
-def test_a_turn_of_more_than_half_a_circle_goes_the_way_it_was_told(
-    in_cruise: Callable[..., Any], states: Callable[..., Any]
-) -> None:
-    aircraft = in_cruise("c172p")
-    aircraft.en_route.turn_by(-270 * DEGREE)
-    flown = list(states(aircraft, 110))
-    assert abs(wrap_angle(flown[-1].track_rad - 150 * DEGREE)) < 1 * DEGREE
-    assert flown[200].roll_rad < -15 * DEGREE
-    assert flown[700].roll_rad < -15 * DEGREE
-
-
 @pytest.mark.parametrize("change_kt", [20, -20])
 def test_it_changes_speed(
     name: str, change_kt: int, in_cruise: Callable[..., Any], states: Callable[..., Any]
@@ -114,12 +103,6 @@ def test_in_a_long_climb_the_mach_limit_takes_over_from_the_airspeed(
     assert aircraft.ended is None
     assert max(state.mach for state in flown) < aircraft.kind.speeds.maximum_mach + 0.02
     assert flown[-1].altitude_m == pytest.approx(33_000 * FOOT, abs=30 * FOOT)
-
-
-def test_a_route_without_waypoints_is_refused(in_cruise: Callable[..., Any]) -> None:
-    aircraft = in_cruise("c172p")
-    with pytest.raises(ValueError, match="leads nowhere"):
-        aircraft.en_route.fly_route([])
 
 
 @settings(

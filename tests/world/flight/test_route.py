@@ -138,8 +138,3 @@ def test_it_resumes_a_route_that_it_left(
     *_, back = states(aircraft, 150)
     position = (back.latitude_rad / DEGREE, back.longitude_rad / DEGREE)
     assert abs(cross_track_m(position, (47.0, 8.0), end)) < 15.0
-
-
-def test_without_a_route_there_is_none_to_resume(in_cruise: Callable[..., Any]) -> None:
-    with pytest.raises(ValueError, match="no route to resume"):
-        in_cruise("c172p").en_route.resume_route()

@@ -104,22 +104,6 @@ def test_it_takes_off_after_lining_up(
     assert takeoff.off_centre_m < 20 * FOOT
 
 
-def test_it_takes_off_rolling(
-    on_the_ground: Callable[..., Any],
-    along_runway: Callable[..., Any],
-    runway: RunwayEnd,
-    states: Callable[..., Any],
-) -> None:
-    aircraft = on_the_ground("737")
-    aircraft.procedures.taxi([along_runway(60.0), along_runway(400.0)], then="lined_up")
-    *_, state = states(aircraft, 20)
-    assert state.ground_speed_m_s > 5.0
-    aircraft.procedures.take_off(runway, CLIMB_TO_M)
-    slowest = min(state.ground_speed_m_s for state in states(aircraft, 10))
-    assert slowest > 5.0
-    assert Takeoff(aircraft, runway, states).phases[-1] == "en_route"
-
-
 def test_commands_in_the_climb_are_flown_above_400_ft(
     on_the_ground: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
 ) -> None:
@@ -136,33 +120,3 @@ def test_commands_in_the_climb_are_flown_above_400_ft(
     assert aircraft.phase == "en_route"
     assert abs(state.altitude_m - 600.0) < 10.0
     assert abs(state.track_rad - (COURSE + 40.0) * DEGREE) < 1.0 * DEGREE
-
-
-def test_a_takeoff_that_cannot_be_is_refused(
-    in_cruise: Callable[..., Any], on_the_ground: Callable[..., Any], runway: RunwayEnd
-) -> None:
-    with pytest.raises(ValueError, match="take_off in phase en_route in the air"):
-        in_cruise("737").procedures.take_off(runway, CLIMB_TO_M)
-    with pytest.raises(ValueError, match="60 m beside the centre line of runway 01"):
-        on_the_ground("737", right_m=60.0).procedures.take_off(runway, CLIMB_TO_M)
-    with pytest.raises(ValueError, match="90 degrees off its course"):
-        on_the_ground("737", heading_deg=COURSE + 90.0).procedures.take_off(runway, CLIMB_TO_M)
-    with pytest.raises(ValueError, match="2300 m beyond the beginning of runway 01"):
-        on_the_ground("737", along_m=runway.length_m + 100.0).procedures.take_off(
-            runway, CLIMB_TO_M
-        )
-    with pytest.raises(ValueError, match="climb_to_m"):
-        on_the_ground("737").procedures.take_off(runway, 0.0)
-
-
-def test_the_same_seed_gives_the_same_takeoff(
-    name: str, on_the_ground: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
-) -> None:
-    def flown(seed: int) -> tuple[float, ...]:
-        aircraft = on_the_ground(name, seed=seed, atmosphere=TURBULENCE)
-        aircraft.procedures.take_off(runway, CLIMB_TO_M)
-        *_, last = states(aircraft, 40)
-        return tuple(last)
-
-    assert flown(7) == flown(7)
-    assert flown(7) != flown(8)

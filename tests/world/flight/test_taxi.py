@@ -82,21 +82,6 @@ def test_it_follows_the_path_and_stops_at_its_end(
     assert max(off[-20:]) < 2.0
 
 
-def test_it_slows_down_for_a_bend(
-    on_the_ground: Callable[..., Any], along_runway: Callable[..., Any], states: Callable[..., Any]
-) -> None:
-    aircraft = on_the_ground("737", along_m=0.0)
-    aircraft.procedures.taxi(corner(along_runway), 20 * KNOT)
-    fastest = sideways = 0.0
-    turned = COURSE * DEGREE
-    for state in states(aircraft, 60):
-        fastest = max(fastest, state.ground_speed_m_s)
-        sideways = max(sideways, state.ground_speed_m_s * abs(state.heading_rad - turned) * 20.0)
-        turned = state.heading_rad
-    assert 17 * KNOT < fastest < 21 * KNOT
-    assert sideways < 1.3
-
-
 def test_it_holds_its_position_and_goes_on(
     name: str,
     on_the_ground: Callable[..., Any],
@@ -152,19 +137,6 @@ def test_no_wind_tips_it_over(
     assert aircraft.ended is None
 
 
-def test_it_lines_up_when_told_so(
-    on_the_ground: Callable[..., Any], along_runway: Callable[..., Any], states: Callable[..., Any]
-) -> None:
-    aircraft = on_the_ground("c172p", along_m=30.0, right_m=80.0, heading_deg=COURSE - 90.0)
-    lead_in = [(30.0, 80.0), (30.0, 30.0), (39.0, 9.0), (60.0, 0.0), (120.0, 0.0)]
-    aircraft.procedures.taxi([along_runway(*point) for point in lead_in], then="lined_up")
-    assert aircraft.phase == "line_up"
-    for _ in states(aircraft, 90):
-        pass
-    assert aircraft.phase == "lined_up"
-    assert abs(aircraft.state.heading_rad - COURSE * DEGREE) < 2.0 * DEGREE
-
-
 def test_what_belongs_to_the_ground_is_refused_in_the_air(
     in_cruise: Callable[..., Any], along_runway: Callable[..., Any]
 ) -> None:
@@ -189,11 +161,6 @@ def test_what_belongs_to_the_air_is_refused_on_the_ground(
         with pytest.raises(ValueError, match="on the ground"):
             command()
     assert aircraft.phase == "lined_up"
-
-
-def test_a_path_needs_places(on_the_ground: Callable[..., Any]) -> None:
-    with pytest.raises(ValueError, match="path"):
-        on_the_ground("c172p").procedures.taxi([])
 
 
 def test_who_taxies_has_speed_brakes_and_spoilers_in(
