@@ -148,16 +148,9 @@ def sensor_messages(types: Iterable[SensorType]) -> dict[str, type[Message]]:
 def load_sensor_types(asked: Collection[str] = ()) -> tuple[list[SensorType], list[str]]:
     """Return all installed sensor types in the order of their names, and what is wrong with others.
 
-    Types of AIRHILT and requested types must be there. A broken type of another package
-    that nobody asked for is left out, with a sentence on it.
-
-    Raises
-    ------
-    SensorError
-        A sensor type that must be there cannot be loaded, or its name or its keys belong to
-        something else.
-    ScenarioError
-        A sensor type that is asked for is not installed.
+    Types of AIRHILT and requested types must be there: a ScenarioError says that one is not
+    installed, and a SensorError what else is wrong. A broken type of another package that nobody
+    asked for is left out, with a sentence on it.
     """
     names = FAMILY.names()
     for name in asked:

@@ -58,11 +58,7 @@ class AdvisoryCalls:
     like everybody else, and leaves a pause after each, in which others may speak. What is outdated
     when its turn comes is not said. Who is out of reach, or on whose receiver the call is blocked,
     does not hear it, and it is not repeated. The controller hears advisories from a loudspeaker.
-
-    Parameters
-    ----------
-    callsigns
-        Callsign of each actor by its callsign and by its 24-bit address.
+    ``callsigns`` has the one of each actor by its callsign and by its 24-bit address.
     """
 
     def __init__(

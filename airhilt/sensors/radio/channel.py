@@ -70,17 +70,9 @@ class Channel(Protocol):
     ) -> Audio:
         """Return the received audio of ``speech``; it is at least as long.
 
-        Parameters
-        ----------
-        snr_db
-            Signal-to-noise ratio; None leaves noise out.
-        others
-            Transmissions at the same time.
-        background
-            Noise around the speaker.
-        wet
-            Part of the channel in the sound; the rest is the voice as it was spoken. None: that of
-            the channel.
+        Without a ``snr_db`` it has no noise. ``others`` are on the air at the same time. ``wet`` is
+        the part of the channel in the sound (None: that of the channel); the rest is the voice as
+        it was spoken.
         """
         ...
 

@@ -7,9 +7,8 @@ from functools import partial
 from airhilt.messages import Advisory, Confirm
 from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.context import RadioContext
-from airhilt.sensors.radio.radio_call import RadioCall
+from airhilt.sensors.radio.radio_call import RadioCall, Speakers
 from airhilt.sensors.radio.readback_policy import ReadbackPolicy
-from airhilt.sensors.radio.speakers import Speakers
 
 CONFIRM_AFTER_S = 3.0
 """Time in s from an advisory that asks to confirm a call until whoever is asked wants to speak: an

@@ -49,21 +49,12 @@ class RadioFailures(Protocol):
 
 @dataclass(frozen=True)
 class RadioContext:
-    """Parts of a run that its radio uses.
-
-    Attributes
-    ----------
-    lines
-        Lines of the script, as failures change them.
-    failures
-        Gets what the failures of the scenario do to the radio.
-    seats
-        Seats of people: nobody else speaks or acts there.
-    """
+    """Parts of a run that its radio uses."""
 
     director: Director
     scenario: Scenario
     lines: Sequence[EffectiveLine]
+    """Lines of the script, as failures change them."""
     stations: Stations
     backend: RadioBackend
     seed: int
@@ -71,6 +62,7 @@ class RadioContext:
     failures: RadioFailures
     publish: Publish
     seats: Seats
+    """Seats of people: nobody else speaks or acts there."""
 
     @property
     def radio(self) -> Radio:

@@ -34,10 +34,9 @@ from airhilt.sensors.radio.listeners import Listeners
 from airhilt.sensors.radio.microphones import Microphones
 from airhilt.sensors.radio.on_air import OnAir
 from airhilt.sensors.radio.person_calls import PersonCalls, RecognisedCall
-from airhilt.sensors.radio.radio_call import calls_of
+from airhilt.sensors.radio.radio_call import Speakers, calls_of
 from airhilt.sensors.radio.readback_policy import ReadbackPolicy
 from airhilt.sensors.radio.script import RadioScript
-from airhilt.sensors.radio.speakers import Speakers
 from airhilt.sensors.radio.transmissions import Transmissions
 from airhilt.sim.payload import Payload
 

@@ -8,8 +8,7 @@ from airhilt.sensors.radio.answers import Answers
 from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.controller_check import ControllerCheck
 from airhilt.sensors.radio.on_air import Utterance
-from airhilt.sensors.radio.radio_call import RadioCall
-from airhilt.sensors.radio.speakers import Speakers
+from airhilt.sensors.radio.radio_call import RadioCall, Speakers
 from airhilt.sim.streams import stream
 from airhilt.world.actors.listening import Understanding
 

@@ -81,13 +81,9 @@ class Listener:
         A listener by ear who heard the words that were said is certain of them. A reader of a
         transcript does not know what was said, and goes by the confidence of each word.
 
-        Parameters
-        ----------
-        known_by
-            Callsigns that show the listener that the call is addressed: its own, or the caller's.
-            Without any, the listener takes the call as addressed.
-        bound_runway
-            Runway of a call that names none: the one that the listener is going to use.
+        The callsigns ``known_by``, its own or the caller's, show the listener that the call is
+        addressed; without any it takes it as addressed. A call that names no runway is on the one
+        that the listener is going to use.
         """
         is_the_same = words(heard) == words(said)
         if is_the_same and word_confidences is None:

@@ -213,15 +213,10 @@ class Autopilot:
         lever: float,
         crab: float | None,
     ) -> None:
-        """Set the controls so that the vertical rate is followed closely.
+        """Set the controls so that the vertical rate and its rate of change are followed closely.
 
-        Parameters
-        ----------
-        vertical_acceleration
-            Rate of change of the vertical rate (m/s2).
-        crab
-            Angle from the wanted heading of the nose to its present heading, positive to the right
-            (rad); None to fly without sideslip.
+        ``crab`` is the angle from the wanted heading of the nose to its present heading, positive
+        to the right (rad); None to fly without sideslip.
         """
         speed = state.true_airspeed_m_s
         self._sense_energy(state, state.calibrated_airspeed_m_s)

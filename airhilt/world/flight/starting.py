@@ -41,12 +41,8 @@ class Start:
     ) -> Autopilot:
         """Put the airframe where it begins; return the autopilot that flies it from there.
 
-        Raises
-        ------
-        ValueError
-            The initial condition is outside the type's envelope.
-        ModelError
-            JSBSim cannot fly the model there.
+        A ValueError says that this is outside the type's envelope, and a ModelError that JSBSim
+        cannot fly the model there.
         """
         if isinstance(initial, OnGround):
             return self._on_ground(initial, atmosphere)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -10,14 +9,12 @@ import pytest
 
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, wrap_angle
 from airhilt.world.flight.procedures.en_route import DriftDown
-from airhilt.world.surface.runway import RunwayEnd
 from breadth import mostly_slow
+from flights import RUNWAY, in_cruise, on_final, states
 from stand_ins import state_at
 
 
-def test_a_twin_drifts_down_at_its_speed_on_its_heading(
-    in_cruise: Callable[..., Any], states: Callable[..., Any]
-) -> None:
+def test_a_twin_drifts_down_at_its_speed_on_its_heading() -> None:
     aircraft = in_cruise("737")
     heading = aircraft.state.heading_rad
     aircraft.fail_engine(0)
@@ -32,9 +29,7 @@ def test_a_twin_drifts_down_at_its_speed_on_its_heading(
     assert max(state.altitude_m for state in flown) < 35_000 * FOOT + 15.0
 
 
-def test_it_levels_where_the_other_engine_keeps_it(
-    in_cruise: Callable[..., Any], states: Callable[..., Any]
-) -> None:
+def test_it_levels_where_the_other_engine_keeps_it() -> None:
     aircraft = in_cruise("737", altitude_ft=28_000, airspeed_kt=225)
     aircraft.fail_engine(1)
     aircraft.procedures.drift_down()
@@ -47,9 +42,7 @@ def test_it_levels_where_the_other_engine_keeps_it(
 
 @pytest.mark.parametrize("name", ["737", "B747"])
 @pytest.mark.parametrize("engine", [0, 1])
-def test_cruise_goes_on_under_control(
-    name: str, engine: int, in_cruise: Callable[..., Any], states: Callable[..., Any]
-) -> None:
+def test_cruise_goes_on_under_control(name: str, engine: int) -> None:
     aircraft = in_cruise(name, altitude_ft=15_000, airspeed_kt=260)
     aircraft.fail_engine(engine)
     for state in states(aircraft, 120):
@@ -59,11 +52,9 @@ def test_cruise_goes_on_under_control(
     assert state.calibrated_airspeed_m_s == pytest.approx(260 * KNOT, abs=5 * KNOT)
 
 
-def test_a_go_around_goes_on_with_one_engine(
-    on_final: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
-) -> None:
+def test_a_go_around_goes_on_with_one_engine() -> None:
     aircraft = on_final("737", distance_nm=1.0)
-    aircraft.procedures.land(runway)
+    aircraft.procedures.land(RUNWAY)
     *_, _ = states(aircraft, 10)
     aircraft.procedures.go_around(900.0)
     *_, _ = states(aircraft, 10)
@@ -72,12 +63,10 @@ def test_a_go_around_goes_on_with_one_engine(
     assert aircraft.ended is None
     assert low > 20.0
     assert aircraft.state.altitude_m == pytest.approx(900.0, abs=20.0)
-    assert abs(wrap_angle(aircraft.state.track_rad - runway.course_rad)) < 1 * DEGREE
+    assert abs(wrap_angle(aircraft.state.track_rad - RUNWAY.course_rad)) < 1 * DEGREE
 
 
-def test_a_single_without_its_engine_glides(
-    in_cruise: Callable[..., Any], states: Callable[..., Any]
-) -> None:
+def test_a_single_without_its_engine_glides() -> None:
     aircraft = in_cruise("c172p")
     aircraft.fail_engine(0)
     aircraft.procedures.drift_down()
@@ -88,9 +77,7 @@ def test_a_single_without_its_engine_glides(
 
 
 @pytest.mark.parametrize("name", mostly_slow(["737", "B747"], "737"))
-def test_an_emergency_descent_loses_4000_feet_a_minute_and_levels_off(
-    name: str, in_cruise: Callable[..., Any], states: Callable[..., Any]
-) -> None:
+def test_an_emergency_descent_loses_4000_feet_a_minute_and_levels_off(name: str) -> None:
     aircraft = in_cruise(name)
     aircraft.procedures.emergency_descent(10_000 * FOOT)
     seconds = 0.0

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any
 
 import pytest
 
@@ -12,11 +10,10 @@ from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
 from airhilt.world.flight.guard import (
     FlightGuard,
 )
+from flights import in_cruise, states
 
 
-def test_flying_into_the_ground_ends_with_ground_contact(
-    in_cruise: Callable[..., Any], states: Callable[..., Any]
-) -> None:
+def test_flying_into_the_ground_ends_with_ground_contact() -> None:
     aircraft = in_cruise("c172p", altitude_ft=2_000, terrain_elevation_m=500.0)
     aircraft.en_route.hold_altitude(0.0, 1_000 * FOOT_PER_MINUTE)
     for state in states(aircraft, 60):
@@ -28,9 +25,7 @@ def test_flying_into_the_ground_ends_with_ground_contact(
     assert aircraft.state is last
 
 
-def test_the_guard_names_the_cause(
-    subtests: pytest.Subtests, in_cruise: Callable[..., Any]
-) -> None:
+def test_the_guard_names_the_cause(subtests: pytest.Subtests) -> None:
     for change, cause in [
         ({"altitude_m": math.nan}, "state_not_finite"),
         ({"ecef_z_m": -math.inf}, "state_not_finite"),
@@ -51,9 +46,7 @@ def test_the_guard_names_the_cause(
             assert FlightGuard(aircraft.kind).check(aircraft.state._replace(**change)) == cause
 
 
-def test_a_state_that_is_not_finite_ends_the_flight(
-    in_cruise: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_state_that_is_not_finite_ends_the_flight(monkeypatch: pytest.MonkeyPatch) -> None:
     aircraft = in_cruise("737")
     good = aircraft.state
     monkeypatch.setattr(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any, cast
@@ -29,7 +29,7 @@ from airhilt.world.flight.procedures.takeoff import (
 from airhilt.world.flight.procedures.taxi import Stand, Standing, Taxi
 from airhilt.world.flight.state import AircraftState
 from airhilt.world.flight.taxi_path import TaxiPath
-from flights import COURSE, along_runway, make_runway
+from flights import COURSE, along_runway, make_runway, on_the_ground
 from stand_ins import StandIn, state_at
 
 B737 = load_aircraft_type("737")
@@ -614,7 +614,7 @@ def test_who_stands_is_at_rest_once_nothing_moves(speed_m_s: float, at_rest: boo
     assert systems.ground.got["hold_speed"][1] == 0.0
 
 
-def test_rolling_out_it_takes_no_en_route_command(on_the_ground: Callable[..., Any]) -> None:
+def test_rolling_out_it_takes_no_en_route_command() -> None:
     aircraft = on_the_ground("737")
     control = aircraft.en_route
     control.phase = Rollout(control.systems, cast(Any, FINAL), ())

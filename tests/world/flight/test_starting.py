@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -11,6 +10,7 @@ from airhilt.units import FOOT, KNOT
 from airhilt.world.flight import load_aircraft_type
 from airhilt.world.flight.airframe import Airframe
 from airhilt.world.flight.guidance import GuidanceModes
+from flights import in_cruise
 
 
 def limits_kt(name: str, altitude_ft: float) -> tuple[float, ...]:
@@ -18,9 +18,7 @@ def limits_kt(name: str, altitude_ft: float) -> tuple[float, ...]:
     return tuple(speed / KNOT for speed in modes.speed_limits_m_s(altitude_ft * FOOT))
 
 
-def test_it_may_begin_at_the_least_and_at_the_greatest_airspeed(
-    in_cruise: Callable[..., Any],
-) -> None:
+def test_it_may_begin_at_the_least_and_at_the_greatest_airspeed() -> None:
     for airspeed_kt in limits_kt("737", 20_000):
         aircraft = in_cruise("737", altitude_ft=20_000, airspeed_kt=airspeed_kt)
         begun_kt = aircraft.state.calibrated_airspeed_m_s / KNOT
@@ -29,7 +27,7 @@ def test_it_may_begin_at_the_least_and_at_the_greatest_airspeed(
 
 @pytest.mark.parametrize("rate_m_s", [2.0, -2.0])
 def test_a_model_that_settles_comes_by_its_rate_to_the_altitude_where_it_begins(
-    rate_m_s: float, in_cruise: Callable[..., Any], monkeypatch: pytest.MonkeyPatch
+    rate_m_s: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     settled: list[float] = []
 

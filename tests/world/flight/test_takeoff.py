@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -13,6 +12,7 @@ from airhilt.world.flight import Atmosphere
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.flight.procedures.final import Final
 from airhilt.world.surface.runway import RunwayEnd
+from flights import RUNWAY, along_runway, on_the_ground, states
 
 COURSE = 10.0
 CLIMB_TO_M = 300.0
@@ -29,7 +29,7 @@ def crosswind(from_left_kt: Any) -> Any:
 class Takeoff:
     """What a takeoff was like."""
 
-    def __init__(self, aircraft: Aircraft, runway: RunwayEnd, states: Callable[..., Any]) -> None:
+    def __init__(self, aircraft: Aircraft, runway: RunwayEnd) -> None:
         line = Final(runway, aircraft.kind)
         self.phases = [aircraft.phase]
         self.off_centre_m = self.pitch_on_ground_rad = self.lost_m = 0.0
@@ -49,27 +49,19 @@ class Takeoff:
 @pytest.mark.parametrize(
     "air", [crosswind(15), crosswind(-15), TURBULENCE], ids=["left", "right", "turbulence"]
 )
-def test_it_keeps_to_the_centre_line_and_strikes_nothing(
-    air: Atmosphere,
-    name: str,
-    on_the_ground: Callable[..., Any],
-    runway: RunwayEnd,
-    states: Callable[..., Any],
-) -> None:
+def test_it_keeps_to_the_centre_line_and_strikes_nothing(air: Atmosphere, name: str) -> None:
     aircraft = on_the_ground(name, right_m=1.0, atmosphere=air)
-    aircraft.procedures.take_off(runway, CLIMB_TO_M)
-    takeoff = Takeoff(aircraft, runway, states)
+    aircraft.procedures.take_off(RUNWAY, CLIMB_TO_M)
+    takeoff = Takeoff(aircraft, RUNWAY)
     assert takeoff.phases == ["takeoff_roll", "rotate", "climb_out", "en_route"]
     assert takeoff.off_centre_m < 20 * FOOT
     assert takeoff.pitch_on_ground_rad < aircraft.kind.ground.tail_contact_deg * DEGREE
     assert takeoff.lost_m < 3.0
 
 
-def test_it_levels_off_clean_on_the_runway_track(
-    name: str, on_the_ground: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
-) -> None:
+def test_it_levels_off_clean_on_the_runway_track(name: str) -> None:
     aircraft = on_the_ground(name)
-    aircraft.procedures.take_off(runway, CLIMB_TO_M)
+    aircraft.procedures.take_off(RUNWAY, CLIMB_TO_M)
     speeds = aircraft.kind.speeds
     *_, state = states(aircraft, 240)
     assert aircraft.phase == "en_route"
@@ -80,12 +72,7 @@ def test_it_levels_off_clean_on_the_runway_track(
     assert aircraft._airframe._fdm["gear/gear-cmd-norm"] == 0.0
 
 
-def test_it_takes_off_after_lining_up(
-    on_the_ground: Callable[..., Any],
-    along_runway: Callable[..., Any],
-    runway: RunwayEnd,
-    states: Callable[..., Any],
-) -> None:
+def test_it_takes_off_after_lining_up() -> None:
     aircraft = on_the_ground("737", along_m=30.0, right_m=80.0, heading_deg=COURSE - 90.0)
     bend = [
         (30.0 + 40.0 * (1.0 - math.cos(a)), 40.0 - 40.0 * math.sin(a))
@@ -94,21 +81,19 @@ def test_it_takes_off_after_lining_up(
     points = [(30.0, 80.0), *bend, (110.0, 0.0)]
     aircraft.procedures.taxi([along_runway(*point) for point in points], then="lined_up")
     with pytest.raises(ValueError, match="expected lined up"):
-        aircraft.procedures.take_off(runway, CLIMB_TO_M)
+        aircraft.procedures.take_off(RUNWAY, CLIMB_TO_M)
     for _ in states(aircraft, 90):
         if aircraft.phase == "lined_up":
             break
-    aircraft.procedures.take_off(runway, CLIMB_TO_M)
-    takeoff = Takeoff(aircraft, runway, states)
+    aircraft.procedures.take_off(RUNWAY, CLIMB_TO_M)
+    takeoff = Takeoff(aircraft, RUNWAY)
     assert takeoff.phases[-1] == "en_route"
     assert takeoff.off_centre_m < 20 * FOOT
 
 
-def test_commands_in_the_climb_are_flown_above_400_ft(
-    on_the_ground: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
-) -> None:
+def test_commands_in_the_climb_are_flown_above_400_ft() -> None:
     aircraft = on_the_ground("737")
-    aircraft.procedures.take_off(runway, 1_500.0)
+    aircraft.procedures.take_off(RUNWAY, 1_500.0)
     for _ in states(aircraft, 60):
         if aircraft.phase == "climb_out":
             break
