@@ -70,13 +70,14 @@ class Bench:
         self.calls.append((seq, t_ns, tuple(item.payload for item in inputs)))
         return Answer(self.answer(seq, t_ns, inputs))
 
-    def offer_at(self, t_ns: int, payload: bytes, policy: Policy = "fifo", key: str = "k") -> None:
+    def offer_at(self, t_ns: int, payload: bytes, policy: Policy = "fifo", key: str = "k") -> Bench:
         def offer() -> None:
             self.server.offer(Input(key, t_ns, payload), policy)
 
         self.director.at(t_ns, offer, Priority.SENSOR)
+        return self
 
-    def run(self) -> Bench | None:
+    def run(self) -> Bench:
         self.director.run()
         return self
 
@@ -93,9 +94,7 @@ def echo(seq: int, t_ns: int, inputs: tuple[Input]) -> Reply:
 
 
 def test_a_result_leaves_one_latency_after_the_start() -> None:
-    bench = Bench(echo, fixed(30))
-    bench.offer_at(100, b"a")
-    bench.run()
+    bench = Bench(echo, fixed(30)).offer_at(100, b"a").run()
     assert bench.calls == [(0, 100, (b"a",))]
     assert bench.out == [(130, b"a")]
     (step,) = bench.steps
@@ -137,8 +136,7 @@ def test_latest_keeps_the_newest_of_each_key_and_counts_what_it_drops() -> None:
     bench = Bench(echo, fixed(10))
     for t_ns, name in ((0, b"a"), (1, b"b"), (2, b"c"), (3, b"d")):
         bench.offer_at(t_ns, name, "latest", key="left")
-    bench.offer_at(2, b"other", "latest", key="right")
-    bench.run()
+    bench.offer_at(2, b"other", "latest", key="right").run()
     assert [payload for _, payload in bench.out] == [b"a", b"d", b"other"]
     assert +bench.server.dropped == {"left": 2}
 
@@ -170,10 +168,7 @@ def test_a_batch_takes_all_batched_inputs_that_wait() -> None:
 
 
 def test_inputs_of_one_instant_are_one_batch() -> None:
-    bench = Bench(echo, fixed(10))
-    bench.offer_at(5, b"a", "batch")
-    bench.offer_at(5, b"b", "batch")
-    bench.run()
+    bench = Bench(echo, fixed(10)).offer_at(5, b"a", "batch").offer_at(5, b"b", "batch").run()
     assert bench.calls == [(0, 5, (b"a", b"b"))]
 
 
@@ -206,9 +201,7 @@ def test_with_a_known_latency_the_world_goes_on_while_the_worker_computes() -> N
 
 def test_a_measured_latency_is_the_compute_time_that_the_reply_tells() -> None:
     bench = Bench(lambda *_: Reply((Output("out", b"x"),), compute_s=40e-9), MEASURED)
-    bench.offer_at(100, b"a")
-    bench.offer_at(110, b"b")
-    bench.run()
+    bench.offer_at(100, b"a").offer_at(110, b"b").run()
     assert bench.out == [(140, b"x"), (180, b"x")]
     assert [step.latency_ns for step in bench.steps] == [40, 40]
     assert [step.t_start_ns for step in bench.steps] == [100, 140]
@@ -252,9 +245,7 @@ def test_a_worker_is_woken_without_inputs_at_the_time_that_it_asked_for() -> Non
     def answer(seq: int, t_ns: int, inputs: tuple[Any, ...]) -> Reply:
         return Reply((), 0.0, wake_ns=500 if seq == 0 else None)
 
-    bench = Bench(answer, fixed(10))
-    bench.offer_at(100, b"a")
-    bench.run()
+    bench = Bench(answer, fixed(10)).offer_at(100, b"a").run()
     assert bench.calls == [(0, 100, (b"a",)), (1, 500, ())]
 
 
@@ -262,10 +253,7 @@ def test_an_input_before_the_alarm_makes_the_worker_ask_anew() -> None:
     def answer(seq: int, t_ns: int, inputs: tuple[Input]) -> Reply:
         return Reply((), 0.0, wake_ns=500 if seq == 0 else None)
 
-    bench = Bench(answer, fixed(10))
-    bench.offer_at(100, b"a")
-    bench.offer_at(300, b"b")
-    bench.run()
+    bench = Bench(answer, fixed(10)).offer_at(100, b"a").offer_at(300, b"b").run()
     assert [t_ns for _, t_ns, _ in bench.calls] == [100, 300]
 
 
@@ -273,16 +261,13 @@ def test_an_alarm_that_has_passed_when_the_step_ends_rings_at_once() -> None:
     def answer(seq: int, t_ns: int, inputs: tuple[Any, ...]) -> Reply:
         return Reply((), 0.0, wake_ns=101 if seq == 0 else None)
 
-    bench = Bench(answer, fixed(10))
-    bench.offer_at(100, b"a")
-    bench.run()
+    bench = Bench(answer, fixed(10)).offer_at(100, b"a").run()
     assert [t_ns for _, t_ns, _ in bench.calls] == [100, 110]
 
 
 @pytest.mark.parametrize("wake_ns", [99, 100])
 def test_an_alarm_no_later_than_its_step_is_refused(wake_ns: int) -> None:
-    bench = Bench(lambda *_: Reply((), 0.0, wake_ns=wake_ns), fixed(10))
-    bench.offer_at(100, b"a")
+    bench = Bench(lambda *_: Reply((), 0.0, wake_ns=wake_ns), fixed(10)).offer_at(100, b"a")
     with pytest.raises(WorkerError, match=rf"'worker' asked to be woken at {wake_ns} ns"):
         bench.run()
 
@@ -294,8 +279,7 @@ def test_an_output_leaves_no_earlier_than_the_latency_allows(
     t_out_ns: int | None, leaves_ns: int
 ) -> None:
     bench = Bench(lambda *_: Reply((Output("out", b"x", t_out_ns),), 0.0), fixed(10))
-    bench.offer_at(100, b"a")
-    bench.run()
+    bench.offer_at(100, b"a").run()
     assert bench.out == [(leaves_ns, b"x")]
 
 
@@ -322,21 +306,17 @@ def test_a_lost_worker_is_told_of_once_and_called_no_more(latency: LatencySource
 
 
 def test_what_waits_for_a_lost_worker_is_dropped_and_its_step_in_hand_gives_nothing() -> None:
-    bench = Bench(echo, fixed(100))
-    bench.offer_at(0, b"a")
-    bench.offer_at(10, b"b")
+    bench = Bench(echo, fixed(100)).offer_at(0, b"a").offer_at(10, b"b")
     bench.director.at(50, lambda: bench.server.lose("gone"), Priority.SCRIPT)
     bench.director.at(60, lambda: bench.server.lose("gone again"), Priority.SCRIPT)
-    bench.offer_at(70, b"c")
-    bench.run()
+    bench.offer_at(70, b"c").run()
     assert bench.losses == ["gone"]
     assert bench.out == []
     assert len(bench.calls) == 1
 
 
 def test_an_output_that_a_lost_worker_held_back_is_not_sent() -> None:
-    bench = Bench(lambda *_: Reply((Output("out", b"x", 150),), 0.0), fixed(10))
-    bench.offer_at(100, b"a")
+    bench = Bench(lambda *_: Reply((Output("out", b"x", 150),), 0.0), fixed(10)).offer_at(100, b"a")
     bench.director.at(120, lambda: bench.server.lose("gone"), Priority.SCRIPT)
     bench.run()
     assert len(bench.steps) == 1
@@ -344,8 +324,7 @@ def test_an_output_that_a_lost_worker_held_back_is_not_sent() -> None:
 
 
 def test_the_run_can_end_before_a_step_does() -> None:
-    bench = Bench(echo, fixed(100))
-    bench.offer_at(7, b"a")
+    bench = Bench(echo, fixed(100)).offer_at(7, b"a")
     bench.director.at(50, bench.director.stop, Priority.OBSERVE)
     bench.run()
     step = bench.server.in_hand

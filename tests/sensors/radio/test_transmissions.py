@@ -124,19 +124,18 @@ class Air:
         assert message.t_ns == self.director.now_ns
         self.published.append((key, message, raw or b""))
 
-    def at(self, t_s: float, action: Callable[[], None]) -> None:
+    def at(self, t_s: float, action: Callable[[], None]) -> Air:
         self.director.at(seconds_to_ns(t_s), action, Priority.SCRIPT)
+        return self
 
     def say(
         self, t_s: float, name: str, seconds: float = 3.0, speaker: str = "", **more: Any
-    ) -> None:
+    ) -> Air:
         text = "x" * round(10 * seconds)
         said = Utterance(name, KHZ, speaker or name, None, text, **more)
-        self.at(t_s, partial(self.arbiter.say, said))
+        return self.at(t_s, partial(self.arbiter.say, said))
 
-    def press(
-        self, t_s: float, name: str, fed: list[tuple[float, Audio]], release_s: float
-    ) -> None:
+    def press(self, t_s: float, name: str, fed: list[tuple[float, Audio]], release_s: float) -> Air:
         """Press a button, feed samples at times, and release it."""
         on_air: list[OnAir] = []
 
@@ -147,7 +146,7 @@ class Air:
         self.at(t_s, begin)
         for at_s, samples in fed:
             self.at(at_s, lambda samples=samples: on_air[0].feed(samples))  # type: ignore[misc]
-        self.at(release_s, lambda: self.arbiter.release(on_air[0]))
+        return self.at(release_s, lambda: self.arbiter.release(on_air[0]))
 
     def run(self, until_s: float | None = None) -> Air:
         if until_s is not None:
@@ -224,9 +223,7 @@ def check_stream(air: Air, name: str) -> None:
 
 
 def test_a_call_opens_streams_half_seconds_and_closes() -> None:
-    air = Air()
-    air.say(10.0, "call", 1.8)
-    air.run()
+    air = Air().say(10.0, "call", 1.8).run()
     ((opened, raw),) = air.of(TransmissionOpened, "call")
     assert (opened.t_ns, opened.t_tx_ns, raw) == (10 * SECOND_NS, 10 * SECOND_NS, b"")
     chunks = air.chunks("call")
@@ -245,8 +242,7 @@ def test_a_call_opens_streams_half_seconds_and_closes() -> None:
 
 @pytest.mark.parametrize("profile", PROFILES)
 def test_the_whole_is_what_the_channel_makes_of_the_whole_call(profile: str) -> None:
-    air = Air(audio_radio(profile))
-    air.say(10.0, "call", 3.0)
+    air = Air(audio_radio(profile)).say(10.0, "call", 3.0)
     _, pcm = air.run().whole("call")
     voices = Buzzing()
     speech = voices.synthesise("x" * 30, voices.voice_of("call"))
@@ -262,11 +258,8 @@ def test_a_call_has_the_reception_of_its_line_then_of_its_speaker_then_of_the_ra
         "lines": [{"id": "weak", "speaker": "AAL123", "frequency_khz": KHZ, "text": "x",
                    "snr_db": -3.0}],
     })  # fmt: skip
-    air = Air(radio=radio)
-    air.say(1.0, "weak", 1.0, speaker="AAL123", line="weak")
-    air.say(10.0, "another", 1.0, speaker="AAL123")
-    air.say(20.0, "other", 1.0, speaker="UAL7")
-    air.run()
+    air = Air(radio=radio).say(1.0, "weak", 1.0, speaker="AAL123", line="weak")
+    air.say(10.0, "another", 1.0, speaker="AAL123").say(20.0, "other", 1.0, speaker="UAL7").run()
     ratios = {name: air.truth(name).snr_db for name in ("weak", "another", "other")}
     assert ratios == {"weak": -3.0, "another": 5.0, "other": 20.0}
     assert {name: air.whole(name)[0].snr_db for name in ratios} == ratios
@@ -280,10 +273,8 @@ def test_a_call_has_the_reception_of_its_line_then_of_its_speaker_then_of_the_ra
 
 def test_one_station_below_the_squelch_is_not_received_and_others_are() -> None:
     radio = Radio.model_validate({"snr_db": 20.0, "stations": {"AAL123": {"snr_db": -20.0}}})
-    air = Air(radio=radio)
-    air.say(1.0, "weak", 1.0, speaker="AAL123")
-    air.say(10.0, "strong", 1.0, speaker="UAL7")
-    air.run()
+    air = Air(radio=radio).say(1.0, "weak", 1.0, speaker="AAL123")
+    air.say(10.0, "strong", 1.0, speaker="UAL7").run()
     assert air.of(Transmission, "weak") == []
     assert air.whole("strong")[0].snr_db == 20.0
 
@@ -318,14 +309,12 @@ def test_two_calls_at_once_are_mixed_as_if_both_had_been_known_before() -> None:
 def test_nothing_is_streamed_of_a_speaker_who_is_out_of_reach() -> None:
     air = Air()
     air.stations.out_of_reach.add("far")
-    air.say(10.0, "far")
-    air.run()
+    air.say(10.0, "far").run()
     assert [type(message) for _, message, _ in air.published] == [SpokenTruth]
 
 
 def test_a_speaker_who_is_lost_in_the_middle_of_a_call_leaves_what_was_heard_until_then() -> None:
-    air = Air()
-    air.say(10.0, "call", 3.0)
+    air = Air().say(10.0, "call", 3.0)
     air.at(11.2, lambda: air.stations.out_of_reach.add("call"))
     air.run()
     closed = air.closed("call")
@@ -351,8 +340,7 @@ def test_a_stuck_microphone_is_streamed_like_any_transmission() -> None:
     air = Air()
     carrier = Utterance("stuck", KHZ, "AAL123", None, "")
     air.at(10.0, partial(air.arbiter.transmit_carrier, carrier, 8.0))
-    air.say(12.0, "call", 3.0)
-    air.run()
+    air.say(12.0, "call", 3.0).run()
     assert air.truth("call").blocked_by == ("stuck",)
     assert air.whole("stuck")[0].samples > 8 * SAMPLE_RATE_HZ
     for name in ("call", "stuck"):
@@ -375,9 +363,7 @@ def others(air: Air) -> list[tuple[str, Message, bytes]]:
 
 
 def test_a_seat_with_a_receiver_of_its_own_hears_each_call_with_its_own_noise() -> None:
-    air = Air(radio=BAD, seats=("AAL123", "UAL7"))
-    air.say(10.0, "call", 1.8, speaker="Tower")
-    air.run()
+    air = Air(radio=BAD, seats=("AAL123", "UAL7")).say(10.0, "call", 1.8, speaker="Tower").run()
     voices = Buzzing()
     speech = voices.synthesise("x" * 18, voices.voice_of("Tower"))
     rng = stream(SEED, "channel@AAL123/call")
@@ -387,9 +373,7 @@ def test_a_seat_with_a_receiver_of_its_own_hears_each_call_with_its_own_noise() 
 
 
 def test_the_stream_of_a_seat_opens_chunks_while_it_lasts_and_closes() -> None:
-    air = Air(radio=BAD, seats=("AAL123",))
-    air.say(10.0, "call", 1.8, speaker="Tower")
-    air.run()
+    air = Air(radio=BAD, seats=("AAL123",)).say(10.0, "call", 1.8, speaker="Tower").run()
     ((opened, _),) = air.of(SeatAudioOpened, "call")
     chunks = air.of(SeatAudioChunk, "call")
     ((closed, _),) = air.of(SeatAudioClosed, "call")
@@ -452,8 +436,7 @@ def test_a_seat_gets_nothing_of_a_call_into_whose_reach_it_comes_in_the_middle()
 
 
 def test_a_seat_that_comes_out_of_reach_keeps_what_it_heard_until_then() -> None:
-    air = Air(radio=BAD, seats=("AAL123",))
-    air.say(10.0, "call", 3.0, speaker="Tower")
+    air = Air(radio=BAD, seats=("AAL123",)).say(10.0, "call", 3.0, speaker="Tower")
     air.at(11.2, lambda: air.stations.out_of_reach.add("AAL123"))
     air.run()
     ((closed, _),) = air.of(SeatAudioClosed, "call")
@@ -464,17 +447,14 @@ def test_a_seat_that_comes_out_of_reach_keeps_what_it_heard_until_then() -> None
 
 
 def test_the_own_call_of_a_seat_comes_back_without_the_noise_of_its_receiver() -> None:
-    air = Air(radio=BAD, seats=("AAL123",))
-    air.say(10.0, "call", 1.0, speaker="AAL123")
-    air.run()
+    air = Air(radio=BAD, seats=("AAL123",)).say(10.0, "call", 1.0, speaker="AAL123").run()
     ((closed, _),) = air.of(SeatAudioClosed, "call")
     assert closed.snr_db == 20.0
 
 
 def test_without_sound_a_seat_is_told_when_its_frequency_is_busy() -> None:
     air = Air(TextRadio(160.0), radio=BAD, seats=("AAL123",))
-    air.say(10.0, "call", 1.0, speaker="Tower")
-    air.run()
+    air.say(10.0, "call", 1.0, speaker="Tower").run()
     assert len(air.of(SeatAudioOpened, "call")) == len(air.of(SeatAudioClosed, "call")) == 1
     assert not air.of(SeatAudioChunk, "call")
 
@@ -483,9 +463,7 @@ def test_without_sound_a_seat_is_told_when_its_frequency_is_busy() -> None:
 
 
 def test_without_sound_a_call_opens_and_closes_without_chunks() -> None:
-    air = Air(TextRadio(160.0))
-    air.say(10.0, "call", 3.0)
-    air.run()
+    air = Air(TextRadio(160.0)).say(10.0, "call", 3.0).run()
     assert len(air.of(TransmissionOpened, "call")) == 1
     assert not air.chunks("call")
     closed = air.closed("call")
@@ -509,9 +487,7 @@ class Failing(AudioRadio):
 def test_a_call_in_which_the_sound_is_lost_has_no_samples_though_some_were_streamed() -> None:
     lost: list[str] = []
     air = Air(FallbackRadio(Failing(11.0), 160.0, lambda cause, _: lost.append(cause)))
-    air.say(10.0, "first", 3.0)
-    air.say(11.2, "second", 3.0, listens_first=False)
-    air.run()
+    air.say(10.0, "first", 3.0).say(11.2, "second", 3.0, listens_first=False).run()
     assert lost == ["worn out"]
     assert len(air.chunks("first")) >= 2
     assert not air.closed("first").is_complete
@@ -582,9 +558,7 @@ IRREGULAR_S = [0.02, 0.31, 0.05, 0.48, 0.02, 0.6, 0.1, 0.42]
 
 
 def test_a_person_is_heard_while_speaking_and_as_a_whole_after_releasing_the_button() -> None:
-    air = Air()
-    air.press(10.0, "AAL123", packets(10.0, spoken(2.0), IRREGULAR_S), 12.0)
-    air.run()
+    air = Air().press(10.0, "AAL123", packets(10.0, spoken(2.0), IRREGULAR_S), 12.0).run()
     whole, pcm = air.whole("AAL123")
     assert (whole.t_tx_ns, whole.t_end_ns) == (10 * SECOND_NS, 12 * SECOND_NS)
     check_stream(air, "AAL123")
@@ -596,44 +570,34 @@ def test_a_person_is_heard_while_speaking_and_as_a_whole_after_releasing_the_but
 
 
 def test_a_persons_call_lasts_as_long_as_the_button_is_pressed_however_little_was_fed() -> None:
-    air = Air()
-    air.press(10.0, "AAL123", packets(10.0, spoken(0.5), [0.25, 0.25]), 13.0)
-    air.run()
+    air = Air().press(10.0, "AAL123", packets(10.0, spoken(0.5), [0.25, 0.25]), 13.0).run()
     assert air.whole("AAL123")[0].t_end_ns == 13 * SECOND_NS
     assert air.whole("AAL123")[0].samples > 3 * SAMPLE_RATE_HZ
     check_stream(air, "AAL123")
 
 
 def test_a_persons_call_goes_on_until_all_that_was_fed_has_been_said() -> None:
-    air = Air()
-    air.press(10.0, "AAL123", [(10.1, spoken(2.0))], 10.5)
-    air.run()
+    air = Air().press(10.0, "AAL123", [(10.1, spoken(2.0))], 10.5).run()
     assert air.whole("AAL123")[0].t_end_ns == 12 * SECOND_NS
     check_stream(air, "AAL123")
 
 
 def test_a_button_that_is_only_touched_gives_a_call_without_words() -> None:
-    air = Air()
-    air.press(10.0, "AAL123", [], 10.0)
-    air.run()
+    air = Air().press(10.0, "AAL123", [], 10.0).run()
     assert air.whole("AAL123")[0].t_end_ns == 10 * SECOND_NS
     check_stream(air, "AAL123")
 
 
 def test_who_hears_a_person_waits_until_the_button_is_released() -> None:
-    air = Air()
-    air.press(10.0, "AAL123", packets(10.0, spoken(2.0), IRREGULAR_S), 12.0)
-    air.say(11.0, "Tower")
-    air.run()
+    air = Air().press(10.0, "AAL123", packets(10.0, spoken(2.0), IRREGULAR_S), 12.0)
+    air.say(11.0, "Tower").run()
     assert air.truth("Tower").t_tx_ns == seconds_to_ns(12.0 + GAP_S)
     assert air.truth("Tower").blocked_by == ()
 
 
 def test_a_person_who_presses_during_a_call_blocks_it_and_both_are_told() -> None:
-    air = Air()
-    air.say(10.0, "Tower", 3.0)
-    air.press(11.2, "AAL123", packets(11.2, spoken(2.0), IRREGULAR_S), 13.2)
-    air.run()
+    air = Air().say(10.0, "Tower", 3.0)
+    air.press(11.2, "AAL123", packets(11.2, spoken(2.0), IRREGULAR_S), 13.2).run()
     assert air.truth("Tower").blocked_by == ("AAL123",)
     assert air.truth("AAL123").blocked_by == ("Tower",)
     for name in ("Tower", "AAL123"):
