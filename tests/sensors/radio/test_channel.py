@@ -48,20 +48,6 @@ def power(samples: Audio) -> float:
     return float(np.mean(np.square(samples, dtype=np.float64)))
 
 
-def measured_snr_db(profile: str, snr_db: float, seed: int) -> float:
-    """Return the ratio over active speech of what a receiver detects."""
-    said = speech(1.5, seed % 3)
-    parts = VhfChannel(PROFILES[profile]).parts(said, snr_db, np.random.default_rng(seed))
-    talking = active(said)
-    return decibels(power(parts.signal[talking]) / power(parts.noise[talking]))
-
-
-@pytest.mark.parametrize("profile", PROFILES)
-@pytest.mark.parametrize("snr_db", [-3.0, 0.0, 5.0, 10.0, 20.0, 30.0])
-def test_the_noise_over_active_speech_is_what_was_asked_for(profile: str, snr_db: float) -> None:
-    assert measured_snr_db(profile, snr_db, 1) == pytest.approx(snr_db, abs=0.5)
-
-
 def test_the_same_seed_gives_the_same_samples_and_another_seed_others() -> None:
     channel: Channel = VhfChannel(PROFILES["vhf"])
     said = speech()

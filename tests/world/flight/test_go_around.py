@@ -35,18 +35,6 @@ def test_from_50_ft_it_climbs_away_without_touching(name: str, air: Atmosphere) 
     assert abs(wrap_angle(state.track_rad - RUNWAY.course_rad)) < 5 * DEGREE
 
 
-def test_it_levels_off_clean_on_the_runways_track() -> None:
-    aircraft = on_final("737", distance_nm=1.0)
-    descend_to(200, aircraft)
-    aircraft.procedures.go_around(900.0)
-    assert aircraft.target_altitude_m == 900.0
-    *_, state = states(aircraft, 150)
-    assert aircraft.phase == "en_route"
-    assert state.altitude_m == pytest.approx(900.0, abs=10.0)
-    assert state.calibrated_airspeed_m_s == pytest.approx(200 * KNOT, abs=3 * KNOT)
-    assert abs(wrap_angle(state.track_rad - RUNWAY.course_rad)) < 0.5 * DEGREE
-
-
 def test_it_turns_when_told_and_climbs_on() -> None:
     aircraft = on_final("737", distance_nm=1.0)
     descend_to(100, aircraft)
