@@ -124,6 +124,22 @@ def test_a_target_is_plotted_once_a_turn(kind: str) -> None:
     assert watch.keys == {"radar/R1", "radar/R1/info"}
 
 
+def test_the_beam_passes_targets_in_the_order_of_their_azimuths() -> None:
+    watch = Watch()
+    for index, bearing in enumerate((10.0, 100.0)):
+        watch.add(bearing, 30.0, 20_000.0, index=index, speed_m_s=0.001)
+    watch.go(60.0)
+    passed = sorted((plot.t_plot_ns, plot.azimuth_deg) for plot in watch.plots)
+    for (early_ns, early_deg), (late_ns, late_deg) in itertools.pairwise(passed):
+        elapsed = (late_ns - early_ns) / SECOND_NS / 4.8
+        turned = (elapsed - (late_deg - early_deg) / 360.0) % 1.0
+        assert min(turned, 1.0 - turned) < 0.01
+    published = [plot.t_ns for plot in watch.plots]
+    assert published == sorted(published)
+    for plot in watch.plots:
+        assert 0 <= plot.t_ns - plot.t_plot_ns <= 150_000_000
+
+
 @pytest.mark.parametrize("kind", ["terminal", "en_route"])
 def test_plots_are_published_at_the_ends_of_32_sectors_of_a_turn(kind: str) -> None:
     """As a radar tells of the sectors that it crosses in EUROCONTROL ASTERIX category 034."""
@@ -231,6 +247,14 @@ def test_replies_are_as_probable_as_declared() -> None:
         assert len(valid) / len(plots) == pytest.approx(probability, abs=0.02)
 
 
+def test_an_aircraft_without_a_transponder_is_a_primary_plot_without_code_and_altitude() -> None:
+    watch = Watch()
+    watch.add(120.0, 20.0, 10_000.0, equipped=False)
+    plots = watch.go(60.0).plots
+    assert plots
+    assert all((p.kind, p.mode_a, p.mode_c_ft) == ("primary", None, None) for p in plots)
+
+
 def test_an_aircraft_with_a_transponder_is_known_by_its_code_and_level() -> None:
     watch = Watch()
     watch.add(120.0, 20.0, 10_040.0)
@@ -309,6 +333,7 @@ def intruder_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_a_replay_gives_the_same_plots(intruder_run: Path) -> None:
+    assert radar_messages(intruder_run)
     assert replay(intruder_run).identical
 
 

@@ -315,6 +315,15 @@ def test_what_waits_for_a_lost_worker_is_dropped_and_its_step_in_hand_gives_noth
     assert len(bench.calls) == 1
 
 
+def test_what_reaches_a_lost_worker_does_not_count_as_dropped() -> None:
+    bench = Bench(echo, fixed(100))
+    bench.director.at(50, lambda: bench.server.lose("gone"), Priority.SCRIPT)
+    for at_ns in (60, 70, 80):
+        bench.offer_at(at_ns, b"frame", "latest")
+    bench.run()
+    assert not bench.server.dropped
+
+
 def test_an_output_that_a_lost_worker_held_back_is_not_sent() -> None:
     bench = Bench(lambda *_: Reply((Output("out", b"x", 150),), 0.0), fixed(10)).offer_at(100, b"a")
     bench.director.at(120, lambda: bench.server.lose("gone"), Priority.SCRIPT)

@@ -97,6 +97,11 @@ def test_a_radar_sees_what_moves_by_more_than_a_doppler_filter_of_eight(
     assert radar.rotation_s == pytest.approx(60.0 / turns_per_min)
 
 
+def test_one_false_alarm_comes_in_a_million_cells() -> None:
+    """Without an echo, what is detected is a false alarm."""
+    assert RADARS["terminal"].detection_probability(0.0, 1_000.0) == pytest.approx(1e-6)
+
+
 # --- the place of a plot --------------------------------------------------------------------
 
 

@@ -25,7 +25,7 @@ from airhilt.surveillance.tcas_resolution import (
     select,
     separation_m,
 )
-from airhilt.units import FOOT, NAUTICAL_MILE
+from airhilt.units import FOOT, FOOT_PER_MINUTE, NAUTICAL_MILE
 from interrogation import Jet, Meeting
 
 HIGH = 35_000 * FOOT
@@ -203,6 +203,16 @@ def test_a_projection_goes_20_minutes_ahead() -> None:
     assert tcas.project(head_on(1_248.0), level(HIGH), level(HIGH), 0.0) == (None, None)
 
 
+def test_two_that_keep_their_distance_are_not_told() -> None:
+    abreast = Relative(2.0 * NAUTICAL_MILE, 0.0, 0.0, 0.0)
+    assert tcas.alert(abreast, 0.0, 0.0, ALOFT) is None
+
+
+def test_a_resolution_without_a_traffic_advisory_before_counts_as_both() -> None:
+    projection = tcas.project(head_on(20.0), level(HIGH), level(HIGH), ground_m=0.0)
+    assert projection == (0.0, 0.0)
+
+
 def test_of_two_aircraft_the_one_that_speaks_first_counts() -> None:
     early, late = tcas.Projection(10.0, None), tcas.Projection(12.0, 20.0)
     assert tcas.earliest(early, late) == tcas.earliest(late, early) == (10.0, 20.0)
@@ -219,6 +229,12 @@ def test_the_sense_that_does_not_cross_the_intruder_is_chosen_if_it_gives_alim()
     assert crossing > other > alim_m
     chosen = select(own, intruder, 35.0, alim_m, required=None, may_descend=True)
     assert chosen == Resolution("climb", RATE_M_S)
+
+
+def test_a_crew_responds_after_5_s_and_climbs_with_1_500_ft_min_or_an_increased_2_500() -> None:
+    """ICAO Annex 10, volume IV, 4.4.2, and FAA, Introduction to TCAS II Version 7.1."""
+    rates_fpm = [rate_m_s / FOOT_PER_MINUTE for rate_m_s in (RATE_M_S, INCREASED_RATE_M_S)]
+    assert (RESPONSE_S, rates_fpm) == (5.0, pytest.approx([1_500.0, 2_500.0]))
 
 
 @pytest.mark.parametrize("sense", ["climb", "descend"])

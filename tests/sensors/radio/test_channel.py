@@ -13,6 +13,7 @@ from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.backends import SoundRequest
 from airhilt.sensors.radio.backends.audio import AudioRadio
 from airhilt.sensors.radio.channel import (
+    WHISTLES_HZ,
     Channel,
     Other,
     VhfChannel,
@@ -79,6 +80,19 @@ def test_the_noise_that_is_heard_is_what_was_asked_for(profile: str, snr_db: flo
     talking = active(speech())
     ratio_db = decibels(power(clean[talking]) / power(noise[talking]))
     assert ratio_db == pytest.approx(snr_db, abs=0.1)
+
+
+def swing_db(profile: str) -> float:
+    """Return by how much the level of a steady buzz changes within ten seconds."""
+    t = np.arange(10 * SAMPLE_RATE_HZ) / SAMPLE_RATE_HZ
+    heard = detected(profile, (0.1 * np.sin(2 * np.pi * 700 * t)).astype(np.float32))
+    levels = [power(second) for second in np.split(heard[SAMPLE_RATE_HZ // 2 :], 19)]
+    return decibels(max(levels) / min(levels))
+
+
+def test_speech_fades_where_it_is_to_and_nowhere_else() -> None:
+    assert swing_db("fading") > 4.0
+    assert swing_db("vhf") < 0.1
 
 
 def test_a_cockpit_is_heard_in_the_pauses_a_tower_less_and_a_quiet_place_not_at_all() -> None:
@@ -190,6 +204,12 @@ def test_gain_control_knows_nothing_of_what_comes_half_a_frame_later() -> None:
     middle = 59 * frame + frame // 2
     assert followed[: middle + 1] == pytest.approx(alone[: middle + 1])
     assert followed[60 * frame - 1] < 0.99 * alone[60 * frame - 1]
+
+
+def test_two_carriers_are_apart_by_what_their_transmitters_may_be_off() -> None:
+    """Each by 5 parts in a million, at 120 MHz (ICAO Annex 10 volume III)."""
+    assert WHISTLES_HZ[1] == pytest.approx(2.0 * 5e-6 * 120e6)
+    assert 0.0 < WHISTLES_HZ[0] < WHISTLES_HZ[1]
 
 
 def test_gain_control_leaves_a_call_at_its_usual_level_as_loud_as_it_is() -> None:

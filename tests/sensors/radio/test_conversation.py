@@ -46,6 +46,13 @@ def test_who_answers_leaves_a_moment_of_silence_after_a_call_that_it_waited_for(
     assert seconds_to_ns(0.2) <= silence_ns <= seconds_to_ns(1.0)
 
 
+def test_a_line_begins_when_its_transmission_does() -> None:
+    world = World(CLEARANCE, READBACK).run()
+    assert world.begun == [
+        (world.spoken(name).t_tx_ns / SECOND_NS, name) for name in ("clearance", "readback")
+    ]
+
+
 def test_a_call_that_is_missed_is_made_again_and_its_readback_waits_for_that() -> None:
     world = World(CLEARANCE, READBACK, heard={("clearance", "AAL123"): MISSED}).run()
     assert world.said() == ["clearance", "clearance.repeat-1", "readback"]
@@ -110,6 +117,13 @@ def test_a_unit_asks_the_caller_by_his_callsign() -> None:
     question = world.spoken("check.say-again-1")
     assert (question.speaker, question.addressed) == (TOWER, "AAL123")
     assert question.text == "American one twenty three, say again."
+
+
+def test_a_question_that_nobody_hears_does_not_end_the_matter() -> None:
+    heard = {("clearance", "AAL123"): UNSURE, ("clearance.say-again-1", TOWER): MISSED}
+    assert World(CLEARANCE, READBACK, heard=heard).run().said()[-2:] == [
+        "clearance.repeat-1", "readback",
+    ]  # fmt: skip
 
 
 def test_a_call_that_is_never_taken_is_given_up_and_nothing_follows_from_it() -> None:

@@ -16,8 +16,6 @@ from airhilt.sensors.radio.on_air import OnAir, Utterance
 from airhilt.sim import Director, Priority, Virtual
 from airhilt.units import SECOND_NS, seconds_to_ns
 
-CALL_S = 3.0
-
 
 def call(
     name: str,
@@ -84,6 +82,11 @@ def test_a_call_waits_until_the_frequency_is_free_and_then_a_little() -> None:
     assert list(calls) == ["a", "b"]
     assert calls["b"].t_tx_ns == calls["a"].t_end_ns + seconds_to_ns(GAP_S)
     assert not calls["b"].overlapping
+
+
+def test_another_frequency_does_not_wait() -> None:
+    calls = played(call("a", 20.0), call("b", 21.0, frequency_khz=118_000))
+    assert [begins_s(one) for one in calls.values()] == [20.0, 21.0]
 
 
 def test_those_who_wait_come_on_in_the_order_in_which_they_began_to() -> None:

@@ -218,6 +218,15 @@ def test_a_level_commanded_during_an_advisory_is_flown_afterwards(aircraft: Airc
     assert level_ft(aircraft) == pytest.approx(7_000)
 
 
+def test_a_speed_commanded_during_an_advisory_is_flown_afterwards(aircraft: Aircraft) -> None:
+    crew = crew_of(aircraft)
+    crew.hear(advisory()).act()
+    crew.command(SpeedCommand(action="speed", cas_kt=80))
+    assert aircraft.target_speed_m_s == pytest.approx(95 * KNOT)
+    crew.hear(over()).act()
+    assert aircraft.target_speed_m_s == pytest.approx(80 * KNOT)
+
+
 def fly(aircraft: Aircraft, seconds: int) -> float:
     for _ in range(round(seconds * 20)):
         aircraft.advance()
@@ -290,6 +299,16 @@ def test_a_crew_is_unable_to_fly_what_its_aircraft_cannot(
                 crew_of(aircraft).command(command)
             assert level_ft(aircraft) == pytest.approx(5_000)
             assert aircraft.target_speed_m_s == speed_m_s
+
+
+def test_a_crew_flies_up_to_the_limits_of_its_aircraft(aircraft: Aircraft) -> None:
+    crew = crew_of(aircraft)
+    crew.command(AltitudeCommand(action="altitude", altitude_ft=13_000, vertical_rate_fpm=700))
+    assert level_ft(aircraft) == pytest.approx(13_000)
+    crew.command(AltitudeCommand(action="altitude", altitude_ft=500, vertical_rate_fpm=1_000))
+    assert level_ft(aircraft) == pytest.approx(500)
+    crew.command(SpeedCommand(action="speed", cas_kt=127))
+    assert aircraft.target_speed_m_s == pytest.approx(127 * KNOT)
 
 
 @pytest.mark.parametrize(

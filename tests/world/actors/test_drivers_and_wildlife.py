@@ -145,6 +145,11 @@ def test_what_waits_is_done_once_as_soon_as_it_is_true() -> None:
     assert done == ["b", "a"]
 
 
+def test_a_driver_who_has_no_way_to_go_on_with_says_so(driver: Driver) -> None:
+    with pytest.raises(Unable, match="no path to go on with"):
+        tell(driver, "continue")
+
+
 def test_a_driver_drives_across_the_grass_if_told_and_no_faster_than_told(driver: Driver) -> None:
     before = driver.body.state
     tell(driver, "taxi", to={"type": "node", "node": "K/E"}, off_taxiways=True, speed_kt=10.0)

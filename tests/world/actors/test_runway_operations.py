@@ -260,6 +260,11 @@ def test_an_advised_go_around_is_flown_and_on_the_ground_it_is_not() -> None:
     assert landed.names == []
 
 
+def test_an_exit_that_does_not_exist_is_named_with_those_that_do() -> None:
+    with pytest.raises(Unable, match="has no exit Z; there are: B_"):
+        tell(crew_of(on_final(5_000.0)), "land", runway="01", exit="Z")
+
+
 # --- taxiing --------------------------------------------------------------------------------
 
 

@@ -118,15 +118,6 @@ def test_a_wind_across_that_is_stronger_than_the_airspeed_is_refused(
 # --- its engines and wheels -----------------------------------------------------------------
 
 
-def test_an_engine_is_counted_from_0() -> None:
-    airframe: Airframe = in_cruise("737")._airframe
-    airframe.require_engine(0)
-    airframe.require_engine(1)
-    for engine in (-1, 2):
-        with pytest.raises(ValueError, match=f"engine is {engine}; expected 0 to 1"):
-            airframe.require_engine(engine)
-
-
 def test_it_is_on_the_ground_and_stands_there_with_its_nose_wheel() -> None:
     standing: Airframe = on_the_ground("737")._airframe
     assert standing.on_ground()

@@ -217,6 +217,16 @@ def test_a_takeoff_is_to_an_altitude_above(climb_to_m: float, is_refused: bool) 
         assert flight.control.guidance.vertical.clearance.altitude_m == pytest.approx(climb_to_m)
 
 
+def test_who_is_beside_the_runway_or_too_low_for_a_side_step_is_told_so() -> None:
+    with pytest.raises(ValueError, match="60 m beside the centre line of runway 01R"):
+        standing().procedures.take_off(make_runway("01R", 60.0), 500.0)
+    low = Flight()
+    low.control.state = on_final(1_000.0, height_m=60.0)
+    low.procedures.land(make_runway("01"))
+    with pytest.raises(ValueError, match="expected at least 300 ft"):
+        low.procedures.side_step(make_runway("01R", 400.0))
+
+
 # --- in the air ---------------------------------------------------------------------------------
 
 
@@ -270,12 +280,13 @@ def on_final(before_m: float, right_m: float = 0.0, off_deg: float = 0.0,
 def test_a_final_approach_is_joined_from_where_it_can_be(
     state: AircraftState, refusal: str | None
 ) -> None:
-    final = Final(make_runway("01"), B737)
+    flight = Flight()
+    flight.control.state = state
     if refusal is None:
-        final.require_reachable(state)
+        flight.procedures.land(make_runway("01"))
     else:
         with pytest.raises(ValueError, match=refusal):
-            final.require_reachable(state)
+            flight.procedures.land(make_runway("01"))
 
 
 @pytest.mark.parametrize(("above_m", "correction_m_s"), [(2.0, -0.3), (-2.0, 0.3), (90.0, -4.572),
@@ -378,7 +389,7 @@ def test_it_may_begin_within_the_envelope_of_its_type(
         start._require_inside_envelope(initial, 30.0)
     else:
         with pytest.raises(ValueError, match=refusal):
-            start._require_inside_envelope(initial, 30.0)
+            start.begin(initial, Atmosphere(), 30.0)
 
 
 # --- routes -------------------------------------------------------------------------------------

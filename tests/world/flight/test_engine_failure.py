@@ -76,6 +76,12 @@ def test_a_single_without_its_engine_glides() -> None:
     assert -1_000 < state.vertical_rate_m_s / FOOT_PER_MINUTE < -500
 
 
+def test_an_engine_that_is_not_there_is_named() -> None:
+    for engine in (-1, 2):
+        with pytest.raises(ValueError, match=f"engine is {engine}; expected 0 to 1"):
+            in_cruise("737").fail_engine(engine)
+
+
 @pytest.mark.parametrize("name", mostly_slow(["737", "B747"], "737"))
 def test_an_emergency_descent_loses_4000_feet_a_minute_and_levels_off(name: str) -> None:
     aircraft = in_cruise(name)

@@ -51,3 +51,10 @@ def test_it_turns_when_told_and_climbs_on() -> None:
 def test_without_an_approach_it_is_refused() -> None:
     with pytest.raises(ValueError, match="go_around in phase en_route; expected glide or flare"):
         on_final("737").procedures.go_around(1_000.0)
+
+
+def test_an_altitude_that_is_not_above_is_refused() -> None:
+    aircraft = on_final("737")
+    aircraft.procedures.land(RUNWAY)
+    with pytest.raises(ValueError, match="expected more than the altitude now"):
+        aircraft.procedures.go_around(50.0)

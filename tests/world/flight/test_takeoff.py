@@ -91,6 +91,17 @@ def test_it_takes_off_after_lining_up() -> None:
     assert takeoff.off_centre_m < 20 * FOOT
 
 
+def test_it_takes_off_rolling() -> None:
+    aircraft = on_the_ground("737")
+    aircraft.procedures.taxi([along_runway(60.0), along_runway(400.0)], then="lined_up")
+    *_, state = states(aircraft, 20)
+    assert state.ground_speed_m_s > 5.0
+    aircraft.procedures.take_off(RUNWAY, CLIMB_TO_M)
+    slowest = min(state.ground_speed_m_s for state in states(aircraft, 10))
+    assert slowest > 5.0
+    assert Takeoff(aircraft, RUNWAY).phases[-1] == "en_route"
+
+
 def test_commands_in_the_climb_are_flown_above_400_ft() -> None:
     aircraft = on_the_ground("737")
     aircraft.procedures.take_off(RUNWAY, 1_500.0)
