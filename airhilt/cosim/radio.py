@@ -15,6 +15,7 @@ from airhilt.scenario.failures import EffectiveLine
 from airhilt.seats import Seats
 from airhilt.sensors.radio.advisory_calls import AdvisoryChannel
 from airhilt.sensors.radio.backends import FallbackRadio
+from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.conversation import RadioConversation
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sim import Director, StepRecord
@@ -43,7 +44,7 @@ class RunRadio:
             radio.words_per_minute,
             partial(modalities.lose, "radio", "radio_lost", "radio"),
         )
-        self._conversation = RadioConversation(
+        context = RadioContext(
             director,
             setup.scenario,
             setup.lines,
@@ -54,8 +55,8 @@ class RunRadio:
             FailureNotices(director, world, event, modalities, observer, self._backend),
             router.publish,
             seats,
-            advisory_channel,
         )
+        self._conversation = RadioConversation(context, advisory_channel)
         router.listen(self._conversation.take)
 
     def start(self) -> None:

@@ -6,7 +6,6 @@ from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from pydantic import TypeAdapter
 
@@ -37,13 +36,11 @@ from airhilt.options import Options
 from airhilt.record import Logged, RunFolder, RunInfo
 from airhilt.record.audio import recorded_pcm
 from airhilt.record.latency import RecordedLatencies
+from airhilt.sensors.radio.backends import SoundRequest
 from airhilt.sensors.radio.on_air import OnAir
 from airhilt.sim import Input, LatencySpec, Output, Reply, WorkerLost
 from airhilt.units import SECOND_NS
 from airhilt.workers.pool import Participant
-
-if TYPE_CHECKING:
-    from airhilt.sensors.radio.channel import BackgroundNoise
 
 UNENDING_S = 86_400.0
 """Length of a call, in s, that its run has cut off: longer than any run."""
@@ -301,15 +298,7 @@ class ReplayedRadio:
             raise SpeechError(self._failure)
         return None, UNENDING_S if duration_s is None else duration_s
 
-    def receive(
-        self,
-        on_air: OnAir,
-        mixed_with: tuple[OnAir, ...],  # noqa: ARG002
-        background: BackgroundNoise,  # noqa: ARG002
-        begin: int,
-        now_ns: int,  # noqa: ARG002
-        listener: str | None = None,
-    ) -> bytes:
+    def receive(self, request: SoundRequest) -> bytes:
         """Return the samples as they were received.
 
         Raises
@@ -317,10 +306,11 @@ class ReplayedRadio:
         SpeechError
             It was in this transmission that the sound was lost.
         """
-        header = self._received.get((on_air.utterance.id, listener))
-        pcm = b"" if header is None else recorded_pcm(self._audio, header)[SAMPLE_BYTES * begin :]
+        said, first = request.on_air.utterance, SAMPLE_BYTES * request.begin
+        header = self._received.get((said.id, request.listener))
+        pcm = b"" if header is None else recorded_pcm(self._audio, header)[first:]
         if not pcm:
-            raise SpeechError(self._failure or f"{on_air.utterance.id}: not in the recording")
+            raise SpeechError(self._failure or f"{said.id}: not in the recording")
         return pcm
 
     def transcript(self, on_air: OnAir, mixed_with: tuple[OnAir, ...]) -> Transcript | None:  # noqa: ARG002

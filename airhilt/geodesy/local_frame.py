@@ -12,9 +12,10 @@ from airhilt.geodesy.wgs84 import (
     ECCENTRICITY_SQUARED,
     SEMI_MAJOR_AXIS_M,
     Place,
-    Vector,
     curvature_radii_m,
+    dot,
     earth_centred,
+    horizontal_axes,
     vertical,
 )
 
@@ -23,7 +24,7 @@ REACH_M = 100_000.0
 
 
 class LocalFrame:
-    """East and north in metres from an origin on the ellipsoid.
+    """East and north in metres from an origin on the ellipsoid that is no pole.
 
     ``to_place`` undoes ``to_local`` to less than a micrometre within 10 km of the origin. The
     projection leaves out the Earth's curvature, so the distance between two places comes out
@@ -32,23 +33,8 @@ class LocalFrame:
     that of the origin: a bearing in the frame differs from a true azimuth by the convergence of
     the meridians, at most 0.03 degrees for each kilometre east at latitude 72, 0.007 at 39.
 
-    Parameters
-    ----------
-    origin
-        Latitude and longitude in radians, not at a pole.
-    height_m
-        Height above the ellipsoid at which distances are true: those on the ellipsoid are stretched
-        by its share in the mean radius of curvature at the origin.
-
-    Raises
-    ------
-    ValueError
-        The origin is no place on Earth, or is a pole.
-
-    Notes
-    -----
-    The rotation from Earth-centred axes is that of east, north and up in NIMA TR8350.2 and in
-    P. Misra and P. Enge, Global Positioning System, 2nd ed., section 4.A.
+    Distances are true at ``height_m`` above the ellipsoid: those on the ellipsoid are stretched by
+    its share in the mean radius of curvature at the origin.
     """
 
     def __init__(self, origin: Place, height_m: float = 0.0) -> None:
@@ -58,11 +44,8 @@ class LocalFrame:
         self.origin = origin
         meridional, prime_vertical = curvature_radii_m(latitude)
         self._scale = 1.0 + height_m / math.sqrt(meridional * prime_vertical)
-        sin_lat, cos_lat = math.sin(latitude), math.cos(latitude)
-        sin_lon, cos_lon = math.sin(longitude), math.cos(longitude)
         self._centre = earth_centred(origin)
-        self._east = (-sin_lon, cos_lon, 0.0)
-        self._north = (-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat)
+        self._east, self._north = horizontal_axes(origin)
         self._up = vertical(origin)
 
     def to_local(self, place: Place) -> tuple[float, float]:
@@ -74,16 +57,10 @@ class LocalFrame:
             there[2] - self._centre[2],
         )
         scale = self._scale
-        return scale * _dot(self._east, offset), scale * _dot(self._north, offset)
+        return scale * dot(self._east, offset), scale * dot(self._north, offset)
 
     def to_place(self, east_m: float, north_m: float) -> Place:
-        """Return the place whose east and north these are.
-
-        Raises
-        ------
-        ValueError
-            It would lie more than 100 km from the origin.
-        """
+        """Return the place whose east and north these are; a ValueError if it is beyond 100 km."""
         if not math.hypot(east_m, north_m) <= REACH_M:
             raise ValueError(
                 f"east {east_m:.0f} m, north {north_m:.0f} m is beyond the local frame's 100 km"
@@ -100,7 +77,3 @@ class LocalFrame:
         rise = -c / (b + math.sqrt(b * b - a * c))
         x, y, z = x + ux * rise, y + uy * rise, z + uz * rise
         return math.atan2(z, k * math.hypot(x, y)), math.atan2(y, x)
-
-
-def _dot(a: Vector, b: Vector) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

@@ -79,11 +79,31 @@ def vertical(place: Place) -> Vector:
     return across * math.cos(longitude), across * math.sin(longitude), math.sin(latitude)
 
 
-def earth_centred(place: Place) -> Vector:
-    """Return the Earth-centred coordinates (m) of a place at height 0."""
+def horizontal_axes(place: Place) -> tuple[Vector, Vector]:
+    """Return the unit vectors that point east and north at a place.
+
+    They are those of NIMA TR8350.2 and of P. Misra and P. Enge, Global Positioning System, 2nd
+    ed., section 4.A.
+    """
+    sin_lat, cos_lat = math.sin(place[0]), math.cos(place[0])
+    sin_lon, cos_lon = math.sin(place[1]), math.cos(place[1])
+    return (-sin_lon, cos_lon, 0.0), (-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat)
+
+
+def dot(one: Vector, other: Vector) -> float:
+    """Return the scalar product of two vectors."""
+    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
+
+
+def earth_centred(place: Place, height_m: float = 0.0) -> Vector:
+    """Return the Earth-centred coordinates (m) of a place at a height above the ellipsoid."""
     up_x, up_y, up_z = vertical(place)
     radius = SEMI_MAJOR_AXIS_M / math.sqrt(1.0 - ECCENTRICITY_SQUARED * up_z**2)
-    return radius * up_x, radius * up_y, radius * (1.0 - ECCENTRICITY_SQUARED) * up_z
+    return (
+        radius * up_x + height_m * up_x,
+        radius * up_y + height_m * up_y,
+        radius * (1.0 - ECCENTRICITY_SQUARED) * up_z + height_m * up_z,
+    )
 
 
 def distance_and_azimuth(start: Place, end: Place) -> tuple[float, float]:

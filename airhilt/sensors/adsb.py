@@ -20,10 +20,10 @@ from airhilt.scenario.models import (
     VehicleSpec,
     WildlifeSpec,
 )
-from airhilt.sensors.base import SensorContext
+from airhilt.sensors.base import Sensor, SensorContext
 from airhilt.sim import Priority, StepRecord
 from airhilt.sim.streams import stream
-from airhilt.surveillance.receivers import Receiver, Reception
+from airhilt.surveillance.receivers import Decoded, Receiver
 from airhilt.surveillance.squitters import Squitter
 from airhilt.surveillance.transponders import (
     IDENTIFICATION_INTERVAL_S,
@@ -36,7 +36,7 @@ from airhilt.surveillance.transponders import (
 )
 from airhilt.units import FOOT, NAUTICAL_MILE, SECOND_NS, seconds_to_ns
 from airhilt.world.actors.actor import Actor
-from airhilt.world.mover import Motion, carried_on
+from airhilt.world.mover import Motion
 from airhilt.world.site import FixedSite, ScenarioSite
 
 STAGE = "adsb"
@@ -56,25 +56,19 @@ class AdsbType:
     def create(self, context: SensorContext) -> AdsbSensor | None:
         """Return the sensor of a run; None if no actor has a transponder."""
         sensor = AdsbSensor(context)
-        return sensor if sensor.is_needed else None
+        return sensor if sensor.sources else None
 
 
 SENSOR = AdsbType()
 
 
-class AdsbSensor:
-    """Schedules the squitters of all transponders, and publishes what the receivers report.
-
-    Parameters
-    ----------
-    context
-        Parts of the run that the sensor uses.
-    """
+class AdsbSensor(Sensor):
+    """Schedules the squitters of all transponders, and publishes what the receivers report."""
 
     def __init__(self, context: SensorContext) -> None:
         scenario = context.scenario
         self._director = context.director
-        self._state_at_ns = context.state_at_ns
+        self._state_of = context.state_of
         self._publish = context.publish
         self._done = context.step_done
         self._latency = context.latency.of(STAGE).source(
@@ -82,25 +76,20 @@ class AdsbSensor:
         )
         self._seq = 0
         self._in_flight: dict[int, StepRecord] = {}
-        self._reception = Reception(
-            [_receiver(declared, context.site) for declared in _declared(scenario)],
-            scenario.adsb.loss_probability,
-            [(seconds_to_ns(a), seconds_to_ns(b)) for a, b in scenario.adsb.outages_s],
-        )
-        self._sources = [
+        self._receivers = [_receiver(declared, context.site) for declared in _declared(scenario)]
+        self._loss_probability = scenario.adsb.loss_probability
+        self._outages_ns = [
+            (seconds_to_ns(begin), seconds_to_ns(end)) for begin, end in scenario.adsb.outages_s
+        ]
+        self.sources = [
             _Source(actor, spec, context.seed)
             for actor in context.actors.values()
             if not isinstance(spec := actor.spec, WildlifeSpec) and spec.transponder.has_adsb
         ]
 
-    @property
-    def is_needed(self) -> bool:
-        """True if any actor has a transponder."""
-        return bool(self._sources)
-
     def start(self) -> None:
         """Schedule the first squitters of all transponders."""
-        for source in self._sources:
+        for source in self.sources:
             for squitter, (within_s, _) in (
                 (source.position, POSITION_INTERVAL_S),
                 (source.velocity, VELOCITY_INTERVAL_S),
@@ -122,13 +111,13 @@ class AdsbSensor:
         if body.ended is not None:
             return
         now_ns = self._director.now_ns
-        state = carried_on(body.state, (now_ns - self._state_at_ns()) / SECOND_NS)
-        wait_ns = squitter(state, now_ns, partial(self._receive, source.transponder))
+        send = partial(self._receive, source.transponder)
+        wait_ns = squitter(self._state_of(body), now_ns, send)
         self._repeat(source, squitter, now_ns + wait_ns)
 
     def _receive(self, sender: Transponder, squitter: Squitter, state: Motion) -> None:
         now_ns, begun = self._director.now_ns, time.perf_counter()
-        decoded = self._reception.receive(sender, squitter, state, now_ns)
+        decoded = self._decoded(sender, squitter, state, now_ns)
         compute_s = time.perf_counter() - begun
         if decoded is None:
             return
@@ -146,6 +135,20 @@ class AdsbSensor:
             self._publish(f"adsb/{sender.icao24}", decoded.report(out_ns))
 
         self._director.at(out_ns, leave, Priority.RESULT)
+
+    def _decoded(
+        self, sender: Transponder, squitter: Squitter, state: Motion, t_ns: int
+    ) -> Decoded | None:
+        """Return the state vector that the first receiver in view of the sender completes.
+
+        The draws do not depend on what is received, so an outage changes nothing after it.
+        """
+        is_lost = sender.generator.random() < self._loss_probability
+        if is_lost or any(begin <= t_ns < end for begin, end in self._outages_ns):
+            return None
+        in_view = (receiver for receiver in self._receivers if receiver.in_view(state))
+        receiver = next(in_view, None)
+        return None if receiver is None else receiver.decode(sender, squitter, t_ns)
 
 
 _Send = Callable[[Squitter, Motion], None]

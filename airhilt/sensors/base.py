@@ -23,7 +23,9 @@ from airhilt.messages import BUS_MESSAGES, WORKER_OUTPUTS, Message
 from airhilt.plugins import Family
 from airhilt.scenario.models import Scenario
 from airhilt.sim import LatencySpec, Scheduler, StepRecord
+from airhilt.units import SECOND_NS
 from airhilt.world.actors.actor import Actor
+from airhilt.world.mover import Motion, Mover, carried_on
 from airhilt.world.site import ScenarioSite
 
 
@@ -76,6 +78,11 @@ class SensorContext:
     subscribed: frozenset[str] = frozenset()
     settings: Mapping[str, Any] | None = None
 
+    def state_of(self, body: Mover, before_s: float = 0.0) -> Motion:
+        """Return the motion of a body now, or a time in s before, carried on from its state."""
+        age_s = (self.director.now_ns - self.state_at_ns()) / SECOND_NS
+        return carried_on(body.state, age_s - before_s)
+
 
 class Sensor(Protocol):
     """A part of a run that measures the true world and publishes what it finds."""
@@ -84,21 +91,17 @@ class Sensor(Protocol):
         """Schedule the first measurements; the run begins."""
 
     def unfinished(self) -> Sequence[StepRecord]:
-        """Return latency records of measurements that are not published when the run ends."""
+        """Return latency records of measurements that are not published when the run ends.
 
-
-class UntimedSensor(Sensor):
-    """Base class of sensors without a latency of their own in the latency log."""
-
-    def unfinished(self) -> Sequence[StepRecord]:
-        """Return nothing: there are no latency records."""
+        There are none unless a sensor has a latency of its own in the latency log.
+        """
         return ()
 
 
-class SensorGroup(UntimedSensor):
+class SensorGroup(Sensor):
     """Several sensors of one type, such as all radars of a scenario."""
 
-    def __init__(self, sensors: Sequence[UntimedSensor]) -> None:
+    def __init__(self, sensors: Sequence[Sensor]) -> None:
         self._sensors = sensors
 
     def start(self) -> None:
@@ -122,10 +125,7 @@ class SensorType(Protocol):
     def create(self, context: SensorContext) -> Sensor | None:
         """Return the sensor for a run; None if there is nothing for it to do.
 
-        Raises
-        ------
-        AirhiltError
-            The scenario asks for a sensor that cannot exist.
+        An AirhiltError says that the scenario asks for a sensor that cannot exist.
         """
 
 
@@ -148,21 +148,9 @@ def sensor_messages(types: Iterable[SensorType]) -> dict[str, type[Message]]:
 def load_sensor_types(asked: Collection[str] = ()) -> tuple[list[SensorType], list[str]]:
     """Return all installed sensor types in the order of their names, and what is wrong with others.
 
-    Types of AIRHILT and requested types must be there. A broken type of another package
-    that nobody asked for is left out, with a sentence on it.
-
-    Parameters
-    ----------
-    asked
-        Names of sensor types that a scenario has settings for.
-
-    Raises
-    ------
-    SensorError
-        A sensor type that must be there cannot be loaded, or its name or its keys belong to
-        something else.
-    ScenarioError
-        A sensor type that is asked for is not installed.
+    Types of AIRHILT and requested types must be there: a ScenarioError says that one is not
+    installed, and a SensorError what else is wrong. A broken type of another package that nobody
+    asked for is left out, with a sentence on it.
     """
     names = FAMILY.names()
     for name in asked:
@@ -184,10 +172,7 @@ def load_sensor_types(asked: Collection[str] = ()) -> tuple[list[SensorType], li
 def load_sensor_type(name: str) -> SensorType:
     """Return a sensor type.
 
-    Raises
-    ------
-    SensorError
-        It cannot be loaded, or its name or its keys belong to something else.
+    A SensorError says that it cannot be loaded, or that its name or its keys are not a sensor's.
     """
     sensor_type: SensorType = FAMILY.load(name)
     taken = {key.split("/")[0] for key in BUS_MESSAGES} | {"worker", *WORKER_OUTPUTS}

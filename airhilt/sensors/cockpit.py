@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from airhilt.messages import CockpitInstruments, Message, VehiclePosition
-from airhilt.sensors.base import SensorContext, UntimedSensor
+from airhilt.sensors.base import Sensor, SensorContext
 from airhilt.sim import Priority
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, SECOND_NS
 from airhilt.world.flight.aircraft import Aircraft
@@ -47,16 +47,8 @@ class CockpitType:
 SENSOR = CockpitType()
 
 
-class Cockpits(UntimedSensor):
-    """The instruments of all aircraft that show them.
-
-    Parameters
-    ----------
-    callsigns
-        Callsigns of the actors that show them if they are aircraft or vehicles.
-    context
-        Parts of the run that the sensor uses.
-    """
+class Cockpits(Sensor):
+    """The instruments of those of some actors that are aircraft or vehicles."""
 
     def __init__(self, callsigns: Sequence[str], context: SensorContext) -> None:
         self._director = context.director
@@ -77,9 +69,10 @@ class Cockpits(UntimedSensor):
     def _read(self) -> None:
         for callsign, aircraft in self._aircraft.items():
             if aircraft.ended is None:
-                instruments = instruments_of(callsign, aircraft, self._variation_deg)
-                stamped = instruments.model_copy(update={"t_ns": self._director.now_ns})
-                self._publish(f"cockpit/{callsign}", stamped)
+                instruments = instruments_of(
+                    callsign, aircraft, self._variation_deg, self._director.now_ns
+                )
+                self._publish(f"cockpit/{callsign}", instruments)
         for callsign, vehicle in self._vehicles.items():
             if vehicle.ended is None:
                 self._publish(f"cockpit/{callsign}/position", self._position(callsign, vehicle))
@@ -97,17 +90,15 @@ class Cockpits(UntimedSensor):
 
 
 def instruments_of(
-    callsign: str, aircraft: Aircraft, variation_deg: float | None
+    callsign: str, aircraft: Aircraft, variation_deg: float | None, t_ns: int = 0
 ) -> CockpitInstruments:
-    """Return what the instruments of an aircraft show now.
+    """Return what the instruments of an aircraft show at a time.
 
-    Parameters
-    ----------
-    variation_deg
-        Magnetic variation, positive east; None if it is not known, and the compass shows true.
+    The magnetic variation is positive east; None if it is not known, and the compass shows true.
     """
     state, from_true_deg = aircraft.state, variation_deg or 0.0
     return CockpitInstruments(
+        t_ns=t_ns,
         callsign=callsign,
         airspeed_kt=round(state.calibrated_airspeed_m_s / KNOT, 1),
         mach=round(state.mach, 3),

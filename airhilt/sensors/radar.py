@@ -16,7 +16,7 @@ import numpy as np
 
 from airhilt.messages import Message, PlotKind, RadarInfo, RadarPlot
 from airhilt.scenario.models import AircraftSpec, Radar
-from airhilt.sensors.base import SensorContext, SensorGroup, UntimedSensor
+from airhilt.sensors.base import Sensor, SensorContext, SensorGroup
 from airhilt.sim import Priority
 from airhilt.sim.streams import stream
 from airhilt.surveillance.horizon import radio_horizon_m
@@ -77,23 +77,15 @@ class _Target:
     """Angle by which the beam was past the target at the end of the last sector."""
 
 
-class TurningRadar(UntimedSensor):
-    """One radar: turns its antenna and publishes its plots.
-
-    Parameters
-    ----------
-    declared
-        The radar as the scenario declares it.
-    context
-        Parts of the run that the sensor uses.
-    """
+class TurningRadar(Sensor):
+    """One radar: turns its antenna and publishes its plots."""
 
     def __init__(self, declared: Radar, context: SensorContext) -> None:
         self._site = declared.name
         self._kind = declared.kind
         self._model = RADARS[declared.kind]
         self._director = context.director
-        self._state_at_ns = context.state_at_ns
+        self._state_of = context.state_of
         self._publish = context.publish
         self._ground_m = context.site.ground_m
         self._antenna_height_m = declared.antenna_height_ft * FOOT
@@ -137,19 +129,18 @@ class TurningRadar(UntimedSensor):
         beam_rad = self._first_azimuth_rad + math.tau * (
             now_ns / SECOND_NS / self._model.rotation_s
         )
-        age_s = (now_ns - self._state_at_ns()) / SECOND_NS
         plots = []
         for target in self._targets:
             body = target.actor.body
             if body.ended is not None:
                 continue
-            azimuth_rad = self._antenna.to(carried_on(body.state, age_s)).azimuth_rad
+            azimuth_rad = self._antenna.to(self._state_of(body)).azimuth_rad
             behind_rad = (beam_rad - azimuth_rad) % math.tau
             before_rad, target.behind_rad = target.behind_rad, behind_rad
             if before_rad is None or behind_rad > before_rad - math.pi:
                 continue
             passed_s = behind_rad / math.tau * self._model.rotation_s
-            state = carried_on(body.state, age_s - passed_s)
+            state = self._state_of(body, passed_s)
             plot = self._measure(target, state, now_ns - seconds_to_ns(passed_s))
             if plot is not None:
                 plots.append(plot)

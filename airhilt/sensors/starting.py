@@ -21,10 +21,7 @@ from airhilt.units import SECOND_NS
 def start_sensors(types: Iterable[SensorType], context: SensorContext) -> list[Sensor]:
     """Start a sensor of each type that has something to do in a run.
 
-    Raises
-    ------
-    AirhiltError
-        The scenario asks for a sensor that cannot exist, or one does not start.
+    An AirhiltError says that a sensor cannot exist or does not start.
     """
     sensors: list[Sensor] = []
     for sensor_type in types:
@@ -70,12 +67,10 @@ class _GuardedSensor:
     sensor: Sensor
 
     def start(self) -> None:
-        """Schedule the first measurements."""
         with blaming(f"sensor {self.name!r} does not start", SensorError):
             self.sensor.start()
 
     def unfinished(self) -> Sequence[StepRecord]:
-        """Return latency records of measurements that are not published when the run ends."""
         with blaming(f"sensor {self.name!r} cannot say what is unfinished", SensorError):
             return list(self.sensor.unfinished())
 
@@ -89,19 +84,15 @@ class _GuardedDirector:
 
     @property
     def now_ns(self) -> int:
-        """Simulation time."""
         return self.director.now_ns
 
     def at(self, t_ns: int, action: Action, priority: Priority) -> None:
-        """Schedule an action once."""
         self.director.at(t_ns, self._guarded(action), priority)
 
     def every(self, period_ns: int, action: Action, priority: Priority, first_ns: int = 0) -> None:
-        """Schedule an action once every period."""
         self.director.every(period_ns, self._guarded(action), priority, first_ns)
 
     def post(self, action: Action) -> None:
-        """Run an action as soon as possible (any thread)."""
         self.director.post(self._guarded(action))
 
     def _guarded(self, action: Action) -> Action:

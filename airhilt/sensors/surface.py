@@ -17,16 +17,16 @@ import numpy as np
 from airhilt.geodesy.wgs84 import Place, displaced, distance_m
 from airhilt.messages import Message, PlotKind, SurfaceTrack
 from airhilt.scenario.models import SurfaceSurveillance, WildlifeSpec
-from airhilt.sensors.base import SensorContext, UntimedSensor
+from airhilt.sensors.base import Sensor, SensorContext
 from airhilt.sensors.radar import cross_section_m2, plot_kind
 from airhilt.sim import Priority
 from airhilt.sim.streams import stream
 from airhilt.surveillance import surface
 from airhilt.surveillance.squitters import ALTITUDE_STEP_FT, quantise
 from airhilt.surveillance.transponders import STANDING_BELOW_M_S
-from airhilt.units import DEGREE, FOOT, KNOT, SECOND_NS, bearing_degrees, seconds_to_ns
+from airhilt.units import DEGREE, FOOT, KNOT, bearing_degrees, seconds_to_ns
 from airhilt.world.actors.actor import Actor
-from airhilt.world.mover import Motion, carried_on
+from airhilt.world.mover import Motion
 
 SPEED_STEP_KT = 0.1
 """Resolution of a track's speed, in kt."""
@@ -81,22 +81,14 @@ class _Target:
         return not isinstance(spec, WildlifeSpec) and spec.transponder.equipped
 
 
-class SurfaceSensor(UntimedSensor):
-    """Measures all targets once a second, and publishes their tracks.
-
-    Parameters
-    ----------
-    context
-        Parts of the run that the sensor uses.
-    declared
-        Losses and outages.
-    """
+class SurfaceSensor(Sensor):
+    """Measures all targets once a second, and publishes their tracks."""
 
     def __init__(self, context: SensorContext, declared: SurfaceSurveillance) -> None:
         layout = context.site.airport
         self._director = context.director
         self._publish = context.publish
-        self._state_at_ns = context.state_at_ns
+        self._state_of = context.state_of
         self._airport = layout.airport.icao
         self._declared = declared
         self._numbers = itertools.count(1)
@@ -118,12 +110,11 @@ class SurfaceSensor(UntimedSensor):
     def _measure(self) -> None:
         """Measure all targets, and publish the tracks when they are ready."""
         now_ns = self._director.now_ns
-        age_s = (now_ns - self._state_at_ns()) / SECOND_NS
         tracks = [
             track
             for target in self._targets
             if target.actor.body.ended is None
-            and (track := self._track(target, carried_on(target.actor.body.state, age_s), now_ns))
+            and (track := self._track(target, self._state_of(target.actor.body), now_ns))
         ]
         out_ns = now_ns + surface.LATENCY_NS
 
@@ -152,7 +143,11 @@ class SurfaceSensor(UntimedSensor):
     def _detected(self, target: _Target, state: Motion, now_ns: int) -> PlotKind | None:
         """Return by what a target is detected; None if it is not."""
         echo, reply, lost = target.generator.random(3)
-        if lost < self._declared.loss_probability or self._is_out(now_ns):
+        is_out = any(
+            seconds_to_ns(begin) <= now_ns < seconds_to_ns(end)
+            for begin, end in self._declared.outages_s
+        )
+        if lost < self._declared.loss_probability or is_out:
             return None
         away_m = min(
             distance_m((state.latitude_rad, state.longitude_rad), place) for place in self._places
@@ -171,12 +166,6 @@ class SurfaceSensor(UntimedSensor):
             and reply < surface.TRANSPONDER_PROBABILITY
         )
         return plot_kind(has_echo, has_reply) if has_echo or has_reply else None
-
-    def _is_out(self, now_ns: int) -> bool:
-        return any(
-            seconds_to_ns(begin) <= now_ns < seconds_to_ns(end)
-            for begin, end in self._declared.outages_s
-        )
 
     def _fused(self, target: _Target, state: Motion, kind: PlotKind, now_ns: int) -> SurfaceTrack:
         """Return the track of a detected target, with its errors."""

@@ -29,7 +29,7 @@ import numpy as np
 
 from airhilt.messages import Message, TcasReply
 from airhilt.scenario.models import AircraftSpec
-from airhilt.sensors.base import SensorContext, SensorGroup, UntimedSensor
+from airhilt.sensors.base import Sensor, SensorContext, SensorGroup
 from airhilt.sim import Priority
 from airhilt.sim.streams import stream
 from airhilt.surveillance.horizon import radio_horizon_m
@@ -37,7 +37,7 @@ from airhilt.surveillance.radar import MODE_C_STEP_FT, Antenna
 from airhilt.surveillance.squitters import ALTITUDE_STEP_FT, quantise
 from airhilt.units import DEGREE, FOOT, NAUTICAL_MILE, SECOND_NS, seconds_to_ns
 from airhilt.world.actors.actor import Actor
-from airhilt.world.mover import Motion, carried_on
+from airhilt.world.mover import Motion
 
 PERIOD_NS = SECOND_NS
 """Period of the interrogations, in ns."""
@@ -100,27 +100,18 @@ class _Target:
     bias_m: float
 
 
-class Interrogator(UntimedSensor):
-    """One aircraft's interrogations, once a second from a phase that is drawn.
-
-    Parameters
-    ----------
-    callsign
-        Callsign of the aircraft.
-    carriers
-        Callsigns of all aircraft that carry TCAS.
-    context
-        Parts of the run that the sensor uses.
-    """
+class Interrogator(Sensor):
+    """One aircraft's interrogations, once a second from a phase that is drawn."""
 
     def __init__(self, callsign: str, carriers: Collection[str], context: SensorContext) -> None:
         self._callsign = callsign
         self._director = context.director
-        self._state_at_ns = context.state_at_ns
+        self._state_of = context.state_of
         self._publish = context.publish
         self._ground_m = context.site.ground_m
         self._own = context.actors[callsign]
-        self._icao24 = _icao24(self._own)
+        assert isinstance(self._own.spec, AircraftSpec)  # The checks of a scenario see to it.
+        self._icao24 = self._own.spec.icao24
         self._phase_s = stream(context.seed, f"tcas/{callsign}").uniform(0.0, 1.0)
         self._targets = [
             _Target(
@@ -146,13 +137,11 @@ class Interrogator(UntimedSensor):
         body = self._own.body
         if body.ended is not None or body.on_ground:
             return
-        age_s = (self._director.now_ns - self._state_at_ns()) / SECOND_NS
-        own = carried_on(body.state, age_s)
+        own = self._state_of(body)
         antenna = Antenna(own.latitude_rad, own.longitude_rad, own.altitude_m)
         for target in self._targets:
             if target.actor.body.ended is None:
-                state = carried_on(target.actor.body.state, age_s)
-                reply = self._reply(target, state, own, antenna)
+                reply = self._reply(target, self._state_of(target.actor.body), own, antenna)
                 if reply is not None:
                     self._publish(f"tcas/{self._callsign}", reply)
 
@@ -192,8 +181,3 @@ class Interrogator(UntimedSensor):
             on_ground=on_ground,
             has_tcas=target.has_tcas,
         )
-
-
-def _icao24(actor: Actor) -> str:
-    assert isinstance(actor.spec, AircraftSpec)  # The checks of a scenario see to it.
-    return actor.spec.icao24

@@ -11,6 +11,7 @@ from threading import Event
 from typing import Protocol
 
 from airhilt.sim.pace import Pace
+from airhilt.units import seconds_to_ns
 
 Action = Callable[[], None]
 
@@ -70,15 +71,7 @@ class Director:
         return self.pace.elapsed_ns(self.now_ns) - self.now_ns
 
     def at(self, t_ns: int, action: Action, priority: Priority) -> None:
-        """Schedule ``action`` at ``t_ns``.
-
-        Raises
-        ------
-        TypeError
-            ``t_ns`` is no int.
-        ValueError
-            ``t_ns`` lies in the past.
-        """
+        """Schedule ``action`` at ``t_ns``, an int that does not lie in the past."""
         if not isinstance(t_ns, int):
             raise TypeError(f"event at {t_ns!r} ns; expected an int")
         if t_ns < self.now_ns:
@@ -86,18 +79,12 @@ class Director:
         heapq.heappush(self._heap, (t_ns, priority, self._sequence, action))
         self._sequence += 1
 
-    def every(self, period_ns: int, action: Action, priority: Priority, first_ns: int = 0) -> None:
-        """Schedule ``action`` at ``first_ns`` and then once every ``period_ns``.
+    def after(self, delay_s: float, action: Action) -> None:
+        """Schedule ``action`` at a delay in s from now, as a part of the script."""
+        self.at(self.now_ns + seconds_to_ns(delay_s), action, Priority.SCRIPT)
 
-        Raises
-        ------
-        TypeError
-            ``period_ns`` or ``first_ns`` is no int.
-        ValueError
-            ``period_ns`` is not positive.
-        """
-        if not isinstance(period_ns, int):
-            raise TypeError(f"period of {period_ns!r} ns; expected an int")
+    def every(self, period_ns: int, action: Action, priority: Priority, first_ns: int = 0) -> None:
+        """Schedule ``action`` at ``first_ns`` and then once every ``period_ns``, more than 0."""
         if period_ns <= 0:
             raise ValueError(f"period of {period_ns} ns; it must be positive")
 
@@ -128,14 +115,10 @@ class Director:
         self._most_behind_ns, self._stalled = None, lambda _: None
 
     def lose_time(self, most_behind_ns: int, stalled: Callable[[int], None]) -> None:
-        """Lose the time by which events are late, rather than make up for it faster.
+        """Lose the time by which events are later than a limit, rather than make up for it.
 
-        Parameters
-        ----------
-        most_behind_ns
-            Simulation time by which an event may be late; beyond it the clock is taken anew.
-        stalled
-            Called after that, with the time that was lost in ns, as something that was posted.
+        ``stalled`` is called after that, with the time that was lost in ns, as something that was
+        posted.
         """
         self._most_behind_ns, self._stalled = most_behind_ns, stalled
 
@@ -145,16 +128,11 @@ class Director:
         self.pace = pace
 
     def run(self) -> None:
-        """Run events until `stop` is called or none is left.
+        """Run events until `stop` is called or none is left; `interrupt` raises KeyboardInterrupt.
 
         What was posted runs between two instants, never among the events of one, so that it can
         be repeated from its time alone. Where two instants leave no room for it, the second comes
         first, at once: a pause would never come to it.
-
-        Raises
-        ------
-        KeyboardInterrupt
-            `interrupt` was called.
         """
         heap, posted, pop = self._heap, self._posted, heapq.heappop
         self.pace.start(self.now_ns)

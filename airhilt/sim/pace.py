@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import time
+from abc import ABC, abstractmethod
 from threading import Event
-from typing import Protocol
 
 from airhilt.errors import AirhiltError
 
@@ -12,56 +12,42 @@ PAUSE_S = 0.2
 """Longest time in s after which a run that is paused notices that it is interrupted."""
 
 
-class Pace(Protocol):
-    """Holds the Director back until an event is due."""
+class Pace(ABC):
+    """Holds the Director back until an event is due. Between events time stands still."""
 
-    @property
-    def name(self) -> str:
-        """Spelling on the command line."""
-        ...
+    name: str
+    """Spelling on the command line."""
 
-    def start(self, t_ns: int) -> None:
-        """Take the present instant as simulation time ``t_ns``."""
-        ...
+    def start(self, t_ns: int) -> None:  # noqa: B027
+        """Take the present instant as simulation time ``t_ns``, where that matters."""
 
+    @abstractmethod
     def wait_until(self, t_ns: int, wake: Event) -> bool:
         """Return True when ``t_ns`` is due, or False earlier when ``wake`` is set."""
-        ...
 
     def elapsed_ns(self, now_ns: int) -> int:
         """Return the simulation time now; ``now_ns`` is that of the last event."""
-        ...
+        return now_ns
 
 
-class Virtual:
+class Virtual(Pace):
     """Simulation time passes as fast as the machine allows."""
 
     name = "virtual"
-
-    def start(self, t_ns: int) -> None:
-        """Do nothing: virtual time needs no origin."""
 
     def wait_until(self, t_ns: int, wake: Event) -> bool:  # noqa: ARG002
         """Return at once: everything is due."""
         return True
 
-    def elapsed_ns(self, now_ns: int) -> int:
-        """Return ``now_ns``: between events virtual time stands still."""
-        return now_ns
 
-
-class RealTime:
+class RealTime(Pace):
     """Simulation time passes ``factor`` times as fast as the wall clock."""
 
     def __init__(self, factor: float = 1.0) -> None:
+        self.name = "realtime" if factor == 1.0 else f"{factor:g}x"
         self.factor = factor
         self._origin_wall = time.perf_counter()
         self._origin_ns = 0
-
-    @property
-    def name(self) -> str:
-        """``realtime``, or the factor as in ``4x``."""
-        return "realtime" if self.factor == 1.0 else f"{self.factor:g}x"
 
     def start(self, t_ns: int) -> None:
         """Take the present wall time as ``t_ns``."""
@@ -80,32 +66,19 @@ class RealTime:
         return max(now_ns, self._origin_ns + round(wall * self.factor * 1e9))
 
 
-class Paused:
+class Paused(Pace):
     """Simulation time stands still until the pace is changed."""
 
     name = "paused"
-
-    def start(self, t_ns: int) -> None:
-        """Do nothing: there is no time to measure."""
 
     def wait_until(self, t_ns: int, wake: Event) -> bool:  # noqa: ARG002
         """Sleep until ``wake`` is set, or for a moment, after which an interruption is noticed."""
         wake.wait(PAUSE_S)
         return False
 
-    def elapsed_ns(self, now_ns: int) -> int:
-        """Return ``now_ns``."""
-        return now_ns
-
 
 def parse_pace(text: str) -> Pace:
-    """Return the pace called ``virtual``, ``realtime``, or a factor such as ``4x``.
-
-    Raises
-    ------
-    AirhiltError
-        It is none of these.
-    """
+    """Return the pace called ``virtual``, ``realtime``, or a factor such as ``4x``."""
     if text == "virtual":
         return Virtual()
     if text == "realtime":

@@ -6,16 +6,9 @@ from collections.abc import Callable
 
 
 class DeferredBytes:
-    """Bytes that are made when somebody reads them, and then kept.
+    """Bytes of a known number that are made when somebody reads them, and then kept.
 
     ``bytes(payload)`` and ``len(payload)`` are right for these and for `bytes`.
-
-    Parameters
-    ----------
-    size
-        Their number, which is known before.
-    make
-        Returns them.
     """
 
     def __init__(self, size: int, make: Callable[[], bytes]) -> None:

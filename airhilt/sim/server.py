@@ -5,6 +5,7 @@ from __future__ import annotations
 from array import array
 from collections import Counter, deque
 from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 from airhilt.errors import WorkerError
@@ -38,15 +39,9 @@ class Server:
     later. With a latency that is known beforehand the result is only collected when it is due,
     so the simulation goes on while the worker computes.
 
-    Parameters
-    ----------
-    deliver
-        Called with each output at the time it leaves the worker.
-    done
-        Called with the record of each finished step.
-    lost
-        Called once when the worker is lost, with the cause, and true if that is of the machine;
-        the worker is never called again.
+    ``deliver`` is called with each output at the time it leaves the worker, ``done`` with the
+    record of each finished step, and ``lost`` once when the worker is lost, with the cause, and
+    true if that is of the machine; the worker is never called again.
     """
 
     def __init__(
@@ -65,6 +60,8 @@ class Server:
         self.offered: Counter[str] = Counter()
         self.latencies_ns = array("q")
         self.is_lost = False
+        self.in_hand: StepRecord | None = None
+        """Step that is not finished yet."""
         self._director = director
         self._endpoint = endpoint
         self._latency = latency
@@ -75,7 +72,6 @@ class Server:
         self._busy = False
         self._seq = 0
         self._wake_ns: int | None = None
-        self._in_hand: StepRecord | None = None
 
     def offer(self, item: Input, policy: Policy) -> None:
         """Queue an input that has reached the worker now."""
@@ -94,10 +90,6 @@ class Server:
             self.is_lost = True
             self._waiting.clear()
             self._lost(cause, is_of_machine)
-
-    def unfinished(self) -> StepRecord | None:
-        """Return the step in hand, if there is one."""
-        return self._in_hand
 
     def _replace_older(self, item: Input) -> bool:
         """Put an input in the place of the one of its key that waits, if there is one.
@@ -137,39 +129,32 @@ class Server:
         lasted_ns = None if begun_ns is None else now_ns - begun_ns
         known_ns = self._latency.known_ns(seq, lasted_ns)
         t_in_ns = inputs[0].t_in_ns if inputs else now_ns
-        self._in_hand = step = StepRecord(
+        self.in_hand = step = StepRecord(
             self.name, seq, t_in_ns, now_ns, known_ns or 0, 0.0, 0, finished=False
         )
         if known_ns is None:
-            self._director.at(now_ns, lambda: self._settle(pending, step), Priority.SETTLE)
+            due_ns, priority = now_ns, Priority.SETTLE
         else:
-            due_ns = now_ns + known_ns
-            self._director.at(due_ns, lambda: self._collect_due(pending, step), Priority.RESULT)
+            due_ns, priority = now_ns + known_ns, Priority.RESULT
+        collect = partial(self._collect, pending, step, is_known=known_ns is not None)
+        self._director.at(due_ns, collect, priority)
 
-    def _settle(self, pending: Pending, step: StepRecord) -> None:
-        """Wait for a step whose latency only its result tells."""
-        reply = self._collect(pending)
-        if reply is None:
-            return
-        latency_ns = self._latency.settled_ns(reply.compute_s, len(reply.outputs))
-        self._in_hand = settled = step._replace(latency_ns=latency_ns)
-        self._director.at(
-            step.t_start_ns + latency_ns, lambda: self._finish(reply, settled), Priority.RESULT
-        )
-
-    def _collect_due(self, pending: Pending, step: StepRecord) -> None:
-        reply = self._collect(pending)
-        if reply is not None:
-            self._finish(reply, step)
-
-    def _collect(self, pending: Pending) -> Reply | None:
+    def _collect(self, pending: Pending, step: StepRecord, *, is_known: bool) -> None:
+        """Wait for the result of a step, which may be what tells its latency."""
         if self.is_lost:
-            return None
+            return
         try:
-            return pending.result()
+            reply = pending.result()
         except WorkerLost as lost:
             self.lose(str(lost), lost.is_of_machine)
-            return None
+            return
+        if is_known:
+            self._finish(reply, step)
+            return
+        latency_ns = self._latency.settled_ns(reply.compute_s, len(reply.outputs))
+        self.in_hand = settled = step._replace(latency_ns=latency_ns)
+        due_ns = step.t_start_ns + latency_ns
+        self._director.at(due_ns, partial(self._finish, reply, settled), Priority.RESULT)
 
     def _finish(self, reply: Reply, step: StepRecord) -> None:
         if self.is_lost:
@@ -183,7 +168,7 @@ class Server:
         )
         self.latencies_ns.append(done.latency_ns)
         self._done(done)
-        self._in_hand = None
+        self.in_hand = None
         for output in reply.outputs:
             self._send(output, step.t_start_ns)
         if self._waiting:

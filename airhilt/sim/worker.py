@@ -14,10 +14,7 @@ Policy = Literal["fifo", "latest", "batch"]
 class WorkerLost(Exception):
     """The worker died, hung or raised; the text says which and when.
 
-    Parameters
-    ----------
-    is_of_machine
-        True if the cause lies in the machine, not in the worker.
+    ``is_of_machine`` is true if the cause lies in the machine, not in the worker.
     """
 
     def __init__(self, text: str, is_of_machine: bool = False) -> None:
@@ -114,12 +111,7 @@ class Pending(Protocol):
     def result(self) -> Reply:
         """Wait for the reply.
 
-        Raises
-        ------
-        WorkerLost
-            None came.
-        airhilt.errors.WorkerError
-            It broke the contract.
+        WorkerLost says that none came, WorkerError that it broke the contract.
         """
         ...
 

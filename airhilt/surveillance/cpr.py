@@ -25,13 +25,9 @@ class CprPosition(NamedTuple):
     odd: bool
     surface: bool = False
 
-    @property
-    def span_deg(self) -> float:
-        """Angle that the zones of the format divide, in degrees."""
-        return _span_deg(self.surface)
-
 
 def _span_deg(surface: bool) -> float:
+    """Return the angle that the zones of a format divide, in degrees."""
     return 90.0 if surface else 360.0
 
 
@@ -77,7 +73,7 @@ def decode_local(position: CprPosition, reference: tuple[float, float]) -> tuple
     The reference must lie within 180 NM of the position, in the surface format within 45 NM
     (A.1.7).
     """
-    span_deg, odd = position.span_deg, position.odd
+    span_deg, odd = _span_deg(position.surface), position.odd
     d_lat = _latitude_zone_deg(odd, span_deg)
     latitude = _near(position.latitude / BITS, d_lat, reference[0])
     d_lon = _longitude_zone_deg(latitude, odd, span_deg)
@@ -101,7 +97,7 @@ def decode_global(
     that the two positions lie on different sides of a change of NL, and that another pair is needed
     (A.1.7.7, A.1.7.8).
     """
-    span_deg = even.span_deg
+    span_deg = _span_deg(even.surface)
     j = math.floor((59 * even.latitude - 60 * odd.latitude) / BITS + 0.5)
     lat_even, lat_odd = (
         _solution(span_deg / count * (j % count + position.latitude / BITS), span_deg, receiver[0])

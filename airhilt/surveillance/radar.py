@@ -50,8 +50,9 @@ from airhilt.geodesy.relative_motion import Kinematics
 from airhilt.geodesy.wgs84 import (
     MEAN_RADIUS_M,
     Place,
-    Vector,
+    dot,
     earth_centred,
+    horizontal_axes,
     onward,
     vertical,
 )
@@ -196,34 +197,20 @@ class Antenna:
         self.latitude_rad = latitude_rad
         self.longitude_rad = longitude_rad
         self.altitude_m = altitude_m
-        self._place = _place(latitude_rad, longitude_rad, altitude_m)
-        sin_lat, cos_lat = math.sin(latitude_rad), math.cos(latitude_rad)
-        sin_lon, cos_lon = math.sin(longitude_rad), math.cos(longitude_rad)
-        self._east = (-sin_lon, cos_lon, 0.0)
-        self._north = (-sin_lat * cos_lon, -sin_lat * sin_lon, cos_lat)
-        self._up = vertical((latitude_rad, longitude_rad))
+        place = (latitude_rad, longitude_rad)
+        self._place = earth_centred(place, altitude_m)
+        self._axes = (*horizontal_axes(place), vertical(place))
 
     def to(self, target: Kinematics) -> LineOfSight:
         """Return the line of sight to a target."""
-        x, y, z = _place(target.latitude_rad, target.longitude_rad, target.altitude_m)
+        x, y, z = earth_centred((target.latitude_rad, target.longitude_rad), target.altitude_m)
         line = (x - self._place[0], y - self._place[1], z - self._place[2])
-        east, north, up = (_dot(line, axis) for axis in (self._east, self._north, self._up))
+        east, north, up = (dot(line, axis) for axis in self._axes)
         return LineOfSight(
             math.hypot(east, north, up),
             math.atan2(east, north) % math.tau,
             math.atan2(up, math.hypot(east, north)),
         )
-
-
-def _place(latitude_rad: float, longitude_rad: float, altitude_m: float) -> Vector:
-    place = (latitude_rad, longitude_rad)
-    x, y, z = earth_centred(place)
-    up_x, up_y, up_z = vertical(place)
-    return x + altitude_m * up_x, y + altitude_m * up_y, z + altitude_m * up_z
-
-
-def _dot(one: Vector, other: Vector) -> float:
-    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
 
 
 def plot_place(info: RadarInfo, plot: RadarPlot) -> tuple[Place, float]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -87,16 +86,7 @@ class Receiver:
 
     A report needs a velocity, which the surface format brings along, and a decoded position. The
     first position takes an even and an odd squitter of one format, later ones are decoded from the
-    one before.
-
-    Attributes
-    ----------
-    site
-        Place of the antenna.
-    range_m
-        Greatest distance at which a squitter is received.
-    ground_m
-        Altitude above which heights for the radio horizon count.
+    one before. Heights for the radio horizon count above ``ground_m``.
     """
 
     name: str
@@ -154,46 +144,3 @@ class Receiver:
             site = (self.site.latitude_rad / DEGREE, self.site.longitude_rad / DEGREE)
             heard.position_deg = cpr.decode_global(even, odd, position.odd, site)
             heard.position_ns = t_in_ns
-
-
-class Reception:
-    """Several receivers together, with losses and outages.
-
-    Parameters
-    ----------
-    receivers
-        The receivers, in the order in which they are asked.
-    loss_probability
-        Probability that a squitter is lost on its way.
-    outages_ns
-        Intervals in which nothing is received.
-    """
-
-    def __init__(
-        self,
-        receivers: Sequence[Receiver],
-        loss_probability: float,
-        outages_ns: Sequence[tuple[int, int]],
-    ) -> None:
-        self._receivers = receivers
-        self._loss_probability = loss_probability
-        self._outages_ns = outages_ns
-
-    def receive(
-        self,
-        sender: Transponder,
-        squitter: Squitter,
-        state: Kinematics,
-        t_ns: int,
-    ) -> Decoded | None:
-        """Return the state vector that the first receiver in view of the sender completes.
-
-        The draws do not depend on what is received, so an outage changes nothing after it.
-        """
-        lost = sender.generator.random() < self._loss_probability
-        if lost or any(begin <= t_ns < end for begin, end in self._outages_ns):
-            return None
-        for receiver in self._receivers:
-            if receiver.in_view(state):
-                return receiver.decode(sender, squitter, t_ns)
-        return None

@@ -44,22 +44,17 @@ class SensitivityLevel(NamedTuple):
     alim_m: float
 
 
-def _thresholds(tau_s: float, dmod_nm: float, zthr_ft: float) -> Thresholds:
-    return Thresholds(tau_s, dmod_nm * NAUTICAL_MILE, zthr_ft * FOOT)
-
-
 def _row(
     level: int,
     traffic: tuple[float, float, float],
     resolution: tuple[float, float, float] | None,
     alim_ft: float,
 ) -> SensitivityLevel:
-    return SensitivityLevel(
-        level,
-        _thresholds(*traffic),
-        None if resolution is None else _thresholds(*resolution),
-        alim_ft * FOOT,
-    )
+    def thresholds(tau_s: float, dmod_nm: float, zthr_ft: float) -> Thresholds:
+        return Thresholds(tau_s, dmod_nm * NAUTICAL_MILE, zthr_ft * FOOT)
+
+    advisory = None if resolution is None else thresholds(*resolution)
+    return SensitivityLevel(level, thresholds(*traffic), advisory, alim_ft * FOOT)
 
 
 _LEVEL_2 = _row(2, (20, 0.30, 850), None, 300)
@@ -142,12 +137,7 @@ def alert(motion: Relative, gap_m: float, gap_rate_m_s: float, own: Own) -> Aler
 def alert_at(motion: RangeMotion, gap_m: float, gap_rate_m_s: float, own: Own) -> Alert | None:
     """Return the alert that TCAS II on the own aircraft gives at this instant; None if none.
 
-    Parameters
-    ----------
-    motion
-        Range of the intruder.
-    gap_m, gap_rate_m_s
-        The intruder's altitude less the own one, and its rate of change.
+    The gap is the intruder's altitude less the own one.
     """
     if own.height_m < TRAFFIC_INHIBITED_BELOW_M:
         return None

@@ -69,17 +69,10 @@ def select(
     required: Sense | None,
     may_descend: bool,
 ) -> Resolution:
-    """Return the first advisory against an intruder.
+    """Return the first advisory against an intruder, by the time to the closest approach.
 
-    Parameters
-    ----------
-    time_s
-        Time to the closest approach.
-    required
-        Sense that the coordination with the intruder, or an advisory in force, leaves; None for
-        either.
-    may_descend
-        False near the ground: of a sense that is required, only levelling off is left then.
+    The coordination with the intruder, or an advisory in force, may leave only the ``required``
+    sense. Who may not descend, near the ground, is left to level off where that is required.
     """
     sense = required or _best_sense(own, intruder, time_s, alim_m)
     if sense == "descend" and not may_descend:

@@ -93,14 +93,7 @@ class SurfaceRate:
 class Transponder:
     """Encodes position and velocity with the errors of the carrier's navigation.
 
-    Parameters
-    ----------
-    icao24
-        24-bit address in hexadecimal.
-    nacp, nacv
-        Navigation accuracy categories, from which the errors are drawn.
-    generator
-        Source of all random numbers of this transponder.
+    The errors are drawn from its generator, by the accuracy categories NACp and NACv.
     """
 
     def __init__(

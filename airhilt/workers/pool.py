@@ -192,7 +192,7 @@ class WorkerPool:
 
     def unfinished(self) -> list[StepRecord]:
         """Return the steps in hand."""
-        steps = [server.unfinished() for server in self.servers.values()]
+        steps = [server.in_hand for server in self.servers.values()]
         return [step for step in steps if step is not None]
 
 

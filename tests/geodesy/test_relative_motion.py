@@ -111,18 +111,6 @@ def test_the_range_rate_is_that_of_two_that_fly_along_geodesics(
 
 
 @thoroughly
-@given(pairs(least_m=1_000.0, most_m=20_000.0))
-def test_the_velocity_is_how_the_position_changes(pair: tuple[Mover, Mover, float, float]) -> None:
-    own, other, _, _ = pair
-    step_s = 0.05
-    before, after = (relative(own.after(t), other.after(t)) for t in (-step_s, step_s))
-    seen = relative(own, other)
-    north = (after.north_m - before.north_m) / (2.0 * step_s)
-    east = (after.east_m - before.east_m) / (2.0 * step_s)
-    assert math.hypot(north - seen.velocity_north_m_s, east - seen.velocity_east_m_s) < 2.0
-
-
-@thoroughly
 @given(pairs(), st.floats(0.0, 120.0))
 def test_flying_straight_on_leads_where_the_geodesics_lead(
     pair: tuple[Mover, Mover, float, float], time_s: float
@@ -240,18 +228,6 @@ def test_the_time_to_loss_agrees_with_sampling(
         assert margin(loss_s * (1.0 - 1e-6) - 1e-6) >= -1e-4
     if lost:
         assert lost[0] - loss_s <= 0.5 or all(margin(t) < 1e-6 for t in (loss_s, loss_s + 1e-3))
-
-
-@thoroughly
-@given(motions, profiles(), profiles(), minima)
-def test_both_lose_separation_at_the_same_time(
-    motion: Relative, own: VerticalProfile, other: VerticalProfile, limits: Minima
-) -> None:
-    seen_back = Relative(*(-x for x in motion))
-    here = time_to_loss_s(motion, own, other, limits)
-    there = time_to_loss_s(seen_back, other, own, limits)
-    assert (here is None) == (there is None)
-    assert here is None or here == pytest.approx(there, abs=1e-9)
 
 
 LIMITS = Minima(9_260.0, 300.0)

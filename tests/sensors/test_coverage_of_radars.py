@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import math
-import statistics
 from typing import Any
 
 import pytest
@@ -11,7 +9,7 @@ from geographiclib.geodesic import Geodesic
 
 from airhilt import load
 from airhilt.messages import RadarKind, RadarPlot, SurfaceTrack
-from airhilt.scenario.models import AircraftSpec, Radar, SurfaceSurveillance
+from airhilt.scenario.models import Radar, SurfaceSurveillance
 from airhilt.sensors import radar, surface
 from airhilt.sensors.base import SensorType
 from airhilt.surveillance.radar import Antenna
@@ -107,28 +105,3 @@ def test_over_an_airport_radar_sees_up_to_200_ft_and_transponders_are_located_in
             field = Field()
             tracks = field.seen(surface.SENSOR, field.state(1_000.0, height_ft * FOOT), 120.0)
             assert {track.kind for track in tracks} == kinds
-
-
-@pytest.mark.parametrize(("north_m_s", "east_m_s"), [(0.0, 40.0), (-30.0, 0.0), (20.0, -35.0)])
-def test_a_target_on_an_airport_is_shown_with_its_name_its_speed_and_its_way(
-    north_m_s: float, east_m_s: float
-) -> None:
-    field = Field()
-    state = field.state(1_000.0, 500.0 * FOOT, north_m_s, east_m_s)
-    spec = field.scenario.actors[0]
-    assert isinstance(spec, AircraftSpec)
-    tracks = [
-        track
-        for track in field.seen(surface.SENSOR, state, 60.0)
-        if isinstance(track, SurfaceTrack)
-    ]
-    assert len(tracks) > 30
-    assert {(track.icao24, track.callsign) for track in tracks} == {(spec.icao24, spec.callsign)}
-    assert {track.on_ground for track in tracks} == {False}
-    speeds = [track.ground_speed_kt * 1852.0 / 3600.0 for track in tracks]
-    assert statistics.mean(speeds) == pytest.approx(math.hypot(north_m_s, east_m_s), abs=2.0)
-    course_deg = math.degrees(math.atan2(east_m_s, north_m_s))
-    off_deg = [math.remainder((track.track_deg or 0.0) - course_deg, 360.0) for track in tracks]
-    assert statistics.mean(off_deg) == pytest.approx(0.0, abs=4.0)
-    altitude_ft = state.altitude_m / FOOT
-    assert all(abs((track.altitude_ft or 0.0) - altitude_ft) <= 12.5 for track in tracks)

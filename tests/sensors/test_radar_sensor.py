@@ -332,16 +332,8 @@ def intruder_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
-def test_the_intruder_of_s02c_is_seen_as_primary_only(intruder_run: Path) -> None:
-    plots = radar_messages(intruder_run)
-    squawking = [plot for plot in plots if plot.kind != "primary"]
-    scenario = load("s02c_intruder_crossing")
-    equipped = [actor for actor in scenario.actors if actor.transponder.equipped]
-    assert len({plot.mode_a for plot in squawking} - {None}) == len(equipped) < len(scenario.actors)
-    assert len([plot for plot in plots if plot.kind == "primary"]) >= 4
-
-
 def test_a_replay_gives_the_same_plots(intruder_run: Path) -> None:
+    assert radar_messages(intruder_run)
     assert replay(intruder_run).identical
 
 
@@ -356,9 +348,3 @@ def test_a_radar_that_cannot_be_is_refused(radars: list[Any], problem: str) -> N
     document = load("s02a_headon").model_dump(mode="json") | {"radars": radars}
     with pytest.raises(ScenarioError, match=problem):
         load_text(json.dumps(document), "headon")
-
-
-def test_there_is_no_radar_unless_it_is_asked_for(encounter: Scenario, tmp_path: Path) -> None:
-    short = encounter.model_copy(update={"duration_s": 6.0})
-    run(short, Options(out=tmp_path / "run", latency="fixed", speech=False))
-    assert not [m for m in read_log(tmp_path / "run" / "log.mcap") if m.key.startswith("radar/")]

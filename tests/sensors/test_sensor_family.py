@@ -101,15 +101,6 @@ def test_a_sensor_of_another_package_is_logged_with_its_schema(
     assert "occupied" in json.loads(summary.schemas[schema_id].data)["properties"]
 
 
-def test_it_reaches_a_worker_that_asks_for_its_key(
-    installed: Path, scenario: Scenario, tmp_path: Path
-) -> None:
-    worker = Subscriber()
-    go(scenario, tmp_path / "run", worker)
-    assert [item.key for item in worker.inputs] == ["loop/1"] * len(worker.inputs)
-    assert len(worker.inputs) >= 5
-
-
 def test_raw_bytes_reach_the_worker_with_their_header(
     installed: Path, scenario: Scenario, tmp_path: Path
 ) -> None:
@@ -190,11 +181,6 @@ def test_run_json_names_the_package_of_the_sensor(
     go(scenario, tmp_path / "run")
     info = RunFolder(tmp_path / "run").info()
     assert info.other_packages == {"sensor loop": "my-package 1.0"}
-
-
-def test_it_comes_again_in_a_replay(installed: Path, scenario: Scenario, tmp_path: Path) -> None:
-    assert go(scenario, tmp_path / "run")
-    assert replay(tmp_path / "run").identical
 
 
 def test_it_rests_where_the_scenario_does_not_ask_for_it(

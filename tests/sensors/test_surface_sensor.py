@@ -12,12 +12,10 @@ from airhilt import load
 from airhilt.cosim.replay import replay
 from airhilt.cosim.simulation import run
 from airhilt.errors import AirhiltError, ScenarioError
-from airhilt.geodesy.wgs84 import distance_m
-from airhilt.messages import ActorTruth, SurfaceTrack
+from airhilt.messages import SurfaceTrack
 from airhilt.options import Options
 from airhilt.record import read_log
 from airhilt.scenario import Scenario
-from airhilt.units import DEGREE
 from airhilt.world.loading import load_text
 
 SECONDS = 40.0
@@ -60,30 +58,6 @@ def flown(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("surface") / "run"
     assert go(airport(surface_surveillance={}), folder, assistant="none")
     return folder
-
-
-def truth_of(folder: Path, actor: str) -> dict[int, ActorTruth]:
-    return {
-        m.t_ns: ActorTruth.model_validate_json(m.data)
-        for m in read_log(folder / "log.mcap")
-        if m.key == f"truth/state/{actor}"
-    }
-
-
-def test_a_truck_without_a_transponder_is_a_target_without_a_name(flown: Path) -> None:
-    (where,) = {(t.latitude_deg, t.longitude_deg) for t in truth_of(flown, "OPS1").values()}
-    unnamed = [track for track in tracks_in(flown) if track.callsign is None]
-    place = (where[0] * DEGREE, where[1] * DEGREE)
-    nearby = [
-        track
-        for track in unnamed
-        if distance_m((track.latitude_deg * DEGREE, track.longitude_deg * DEGREE), place) < 25.0
-    ]
-    assert len(nearby) > 0.7 * SECONDS
-    assert {(track.kind, track.icao24, track.on_ground) for track in nearby} == {
-        ("primary", None, None)
-    }
-    assert {(track.ground_speed_kt, track.track_deg) for track in nearby} == {(0.0, None)}
 
 
 def test_a_replay_shows_the_same(flown: Path) -> None:

@@ -219,7 +219,9 @@ def test_targets_are_numbered_from_1_and_those_that_have_ended_are_left_out() ->
     gone = watch.add(AIRCRAFT, watch.out_from_runway_01(1.0))
     watch.add(TRUCK, watch.out_from_runway_01(0.5))
     gone.ended = "collided"
-    assert {(track.track, track.callsign) for track in watch.go()} == {(1, TRUCK)}
+    address = watch.actors[TRUCK].spec.icao24
+    shown = {(track.track, track.callsign, track.icao24) for track in watch.go()}
+    assert shown == {(1, TRUCK, address)}
 
 
 def test_a_target_is_shown_where_it_is_at_the_instant_of_the_measurement() -> None:
@@ -247,6 +249,7 @@ def test_an_altitude_is_that_of_a_transponder_in_the_air_to_the_nearest_25_ft() 
     watch = Watch()
     watch.add(AIRCRAFT, place, 150.0, equipped=False)
     assert set(altitudes(watch.go())) == {(None, None)}
+    assert {(track.icao24, track.callsign) for track in watch.tracks} == {(None, None)}
 
 
 @pytest.mark.parametrize(("speed_m_s", "stands"), [(0.05, True), (0.06, False)])

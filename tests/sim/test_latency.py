@@ -86,10 +86,6 @@ def test_a_lognormal_latency_has_the_median_that_is_given() -> None:
     assert statistics.median(latencies) == pytest.approx(5.9e9, rel=0.05)
 
 
-def test_a_measured_latency_is_not_known_beforehand() -> None:
-    assert drawn("measured", steps=2) == [None, None]
-
-
 def test_fixed_is_what_was_given_or_else_what_the_worker_declares() -> None:
     assert drawn("fixed:0.25", steps=2) == [250_000_000] * 2
     assert drawn("fixed", steps=2) == [400_000_000] * 2
@@ -117,10 +113,6 @@ def test_lognormal_latencies_differ_from_step_to_step_about_the_declared_median(
     latencies = drawn("lognormal", steps=1000)
     assert len(set(latencies)) > 990
     assert statistics.median(latencies) == pytest.approx(0.4e9, rel=0.05)
-
-
-def test_a_lognormal_without_spread_is_its_median() -> None:
-    assert drawn("lognormal", steps=3, sigma=0.0) == [400_000_000] * 3
 
 
 def test_a_replay_gives_what_the_earlier_run_had() -> None:

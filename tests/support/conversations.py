@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection
+from dataclasses import fields
 from types import SimpleNamespace
 from typing import Any, TypeVar
 
@@ -11,6 +12,7 @@ from airhilt.scenario.failures import EffectiveLine, apply_failures
 from airhilt.scenario.models import Scenario
 from airhilt.seats import Seats
 from airhilt.sensors.radio.backends import RadioBackend, TextRadio
+from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.conversation import RadioConversation
 from airhilt.sensors.radio.hearing import Heard, HearingModel
 from airhilt.sensors.radio.stations import Stations
@@ -42,6 +44,11 @@ READBACK = line(
     "readback", 16, "AAL123", TOWER,
     "Climb and maintain flight level three three zero, American one two three.",
 )  # fmt: skip
+
+
+def radio_context(**given: Any) -> RadioContext:
+    """Return the context of a radio that uses only what is given."""
+    return RadioContext(**{each.name: None for each in fields(RadioContext)} | given)
 
 
 class World:
@@ -89,7 +96,7 @@ class World:
             self.director,
         )
         self.seats.open()
-        self.conversation = RadioConversation(
+        context = RadioContext(
             self.director,
             self.scenario,
             apply_failures(self.scenario),
@@ -100,7 +107,9 @@ class World:
             self,
             self.publish,
             self.seats,
-            hearing=hearing if heard is None else Scripted(heard),
+        )
+        self.conversation = RadioConversation(
+            context, hearing=hearing if heard is None else Scripted(heard)
         )
         self.conversation.start()
 

@@ -82,6 +82,9 @@ def make_runway(ident: str, right_m: float = 0.0) -> RunwayEnd:
     )
 
 
+RUNWAY = make_runway("01")
+
+
 def on_final(
     name: str,
     *,

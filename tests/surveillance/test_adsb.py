@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from airhilt.geodesy.relative_motion import relative
 from airhilt.surveillance import transponders
-from airhilt.surveillance.receivers import Receiver, Reception
+from airhilt.surveillance.receivers import Receiver
 from airhilt.surveillance.squitters import (
     NACP_95_PERCENT_M,
     movement_kt,
@@ -194,15 +194,6 @@ def test_the_first_report_needs_an_even_and_an_odd_position_and_a_velocity() -> 
     assert report.longitude_deg == pytest.approx(8.0, abs=1e-3)
 
 
-def test_a_velocity_and_positions_of_one_format_are_not_enough() -> None:
-    sender, station = transponder(), receiver()
-    station.decode(sender, sender.velocity(HERE), 0)
-    for n in range(6):
-        squitter = sender.position(HERE, n)
-        if not squitter.position.odd:
-            assert station.decode(sender, squitter, n) is None
-
-
 def test_a_pair_is_decoded_together_up_to_its_longest_time(subtests: pytest.Subtests) -> None:
     """DO-260B, A.1.7.7 and A.1.7.8: 10 s in the air; 25 s on the surface above 25 kt."""
     for on_surface, apart_ns, is_decoded in [
@@ -247,14 +238,6 @@ def test_callsign_and_category_are_known_once_an_identification_came_through() -
     assert (report.callsign, report.emitter_category) == ("AAL123", "A3")
 
 
-def test_a_receiver_hears_within_its_range_and_not_beyond() -> None:
-    station = receiver(range_m=100_000.0)
-    north = 47.0 * DEGREE + np.array([99_000.0, 101_000.0]) / 6.37e6
-    near, far = (replace(HERE, latitude_rad=float(lat)) for lat in north)
-    assert station.in_view(near)
-    assert not station.in_view(far)
-
-
 @pytest.mark.parametrize(("altitude_ft", "horizon_nm"), [(1_000, 39), (10_000, 123), (35_000, 230)])
 def test_a_receiver_hears_what_is_above_the_radio_horizon(
     altitude_ft: int, horizon_nm: int
@@ -265,16 +248,6 @@ def test_a_receiver_hears_what_is_above_the_radio_horizon(
         away = nautical_miles * NAUTICAL_MILE / 6.37e6
         state = replace(HERE, latitude_rad=HERE.latitude_rad + away, altitude_m=altitude_ft * FOOT)
         assert station.in_view(state) == heard
-
-
-@pytest.mark.parametrize(("away_m", "heard"), [(5_750.0, True), (5_950.0, False)])
-def test_an_antenna_on_the_ground_hears_one_of_2_m_within_5_8_km(
-    away_m: float, heard: bool
-) -> None:
-    """The root of twice the height and 4/3 of the Earth's radius."""
-    station = Receiver("field", FixedSite(47.0 * DEGREE, 8.0 * DEGREE, 400.0), EVERYWHERE, 400.0)
-    there = replace(HERE, latitude_rad=HERE.latitude_rad + away_m / 6.37e6, altitude_m=400.0)
-    assert station.in_view(there) is heard
 
 
 # --- on the surface -------------------------------------------------------------------------
@@ -419,70 +392,3 @@ def test_who_has_moved_by_10_m_has_not_moved_by_more(
     monkeypatch.setattr(transponders, "horizontal_distance_m", lambda *_: moved_m)
     assert rate.is_stationary(STANDING, 30 * SECOND_NS) is stands
     assert not SurfaceRate().is_stationary(STANDING, 60 * SECOND_NS)
-
-
-def test_who_creeps_on_is_not_stationary() -> None:
-    rate = SurfaceRate()
-    assert not any(stationary(rate, 0.4 * t, t) for t in np.arange(0.0, 200.0, 0.5))
-
-
-# --- losses and outages ---------------------------------------------------------------------
-
-
-def heard_of(reception: Reception, squitters: int, t_ns: int = 0) -> list[Any]:
-    sender = transponder()
-    return [
-        reception.receive(sender, sender.velocity(HERE), HERE, t_ns)
-        or reception.receive(sender, sender.position(HERE, t_ns), HERE, t_ns)
-        for _ in range(squitters)
-    ]
-
-
-@pytest.mark.parametrize(
-    ("probability", "least", "most"), [(0.0, 1, 1), (0.3, 0.63, 0.77), (1.0, 0, 0)]
-)
-def test_squitters_are_lost_with_the_given_probability(
-    probability: float, least: float, most: float
-) -> None:
-    sender = transponder()
-    reception = Reception([receiver()], probability, [])
-    for _ in range(20):
-        reception.receive(sender, sender.velocity(HERE), HERE, 0)
-    for _ in range(20):
-        reception.receive(sender, sender.position(HERE, 0), HERE, 0)
-    heard = [
-        reception.receive(sender, sender.position(HERE, 0), HERE, 0) is not None
-        for _ in range(1000)
-    ]
-    assert least <= np.mean(heard) <= most
-
-
-def test_in_an_outage_nothing_is_received_and_after_it_all_is_as_if_it_had_not_been() -> None:
-    begin, end = 10 * SECOND_NS, 12 * SECOND_NS
-    without, with_outage = (
-        (transponder(), Reception([receiver()], 0.2, outages)) for outages in ([], [(begin, end)])
-    )
-    heard = {}
-    for name, (sender, reception) in (("without", without), ("with", with_outage)):
-        reports = []
-        for n in range(60):
-            t_ns = n * SECOND_NS // 2
-            reception.receive(sender, sender.velocity(HERE), HERE, t_ns)
-            decoded = reception.receive(sender, sender.position(HERE, t_ns), HERE, t_ns)
-            reports.append(decoded and (decoded.position_deg, decoded.altitude_ft, t_ns))
-        heard[name] = reports
-    assert heard["with"][20:24] == [None] * 4
-    assert any(heard["without"][20:24])
-    assert [r and r[0] for r in heard["with"][24:]] == [r and r[0] for r in heard["without"][24:]]
-    assert heard["with"][:20] == heard["without"][:20]
-
-
-def test_the_first_receiver_that_is_in_view_gives_the_report() -> None:
-    deaf, near = receiver("deaf", range_m=0.001, height_m=0.0), receiver("near")
-    deaf.site = FixedSite(10.0 * DEGREE, 8.0 * DEGREE)
-    decoded = [d for d in heard_of(Reception([deaf, near], 0.0, []), 3) if d is not None]
-    assert {d.receiver for d in decoded} == {"near"}
-
-
-def test_where_no_receiver_hears_there_is_no_report() -> None:
-    assert heard_of(Reception([], 0.0, []), 3) == [None] * 3

@@ -131,13 +131,6 @@ def test_there_are_59_zones_at_the_equator_and_one_at_the_poles() -> None:
     assert [cpr.longitude_zones(lat) for lat in (0.0, 90.0, -90.0)] == [59, 1, 1]
 
 
-@thoroughly
-@given(latitudes)
-def test_longitude_zones_are_the_same_north_and_south(latitude: float) -> None:
-    assert cpr.longitude_zones(latitude) == cpr.longitude_zones(-latitude)
-    assert 1 <= cpr.longitude_zones(latitude) <= 59
-
-
 def test_two_latitudes_either_side_of_a_change_of_zones_are_not_decoded_together() -> None:
     boundary = 10.4704713
     even = cpr.encode(boundary - 1e-3, 8.0, odd=False)

@@ -31,7 +31,8 @@ from airhilt.engine_families import RECOGNISERS
 from airhilt.metrics.words import in_words
 from airhilt.phraseology import parse_call
 from airhilt.scenario.radio_profiles import PROFILES
-from airhilt.sensors.radio.channel import BackgroundNoise, VhfChannel
+from airhilt.sensors.radio.channel import VhfChannel
+from airhilt.sensors.radio.on_air import BackgroundNoise
 
 sys.path.append(str(Path(__file__).parents[1]))
 

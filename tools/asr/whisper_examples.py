@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 from airhilt.assistant.asr.engines.whisper import hot_words
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.scenario.radio_profiles import PROFILES
-from airhilt.sensors.radio.channel import BackgroundNoise, VhfChannel
+from airhilt.sensors.radio.channel import VhfChannel
+from airhilt.sensors.radio.on_air import BackgroundNoise
 from eval_asr import SpokenCall
 
 PROFILE_NAMES = ("vhf", "vhf", "vhf_833", "fading", "noisy_cockpit", "line")

@@ -3,37 +3,40 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
-from airhilt.phraseology import Instruction, Style
+from airhilt.phraseology import Instruction
 from airhilt.phraseology.say import speak_callsign, speak_readback, speak_say_again
+from airhilt.sensors.radio.context import RadioContext
+from airhilt.sensors.radio.radio_call import RadioCall
 
 
-@dataclass(frozen=True, slots=True)
 class Answers:
-    """Words of answers, in one phraseology."""
+    """Words of answers, in the phraseology of the scenario."""
 
-    style: Style
+    def __init__(self, context: RadioContext) -> None:
+        self._stations = context.stations
+        self._style = context.radio.phraseology
 
     def readback(self, callsign: str, instructions: Sequence[Instruction]) -> str:
         """Return the readback of some instructions."""
-        return speak_readback(callsign, instructions, self.style)
+        return speak_readback(callsign, instructions, self._style)
 
-    def say_again(self, by: str | None, to: str | None) -> str:
-        """Return the request to repeat a call.
+    def readback_of(self, call: RadioCall, text: str, callsign: str) -> str:
+        """Return the readback of the words of a call."""
+        meant = self._stations.listener(call.frequency_khz).parse(text)
+        return self.readback(callsign, meant.instructions)
 
-        Parameters
-        ----------
-        by, to
-            Callsigns of the actor who asks and of the actor who is asked; None for a unit.
-        """
-        if by is not None:
-            return speak_say_again(by, self.style)
-        return "Say again." if to is None else f"{speak_callsign(to, self.style)}, say again."
+    def say_again(self, asking: str, asked: str) -> str:
+        """Return the request of an actor or a unit to another one to repeat a call."""
+        if self._stations.is_actor(asking):
+            return speak_say_again(asking, self._style)
+        if self._stations.is_actor(asked):
+            return f"{speak_callsign(asked, self._style)}, say again."
+        return "Say again."
 
     def negative(self, callsign: str, said: str) -> str:
         """Return the correction of a wrong readback: the call again, marked as such.
 
         "Negative" and "I say again" are those of ICAO Annex 10 volume II, 5.2.1.5.8.
         """
-        return f"{speak_callsign(callsign, self.style)}, negative. I say again. {said}"
+        return f"{speak_callsign(callsign, self._style)}, negative. I say again. {said}"

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, NamedTuple, Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,9 +21,7 @@ from scipy.fft import irfft, next_fast_len, rfft
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.errors import SpeechError
 from airhilt.scenario.radio_profiles import ChannelProfile
-
-BackgroundNoise = Literal["cockpit", "tower", "none"]
-"""Noise around the microphone."""
+from airhilt.sensors.radio.on_air import BackgroundNoise
 
 LEVEL_RMS = 0.1
 """RMS of active speech in the received audio: -20 dB of full scale, as ITU-T P.56 recommends."""
@@ -72,17 +70,9 @@ class Channel(Protocol):
     ) -> Audio:
         """Return the received audio of ``speech``; it is at least as long.
 
-        Parameters
-        ----------
-        snr_db
-            Signal-to-noise ratio; None leaves noise out.
-        others
-            Transmissions at the same time.
-        background
-            Noise around the speaker.
-        wet
-            Part of the channel in the sound; the rest is the voice as it was spoken. None: that of
-            the channel.
+        Without a ``snr_db`` it has no noise. ``others`` are on the air at the same time. ``wet`` is
+        the part of the channel in the sound (None: that of the channel); the rest is the voice as
+        it was spoken.
         """
         ...
 
@@ -137,10 +127,7 @@ class VhfChannel:
     ) -> Parts:
         """Return the parts of what is received, each as long as ``speech``.
 
-        Raises
-        ------
-        SpeechError
-            The speech is empty, or a sample or the ratio is no number.
+        A SpeechError says that the speech is empty, or a sample or the ratio is no number.
         """
         speech = _checked(speech)
         if snr_db is not None and not np.isfinite(snr_db):
@@ -207,12 +194,9 @@ class VhfChannel:
 
 
 def with_voice(heard: Audio, speech: Audio, wet: float) -> Audio:
-    """Return what is heard of a channel, mixed with the voice as it was spoken.
+    """Return what is heard of a channel, mixed with the voice as it was spoken, at the usual level.
 
-    Parameters
-    ----------
-    wet
-        Part of the channel, in [0, 1]; the rest is the voice, at the usual level.
+    ``wet`` is the part of the channel, in [0, 1].
     """
     if wet == 1.0:
         return heard

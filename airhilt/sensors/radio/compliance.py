@@ -7,11 +7,8 @@ from functools import partial
 
 from airhilt.commands import Command
 from airhilt.scenario.models import ScriptedCommand
-from airhilt.seats import Seats
+from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.radio_call import RadioCall
-from airhilt.sensors.radio.surroundings import RadioWorld
-from airhilt.sim import Director, Priority
-from airhilt.units import seconds_to_ns
 
 COMPLY_AFTER_S = 2.0
 """Time in s from taking a call to doing what was understood, where that is not what was said. The
@@ -21,10 +18,10 @@ same as the default of scripted commands."""
 class Compliance:
     """Lets actors do what calls make them do."""
 
-    def __init__(self, director: Director, world: RadioWorld, seats: Seats) -> None:
-        self._director = director
-        self._world = world
-        self._seats = seats
+    def __init__(self, context: RadioContext) -> None:
+        self._director = context.director
+        self._world = context.world
+        self._seats = context.seats
 
     def carry_out(self, call: RadioCall, actor: str) -> None:
         """Let an actor do what the script has for it in a call."""
@@ -49,8 +46,7 @@ class Compliance:
         """Let an actor carry out a command in time; a person is offered it at once instead."""
         if self._offer(scripted.actor, call.id, scripted.command):
             return
-        due_ns = self._director.now_ns + seconds_to_ns(scripted.delay_s)
-        self._director.at(due_ns, partial(self._do_on_condition, call, scripted), Priority.SCRIPT)
+        self._director.after(scripted.delay_s, partial(self._do_on_condition, call, scripted))
 
     def _do_on_condition(self, call: RadioCall, scripted: ScriptedCommand) -> None:
         def act() -> None:

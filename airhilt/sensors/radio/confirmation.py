@@ -6,12 +6,9 @@ from functools import partial
 
 from airhilt.messages import Advisory, Confirm
 from airhilt.sensors.radio.answers import Answers
-from airhilt.sensors.radio.radio_call import RadioCall
+from airhilt.sensors.radio.context import RadioContext
+from airhilt.sensors.radio.radio_call import RadioCall, Speakers
 from airhilt.sensors.radio.readback_policy import ReadbackPolicy
-from airhilt.sensors.radio.speakers import Speakers
-from airhilt.sensors.radio.stations import Stations
-from airhilt.sim import Director, Priority
-from airhilt.units import seconds_to_ns
 
 CONFIRM_AFTER_S = 3.0
 """Time in s from an advisory that asks to confirm a call until whoever is asked wants to speak: an
@@ -23,24 +20,12 @@ class Confirmations:
 
     Who is asked says the call again if it was its own, and else asks its speaker to. The other
     reads an instruction back as it has taken it. A call that was not taken is made once more.
-
-    Parameters
-    ----------
-    policy
-        Knows the readbacks in the script, and makes a call that was not taken once more.
     """
 
-    def __init__(
-        self,
-        director: Director,
-        stations: Stations,
-        answers: Answers,
-        speakers: Speakers,
-        policy: ReadbackPolicy,
-    ) -> None:
-        self._director = director
-        self._stations = stations
-        self._answers = answers
+    def __init__(self, context: RadioContext, speakers: Speakers, policy: ReadbackPolicy) -> None:
+        self._director = context.director
+        self._stations = context.stations
+        self._answers = Answers(context)
         self._speakers = speakers
         self._policy = policy
         self._asked: set[tuple[str, str]] = set()
@@ -59,8 +44,7 @@ class Confirmations:
         if call is None or asked is None:
             return
         self._asked.add(key)
-        due_ns = self._director.now_ns + seconds_to_ns(CONFIRM_AFTER_S)
-        self._director.at(due_ns, partial(self._confirm, call, asked), Priority.SCRIPT)
+        self._director.after(CONFIRM_AFTER_S, partial(self._confirm, call, asked))
 
     def _confirm(self, call: RadioCall, asked: str) -> None:
         """Let whoever is asked speak, unless the call is about to be made again anyway."""
@@ -112,30 +96,19 @@ class Confirmations:
         if before is not None and before.times_said:
             text = before.said
         else:
-            listens = self._stations.listener(call.frequency_khz)
-            meant = listens.parse(call.said, listens.callsigns, None).instructions
-            text = self._answers.readback(listener, meant)
-        readback = RadioCall(
-            f"{again.id}.readback",
-            call.frequency_khz,
-            listener,
-            call.speaker,
-            text,
-            in_reply_to=again,
-            is_repeated=False,
-        )
+            text = self._answers.readback_of(call, call.said, listener)
+        readback = again.reply("readback", listener, text, is_repeated=False)
         self._originals[readback.id] = call if before is None else before
         return readback
 
     def _question(self, call: RadioCall, asked: str, again: RadioCall) -> RadioCall:
         """Return the question to the speaker of a call, who answers by saying it again."""
-        actors = [name if self._stations.is_actor(name) else None for name in (asked, call.speaker)]
         return RadioCall(
             f"{again.id}.request",
             call.frequency_khz,
             asked,
             call.speaker,
-            self._answers.say_again(*actors),
+            self._answers.say_again(asked, call.speaker),
             in_reply_to=call,
             answer=again,
         )

@@ -8,7 +8,6 @@ from airhilt.sensors.radio.compliance import COMPLY_AFTER_S
 from airhilt.sensors.radio.on_air import Utterance
 from airhilt.sensors.radio.radio_call import RadioCall
 from airhilt.sensors.radio.stations import Stations
-from airhilt.world.actors.listening import Listener
 
 
 class ControllerCheck:
@@ -36,56 +35,35 @@ class ControllerCheck:
         if crew != instruction.addressed:
             instruction.withdrawn_for.add(crew)
             return instruction
-        if self._listener(readback).differs(said.text, right.text):
-            return self._correct(readback, instruction, right)
+        if self._stations.listener(readback.frequency_khz).differs(said.text, right.text):
+            instruction.withdrawn_for.add(crew)
+            return self._correct(readback, unit, right)
         return None
 
-    def _correct(self, readback: RadioCall, instruction: RadioCall, right: RadioLine) -> RadioCall:
+    def _correct(self, readback: RadioCall, unit: str, right: RadioLine) -> RadioCall:
         """Let a controller repeat what was read back wrongly, and the crew do that instead."""
-        crew, unit = readback.speaker, instruction.speaker
+        crew, scripted = readback.speaker, readback.scripted
         readback.withdrawn_for.add(crew)
-        instruction.withdrawn_for.add(crew)
-        correction = RadioCall(
-            f"{readback.id}.correction",
-            readback.frequency_khz,
-            unit,
-            crew,
-            self._answers.negative(crew, right.text),
-            self._commands_of_correction(readback, right),
-            in_reply_to=readback,
-        )
-        correction.answer = RadioCall(
-            f"{correction.id}.readback",
-            readback.frequency_khz,
-            crew,
-            unit,
-            self._text_of_second_readback(readback, right),
-            in_reply_to=correction,
-            is_repeated=False,
-        )
+        correction = readback.reply("correction", unit, self._answers.negative(crew, right.text))
+        correction.commands = self._commands_of_correction(readback, right)
+        if scripted is None:
+            text = self._answers.readback_of(readback, right.text, crew)
+        else:
+            text = scripted.declared.text
+        correction.answer = correction.reply("readback", crew, text, is_repeated=False)
         return correction
 
     def _commands_of_correction(
         self, readback: RadioCall, right: RadioLine
     ) -> tuple[ScriptedCommand, ...]:
         """Return what a correction makes a crew do: its commands in the script, or its words."""
-        crew, listens = readback.speaker, self._listener(readback)
+        crew, listens = readback.speaker, self._stations.listener(readback.frequency_khz)
         lines = [right] if readback.scripted is None else [right, readback.scripted.declared]
         in_script = tuple(
             command for line in lines for command in line.commands if command.actor == crew
         )
-        meant = listens.parse(right.text, listens.callsigns, None).instructions
+        meant = listens.parse(right.text).instructions
         return in_script or tuple(
             ScriptedCommand(actor=crew, command=command, delay_s=COMPLY_AFTER_S)
             for command in listens.commands_of(meant, self._stations.bound_runway(crew))
         )
-
-    def _text_of_second_readback(self, readback: RadioCall, right: RadioLine) -> str:
-        if readback.scripted is not None:
-            return readback.scripted.declared.text
-        listens = self._listener(readback)
-        meant = listens.parse(right.text, listens.callsigns, None).instructions
-        return self._answers.readback(readback.speaker, meant)
-
-    def _listener(self, call: RadioCall) -> Listener:
-        return self._stations.listener(call.frequency_khz)

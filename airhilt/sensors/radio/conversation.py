@@ -7,7 +7,6 @@ carries it, `Listeners` understand it, `Compliance` lets actors do what they und
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
 from functools import partial
 
 from airhilt.messages import (
@@ -23,33 +22,22 @@ from airhilt.messages import (
     SeatAction,
     Transcript,
 )
-from airhilt.scenario.failures import EffectiveLine
-from airhilt.scenario.models import RadioLine, Scenario
-from airhilt.seats import Seats
-from airhilt.sensors.base import Publish
+from airhilt.scenario.models import RadioLine
 from airhilt.sensors.radio.advisory_calls import AdvisoryCalls, AdvisoryChannel
-from airhilt.sensors.radio.answers import Answers
-from airhilt.sensors.radio.backends import RadioBackend
 from airhilt.sensors.radio.compliance import Compliance
 from airhilt.sensors.radio.confirmation import Confirmations
-from airhilt.sensors.radio.frequency_arbiter import GAP_S
+from airhilt.sensors.radio.context import RadioContext
+from airhilt.sensors.radio.frequency_arbiter import GAP_S, FrequencyArbiter
 from airhilt.sensors.radio.hearing import HearingModel
 from airhilt.sensors.radio.listeners import Listeners
 from airhilt.sensors.radio.microphones import Microphones
-from airhilt.sensors.radio.on_air import OnAir, Utterance
-from airhilt.sensors.radio.person_calls import PersonCalls
-from airhilt.sensors.radio.radio_call import RadioCall, calls_of
+from airhilt.sensors.radio.on_air import OnAir
+from airhilt.sensors.radio.person_calls import PersonCalls, RecognisedCall
+from airhilt.sensors.radio.radio_call import Speakers, calls_of
 from airhilt.sensors.radio.readback_policy import ReadbackPolicy
 from airhilt.sensors.radio.script import RadioScript
-from airhilt.sensors.radio.speakers import Speakers
-from airhilt.sensors.radio.spoken_calls import SpokenCalls
-from airhilt.sensors.radio.stations import Stations
-from airhilt.sensors.radio.stuck_microphones import StuckMicrophones
-from airhilt.sensors.radio.surroundings import RadioFailures, RadioWorld
-from airhilt.sensors.radio.transmissions import EndedTransmission, Transmissions
-from airhilt.sim import Director, Priority
+from airhilt.sensors.radio.transmissions import Transmissions
 from airhilt.sim.payload import Payload
-from airhilt.units import seconds_to_ns
 
 BLOCKED = "Your call was blocked: somebody else was on the air at the same time."
 """Notice to a person whose call nobody could understand."""
@@ -58,93 +46,46 @@ BLOCKED = "Your call was blocked: somebody else was on the air at the same time.
 class RadioConversation:
     """Lets the calls of a scenario happen.
 
-    Parameters
-    ----------
-    failures
-        Gets what the failures of the scenario do to the radio.
-    advisory_channel
-        Channel of the advisories to crews and drivers; None if they are heard in the cockpit.
-    hearing
-        Draws what people hear; None takes the model of `hearing` with the seed of the run.
-    seats
-        Seats of people: nobody else speaks or acts there.
+    Without a channel, advisories to crews and drivers are heard in the cockpit. Without a model of
+    hearing, that of `hearing` draws what people hear, with the seed of the run.
     """
 
     def __init__(
         self,
-        director: Director,
-        scenario: Scenario,
-        lines: Sequence[EffectiveLine],
-        stations: Stations,
-        backend: RadioBackend,
-        seed: int,
-        world: RadioWorld,
-        failures: RadioFailures,
-        publish: Publish,
-        seats: Seats,
+        context: RadioContext,
         advisory_channel: AdvisoryChannel | None = None,
         hearing: HearingModel | None = None,
     ) -> None:
-        radio = scenario.radio
-        self._director = director
-        self._scenario = scenario
-        self._lines = lines
-        self._stations = stations
-        self._world = world
-        self._failures = failures
-        self._publish = publish
-        self._seats = seats
-        self._calls = calls_of(scenario, lines)
-        self._transmissions = self._make_transmissions(backend)
-        self._speakers = Speakers(self._transmissions, stations, seats)
-        self._person_calls = PersonCalls(seats, stations, self._speakers.said, director)
-        self._spoken = SpokenCalls(self._person_calls)
-        self._microphones = Microphones(director, self._transmissions, seats)
-        self._compliance = Compliance(director, world, seats)
-        policy = ReadbackPolicy(director, radio, stations, seed, self._calls, self._speakers)
-        self._listeners = self._make_listeners(hearing or HearingModel(seed), policy)
-        self._confirmations = Confirmations(
-            director, stations, Answers(radio.phraseology), self._speakers, policy
-        )
-        self._advisories: AdvisoryCalls | None = None
-        if advisory_channel is not None:
-            callsigns = scenario.callsigns
-            self._advisories = AdvisoryCalls(
-                director, stations, callsigns, advisory_channel, self._transmissions, publish
-            )
-
-    def _make_transmissions(self, backend: RadioBackend) -> Transmissions:
-        return Transmissions(
-            self._director,
-            self._scenario.radio,
-            self._stations,
-            backend,
-            self._publish,
+        self._context = context
+        self._stations = context.stations
+        self._seats = context.seats
+        self._calls = calls_of(context.scenario, context.lines)
+        self._transmissions = transmissions = Transmissions(context)
+        self._arbiter = arbiter = FrequencyArbiter(
+            context.director,
+            context.backend.speak,
+            context.stations.audible,
             began=self._began,
             ended=self._ended,
-            roster=self._scenario.roster,
-            seats=[state.seat for state in self._seats],
         )
-
-    def _make_listeners(self, hearing: HearingModel, policy: ReadbackPolicy) -> Listeners:
-        return Listeners(
-            self._director,
-            self._scenario.radio,
-            self._stations,
-            hearing,
-            self._transmissions,
-            self._seats,
-            self._publish,
-            self._compliance,
-            policy,
-        )
+        self._speakers = Speakers(context, arbiter)
+        self._person_calls = PersonCalls(context, self._speakers.said)
+        self._microphones = Microphones(context.director, arbiter, context.seats)
+        self._compliance = Compliance(context)
+        policy = ReadbackPolicy(context, self._calls, self._speakers)
+        hearing = hearing or HearingModel(context.seed)
+        self._listeners = Listeners(context, hearing, transmissions, self._compliance, policy)
+        self._confirmations = Confirmations(context, self._speakers, policy)
+        self._advisories: AdvisoryCalls | None = None
+        if advisory_channel is not None:
+            callsigns = context.scenario.callsigns
+            self._advisories = AdvisoryCalls(
+                context, callsigns, advisory_channel, arbiter, transmissions
+            )
 
     def start(self) -> None:
         """Schedule the lines of the script, and the microphones that get stuck."""
-        RadioScript(self._director, self._lines, self._world, self._failures, self._due).start()
-        StuckMicrophones(
-            self._director, self._stations, self._transmissions, self._failures
-        ).schedule(self._scenario.failures)
+        RadioScript(self._context, self._arbiter, self._due).start()
 
     def take(self, key: str, message: Message, data: Payload) -> None:
         """Give a transcript to the crews that wait for it, and advisories to who is to confirm.
@@ -155,20 +96,21 @@ class RadioConversation:
             self._act(state.seat, message.act)
         if self._advisories is not None:
             self._advisories.take(message, data)
-        if isinstance(message, Transcript):
-            recognised = self._spoken.recognised(message)
-            if recognised is not None:
-                self._recognised(*recognised)
-        if isinstance(message, Advisory):
-            self._confirmations.take(message)
-        else:
-            self._listeners.take(message)
+        match message:
+            case Transcript():
+                recognised = self._person_calls.recognised(message)
+                if recognised is not None:
+                    self._recognised(recognised)
+                self._listeners.take(message)
+            case Advisory():
+                self._confirmations.take(message)
 
     def _act(self, speaker: str, act: SeatAct) -> None:
         """Take in what the person at a seat does."""
         match act:
-            case SayText():
-                self._speakers.say(self._person_calls.call(speaker, act))
+            case SayText(frequency_khz=given_khz, text=text):
+                frequency_khz = self._person_calls.frequency_khz(speaker, given_khz)
+                self._speakers.say(self._person_calls.make(speaker, frequency_khz, text))
             case PressToTalk() if not self._stations.is_there(speaker):
                 self._seats.cut(speaker, f"{speaker} is not there any more.")
             case PressToTalk(frequency_khz=given_khz):
@@ -192,7 +134,8 @@ class RadioConversation:
 
     def close(self) -> None:
         """Publish what is on the air as far as it has come; nobody acts upon it."""
-        self._transmissions.close()
+        for on_air in self._arbiter.close():
+            self._transmissions.finish(on_air)
 
     # --- speaking ---------------------------------------------------------------------------
 
@@ -203,8 +146,9 @@ class RadioConversation:
             if needed is None:
                 return
             if call.speaker not in needed.taken_by:
-                due = partial(self._after_gap, partial(self._due, line))
-                needed.once_taken_by(call.speaker, due)
+                due = partial(self._due, line)
+                after_gap = partial(self._context.director.after, GAP_S, due)
+                needed.once_taken_by(call.speaker, after_gap)
                 return
         if self._seats.has_person(call.speaker):
             self._person_calls.tell(call)
@@ -212,43 +156,42 @@ class RadioConversation:
         else:
             self._speakers.say(call)
 
-    def _after_gap(self, action: Callable[[], None]) -> None:
-        due_ns = self._director.now_ns + seconds_to_ns(GAP_S)
-        self._director.at(due_ns, action, Priority.SCRIPT)
-
     # --- what comes of it -------------------------------------------------------------------
 
-    def _began(self, said: Utterance) -> None:
-        call = self._speakers.on_air.get(said.id)
+    def _began(self, on_air: OnAir) -> None:
+        self._transmissions.open(on_air)
+        call = self._speakers.on_air.get(on_air.utterance.id)
         if call is not None:
-            self._world.line_begun(call.id)
+            self._context.world.line_begun(call.id)
 
-    def _ended(self, ended: EndedTransmission) -> None:
+    def _ended(self, on_air: OnAir) -> None:
         """Let a transmission that has ended be heard or read, and acted upon."""
-        said = ended.on_air.utterance
+        is_blocked, transcript = self._transmissions.finish(on_air)
+        said = on_air.utterance
         call = self._speakers.on_air.pop(said.id, None)
         if call is not None:
-            self._world.ended_lines.add(call.id)
-            self._listeners.let_read(call, said, is_blocked=ended.is_blocked)
-        if ended.transcript is not None:
-            self._publish(f"asr/{said.frequency_khz}", ended.transcript)
+            self._context.world.ended_lines.add(call.id)
+            self._listeners.let_read(call, said, is_blocked=is_blocked)
+        if transcript is not None:
+            self._context.publish(f"asr/{said.frequency_khz}", transcript)
         if self._advisories is not None:
-            self._advisories.ended(ended.on_air)
-        if ended.is_blocked and self._seats.has_person(said.speaker):
+            self._advisories.ended(on_air)
+        if is_blocked and self._seats.has_person(said.speaker):
             self._seats.notify(said.speaker, BLOCKED)
-        if said.is_from_microphone:
-            self._spoken.ended(ended)
+        if said.is_from_microphone and not is_blocked:
+            self._person_calls.ended(on_air)
         if call is None:
             return
-        if call.is_first_time:
+        if call.times_said == 1:
             self._compliance.carry_out(call, call.speaker)
-        self._listeners.let_hear(call, ended.on_air)
+        self._listeners.let_hear(call, on_air)
 
-    def _recognised(self, call: RadioCall, said: Utterance, on_air: OnAir, is_clear: bool) -> None:
+    def _recognised(self, recognised: RecognisedCall) -> None:
         """Let a call that a person spoke be understood, as it was recognised."""
+        call, said, on_air, is_clear = recognised
         call.times_said += 1
         call.transmission = said.id
         self._speakers.said[said.id] = call
-        self._world.line_begun(call.id)
-        self._world.ended_lines.add(call.id)
+        self._context.world.line_begun(call.id)
+        self._context.world.ended_lines.add(call.id)
         self._listeners.let_understand(call, said, on_air, is_clear=is_clear)

@@ -14,7 +14,6 @@ import numpy as np
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.sensors.radio.on_air import OnAir, Utterance
-from airhilt.sensors.radio.open_microphone import OpenMicrophone
 from airhilt.sim import Director, Priority
 from airhilt.units import seconds_to_ns
 
@@ -32,14 +31,8 @@ Speak = Callable[[str, str], tuple[Audio | None, float]]
 class FrequencyArbiter:
     """All frequencies of a run.
 
-    Parameters
-    ----------
-    audible
-        Returns whether its second argument, a listener, is in reach of the first, a speaker.
-    began
-        Called with each transmission when it begins.
-    ended
-        Called with each transmission when it ends.
+    ``audible`` returns whether its second argument, a listener, is in reach of the first, a
+    speaker. ``began`` and ``ended`` are called with each transmission.
     """
 
     def __init__(
@@ -48,8 +41,8 @@ class FrequencyArbiter:
         speak: Speak,
         audible: Callable[[str, str], bool],
         *,
-        began: Callable[[OnAir], None],
-        ended: Callable[[OnAir], None],
+        began: Callable[[OnAir], object],
+        ended: Callable[[OnAir], object],
     ) -> None:
         self._director = director
         self._speak = speak
@@ -57,10 +50,6 @@ class FrequencyArbiter:
         self._began = began
         self._ended = ended
         self._on_air: dict[int, list[OnAir]] = {}
-
-    def say(self, utterance: Utterance) -> None:
-        """Say something as soon as its speaker finds the frequency free."""
-        self._try_to_speak(utterance, has_waited=False)
 
     def transmit_carrier(self, utterance: Utterance, for_s: float) -> None:
         """Transmit a carrier without words for a time in s, as a stuck microphone does.
@@ -71,15 +60,27 @@ class FrequencyArbiter:
         end_ns = now_ns + seconds_to_ns(for_s)
         self._transmit(OnAir(utterance, now_ns, end_ns, None, is_carrier=True, is_open_ended=True))
 
-    def press(self, utterance: Utterance) -> OpenMicrophone:
-        """Transmit from now on what a microphone gives, until its button is released.
+    def press(self, utterance: Utterance) -> OnAir:
+        """Transmit from now on what is fed to a microphone, until its button is released.
 
         Whoever presses the button of a transmitter is on the air at once, over all others.
         """
         silence = np.zeros(0, np.float32)
         on_air = OnAir(utterance, self._director.now_ns, None, silence, is_open_ended=True)
         self._transmit(on_air)
-        return OpenMicrophone(self._director, on_air, partial(self._end, on_air))
+        return on_air
+
+    def release(self, on_air: OnAir) -> None:
+        """End a transmission that was pressed; if more was fed than time has passed, after that.
+
+        What has not been fed by then is silence.
+        """
+        said_until_ns = on_air.known_until_ns(self._director.now_ns)
+        if said_until_ns <= self._director.now_ns:
+            self._end(on_air)
+        else:
+            on_air.end_ns = said_until_ns
+            self._director.at(said_until_ns, partial(self._end, on_air), Priority.SCRIPT)
 
     def close(self) -> list[OnAir]:
         """Cut off what is on the air, and return it; nothing is told of from now on."""
@@ -96,10 +97,11 @@ class FrequencyArbiter:
         self._began = self._ended = lambda _on_air: None
         return cut
 
-    def _try_to_speak(self, utterance: Utterance, *, has_waited: bool) -> None:
+    def say(self, utterance: Utterance, *, has_waited: bool = False) -> None:
+        """Say something as soon as its speaker finds the frequency free."""
         heard = self._heard_by(utterance, has_waited)
         if heard:
-            again = partial(self._try_to_speak, utterance, has_waited=True)
+            again = partial(self.say, utterance, has_waited=True)
             self._after_all(heard, again)
             return
         if utterance.speech is None:

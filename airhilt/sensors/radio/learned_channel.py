@@ -19,12 +19,12 @@ from airhilt.host.onnx import first_look, open_network
 from airhilt.scenario.radio_profiles import PROFILES
 from airhilt.sensors.radio.channel import (
     LEVEL_RMS,
-    BackgroundNoise,
     Other,
     VhfChannel,
     active,
     with_voice,
 )
+from airhilt.sensors.radio.on_air import BackgroundNoise
 
 EXPECTED = "one input and one output, both float32 of shape [1, n] with any n: 16 kHz, mono"
 TRIAL_SAMPLES = (1_600, 2_311)
@@ -34,15 +34,8 @@ TRIAL_SAMPLES = (1_600, 2_311)
 class LearnedChannel:
     """A `Channel` whose modulation is an ONNX model.
 
-    Parameters
-    ----------
-    limit_s
-        Wall time within which each trial of the model must end; None: that of `first_look`.
-
-    Raises
-    ------
-    SpeechError
-        The file is not a model of this kind, or never ends.
+    Each trial of the model must end within a limit of wall time in s; by default that of
+    `first_look`. A SpeechError says that the file is not a model of this kind, or never ends.
     """
 
     def __init__(self, path: Path, limit_s: float | None = None) -> None:

@@ -6,20 +6,14 @@ from collections.abc import Callable
 from functools import partial
 from typing import Literal
 
-from airhilt.messages import HearingTruth, Message, Transcript
-from airhilt.scenario.models import Radio
-from airhilt.seats import Seats
-from airhilt.sensors.base import Publish
+from airhilt.messages import HearingTruth, Transcript
 from airhilt.sensors.radio.compliance import Compliance
+from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.hearing import HearingModel, Outcome, hearing_key
 from airhilt.sensors.radio.on_air import OnAir, Utterance
 from airhilt.sensors.radio.radio_call import RadioCall
 from airhilt.sensors.radio.readback_policy import ReadbackPolicy
-from airhilt.sensors.radio.reception import Receptions
-from airhilt.sensors.radio.stations import Stations
 from airhilt.sensors.radio.transmissions import Transmissions
-from airhilt.sim import Director, Priority
-from airhilt.units import seconds_to_ns
 from airhilt.world.actors.listening import Listener, Understanding
 
 TRANSCRIPT_PATIENCE_S = 20.0
@@ -42,33 +36,24 @@ Read = Callable[[str, tuple[float, ...] | None], None]
 class Listeners:
     """The people on the frequencies, who hear calls or read their transcripts, and act on them.
 
-    Parameters
-    ----------
-    seats
-        Seats of people. No mistake is drawn for people: a call that reaches them counts as heard,
-        and they switch their receivers off.
+    No mistake is drawn for people at seats: a call that reaches them counts as heard, and they
+    switch their receivers off.
     """
 
     def __init__(
         self,
-        director: Director,
-        radio: Radio,
-        stations: Stations,
+        context: RadioContext,
         hearing: HearingModel,
         transmissions: Transmissions,
-        seats: Seats,
-        publish: Publish,
         compliance: Compliance,
         policy: ReadbackPolicy,
     ) -> None:
-        self._director = director
-        self._radio = radio
-        self._receptions = Receptions(radio)
-        self._stations = stations
+        self._context = context
+        self._radio = context.radio
+        self._stations = context.stations
+        self._seats = context.seats
         self._hearing = hearing
         self._transmissions = transmissions
-        self._seats = seats
-        self._publish = publish
         self._compliance = compliance
         self._policy = policy
         self._waiting: dict[str, list[Read]] = {}
@@ -90,7 +75,7 @@ class Listeners:
         if self._seats.has_person(listener):
             self._understand(call, said, listener, AS_SAID, said.text)
             return
-        snr_db = self._receptions.of(said, listener).snr_db
+        snr_db = self._context.receptions.of(said, listener).snr_db
         heard = self._hearing.listen(said.id, listener, said.text, snr_db)
         match heard.outcome:
             case "understood":
@@ -137,15 +122,13 @@ class Listeners:
                 overhear = partial(self._overhear, call, said, listener)
                 self._waiting.setdefault(said.id, []).append(overhear)
         if said.id in self._waiting:
-            give_up_ns = self._director.now_ns + seconds_to_ns(TRANSCRIPT_PATIENCE_S)
             give_up = partial(self._hand_out, said.id, "", None)
-            self._director.at(give_up_ns, give_up, Priority.SCRIPT)
+            self._context.director.after(TRANSCRIPT_PATIENCE_S, give_up)
 
-    def take(self, message: Message) -> None:
+    def take(self, transcript: Transcript) -> None:
         """Give a transcript to the crews that wait for it."""
-        if isinstance(message, Transcript):
-            confidences = tuple(word.confidence for word in message.words) or None
-            self._hand_out(message.id, message.text, confidences)
+        confidences = tuple(word.confidence for word in transcript.words) or None
+        self._hand_out(transcript.id, transcript.text, confidences)
 
     def _hand_out(
         self, transmission: str, text: str, confidences: tuple[float, ...] | None
@@ -249,11 +232,11 @@ class Listeners:
         source: Literal["ear", "transcript"],
     ) -> None:
         truth = HearingTruth(
-            t_ns=self._director.now_ns,
+            t_ns=self._context.director.now_ns,
             id=said.id,
             actor=listener,
             outcome=_OUTCOMES[understanding.kind],
             text=text,
             source=source,
         )
-        self._publish(hearing_key(listener), truth)
+        self._context.publish(hearing_key(listener), truth)

@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import partial
 
-from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ, from_pcm
+from airhilt.audio.pcm import SAMPLE_RATE_HZ, from_pcm
 from airhilt.messages import FROM_MICROPHONE, key_chunk
 from airhilt.seats import Seats
-from airhilt.sensors.radio.on_air import Utterance
-from airhilt.sensors.radio.open_microphone import OpenMicrophone
-from airhilt.sensors.radio.transmissions import Transmissions
-from airhilt.sim import Director, Priority
+from airhilt.sensors.radio.frequency_arbiter import FrequencyArbiter
+from airhilt.sensors.radio.on_air import OnAir, Utterance
+from airhilt.sim import Director
 from airhilt.units import SECOND_NS, seconds_to_ns
 
 LONGEST_CALL_S = 60.0
@@ -26,19 +25,17 @@ SILENT_S = 3.0
 class _Held:
     """A microphone whose button is held."""
 
-    microphone: OpenMicrophone
-    pressed_ns: int
+    on_air: OnAir
     heard_ns: int
     """Time of the last audio."""
-    samples: int = 0
 
 
 class Microphones:
     """Lets people speak."""
 
-    def __init__(self, director: Director, transmissions: Transmissions, seats: Seats) -> None:
+    def __init__(self, director: Director, arbiter: FrequencyArbiter, seats: Seats) -> None:
         self._director = director
-        self._transmissions = transmissions
+        self._arbiter = arbiter
         self._seats = seats
         self._times_pressed = 0
         self._held: dict[str, _Held] = {}
@@ -47,49 +44,46 @@ class Microphones:
     def press(self, speaker: str, frequency_khz: int) -> None:
         """Press the button of a speaker; a call that is on the air ends."""
         self.release(speaker)
-        now_ns = self._director.now_ns
         self._times_pressed += 1
         name = f"{FROM_MICROPHONE}{key_chunk(speaker)}.{self._times_pressed}"
         utterance = Utterance(name, frequency_khz, speaker, None, "", is_from_microphone=True)
-        held = _Held(self._transmissions.press(utterance), now_ns, now_ns)
+        held = _Held(self._arbiter.press(utterance), self._director.now_ns)
         self._held[speaker] = held
-        self._watch(speaker, held)
+        self._look_later(speaker, held)
 
     def feed(self, speaker: str, pcm: bytes) -> None:
         """Add what a speaker says; it is left out if no button is held."""
         held = self._held.get(speaker)
         if held is None:
             return
-        held.heard_ns = self._director.now_ns
-        held.samples += len(pcm) // SAMPLE_BYTES
-        passed_s = (held.heard_ns - held.pressed_ns) / SECOND_NS
-        if held.samples > (passed_s + AHEAD_S) * SAMPLE_RATE_HZ:
+        held.heard_ns = now_ns = self._director.now_ns
+        sound = from_pcm(pcm)
+        until_ns = held.on_air.known_until_ns(now_ns) + len(sound) * SECOND_NS // SAMPLE_RATE_HZ
+        if until_ns > now_ns + seconds_to_ns(AHEAD_S):
             self._cut(speaker, "Your call was cut: more sound came than anybody can speak.")
         else:
-            held.microphone.feed(from_pcm(pcm))
+            held.on_air.feed(sound)
 
     def release(self, speaker: str) -> None:
         """Release the button of a speaker, if it is held."""
         held = self._held.pop(speaker, None)
         if held is not None:
-            held.microphone.release()
+            self._arbiter.release(held.on_air)
 
-    def _watch(self, speaker: str, held: _Held) -> None:
-        self._director.at(
-            self._director.now_ns + SECOND_NS, partial(self._look, speaker, held), Priority.SCRIPT
-        )
+    def _look_later(self, speaker: str, held: _Held) -> None:
+        self._director.after(1.0, partial(self._look, speaker, held))
 
     def _look(self, speaker: str, held: _Held) -> None:
         """Cut a call that is too long, or whose audio does not come any more."""
         if self._held.get(speaker) is not held:
             return
         now_ns = self._director.now_ns
-        if now_ns - held.pressed_ns >= seconds_to_ns(LONGEST_CALL_S):
+        if now_ns - held.on_air.t_tx_ns >= seconds_to_ns(LONGEST_CALL_S):
             self._cut(speaker, f"Your call was cut after {LONGEST_CALL_S:g} s.")
         elif now_ns - held.heard_ns >= seconds_to_ns(SILENT_S):
             self._cut(speaker, f"Your call was cut: no sound came for {SILENT_S:g} s.")
         else:
-            self._watch(speaker, held)
+            self._look_later(speaker, held)
 
     def _cut(self, speaker: str, text: str) -> None:
         self.release(speaker)

@@ -4,9 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
 
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.units import SECOND_NS
+
+BackgroundNoise = Literal["cockpit", "tower", "none"]
+"""Noise around the microphone."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,16 +58,15 @@ class OnAir:
 
     @property
     def t_end_ns(self) -> int:
-        """End of a transmission that has ended, or whose end was planned.
-
-        Raises
-        ------
-        ValueError
-            The end is not known yet.
-        """
+        """End of a transmission that has ended, or whose end was planned."""
         if self.end_ns is None:
             raise ValueError(f"{self.utterance.id}: still on the air, and its end is not known")
         return self.end_ns
+
+    def feed(self, samples: Audio) -> None:
+        """Add what its microphone has picked up since its button was pressed, or last time."""
+        assert self.speech is not None
+        self.speech = np.concatenate([self.speech, samples])
 
     def has_ended(self, now_ns: int) -> bool:
         """Return whether it is over."""

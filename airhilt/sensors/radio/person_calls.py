@@ -3,16 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import partial
+from typing import NamedTuple
 
-from airhilt.messages import SayText, TaskCard, key_chunk
-from airhilt.phraseology.call import Call
+from airhilt.messages import TaskCard, Transcript, key_chunk
+from airhilt.phraseology import TAU_ASR, Call
 from airhilt.scenario.models import ScriptedCommand
-from airhilt.seats import Seats
+from airhilt.sensors.radio.context import RadioContext
+from airhilt.sensors.radio.on_air import OnAir, Utterance
 from airhilt.sensors.radio.radio_call import RadioCall
-from airhilt.sensors.radio.stations import Stations
-from airhilt.sim import Director
 from airhilt.world.actors.listening import mean_the_same
+
+
+class RecognisedCall(NamedTuple):
+    """A call that a person spoke, as it was recognised."""
+
+    call: RadioCall
+    said: Utterance
+    on_air: OnAir
+    is_clear: bool
+    """True if its words are certain."""
 
 
 class PersonCalls:
@@ -23,25 +34,19 @@ class PersonCalls:
     goes on from it. It is due until its addressee has taken it. Everything else is a call of its
     own.
 
-    Parameters
-    ----------
-    said
-        Calls by the ids of their transmissions, in the order in which they were made.
+    The words of a call that is spoken are those that the recogniser under test gives. Below
+    `TAU_ASR`, without words, or without a callsign in the call of a unit, nobody is sure of it.
     """
 
-    def __init__(
-        self,
-        seats: Seats,
-        stations: Stations,
-        said: Mapping[str, RadioCall],
-        director: Director,
-    ) -> None:
-        self._seats = seats
-        self._stations = stations
+    def __init__(self, context: RadioContext, said: Mapping[str, RadioCall]) -> None:
+        self._director = context.director
+        self._seats = context.seats
+        self._stations = context.stations
         self._said = said
-        self._director = director
         self._due: list[RadioCall] = []
         """Calls of the script that wait for their person."""
+        self._spoken: dict[str, OnAir] = {}
+        """Transmissions whose words are not known yet, by id."""
         self._count = 0
 
     def leave(self, speaker: str) -> list[RadioCall]:
@@ -77,21 +82,29 @@ class PersonCalls:
         assert frequency_khz is not None  # There are no seats without lines.
         return frequency_khz
 
-    def call(self, speaker: str, words: SayText) -> RadioCall:
-        """Return the call that a person makes with some words."""
-        frequency_khz = self.frequency_khz(speaker, words.frequency_khz)
-        return self.make(speaker, frequency_khz, words.text)
+    def ended(self, on_air: OnAir) -> None:
+        """Wait for the words of a call that a person has spoken."""
+        self._spoken[on_air.utterance.id] = on_air
 
-    def meant(
-        self, frequency_khz: int, text: str, confidences: tuple[float, ...] | None = None
-    ) -> Call:
-        """Return the meaning of some words on a frequency, with the callsigns that are on it."""
-        heard_by = self._stations.listener(frequency_khz)
-        return heard_by.parse(text, heard_by.callsigns, confidences)
+    def recognised(self, transcript: Transcript) -> RecognisedCall | None:
+        """Return the spoken call of a transcript, the first time that its words come."""
+        on_air = self._spoken.pop(transcript.id, None)
+        if on_air is None:
+            return None
+        said, text = on_air.utterance, transcript.text
+        confidences = tuple(word.confidence for word in transcript.words) or None
+        meant = self._stations.listener(said.frequency_khz).parse(text, confidences)
+        # It is always known whom a crew calls: its unit.
+        has_addressee = self._stations.is_actor(said.speaker) or meant.callsign is not None
+        is_clear = meant.confidence >= TAU_ASR and has_addressee
+        make = self.make if is_clear else self._unclear
+        call = make(said.speaker, said.frequency_khz, text)
+        words = replace(said, text=text, addressed=call.addressed)
+        return RecognisedCall(call, words, on_air, is_clear)
 
     def make(self, speaker: str, frequency_khz: int, text: str) -> RadioCall:
         """Return the call that a person makes with some words."""
-        meant = self.meant(frequency_khz, text)
+        meant = self._stations.listener(frequency_khz).parse(text)
         call = self._stands_for(speaker, meant, frequency_khz)
         if call is None:
             call = self._own(speaker, frequency_khz)
@@ -124,11 +137,7 @@ class PersonCalls:
             )
             self._seats.notify(call.speaker, text)
 
-    def addresses(self, speaker: str, meant: Call) -> bool:
-        """Return whether it is known whom some words are for: a crew always calls its unit."""
-        return self._stations.is_actor(speaker) or meant.callsign is not None
-
-    def unclear(self, speaker: str, frequency_khz: int, text: str) -> RadioCall:
+    def _unclear(self, speaker: str, frequency_khz: int, text: str) -> RadioCall:
         """Return a call of whose words nobody is sure, to whoever expects one.
 
         The unit of a crew expects it, the addressee of an open task card, or the only actor on the
@@ -153,11 +162,10 @@ class PersonCalls:
 
     def _stands_for(self, speaker: str, meant: Call, frequency_khz: int) -> RadioCall | None:
         """Return the call of the script that some words stand for, None if they are others."""
+        actions = [one.action for one in meant.instructions]
         for call in self._due:
-            planned = self.meant(frequency_khz, call.said)
-            same = [one.action for one in planned.instructions] == [
-                one.action for one in meant.instructions
-            ]
+            planned = self._stations.listener(frequency_khz).parse(call.said)
+            same = [one.action for one in planned.instructions] == actions
             of_crew = self._stations.is_actor(speaker)
             if call.speaker == speaker and same and (of_crew or planned.callsign == meant.callsign):
                 return call
@@ -178,13 +186,13 @@ class PersonCalls:
         """
         if call.addressed is None or self._stations.is_actor(call.speaker):
             return ()
-        line = None if call.scripted is None else call.scripted.line
-        if line is not None:
-            planned = self.meant(call.frequency_khz, line.text)
-            if mean_the_same(meant.instructions, planned.instructions):
-                return line.commands
-        runway = self._stations.bound_runway(call.addressed)
         listener = self._stations.listener(call.frequency_khz)
+        line = None if call.scripted is None else call.scripted.line
+        if line is not None and mean_the_same(
+            meant.instructions, listener.parse(line.text).instructions
+        ):
+            return line.commands
+        runway = self._stations.bound_runway(call.addressed)
         return tuple(
             ScriptedCommand(actor=call.addressed, command=command)
             for command in listener.commands_of(meant.instructions, runway)

@@ -1,13 +1,18 @@
-"""A call, from its first word until it is taken or given up."""
+"""Calls, from the first word until they are taken or given up, and their speakers."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import partial
+from typing import Any
 
 from airhilt.scenario.conversation import needed_lines
 from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import RadioLine, Scenario, ScriptedCommand
+from airhilt.sensors.radio.context import RadioContext
+from airhilt.sensors.radio.frequency_arbiter import FrequencyArbiter
+from airhilt.sensors.radio.on_air import Utterance
 
 
 @dataclass(eq=False)
@@ -65,11 +70,6 @@ class RadioCall:
             return None
         return self.scripted.declared
 
-    @property
-    def is_first_time(self) -> bool:
-        """True if it has been made once only."""
-        return self.times_said == 1
-
     def recipients(self) -> list[str]:
         """Return who has yet to take it: its addressee, and all that it gives commands to."""
         names = (self.addressed, *(scripted.actor for scripted in self.meant))
@@ -78,6 +78,11 @@ class RadioCall:
             for name in dict.fromkeys(names)
             if name is not None and name != self.speaker and name not in self.taken_by
         ]
+
+    def reply(self, kind: str, speaker: str, text: str, **more: Any) -> RadioCall:
+        """Return a call that somebody makes to the speaker of this one in reply to it."""
+        name, khz = f"{self.id}.{kind}", self.frequency_khz
+        return RadioCall(name, khz, speaker, self.speaker, text, in_reply_to=self, **more)
 
     def once_taken_by(self, name: str, action: Callable[[], None]) -> None:
         """Call an action as soon as a recipient has taken it."""
@@ -88,6 +93,47 @@ class RadioCall:
         self.taken_by.add(name)
         for action in self._then.pop(name, ()):
             action()
+
+
+class Speakers:
+    """Lets units and actors make calls, where no person speaks for them."""
+
+    def __init__(self, context: RadioContext, arbiter: FrequencyArbiter) -> None:
+        self.on_air: dict[str, RadioCall] = {}
+        """Calls on the air or waiting for it, by the id of the transmission."""
+        self.said: dict[str, RadioCall] = {}
+        """Calls that were made, in that order, by the ids of their transmissions."""
+        self._context = context
+        self._arbiter = arbiter
+
+    def say_later(self, call: RadioCall, delay_s: float) -> None:
+        """Make a call after a delay in s."""
+        self._context.director.after(delay_s, partial(self.say, call))
+
+    def say(self, call: RadioCall) -> None:
+        """Make a call."""
+        if not self._context.stations.is_there(call.speaker):
+            return
+        if self._context.seats.has_person(call.speaker) and not call.is_of_person:
+            return
+        again = call.times_said
+        call.times_said += 1
+        call.is_due_again = False
+        scripted = call.scripted
+        replied_to = call.in_reply_to
+        utterance = Utterance(
+            f"{call.id}.repeat-{again}" if again else call.id,
+            call.frequency_khz,
+            call.speaker,
+            call.addressed,
+            call.said,
+            None if replied_to is None else replied_to.transmission or replied_to.id,
+            None if scripted is None else scripted.declared.id,
+            listens_first=again > 0 or scripted is None or scripted.listens_first,
+        )
+        call.transmission = utterance.id
+        self.on_air[utterance.id] = self.said[utterance.id] = call
+        self._arbiter.say(utterance)
 
 
 def calls_of(scenario: Scenario, lines: Sequence[EffectiveLine]) -> dict[str, RadioCall]:

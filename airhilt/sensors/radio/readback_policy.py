@@ -3,19 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import partial
 
-from airhilt.scenario.models import Radio
 from airhilt.sensors.radio.answers import Answers
+from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.controller_check import ControllerCheck
 from airhilt.sensors.radio.on_air import Utterance
-from airhilt.sensors.radio.radio_call import RadioCall
-from airhilt.sensors.radio.speakers import Speakers
-from airhilt.sensors.radio.stations import Stations
-from airhilt.sim import Director, Priority
+from airhilt.sensors.radio.radio_call import RadioCall, Speakers
 from airhilt.sim.streams import stream
-from airhilt.units import seconds_to_ns
-from airhilt.world.actors.listening import Listener, Understanding
+from airhilt.world.actors.listening import Understanding
 
 ANSWER_AFTER_S = 1.0
 """Time in s from the end of a call to an answer that is not in the script: an estimate."""
@@ -29,33 +24,18 @@ MOST_REPEATS = 2
 
 
 class ReadbackPolicy:
-    """Decides what is said because of what was understood.
-
-    Parameters
-    ----------
-    calls
-        Calls of the script, by id.
-    """
+    """Decides what is said because of what was understood."""
 
     def __init__(
-        self,
-        director: Director,
-        radio: Radio,
-        stations: Stations,
-        seed: int,
-        calls: Mapping[str, RadioCall],
-        speakers: Speakers,
+        self, context: RadioContext, calls: Mapping[str, RadioCall], speakers: Speakers
     ) -> None:
-        self._director = director
-        self._radio = radio
-        self._stations = stations
-        self._seed = seed
+        self._radio = context.radio
+        self._stations = context.stations
+        self._seed = context.seed
         self._calls = calls
         self._speakers = speakers
-        self._answers = Answers(radio.phraseology)
-        self._check: ControllerCheck | None = None
-        if radio.controller_checks_readbacks:
-            self._check = ControllerCheck(stations, self._answers)
+        self._answers = Answers(context)
+        self._check = ControllerCheck(context.stations, self._answers)
 
     def follow_up(
         self, call: RadioCall, said: Utterance, listener: str, understanding: Understanding
@@ -73,15 +53,11 @@ class ReadbackPolicy:
                 self._unanswered(call, listener)
 
     def _answer(self, call: RadioCall) -> None:
-        self._say_later(call, ANSWER_AFTER_S)
+        self._speakers.say_later(call, ANSWER_AFTER_S)
 
     def call_again(self, call: RadioCall) -> None:
         """Let the speaker of a call make it once more, as if its addressee had asked for it."""
         self._repeat(call, ANSWER_AFTER_S)
-
-    def _say_later(self, call: RadioCall, delay_s: float) -> None:
-        due_ns = self._director.now_ns + seconds_to_ns(delay_s)
-        self._director.at(due_ns, partial(self._speakers.say, call), Priority.SCRIPT)
 
     # --- reading back -----------------------------------------------------------------------
 
@@ -98,17 +74,12 @@ class ReadbackPolicy:
             self.call_again(call.asks_for)
         if call.answer is not None:
             self._answer(call.answer)
-        if self._check is not None:
-            self._correct(self._check.correction(call, said, listener), call)
-
-    def _correct(self, correction: RadioCall | None, readback: RadioCall) -> None:
-        """Let a controller correct a readback, if it is wrong."""
-        if correction is None:
-            return
-        if correction is readback.in_reply_to:
-            self.call_again(correction)
-        else:
-            self._answer(correction)
+        if self._radio.controller_checks_readbacks:
+            correction = self._check.correction(call, said, listener)
+            if correction is not None and correction is call.in_reply_to:
+                self.call_again(correction)
+            elif correction is not None:
+                self._answer(correction)
 
     def _read_back(
         self, call: RadioCall, said: Utterance, listener: str, understanding: Understanding
@@ -121,19 +92,12 @@ class ReadbackPolicy:
             or self.readback_in_script(call, listener) is not None
         ):
             return
-        listens = self._listener(call)
-        parsed = understanding.call or listens.parse(said.text, listens.callsigns, None)
+        listens = self._stations.listener(call.frequency_khz)
+        parsed = understanding.call or listens.parse(said.text)
         if parsed.instructions:
-            readback = RadioCall(
-                f"{call.id}.readback",
-                call.frequency_khz,
-                listener,
-                call.speaker,
-                self._answers.readback(listener, parsed.instructions),
-                in_reply_to=call,
-                is_repeated=self._radio.controller_checks_readbacks,
-            )
-            self._answer(readback)
+            text = self._answers.readback(listener, parsed.instructions)
+            is_repeated = self._radio.controller_checks_readbacks
+            self._answer(call.reply("readback", listener, text, is_repeated=is_repeated))
 
     def _change_readback(
         self, call: RadioCall, listener: str, understanding: Understanding
@@ -153,9 +117,6 @@ class ReadbackPolicy:
                 return other
         return None
 
-    def _listener(self, call: RadioCall) -> Listener:
-        return self._stations.listener(call.frequency_khz)
-
     # --- asking and calling again -----------------------------------------------------------
 
     def _ask_again(self, call: RadioCall, listener: str) -> None:
@@ -164,20 +125,14 @@ class ReadbackPolicy:
             self._repeat(call.asks_for, REPEAT_AFTER_S)
         if not (call.is_of_person or self._may_repeat(call)):
             return
-        question = RadioCall(
-            f"{call.id}.say-again-{call.times_said}",
-            call.frequency_khz,
+        question = call.reply(
+            f"say-again-{call.times_said}",
             listener,
-            call.speaker,
-            self._answers.say_again(self._callsign(listener), self._callsign(call.speaker)),
-            in_reply_to=call,
+            self._answers.say_again(listener, call.speaker),
             is_repeated=False,
             asks_for=None if call.is_of_person else call,
         )
         self._answer(question)
-
-    def _callsign(self, name: str) -> str | None:
-        return name if self._stations.is_actor(name) else None
 
     def _unanswered(self, call: RadioCall, listener: str) -> None:
         """Let the speaker repeat a call that its addressee has not taken."""
@@ -198,4 +153,4 @@ class ReadbackPolicy:
         if self._may_repeat(call) and not call.is_due_again:
             call.is_due_again = True
             spread = stream(self._seed, f"repeat/{call.id}", call.times_said).random()
-            self._say_later(call, after_s + REPEAT_SPREAD_S * spread)
+            self._speakers.say_later(call, after_s + REPEAT_SPREAD_S * spread)

@@ -2,25 +2,31 @@
 
 from __future__ import annotations
 
-from airhilt.audio.pcm import SAMPLE_BYTES
+import hashlib
+from functools import partial
+
+from airhilt.audio.pcm import SAMPLE_BYTES, SAMPLE_RATE_HZ
 from airhilt.messages import (
     SeatAudioChunk,
     SeatAudioClosed,
     SeatAudioOpened,
-    Transmission,
     TransmissionChunk,
     TransmissionClosed,
     TransmissionOpened,
     key_chunk,
 )
-from airhilt.sensors.base import Publish
-from airhilt.sensors.radio.audio_streams import AudioHeader, AudioStreams, sha256_of
-from airhilt.sensors.radio.backends import RadioBackend
+from airhilt.sensors.radio.backends import SoundRequest
+from airhilt.sensors.radio.context import RadioContext
 from airhilt.sensors.radio.on_air import OnAir
-from airhilt.sensors.radio.reception import Receptions
-from airhilt.sensors.radio.stations import Stations
-from airhilt.sim import Director
+from airhilt.sim import Priority
+from airhilt.units import SECOND_NS
 
+CHUNK_NS = SECOND_NS // 2
+"""Period in ns at which the audio of a transmission is published while it lasts."""
+CHUNK_SAMPLES = SAMPLE_RATE_HZ // 2
+"""Most samples in a chunk: 0.5 s."""
+
+AudioHeader = TransmissionOpened | TransmissionChunk | TransmissionClosed
 AT_SEAT: dict[type[AudioHeader], type[SeatAudioOpened | SeatAudioChunk | SeatAudioClosed]] = {
     TransmissionOpened: SeatAudioOpened,
     TransmissionChunk: SeatAudioChunk,
@@ -30,85 +36,191 @@ AT_SEAT: dict[type[AudioHeader], type[SeatAudioOpened | SeatAudioChunk | SeatAud
 
 
 class RadioReceiver:
-    """Publishes what is received: chunks on ``audio`` while a call lasts, all of it on ``tx``."""
+    """Streams what one receiver gets: a call opens, comes in chunks while it lasts, and closes.
 
-    def __init__(
-        self,
-        director: Director,
-        receptions: Receptions,
-        stations: Stations,
-        backend: RadioBackend,
-        publish: Publish,
-    ) -> None:
-        self._receptions = receptions
-        self._stations = stations
-        self._publish = publish
+    It is the receiver of the units' site, or that of a seat on the frequencies of the seat.
+    """
 
-        def publish_audio(header: AudioHeader, pcm: bytes) -> None:
-            publish(f"radio/{header.frequency_khz}/audio", header, raw=pcm)
-
-        self._streams = AudioStreams(None, director, receptions, stations, backend, publish_audio)
+    def __init__(self, context: RadioContext, seat: str | None = None) -> None:
+        self._context = context
+        self._seat = seat
+        self._streams: dict[OnAir, _ReceivedAudio] = {}
+        """Audio of the transmissions that are being streamed."""
 
     def mixed_with(self, on_air: OnAir) -> tuple[OnAir, ...]:
         """Return the other transmissions that are received at the same time as one."""
-        return self._streams.mixed_with(on_air)
+        return tuple(
+            other for other in on_air.overlapping if self._is_in_reach(other.utterance.speaker)
+        )
 
     def open(self, on_air: OnAir) -> None:
         """Begin to stream a transmission, if it is received."""
-        self._streams.open(on_air)
+        said, seat, stations = on_air.utterance, self._seat, self._context.stations
+        is_tuned = seat is None or said.frequency_khz in stations.selectable(seat)
+        if is_tuned and self._receives(on_air):
+            self._streams[on_air] = _ReceivedAudio(on_air, self._context, seat)
+            opened = TransmissionOpened(
+                t_ns=on_air.t_tx_ns,
+                id=said.id,
+                frequency_khz=said.frequency_khz,
+                t_tx_ns=on_air.t_tx_ns,
+                keyed_by=stations.keyed_by(said.speaker) if seat is None else None,
+            )
+            self._publish(opened)
+            self._stream_later(on_air)
 
-    def close(self, on_air: OnAir) -> bool:
-        """Publish a transmission that has ended, and return whether it was received.
+    def close(self, on_air: OnAir) -> bytes | None:
+        """End a transmission, and return all of it as PCM; None if it is not received.
 
-        One that could not be received when it began, but can be now, is published as a whole
-        without having been streamed.
+        One that could not be received when it began, but can be now, is returned as a whole
+        without having been streamed; a seat gets nothing of it.
         """
-        pcm = self._streams.close(on_air)
-        if pcm is not None:
-            self._publish_whole(on_air, pcm)
-        return pcm is not None
+        if self._seat is not None and on_air not in self._streams:
+            return None
+        if not self._receives(on_air):
+            if on_air in self._streams:
+                self._close_stream(on_air, is_complete=False)
+            return None
+        backend = self._context.backend
+        audio = self._streams.get(on_air) or _ReceivedAudio(on_air, self._context, self._seat)
+        rest = []
+        if backend.has_sound:
+            rest = audio.give_rest(self._context.director.now_ns, self.mixed_with(on_air))
+        has_sound = backend.has_sound  # It may have been lost just now.
+        if on_air in self._streams:
+            for header, pcm in rest:
+                self._publish(header, pcm)
+            self._close_stream(on_air, is_complete=has_sound or not audio.samples)
+        return audio.pcm if has_sound else b""
 
-    def _publish_whole(self, on_air: OnAir, pcm: bytes) -> None:
-        transmission = Transmission(
-            t_ns=on_air.t_end_ns,
+    def _receives(self, on_air: OnAir) -> bool:
+        said = on_air.utterance
+        is_loud = self._context.receptions.opens_squelch(said, self._seat)
+        return is_loud and self._is_in_reach(said.speaker)
+
+    def _is_in_reach(self, speaker: str) -> bool:
+        stations = self._context.stations
+        if self._seat is None:
+            return stations.received(speaker)
+        return stations.audible(speaker, self._seat)
+
+    def _stream_later(self, on_air: OnAir) -> None:
+        director = self._context.director
+        director.at(director.now_ns + CHUNK_NS, partial(self._stream, on_air), Priority.SENSOR)
+
+    def _stream(self, on_air: OnAir) -> None:
+        """Publish what has been on the air since the last chunk."""
+        audio = self._streams.get(on_air)
+        if audio is None or not self._context.backend.has_sound:
+            return
+        if not self._receives(on_air):
+            self._close_stream(on_air, is_complete=False)
+            return
+        now_ns = self._context.director.now_ns
+        for header, pcm in audio.give_until(now_ns, self.mixed_with(on_air)):
+            self._publish(header, pcm)
+        self._stream_later(on_air)
+
+    def _close_stream(self, on_air: OnAir, *, is_complete: bool) -> None:
+        audio, now_ns = self._streams.pop(on_air), self._context.director.now_ns
+        closed = TransmissionClosed(
+            t_ns=now_ns,
             id=on_air.utterance.id,
             frequency_khz=on_air.utterance.frequency_khz,
             t_tx_ns=on_air.t_tx_ns,
-            t_end_ns=on_air.t_end_ns,
-            keyed_by=self._stations.keyed_by(on_air.utterance.speaker),
-            snr_db=self._receptions.of(on_air.utterance).snr_db,
-            samples=len(pcm) // SAMPLE_BYTES,
-            sha256=sha256_of(pcm),
+            t_end_ns=now_ns,
+            samples=audio.samples,
+            sha256=sha256_of(audio.pcm),
+            snr_db=self._context.receptions.of(on_air.utterance, self._seat).snr_db,
+            is_complete=is_complete,
         )
-        self._publish(f"radio/{transmission.frequency_khz}/tx", transmission, raw=pcm)
+        self._publish(closed)
+
+    def _publish(self, header: AudioHeader, pcm: bytes = b"") -> None:
+        publish = self._context.publish
+        if self._seat is None:
+            publish(f"radio/{header.frequency_khz}/audio", header, raw=pcm)
+        else:
+            message = AT_SEAT[type(header)](seat=self._seat, **dict(header))
+            publish(f"seat/{key_chunk(self._seat)}/audio", message, raw=pcm)
 
 
-class SeatReceiver:
-    """Publishes what the receiver of a seat gets on the frequencies of the seat."""
+class _ReceivedAudio:
+    """Samples of one transmission, as a receiver gives them out.
 
-    def __init__(
-        self,
-        seat: str,
-        director: Director,
-        receptions: Receptions,
-        stations: Stations,
-        backend: RadioBackend,
-        publish: Publish,
-    ) -> None:
-        self._frequencies_khz = frozenset(stations.selectable(seat))
+    Samples that have been given out stay as they are. Those after them are received anew
+    whenever more becomes known: another transmission begins, or a person goes on speaking.
+    """
 
-        def publish_audio(header: AudioHeader, pcm: bytes) -> None:
-            message = AT_SEAT[type(header)](seat=seat, **dict(header))
-            publish(f"seat/{key_chunk(seat)}/audio", message, raw=pcm)
+    def __init__(self, on_air: OnAir, context: RadioContext, seat: str | None) -> None:
+        self._on_air = on_air
+        self._context = context
+        self._seat = seat
+        self._given = bytearray()
+        self._chunks = 0
+        self._ahead = b""
+        """PCM that has been received and not given out yet."""
+        self._ahead_of: object = None
+        """State of knowledge when it was received, for comparison."""
 
-        self._streams = AudioStreams(seat, director, receptions, stations, backend, publish_audio)
+    @property
+    def pcm(self) -> bytes:
+        """All samples that have been given out, as PCM."""
+        return bytes(self._given)
 
-    def open(self, on_air: OnAir) -> None:
-        """Begin to stream a transmission, if it is received."""
-        if on_air.utterance.frequency_khz in self._frequencies_khz:
-            self._streams.open(on_air)
+    @property
+    def samples(self) -> int:
+        """Number of samples that have been given out."""
+        return len(self._given) // SAMPLE_BYTES
 
-    def close(self, on_air: OnAir) -> None:
-        """Publish the end of a transmission that was streamed."""
-        if self._streams.has_open(on_air):
-            self._streams.close(on_air)
+    def give_until(
+        self, now_ns: int, mixed_with: tuple[OnAir, ...]
+    ) -> list[tuple[TransmissionChunk, bytes]]:
+        """Give out the samples that have been on the air by now and were not given out yet."""
+        on_the_air = (now_ns - self._on_air.t_tx_ns) * SAMPLE_RATE_HZ // SECOND_NS
+        self._look_ahead(now_ns, mixed_with)
+        return self._give((on_the_air - self.samples) * SAMPLE_BYTES, now_ns)
+
+    def give_rest(
+        self, now_ns: int, mixed_with: tuple[OnAir, ...]
+    ) -> list[tuple[TransmissionChunk, bytes]]:
+        """Give out all other samples of a transmission that has ended."""
+        self._look_ahead(now_ns, mixed_with)
+        return self._give(len(self._ahead), now_ns)
+
+    def _look_ahead(self, now_ns: int, mixed_with: tuple[OnAir, ...]) -> None:
+        """Receive the samples that come next, if more is known than when that was done last."""
+        on_air, context = self._on_air, self._context
+        is_over = not on_air.is_open_ended or on_air.has_ended(now_ns)
+        others = [(other, other.end_ns or other.known_until_ns(now_ns)) for other in mixed_with]
+        known = (is_over, on_air.known_until_ns(now_ns), others)
+        if known != self._ahead_of:
+            background = context.stations.background_of(on_air.utterance.speaker)
+            request = SoundRequest(on_air, mixed_with, background, self.samples, now_ns, self._seat)
+            self._ahead = context.backend.receive(request)
+            self._ahead_of = known
+
+    def _give(self, size: int, now_ns: int) -> list[tuple[TransmissionChunk, bytes]]:
+        """Give out that many bytes, or as many as there are."""
+        given, self._ahead = self._ahead[:size], self._ahead[size:]
+        chunks = []
+        for begin in range(0, len(given), CHUNK_SAMPLES * SAMPLE_BYTES):
+            pcm = given[begin : begin + CHUNK_SAMPLES * SAMPLE_BYTES]
+            header = TransmissionChunk(
+                t_ns=now_ns,
+                id=self._on_air.utterance.id,
+                frequency_khz=self._on_air.utterance.frequency_khz,
+                seq=self._chunks,
+                first_sample=self.samples,
+                samples=len(pcm) // SAMPLE_BYTES,
+                sha256=sha256_of(pcm),
+            )
+            chunks.append((header, pcm))
+            self._chunks += 1
+            self._given += pcm
+        return chunks
+
+
+def sha256_of(pcm: bytes) -> str:
+    """Return the SHA-256 of samples; empty if there are none."""
+    return hashlib.sha256(pcm).hexdigest() if pcm else ""

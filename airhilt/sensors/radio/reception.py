@@ -41,7 +41,8 @@ class Receptions:
         receiver = None if listener is None else self._radio.receivers.get(listener)
         if receiver is None or listener == said.speaker:
             return call
-        return replace(call, snr_db=_lower(call.snr_db, receiver.snr_db))
+        ratios = (call.snr_db, receiver.snr_db)
+        return replace(call, snr_db=min(ratio for ratio in ratios if ratio is not None))
 
     def opens_squelch(self, said: Utterance, listener: str | None = None) -> bool:
         """Return whether a call is strong enough for a receiver not to stay silent."""
@@ -56,11 +57,6 @@ class Receptions:
         return Reception(
             _first([each.snr_db for each in settings]), _first([each.wet for each in settings])
         )
-
-
-def _lower(call_db: float | None, receiver_db: float) -> float:
-    """Return the lower one of two ratios; None is without noise."""
-    return receiver_db if call_db is None else min(call_db, receiver_db)
 
 
 def _first(values: list[float | None]) -> float | None:

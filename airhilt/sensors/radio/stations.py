@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING
 
 from airhilt.geodesy.relative_motion import Kinematics, horizontal_distance_m
 from airhilt.scenario.models import RadioLine
+from airhilt.sensors.radio.on_air import BackgroundNoise
 from airhilt.surveillance.horizon import LEAST_ANTENNA_HEIGHT_M, radio_horizon_m
 from airhilt.units import DEGREE, FOOT
 from airhilt.world.actors.actor import Actor
 from airhilt.world.actors.listening import Listener
 from airhilt.world.site import FixedSite, ScenarioSite
-
-if TYPE_CHECKING:
-    from airhilt.sensors.radio.channel import BackgroundNoise
 
 GROUND_ANTENNA_M = 50.0 * FOOT
 """Height of the units' antenna in m, the same as that of an ADS-B receiver by default."""

@@ -1,29 +1,20 @@
-"""The transmissions of a run: they begin, are received, and end; and the truth about each."""
+"""The transmissions of a run: they are received, and end; and the truth about each."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
-from dataclasses import dataclass
+from typing import NamedTuple
 
-from airhilt.messages import SpokenTruth, Transcript
+from airhilt.audio.pcm import SAMPLE_BYTES
+from airhilt.messages import SpokenTruth, Transcript, Transmission
 from airhilt.phraseology.parties import with_parties
-from airhilt.scenario.models import Radio
-from airhilt.sensors.base import Publish
-from airhilt.sensors.radio.backends import RadioBackend
-from airhilt.sensors.radio.frequency_arbiter import FrequencyArbiter
-from airhilt.sensors.radio.on_air import OnAir, Utterance
-from airhilt.sensors.radio.open_microphone import OpenMicrophone
-from airhilt.sensors.radio.receiver import RadioReceiver, SeatReceiver
-from airhilt.sensors.radio.reception import Receptions
-from airhilt.sensors.radio.stations import Stations
-from airhilt.sim import Director
+from airhilt.sensors.radio.context import RadioContext
+from airhilt.sensors.radio.on_air import OnAir
+from airhilt.sensors.radio.receiver import RadioReceiver, sha256_of
 
 
-@dataclass(frozen=True, slots=True)
-class EndedTransmission:
-    """A transmission that has ended and has been published."""
+class EndedTransmission(NamedTuple):
+    """What becomes of a transmission that has ended and has been published."""
 
-    on_air: OnAir
     is_blocked: bool
     """True if another one was received at the same time."""
     transcript: Transcript | None
@@ -31,107 +22,51 @@ class EndedTransmission:
 
 
 class Transmissions:
-    """All transmissions of a run.
+    """All transmissions of a run, at the units' receiver and at seats with one of their own."""
 
-    Parameters
-    ----------
-    began
-        Called with each utterance when its transmission begins.
-    ended
-        Called with each transmission when it has ended and has been published.
-    roster
-        Callsigns that the controller expects.
-    seats
-        Units and actors at which a person hears; those with a receiver of their own get its sound.
-    """
+    def __init__(self, context: RadioContext) -> None:
+        self._context = context
+        self._receiver = RadioReceiver(context)
+        seats = sorted(state.seat for state in context.seats)
+        own = [seat for seat in seats if seat in context.radio.receivers]
+        self._receivers = [self._receiver, *(RadioReceiver(context, seat) for seat in own)]
 
-    def __init__(
-        self,
-        director: Director,
-        radio: Radio,
-        stations: Stations,
-        backend: RadioBackend,
-        publish: Publish,
-        *,
-        began: Callable[[Utterance], None],
-        ended: Callable[[EndedTransmission], None],
-        roster: Collection[str] = (),
-        seats: Collection[str] = (),
-    ) -> None:
-        self._director = director
-        self._controller = radio.controller
-        self._roster = roster
-        self._receptions = Receptions(radio)
-        self._stations = stations
-        self._backend = backend
-        self._publish = publish
-        self._receiver = RadioReceiver(director, self._receptions, stations, backend, publish)
-        self._at_seats = [
-            SeatReceiver(seat, director, self._receptions, stations, backend, publish)
-            for seat in sorted(seats)
-            if seat in radio.receivers
-        ]
+    def open(self, on_air: OnAir) -> None:
+        """Begin to stream a transmission at each receiver that gets it."""
+        for receiver in self._receivers:
+            receiver.open(on_air)
 
-        def open_receivers(on_air: OnAir) -> None:
-            self._open(on_air)
-            began(on_air.utterance)
-
-        self._arbiter = FrequencyArbiter(
-            director,
-            backend.speak,
-            stations.audible,
-            began=open_receivers,
-            ended=lambda on_air: ended(self._finish(on_air)),
-        )
-
-    def say(self, utterance: Utterance) -> None:
-        """Say something as soon as its speaker finds the frequency free."""
-        self._arbiter.say(utterance)
-
-    def transmit_carrier(self, utterance: Utterance, for_s: float) -> None:
-        """Transmit a carrier without words for a time in s."""
-        self._arbiter.transmit_carrier(utterance, for_s)
-
-    def press(self, utterance: Utterance) -> OpenMicrophone:
-        """Transmit from now on what a person's microphone gives, until its button is released."""
-        return self._arbiter.press(utterance)
-
-    def close(self) -> None:
-        """Cut off what is on the air, and publish it as far as it has come; the run ends."""
-        for on_air in self._arbiter.close():
-            self._finish(on_air)
+    def finish(self, on_air: OnAir) -> EndedTransmission:
+        """Publish a transmission that has ended, and the truth about it."""
+        context, said = self._context, on_air.utterance
+        mixed_with = self._receiver.mixed_with(on_air)
+        self._publish_truth(on_air, mixed_with)
+        transcript = None
+        pcm = self._receiver.close(on_air)
+        if pcm is not None:
+            self._publish_whole(on_air, pcm)
+            transcript = context.backend.transcript(on_air, mixed_with)
+        for receiver in self._receivers[1:]:
+            receiver.close(on_air)
+        if transcript is not None:
+            keyed_by = context.stations.keyed_by(said.speaker)
+            roster, controller = context.scenario.roster, context.radio.controller
+            transcript = with_parties(transcript, roster, controller, keyed_by)
+        return EndedTransmission(bool(mixed_with), transcript)
 
     def reaches(self, on_air: OnAir, listener: str) -> bool:
         """Return whether a transmission reaches a listener, and no other at the same time."""
-        audible = self._stations.audible
+        audible = self._context.stations.audible
         return (
-            self._receptions.opens_squelch(on_air.utterance, listener)
+            self._context.receptions.opens_squelch(on_air.utterance, listener)
             and audible(on_air.utterance.speaker, listener)
             and not any(audible(other.utterance.speaker, listener) for other in on_air.overlapping)
         )
 
-    def _open(self, on_air: OnAir) -> None:
-        self._receiver.open(on_air)
-        for receiver in self._at_seats:
-            receiver.open(on_air)
-
-    def _finish(self, on_air: OnAir) -> EndedTransmission:
-        mixed_with = self._receiver.mixed_with(on_air)
-        self._publish_truth(on_air, mixed_with)
-        transcript = None
-        if self._receiver.close(on_air):
-            transcript = self._backend.transcript(on_air, mixed_with)
-        for receiver in self._at_seats:
-            receiver.close(on_air)
-        if transcript is not None:
-            keyed_by = self._stations.keyed_by(on_air.utterance.speaker)
-            transcript = with_parties(transcript, self._roster, self._controller, keyed_by)
-        return EndedTransmission(on_air, bool(mixed_with), transcript)
-
     def _publish_truth(self, on_air: OnAir, mixed_with: tuple[OnAir, ...]) -> None:
         said = on_air.utterance
         truth = SpokenTruth(
-            t_ns=self._director.now_ns,
+            t_ns=self._context.director.now_ns,
             id=said.id,
             speaker=said.speaker,
             addressed=said.addressed,
@@ -141,7 +76,22 @@ class Transmissions:
             t_end_ns=on_air.t_end_ns,
             in_reply_to=said.in_reply_to,
             blocked_by=tuple(other.utterance.id for other in mixed_with),
-            snr_db=self._receptions.of(said).snr_db,
+            snr_db=self._context.receptions.of(said).snr_db,
             is_from_microphone=said.is_from_microphone,
         )
-        self._publish(f"truth/radio/{said.id}", truth)
+        self._context.publish(f"truth/radio/{said.id}", truth)
+
+    def _publish_whole(self, on_air: OnAir, pcm: bytes) -> None:
+        said = on_air.utterance
+        transmission = Transmission(
+            t_ns=on_air.t_end_ns,
+            id=said.id,
+            frequency_khz=said.frequency_khz,
+            t_tx_ns=on_air.t_tx_ns,
+            t_end_ns=on_air.t_end_ns,
+            keyed_by=self._context.stations.keyed_by(said.speaker),
+            snr_db=self._context.receptions.of(said).snr_db,
+            samples=len(pcm) // SAMPLE_BYTES,
+            sha256=sha256_of(pcm),
+        )
+        self._context.publish(f"radio/{said.frequency_khz}/tx", transmission, raw=pcm)

@@ -56,13 +56,7 @@ class Actor(Protocol):
         """Return the name of the mesh that it shows at a time in seconds."""
 
     def command(self, command: Command) -> None:
-        """Carry out a command.
-
-        Raises
-        ------
-        Unable
-            The actor cannot.
-        """
+        """Carry out a command; raise `Unable` if the actor cannot."""
 
     def hear(self, advisory: Advisory) -> Reaction | None:
         """Return the reaction to an advisory; None if there is none."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from functools import partial
 
 from airhilt.messages import (
@@ -19,9 +19,8 @@ from airhilt.messages import (
 )
 from airhilt.scenario.models import WildlifeSpec
 from airhilt.seats import Seats
-from airhilt.sim import Director, Priority
+from airhilt.sim import Director
 from airhilt.sim.payload import Payload
-from airhilt.units import seconds_to_ns
 from airhilt.world.actors.actor import Actor, Reaction, Unable
 
 
@@ -42,25 +41,13 @@ class AdvisoryDelivery:
     """Delivers advisories to actors, and schedules the reactions.
 
     An active advisory at or above a severity is spoken: its recipient gets it when the voice
-    begins to be heard. All others, and all in a run without a voice, are read as soon as they are
-    published. So are alerts of equipment, which has a voice or a light of its own.
+    begins to be heard, or, on the recipients' frequencies, has been heard to the end. All others,
+    and all in a run without a voice, are read as soon as they are published. So are alerts of
+    equipment, which has a voice or a light of its own.
 
     While equipment tells a crew what to do, the crew does that, whatever the assistant says: a
-    resolution advisory has priority (ICAO Doc 8168, volume III, section 4, 3.2).
-
-    Parameters
-    ----------
-    is_voiced
-        True if a worker speaks advisories.
-    speak_min_level
-        Least severity that is spoken.
-    is_on_frequency
-        True if advisories are spoken on the recipients' frequencies: they get them when they have
-        heard them to the end there.
-    seats
-        Seats of people, who act as they like.
-    event
-        Called with the kind, the subject and the text of a reaction.
+    resolution advisory has priority (ICAO Doc 8168, volume III, section 4, 3.2). People at seats
+    act as they like.
     """
 
     def __init__(
@@ -102,7 +89,10 @@ class AdvisoryDelivery:
             case AdvisoryAudio() if not self._is_on_frequency:
                 self.heard(message.id, message.revision, message.recipient)
             case EquipmentAlert(advisory=advisory) if advisory.recipient in self._by_address:
-                self._note(advisory)
+                in_force = self._in_force.setdefault(advisory.recipient, set())
+                in_force.discard(advisory.id)
+                if advisory.active and advisory.recommendation is not None:
+                    in_force.add(advisory.id)
                 self._deliver(advisory, is_equipment=True)
             case SeatAction(act=LeaveSeat()):
                 self._person_left(key.split("/")[1])
@@ -117,9 +107,8 @@ class AdvisoryDelivery:
     def voice_lost(self) -> None:
         """Deliver all advisories that wait for the voice, which is lost."""
         self._is_voiced = False
-        waiting: Sequence[Advisory] = list(self._unspoken.values())
-        self._unspoken.clear()
-        for advisory in waiting:
+        waiting, self._unspoken = self._unspoken, {}
+        for advisory in waiting.values():
             self._deliver(advisory)
 
     def _person_left(self, seat: str) -> None:
@@ -133,14 +122,6 @@ class AdvisoryDelivery:
         is_urgent = advisory.severity.rank >= self._speak_min_level.rank
         return self._is_voiced and advisory.active and is_urgent
 
-    def _note(self, advisory: Advisory) -> None:
-        """Note whether equipment tells a recipient what to do."""
-        in_force = self._in_force.setdefault(advisory.recipient, set())
-        if advisory.active and advisory.recommendation is not None:
-            in_force.add(advisory.id)
-        else:
-            in_force.discard(advisory.id)
-
     def _deliver(self, advisory: Advisory, *, is_equipment: bool = False) -> None:
         actor = self._by_address[advisory.recipient]
         if self._seats.has_person(actor.spec.callsign):
@@ -151,9 +132,8 @@ class AdvisoryDelivery:
             return
         reaction = actor.hear(advisory)
         if reaction is not None:
-            due_ns = self._director.now_ns + seconds_to_ns(reaction.delay_s)
             react = partial(self._react, actor, advisory, reaction, is_equipment)
-            self._director.at(due_ns, react, Priority.SCRIPT)
+            self._director.after(reaction.delay_s, react)
 
     def _react(
         self, actor: Actor, advisory: Advisory, reaction: Reaction, is_equipment: bool

@@ -34,11 +34,11 @@ from airhilt.messages import (
 from airhilt.scenario.models import AircraftSpec
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
 from airhilt.world.actors.actor import Reaction, Unable
-from airhilt.world.actors.envelope import too_low, unflyable
+from airhilt.world.actors.envelope import Envelope
 from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
 from airhilt.world.actors.runway_operations import RunwayOperations
 from airhilt.world.flight.aircraft import Aircraft
-from airhilt.world.flight.procedures.emergency_descent import EmergencyDescent
+from airhilt.world.flight.procedures.en_route import EmergencyDescent
 from airhilt.world.site import ScenarioSite
 
 GEAR_DOWN_BELOW_M = 600.0
@@ -61,18 +61,8 @@ class Crew:
     """Actor in an aircraft: carries out commands, unless it follows an advisory.
 
     A command that comes while an advisory is followed is deferred until the conflict is over.
-    `RunwayOperations` carries out commands about runways and taxiways.
-
-    Parameters
-    ----------
-    spec
-        Declaration in the scenario.
-    aircraft
-        Aircraft that the crew flies.
-    site
-        Site of the scenario.
-    seed
-        Seed of the run; reaction times and compliance are drawn from it.
+    `RunwayOperations` carries out commands about runways and taxiways. Reaction times and
+    compliance are drawn from the seed of the run.
     """
 
     category: Literal["aircraft"] = "aircraft"
@@ -85,6 +75,7 @@ class Crew:
         self.runway_operations = RunwayOperations(aircraft, site)
         self._reactions = ReactionModel(spec.callsign, spec.pilot, seed)
         self._site = site
+        self._envelope = Envelope(aircraft, site.ground_m)
         self._return_lateral: Callable[[], None] = partial(
             aircraft.en_route.hold_track, aircraft.state.track_rad
         )
@@ -120,34 +111,21 @@ class Crew:
         self._has_route = True
 
     def command(self, command: Command) -> None:
-        """Carry out a command, now or after the advisory that is followed.
-
-        Raises
-        ------
-        Unable
-            The command cannot be carried out.
-        """
+        """Carry out a command, now or after the advisory that is followed, or raise `Unable`."""
         if self._followed:
             self._deferred.append(command)
         else:
             self._carry_out(command)
 
     def attend(self) -> None:
-        """Take the next step of a runway operation if it is due.
-
-        Raises
-        ------
-        Unable
-            The step cannot be carried out.
-        """
+        """Take the next step of a runway operation if it is due, or raise `Unable`."""
         try:
             self.runway_operations.attend()
         except (ValueError, ScenarioError) as error:
             raise Unable(f"unable, {error}") from None
 
     def _carry_out(self, command: Command) -> None:
-        aircraft = self.body
-        why = unflyable(command, aircraft.kind, aircraft.state.altitude_m, self._site.ground_m)
+        why = self._envelope.unflyable(command)
         if why is not None:
             raise Unable(f"unable {why}")
         try:
@@ -229,7 +207,9 @@ class Crew:
         if self._must_descend_below(recommendation):
             raise Unable("unable, emergency descent")
         if not isinstance(recommendation, Turn):
-            self._require_above_ground(recommendation)
+            why = self._envelope.too_low(recommendation.altitude_ft)
+            if why is not None:
+                raise Unable(f"unable {why}")
         if not self._followed:
             self._altitude_before_m = self.body.target_altitude_m
         match recommendation:
@@ -243,17 +223,6 @@ class Crew:
                 self._turn_by(degrees)
         self._followed[advisory.id] = advisory.revision
         return True
-
-    def _require_above_ground(self, recommendation: Climb | MaintainLevel) -> None:
-        aircraft = self.body
-        why = too_low(
-            recommendation.altitude_ft,
-            aircraft.kind,
-            aircraft.state.altitude_m,
-            self._site.ground_m,
-        )
-        if why is not None:
-            raise Unable(f"unable {why}")
 
     def _turn_by(self, degrees: float) -> None:
         self.body.en_route.turn_by(degrees * DEGREE)

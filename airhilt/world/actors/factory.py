@@ -6,31 +6,41 @@ import math
 from dataclasses import dataclass
 
 from airhilt.errors import ScenarioError
+from airhilt.geodesy.positions import RunwayPosition
+from airhilt.geodesy.wgs84 import Place, azimuth, onward
 from airhilt.scenario.models import (
     ActorSpec,
     Airborne,
     AircraftSpec,
+    GroundStart,
+    HoldingShort,
     LinedUp,
     OnFinal,
     Scenario,
+    Standing,
     VehicleSpec,
     Weather,
     WildlifeSpec,
 )
 from airhilt.sim.streams import stream
-from airhilt.units import DEGREE, FOOT, KNOT
+from airhilt.units import DEGREE, FOOT, KNOT, NAUTICAL_MILE
 from airhilt.world.actors.actor import Actor, Unable
 from airhilt.world.actors.crew import Crew
-from airhilt.world.actors.driver import Driver
 from airhilt.world.actors.reactions import ReactionModel
-from airhilt.world.actors.starts import airborne, on_final, on_ground
-from airhilt.world.actors.wildlife import Animal
+from airhilt.world.actors.surface_actors import Animal, Driver
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.flight.aircraft_type import load_aircraft_type
 from airhilt.world.flight.model import ModelError
 from airhilt.world.flight.state import Atmosphere, InitialCondition, OnGround
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.kinds import load_kind
+from airhilt.world.surface.ways import NOSE_MARGIN_M
+
+AIM_POINT_M = 300.0
+"""Distance from the threshold to where the glide path meets the runway, in m (ICAO Annex 14
+volume I, 5.2.5)."""
+LINED_UP_M = 30.0
+"""Distance from the beginning of the runway to the tail of a lined-up aircraft, in m."""
 
 
 def atmosphere_of(weather: Weather) -> Atmosphere:
@@ -50,10 +60,7 @@ def build_actors(
 ) -> dict[str, Actor]:
     """Return the actors of a scenario by callsign.
 
-    Raises
-    ------
-    ScenarioError
-        An actor cannot begin as the scenario says, or cannot carry out its first commands.
+    A ScenarioError says which actor cannot begin so, or cannot carry out its first commands.
     """
     builder = _Builder(scenario, site, seed, tick_s, {})
     for actor in scenario.actors:
@@ -93,11 +100,11 @@ class _Builder:
         condition: InitialCondition | OnGround
         match actor.initial:
             case Airborne() as initial:
-                condition = airborne(initial, site, route)
+                condition = _airborne(initial, site, route)
             case OnFinal() as initial:
-                condition = on_final(initial, site, kind.speeds.approach_kt * KNOT)
+                condition = _on_final(initial, site, kind.speeds.approach_kt * KNOT)
             case initial:
-                place, heading = on_ground(initial, site, kind.dimensions.length_m)
+                place, heading = _on_ground(initial, site, kind.dimensions.length_m)
                 condition = OnGround(*place, heading, isinstance(initial, LinedUp))
         aircraft = Aircraft(
             kind,
@@ -121,18 +128,18 @@ class _Builder:
 
     def _driver(self, actor: VehicleSpec) -> Driver:
         kind = load_kind(actor.kind, "vehicle")
-        place, heading = on_ground(actor.initial, self.site, kind.dimensions.length_m)
+        place, heading = _on_ground(actor.initial, self.site, kind.dimensions.length_m)
         body = kind.create(
             place, heading, ground_m=self.site.ground_m, tick_s=self.tick_s, seed=self.seed
         )
         reactions = ReactionModel(actor.callsign, actor.driver, self.seed)
-        driver = Driver(actor, kind, body, self.site, reactions)
+        driver = Driver(kind, body, self.site, actor, reactions)
         for command in actor.commands:
             driver.command(command)
         return driver
 
     def _animal(self, actor: WildlifeSpec) -> Animal:
-        place, heading = on_ground(actor.initial, self.site, 0.0)
+        place, heading = _on_ground(actor.initial, self.site, 0.0)
         kind = load_kind(actor.kind, "wildlife")
         body = kind.create(
             place,
@@ -142,4 +149,49 @@ class _Builder:
             seed=self._seed_of(f"wildlife/{actor.callsign}"),
             height_m=actor.height_ft * FOOT,
         )
-        return Animal(actor, kind, body, self.site, self.actors)
+        return Animal(kind, body, self.site, actor, self.actors)
+
+
+def _airborne(initial: Airborne, site: ScenarioSite, route: list[Place]) -> InitialCondition:
+    """Return the condition in which a flight begins in the air."""
+    place = site.place(initial.position)
+    track = azimuth(place, route[0]) if initial.track_deg is None else initial.track_deg * DEGREE
+    return InitialCondition(
+        *place,
+        altitude_m=initial.altitude_ft * FOOT,
+        track_rad=track,
+        calibrated_airspeed_m_s=initial.cas_kt * KNOT,
+    )
+
+
+def _on_final(initial: OnFinal, site: ScenarioSite, speed_m_s: float) -> InitialCondition:
+    """Return the condition in which a flight begins on the glide path, at approach speed."""
+    runway = site.runway(initial.runway)
+    distance_m = initial.distance_nm * NAUTICAL_MILE
+    place = site.place(RunwayPosition(type="runway", runway=initial.runway, along_m=-distance_m))
+    slope = math.tan(runway.glide_path_rad)
+    return InitialCondition(
+        *place,
+        altitude_m=site.ground_m + (distance_m + AIM_POINT_M) * slope,
+        track_rad=azimuth(place, runway.end),
+        calibrated_airspeed_m_s=speed_m_s,
+        vertical_rate_m_s=-speed_m_s * slope,
+        on_approach=True,
+    )
+
+
+def _on_ground(initial: GroundStart, site: ScenarioSite, length_m: float) -> tuple[Place, float]:
+    """Return the place of the centre of an actor of some length, and its heading."""
+    match initial:
+        case LinedUp(runway=ident):
+            runway = site.runway(ident)
+            return (
+                onward(runway.start, runway.course_rad, LINED_UP_M + length_m / 2.0),
+                runway.course_rad,
+            )
+        case HoldingShort(runway=ident, taxiway=taxiway, before_m=before_m):
+            hold = site.airport.hold(ident, taxiway)
+            back_m = length_m / 2.0 + NOSE_MARGIN_M + before_m
+            return onward(hold.place, hold.heading_rad, -back_m), hold.heading_rad
+        case Standing(position=position, heading_deg=heading_deg):
+            return site.place(position), heading_deg * DEGREE

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -22,8 +22,6 @@ from airhilt.commands import (
 )
 from airhilt.phraseology import TAU_ASR, Call, Instruction, agree, parse_call
 
-Parse = Callable[[str, Iterable[str], Sequence[float] | None], Call]
-
 
 @dataclass(frozen=True, slots=True)
 class Understanding:
@@ -41,9 +39,12 @@ class Listener:
     """Understands calls, with the callsigns that are on a frequency."""
 
     callsigns: tuple[str, ...]
-    parse: Parse = parse_call
     variation_deg: float = 0.0
     """Magnetic variation of the headings that are said, in degrees, positive east."""
+
+    def parse(self, text: str, word_confidences: Sequence[float] | None = None) -> Call:
+        """Return the meaning of a call."""
+        return parse_call(text, self.callsigns, word_confidences)
 
     def commands_of(
         self, instructions: Iterable[Instruction], bound_runway: str | None
@@ -78,26 +79,20 @@ class Listener:
         """Return the understanding of a call by its addressee.
 
         A listener by ear who heard the words that were said is certain of them. A reader of a
-        transcript does not know what was said, and goes by its confidence.
+        transcript does not know what was said, and goes by the confidence of each word.
 
-        Parameters
-        ----------
-        known_by
-            Callsigns that show the listener that the call is addressed: its own, or the caller's.
-            Without any, the listener takes the call as addressed.
-        bound_runway
-            Runway of a call that names none: the one that the listener is going to use.
-        word_confidences
-            Confidence of each word of a transcript; None by ear.
+        The callsigns ``known_by``, its own or the caller's, show the listener that the call is
+        addressed; without any it takes it as addressed. A call that names no runway is on the one
+        that the listener is going to use.
         """
         is_the_same = words(heard) == words(said)
         if is_the_same and word_confidences is None:
             return Understanding("as_said")
-        taken = self.parse(heard, self.callsigns, word_confidences)
+        taken = self.parse(heard, word_confidences)
         doubt = self._is_not_for(taken, known_by)
         if doubt == "not_for_me" and not is_the_same:
             return Understanding(doubt, taken)
-        meant = self.parse(said, self.callsigns, None)
+        meant = self.parse(said)
         is_in_doubt = doubt == "unclear" or taken.confidence < TAU_ASR
         if is_in_doubt and (_wants_something(taken) or _wants_something(meant)):
             return Understanding("unclear", taken)
@@ -118,7 +113,7 @@ class Listener:
         """Return the understanding of a call by somebody else than its addressee."""
         if words(heard) == words(said):
             return Understanding("not_for_me")
-        taken = self.parse(heard, self.callsigns, word_confidences)
+        taken = self.parse(heard, word_confidences)
         commands = self.commands_of(taken.instructions, bound_runway)
         is_mine = self._is_not_for(taken, (callsign,)) is None and taken.kind in (
             "instruction",
@@ -130,10 +125,10 @@ class Listener:
 
     def differs(self, read_back: str, said: str) -> bool:
         """Return whether a readback contradicts the call; a shorter readback does not."""
-        meant = self.parse(said, self.callsigns, None).instructions
+        meant = self.parse(said).instructions
         return not all(
             any(agree(instruction, other) for other in meant)
-            for instruction in self.parse(read_back, self.callsigns, None).instructions
+            for instruction in self.parse(read_back).instructions
         )
 
     @staticmethod

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import partial
+from typing import TYPE_CHECKING
 
 from airhilt.commands import (
     CancelTakeoffCommand,
@@ -22,13 +23,15 @@ from airhilt.commands import (
     TurnCommand,
 )
 from airhilt.geodesy.wgs84 import Place
-from airhilt.units import FOOT, KNOT, NAUTICAL_MILE
+from airhilt.units import FOOT, KNOT, NAUTICAL_MILE, wrap_angle
 from airhilt.world.actors.actor import Unable
-from airhilt.world.actors.final_approach import FinalApproach
 from airhilt.world.actors.taxi_paths import exit_for, hold_beside, taxi_path
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.runway import RunwayEnd
+
+if TYPE_CHECKING:
+    from airhilt.world.surface.layout import Layout
 
 DECISION_SPEED_PART = 0.95
 """V1 as a part of the rotation speed: on dry runways the two lie within a few knots."""
@@ -47,8 +50,39 @@ CAPTURE_DISTANCE_M = 0.5 * NAUTICAL_MILE
 """Greatest distance from the extended centre line at which the final approach is joined, in m."""
 
 
+class FinalApproach:
+    """Final approach of a runway, in the airport's plane."""
+
+    def __init__(self, airport: Layout, runway: RunwayEnd) -> None:
+        self.runway = runway
+        self._frame = airport.local_frame
+        self._east, self._north = airport.local_frame.to_local(runway.threshold)
+        self._sin, self._cos = math.sin(runway.course_rad), math.cos(runway.course_rad)
+
+    def before_m(self, here: Place) -> float:
+        """Return the distance to the threshold along the approach, negative beyond it."""
+        east, north = self._off_threshold(here)
+        return -(east * self._sin + north * self._cos)
+
+    def right_m(self, here: Place) -> float:
+        """Return the distance to the right of the approach."""
+        east, north = self._off_threshold(here)
+        return east * self._cos - north * self._sin
+
+    def angle_rad(self, track_rad: float) -> float:
+        """Return the angle between a track and the approach, positive to the right."""
+        return wrap_angle(track_rad - self.runway.course_rad)
+
+    def _off_threshold(self, here: Place) -> tuple[float, float]:
+        east, north = self._frame.to_local(here)
+        return east - self._east, north - self._north
+
+
 class RunwayOperations:
-    """Carries out the commands of one crew about runways and taxiways."""
+    """Carries out the commands of one crew about runways and taxiways.
+
+    What cannot be carried out raises Unable, ValueError or ScenarioError.
+    """
 
     def __init__(self, aircraft: Aircraft, site: ScenarioSite) -> None:
         self._final: FinalApproach | None = None
@@ -68,13 +102,7 @@ class RunwayOperations:
         return None if self._final is None else self._final.runway.ident
 
     def bind(self, runway: str) -> RunwayEnd:
-        """Set the runway that the crew is going to use; return it.
-
-        Raises
-        ------
-        ScenarioError
-            There is none of that name.
-        """
+        """Set the runway that the crew is going to use; return it."""
         end = self._site.runway(runway)
         self._final = FinalApproach(self._site.airport, end)
         return end
@@ -82,13 +110,7 @@ class RunwayOperations:
     # --- commands -----------------------------------------------------------------------------
 
     def carry_out(self, command: Command) -> bool:
-        """Carry out a command; return False for one that is not about runways or taxiways.
-
-        Raises
-        ------
-        Unable, ValueError, ScenarioError
-            The command cannot be carried out.
-        """
+        """Carry out a command; return False for one that is not about runways or taxiways."""
         match command:
             case TaxiCommand():
                 self._taxi(command)
@@ -122,13 +144,7 @@ class RunwayOperations:
         self._next = self._go_around_uncleared
 
     def attend(self) -> None:
-        """Take the next step of an operation if it is due.
-
-        Raises
-        ------
-        Unable, ValueError, ScenarioError
-            The step is due and cannot be carried out: a landing becomes a go-around.
-        """
+        """Take the next step of an operation if it is due; a landing may become a go-around."""
         following, self._next = self._next, None
         if following is not None and not following() and self._next is None:
             self._next = following
@@ -230,8 +246,10 @@ class RunwayOperations:
         if aircraft.on_ground:
             raise Unable("unable, on the ground")
         runway = site.runway(command.runway)
-        if aircraft.phase in ("glide", "flare") and not command.via:
-            self._require_final_of(runway)
+        bound = self.bound_runway
+        on_final = aircraft.phase in ("glide", "flare") and not command.via
+        if on_final and bound not in (None, runway.ident):
+            raise Unable(f"unable, on final approach to runway {bound}")
         exit_path: Sequence[Place] = ()
         if command.vacate:
             speed_m_s = aircraft.kind.speeds.approach_kt * KNOT
@@ -245,10 +263,6 @@ class RunwayOperations:
         self._next = partial(self._land_once_on_final, exit_path)
         if not command.via:
             self.attend()
-
-    def _require_final_of(self, runway: RunwayEnd) -> None:
-        if self._final is not None and self._final.runway.ident != runway.ident:
-            raise Unable(f"unable, on final approach to runway {self._final.runway.ident}")
 
     def _land_once_on_final(self, exit_path: Sequence[Place]) -> bool:
         final, state = self._final, self._aircraft.state

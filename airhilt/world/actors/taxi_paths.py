@@ -28,12 +28,7 @@ EXIT_SPEED_M_S = 8.0
 def taxi_path(site: ScenarioSite, here: Place, command: TaxiCommand, nose_m: float) -> list[Place]:
     """Return the path of a taxi command for the actor's centre.
 
-    If it ends at a hold line, the nose stops before the line.
-
-    Raises
-    ------
-    Unable
-        There is no such path.
+    If it ends at a hold line, the nose stops before the line. `Unable` says that there is no path.
     """
     try:
         return taxi_way(site, here, command, nose_m)
@@ -42,13 +37,7 @@ def taxi_path(site: ScenarioSite, here: Place, command: TaxiCommand, nose_m: flo
 
 
 def hold_beside(site: ScenarioSite, here: Place, runway: str) -> Hold:
-    """Return the hold-short position of a runway at which an actor stands.
-
-    Raises
-    ------
-    Unable
-        The actor stands at none.
-    """
+    """Return the hold-short position of a runway at which an actor stands, or raise `Unable`."""
     airport = site.airport
     try:
         strip = airport.strip_of(runway)
@@ -66,10 +55,7 @@ def exit_for(
 ) -> Exit | None:
     """Return the named exit, or the first that a normal rollout can take; None if there is none.
 
-    Raises
-    ------
-    Unable
-        The runway has no exit of that name.
+    `Unable` says that the runway has no exit of that name.
     """
     exits = site.airport.exits(runway.ident)
     if name is not None:

@@ -29,7 +29,7 @@ from airhilt.scenario.problems import Problem
 from airhilt.units import FOOT, KNOT
 from airhilt.world.checks.walk import commands_of, models_of
 from airhilt.world.flight.aircraft_type import load_aircraft_type
-from airhilt.world.flight.modes import GuidanceModes
+from airhilt.world.flight.guidance import GuidanceModes
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.kinds import load_kind
 

@@ -6,7 +6,6 @@ from airhilt.shapes.aircraft.spec import AircraftDimensions
 from airhilt.world.flight.aircraft_type import AircraftType
 from airhilt.world.flight.airframe import Airframe
 from airhilt.world.flight.control import FlightControl
-from airhilt.world.flight.en_route_commands import EnRouteCommands
 from airhilt.world.flight.ground import GroundLaw
 from airhilt.world.flight.guard import FlightGuard
 from airhilt.world.flight.phases import AircraftSystems
@@ -21,29 +20,20 @@ class Aircraft:
 
     It begins standing on the ground, or in steady flight on its track, holding its altitude and its
     airspeed (or, with an initial vertical rate, climbing to its ceiling or descending to the ground
-    at that rate, until it gets an altitude).
+    at that rate, until it gets an altitude). The air is there from the first instant.
 
     Parameters
     ----------
-    kind
-        Type of the aircraft.
-    initial
-        Place where it begins, and its flight there.
     seed
         Seed of its turbulence. The same seed and commands give the same flight, bit by bit.
-    atmosphere
-        The air, there from the first instant.
     terrain_elevation_m
         Elevation of the flat ground below it, above WGS84.
     tick_s
-        Time between two calls of `advance`, in s; the laws work once in it.
-    substeps
-        Steps of the flight dynamics in a tick.
+        Time between two calls of `advance`, in s, divided into steps of the flight dynamics.
 
     Attributes
     ----------
-    kind : AircraftType
-    en_route : EnRouteCommands
+    en_route : FlightControl
         Commands for track, route, altitude and airspeed.
     procedures : ProcedureCommands
         Commands that begin a taxi, a takeoff, an approach or an emergency procedure.
@@ -83,19 +73,18 @@ class Aircraft:
         systems = AircraftSystems(
             kind, airframe, autopilot, GroundLaw(airframe, kind, tick_s), tick_s
         )
-        self._control = control = FlightControl(systems, initial, terrain_elevation_m)
-        self.en_route = EnRouteCommands(control)
-        self.procedures = ProcedureCommands(control)
+        self.en_route = FlightControl(systems, initial, terrain_elevation_m)
+        self.procedures = ProcedureCommands(self.en_route)
 
     @property
     def state(self) -> AircraftState:
         """True state after the last `advance`."""
-        return self._control.state
+        return self.en_route.state
 
     @property
     def phase(self) -> str:
         """Phase of flight, such as ``en_route``, ``glide`` or ``go_around``."""
-        return self._control.phase.name
+        return self.en_route.phase.name
 
     @property
     def on_ground(self) -> bool:
@@ -125,23 +114,23 @@ class Aircraft:
     @property
     def target_altitude_m(self) -> float:
         """Altitude that is flown to, or held, in m."""
-        return self._control.en_route.vertical.clearance.altitude_m
+        return self.en_route.guidance.vertical.clearance.altitude_m
 
     @property
     def target_vertical_rate_m_s(self) -> float:
         """Vertical rate commanded now, in m/s, positive up; 0 at the target altitude."""
-        return self._control.en_route.vertical.vertical_rate(self.state)
+        return self.en_route.guidance.vertical.vertical_rate(self.state)
 
     @property
     def target_speed_m_s(self) -> float:
         """Calibrated airspeed that is flown to, or held as far as the Mach limit allows, in m/s."""
-        return self._control.en_route.speed.target_m_s
+        return self.en_route.guidance.speed.target_m_s
 
     def advance(self) -> None:
         """Fly one tick; do nothing once the flight has ended."""
         if self.ended is not None:
             return
-        control, airframe = self._control, self._airframe
+        control, airframe = self.en_route, self._airframe
         state = control.state
         control.phase = phase = control.phase.fly(state)
         if isinstance(phase, Standing) and phase.at_rest:
@@ -167,12 +156,8 @@ class Aircraft:
     def fail_engine(self, engine: int) -> None:
         """Stop an engine, counted from 0, for good; the present phase goes on.
 
-        It stops at the end of the next tick: JSBSim undoes what is set before the first one.
-
-        Raises
-        ------
-        ValueError
-            There is no such engine.
+        It stops at the end of the next tick: JSBSim undoes what is set before the first one. A
+        ValueError says that there is no such engine.
         """
         self._airframe.require_engine(engine)
         self._failing.append(engine)

@@ -211,18 +211,9 @@ class AircraftType(_Section):
 
 
 def load_aircraft_type(name: str, files: Mapping[str, Any] = MappingProxyType({})) -> AircraftType:
-    """Return the aircraft type of that name.
+    """Return the aircraft type of that name, from ``files`` or from those that ship with AIRHILT.
 
-    Parameters
-    ----------
-    files
-        JSON objects by their names, of types that do not ship with AIRHILT.
-
-    Raises
-    ------
-    ScenarioError
-        There is none, or its file is wrong: the message names the file, the place in it and
-        what was expected.
+    A ScenarioError says that there is none, or where in its file what was expected.
     """
     if name in files:
         return validated(AircraftType, files[name], name)

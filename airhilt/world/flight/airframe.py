@@ -9,11 +9,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from typing import Any
 
 import jsbsim
 
-from airhilt.units import DEGREE, FOOT, INCH, KNOT, wrap_angle
-from airhilt.world.flight import standard_atmosphere
+from airhilt.units import DEGREE, FOOT, INCH, KNOT
 from airhilt.world.flight.aircraft_type import AircraftType
 from airhilt.world.flight.model import ModelError, load_model
 from airhilt.world.flight.state import AircraftState, Atmosphere, InitialCondition, OnGround
@@ -35,23 +35,23 @@ A slower aircraft feels a part of them in proportion. The models' coefficients a
 angle of attack, which reaches 180 degrees in a tailwind and is undefined in a pure crosswind: they
 would rear a standing aircraft up."""
 
+STATE = (
+    ("position/lat-geod-rad", 1.0), ("position/long-gc-rad", 1.0), ("position/geod-alt-ft", FOOT),
+    ("velocities/v-north-fps", FOOT), ("velocities/v-east-fps", FOOT),
+    ("velocities/v-down-fps", FOOT), ("attitude/phi-rad", 1.0), ("attitude/theta-rad", 1.0),
+    ("attitude/psi-rad", 1.0), ("velocities/vt-fps", FOOT), ("velocities/vc-kts", KNOT),
+    ("velocities/mach", 1.0), ("position/ecef-x-ft", FOOT), ("position/ecef-y-ft", FOOT),
+    ("position/ecef-z-ft", FOOT),
+)  # fmt: skip
+"""Properties of an `AircraftState` in the order of its fields, without the height above ground, and
+their units."""
+
 Reader = Callable[[], float]
 Writer = Callable[[float], object]
 
 
 class Airframe:
-    """A JSBSim aircraft.
-
-    Parameters
-    ----------
-    kind
-        Type of the aircraft.
-    step_s
-        Time step of the flight dynamics, in s.
-    seed
-        Seed of its turbulence.
-    terrain_elevation_m
-        Elevation of the flat ground below it.
+    """A JSBSim aircraft on, or above, flat ground at an elevation; the seed is that of turbulence.
 
     Raises
     ------
@@ -85,21 +85,7 @@ class Airframe:
     def _find_motion(self) -> None:
         """Look up the properties of the aircraft's motion."""
         reader = self._reader
-        self._latitude = reader("position/lat-geod-rad")
-        self._longitude = reader("position/long-gc-rad")
-        self._altitude_ft = reader("position/geod-alt-ft")
-        self._north_fps = reader("velocities/v-north-fps")
-        self._east_fps = reader("velocities/v-east-fps")
-        self._down_fps = reader("velocities/v-down-fps")
-        self._roll = reader("attitude/phi-rad")
-        self._pitch = reader("attitude/theta-rad")
-        self._heading = reader("attitude/psi-rad")
-        self._true_airspeed_fps = reader("velocities/vt-fps")
-        self._calibrated_airspeed_kt = reader("velocities/vc-kts")
-        self._mach = reader("velocities/mach")
-        self._x_ft = reader("position/ecef-x-ft")
-        self._y_ft = reader("position/ecef-y-ft")
-        self._z_ft = reader("position/ecef-z-ft")
+        self._state = [(reader(path), unit) for path, unit in STATE]
         self._dynamic_pressure_psf = reader("aero/qbar-psf")
 
         self.angle_of_attack = reader("aero/alpha-rad")
@@ -153,51 +139,45 @@ class Airframe:
     def start(self, initial: InitialCondition, heading_rad: float) -> None:
         """Put the aircraft into still air at a condition, engines running, untrimmed."""
         fdm = self._fdm
-        fdm["simulation/randomseed"] = self._seed
-        fdm["ic/lat-geod-rad"] = initial.latitude_rad
-        fdm["ic/long-gc-rad"] = initial.longitude_rad
-        fdm["ic/h-sl-ft"] = initial.altitude_m / FOOT
-        fdm["ic/psi-true-rad"] = heading_rad
+        self._set_place(initial, initial.altitude_m, heading_rad)
         fdm["ic/vc-kts"] = initial.calibrated_airspeed_m_s / KNOT
         fdm["ic/roc-fps"] = initial.vertical_rate_m_s / FOOT
-        for engine in range(self._engines):
-            index = f"[{engine}]" if engine else ""
-            fdm[f"fcs/mixture-cmd-norm{index}"] = 1.0
-            fdm[f"fcs/advance-cmd-norm{index}"] = 1.0
-        fdm.run_ic()
-        fdm["propulsion/set-running"] = -1
         gear, flaps = (1.0, self._kind.landing.flaps) if initial.on_approach else (0.0, 0.0)
-        fdm["gear/gear-cmd-norm"] = fdm["gear/gear-pos-norm"] = gear
-        fdm["fcs/flap-cmd-norm"] = fdm["fcs/flap-pos-norm"] = flaps
-        self._read_wheel_positions()
-
-    def _read_wheel_positions(self) -> None:
-        """Read the positions of the wheels; the model knows them once it is initialised."""
-        fdm = self._fdm
-        part = "inertia/cg-{}-in", f"gear/unit[{MAIN_WHEELS[0]}]/{{}}-position"
-        nose = fdm["gear/unit[0]/x-position"]
-        self.wheelbase_m = (fdm[part[1].format("x")] - nose) * INCH
-        below, aft = ((fdm[part[0].format(axis)] - fdm[part[1].format(axis)]) for axis in "zx")
-        self._wheels_below_m, self._wheels_aft_m = below * INCH, -aft * INCH
+        self._initialise(gear, flaps)
 
     def start_on_ground(self, place: OnGround) -> None:
         """Put the aircraft on its wheels in still air, engines running, flaps set for takeoff."""
+        self._set_place(place, self._wheels_on_ground_m, place.heading_rad)
+        self._fdm["ic/vc-kts"] = 0.0
+        self._initialise(1.0, self._kind.takeoff.flaps)
+
+    def _set_place(
+        self, place: InitialCondition | OnGround, altitude_m: float, heading_rad: float
+    ) -> None:
+        """Set where the aircraft begins: JSBSim needs the place before the speed."""
         fdm = self._fdm
         fdm["simulation/randomseed"] = self._seed
         fdm["ic/lat-geod-rad"] = place.latitude_rad
         fdm["ic/long-gc-rad"] = place.longitude_rad
-        fdm["ic/h-sl-ft"] = self._wheels_on_ground_m / FOOT
-        fdm["ic/psi-true-rad"] = place.heading_rad
-        fdm["ic/vc-kts"] = 0.0
+        fdm["ic/h-sl-ft"] = altitude_m / FOOT
+        fdm["ic/psi-true-rad"] = heading_rad
+
+    def _initialise(self, gear: float, flaps: float) -> None:
+        """Run JSBSim's initial conditions, then read the positions of the wheels from the model."""
+        fdm = self._fdm
         for engine in range(self._engines):
             index = f"[{engine}]" if engine else ""
             fdm[f"fcs/mixture-cmd-norm{index}"] = 1.0
             fdm[f"fcs/advance-cmd-norm{index}"] = 1.0
         fdm.run_ic()
         fdm["propulsion/set-running"] = -1
-        fdm["gear/gear-cmd-norm"] = fdm["gear/gear-pos-norm"] = 1.0
-        fdm["fcs/flap-cmd-norm"] = fdm["fcs/flap-pos-norm"] = self._kind.takeoff.flaps
-        self._read_wheel_positions()
+        fdm["gear/gear-cmd-norm"] = fdm["gear/gear-pos-norm"] = gear
+        fdm["fcs/flap-cmd-norm"] = fdm["fcs/flap-pos-norm"] = flaps
+        main = f"gear/unit[{MAIN_WHEELS[0]}]"
+        x, z = fdm[f"{main}/x-position"], fdm[f"{main}/z-position"]
+        self.wheelbase_m = (x - fdm["gear/unit[0]/x-position"]) * INCH
+        self._wheels_below_m = (fdm["inertia/cg-z-in"] - z) * INCH
+        self._wheels_aft_m = -(fdm["inertia/cg-x-in"] - x) * INCH
 
     def set_atmosphere(self, atmosphere: Atmosphere) -> None:
         """Put the aircraft that stands on the ground into the wind of an atmosphere."""
@@ -232,26 +212,21 @@ class Airframe:
         self.set_throttle(CRUISE_LEVER)
 
     def trim(self) -> None:
-        """Find and set the controls and the attitude of steady flight.
-
-        Raises
-        ------
-        ModelError
-            There is no steady flight at this condition.
-        """
+        """Find and set the controls and the attitude of steady flight, or raise `ModelError`."""
         try:
             self._fdm.do_trim(int(jsbsim.TrimMode.FULL))
         except jsbsim.TrimFailureError as error:
+            state = self.state()
             raise ModelError(
-                f"{self._kind.name} cannot fly steadily at {self._calibrated_airspeed_kt():.0f} kt "
-                f"at {self._altitude_ft():.0f} ft"
+                f"{self._kind.name} cannot fly steadily at "
+                f"{state.calibrated_airspeed_m_s / KNOT:.0f} kt at {state.altitude_m / FOOT:.0f} ft"
             ) from error
 
     def release(self, initial: InitialCondition, atmosphere: Atmosphere) -> None:
         """Move the aircraft, as it flies now in still air, to a place and into moving air."""
         fdm = self._fdm
-        north, east, down = self._north_fps(), self._east_fps(), self._down_fps()
-        roll, pitch, heading = self._roll(), self._pitch(), self._heading()
+        north, east, down = (fdm[f"velocities/v-{way}-fps"] for way in ("north", "east", "down"))
+        roll, pitch, heading = (fdm[f"attitude/{angle}-rad"] for angle in ("phi", "theta", "psi"))
         rates = self.roll_rate(), self.pitch_rate(), self.yaw_rate()
         wind_north, wind_east = atmosphere.wind_north_m_s / FOOT, atmosphere.wind_east_m_s / FOOT
         self._keep_wind(atmosphere)
@@ -319,13 +294,7 @@ class Airframe:
             retract(0.0)
 
     def require_engine(self, engine: int) -> None:
-        """Check that there is such an engine (counted from 0).
-
-        Raises
-        ------
-        ValueError
-            There is not.
-        """
+        """Raise ValueError unless there is such an engine (counted from 0)."""
         if engine not in range(self._engines):
             raise ValueError(f"engine is {engine}; expected 0 to {self._engines - 1}")
 
@@ -351,59 +320,20 @@ class Airframe:
 
     def state(self) -> AircraftState:
         """Read the state."""
-        altitude = self._altitude_ft() * FOOT
-        return AircraftState(
-            self._latitude(),
-            self._longitude(),
-            altitude,
-            altitude - self._wheels_on_ground_m,
-            self._north_fps() * FOOT,
-            self._east_fps() * FOOT,
-            self._down_fps() * FOOT,
-            self._roll(),
-            self._pitch(),
-            self._heading(),
-            self._true_airspeed_fps() * FOOT,
-            self._calibrated_airspeed_kt() * KNOT,
-            self._mach(),
-            self._x_ft() * FOOT,
-            self._y_ft() * FOOT,
-            self._z_ft() * FOOT,
-        )
+        values = [read() * unit for read, unit in self._state]
+        height_m = values[2] - self._wheels_on_ground_m
+        return AircraftState._make([*values[:3], height_m, *values[3:]])
 
     def _reader(self, path: str) -> Reader:
-        node = self._fdm.get_property_manager().get_node(path)
-        if node is None:
-            raise ModelError(f"{self._kind.name} has no JSBSim property {path}")
-        read: Reader = node.get_double_value
+        read: Reader = self._node(path).get_double_value
         return read
 
     def _writer(self, path: str) -> Writer:
+        write: Writer = self._node(path).set_double_value
+        return write
+
+    def _node(self, path: str) -> Any:
         node = self._fdm.get_property_manager().get_node(path)
         if node is None:
             raise ModelError(f"{self._kind.name} has no JSBSim property {path}")
-        write: Writer = node.set_double_value
-        return write
-
-
-def heading_to_track(initial: InitialCondition, atmosphere: Atmosphere) -> float:
-    """Return the heading (rad, in [-pi, pi)) that makes good the initial track in the wind.
-
-    Raises
-    ------
-    ValueError
-        The wind across is stronger than the airspeed.
-    """
-    airspeed = standard_atmosphere.true_airspeed(
-        initial.calibrated_airspeed_m_s, initial.altitude_m
-    )
-    across = atmosphere.wind_east_m_s * math.cos(
-        initial.track_rad
-    ) - atmosphere.wind_north_m_s * math.sin(initial.track_rad)
-    level = math.sqrt(max(airspeed**2 - initial.vertical_rate_m_s**2, 0.0))
-    if abs(across) >= level:
-        raise ValueError(
-            f"the wind across the track is {abs(across):.1f} m/s, the true airspeed "
-            f"{airspeed:.1f} m/s; expected more airspeed than wind"
-        )
-    return wrap_angle(initial.track_rad - math.asin(across / level))
+        return node

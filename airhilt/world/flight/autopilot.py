@@ -62,18 +62,11 @@ class PitchLaw(NamedTuple):
 
 
 class Autopilot:
-    """Flies one airframe.
+    """Flies one airframe that is in steady flight.
 
-    Parameters
-    ----------
-    airframe
-        Airframe in steady flight.
-    kind
-        Its type.
-    tick_s
-        Time between two calls of `fly`, in s.
-    state
-        State of the airframe now.
+    Turn rates are those of the track, in rad/s, positive to the right; vertical rates are in m/s,
+    positive up; airspeeds are calibrated, in m/s. A lever is the wanted position of all throttle
+    levers (0..1), which move there at their own rate.
     """
 
     def __init__(
@@ -81,12 +74,12 @@ class Autopilot:
     ) -> None:
         self._airframe = airframe
         self._tick = tick_s
-        gains = kind.gains
-        pitch, roll, yaw, thrust = gains.pitch, gains.roll, gains.yaw, gains.thrust
+        self._gains = gains = kind.gains
         self._acceleration_blend = tick_s / ACCELERATION_LAG_S
         self._energy_blend = tick_s / ENERGY_LAG_S
         self._lift_blend = tick_s / LIFT_ANGLE_LAG_S
-        self._steady_law = PitchLaw(0.5, 0.05, 0.0, pitch.attitude_per_s)
+        self._reference_blend = tick_s / SPEED_LAG_S
+        self._steady_law = PitchLaw(0.5, 0.05, 0.0, gains.pitch.attitude_per_s)
         flare = kind.landing.flare
         self._flare_law = PitchLaw(
             flare.climb,
@@ -94,40 +87,20 @@ class Autopilot:
             flare.climb_rate_s,
             flare.attitude_per_s,
         )
-        self._pitch_rate_limit = pitch.rate_limit_deg_s * DEGREE
-        self._elevator_gain = pitch.rate_s
-        self._elevator_integral_gain = pitch.rate_integral * tick_s
-        self._reference_pressure = pitch.reference_pressure_pa
-        self._bank_limit = roll.bank_limit_deg * DEGREE
-        self._bank_step = roll.bank_rate_limit_deg_s * DEGREE * tick_s
-        self._bank_gain = roll.bank_per_s
-        self._roll_rate_limit = ROLL_RATE_MARGIN * roll.bank_rate_limit_deg_s * DEGREE
-        self._aileron_gain = roll.rate_s
-        self._aileron_integral_gain = roll.rate_integral * tick_s
-        self._sideslip_gain = yaw.sideslip
-        self._sideslip_integral_gain = yaw.sideslip_integral_per_s * tick_s
-        self._yaw_rate_gain = yaw.rate_s
-        self._speed_gain = thrust.speed_s_m
-        self._speed_integral_gain = thrust.speed_integral_m * tick_s
-        self._reference_blend = tick_s / SPEED_LAG_S
-        self._acceleration_gain = thrust.acceleration_s2_m
-        self._climb_gain = thrust.climb_angle
-        self._lever_step = thrust.lever_rate_per_s * tick_s
-
-        self._zero_lift_angle = pitch.zero_lift_angle_deg * DEGREE
-        self._lever = airframe.throttle()
+        self._pitch_rate_limit = gains.pitch.rate_limit_deg_s * DEGREE
+        self._elevator_integral_gain = gains.pitch.rate_integral * tick_s
+        self._bank_limit = gains.roll.bank_limit_deg * DEGREE
+        self._bank_step = gains.roll.bank_rate_limit_deg_s * DEGREE * tick_s
+        self._roll_rate_limit = ROLL_RATE_MARGIN * gains.roll.bank_rate_limit_deg_s * DEGREE
+        self._aileron_integral_gain = gains.roll.rate_integral * tick_s
+        self._sideslip_integral_gain = gains.yaw.sideslip_integral_per_s * tick_s
+        self._speed_integral_gain = gains.thrust.speed_integral_m * tick_s
+        self._lever_step = gains.thrust.lever_rate_per_s * tick_s
+        self._zero_lift_angle = gains.pitch.zero_lift_angle_deg * DEGREE
         self.take_over(state)
 
     def take_over(self, state: AircraftState, elevator: float | None = None) -> None:
-        """Start from the present flight and the present controls.
-
-        Parameters
-        ----------
-        state
-            State of the airframe now.
-        elevator
-            Elevator to start from (-1..1); by default the present one.
-        """
+        """Start from the present flight and controls, or with another elevator (-1..1)."""
         airframe = self._airframe
         speed = max(state.true_airspeed_m_s, 1.0)
         # The integrals begin at what steady flight needs.
@@ -142,7 +115,7 @@ class Autopilot:
         self._potential_climb = climb
         self._shortfall = 0.0
         self._lever = airframe.throttle()
-        self._lever_integral = self._lever - self._climb_gain * climb
+        self._lever_integral = self._lever - self._gains.thrust.climb_angle * climb
         self._reference_airspeed = state.calibrated_airspeed_m_s
 
     @property
@@ -168,20 +141,9 @@ class Autopilot:
         *,
         closely: bool = False,
     ) -> None:
-        """Set the controls.
+        """Set the controls so that the lever holds the airspeed.
 
-        Parameters
-        ----------
-        state
-            State of the aircraft now.
-        turn_rate
-            Turn rate of the track, positive to the right (rad/s).
-        vertical_rate
-            Wanted vertical rate, positive up (m/s).
-        airspeed
-            Wanted calibrated airspeed (m/s).
-        closely
-            True to follow the vertical rate as closely as in a flare.
+        ``closely`` is true to follow the vertical rate as closely as in a flare.
         """
         climb_angle = vertical_rate / state.true_airspeed_m_s
         self._sense_energy(state, airspeed)
@@ -203,18 +165,7 @@ class Autopilot:
     ) -> None:
         """Set the controls so that the climb angle holds the airspeed, whatever the thrust.
 
-        Parameters
-        ----------
-        state
-            State of the aircraft now.
-        turn_rate
-            Turn rate of the track, positive to the right (rad/s).
-        airspeed
-            Wanted calibrated airspeed (m/s).
-        lever
-            Wanted position of all throttle levers (0..1); they move there at their own rate.
-        steepest_climb, steepest_descent
-            Limits of the climb angle (rad), both positive.
+        The limits of the climb angle are in rad, both positive.
         """
         self._sense_energy(state, airspeed)
         climb_angle = self._potential_climb - SPEED_TO_CLIMB * self._shortfall
@@ -234,18 +185,8 @@ class Autopilot:
     ) -> None:
         """Set the controls so that the nose comes to a pitch and stays there.
 
-        Parameters
-        ----------
-        state
-            State of the aircraft now.
-        pitch
-            Wanted pitch, positive up (rad).
-        pitch_rate
-            Greatest pitch rate on the way there (rad/s).
-        turn_rate
-            Turn rate of the track, positive to the right (rad/s); None while the wheels steer.
-        lever
-            Wanted position of all throttle levers (0..1); they move there at their own rate.
+        Pitch is in rad, positive up; its rate on the way there is at most ``pitch_rate``, in rad/s.
+        The turn rate is None while the wheels steer.
         """
         self._sense_energy(state, state.calibrated_airspeed_m_s)
         self._move_lever(state, 0.0, lever)
@@ -272,23 +213,10 @@ class Autopilot:
         lever: float,
         crab: float | None,
     ) -> None:
-        """Set the controls so that the vertical rate is followed closely.
+        """Set the controls so that the vertical rate and its rate of change are followed closely.
 
-        Parameters
-        ----------
-        state
-            State of the aircraft now.
-        turn_rate
-            Turn rate of the track, positive to the right (rad/s).
-        vertical_rate
-            Wanted vertical rate, positive up (m/s).
-        vertical_acceleration
-            Rate of change of the vertical rate (m/s2).
-        lever
-            Wanted position of all throttle levers (0..1); they move there at their own rate.
-        crab
-            Angle from the wanted heading of the nose to its present heading, positive to the right
-            (rad); None to fly without sideslip.
+        ``crab`` is the angle from the wanted heading of the nose to its present heading, positive
+        to the right (rad); None to fly without sideslip.
         """
         speed = state.true_airspeed_m_s
         self._sense_energy(state, state.calibrated_airspeed_m_s)
@@ -326,10 +254,10 @@ class Autopilot:
         self._reference_airspeed += self._reference_blend * (airspeed - self._reference_airspeed)
         error = self._reference_airspeed - state.calibrated_airspeed_m_s
         wanted = (
-            self._speed_gain * error
+            self._gains.thrust.speed_s_m * error
             + self._lever_integral
-            - self._acceleration_gain * self._acceleration
-            + self._climb_gain * climb_angle
+            - self._gains.thrust.acceleration_s2_m * self._acceleration
+            + self._gains.thrust.climb_angle * climb_angle
         )
         if 0.0 < wanted < 1.0:
             self._lever_integral += self._speed_integral_gain * error
@@ -342,7 +270,7 @@ class Autopilot:
         """Move the lever to where it shall stand, ready to hold the airspeed from there."""
         self._lever += within(lever - self._lever, self._lever_step)
         self._airframe.set_throttle(self._lever)
-        self._lever_integral = self._lever - self._climb_gain * climb_angle
+        self._lever_integral = self._lever - self._gains.thrust.climb_angle * climb_angle
         self._reference_airspeed = state.calibrated_airspeed_m_s
 
     def _set_elevator(
@@ -378,7 +306,7 @@ class Autopilot:
     def _move_elevator(self, error: float) -> None:
         """Bring an error of pitch rate to zero."""
         integral = self._elevator_integral + self._elevator_integral_gain * error
-        elevator = -self._surface_scale() * (self._elevator_gain * error + integral)
+        elevator = -self._surface_scale() * (self._gains.pitch.rate_s * error + integral)
         if -1.0 < elevator < 1.0:
             self._elevator_integral = integral
         self._airframe.set_elevator(within(elevator, 1.0))
@@ -389,10 +317,12 @@ class Autopilot:
         turn_rate -= TWICE_EARTH_RATE * math.sin(state.latitude_rad)
         bank = math.atan(turn_rate * state.true_airspeed_m_s / STANDARD_GRAVITY)
         self._bank += within(within(bank, self._bank_limit) - self._bank, self._bank_step)
-        roll_rate = within(self._bank_gain * (self._bank - state.roll_rad), self._roll_rate_limit)
+        roll_rate = within(
+            self._gains.roll.bank_per_s * (self._bank - state.roll_rad), self._roll_rate_limit
+        )
         error = roll_rate - airframe.roll_rate()
         integral = self._aileron_integral + self._aileron_integral_gain * error
-        aileron = self._surface_scale() * (self._aileron_gain * error + integral)
+        aileron = self._surface_scale() * (self._gains.roll.rate_s * error + integral)
         if -1.0 < aileron < 1.0:
             self._aileron_integral = integral
         airframe.set_aileron(within(aileron, 1.0))
@@ -409,8 +339,8 @@ class Autopilot:
         integral = self._rudder_integral - self._sideslip_integral_gain * sideslip
         rudder = (
             integral
-            - self._sideslip_gain * sideslip
-            + self._yaw_rate_gain * (airframe.yaw_rate() - coordinated_yaw_rate)
+            - self._gains.yaw.sideslip * sideslip
+            + self._gains.yaw.rate_s * (airframe.yaw_rate() - coordinated_yaw_rate)
         )
         if -1.0 < rudder < 1.0:
             self._rudder_integral = integral
@@ -418,8 +348,10 @@ class Autopilot:
 
     def _surface_scale(self) -> float:
         """Return by how much more elevator and ailerons move than at their reference pressure."""
-        least = self._reference_pressure / MAXIMUM_PRESSURE_RATIO
-        return self._reference_pressure / max(self._airframe.dynamic_pressure_pa(), least)
+        least = self._gains.pitch.reference_pressure_pa / MAXIMUM_PRESSURE_RATIO
+        return self._gains.pitch.reference_pressure_pa / max(
+            self._airframe.dynamic_pressure_pa(), least
+        )
 
 
 def within(value: float, limit: float) -> float:

@@ -1,38 +1,31 @@
-"""The phase that flies an aircraft now, and the modes that en-route commands change."""
+"""The phase that flies an aircraft now, and the commands that change its en-route flight."""
 
 from __future__ import annotations
 
-from airhilt.units import KNOT
-from airhilt.world.flight.guidance import LateralMode
-from airhilt.world.flight.modes import GuidanceModes
+from collections.abc import Sequence
+
+from airhilt.units import FOOT_PER_MINUTE, KNOT, wrap_angle
+from airhilt.world.flight.guidance import GuidanceModes, LateralMode, Route
 from airhilt.world.flight.phases import AircraftSystems, FlightPhase
 from airhilt.world.flight.procedures.en_route import EnRoute
 from airhilt.world.flight.procedures.taxi import Standing
+from airhilt.world.flight.route import legs_through
 from airhilt.world.flight.state import InitialCondition, OnGround
 
 
 class FlightControl:
-    """State of one aircraft under guidance, shared by its commands.
+    """One aircraft under guidance, and its commands for track, route, altitude and airspeed.
 
-    Parameters
-    ----------
-    systems
-        Airframe, autopilot and ground law.
-    initial
-        Place where the aircraft begins.
-    terrain_elevation_m
-        Elevation of the flat ground above WGS84.
+    A command ends an approach; it changes what a climb or a descent procedure leads to. All raise
+    ValueError on the ground, and for what cannot be flown at all.
 
     Attributes
     ----------
-    systems : AircraftSystems
-    modes : GuidanceModes
-        Makes the modes of this type.
     state : AircraftState
         State after the last tick.
     phase : FlightPhase
         Phase that flies the next tick.
-    en_route : EnRoute
+    guidance : EnRoute
         Modes that are flown now, or that the present procedure leads to.
     """
 
@@ -46,16 +39,70 @@ class FlightControl:
         self.modes = modes = GuidanceModes(systems.kind)
         self.state = systems.airframe.state()
         self.phase: FlightPhase
+        self._route: Route | None = None
         if isinstance(initial, OnGround):
-            self.en_route = self.climb_on(modes.track(initial.heading_rad), self.state.altitude_m)
+            self.guidance = self.climb_on(modes.track(initial.heading_rad), self.state.altitude_m)
             self.phase = Standing(systems, "lined_up" if initial.lined_up else "standing")
         else:
-            self.phase = self.en_route = EnRoute(
+            self.phase = self.guidance = EnRoute(
                 systems,
                 modes.track(initial.track_rad),
                 modes.initial_altitude(initial, terrain_elevation_m),
                 modes.airspeed(initial.calibrated_airspeed_m_s),
             )
+
+    def fly_route(self, waypoints: Sequence[tuple[float, float]]) -> None:
+        """Fly from here through waypoints, each (latitude, longitude) in rad, then hold the track.
+
+        Legs are geodesics; turns cut the corners. One waypoint at least is away from here.
+        """
+        state = self.state
+        legs = legs_through((state.latitude_rad, state.longitude_rad), waypoints)
+        self._route = self.modes.route(legs)
+        self.commanded().lateral = self._route
+
+    def resume_route(self) -> None:
+        """Go back to the route that was left for a track or a heading, intercepting its leg."""
+        if self._route is None:
+            raise ValueError("there is no route to resume; expected fly_route before")
+        modes = self.commanded()
+        if modes.lateral is not self._route:
+            self._route.rejoin()
+            modes.lateral = self._route
+
+    def hold_track(self, track_rad: float) -> None:
+        """Turn to a true track over the ground by the shorter side, and hold it."""
+        self.commanded().lateral = self.modes.track(track_rad)
+
+    def turn_by(self, angle_rad: float) -> None:
+        """Turn from the present track by an angle, positive to the right, and hold the new track.
+
+        The angle is at most a full circle.
+        """
+        track = wrap_angle(self.state.track_rad + angle_rad)
+        self.commanded().lateral = self.modes.track(track, angle_rad)
+
+    def hold_altitude(self, altitude_m: float, vertical_rate_m_s: float | None = None) -> None:
+        """Climb or descend to an altitude, the service ceiling at most, level off, and hold it.
+
+        The rate is positive, and at most the greatest of the type; by default the type's own.
+        """
+        if vertical_rate_m_s is None:
+            vertical_rate_m_s = self.systems.kind.speeds.climb_rate_fpm * FOOT_PER_MINUTE
+        accepted = self.modes.accepted_clearance(
+            altitude_m, vertical_rate_m_s, is_climb=altitude_m >= self.state.altitude_m
+        )
+        self.commanded().vertical = self.modes.altitude(accepted)
+
+    def hold_speed(self, calibrated_airspeed_m_s: float) -> None:
+        """Accelerate or decelerate to a calibrated airspeed, and hold it.
+
+        It is brought between the type's slowest clean speed and its greatest speed and Mach number,
+        at the present altitude.
+        """
+        slowest, greatest = self.modes.speed_limits_m_s(self.state.altitude_m)
+        accepted = min(max(calibrated_airspeed_m_s, slowest), greatest)
+        self.commanded().speed = self.modes.airspeed(accepted)
 
     @property
     def on_ground(self) -> bool:
@@ -70,46 +117,28 @@ class FlightControl:
         )
 
     def commanded(self) -> EnRoute:
-        """Return the modes that a command changes; end a procedure that they do not lead out of.
-
-        Raises
-        ------
-        ValueError
-            The aircraft is on the ground.
-        """
+        """Return the modes that a command changes; end a procedure that they do not lead out of."""
         if not self.phase.commandable:
             self.require_airborne("an en-route command")
             modes, state = self.modes, self.state
             self.systems.airframe.clean_up()
-            self.phase = self.en_route = EnRoute(
+            self.phase = self.guidance = EnRoute(
                 self.systems,
                 modes.track(state.track_rad),
                 modes.altitude_at_usual_rate(state.altitude_m),
                 modes.airspeed(self.systems.kind.speeds.minimum_clean_kt * KNOT),
             )
-        return self.en_route
+        return self.guidance
 
     def require_airborne(self, command: str) -> None:
-        """Check that the aircraft is in the air.
-
-        Raises
-        ------
-        ValueError
-            It is on the ground.
-        """
+        """Raise ValueError unless the aircraft is in the air."""
         if self.on_ground:
             raise ValueError(
                 f"{command} in phase {self.phase.name} on the ground; expected in the air"
             )
 
     def require_on_ground(self, command: str, fastest_m_s: float) -> None:
-        """Check that the aircraft is on the ground, and slow enough.
-
-        Raises
-        ------
-        ValueError
-            It is in the air, or faster.
-        """
+        """Raise ValueError unless the aircraft is on the ground, and at most so fast."""
         if not self.on_ground:
             raise ValueError(
                 f"{command} in phase {self.phase.name} in the air; expected on the ground"
@@ -121,13 +150,7 @@ class FlightControl:
             )
 
     def require_climb(self, climb_to_m: float) -> None:
-        """Check that an altitude is above the aircraft.
-
-        Raises
-        ------
-        ValueError
-            It is not.
-        """
+        """Raise ValueError unless an altitude is above the aircraft."""
         if climb_to_m <= self.state.altitude_m:
             raise ValueError(
                 f"climb_to_m is {climb_to_m:.0f}; expected more than the altitude now, "

@@ -67,17 +67,7 @@ LAST_M_S = 0.4
 
 
 class GroundLaw:
-    """Steers and brakes one airframe on its wheels.
-
-    Parameters
-    ----------
-    airframe
-        Airframe on the ground.
-    kind
-        Its type.
-    tick_s
-        Time between two calls, in s.
-    """
+    """Steers and brakes one airframe on its wheels, once every ``tick_s``."""
 
     def __init__(self, airframe: Airframe, kind: AircraftType, tick_s: float) -> None:
         self._airframe = airframe
@@ -110,19 +100,10 @@ class GroundLaw:
         *,
         slipping: bool = True,
     ) -> None:
-        """Steer along a straight line.
+        """Steer along a straight line, by the distance to its right and its true course.
 
-        Parameters
-        ----------
-        state
-            State of the airframe now.
-        cross_track_m
-            Distance of the aircraft from the line, positive to the right.
-        course_rad
-            True course of the line.
-        slipping
-            True if the nose may point off the track, as a crosswind makes it on wheels that carry
-            little weight. After a touchdown in a crab it must not: the crab would be kept.
+        ``slipping`` is true if the nose may point off the track, as a crosswind makes it on wheels
+        that carry little weight. After a touchdown in a crab it must not: the crab would be kept.
         """
         speed = max(state.ground_speed_m_s, LEAST_SPEED_M_S)
         reach = max(self._look_ahead, speed / CROSS_TRACK_GAIN)

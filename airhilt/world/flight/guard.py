@@ -49,14 +49,7 @@ class FlightGuard:
     ) -> str | None:
         """Return the named cause for which the flight ends in this state, or None.
 
-        Parameters
-        ----------
-        state
-            State of the aircraft now.
-        may_touch
-            True if the wheels may touch the ground.
-        on_ground
-            True if a wheel carries weight.
+        ``may_touch`` is true if wheels may touch the ground, ``on_ground`` if one carries weight.
         """
         # Infinity and NaN survive every sum.
         if not math.isfinite(sum(state)):
@@ -65,16 +58,8 @@ class FlightGuard:
             return self._check_touching(state, on_ground)
         if on_ground or state.height_agl_m <= 0.0:
             return GROUND_CONTACT
-        airspeed = state.calibrated_airspeed_m_s
-        if (
-            -BANK_LIMIT < state.roll_rad < BANK_LIMIT
-            and -PITCH_LIMIT < state.pitch_rad < PITCH_LIMIT
-            and self._slowest < airspeed < self._fastest
-            and state.mach < self._highest_mach
-            and state.velocity_down_m_s < self._greatest_sink
-        ):
-            return None
-        return f"{ENVELOPE_EXCEEDED}: {self._excess(state)}"
+        excess = self._excess(state)
+        return None if excess is None else f"{ENVELOPE_EXCEEDED}: {excess}"
 
     def _check_touching(self, state: AircraftState, on_ground: bool) -> str | None:
         """Return whether more than the wheels touches the ground, or they do so too hard."""
@@ -88,7 +73,7 @@ class FlightGuard:
             return GROUND_CONTACT
         return None
 
-    def _excess(self, state: AircraftState) -> str:
+    def _excess(self, state: AircraftState) -> str | None:
         airspeed = state.calibrated_airspeed_m_s
         if abs(state.roll_rad) >= BANK_LIMIT:
             return f"bank {math.degrees(state.roll_rad):.0f} deg"
@@ -100,4 +85,6 @@ class FlightGuard:
             return f"airspeed {airspeed / KNOT:.0f} kt"
         if state.mach >= self._highest_mach:
             return f"Mach {state.mach:.2f}"
-        return f"sink rate {state.velocity_down_m_s / FOOT_PER_MINUTE:.0f} fpm"
+        if state.velocity_down_m_s >= self._greatest_sink:
+            return f"sink rate {state.velocity_down_m_s / FOOT_PER_MINUTE:.0f} fpm"
+        return None

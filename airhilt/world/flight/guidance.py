@@ -1,20 +1,24 @@
 """Outer loops: they turn commands into a turn rate, a vertical rate and an airspeed.
 
 Each direction has its modes, small objects that are replaced when a command comes: `Track`
-and `Route` for the lateral one, `Altitude` for the vertical one, `Airspeed`. Procedures
-(takeoff, approach, flare) are further modes.
+and `Route` for the lateral one, `Altitude` for the vertical one, `Airspeed`. `GuidanceModes` makes
+them with the gains and within the limits of a type. Procedures (takeoff, approach, flare) are
+further modes.
 """
 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
 from airhilt.geodesy.wgs84 import MEAN_RADIUS_M
-from airhilt.units import DEGREE, STANDARD_GRAVITY, wrap_angle
+from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT, STANDARD_GRAVITY, wrap_angle
+from airhilt.world.flight import standard_atmosphere
+from airhilt.world.flight.aircraft_type import AircraftType
 from airhilt.world.flight.autopilot import within
 from airhilt.world.flight.route import SHARPEST_TURN_RAD, Arc, Guide, Leg, turn_between
-from airhilt.world.flight.state import AircraftState
+from airhilt.world.flight.state import AircraftState, InitialCondition
 
 CROSS_TRACK_PART = 0.4
 """Cross-track gain, as a part of the course gain: a damping ratio of 0.8."""
@@ -41,16 +45,10 @@ class LateralMode(Protocol):
 
 
 class Track:
-    """Turns to a track over the ground and holds it.
+    """Turns to a true track over the ground and holds it.
 
-    Parameters
-    ----------
-    track_rad
-        True track.
-    gain
-        Turn rate per course error (1/s).
-    turn_rad
-        Angle to turn through on the way, positive to the right; None for the shorter side.
+    The gain is the turn rate per course error, in 1/s. ``turn_rad`` is the angle to turn through on
+    the way, positive to the right; None for the shorter side.
     """
 
     def __init__(self, track_rad: float, gain: float, turn_rad: float | None = None) -> None:
@@ -80,14 +78,7 @@ class Track:
 class Route:
     """Flies legs one after the other, cutting the corners, then holds the last one's track.
 
-    Parameters
-    ----------
-    legs
-        Legs, in order.
-    gain
-        Turn rate per course error (1/s).
-    bank_limit_rad
-        Greatest bank of the aircraft.
+    The gain is the turn rate per course error, in 1/s.
     """
 
     def __init__(self, legs: tuple[Leg, ...], gain: float, bank_limit_rad: float) -> None:
@@ -99,11 +90,6 @@ class Route:
         self._arc: Arc | None = None
         self._end: Track | None = None
         self._look_ahead()
-
-    @property
-    def finished(self) -> bool:
-        """True if the last waypoint is passed."""
-        return self._end is not None
 
     @property
     def leg(self) -> Leg:
@@ -172,12 +158,7 @@ class Route:
 class Altitude:
     """Climbs or descends at a rate, then levels off and holds.
 
-    Parameters
-    ----------
-    clearance
-        The altitude and the rate.
-    gain
-        Vertical rate per altitude error (1/s).
+    The gain is the vertical rate per altitude error, in 1/s.
     """
 
     def __init__(self, clearance: AltitudeClearance, gain: float) -> None:
@@ -197,15 +178,7 @@ class Altitude:
 
 
 class Airspeed:
-    """Holds a calibrated airspeed, up to a Mach number: the lower of the two in a climb.
-
-    Parameters
-    ----------
-    airspeed_m_s
-        Calibrated airspeed.
-    maximum_mach
-        Greatest Mach number.
-    """
+    """Holds a calibrated airspeed, up to a Mach number: the lower of the two in a climb."""
 
     def __init__(self, airspeed_m_s: float, maximum_mach: float) -> None:
         self.target_m_s = airspeed_m_s
@@ -216,3 +189,86 @@ class Airspeed:
         # Exact at the maximum Mach number, which is where it matters.
         limit = state.calibrated_airspeed_m_s * self._maximum_mach / state.mach
         return self.target_m_s if self.target_m_s < limit else limit
+
+
+@dataclass(frozen=True, slots=True)
+class GuidanceModes:
+    """Makes the guidance modes of one aircraft type."""
+
+    kind: AircraftType
+
+    def track(self, track_rad: float, turn_rad: float | None = None) -> Track:
+        """Return the mode that turns to a track, by the shorter side or through an angle."""
+        return Track(track_rad, self.kind.gains.guidance.course_per_s, turn_rad)
+
+    def route(self, legs: tuple[Leg, ...]) -> Route:
+        """Return the mode that flies legs."""
+        gains = self.kind.gains
+        return Route(legs, gains.guidance.course_per_s, gains.roll.bank_limit_deg * DEGREE)
+
+    def airspeed(self, calibrated_airspeed_m_s: float) -> Airspeed:
+        """Return the mode that holds an airspeed, up to the type's greatest Mach number."""
+        return Airspeed(calibrated_airspeed_m_s, self.kind.speeds.maximum_mach)
+
+    def altitude(self, clearance: AltitudeClearance) -> Altitude:
+        """Return the mode that flies to an altitude and holds it."""
+        return Altitude(clearance, self.kind.gains.guidance.altitude_per_s)
+
+    def altitude_at_usual_rate(self, altitude_m: float) -> Altitude:
+        """Return the mode that flies to an altitude at the rate for which none was asked."""
+        rate = self.kind.speeds.climb_rate_fpm * FOOT_PER_MINUTE
+        return self.altitude(AltitudeClearance(altitude_m, rate))
+
+    def steepest_climb(self, altitude_m: float) -> Altitude:
+        """Return the mode that climbs to an altitude, the ceiling at most, at the greatest rate."""
+        rate = self.kind.speeds.maximum_climb_rate_fpm * FOOT_PER_MINUTE
+        return self.altitude(AltitudeClearance(self._below_ceiling(altitude_m), rate))
+
+    def steepest_descent(self, altitude_m: float) -> Altitude:
+        """Return the mode that descends to an altitude at the greatest rate."""
+        rate = self.kind.speeds.maximum_descent_rate_fpm * FOOT_PER_MINUTE
+        return self.altitude(AltitudeClearance(altitude_m, rate))
+
+    def initial_altitude(self, initial: InitialCondition, terrain_elevation_m: float) -> Altitude:
+        """Return the vertical mode in which a flight begins.
+
+        A climb goes to the service ceiling and a descent to the ground, until there is a clearance.
+        """
+        speeds = self.kind.speeds
+        rate, altitude = initial.vertical_rate_m_s, initial.altitude_m
+        if rate > 0.0:
+            altitude = speeds.service_ceiling_ft * FOOT
+        elif rate < 0.0:
+            altitude = terrain_elevation_m
+        usual_rate = speeds.climb_rate_fpm * FOOT_PER_MINUTE
+        return self.altitude(AltitudeClearance(altitude, abs(rate) or usual_rate))
+
+    def clean_climb_speed(self) -> Airspeed:
+        """Return the mode that holds the slowest clean airspeed of a climb."""
+        speeds = self.kind.speeds
+        return self.airspeed(max(speeds.minimum_clean_kt, speeds.climb_safety_kt) * KNOT)
+
+    def accepted_clearance(
+        self, altitude_m: float, vertical_rate_m_s: float, *, is_climb: bool
+    ) -> AltitudeClearance:
+        """Return a clearance with its altitude and rate brought within the type's limits."""
+        speeds = self.kind.speeds
+        greatest_fpm = (
+            speeds.maximum_climb_rate_fpm if is_climb else speeds.maximum_descent_rate_fpm
+        )
+        return AltitudeClearance(
+            self._below_ceiling(altitude_m),
+            min(vertical_rate_m_s, greatest_fpm * FOOT_PER_MINUTE),
+        )
+
+    def speed_limits_m_s(self, altitude_m: float) -> tuple[float, float]:
+        """Return the slowest clean and the greatest calibrated airspeed at an altitude, in m/s."""
+        speeds = self.kind.speeds
+        greatest = min(
+            speeds.maximum_kt * KNOT,
+            standard_atmosphere.calibrated_airspeed(speeds.maximum_mach, altitude_m),
+        )
+        return speeds.minimum_clean_kt * KNOT, greatest
+
+    def _below_ceiling(self, altitude_m: float) -> float:
+        return min(altitude_m, self.kind.speeds.service_ceiling_ft * FOOT)

@@ -1,16 +1,14 @@
 """Loads an aircraft model of the installed JSBSim, stripped of all that reaches outside.
 
 Some models of the wheel open sockets (the 737 listens on TCP 5137) or write CSV files into
-site-packages. What is loaded here is derived from the wheel once, kept in the user's cache, and
-written to a temporary folder that is gone when the model is loaded: no ``<input>``, no
-``<output>``, and no autopilot of the model's own, since AIRHILT flies it.
+site-packages. What is loaded here is derived from the wheel and written to a temporary folder that
+is gone when the model is loaded: no ``<input>``, no ``<output>``, and no autopilot of the model's
+own, since AIRHILT flies it.
 """
 
 from __future__ import annotations
 
 import functools
-import hashlib
-import json
 import tempfile
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
@@ -18,8 +16,6 @@ from pathlib import Path
 import jsbsim
 
 from airhilt.errors import AirhiltError
-from airhilt.host.caches import CacheFolder
-from airhilt.host.files import source_sha256
 
 _SILENCE = jsbsim.DefaultLogger(jsbsim.LogLevel.STDOUT)
 # Kept here for good: JSBSim drops its reference when a thread ends, without holding the
@@ -34,21 +30,15 @@ def load_model(model: str) -> jsbsim.FGFDMExec:
     """Return a fresh FGFDMExec with the model loaded, silent and alone.
 
     JSBSim's logger belongs to a thread: what a model has to say later, in a thread in which none
-    was loaded, goes to stdout.
-
-    Raises
-    ------
-    ModelError
-        The installed JSBSim has no such model, or cannot load it.
+    was loaded, goes to stdout. `ModelError` says that there is no such model, or it cannot load.
     """
     jsbsim.set_logger(_SILENCE)
     root = Path(jsbsim.get_default_root_dir())
-    files = _stripped_files(root, model)
+    stripped = _stripped(root, model)
     with tempfile.TemporaryDirectory(prefix="airhilt-jsbsim-") as scratch:
         folder = Path(scratch, model)
         folder.mkdir()
-        for name, content in files.items():
-            Path(folder, name).write_bytes(content)
+        Path(folder, f"{model}.xml").write_bytes(stripped)
         fdm = jsbsim.FGFDMExec(str(root))
         fdm.set_debug_level(0)
         try:
@@ -63,19 +53,12 @@ def load_model(model: str) -> jsbsim.FGFDMExec:
 
 
 @functools.cache
-def _stripped_files(root: Path, model: str) -> dict[str, bytes]:
-    """Return the model's file without inputs, outputs and autopilot, by name."""
+def _stripped(root: Path, model: str) -> bytes:
+    """Return the model's file without inputs, outputs and autopilot."""
     path = root / "aircraft" / model / f"{model}.xml"
     if not path.is_file():
         raise ModelError(f"the installed JSBSim has no model {model!r}: no {path}")
-    given = path.read_bytes()
-    key = json.dumps([hashlib.sha256(given).hexdigest(), source_sha256(Path(__file__))])
-    return {path.name: CacheFolder("aircraft").get(key, lambda: _stripped(given))}
-
-
-def _stripped(given: bytes) -> bytes:
-    """Return a model's file without inputs, outputs and autopilot."""
-    config = ElementTree.fromstring(given)  # noqa: S314 - JSBSim's own file
+    config = ElementTree.fromstring(path.read_bytes())  # noqa: S314 - JSBSim's own file
     for tag in ("input", "output", "autopilot"):
         for element in config.findall(tag):
             config.remove(element)

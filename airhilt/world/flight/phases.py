@@ -1,8 +1,9 @@
-"""Protocol of the phases of flight. A phase flies one tick and returns the phase of the next."""
+"""Base class of the phases of flight, and the systems with which they fly."""
 
 from __future__ import annotations
 
-from typing import NamedTuple, Protocol
+from abc import ABC, abstractmethod
+from typing import NamedTuple
 
 from airhilt.world.flight.aircraft_type import AircraftType
 from airhilt.world.flight.airframe import Airframe
@@ -22,20 +23,26 @@ class AircraftSystems(NamedTuple):
     """Time between two calls of a phase, in s."""
 
 
-class FlightPhase(Protocol):
-    """One phase of a procedure. It creates the phase that follows it."""
+class FlightPhase(ABC):
+    """One phase of a procedure. It creates the phase that follows it.
 
-    @property
-    def name(self) -> str:
-        """Name of the phase, such as ``takeoff_roll``."""
+    Attributes
+    ----------
+    name
+        Name of the phase, such as ``takeoff_roll``.
+    commandable
+        True if en-route commands change the flight that follows this phase; else they end it.
+    may_touch
+        True if the wheels may be on the ground; otherwise ground contact ends the flight.
+    """
 
-    @property
-    def commandable(self) -> bool:
-        """True if en-route commands change the flight that follows this phase; else they end it."""
+    name: str
+    commandable = False
+    may_touch = False
 
-    @property
-    def may_touch(self) -> bool:
-        """True if the wheels may be on the ground; otherwise ground contact ends the flight."""
+    def __init__(self, systems: AircraftSystems) -> None:
+        self._systems = systems
 
+    @abstractmethod
     def fly(self, state: AircraftState) -> FlightPhase:
         """Set the controls for one tick; return the phase of the next, itself if it goes on."""

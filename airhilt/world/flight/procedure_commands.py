@@ -7,15 +7,15 @@ from collections.abc import Sequence
 from airhilt.geodesy.wgs84 import Place
 from airhilt.units import KNOT
 from airhilt.world.flight.control import FlightControl
-from airhilt.world.flight.procedures.approach import Glide
-from airhilt.world.flight.procedures.emergency_descent import EmergencyDescent
-from airhilt.world.flight.procedures.en_route import EnRoute
-from airhilt.world.flight.procedures.engine_failure import DriftDown
-from airhilt.world.flight.procedures.final import Final
-from airhilt.world.flight.procedures.go_around import GoAround
-from airhilt.world.flight.procedures.landing import Flare
-from airhilt.world.flight.procedures.side_step import require_side_step
-from airhilt.world.flight.procedures.takeoff import RejectedTakeoff, TakeoffRoll, require_lined_up
+from airhilt.world.flight.procedures.en_route import DriftDown, EmergencyDescent, EnRoute
+from airhilt.world.flight.procedures.final import Final, require_side_step
+from airhilt.world.flight.procedures.landing import Flare, Glide
+from airhilt.world.flight.procedures.takeoff import (
+    GoAround,
+    RejectedTakeoff,
+    TakeoffRoll,
+    require_lined_up,
+)
 from airhilt.world.flight.procedures.taxi import Stand, Standing, Taxi, Way
 from airhilt.world.flight.taxi_path import TaxiPath
 from airhilt.world.surface.runway import RunwayEnd
@@ -27,7 +27,11 @@ BELOW_ALL_TERRAIN_M = -1000.0
 
 
 class ProcedureCommands:
-    """Begins and ends the procedures of one aircraft."""
+    """Begins and ends the procedures of one aircraft.
+
+    Each raises ValueError if the aircraft is not in the air, or on the ground, as the procedure
+    needs it, or not where or how it can begin; the text says what was expected.
+    """
 
     def __init__(self, control: FlightControl) -> None:
         self._control = control
@@ -37,21 +41,9 @@ class ProcedureCommands:
     def taxi(
         self, path: Sequence[Place], speed_m_s: float | None = None, *, then: Stand = "standing"
     ) -> None:
-        """Taxi along a path from here, and stand at its end.
+        """Taxi along a path from here, at the type's taxi speed by default, and stand at its end.
 
-        Parameters
-        ----------
-        path
-            Places to pass, in order.
-        speed_m_s
-            Greatest speed; by default the type's taxi speed.
-        then
-            Name of standing at the end: ``lined_up`` on a runway.
-
-        Raises
-        ------
-        ValueError
-            The aircraft is in the air or too fast, or there is no path.
+        ``then`` is the name of standing there: ``lined_up`` on a runway.
         """
         control = self._control
         control.require_on_ground("taxi", FASTEST_TAXI_M_S)
@@ -65,13 +57,7 @@ class ProcedureCommands:
         control.phase = Taxi(control.systems, track, called, then)
 
     def hold_position(self) -> None:
-        """Stop on the way, and stay until `resume_taxi`; where it stands already, it stays.
-
-        Raises
-        ------
-        ValueError
-            The aircraft does not taxi.
-        """
+        """Stop on the way, and stay until `resume_taxi`; where it stands already, it stays."""
         phase = self._control.phase
         if isinstance(phase, Standing):
             return
@@ -80,13 +66,7 @@ class ProcedureCommands:
         phase.hold()
 
     def resume_taxi(self) -> None:
-        """Go on after `hold_position`.
-
-        Raises
-        ------
-        ValueError
-            The aircraft is not holding its position on a way.
-        """
+        """Go on after `hold_position`."""
         phase = self._control.phase
         if not isinstance(phase, Taxi):
             raise ValueError(f"resume_taxi in phase {phase.name}; expected a taxi that was held")
@@ -95,36 +75,17 @@ class ProcedureCommands:
     # --- takeoff ----------------------------------------------------------------------------
 
     def take_off(self, runway: RunwayEnd, climb_to_m: float) -> None:
-        """Take off from where the aircraft is, climb on the runway's course, and level off.
-
-        Parameters
-        ----------
-        runway
-            Runway on which the aircraft stands or taxies, in its direction.
-        climb_to_m
-            Altitude to level off at.
-
-        Raises
-        ------
-        ValueError
-            The aircraft is in the air or not lined up, or the altitude is not above.
-        """
+        """Take off on the runway where the aircraft is, climb on its course, and level off."""
         control = self._control
         control.require_on_ground("take_off", FASTEST_TAXI_M_S)
         line = Final(runway, control.systems.kind)
         require_lined_up(control.state, line)
         control.require_climb(climb_to_m)
-        control.en_route = control.climb_on(line, climb_to_m)
-        control.phase = TakeoffRoll(control.systems, line, control.en_route)
+        control.guidance = control.climb_on(line, climb_to_m)
+        control.phase = TakeoffRoll(control.systems, line, control.guidance)
 
     def reject_takeoff(self) -> None:
-        """Stop on the runway.
-
-        Raises
-        ------
-        ValueError
-            The aircraft does not roll for takeoff.
-        """
+        """Stop on the runway."""
         phase = self._control.phase
         if not isinstance(phase, TakeoffRoll):
             raise ValueError(f"reject_takeoff in phase {phase.name}; expected takeoff_roll")
@@ -135,20 +96,9 @@ class ProcedureCommands:
     def land(self, runway: RunwayEnd, exit_path: Sequence[Place] = ()) -> None:
         """Join the final approach of a runway, land on it, and leave it.
 
-        Below the glide path the present altitude is held until the path is met.
-
-        Parameters
-        ----------
-        runway
-            Runway to land on.
-        exit_path
-            Way from the runway's centre line to where the aircraft stands at the end; without one
-            it stops on the runway.
-
-        Raises
-        ------
-        ValueError
-            The aircraft is on the ground, or too far from the final approach to join it.
+        Below the glide path the present altitude is held until the path is met. The exit path leads
+        from the runway's centre line to where the aircraft stands at the end; without one it stops
+        on the runway.
         """
         self._control.require_airborne("land")
         final = Final(runway, self._control.systems.kind)
@@ -156,18 +106,7 @@ class ProcedureCommands:
         self._approach(final, exit_path)
 
     def side_step(self, runway: RunwayEnd, exit_path: Sequence[Place] = ()) -> None:
-        """Leave the approach that is flown for that of another runway.
-
-        Parameters
-        ----------
-        runway, exit_path
-            The other runway, and the path by which the aircraft leaves it.
-
-        Raises
-        ------
-        ValueError
-            There is no approach, it is too late, or the other runway's approach is too far off.
-        """
+        """Leave the approach that is flown for that of another runway, with its exit path."""
         phase = self._control.phase
         if not isinstance(phase, Glide):
             raise ValueError(f"side_step in phase {phase.name}; expected glide")
@@ -176,26 +115,20 @@ class ProcedureCommands:
         self._approach(final, exit_path)
 
     def go_around(self, climb_to_m: float) -> None:
-        """Break off the approach: climb on the runway's course to an altitude, and level off.
-
-        Raises
-        ------
-        ValueError
-            No approach is flown, the wheels have touched, or the altitude is not above.
-        """
+        """Break off the approach: climb on the runway's course to an altitude, and level off."""
         control = self._control
         if not isinstance(control.phase, Glide | Flare) or control.on_ground:
             raise ValueError(f"go_around in phase {control.phase.name}; expected glide or flare")
         control.require_climb(climb_to_m)
-        control.en_route = control.climb_on(control.phase.final, climb_to_m)
-        control.phase = GoAround(control.systems, control.en_route)
+        control.guidance = control.climb_on(control.phase.final, climb_to_m)
+        control.phase = GoAround(control.systems, control.guidance)
 
     def _approach(self, final: Final, exit_path: Sequence[Place]) -> None:
         """Fly the final approach, from the present altitude."""
         control = self._control
         systems, modes = control.systems, control.modes
         control.phase = Glide(systems, final, exit_path, control.state.altitude_m)
-        control.en_route = EnRoute(
+        control.guidance = EnRoute(
             systems,
             final,
             modes.altitude_at_usual_rate(final.runway.elevation_m),
@@ -209,11 +142,6 @@ class ProcedureCommands:
 
         The track or the route goes on. A turn commanded meanwhile is flown; the aircraft does not
         go below an altitude commanded meanwhile.
-
-        Raises
-        ------
-        ValueError
-            The aircraft is on the ground.
         """
         control = self._control
         control.require_airborne("drift_down")
@@ -225,13 +153,7 @@ class ProcedureCommands:
         control.phase = DriftDown(control.systems, en_route)
 
     def emergency_descent(self, altitude_m: float) -> None:
-        """Descend as fast as the type safely can, and level off at an altitude.
-
-        Raises
-        ------
-        ValueError
-            The altitude is not below, or the aircraft is on the ground.
-        """
+        """Descend as fast as the type safely can, and level off at an altitude."""
         control = self._control
         control.require_airborne("emergency_descent")
         if altitude_m >= control.state.altitude_m:

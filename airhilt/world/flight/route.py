@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from geographiclib.geodesic import Geodesic
 
-from airhilt.geodesy.wgs84 import Place, Vector, earth_centred, vertical
+from airhilt.geodesy.wgs84 import Place, Vector, dot, earth_centred, vertical
 from airhilt.world.flight.state import AircraftState
 
 LONGEST_LEG_M = 100_000.0
@@ -47,7 +47,7 @@ class Leg:
         self.start = start
         self.end = end
         self.right = _unit(_cross(chord, middle))
-        self.length_m = math.sqrt(_dot(chord, chord))
+        self.length_m = math.sqrt(dot(chord, chord))
         self._origin = a
         self._end = b
         self._forward_at_end = _cross(vertical(end), self.right)
@@ -94,13 +94,7 @@ class Leg:
 class Arc:
     """The arc that leads from one leg into the next without passing their common end.
 
-    Parameters
-    ----------
-    before, after
-        The legs.
-    lead_m
-        Distance from the beginning of the arc on ``before`` to the common end. The arc ends as far
-        behind that end on ``after``.
+    It begins at a lead in m before that end, and ends as far behind it.
     """
 
     def __init__(self, before: Leg, after: Leg, lead_m: float) -> None:
@@ -129,8 +123,8 @@ class Arc:
             state.ecef_y_m - self._place[1],
             state.ecef_z_m - self._place[2],
         )
-        east = _dot(offset, self._east) - self._centre_east
-        north = _dot(offset, self._north) - self._centre_north
+        east = dot(offset, self._east) - self._centre_east
+        north = dot(offset, self._north) - self._centre_north
         outside = math.hypot(east, north) - self.radius_m
         return Guide(
             -self.side * outside,
@@ -140,13 +134,7 @@ class Arc:
 
 
 def legs_through(start: Place, waypoints: Sequence[Place]) -> tuple[Leg, ...]:
-    """Return the legs from a place through waypoints, each (latitude, longitude) in radians.
-
-    Raises
-    ------
-    ValueError
-        No waypoint is away from the start.
-    """
+    """Return the legs from a place through waypoints, one of which at least is away from it."""
     ends: list[Place] = [start]
     for waypoint in waypoints:
         ends.extend(_divided(ends[-1], waypoint))
@@ -187,10 +175,6 @@ def _scaled(a: Vector, factor: float) -> Vector:
     return a[0] * factor, a[1] * factor, a[2] * factor
 
 
-def _dot(a: Vector, b: Vector) -> float:
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-
-
 def _cross(a: Vector, b: Vector) -> Vector:
     return (
         a[1] * b[2] - a[2] * b[1],
@@ -200,4 +184,4 @@ def _cross(a: Vector, b: Vector) -> Vector:
 
 
 def _unit(a: Vector) -> Vector:
-    return _scaled(a, 1.0 / math.sqrt(_dot(a, a)))
+    return _scaled(a, 1.0 / math.sqrt(dot(a, a)))

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
-from airhilt.units import FOOT, KNOT
+from airhilt.units import FOOT, KNOT, wrap_angle
+from airhilt.world.flight import standard_atmosphere
 from airhilt.world.flight.aircraft_type import AircraftType
-from airhilt.world.flight.airframe import Airframe, heading_to_track
+from airhilt.world.flight.airframe import Airframe
 from airhilt.world.flight.autopilot import Autopilot
+from airhilt.world.flight.guidance import GuidanceModes
 from airhilt.world.flight.model import ModelError
-from airhilt.world.flight.modes import GuidanceModes
 from airhilt.world.flight.state import Atmosphere, InitialCondition, OnGround
 
 SETTLING_TIME_S = 40.0
@@ -24,19 +26,7 @@ IDLING_TIME_S = 15.0
 
 @dataclass(frozen=True, slots=True)
 class Start:
-    """Brings an airframe to where it begins.
-
-    Attributes
-    ----------
-    airframe
-        The airframe, just made.
-    kind
-        Its type.
-    tick_s
-        Time between two ticks, in s.
-    substeps
-        Steps of the flight dynamics in a tick.
-    """
+    """Brings an airframe that was just made to where it begins, by ticks of some substeps."""
 
     airframe: Airframe
     kind: AircraftType
@@ -51,12 +41,8 @@ class Start:
     ) -> Autopilot:
         """Put the airframe where it begins; return the autopilot that flies it from there.
 
-        Raises
-        ------
-        ValueError
-            The initial condition is outside the type's envelope.
-        ModelError
-            JSBSim cannot fly the model there.
+        A ValueError says that this is outside the type's envelope, and a ModelError that JSBSim
+        cannot fly the model there.
         """
         if isinstance(initial, OnGround):
             return self._on_ground(initial, atmosphere)
@@ -88,13 +74,7 @@ class Start:
         return Autopilot(self.airframe, self.kind, self.tick_s, self.airframe.state())
 
     def _settled(self, initial: InitialCondition, heading_rad: float) -> Autopilot:
-        """Start the engines in flight, and fly to the initial altitude until all is steady.
-
-        Raises
-        ------
-        ModelError
-            The airspeed does not settle.
-        """
+        """Start the engines in flight, and fly to the initial altitude until all is steady."""
         airframe, modes = self.airframe, GuidanceModes(self.kind)
         rate, wanted = initial.vertical_rate_m_s, initial.calibrated_airspeed_m_s
         before = initial.altitude_m - rate * SETTLING_TIME_S
@@ -143,3 +123,23 @@ class Start:
                 f"{slowest:.1f} to {fastest:.1f} for {kind.name} at "
                 f"{initial.altitude_m:.0f} m"
             )
+
+
+def heading_to_track(initial: InitialCondition, atmosphere: Atmosphere) -> float:
+    """Return the heading (rad, in [-pi, pi)) that makes good the initial track in the wind.
+
+    A wind across that is stronger than the airspeed raises ValueError.
+    """
+    airspeed = standard_atmosphere.true_airspeed(
+        initial.calibrated_airspeed_m_s, initial.altitude_m
+    )
+    across = atmosphere.wind_east_m_s * math.cos(
+        initial.track_rad
+    ) - atmosphere.wind_north_m_s * math.sin(initial.track_rad)
+    level = math.sqrt(max(airspeed**2 - initial.vertical_rate_m_s**2, 0.0))
+    if abs(across) >= level:
+        raise ValueError(
+            f"the wind across the track is {abs(across):.1f} m/s, the true airspeed "
+            f"{airspeed:.1f} m/s; expected more airspeed than wind"
+        )
+    return wrap_angle(initial.track_rad - math.asin(across / level))

@@ -38,26 +38,12 @@ class _Leg(NamedTuple):
 
 
 class TaxiPath:
-    """A polyline to follow.
+    """A polyline of two places or more to follow at a greatest speed.
 
-    Parameters
-    ----------
-    places
-        Two places or more, in order.
-    speed_m_s
-        Greatest speed.
-    look_ahead_m
-        Least distance of the point that is steered to.
-
-    Raises
-    ------
-    ValueError
-        There are fewer than two places.
+    ``look_ahead_m`` is the least distance of the point that is steered to.
     """
 
     def __init__(self, places: Sequence[Place], speed_m_s: float, look_ahead_m: float) -> None:
-        if len(places) < 2:
-            raise ValueError(f"the path has {len(places)} places; expected at least 2")
         self._local_frame = LocalFrame(places[0])
         self._look_ahead = look_ahead_m
         self._greatest_m_s = speed_m_s

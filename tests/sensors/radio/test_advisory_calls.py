@@ -6,13 +6,14 @@ from types import SimpleNamespace
 from typing import Any, cast
 
 from airhilt.messages import Advisory, AdvisoryAudio, Evidence, HearingTruth, Severity
-from airhilt.sensors.radio.advisory_calls import AdvisoryCalls, AdvisoryChannel, Spoken
+from airhilt.sensors.radio.advisory_calls import AdvisoryCalls, AdvisoryChannel
+from airhilt.sensors.radio.frequency_arbiter import FrequencyArbiter
 from airhilt.sensors.radio.on_air import OnAir, Utterance
-from airhilt.sensors.radio.stations import Stations
 from airhilt.sensors.radio.transmissions import Transmissions
 from airhilt.sim import Director, Virtual
 from airhilt.units import SECOND_NS
 from airhilt.world.actors.advisory_delivery import AdvisoryDelivery
+from conversations import radio_context
 
 
 def advisory(
@@ -39,20 +40,22 @@ class Frequency:
     def __init__(self, is_voiced: bool = False) -> None:
         self.director = Director(Virtual())
         self.said: list[Utterance] = []
-        self.heard: list[Spoken] = []
+        self.heard: list[tuple[Any, ...]] = []
         self.hearings: list[Any] = []
         self.in_reach = True
-        delivery = SimpleNamespace(heard=lambda *spoken: self.heard.append(Spoken(*spoken)))
-        transmissions = SimpleNamespace(
-            say=self.said.append, reaches=lambda on_air, listener: self.in_reach
+        delivery = SimpleNamespace(heard=lambda *spoken: self.heard.append(spoken))
+        transmissions = SimpleNamespace(reaches=lambda on_air, listener: self.in_reach)
+        context = radio_context(
+            director=self.director,
+            stations=SimpleNamespace(frequency_of=lambda name: 119_100),
+            publish=lambda key, message, **_: self.hearings.append(message),
         )
         self.calls = AdvisoryCalls(
-            self.director,
-            cast(Stations, SimpleNamespace(frequency_of=lambda name: 119_100)),
+            context,
             {"AAL123": "AAL123", "a1b2c3": "AAL123", "DAL456": "DAL456"},
             AdvisoryChannel(is_voiced, Severity.CAUTION, cast(AdvisoryDelivery, delivery)),
+            cast(FrequencyArbiter, SimpleNamespace(say=self.said.append)),
             cast(Transmissions, transmissions),
-            publish=lambda key, message, **_: self.hearings.append(message),
         )
 
     def end(self) -> None:
@@ -92,7 +95,7 @@ def test_its_recipient_has_heard_it_when_it_has_ended_if_it_is_in_reach() -> Non
     frequency.calls.take(advisory("a", "a1b2c3"), b"")
     assert frequency.heard == []
     frequency.end()
-    assert frequency.heard == [Spoken("a", 0, "a1b2c3")]
+    assert frequency.heard == [("a", 0, "a1b2c3")]
     frequency.in_reach = False
     frequency.calls.take(advisory("b"), b"")
     frequency.end()

@@ -11,10 +11,11 @@ import pytest
 from airhilt.scenario.failures import EffectiveLine
 from airhilt.scenario.models import RadioLine, TimeReached
 from airhilt.sensors.radio.backends import TextRadio
+from airhilt.sensors.radio.frequency_arbiter import FrequencyArbiter
 from airhilt.sensors.radio.script import RadioScript, planned_ends_ns
-from airhilt.sensors.radio.surroundings import RadioFailures, RadioWorld
 from airhilt.sim import Director, Priority, Virtual
 from airhilt.units import SECOND_NS, seconds_to_ns
+from conversations import radio_context
 
 
 def line(
@@ -53,9 +54,14 @@ def played(*lines: EffectiveLine, failed: list[Any] | None = None) -> list[tuple
     def say(said: RadioLine) -> None:
         due.append((said.id, director.now_ns / SECOND_NS))
 
-    world = cast(RadioWorld, SimpleNamespace(once=once))
-    failures = cast(RadioFailures, SimpleNamespace(line_failed=fail))
-    RadioScript(director, lines, world, failures, say).start()
+    context = radio_context(
+        director=director,
+        scenario=SimpleNamespace(failures=()),
+        lines=lines,
+        world=SimpleNamespace(once=once),
+        failures=SimpleNamespace(line_failed=fail),
+    )
+    RadioScript(context, cast(FrequencyArbiter, None), say).start()
     director.run()
     return due
 

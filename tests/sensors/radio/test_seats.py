@@ -67,22 +67,23 @@ class Seated(World):
         told = once(state.notice for state in self.states(seat))
         return [notice.text for notice in told if notice is not None]
 
-    def at(self, t_s: float, action: Any) -> None:
+    def at(self, t_s: float, action: Any) -> Seated:
         self.director.at(seconds_to_ns(t_s), action, Priority.SCRIPT)
+        return self
 
-    def act(self, t_s: float, seat: str, act: SeatAct) -> None:
+    def act(self, t_s: float, seat: str, act: SeatAct) -> Seated:
         key, action = f"seat/{key_chunk(seat)}/do", SeatAction(holder="somebody", act=act)
         self.at(t_s, lambda: self.seats.take(key, action, b""))
-        self.at(t_s, lambda: self.conversation.take(key, action, b""))
+        return self.at(t_s, lambda: self.conversation.take(key, action, b""))
 
-    def says(self, t_s: float, seat: str, text: str, frequency_khz: int | None = None) -> None:
-        self.act(t_s, seat, SayText(text=text, frequency_khz=frequency_khz))
+    def says(self, t_s: float, seat: str, text: str, frequency_khz: int | None = None) -> Seated:
+        return self.act(t_s, seat, SayText(text=text, frequency_khz=frequency_khz))
 
-    def speaks(self, begin_s: float, end_s: float, seat: str) -> None:
+    def speaks(self, begin_s: float, end_s: float, seat: str) -> Seated:
         """Hold the button of a seat, and give it sound all the while."""
         self.act(begin_s, seat, PressToTalk())
         self.feeds(begin_s, end_s, seat)
-        self.act(end_s, seat, ReleaseToTalk())
+        return self.act(end_s, seat, ReleaseToTalk())
 
     def feeds(self, begin_s: float, end_s: float, seat: str) -> None:
         pcm = to_pcm(np.full(SAMPLE_RATE_HZ // 2, 0.1, np.float32))
@@ -112,9 +113,7 @@ def test_a_line_of_a_seat_is_a_task_and_nobody_else_says_it() -> None:
 
 
 def test_what_means_the_same_takes_the_place_of_the_line_and_the_script_goes_on_from_it() -> None:
-    world = controller()
-    world.says(20.0, TOWER, "American 123, climb flight level 330")
-    world.run_until(60.0)
+    world = controller().says(20.0, TOWER, "American 123, climb flight level 330").run_until(60.0)
     assert world.said() == ["clearance", "readback"]
     said = world.spoken("clearance")
     assert (said.text, said.addressed) == ("American 123, climb flight level 330", "AAL123")
@@ -135,18 +134,14 @@ def test_what_means_the_same_takes_the_place_of_the_line_and_the_script_goes_on_
     ],
 )
 def test_what_means_something_else_or_is_for_somebody_else_is_a_call_of_its_own(text: str) -> None:
-    world = controller()
-    world.says(20.0, TOWER, text)
-    world.run_until(40.0)
+    world = controller().says(20.0, TOWER, text).run_until(40.0)
     assert world.said()[0] == f"seat.{key_chunk(TOWER)}.1"
     assert len(world.states()[-1].tasks) == 1
 
 
 def test_the_calls_of_a_seat_are_counted_and_make_their_addressee_do_what_they_mean() -> None:
-    world = controller()
-    world.says(2.0, TOWER, "American 123, turn left heading 090")
-    world.says(9.0, TOWER, "American 123, hello")
-    world.run_until(60.0)
+    world = controller().says(2.0, TOWER, "American 123, turn left heading 090")
+    world.says(9.0, TOWER, "American 123, hello").run_until(60.0)
     chunk = key_chunk(TOWER)
     own = [name for name in world.said() if name.startswith("seat.") and "readback" not in name]
     assert own == [f"seat.{chunk}.1", f"seat.{chunk}.2"]
@@ -155,8 +150,7 @@ def test_the_calls_of_a_seat_are_counted_and_make_their_addressee_do_what_they_m
 
 
 def test_the_crew_reads_back_what_a_person_says_and_no_line_does() -> None:
-    world = controller(CLEARANCE)
-    world.says(2.0, TOWER, "American 123, turn left heading 090")
+    world = controller(CLEARANCE).says(2.0, TOWER, "American 123, turn left heading 090")
     world.run_until(60.0)
     own = f"seat.{key_chunk(TOWER)}.1"
     assert world.said()[:2] == [own, f"{own}.readback"]
@@ -165,8 +159,7 @@ def test_the_crew_reads_back_what_a_person_says_and_no_line_does() -> None:
 
 def test_a_person_who_asks_hears_the_last_call_again() -> None:
     world = crew(line("hello", 5, TOWER, "AAL123", "American one two three, good evening."))
-    world.says(12.0, "AAL123", "Say again, American 123")
-    world.run_until(60.0)
+    world.says(12.0, "AAL123", "Say again, American 123").run_until(60.0)
     assert world.said() == ["hello", "seat.AAL123.1", "hello.repeat-1"]
     asked, again = world.spoken("seat.AAL123.1"), world.spoken("hello.repeat-1")
     assert asked.addressed == TOWER
@@ -176,16 +169,12 @@ def test_a_person_who_asks_hears_the_last_call_again() -> None:
 
 def test_nobody_makes_a_person_say_it_again() -> None:
     """A unit that is asked by a crew about a person's call leaves that to the person."""
-    world = controller()
-    world.says(2.0, TOWER, "American 123, good evening")
-    world.run_until(4.0)
+    world = controller().says(2.0, TOWER, "American 123, good evening").run_until(4.0)
     assert world.said() == [f"seat.{key_chunk(TOWER)}.1"]
 
 
 def test_where_the_person_leaves_the_script_says_what_waited_and_goes_on_by_itself() -> None:
-    world = controller()
-    world.act(20.0, TOWER, LeaveSeat())
-    world.run_until(60.0)
+    world = controller().act(20.0, TOWER, LeaveSeat()).run_until(60.0)
     assert world.said() == ["clearance", "readback"]
     assert world.spoken("clearance").t_tx_ns == 20 * SECOND_NS
     assert world.notices() == [f"Nobody is at the seat: the script of {TOWER} goes on by itself."]
@@ -194,10 +183,7 @@ def test_where_the_person_leaves_the_script_says_what_waited_and_goes_on_by_itse
 
 
 def test_who_comes_back_has_the_seat_again() -> None:
-    world = controller()
-    world.act(2.0, TOWER, LeaveSeat())
-    world.act(4.0, TOWER, TakeSeat())
-    world.run_until(60.0)
+    world = controller().act(2.0, TOWER, LeaveSeat()).act(4.0, TOWER, TakeSeat()).run_until(60.0)
     assert world.said() == []
     assert len(world.cards()) == 1
 
@@ -214,17 +200,14 @@ def test_who_comes_back_has_the_seat_again() -> None:
 def test_a_unit_is_told_that_a_condition_alone_makes_nobody_move(
     seat: str, words: str, is_told: bool
 ) -> None:
-    world = Seated(CLEARANCE, READBACK, seats=[seat])
-    world.says(2.0, seat, words)
-    world.run_until(4.0)
+    world = Seated(CLEARANCE, READBACK, seats=[seat]).says(2.0, seat, words).run_until(4.0)
     assert any("a condition back and waits" in text for text in world.notices(seat)) is is_told
 
 
 def test_without_a_frequency_a_person_speaks_on_the_first_one_of_the_seat() -> None:
     elsewhere = line("other", 90, TOWER, "DAL456", "Delta four five six, hello.")
     world = controller(CLEARANCE, elsewhere | {"frequency_khz": OTHER_KHZ})
-    world.says(2.0, TOWER, "American 123, hello")
-    world.says(8.0, TOWER, "Delta 456, hello", OTHER_KHZ)
+    world.says(2.0, TOWER, "American 123, hello").says(8.0, TOWER, "Delta 456, hello", OTHER_KHZ)
     world.run_until(20.0)
     assert [one.frequency_khz for one in world.of(SpokenTruth)] == [KHZ, OTHER_KHZ]
 
@@ -236,24 +219,20 @@ def test_without_a_frequency_a_person_speaks_on_the_first_one_of_the_seat() -> N
 def test_who_switches_a_frequency_off_hears_nothing_there(
     listened: tuple[int, ...], outcome: str
 ) -> None:
-    world = crew()
-    world.act(1.0, "AAL123", TuneFrequencies(frequencies_khz=listened))
-    world.run_until(16.0)
+    world = crew().act(1.0, "AAL123", TuneFrequencies(frequencies_khz=listened)).run_until(16.0)
     assert world.hearings("AAL123") == [("clearance", outcome)]
 
 
 def test_no_mistake_is_drawn_for_a_person() -> None:
     """Whatever the noise: a call that comes to the seat counts as heard."""
-    world = crew(snr_db=-20.0, squelch_db=-30.0)
-    world.run_until(16.0)
+    world = crew(snr_db=-20.0, squelch_db=-30.0).run_until(16.0)
     (heard,) = world.of(HearingTruth)
     assert (heard.actor, heard.outcome, heard.text) == ("AAL123", "understood", CLEARANCE["text"])
 
 
 def test_a_person_whose_call_was_blocked_is_told_so() -> None:
     world = crew(line("over", 20, TOWER, None, "All stations, hello to you all."))  # type: ignore[arg-type]
-    world.says(20.0, "AAL123", "Centre, American 123, request descent")
-    world.run_until(40.0)
+    world.says(20.0, "AAL123", "Centre, American 123, request descent").run_until(40.0)
     assert world.notices("AAL123") == [
         "Your call was blocked: somebody else was on the air at the same time."
     ]
@@ -263,8 +242,7 @@ def test_a_person_whose_call_was_blocked_is_told_so() -> None:
 
 
 def test_a_crew_of_people_is_offered_what_an_automaton_would_do() -> None:
-    world = crew()
-    world.run_until(40.0)
+    world = crew().run_until(40.0)
     assert world.done == []
     (offer,) = world.offers("AAL123")
     assert (offer.call, offer.number) == ("clearance", 1)
@@ -303,18 +281,15 @@ def test_the_newest_commands_are_offered_each_once() -> None:
 def test_a_person_whose_aircraft_is_no_more_is_told_that_nobody_hears() -> None:
     world = crew(READBACK, backend=Sounding(160.0))
     world.actors["AAL123"].body.ended = "collision"
-    world.speaks(1.0, 2.0, "AAL123")
-    world.run_until(5.0)
+    world.speaks(1.0, 2.0, "AAL123").run_until(5.0)
     assert world.notices("AAL123") == ["AAL123 is not there any more."]
     assert not [one for one in world.of(SpokenTruth) if one.is_from_microphone]
 
 
 def test_a_pause_releases_every_button_and_after_it_people_speak_again() -> None:
-    world = crew(READBACK, backend=Sounding(160.0))
-    world.act(1.0, "AAL123", PressToTalk())
+    world = crew(READBACK, backend=Sounding(160.0)).act(1.0, "AAL123", PressToTalk())
     world.at(2.0, world.conversation.pause)
-    world.speaks(3.0, 4.0, "AAL123")
-    world.run_until(6.0)
+    world.speaks(3.0, 4.0, "AAL123").run_until(6.0)
     first, second = (one for one in world.of(SpokenTruth) if one.is_from_microphone)
     assert (first.t_tx_ns, first.t_end_ns) == (SECOND_NS, 2 * SECOND_NS)
     assert (second.id, second.t_tx_ns) == ("microphone.AAL123.2", 3 * SECOND_NS)
@@ -322,8 +297,7 @@ def test_a_pause_releases_every_button_and_after_it_people_speak_again() -> None
 
 @pytest.mark.parametrize("fed_until_s", [2.0, 30.0])
 def test_a_call_without_sound_for_3_s_is_cut(fed_until_s: float) -> None:
-    world = crew(READBACK, backend=Sounding(160.0))
-    world.act(1.0, "AAL123", PressToTalk())
+    world = crew(READBACK, backend=Sounding(160.0)).act(1.0, "AAL123", PressToTalk())
     world.feeds(1.0, fed_until_s, "AAL123")
     world.run_until(60.0)
     (said,) = (one for one in world.of(SpokenTruth) if one.is_from_microphone)
@@ -333,8 +307,7 @@ def test_a_call_without_sound_for_3_s_is_cut(fed_until_s: float) -> None:
 
 
 def test_a_call_of_a_minute_is_cut() -> None:
-    world = crew(READBACK, backend=Sounding(160.0))
-    world.act(1.0, "AAL123", PressToTalk())
+    world = crew(READBACK, backend=Sounding(160.0)).act(1.0, "AAL123", PressToTalk())
     world.feeds(1.0, 90.0, "AAL123")
     world.run_until(90.0)
     (said,) = (one for one in world.of(SpokenTruth) if one.is_from_microphone)
@@ -349,8 +322,7 @@ def recognised(text: str, confidence: float = 1.0, *, seat: str = TOWER) -> Seat
     """Return a radio on which a person has spoken for two seconds, and what was recognised."""
     late = READBACK | {"at_s": 50.0}
     lines = (CLEARANCE, READBACK) if seat == TOWER else (late,)
-    world = Seated(*lines, seats=[seat], backend=Sounding(160.0))
-    world.speaks(12.0, 14.0, seat)
+    world = Seated(*lines, seats=[seat], backend=Sounding(160.0)).speaks(12.0, 14.0, seat)
     words = transcript(text, confidence, seat)
     for at_s in (15.0, 16.0):  # Only the first time counts.
         world.at(at_s, lambda: world.conversation.take(f"asr/{KHZ}", words, b""))
@@ -394,8 +366,7 @@ def test_without_a_task_words_that_name_nobody_are_for_the_only_crew_on_the_freq
     """With several crews there, they are for none of them."""
     for others, outcomes in (((), ["unsure"]), (("DAL456",), [])):
         crews = [line(f"hello-{name}", 50, name, TOWER, "Hello.") for name in ("AAL123", *others)]
-        world = Seated(*crews, seats=[TOWER], backend=Sounding(160.0))
-        world.speaks(12.0, 14.0, TOWER)
+        world = Seated(*crews, seats=[TOWER], backend=Sounding(160.0)).speaks(12.0, 14.0, TOWER)
         words = transcript("climb flight level three three zero", 1.0)
         take = partial(world.conversation.take, f"asr/{KHZ}", words, b"")
         world.at(15.0, take)

@@ -14,7 +14,7 @@ from airhilt.geodesy.wgs84 import distance_m
 from airhilt.messages import Advisory, Evidence, GoAround, HoldPosition, Severity
 from airhilt.units import KNOT
 from airhilt.world.actors import Actor, Unable, build_actors
-from airhilt.world.actors.driver import Driver
+from airhilt.world.actors.surface_actors import Driver
 from airhilt.world.actors.triggers import Triggers
 from airhilt.world.site import ScenarioSite
 
@@ -199,20 +199,6 @@ def test_an_animal_stands_still_when_its_plan_says_so() -> None:
     tell(deer, "stand")
     advance(deer, 10.0)
     assert deer.body.phase == "standing"
-
-
-def test_a_trigger_that_another_sets_is_evaluated_the_next_time() -> None:
-    """Also where it is true already: no action runs twice or is forgotten."""
-    done: list[str] = []
-    triggers = Triggers()
-    triggers.once(
-        lambda _: True, lambda: triggers.once(lambda _: True, lambda: done.append("second"))
-    )
-    triggers.evaluate(0)
-    assert done == []
-    triggers.evaluate(1)
-    triggers.evaluate(2)
-    assert done == ["second"]
 
 
 def test_of_two_that_come_true_at_once_the_one_that_waited_longer_is_done_first() -> None:

@@ -132,14 +132,21 @@ def tell(crew: Crew, action: str, **arguments: Any) -> None:
     crew.command(COMMAND.validate_python({"action": action, **arguments}))
 
 
-def at_hold(taxiway: str = "A") -> Plane:
-    hold = kdca().airport.hold("01", taxiway)
-    return Plane(place=hold.place)
+def at_hold(phase: str = "standing") -> tuple[Plane, Crew]:
+    plane = Plane(phase, kdca().airport.hold("01", "A").place)
+    return plane, crew_of(plane)
 
 
 def on_final(distance_m: float, height_m: float = 300.0, **kw: Any) -> Plane:
     place = kdca().place(RunwayPosition(type="runway", runway="01", along_m=-distance_m))
     return Plane("glide", place, height_m, 140.0, **kw)
+
+
+def approaching(plane: Plane) -> tuple[Plane, Crew]:
+    """Return an aircraft that flies the approach to runway 01, and its crew."""
+    crew = crew_of(plane)
+    crew.runway_operations.begin_on_final("01")
+    return plane, crew
 
 
 def advisory(recommendation: object) -> Advisory:
@@ -154,8 +161,7 @@ def advisory(recommendation: object) -> Advisory:
 
 
 def test_from_a_hold_it_lines_up_along_the_way_in() -> None:
-    plane = at_hold()
-    crew = crew_of(plane)
+    plane, crew = at_hold()
     tell(crew, "line_up", runway="01")
     assert crew.runway_operations.bound_runway == "01"
     ((name, path, then),) = plane.told
@@ -164,8 +170,7 @@ def test_from_a_hold_it_lines_up_along_the_way_in() -> None:
 
 
 def test_cleared_for_takeoff_at_a_hold_it_lines_up_first_and_rolls_then() -> None:
-    plane = at_hold()
-    crew = crew_of(plane)
+    plane, crew = at_hold()
     tell(crew, "take_off", runway="01", climb_to_ft=4000)
     crew.attend()
     assert plane.names == ["taxi"]
@@ -175,15 +180,8 @@ def test_cleared_for_takeoff_at_a_hold_it_lines_up_first_and_rolls_then() -> Non
     assert plane.told[1:] == [("take_off", "01", 4000)]
 
 
-def test_away_from_every_hold_it_is_unable_to_line_up() -> None:
-    plane = Plane(place=kdca().airport.node("gate_b12"))
-    with pytest.raises(Unable, match="not at a hold-short position of runway 01"):
-        tell(crew_of(plane), "line_up", runway="01")
-
-
 def test_a_takeoff_is_cancelled_before_it_rolls() -> None:
-    plane = at_hold()
-    crew = crew_of(plane)
+    plane, crew = at_hold()
     tell(crew, "take_off", runway="01")
     tell(crew, "cancel_takeoff")
     plane.phase = "lined_up"
@@ -200,8 +198,7 @@ def test_rolling_it_rejects_below_decision_speed_only(speed_kt: float, rejects: 
 
 
 def test_once_it_climbs_out_it_is_bound_for_no_runway() -> None:
-    plane = at_hold()
-    crew = crew_of(plane)
+    plane, crew = at_hold()
     tell(crew, "line_up", runway="01")
     plane.phase = "climb_out"
     crew.attend()
@@ -212,9 +209,7 @@ def test_once_it_climbs_out_it_is_bound_for_no_runway() -> None:
 
 
 def test_without_a_landing_clearance_it_goes_around_at_200_ft() -> None:
-    plane = on_final(2_000.0)
-    crew = crew_of(plane)
-    crew.runway_operations.begin_on_final("01")
+    plane, crew = approaching(on_final(2_000.0))
     crew.attend()
     assert plane.names == ["land"]
     plane.height_m = 190 * FOOT
@@ -226,9 +221,7 @@ def test_without_a_landing_clearance_it_goes_around_at_200_ft() -> None:
 
 
 def test_with_one_it_goes_on() -> None:
-    plane = on_final(2_000.0)
-    crew = crew_of(plane)
-    crew.runway_operations.begin_on_final("01")
+    plane, crew = approaching(on_final(2_000.0))
     tell(crew, "land", runway="01")
     plane.height_m = 100 * FOOT
     crew.attend()
@@ -251,9 +244,7 @@ def test_over_a_circuit_it_lands_once_it_is_on_final() -> None:
 
 
 def test_over_the_threshold_and_far_too_high_it_goes_around() -> None:
-    plane = on_final(4_000.0)
-    crew = crew_of(plane)
-    crew.runway_operations.begin_on_final("01")
+    plane, crew = approaching(on_final(4_000.0))
     tell(crew, "land", runway="01")
     plane.place = on_final(-100.0).place
     with pytest.raises(Unable, match="too high over the threshold: going around"):
@@ -313,9 +304,7 @@ def test_who_is_unable_to_line_up_is_bound_for_no_runway() -> None:
 
 
 def test_told_on_the_way_to_a_hold_it_lines_up_once_it_stands_there() -> None:
-    plane = at_hold()
-    plane.phase = "taxi"
-    crew = crew_of(plane)
+    plane, crew = at_hold("taxi")
     tell(crew, "take_off", runway="01", climb_to_ft=4000)
     crew.attend()
     assert plane.told == []
@@ -327,8 +316,7 @@ def test_told_on_the_way_to_a_hold_it_lines_up_once_it_stands_there() -> None:
 
 
 def test_held_on_its_way_in_and_cleared_again_it_does_not_go_back_to_the_hold() -> None:
-    plane = at_hold()
-    crew = crew_of(plane)
+    plane, crew = at_hold()
     tell(crew, "take_off", runway="01")
     whole = plane.told[0][1]
     tell(crew, "cancel_takeoff")
@@ -376,9 +364,7 @@ def test_a_go_around_climbs_from_wherever_it_begins(height_ft: float, climb_to_f
 
 
 def test_after_a_go_around_it_needs_another_clearance_to_land() -> None:
-    plane = on_final(2_000.0)
-    crew = crew_of(plane)
-    crew.runway_operations.begin_on_final("01")
+    plane, crew = approaching(on_final(2_000.0))
     tell(crew, "land", runway="01")
     tell(crew, "go_around")
     assert crew.runway_operations.bound_runway is None
@@ -391,9 +377,7 @@ def test_after_a_go_around_it_needs_another_clearance_to_land() -> None:
 
 
 def test_on_final_it_does_not_land_on_another_runway_unless_it_side_steps_or_circles() -> None:
-    plane = on_final(5_000.0)
-    crew = crew_of(plane)
-    crew.runway_operations.begin_on_final("01")
+    _, crew = approaching(on_final(5_000.0))
     with pytest.raises(Unable, match="on final approach to runway 01"):
         tell(crew, "land", runway="33")
     assert crew.runway_operations.bound_runway == "01"
@@ -408,9 +392,7 @@ def test_on_the_ground_it_is_unable_to_land() -> None:
 
 @pytest.mark.parametrize("command", [{"action": "track", "track_deg": 90}])
 def test_who_leaves_an_approach_is_bound_for_no_runway(command: dict[str, Any]) -> None:
-    plane = on_final(5_000.0)
-    crew = crew_of(plane)
-    crew.runway_operations.begin_on_final("01")
+    plane, crew = approaching(on_final(5_000.0))
     tell(crew, **command)
     plane.phase = "en_route"
     crew.attend()

@@ -13,10 +13,10 @@ from hypothesis import strategies as st
 
 from airhilt.commands import TaxiCommand
 from airhilt.geodesy.positions import RunwayPosition
-from airhilt.geodesy.wgs84 import beside, distance_m, onward
+from airhilt.geodesy.wgs84 import distance_m, onward
 from airhilt.units import KNOT
 from airhilt.world.actors.actor import Unable
-from airhilt.world.actors.final_approach import FinalApproach
+from airhilt.world.actors.runway_operations import FinalApproach
 from airhilt.world.actors.taxi_paths import (
     exit_for,
     hold_beside,
@@ -95,14 +95,6 @@ def test_a_place_off_a_final_approach_is_told_by_its_distances(
     track = kdca().runway(runway).course_rad + angle
     assert final.angle_rad(track) == pytest.approx(angle, abs=1e-9)
     assert final.angle_rad(track + 2.0 * math.pi) == pytest.approx(angle, abs=1e-9)
-
-
-def test_beside_a_direction_is_to_the_right_and_negative_to_the_left() -> None:
-    north = kdca().runway("01").course_rad
-    final = FinalApproach(kdca().airport, kdca().runway("01"))
-    threshold = kdca().runway("01").threshold
-    assert final.right_m(beside(threshold, north, 200.0)) == pytest.approx(200.0, abs=0.1)
-    assert final.right_m(beside(threshold, north, -200.0)) == pytest.approx(-200.0, abs=0.1)
 
 
 # --- exits ------------------------------------------------------------------------------------

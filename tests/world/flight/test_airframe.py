@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from typing import Any
 
 import pytest
 from hypothesis import given
@@ -17,11 +15,12 @@ from airhilt.world.flight import (
     load_aircraft_type,
     standard_atmosphere,
 )
-from airhilt.world.flight.airframe import Airframe, heading_to_track
-from airhilt.world.surface.runway import RunwayEnd
+from airhilt.world.flight.airframe import Airframe
+from airhilt.world.flight.starting import heading_to_track
+from flights import RUNWAY, in_cruise, on_final, on_the_ground, states
 
 
-def test_the_dynamic_pressure_is_that_of_its_mach_number(in_cruise: Callable[..., Any]) -> None:
+def test_the_dynamic_pressure_is_that_of_its_mach_number() -> None:
     aircraft = in_cruise("737")
     pressure_pa = standard_atmosphere.pressure(aircraft.state.altitude_m)
     expected_pa = 0.7 * pressure_pa * aircraft.state.mach**2
@@ -29,11 +28,9 @@ def test_the_dynamic_pressure_is_that_of_its_mach_number(in_cruise: Callable[...
 
 
 @pytest.mark.parametrize("name", ["c172p", "737"])
-def test_the_main_wheels_are_on_the_ground_while_the_nose_is_lifted(
-    name: str, on_the_ground: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
-) -> None:
+def test_the_main_wheels_are_on_the_ground_while_the_nose_is_lifted(name: str) -> None:
     aircraft = on_the_ground(name)
-    aircraft.procedures.take_off(runway, 300.0)
+    aircraft.procedures.take_off(RUNWAY, 300.0)
     lifted = []
     for state in states(aircraft, 60):
         if aircraft.phase == "rotate" and not aircraft.on_ground:
@@ -44,7 +41,7 @@ def test_the_main_wheels_are_on_the_ground_while_the_nose_is_lifted(
     assert -0.7 < min(lifted) <= max(lifted) < 0.1
 
 
-def test_cleaned_up_it_has_gear_flaps_and_speed_brakes_in(on_final: Callable[..., Any]) -> None:
+def test_cleaned_up_it_has_gear_flaps_and_speed_brakes_in() -> None:
     aircraft = on_final("737", distance_nm=8.0)
     airframe: Airframe = aircraft._airframe
     airframe.set_speed_brakes(1.0)
@@ -70,9 +67,7 @@ def wind_of(airframe: Airframe) -> list[float]:
     ]
 
 
-def test_an_aircraft_that_stands_feels_no_wind_and_one_at_15_m_s_all_of_it(
-    on_the_ground: Callable[..., Any],
-) -> None:
+def test_an_aircraft_that_stands_feels_no_wind_and_one_at_15_m_s_all_of_it() -> None:
     airframe: Airframe = on_the_ground("737", atmosphere=WINDY)._airframe
     whole = [6.3, -4.1, 2.7]
     assert wind_of(airframe) == [0.0, 0.0, 0.0]
@@ -81,9 +76,7 @@ def test_an_aircraft_that_stands_feels_no_wind_and_one_at_15_m_s_all_of_it(
         assert wind_of(airframe) == pytest.approx([part * each for each in whole], abs=1e-9)
 
 
-def test_an_aircraft_in_flight_has_the_whole_wind_from_the_beginning(
-    in_cruise: Callable[..., Any],
-) -> None:
+def test_an_aircraft_in_flight_has_the_whole_wind_from_the_beginning() -> None:
     aircraft = in_cruise("737", atmosphere=Atmosphere(wind_north_m_s=20.0, wind_east_m_s=-12.0))
     assert wind_of(aircraft._airframe)[:2] == pytest.approx([20.0, -12.0], abs=1e-6)
     state = aircraft.state
@@ -125,18 +118,7 @@ def test_a_wind_across_that_is_stronger_than_the_airspeed_is_refused(
 # --- its engines and wheels -----------------------------------------------------------------
 
 
-def test_an_engine_is_counted_from_0(in_cruise: Callable[..., Any]) -> None:
-    airframe: Airframe = in_cruise("737")._airframe
-    airframe.require_engine(0)
-    airframe.require_engine(1)
-    for engine in (-1, 2):
-        with pytest.raises(ValueError, match=f"engine is {engine}; expected 0 to 1"):
-            airframe.require_engine(engine)
-
-
-def test_it_is_on_the_ground_and_stands_there_with_its_nose_wheel(
-    on_the_ground: Callable[..., Any], in_cruise: Callable[..., Any]
-) -> None:
+def test_it_is_on_the_ground_and_stands_there_with_its_nose_wheel() -> None:
     standing: Airframe = on_the_ground("737")._airframe
     assert standing.on_ground()
     assert standing.nose_on_ground()
@@ -148,7 +130,7 @@ def test_it_is_on_the_ground_and_stands_there_with_its_nose_wheel(
     assert (flying.gear(), flying.flaps()) == (0.0, 0.0)
 
 
-def test_the_wheelbase_is_that_of_the_aircraft(on_the_ground: Callable[..., Any]) -> None:
+def test_the_wheelbase_is_that_of_the_aircraft() -> None:
     """15.6 m of the 737-800 (Boeing D6-58325-6), 1.65 m of the 172 (its flight manual)."""
     assert on_the_ground("737")._airframe.wheelbase_m == pytest.approx(15.6, rel=0.25)
     assert on_the_ground("c172p")._airframe.wheelbase_m == pytest.approx(1.65, rel=0.25)

@@ -419,26 +419,6 @@ def test_with_the_lever_between_its_stops_no_climb_yields() -> None:
 # --- bank and rudder ----------------------------------------------------------------------------
 
 
-def test_with_the_wings_level_it_turns_with_the_earth() -> None:
-    """At 45 degrees north by twice the sine of that times 7.292115e-5 rad/s (WGS84)."""
-    state = state_at((45.0 * DEGREE, 0.0), speed_m_s=120.0)
-    airframe = level()
-    turn_rate = 2.0 * 7.292115e-5 * math.sin(45.0 * DEGREE)
-    autopilot(airframe, state).fly(state, turn_rate, 0.0, 120.0)
-    assert airframe.got["set_aileron"] == pytest.approx((0.0,), abs=1e-9)
-
-
-def test_it_banks_no_more_than_the_type_allows() -> None:
-    limit = B737.gains.roll.bank_limit_deg * DEGREE
-    for side in (1.0, -1.0):
-        state = LEVEL._replace(roll_rad=side * limit)
-        airframe = level()
-        flying = autopilot(airframe, state)
-        for _ in range(40):
-            flying.fly(state, side * 0.5, 0.0, 120.0)
-        assert airframe.got["set_aileron"] == pytest.approx((0.0,), abs=1e-9)
-
-
 @pytest.mark.parametrize("side", [1.0, -1.0])
 def test_it_rolls_no_faster_than_by_half_more_than_its_bank_moves(side: float) -> None:
     fastest = 1.5 * B737.gains.roll.bank_rate_limit_deg_s * DEGREE

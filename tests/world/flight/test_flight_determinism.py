@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import subprocess
 import sys
-from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
 
 from airhilt.host import library
 from airhilt.world.flight import Atmosphere
+from flights import in_cruise, states
 from paths import SUPPORT
 
 AIR = Atmosphere(wind_north_m_s=5.0, turbulence_wind_at_20ft_m_s=15.0, turbulence_severity=4)
@@ -18,37 +17,28 @@ PROGRAM = """
 import sys
 from concurrent.futures import ThreadPoolExecutor
 sys.path[:0] = {folders!r}
-from flights import in_cruise, states
 from test_flight_determinism import AIR, flight
-print(repr(flight(in_cruise, states)))
+print(repr(flight()))
 """
 
 
-def flight(
-    in_cruise: Callable[..., Any], states: Callable[..., Any], name: str = "737", seed: int = 7
-) -> tuple[float, ...]:
+def flight(name: str = "737", seed: int = 7) -> tuple[float, ...]:
     aircraft = in_cruise(name, seed=seed, atmosphere=AIR)
     aircraft.en_route.turn_by(0.5)
     *_, last = states(aircraft, 20)
     return tuple(last)
 
 
-def test_in_one_process(
-    name: str, in_cruise: Callable[..., Any], states: Callable[..., Any]
-) -> None:
-    assert flight(in_cruise, states, name) == flight(in_cruise, states, name)
+def test_in_one_process(name: str) -> None:
+    assert flight(name) == flight(name)
 
 
-def test_another_seed_gives_another_flight(
-    in_cruise: Callable[..., Any], states: Callable[..., Any]
-) -> None:
-    assert flight(in_cruise, states) != flight(in_cruise, states, seed=8)
+def test_another_seed_gives_another_flight() -> None:
+    assert flight() != flight(seed=8)
 
 
-def test_with_other_aircraft_flown_in_between(
-    in_cruise: Callable[..., Any], states: Callable[..., Any]
-) -> None:
-    alone = flight(in_cruise, states)
+def test_with_other_aircraft_flown_in_between() -> None:
+    alone = flight()
     aircraft = in_cruise("737", seed=7, atmosphere=AIR)
     others = [in_cruise("B747", seed=3, atmosphere=AIR), in_cruise("737", seed=9, atmosphere=AIR)]
     aircraft.en_route.turn_by(0.5)
@@ -58,7 +48,7 @@ def test_with_other_aircraft_flown_in_between(
     assert tuple(aircraft.state) == alone
 
 
-def test_in_another_process(in_cruise: Callable[..., Any], states: Callable[..., Any]) -> None:
+def test_in_another_process() -> None:
     program = PROGRAM.format(folders=[str(Path(__file__).parent), str(SUPPORT)])
     answer = subprocess.run(
         [sys.executable, "-c", program],
@@ -67,10 +57,10 @@ def test_in_another_process(in_cruise: Callable[..., Any], states: Callable[...,
         text=True,
         check=True,
     )
-    assert answer.stdout == f"{flight(in_cruise, states)!r}\n"
+    assert answer.stdout == f"{flight()!r}\n"
 
 
-def test_in_threads(in_cruise: Callable[..., Any], states: Callable[..., Any]) -> None:
+def test_in_threads() -> None:
     with ThreadPoolExecutor(3) as threads:
-        flights = [threads.submit(flight, in_cruise, states) for _ in range(3)]
-    assert {one.result() for one in flights} == {flight(in_cruise, states)}
+        flights = [threads.submit(flight) for _ in range(3)]
+    assert {one.result() for one in flights} == {flight()}

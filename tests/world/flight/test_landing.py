@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -14,6 +13,7 @@ from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.flight.procedures.final import Final
 from airhilt.world.surface.runway import RunwayEnd
 from breadth import mostly_slow
+from flights import RUNWAY, along_runway, on_final, states
 
 TURBULENCE = Atmosphere(turbulence_wind_at_20ft_m_s=15 * KNOT, turbulence_severity=3)
 TOUCHDOWN_ZONE_M = 3_000 * FOOT
@@ -35,7 +35,6 @@ class Landing:
         self,
         aircraft: Aircraft,
         runway: RunwayEnd,
-        states: Callable[..., Any],
         exit_path: list[tuple[float, float]] | tuple[Any, ...] = (),
     ) -> None:
         final = Final(runway, aircraft.kind)
@@ -70,14 +69,10 @@ class Landing:
 
 @pytest.mark.parametrize("wind_kt", mostly_slow([0, 15, -15], 0, -15))
 def test_it_lands_in_the_touchdown_zone_and_stops_on_the_centre_line(
-    name: str,
-    wind_kt: int,
-    on_final: Callable[..., Any],
-    runway: RunwayEnd,
-    states: Callable[..., Any],
+    name: str, wind_kt: int
 ) -> None:
-    aircraft = on_final(name, atmosphere=wind_from_left(wind_kt, runway))
-    landing = Landing(aircraft, runway, states)
+    aircraft = on_final(name, atmosphere=wind_from_left(wind_kt, RUNWAY))
+    landing = Landing(aircraft, RUNWAY)
     assert landing.ended is None
     assert landing.phases == ["glide", "flare", "rollout", "standing"]
     assert 0.0 < landing.touchdown_m < TOUCHDOWN_ZONE_M
@@ -89,14 +84,8 @@ def test_it_lands_in_the_touchdown_zone_and_stops_on_the_centre_line(
 
 
 @pytest.mark.parametrize("seed", mostly_slow([1, 2], 1))
-def test_turbulence_moves_the_touchdown_but_not_out_of_the_zone(
-    name: str,
-    seed: int,
-    on_final: Callable[..., Any],
-    runway: RunwayEnd,
-    states: Callable[..., Any],
-) -> None:
-    landing = Landing(on_final(name, atmosphere=TURBULENCE, seed=seed), runway, states)
+def test_turbulence_moves_the_touchdown_but_not_out_of_the_zone(name: str, seed: int) -> None:
+    landing = Landing(on_final(name, atmosphere=TURBULENCE, seed=seed), RUNWAY)
     assert landing.ended is None
     assert landing.off_glide_path_m > 1 * FOOT
     assert 0.0 < landing.touchdown_m < TOUCHDOWN_ZONE_M
@@ -105,39 +94,21 @@ def test_turbulence_moves_the_touchdown_but_not_out_of_the_zone(
     assert landing.off_centre_m < 20 * FOOT
 
 
-def test_a_landing_is_the_same_bit_by_bit(
-    name: str, on_final: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
-) -> None:
-    def last() -> tuple[float, ...]:
-        aircraft = on_final(name, atmosphere=TURBULENCE, seed=5, distance_nm=1.0)
-        return tuple(Landing(aircraft, runway, states).state)
-
-    assert last() == last()
-
-
-def test_it_leaves_the_runway_at_the_exit_and_stands_at_its_end(
-    name: str,
-    on_final: Callable[..., Any],
-    runway: RunwayEnd,
-    along_runway: Callable[..., Any],
-    states: Callable[..., Any],
-) -> None:
+def test_it_leaves_the_runway_at_the_exit_and_stands_at_its_end(name: str) -> None:
     exit_m = 1_900.0 if name in {"737", "B747"} else 800.0
     curve = [
         along_runway(exit_m + 30 * math.sin(a * DEGREE), 30 * (1 - math.cos(a * DEGREE)))
         for a in range(0, 91, 10)
     ]
     exit_path = [*curve, along_runway(exit_m + 30, 150)]
-    landing = Landing(on_final(name), runway, states, exit_path)
+    landing = Landing(on_final(name), RUNWAY, exit_path)
     assert landing.phases == ["glide", "flare", "rollout", "vacate", "standing"]
-    final = Final(runway, on_final(name).kind)
+    final = Final(RUNWAY, on_final(name).kind)
     assert final.along_m(landing.state) == pytest.approx(exit_m + 30, abs=2.0)
     assert final.cross_track_m(landing.state) == pytest.approx(150, abs=3.0)
 
 
-def test_it_joins_the_final_approach_from_the_side_clean_and_fast(
-    name: str, on_final: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
-) -> None:
+def test_it_joins_the_final_approach_from_the_side_clean_and_fast(name: str) -> None:
     distance_nm, airspeed_kt = JOINING[name]
     aircraft = on_final(
         name,
@@ -147,89 +118,24 @@ def test_it_joins_the_final_approach_from_the_side_clean_and_fast(
         airspeed_kt=airspeed_kt,
         on_approach=False,
     )
-    landing = Landing(aircraft, runway, states)
+    landing = Landing(aircraft, RUNWAY)
     assert landing.ended is None
     assert landing.phases[:3] == ["glide", "flare", "rollout"]
     assert 0.0 < landing.touchdown_m < TOUCHDOWN_ZONE_M
     assert landing.sink_fpm < SOFT_FPM[name]
 
 
-def test_an_en_route_command_breaks_off_the_approach_and_cleans_up(
-    on_final: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
-) -> None:
-    aircraft = on_final("737")
-    aircraft.procedures.land(runway)
-    *_, _ = states(aircraft, 10)
-    aircraft.en_route.hold_altitude(900.0)
-    assert aircraft.phase == "en_route"
-    *_, state = states(aircraft, 150)
-    assert state.altitude_m == pytest.approx(900.0, abs=10.0)
-    assert state.calibrated_airspeed_m_s == pytest.approx(200 * KNOT, abs=3 * KNOT)
-
-
-def test_a_runway_that_cannot_be_reached_is_refused(
-    on_final: Callable[..., Any], runway: RunwayEnd
-) -> None:
-    aside = on_final("737", offset_m=9_000.0)
-    with pytest.raises(ValueError, match="68 degrees off the final approach course of runway 01"):
-        aside.procedures.land(runway)
-    beyond = on_final("737", distance_nm=-2.0, altitude_m=500.0)
-    with pytest.raises(ValueError, match="threshold of runway 01 is 3704 m behind"):
-        beyond.procedures.land(runway)
-    far = on_final("737", distance_nm=40.0, altitude_m=3_000.0)
-    with pytest.raises(ValueError, match="40 NM away"):
-        far.procedures.land(runway)
-    away = on_final("737", track_deg=190.0)
-    with pytest.raises(ValueError, match="flies away from runway 01"):
-        away.procedures.land(runway)
-
-
-def test_on_the_ground_no_en_route_command_is_taken(
-    on_final: Callable[..., Any], runway: RunwayEnd, states: Callable[..., Any]
-) -> None:
-    aircraft = on_final("c172p", distance_nm=1.0)
-    Landing(aircraft, runway, states)
-    commands: tuple[Callable[[], object], ...] = (
-        lambda: aircraft.en_route.hold_altitude(500.0),
-        lambda: aircraft.en_route.hold_track(1.0),
-        lambda: aircraft.en_route.hold_speed(50.0),
-        lambda: aircraft.procedures.land(runway),
-        lambda: aircraft.procedures.go_around(500.0),
-    )
-    for command in commands:
-        with pytest.raises(ValueError, match=r"in phase standing"):
-            command()
-
-
-def test_side_stepping_it_lands_on_the_parallel_runway(
-    on_final: Callable[..., Any],
-    runway: RunwayEnd,
-    parallel_runway: RunwayEnd,
-    states: Callable[..., Any],
-) -> None:
+def test_side_stepping_it_lands_on_the_parallel_runway(parallel_runway: RunwayEnd) -> None:
     aircraft = on_final("737", distance_nm=5.0)
-    aircraft.procedures.land(runway)
+    aircraft.procedures.land(RUNWAY)
     *_, _ = states(aircraft, 10)
     aircraft.procedures.side_step(parallel_runway)
-    landing = Landing(aircraft, parallel_runway, states)
+    landing = Landing(aircraft, parallel_runway)
     assert landing.ended is None
     assert landing.sink_fpm < SOFT_FPM["737"]
     assert landing.off_centre_m < 20 * FOOT
 
 
-def test_a_side_step_too_late_or_too_wide_is_refused(
-    on_final: Callable[..., Any],
-    runway: RunwayEnd,
-    parallel_runway: RunwayEnd,
-    states: Callable[..., Any],
-) -> None:
-    aircraft = on_final("737", distance_nm=0.6)
-    aircraft.procedures.land(runway)
-    with pytest.raises(ValueError, match="expected at least 300 ft"):
-        aircraft.procedures.side_step(parallel_runway)
-    near = on_final("737", distance_nm=1.2)
-    near.procedures.land(runway)
-    with pytest.raises(ValueError, match="left to join it"):
-        near.procedures.side_step(parallel_runway)
+def test_who_is_not_on_an_approach_cannot_side_step(parallel_runway: RunwayEnd) -> None:
     with pytest.raises(ValueError, match="side_step in phase en_route; expected glide"):
         on_final("737").procedures.side_step(parallel_runway)

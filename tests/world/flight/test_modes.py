@@ -6,8 +6,7 @@ import pytest
 
 from airhilt.units import FOOT, KNOT
 from airhilt.world.flight import InitialCondition, load_aircraft_type
-from airhilt.world.flight.guidance import AltitudeClearance
-from airhilt.world.flight.modes import GuidanceModes
+from airhilt.world.flight.guidance import AltitudeClearance, GuidanceModes
 from stand_ins import state_at
 
 KIND = load_aircraft_type("737")
@@ -43,17 +42,6 @@ def test_the_greatest_rates_are_those_of_the_file() -> None:
     assert MODES.steepest_descent(2_000.0).clearance == pytest.approx((2_000.0, down))
     usual = SPEEDS.climb_rate_fpm * FPM
     assert MODES.altitude_at_usual_rate(2_000.0).clearance == pytest.approx((2_000.0, usual))
-
-
-@pytest.mark.parametrize(("part", "taken"), [(0.5, 0.5), (1.0, 1.0), (1.5, 1.0)])
-def test_a_clearance_is_taken_as_far_as_the_type_can(part: float, taken: float) -> None:
-    for is_climb, fpm in (
-        (True, SPEEDS.maximum_climb_rate_fpm), (False, SPEEDS.maximum_descent_rate_fpm),
-    ):  # fmt: skip
-        accepted = MODES.accepted_clearance(4_000.0, part * fpm * FPM, is_climb=is_climb)
-        assert accepted == pytest.approx((4_000.0, taken * fpm * FPM))
-    above = MODES.accepted_clearance(CEILING_M + 100.0, 5.0, is_climb=True)
-    assert above.altitude_m == pytest.approx(CEILING_M)
 
 
 def test_the_slowest_clean_climb_is_not_below_the_safety_speed() -> None:

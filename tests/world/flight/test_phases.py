@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any, cast
@@ -13,17 +13,14 @@ import pytest
 from airhilt.geodesy.wgs84 import Place
 from airhilt.units import DEGREE, KNOT
 from airhilt.world.flight import load_aircraft_type
-from airhilt.world.flight.modes import GuidanceModes
+from airhilt.world.flight.guidance import GuidanceModes
 from airhilt.world.flight.phases import AircraftSystems, FlightPhase
-from airhilt.world.flight.procedures.approach import Glide
-from airhilt.world.flight.procedures.emergency_descent import EmergencyDescent
-from airhilt.world.flight.procedures.en_route import EnRoute
-from airhilt.world.flight.procedures.engine_failure import DriftDown
+from airhilt.world.flight.procedures.en_route import DriftDown, EmergencyDescent, EnRoute
 from airhilt.world.flight.procedures.final import Final
-from airhilt.world.flight.procedures.go_around import GoAround
-from airhilt.world.flight.procedures.landing import Flare, Rollout
+from airhilt.world.flight.procedures.landing import Flare, Glide, Rollout
 from airhilt.world.flight.procedures.takeoff import (
     ClimbOut,
+    GoAround,
     RejectedTakeoff,
     Rotate,
     TakeoffRoll,
@@ -32,7 +29,7 @@ from airhilt.world.flight.procedures.takeoff import (
 from airhilt.world.flight.procedures.taxi import Stand, Standing, Taxi
 from airhilt.world.flight.state import AircraftState
 from airhilt.world.flight.taxi_path import TaxiPath
-from flights import COURSE, along_runway, make_runway
+from flights import COURSE, along_runway, make_runway, on_the_ground
 from stand_ins import StandIn, state_at
 
 B737 = load_aircraft_type("737")
@@ -617,9 +614,9 @@ def test_who_stands_is_at_rest_once_nothing_moves(speed_m_s: float, at_rest: boo
     assert systems.ground.got["hold_speed"][1] == 0.0
 
 
-def test_rolling_out_it_takes_no_en_route_command(on_the_ground: Callable[..., Any]) -> None:
+def test_rolling_out_it_takes_no_en_route_command() -> None:
     aircraft = on_the_ground("737")
-    control = aircraft._control
+    control = aircraft.en_route
     control.phase = Rollout(control.systems, cast(Any, FINAL), ())
     with pytest.raises(ValueError, match="in phase rollout on the ground; expected in the air"):
         aircraft.en_route.hold_track(1.0)

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
-from typing import Any
 
 import pytest
 
@@ -13,7 +11,7 @@ from airhilt.world.flight import Atmosphere
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.flight.procedures.final import Final
 from airhilt.world.flight.state import AircraftState
-from airhilt.world.surface.runway import RunwayEnd
+from flights import RUNWAY, on_the_ground, states
 
 COURSE = 10.0
 REJECTED_AT_KT = {"737": 100, "B747": 100, "c172p": 40, "c310": 70}
@@ -22,9 +20,7 @@ CROSSWIND = Atmosphere(
 )
 
 
-def roll_to(
-    aircraft: Aircraft, airspeed_kt: float, states: Callable[..., Iterator[AircraftState]]
-) -> AircraftState:
+def roll_to(aircraft: Aircraft, airspeed_kt: float) -> AircraftState:
     for state in states(aircraft, 60):
         if state.calibrated_airspeed_m_s >= airspeed_kt * KNOT:
             return state
@@ -32,17 +28,11 @@ def roll_to(
 
 
 @pytest.mark.parametrize("air", [Atmosphere(), CROSSWIND], ids=["calm", "crosswind"])
-def test_it_stops_within_3000_ft_on_the_centre_line(
-    air: Atmosphere,
-    name: str,
-    on_the_ground: Callable[..., Any],
-    runway: RunwayEnd,
-    states: Callable[..., Iterator[AircraftState]],
-) -> None:
+def test_it_stops_within_3000_ft_on_the_centre_line(air: Atmosphere, name: str) -> None:
     aircraft = on_the_ground(name, right_m=1.0, atmosphere=air)
-    line = Final(runway, aircraft.kind)
-    aircraft.procedures.take_off(runway, 500.0)
-    rejected_m = line.along_m(roll_to(aircraft, REJECTED_AT_KT[name], states))
+    line = Final(RUNWAY, aircraft.kind)
+    aircraft.procedures.take_off(RUNWAY, 500.0)
+    rejected_m = line.along_m(roll_to(aircraft, REJECTED_AT_KT[name]))
     aircraft.procedures.reject_takeoff()
     assert aircraft.phase == "rejected_takeoff"
     for state in states(aircraft, 60):
@@ -52,32 +42,24 @@ def test_it_stops_within_3000_ft_on_the_centre_line(
     assert line.along_m(aircraft.state) - rejected_m < 3_000 * FOOT
 
 
-def test_it_can_take_off_after_all(
-    on_the_ground: Callable[..., Any],
-    runway: RunwayEnd,
-    states: Callable[..., Iterator[AircraftState]],
-) -> None:
+def test_it_can_take_off_after_all() -> None:
     aircraft = on_the_ground("c172p")
-    aircraft.procedures.take_off(runway, 100.0)
-    roll_to(aircraft, 30, states)
+    aircraft.procedures.take_off(RUNWAY, 100.0)
+    roll_to(aircraft, 30)
     aircraft.procedures.reject_takeoff()
     for _ in states(aircraft, 30):
         pass
-    aircraft.procedures.take_off(runway, 100.0)
+    aircraft.procedures.take_off(RUNWAY, 100.0)
     for _ in states(aircraft, 60):
         pass
     assert aircraft.phase == "en_route"
 
 
-def test_only_a_takeoff_roll_is_rejected(
-    on_the_ground: Callable[..., Any],
-    runway: RunwayEnd,
-    states: Callable[..., Iterator[AircraftState]],
-) -> None:
+def test_only_a_takeoff_roll_is_rejected() -> None:
     aircraft = on_the_ground("c172p")
     with pytest.raises(ValueError, match="reject_takeoff in phase lined_up; expected takeoff_roll"):
         aircraft.procedures.reject_takeoff()
-    aircraft.procedures.take_off(runway, 500.0)
-    roll_to(aircraft, aircraft.kind.speeds.rotate_kt + 2, states)
+    aircraft.procedures.take_off(RUNWAY, 500.0)
+    roll_to(aircraft, aircraft.kind.speeds.rotate_kt + 2)
     with pytest.raises(ValueError, match="expected takeoff_roll"):
         aircraft.procedures.reject_takeoff()

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from types import SimpleNamespace
-from typing import Any, cast
+from typing import cast
 
 import pytest
 from geographiclib.geodesic import Geodesic
@@ -14,6 +13,7 @@ from airhilt.units import DEGREE, wrap_angle
 from airhilt.world.flight import Atmosphere
 from airhilt.world.flight.route import legs_through
 from airhilt.world.flight.state import AircraftState
+from flights import in_cruise, states
 
 EARTH = Geodesic.WGS84
 
@@ -89,9 +89,7 @@ def test_a_leg_of_200_km_is_the_geodesic_within_two_metres(
     ids=["calm", "wind"],
 )
 @pytest.mark.parametrize("name", ["737", "c172p"])
-def test_it_follows_a_route_with_a_turn(
-    name: str, air: Atmosphere, in_cruise: Callable[..., Any], states: Callable[..., Any]
-) -> None:
+def test_it_follows_a_route_with_a_turn(name: str, air: Atmosphere) -> None:
     aircraft = in_cruise(name, atmosphere=air)
     length = aircraft.state.true_airspeed_m_s * 150.0
     start = (47.0, 8.0)
@@ -112,9 +110,7 @@ def test_it_follows_a_route_with_a_turn(
     assert bank < 32 * DEGREE
 
 
-def test_beyond_the_last_waypoint_it_holds_the_last_track(
-    in_cruise: Callable[..., Any], states: Callable[..., Any]
-) -> None:
+def test_beyond_the_last_waypoint_it_holds_the_last_track() -> None:
     aircraft = in_cruise("c172p")
     end = place((47.0, 8.0), 60.0, 1_500.0)
     aircraft.en_route.fly_route([radians(end)])
@@ -123,9 +119,7 @@ def test_beyond_the_last_waypoint_it_holds_the_last_track(
     assert abs(wrap_angle(state.track_rad - course * DEGREE)) < 0.1 * DEGREE
 
 
-def test_it_resumes_a_route_that_it_left(
-    in_cruise: Callable[..., Any], states: Callable[..., Any]
-) -> None:
+def test_it_resumes_a_route_that_it_left() -> None:
     aircraft = in_cruise("737")
     end = place((47.0, 8.0), 60.0, 120_000.0)
     aircraft.en_route.fly_route([radians(end)])
@@ -138,8 +132,3 @@ def test_it_resumes_a_route_that_it_left(
     *_, back = states(aircraft, 150)
     position = (back.latitude_rad / DEGREE, back.longitude_rad / DEGREE)
     assert abs(cross_track_m(position, (47.0, 8.0), end)) < 15.0
-
-
-def test_without_a_route_there_is_none_to_resume(in_cruise: Callable[..., Any]) -> None:
-    with pytest.raises(ValueError, match="no route to resume"):
-        in_cruise("c172p").en_route.resume_route()

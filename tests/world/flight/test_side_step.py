@@ -8,8 +8,7 @@ import pytest
 
 from airhilt.units import DEGREE, FOOT
 from airhilt.world.flight import load_aircraft_type
-from airhilt.world.flight.procedures.final import Final
-from airhilt.world.flight.procedures.side_step import require_side_step
+from airhilt.world.flight.procedures.final import Final, require_side_step
 from airhilt.world.flight.state import AircraftState
 from flights import COURSE, RUNWAY_ELEVATION_M, along_runway, make_runway
 from stand_ins import state_at

@@ -13,6 +13,7 @@ from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.units import DEGREE, KNOT
 from airhilt.world.flight import Atmosphere
 from airhilt.world.flight.state import AircraftState
+from flights import along_runway, in_cruise, on_the_ground, states
 
 COURSE = 10.0
 RADIUS_M = 30.0
@@ -51,13 +52,7 @@ def place_of(state: AircraftState) -> tuple[float, float]:
 @pytest.mark.parametrize(
     "wind", [Atmosphere(), wind_from(COURSE + 90.0)], ids=["calm", "crosswind"]
 )
-def test_it_follows_the_path_and_stops_at_its_end(
-    wind: Atmosphere,
-    name: str,
-    on_the_ground: Callable[..., Any],
-    along_runway: Callable[..., Any],
-    states: Callable[..., Any],
-) -> None:
+def test_it_follows_the_path_and_stops_at_its_end(wind: Atmosphere, name: str) -> None:
     aircraft = on_the_ground(name, along_m=0.0, atmosphere=wind)
     path = corner(along_runway)
     aircraft.procedures.taxi(path)
@@ -82,27 +77,7 @@ def test_it_follows_the_path_and_stops_at_its_end(
     assert max(off[-20:]) < 2.0
 
 
-def test_it_slows_down_for_a_bend(
-    on_the_ground: Callable[..., Any], along_runway: Callable[..., Any], states: Callable[..., Any]
-) -> None:
-    aircraft = on_the_ground("737", along_m=0.0)
-    aircraft.procedures.taxi(corner(along_runway), 20 * KNOT)
-    fastest = sideways = 0.0
-    turned = COURSE * DEGREE
-    for state in states(aircraft, 60):
-        fastest = max(fastest, state.ground_speed_m_s)
-        sideways = max(sideways, state.ground_speed_m_s * abs(state.heading_rad - turned) * 20.0)
-        turned = state.heading_rad
-    assert 17 * KNOT < fastest < 21 * KNOT
-    assert sideways < 1.3
-
-
-def test_it_holds_its_position_and_goes_on(
-    name: str,
-    on_the_ground: Callable[..., Any],
-    along_runway: Callable[..., Any],
-    states: Callable[..., Any],
-) -> None:
+def test_it_holds_its_position_and_goes_on(name: str) -> None:
     aircraft = on_the_ground(name, along_m=0.0)
     aircraft.procedures.taxi([along_runway(0.0), along_runway(200.0)])
     *_, moving = states(aircraft, 20)
@@ -124,9 +99,7 @@ def test_it_holds_its_position_and_goes_on(
 
 
 @pytest.mark.parametrize("from_deg", [0.0, 90.0, 180.0, 270.0])
-def test_it_stands_still_in_any_wind(
-    from_deg: float, name: str, on_the_ground: Callable[..., Any], states: Callable[..., Any]
-) -> None:
+def test_it_stands_still_in_any_wind(from_deg: float, name: str) -> None:
     aircraft = on_the_ground(name, lined_up=False, atmosphere=wind_from(COURSE + from_deg, 30.0))
     _, *later = states(aircraft, 60)
     assert set(later) == {aircraft.state}
@@ -136,13 +109,7 @@ def test_it_stands_still_in_any_wind(
 
 
 @pytest.mark.parametrize("from_deg", [90.0, 180.0])
-def test_no_wind_tips_it_over(
-    from_deg: float,
-    name: str,
-    on_the_ground: Callable[..., Any],
-    along_runway: Callable[..., Any],
-    states: Callable[..., Any],
-) -> None:
+def test_no_wind_tips_it_over(from_deg: float, name: str) -> None:
     aircraft = on_the_ground(name, along_m=0.0, atmosphere=wind_from(COURSE + from_deg, 25.0))
     standing = aircraft.state.pitch_rad
     aircraft.procedures.taxi(corner(along_runway))
@@ -152,22 +119,7 @@ def test_no_wind_tips_it_over(
     assert aircraft.ended is None
 
 
-def test_it_lines_up_when_told_so(
-    on_the_ground: Callable[..., Any], along_runway: Callable[..., Any], states: Callable[..., Any]
-) -> None:
-    aircraft = on_the_ground("c172p", along_m=30.0, right_m=80.0, heading_deg=COURSE - 90.0)
-    lead_in = [(30.0, 80.0), (30.0, 30.0), (39.0, 9.0), (60.0, 0.0), (120.0, 0.0)]
-    aircraft.procedures.taxi([along_runway(*point) for point in lead_in], then="lined_up")
-    assert aircraft.phase == "line_up"
-    for _ in states(aircraft, 90):
-        pass
-    assert aircraft.phase == "lined_up"
-    assert abs(aircraft.state.heading_rad - COURSE * DEGREE) < 2.0 * DEGREE
-
-
-def test_what_belongs_to_the_ground_is_refused_in_the_air(
-    in_cruise: Callable[..., Any], along_runway: Callable[..., Any]
-) -> None:
+def test_what_belongs_to_the_ground_is_refused_in_the_air() -> None:
     aircraft = in_cruise("c172p")
     with pytest.raises(ValueError, match="taxi in phase en_route in the air"):
         aircraft.procedures.taxi([along_runway(0.0), along_runway(100.0)])
@@ -175,9 +127,7 @@ def test_what_belongs_to_the_ground_is_refused_in_the_air(
         aircraft.procedures.hold_position()
 
 
-def test_what_belongs_to_the_air_is_refused_on_the_ground(
-    on_the_ground: Callable[..., Any],
-) -> None:
+def test_what_belongs_to_the_air_is_refused_on_the_ground() -> None:
     aircraft = on_the_ground("c172p")
     commands: tuple[Callable[[], object], ...] = (
         lambda: aircraft.en_route.hold_altitude(1_000.0),
@@ -191,14 +141,7 @@ def test_what_belongs_to_the_air_is_refused_on_the_ground(
     assert aircraft.phase == "lined_up"
 
 
-def test_a_path_needs_places(on_the_ground: Callable[..., Any]) -> None:
-    with pytest.raises(ValueError, match="path"):
-        on_the_ground("c172p").procedures.taxi([])
-
-
-def test_who_taxies_has_speed_brakes_and_spoilers_in(
-    on_the_ground: Callable[..., Any], along_runway: Callable[..., Any]
-) -> None:
+def test_who_taxies_has_speed_brakes_and_spoilers_in() -> None:
     aircraft = on_the_ground("737")
     fdm = aircraft._airframe._fdm
     aircraft._airframe.set_speed_brakes(1.0)

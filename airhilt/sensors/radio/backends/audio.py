@@ -7,7 +7,8 @@ import numpy as np
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio, to_pcm
 from airhilt.messages import Transcript
 from airhilt.scenario.models import Radio
-from airhilt.sensors.radio.channel import WHISTLES_HZ, BackgroundNoise, Channel, Other
+from airhilt.sensors.radio.backends.base import SoundRequest
+from airhilt.sensors.radio.channel import WHISTLES_HZ, Channel, Other
 from airhilt.sensors.radio.on_air import OnAir
 from airhilt.sensors.radio.reception import Receptions
 from airhilt.sim.streams import stream
@@ -36,29 +37,16 @@ class AudioRadio:
         self._receptions = Receptions(radio)
 
     def speak(self, speaker: str, text: str) -> tuple[Audio, float]:
-        """Return a text in the voice of a speaker, and its duration in s.
-
-        Raises
-        ------
-        airhilt.errors.SpeechError
-            The voices have failed.
-        """
+        """Return a text in the voice of a speaker, and its duration in s."""
         speech = self._voices.synthesise(text, self._voices.voice_of(speaker))
         return speech, len(speech) / SAMPLE_RATE_HZ
 
-    def receive(
-        self,
-        on_air: OnAir,
-        mixed_with: tuple[OnAir, ...],
-        background: BackgroundNoise,
-        begin: int,
-        now_ns: int,
-        listener: str | None = None,
-    ) -> bytes:
+    def receive(self, request: SoundRequest) -> bytes:
         """Return what a receiver gives out from a sample on, as PCM.
 
         Each receiver has noise of its own.
         """
+        on_air, mixed_with, background, begin, now_ns, listener = request
         speech = _speech_of(on_air, on_air.known_until_ns(now_ns))
         is_over = not on_air.is_open_ended or on_air.has_ended(now_ns)
         if begin >= len(speech) and not is_over:

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING
 from airhilt.host.files import sha256
 from airhilt.scenario.models import Radio
 from airhilt.scenario.radio_profiles import PROFILES, is_learned
-from airhilt.sensors.radio.backends.base import RadioBackend
-from airhilt.sensors.radio.backends.text import TextRadio
+from airhilt.sensors.radio.backends.base import RadioBackend, TextRadio
 
 if TYPE_CHECKING:
     from airhilt.sensors.radio.channel import Channel
@@ -20,10 +19,7 @@ DEFAULT_PROFILE = "vhf"
 def select_backend(radio: Radio, seed: int, tts: str | None) -> RadioBackend:
     """Return the radio backend of a run; a radio without sound if there are no voices.
 
-    Raises
-    ------
-    airhilt.errors.SpeechError
-        There are no voices of that name, or they or the channel cannot be loaded.
+    A SpeechError says that the voices or the channel cannot be loaded.
     """
     if tts is None:
         return TextRadio(radio.words_per_minute)
@@ -36,13 +32,7 @@ def select_backend(radio: Radio, seed: int, tts: str | None) -> RadioBackend:
 
 
 def select_channel(profile: str) -> Channel:
-    """Return the channel of a named profile, or of a file with a learned one.
-
-    Raises
-    ------
-    airhilt.errors.SpeechError
-        The file cannot be loaded.
-    """
+    """Return the channel of a named profile, or of a file with a learned one."""
     if is_learned(profile):
         from airhilt.sensors.radio.learned_channel import LearnedChannel
 

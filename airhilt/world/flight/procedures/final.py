@@ -1,4 +1,4 @@
-"""The final approach course and the glide path of a runway, and the way back to both."""
+"""The final approach course and the glide path of a runway, and the ways to both."""
 
 from __future__ import annotations
 
@@ -23,18 +23,16 @@ localizer reaches 18 NM (FAA Aeronautical Information Manual, 1-1-9); part of th
 before it."""
 GREATEST_CORRECTION_M_S = 15.0 * FOOT
 """Greatest vertical rate that is added to return to the glide path, in m/s (15 ft/s)."""
+LOWEST_M = 300.0 * FOOT
+"""Least height above the threshold at which a side-step begins, in m."""
+STEEPEST_RAD = 20.0 * DEGREE
+"""Greatest angle to the place where the other course must have been joined, in rad."""
+JOINED_M = 200.0 * FOOT / math.tan(3.0 * DEGREE)
+"""Distance from the threshold at which it must be joined, in m: 200 ft on the usual glide path."""
 
 
 class Final:
-    """The final approach course and the glide path to one runway, for one type of aircraft.
-
-    Parameters
-    ----------
-    runway
-        The end of the runway to which the approach leads.
-    kind
-        The type: its landing aim, and the height of its reference point above its wheels.
-    """
+    """The final approach course and the glide path to a runway, for one type of aircraft."""
 
     def __init__(self, runway: RunwayEnd, kind: AircraftType) -> None:
         self.runway = runway
@@ -84,14 +82,7 @@ class Final:
         return self.glide_rate(state) - within(correction, GREATEST_CORRECTION_M_S)
 
     def require_reachable(self, state: AircraftState) -> None:
-        """Check that the approach can be flown from here.
-
-        Raises
-        ------
-        ValueError
-            The aircraft is too far off the course, too far away, past the threshold, too high, or
-            flies away from the runway.
-        """
+        """Raise ValueError unless the approach can be flown from here."""
         ident = self.runway.ident
         to_go = -self.along_m(state)
         if to_go <= 0.0:
@@ -116,3 +107,22 @@ class Final:
                 f"the aircraft flies away from runway {ident}, {math.degrees(abs(turn)):.0f} "
                 "degrees off its course; expected at most 90 degrees"
             )
+
+
+def require_side_step(state: AircraftState, final: Final) -> None:
+    """Raise ValueError unless another runway's final approach can still be joined."""
+    final.require_reachable(state)
+    ident = final.runway.ident
+    height = state.altitude_m - final.runway.elevation_m
+    if height < LOWEST_M:
+        raise ValueError(
+            f"side_step to runway {ident} at {height / FOOT:.0f} ft above it; expected at least "
+            f"{LOWEST_M / FOOT:.0f} ft"
+        )
+    aside = abs(final.cross_track_m(state))
+    remaining = -final.along_m(state) - JOINED_M
+    if aside > remaining * math.tan(STEEPEST_RAD):
+        raise ValueError(
+            f"side_step to runway {ident}, {aside:.0f} m aside with {remaining:.0f} m left to join "
+            f"it; expected at most {math.degrees(STEEPEST_RAD):.0f} degrees to the side"
+        )

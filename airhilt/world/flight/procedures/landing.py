@@ -1,4 +1,8 @@
-"""The landing: flare, decrab, touchdown, rollout; then the runway is left."""
+"""The landing: approach, flare, decrab, touchdown, rollout; then the runway is left.
+
+The glide path meets the runway where the main wheels aim at, ``landing.aim_m`` of the aircraft
+type beyond the threshold. Until it is met from below the altitude is held.
+"""
 
 from __future__ import annotations
 
@@ -6,12 +10,16 @@ from collections.abc import Sequence
 
 from airhilt.geodesy.wgs84 import Place
 from airhilt.units import FOOT_PER_MINUTE, KNOT
+from airhilt.world.flight.guidance import Altitude, AltitudeClearance
 from airhilt.world.flight.phases import AircraftSystems, FlightPhase
-from airhilt.world.flight.procedures.final import Final
+from airhilt.world.flight.procedures.final import GREATEST_CORRECTION_M_S, Final
 from airhilt.world.flight.procedures.taxi import Standing, Taxi
 from airhilt.world.flight.state import AircraftState
 from airhilt.world.flight.taxi_path import TaxiPath
 
+CLOSE_HEIGHT_M = 60.0
+"""Height in m below which the glide path is followed as closely as the flare: 200 ft, where a
+category I approach needs the runway in sight (ICAO Annex 6 part I, 4.2.8.3)."""
 GREATEST_DECELERATION_M_S2 = 3.0
 """Greatest deceleration on a dry runway, in m/s2: about an autobrake's highest landing setting."""
 LEAD_S = 1.0
@@ -22,31 +30,82 @@ STANDING_M_S = 0.2
 """Ground speed in m/s below which the rollout has ended."""
 
 
-class Flare:
+class Glide(FlightPhase):
+    """Flies the localizer and the glide path down to the flare.
+
+    Below the glide path it keeps its altitude until the path is met; at ``configure_m`` from the
+    threshold it lowers the gear, sets the flaps and slows down to approach speed.
+    """
+
+    name = "glide"
+
+    def __init__(
+        self,
+        systems: AircraftSystems,
+        final: Final,
+        exit_path: Sequence[Place],
+        altitude_m: float,
+    ) -> None:
+        super().__init__(systems)
+        self.final = final
+        self.exit_path = exit_path
+        kind = systems.kind
+        self._intercept = Altitude(
+            AltitudeClearance(altitude_m, GREATEST_CORRECTION_M_S),
+            kind.gains.guidance.altitude_per_s,
+        )
+        self._configure_m = kind.landing.configure_m
+        self._configured = False
+        self._airspeed = kind.speeds.minimum_clean_kt * KNOT
+        self._captured = False
+
+    def fly(self, state: AircraftState) -> FlightPhase:
+        """Fly one tick."""
+        systems, final = self._systems, self.final
+        flare = systems.kind.landing.flare
+        if not self._configured and -final.along_m(state) < self._configure_m:
+            self._configure()
+        vertical_rate = final.vertical_rate(state)
+        if not self._captured:
+            level = self._intercept.vertical_rate(state)
+            self._captured = vertical_rate <= level
+            vertical_rate = min(vertical_rate, level)
+        height = systems.airframe.main_wheel_height_m(state)
+        sink_at_flare = height / flare.time_constant_s + flare.touchdown_rate_fpm * FOOT_PER_MINUTE
+        if sink_at_flare < -final.glide_rate(state):
+            return Flare(systems, final, self.exit_path, height).fly(state)
+        systems.autopilot.fly(
+            state,
+            final.turn_rate(state),
+            vertical_rate,
+            self._airspeed,
+            closely=height < CLOSE_HEIGHT_M,
+        )
+        return self
+
+    def _configure(self) -> None:
+        """Lower the gear, set the flaps, slow down."""
+        kind, airframe = self._systems.kind, self._systems.airframe
+        airframe.set_gear(1.0)
+        airframe.set_flaps(kind.landing.flaps)
+        self._airspeed = kind.speeds.approach_kt * KNOT
+        self._configured = True
+
+
+class Flare(FlightPhase):
     """Lets the sink rate die away with the height, and the nose turn along the runway.
 
-    The levers come back to idle with the height; at touchdown the rollout begins.
-
-    Parameters
-    ----------
-    systems
-        Airframe, autopilot and ground law.
-    final
-        The approach that was flown.
-    exit_path
-        Path by which the aircraft leaves the runway.
-    height_m
-        Height of the main wheels at which the flare begins, in m.
+    The levers come back to idle with the height of the main wheels from that at which the flare
+    begins; at touchdown the rollout begins.
     """
 
     name = "flare"
-    commandable = False
     may_touch = True
 
     def __init__(
         self, systems: AircraftSystems, final: Final, exit_path: Sequence[Place], height_m: float
     ) -> None:
-        self._systems = systems
+        super().__init__(systems)
         self.final = final
         self.exit_path = exit_path
         self._height = height_m
@@ -76,26 +135,18 @@ class Flare:
         return self
 
 
-class Rollout:
+class Rollout(FlightPhase):
     """Lowers the nose, brakes along the centre line to taxi speed, then leaves the runway.
 
-    Parameters
-    ----------
-    systems
-        Airframe, autopilot and ground law.
-    final
-        The approach that was flown.
-    exit_path
-        Along which the runway is left, from its centre line. Without one, or if its beginning is
-        passed too fast to turn, the aircraft stops on the centre line.
+    Without an exit path, or if its beginning is passed too fast to turn, the aircraft stops on the
+    centre line.
     """
 
     name = "rollout"
-    commandable = False
     may_touch = True
 
     def __init__(self, systems: AircraftSystems, final: Final, exit_path: Sequence[Place]) -> None:
-        self._systems = systems
+        super().__init__(systems)
         self._final = final
         ground = systems.kind.ground
         self._deceleration = ground.deceleration_m_s2

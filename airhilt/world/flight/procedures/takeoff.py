@@ -1,4 +1,4 @@
-"""The takeoff: roll, rotation, climb-out; or a roll that is rejected."""
+"""The takeoff: roll, rotation, climb-out; or a roll that is rejected; and the go-around."""
 
 from __future__ import annotations
 
@@ -8,7 +8,6 @@ from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
 from airhilt.world.flight.phases import AircraftSystems, FlightPhase
 from airhilt.world.flight.procedures.en_route import EnRoute
 from airhilt.world.flight.procedures.final import Final
-from airhilt.world.flight.procedures.go_around import CLEAN_UP_HEIGHT_M, LEVER_PER_OVERSPEED_S_M
 from airhilt.world.flight.procedures.taxi import AT_REST_M_S, Standing
 from airhilt.world.flight.state import AircraftState
 
@@ -24,16 +23,18 @@ CLIMB_SPEED_MARGIN_M_S = 10.0 * KNOT
 """Excess of the initial climb speed over V2 with all engines, in m/s."""
 FLAPS_UP_MARGIN_M_S = 20.0 * KNOT
 """Excess over V2 from which the flaps are retracted, in m/s."""
+CLEAN_UP_HEIGHT_M = 400.0 * FOOT
+"""Least height of turns, acceleration and flap retraction, in m (14 CFR 25.111(c)(4))."""
+LEVER_PER_OVERSPEED_S_M = 0.05
+"""Reduction of the lever per excess of airspeed, in s/m, where the steepest climb leaves thrust."""
+STOPPED_M_S = 300.0 * FOOT_PER_MINUTE
+"""Climb rate from which the descent counts as stopped, in m/s."""
+STOP_M_S2 = 1.5
+"""Upward acceleration that stops the descent, in m/s2."""
 
 
 def require_lined_up(state: AircraftState, line: Final) -> None:
-    """Check that a takeoff can begin here.
-
-    Raises
-    ------
-    ValueError
-        The aircraft is not on the runway, or does not point along it.
-    """
+    """Raise ValueError unless the aircraft is on the runway, and points along it."""
     runway = line.runway
     off, turn = abs(line.cross_track_m(state)), abs(line.crab_rad(state))
     rolled = line.along_m(state) + runway.displaced_m
@@ -49,26 +50,15 @@ def require_lined_up(state: AircraftState, line: Final) -> None:
         )
 
 
-class TakeoffRoll:
-    """Rolls along the centre line to rotation speed.
-
-    Parameters
-    ----------
-    systems
-        Airframe, autopilot and ground law.
-    line
-        The runway's centre line.
-    then
-        En route on it, to the altitude and at the clean airspeed that follow.
-    """
+class TakeoffRoll(FlightPhase):
+    """Rolls along the centre line to rotation speed; ``then`` is the climb that follows."""
 
     name = "takeoff_roll"
-    commandable = False
     may_touch = True
 
     def __init__(self, systems: AircraftSystems, line: Final, then: EnRoute) -> None:
         self.line = line
-        self._systems = systems
+        super().__init__(systems)
         self._then = then
         self._lever = 0.0
         kind = systems.kind
@@ -89,16 +79,8 @@ class TakeoffRoll:
         return self
 
 
-class Rotate:
-    """Raises the nose, and holds it until the runway is safely below.
-
-    Parameters
-    ----------
-    systems, line, then
-        As for `TakeoffRoll`.
-    state
-        State of the aircraft now.
-    """
+class Rotate(FlightPhase):
+    """Raises the nose, and holds it until the runway is safely below."""
 
     name = "rotate"
     commandable = True
@@ -107,7 +89,7 @@ class Rotate:
     def __init__(
         self, systems: AircraftSystems, line: Final, then: EnRoute, state: AircraftState
     ) -> None:
-        self._systems = systems
+        super().__init__(systems)
         self._line = line
         self._then = then
         takeoff = systems.kind.takeoff
@@ -129,21 +111,14 @@ class Rotate:
         return self
 
 
-class ClimbOut:
-    """Climbs at full thrust, cleans up, accelerates, and levels off into what follows.
-
-    Parameters
-    ----------
-    systems, line, then
-        As for `TakeoffRoll`.
-    """
+class ClimbOut(FlightPhase):
+    """Climbs at full thrust, cleans up, accelerates, and levels off into what follows."""
 
     name = "climb_out"
     commandable = True
-    may_touch = False
 
     def __init__(self, systems: AircraftSystems, line: Final, then: EnRoute) -> None:
-        self._systems = systems
+        super().__init__(systems)
         self._line = line
         self._then = then
         self._safety_speed = systems.kind.speeds.climb_safety_kt * KNOT
@@ -169,15 +144,14 @@ class ClimbOut:
         return self
 
 
-class RejectedTakeoff:
+class RejectedTakeoff(FlightPhase):
     """Idle, brakes, and to a stand on the centre line."""
 
     name = "rejected_takeoff"
-    commandable = False
     may_touch = True
 
     def __init__(self, systems: AircraftSystems, line: Final) -> None:
-        self._systems = systems
+        super().__init__(systems)
         self._line = line
         self._deceleration = systems.kind.takeoff.rejected_deceleration_m_s2
         systems.ground.reset()
@@ -196,3 +170,43 @@ class RejectedTakeoff:
         systems.ground.follow_line(state, line.cross_track_m(state), line.course_rad(state))
         systems.ground.slow_down(state, self._deceleration)
         return self
+
+
+class GoAround(FlightPhase):
+    """Goes around, cleans up, and levels off into what follows."""
+
+    name = "go_around"
+    commandable = True
+
+    def __init__(self, systems: AircraftSystems, then: EnRoute) -> None:
+        super().__init__(systems)
+        self._then = then
+        self._airspeed = systems.kind.speeds.climb_safety_kt * KNOT
+        self._stopped = False
+        self._clean = False
+
+    def fly(self, state: AircraftState) -> FlightPhase:
+        """Fly one tick."""
+        autopilot, airframe = self._systems.autopilot, self._systems.airframe
+        turn_rate = self._then.lateral.turn_rate(state)
+        if not self._stopped:
+            autopilot.flare(state, turn_rate, STOPPED_M_S, STOP_M_S2, 1.0, None)
+            if state.vertical_rate_m_s >= STOPPED_M_S:
+                self._stopped = True
+                airframe.set_gear(0.0)
+            return self
+        if self._then.vertical.captures(state):
+            self._clean_up()
+            return self._then.fly(state)
+        if not self._clean and state.height_agl_m > CLEAN_UP_HEIGHT_M:
+            self._clean_up()
+        overspeed = max(state.calibrated_airspeed_m_s - self._airspeed, 0.0)
+        lever = 1.0 - LEVER_PER_OVERSPEED_S_M * overspeed
+        autopilot.fly_on_pitch(state, turn_rate, self._airspeed, lever)
+        return self
+
+    def _clean_up(self) -> None:
+        """Retract the flaps and accelerate."""
+        self._systems.airframe.set_flaps(0.0)
+        self._airspeed = self._then.speed.target_m_s
+        self._clean = True

@@ -17,29 +17,18 @@ Stand = Literal["standing", "lined_up"]
 Way = Literal["taxi", "line_up", "vacate"]
 
 
-class Standing:
-    """Stands with the brakes set.
+class Standing(FlightPhase):
+    """Stands with the brakes set; ``lined_up`` on a runway, ready to take off.
 
-    Parameters
-    ----------
-    systems
-        Brakes that hold it.
-    name
-        ``lined_up`` on a runway, ready to take off.
-
-    Attributes
-    ----------
-    at_rest : bool
-        Whether it has come to rest: nothing moves it any more.
+    ``at_rest`` is true once it has come to rest: nothing moves it any more.
     """
 
-    commandable = False
     may_touch = True
 
     def __init__(self, systems: AircraftSystems, name: Stand = "standing") -> None:
+        super().__init__(systems)
         self.name = name
         self.at_rest = False
-        self._systems = systems
 
     def fly(self, state: AircraftState) -> FlightPhase:
         """Stand one tick."""
@@ -49,39 +38,24 @@ class Standing:
         return self
 
 
-class Taxi:
+class Taxi(FlightPhase):
     """Follows a path and stands at its end.
 
-    Parameters
-    ----------
-    systems
-        Airframe and ground law with which it taxies.
-    path
-        Path to follow.
-    way
-        Name of the phase on the way; it is ``standing`` where the aircraft has stopped.
-    then
-        Name of standing at the end.
+    The name of the phase is that of the way, and ``standing`` while the aircraft is held.
     """
 
-    commandable = False
     may_touch = True
 
     def __init__(self, systems: AircraftSystems, path: TaxiPath, way: Way, then: Stand) -> None:
-        self._systems = systems
+        super().__init__(systems)
         self._path = path
-        self._way: Way = way
-        self._then: Stand = then
+        self.name = way
+        self._way = way
+        self._then = then
         self._holding = False
-        self._stopped = False
         systems.airframe.set_speed_brakes(0.0)
         systems.airframe.set_ground_spoilers(0.0)
         systems.ground.reset()
-
-    @property
-    def name(self) -> str:
-        """Name of the phase now."""
-        return "standing" if self._stopped else self._way
 
     def hold(self) -> None:
         """Stop on the way."""
@@ -89,7 +63,8 @@ class Taxi:
 
     def resume(self) -> None:
         """Go on after a hold."""
-        self._holding = self._stopped = False
+        self._holding = False
+        self.name = self._way
         self._systems.ground.reset()
 
     def fly(self, state: AircraftState) -> FlightPhase:
@@ -97,7 +72,7 @@ class Taxi:
         ground, path = self._systems.ground, self._path
         along = path.along_m(state)
         slow = state.ground_speed_m_s < AT_REST_M_S
-        self._stopped = slow and self._holding
+        self.name = "standing" if slow and self._holding else self._way
         if slow and not self._holding and path.length_m - along < END_M:
             return Standing(self._systems, self._then).fly(state)
         ground.lower_nose()
