@@ -10,14 +10,15 @@ from collections.abc import Callable
 from contextlib import suppress
 
 import uvicorn
+from starlette.exceptions import HTTPException
 from starlette.responses import PlainTextResponse
-from starlette.types import ASGIApp, Receive, Scope, Send
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from airhilt.station.address import Address
 from airhilt.station.guard import Guard
 
 LARGEST_MESSAGE_BYTES = 1 << 20
-"""Greatest size of a message from a browser, in bytes."""
+"""Greatest size of a message from a browser, and of the body of a request, in bytes."""
 MOST_CONNECTIONS = 200
 """Largest number of connections at a time."""
 PING_S, PATIENCE_S = 2.0, 5.0
@@ -41,6 +42,27 @@ class _Interruptible:
             # Nobody waits for this task but uvicorn, which would print a traceback.
             with suppress(RuntimeError):  # Its answer has begun.
                 await PlainTextResponse("the station has ended", 503)(scope, receive, send)
+
+
+class _Bounded:
+    """Application that answers 413 to a request with a large body, and reads no more of it."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self._app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        received_bytes = 0
+
+        async def receive_bounded() -> Message:
+            nonlocal received_bytes
+            message = await receive()
+            received_bytes += len(message.get("body", b""))
+            if received_bytes > LARGEST_MESSAGE_BYTES:
+                what = f"the body of the request has more than {LARGEST_MESSAGE_BYTES:,} bytes"
+                raise HTTPException(413, what, {"Connection": "close"})
+            return message
+
+        await self._app(scope, receive_bounded, send)
 
 
 def serve(
@@ -73,7 +95,7 @@ def serve(
     listening = address.bound()
     url = address.url(listening.getsockname()[1])
     config = uvicorn.Config(
-        Guard(_Interruptible(app), address, notice),
+        Guard(_Bounded(_Interruptible(app)), address, notice),
         log_level="warning",
         access_log=False,
         lifespan="off",
