@@ -12,7 +12,7 @@ from airhilt.bus.multipart import pack, unpack
 from airhilt.bus.session import Bus, Refusal
 from airhilt.errors import RendererError, WorkerError, first_problem, shown
 from airhilt.messages import Grant, GrantInput, StepReply, WorkerDescription, worker_output
-from airhilt.sim.worker import Input, Output, Reply, WorkerLost
+from airhilt.sim.worker import Input, Output, Pending, Reply, StepDone, WorkerLost
 
 MAXIMUM_REPLY_BYTES = 64_000_000
 """Greatest size of a reply to a grant, in bytes."""
@@ -93,12 +93,13 @@ class RemoteWorker:
             priority=zenoh.Priority.INTERACTIVE_HIGH,
         )
 
-    def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> RemoteStep:
+    def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> Pending:
         """Send a grant; a picture that cannot be drawn any more counts as the worker's loss."""
         try:
             payload = pack(item.payload for item in inputs)
         except RendererError as error:
-            return RemoteStep(self, seq, None, f"worker {self.name!r} cannot be called: {error}")
+            failure = WorkerLost(f"worker {self.name!r} cannot be called: {error}")
+            return StepDone(failure=failure)
         grant = Grant(
             t_ns=t_ns,
             seq=seq,
@@ -114,7 +115,7 @@ class RemoteWorker:
         )
         header = grant.model_dump_json().encode()
         replies = self._ask("step", self._timeout_s, payload, header)
-        return RemoteStep(self, seq, replies, "")
+        return RemoteStep(self, seq, replies)
 
     def receive(self, seq: int, replies: zenoh.Handler[zenoh.Reply]) -> Reply:
         """Wait for the reply to a grant, and check it; those of other programs are ignored.
@@ -215,15 +216,12 @@ def _zenoh_id(reply: zenoh.Reply) -> str | None:
 
 @dataclass(frozen=True, slots=True)
 class RemoteStep:
-    """A grant whose reply has not come yet, or that could not be sent."""
+    """A grant whose reply has not come yet."""
 
     worker: RemoteWorker
     seq: int
-    replies: zenoh.Handler[zenoh.Reply] | None
-    failure: str
+    replies: zenoh.Handler[zenoh.Reply]
 
     def result(self) -> Reply:
         """Wait for the reply; see `RemoteWorker.receive`."""
-        if self.replies is None:
-            raise WorkerLost(self.failure)
         return self.worker.receive(self.seq, self.replies)

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
+from functools import partial
 from typing import TYPE_CHECKING
 
+from airhilt.cosim.context import RunContext
 from airhilt.cosim.observer import Observer
 from airhilt.cosim.participants import Participants
 from airhilt.cosim.recorded import Recorded
-from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import Setup
 from airhilt.cosim.world_loop import WorldLoop
 from airhilt.engine_families import NONE
@@ -21,7 +22,6 @@ from airhilt.record.video import VideoRecorder
 from airhilt.scenario import Scenario
 from airhilt.scenario.conflict_pair import pair_of
 from airhilt.sensors.cameras import AUTO
-from airhilt.sim import Director, StepRecord
 
 if TYPE_CHECKING:
     from airhilt.sensors.cameras.pictures import PictureSource
@@ -42,23 +42,17 @@ class Vision:
         Why pictures that somebody would look at cannot be drawn; empty if they can.
     is_watched
         True if a worker looks at the pictures.
-    notice
-        Called with what a user should know at once.
     """
 
     def __init__(
         self,
-        setup: Setup,
         renderer: RendererProcess | RendererPool | None,
         unavailable_reason: str,
         is_watched: bool,
-        notice: Callable[[str], None],
     ) -> None:
-        self._setup = setup
         self._renderer = renderer
         self._unavailable_reason = unavailable_reason
         self._is_watched = is_watched
-        self._notice = notice
         self._sensor: CameraSensor | None = None
         self._recorders: list[KeyPictures | VideoRecorder] = []
 
@@ -74,24 +68,8 @@ class Vision:
             return "not evaluated", self._unavailable_reason
         return "on" if self._renderer is not None and self._is_watched else "off", ""
 
-    def mount(
-        self,
-        director: Director,
-        router: MessageRouter,
-        world: WorldLoop,
-        *,
-        lost: Callable[[str, bool], None],
-    ) -> None:
-        """Add the cameras to a run, and let recorders take what is published.
-
-        Parameters
-        ----------
-        world
-            The actors that the cameras show.
-        lost
-            Called when there will be no more pictures, with the cause, and true if that is of the
-            machine.
-        """
+    def mount(self, context: RunContext, world: WorldLoop) -> None:
+        """Add the cameras to a run, and let recorders take what is published."""
         if self._renderer is None:
             return
         from airhilt.sensors.cameras.pictures import DrawnPictures
@@ -99,30 +77,30 @@ class Vision:
         from airhilt.sensors.cameras.sensor import CameraSensor
         from airhilt.sensors.cameras.shared_pictures import SharedPictures
 
-        setup = self._setup
+        setup, observe = context.setup, context.router.observe
         actors = pair_of(setup.scenario) or tuple(setup.actors)
         pictures_path, video_path = setup.folder.pictures_path, setup.folder.video_path
         self._recorders = [
             KeyPictures(pictures_path, actors=actors, closest_ns=world.closest_approach_ns)
         ]
         if setup.options.video:
-            self._recorders.append(VideoRecorder(video_path, notice=self._notice))
+            self._recorders.append(VideoRecorder(video_path, notice=context.observer.notice))
         for recorder in self._recorders:
-            router.observe(recorder.take)
+            observe(recorder.take)
         renderer = self._renderer
         source: PictureSource = DrawnPictures(renderer)
         if isinstance(renderer, RendererProcess) and renderer.identity:
             source = SharedPictures(renderer)
         self._sensor = CameraSensor(
-            director,
+            context.director,
             source,
             setup.scenario.cameras,
             setup.site,
             setup.actors,
             is_adaptive=setup.options.camera_rate == "adaptive",
-            state_at_ns=world.state_at_ns,
-            publish=router.publish,
-            lost=lost,
+            state_at_ns=lambda: world.ticked_ns,
+            publish=context.router.publish,
+            lost=partial(context.lose_modality, "vision", "cameras_lost", "cameras"),
             loss=setup.recorded.cameras_lost,
         )
 
@@ -130,10 +108,6 @@ class Vision:
         """Publish what never changes about the cameras, and schedule their exposures."""
         if self._sensor is not None:
             self._sensor.start()
-
-    def unfinished(self) -> Sequence[StepRecord]:
-        """Return nothing: a picture is published at the instant of its exposure."""
-        return ()
 
     def finish(self) -> None:
         """Write what is still to be kept of the pictures.
@@ -239,8 +213,7 @@ def open_vision(
                         f"not begun, as --strict asks: {text}; leave cameras out with --no-cameras"
                     ) from None
                 observer.notice(text)
-        is_watched = participants.does("vision")
-        yield Vision(setup, renderer, unavailable_reason, is_watched, observer.notice)
+        yield Vision(renderer, unavailable_reason, participants.does("vision"))
 
 
 def _has_viewers(setup: Setup, participants: Participants) -> bool:

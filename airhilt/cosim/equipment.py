@@ -22,12 +22,6 @@ LATENCY = DeclaredLatency(median_s=0.1, sigma=0.0)
 an assumption."""
 
 
-def with_requested_equipment(scenario: Scenario, requested: Sequence[str]) -> Scenario:
-    """Return a scenario with the equipment that the options ask for besides its own."""
-    equipment = tuple(dict.fromkeys((*scenario.equipment, *requested)))
-    return scenario.model_copy(update={"equipment": equipment})
-
-
 def equipment_of(scenario: Scenario, taken: Collection[str]) -> list[Participant]:
     """Return the workers that are the equipment of a scenario.
 

@@ -14,7 +14,7 @@ from pydantic import ValidationError
 
 from airhilt.cosim.differences import first_difference
 from airhilt.cosim.observer import Observer
-from airhilt.cosim.recording import depends_on_log, read_recorded
+from airhilt.cosim.recorded import depends_on_log, read_recorded
 from airhilt.cosim.simulation import run
 from airhilt.errors import RunFolderError, first_problem
 from airhilt.host.files import content_sha256

@@ -8,20 +8,13 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
-from airhilt.cosim.engines_in_use import engines_in_use
-from airhilt.cosim.equipment import with_requested_equipment
-from airhilt.cosim.option_checks import check_options
-from airhilt.cosim.participants import Participants
-from airhilt.cosim.provenance import model_files, other_packages
+from airhilt.cosim.option_checks import check_options, require_known_equipment
 from airhilt.cosim.recorded import Recorded
-from airhilt.cosim.requested_latency import is_vision_measured, requested_latency
-from airhilt.cosim.requested_radio import with_requested_radio
-from airhilt.cosim.requested_sensors import with_requested_sensors
+from airhilt.cosim.requested import is_vision_measured, requested_latency, requested_scenario
 from airhilt.errors import AirhiltError
 from airhilt.host.caches import cache_folder, cache_limit_bytes, write_problem
 from airhilt.options import Options
-from airhilt.record import RunFolder, RunInfo
-from airhilt.record.folder import WorkerRecord, machine, versions
+from airhilt.record import RunFolder
 from airhilt.record.video import require_video
 from airhilt.scenario import Scenario
 from airhilt.scenario.failures import EffectiveLine, apply_failures
@@ -79,31 +72,6 @@ class Setup:
     seats: Sequence[str]
     ends_ns: Mapping[str, int]
 
-    def info(self, participants: Participants, pace: Pace, endpoint: str, renderer: str) -> RunInfo:
-        """Return what ``run.json`` says of the run when it begins."""
-        named = self.options.model_copy(update={"assistant": participants.assistant})
-        engines = engines_in_use(named, self.scenario.equipment, participants.workers)
-        return RunInfo(
-            run=self.name,
-            options=self.options,
-            assistant=participants.assistant,
-            pace=pace.name,
-            scenario=self.given.model_dump(mode="json"),
-            realised=self.scenario.model_dump(mode="json"),
-            draws=[draw.model_dump() for draw in self.draws],
-            workers=[
-                WorkerRecord(description=worker.description, where=worker.where)
-                for worker in participants.workers
-            ],
-            endpoint=endpoint,
-            started_at=datetime.now(UTC).isoformat(timespec="seconds"),
-            versions=versions(),
-            platform=machine(),
-            renderer=renderer,
-            models=model_files(self, engines),
-            other_packages=other_packages(self, engines, renderer),
-        )
-
 
 def check_given(given: Scenario, options: Options) -> None:
     """Check what can be checked of a run before anything is begun, started or drawn.
@@ -120,6 +88,19 @@ def check_given(given: Scenario, options: Options) -> None:
         RunFolder(options.out).require_free(options.overwrite)
 
 
+def require_runnable(scenario: Scenario) -> None:
+    """Check that a run of a loaded scenario can begin: put all its actors where they begin.
+
+    Raises
+    ------
+    AirhiltError
+        There is no such equipment, or an actor cannot be where it begins.
+    """
+    require_known_equipment(scenario.equipment)
+    realised, _ = draw(scenario, 0)
+    build_actors(realised, ScenarioSite.of(realised), 0, TICK_S)
+
+
 def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
     """Resolve everything that a run needs, and put its actors at their first positions.
 
@@ -130,12 +111,8 @@ def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
     """
     if not recorded.is_replay:
         check_options(options, given)
-    scenario, draws = draw(given, options.seed)
-    scenario = _with_visibility_of(options, with_requested_radio(options, scenario))
-    scenario = with_requested_sensors(
-        scenario, options.radar, options.cockpit, options.surface_surveillance
-    )
-    scenario = with_requested_equipment(scenario, options.equipment)
+    drawn, draws = draw(given, options.seed)
+    scenario = requested_scenario(options, drawn)
     latency = recorded.latency or requested_latency(options.latency, given, options.seed)
     _require_not_measured(options, latency)
     pace = parse_pace(options.pace or "virtual")
@@ -150,7 +127,6 @@ def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
     sound = recorded.sound or select_backend(scenario.radio, options.seed, tts)
     lines = apply_failures(scenario)
     sensor_types, problems = load_sensor_types(scenario.sensors)
-    problems = [*problems, *_cache_problems()]
     # For the summary alone; a record knows what was said, but not what was planned and was not.
     planned = sound if recorded.sound is None else TextRadio(scenario.radio.words_per_minute)
     return Setup(
@@ -167,7 +143,7 @@ def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
         actors=actors,
         sound=sound,
         sensor_types=sensor_types,
-        notices=problems,
+        notices=[*problems, *_cache_problems()],
         lines=lines,
         seats=seats_of(options.seat, scenario),
         ends_ns=planned_ends_ns(lines, planned),
@@ -202,14 +178,6 @@ def _require_not_measured(options: Options, latency: LatencySpec) -> None:
             "--share-pictures: the latency of vision is measured, so a detection would be as late "
             "as a cache is fast; expected another one, such as --latency fixed"
         )
-
-
-def _with_visibility_of(options: Options, scenario: Scenario) -> Scenario:
-    """Return a scenario with the visibility that the options give, if they do."""
-    if options.visibility_m is None:
-        return scenario
-    weather = scenario.weather.model_copy(update={"visibility_m": options.visibility_m})
-    return scenario.model_copy(update={"weather": weather})
 
 
 def _default_folder(name: str) -> Path:

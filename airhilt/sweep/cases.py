@@ -16,7 +16,7 @@ from typing import Any
 from pydantic import JsonValue, ValidationError
 
 from airhilt.cosim.latency_presets import PRESETS
-from airhilt.cosim.requested_latency import is_vision_measured
+from airhilt.cosim.requested import is_vision_measured
 from airhilt.engine_families import ASSISTANTS, DETECTORS
 from airhilt.errors import AirhiltError, ScenarioError, shown
 from airhilt.host import library

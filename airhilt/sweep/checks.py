@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from airhilt.cosim.option_checks import check_options
-from airhilt.cosim.requested_latency import requested_latency
-from airhilt.cosim.requested_radio import with_requested_radio
+from airhilt.cosim.requested import requested_latency, requested_radio
 from airhilt.engine_families import EXTERNAL
 from airhilt.errors import AirhiltError
 from airhilt.options import Options
@@ -51,7 +50,7 @@ class RunChecks:
         """Complain about a radio channel that cannot be loaded."""
         if not options.speech:
             return
-        profile = with_requested_radio(options, scenario).radio.profile or DEFAULT_PROFILE
+        profile = requested_radio(options, scenario).profile or DEFAULT_PROFILE
         if profile not in self._channels:
             self._channels[profile] = None
             try:

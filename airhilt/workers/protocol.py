@@ -9,7 +9,7 @@ from typing import Any, Protocol
 
 from airhilt.errors import WorkerError, first_line, is_of_machine, shown
 from airhilt.messages import WorkerDescription
-from airhilt.sim.worker import Input, Output, Reply, WorkerLost
+from airhilt.sim.worker import Input, Output, Reply, StepDone, WorkerLost
 
 
 @dataclass(frozen=True, slots=True)
@@ -150,40 +150,19 @@ class LocalWorker:
         self.description = described(worker)
         self._worker = worker
 
-    def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> LocalStep:  # noqa: ARG002
+    def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> StepDone:  # noqa: ARG002
         """Compute the step at once.
 
         An exception of the worker counts as its loss, so that it cannot end the run.
         """
         name = self.description.name
         try:
-            step, compute_s = timed_step(self._worker, t_ns, inputs)
+            result, compute_s = timed_step(self._worker, t_ns, inputs)
         except (Exception, SystemExit) as error:
             failure = f"worker {name!r} failed: {type(error).__name__}: {error}"
-            return LocalStep(name, None, 0.0, WorkerLost(failure, is_of_machine(error)))
-        return LocalStep(name, step, compute_s, None)
-
-
-@dataclass(frozen=True, slots=True)
-class LocalStep:
-    """A step that has been computed, or has failed."""
-
-    worker: str
-    step: Step | None
-    compute_s: float
-    failure: WorkerLost | None
-
-    def result(self) -> Reply:
-        """Return the reply.
-
-        Raises
-        ------
-        WorkerLost
-            The worker raised.
-        WorkerError
-            The worker returned something else than a step.
-        """
-        if self.failure is not None:
-            raise self.failure
-        step = checked(self.worker, self.step)
-        return Reply(step.outputs, self.compute_s, step.wake_ns)
+            return StepDone(failure=WorkerLost(failure, is_of_machine(error)))
+        try:
+            step = checked(name, result)
+        except WorkerError as error:
+            return StepDone(failure=error)
+        return StepDone(Reply(step.outputs, compute_s, step.wake_ns))

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from airhilt import Scenario, load, run
-from airhilt.cosim.advisory_hints import AdvisoryHints
+from airhilt.cosim.notices import WorkerNotices
 from airhilt.cosim.observer import Observer
 from airhilt.cosim.replay import replay
 from airhilt.messages import (
@@ -58,7 +58,7 @@ def actors() -> dict[str, Any]:
 
 def notices(actors: dict[str, Any], *advisories: Advisory, publisher: str = "mine") -> list[str]:
     texts: list[str] = []
-    hints = AdvisoryHints(actors, ("decision",), texts.append)
+    hints = WorkerNotices(actors, ("decision",), texts.append)
     for each in advisories:
         hints.take(publisher, each)
     return texts

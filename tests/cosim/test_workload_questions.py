@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, cast
 
 import pytest
@@ -22,14 +23,15 @@ from airhilt.messages import (
     TakeSeat,
     WorkloadQuestion,
 )
+from airhilt.options import Options
 from airhilt.record import Logged
 from airhilt.seats import Seats
 from airhilt.sim import Director, Pace, Paused, Priority, RealTime, Virtual
 from seats import act, logged, once, states, tower
 
 if TYPE_CHECKING:
+    from airhilt.cosim.context import RunContext
     from airhilt.cosim.pace_control import PaceControl
-    from airhilt.cosim.router import MessageRouter
 
 SEAT = "Washington_Tower"
 DO = f"seat/{SEAT}/do"
@@ -40,11 +42,14 @@ SECOND = 1_000_000_000
 class Ending:
     """A run that comes to its end after 1 s, with somebody at the tower.
 
-    It stands for the router, which takes acts, and for the pace.
+    It stands for the context of the run, for its router, which takes acts, and for the pace.
     """
 
     def __init__(self, *, is_replay: bool = False, pace: Pace | None = None) -> None:
         self.director = Director(pace or RealTime(1000.0))
+        self.setup = SimpleNamespace(options=Options(nasa_tlx=True))
+        self.is_replay = is_replay
+        self.router = self
         self.asked: list[WorkloadQuestion] = []
         self.given: list[SeatAct] = []
         state = SeatState(
@@ -53,13 +58,7 @@ class Ending:
         )  # fmt: skip
         self.seats = Seats([state], self._published, self.director)
         self.questions = WorkloadQuestions(
-            self.director,
-            self.seats,
-            cast("MessageRouter", self),
-            cast("PaceControl", self),
-            isa_minutes=None,
-            has_tlx=True,
-            is_replay=is_replay,
+            cast("RunContext", self), self.seats, cast("PaceControl", self)
         )
         self.seats.open()
         self.act(TakeSeat())
