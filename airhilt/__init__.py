@@ -274,13 +274,7 @@ def run_sweep(
 
 
 def _require_types(scenario: object, observer: object, workers: object) -> None:
-    """Complain about an argument of `run` that has another type.
-
-    Raises
-    ------
-    TypeError
-        One has.
-    """
+    """Complain about an argument of `run` that has another type."""
     from airhilt.cosim.observer import Observer
     from airhilt.errors import shown
     from airhilt.scenario import Scenario

@@ -11,10 +11,8 @@ from typing import Literal, get_args
 from airhilt.bus.remote_workers import RemoteWorker
 from airhilt.bus.session import Bus
 from airhilt.errors import BusError
-from airhilt.messages import RUN, UNREGISTERED, WORKER_NAME, WorkerDescription
+from airhilt.messages import WORKER_NAME, WorkerDescription
 
-RESERVED = (RUN, UNREGISTERED)
-"""Publishers in the log that are no workers."""
 ReferenceKind = Literal["enhancement", "asr", "tts", "vision", "decision"]
 """Kinds of worker that ``airhilt worker`` serves; each has its kind for a name."""
 
@@ -40,7 +38,12 @@ def attach(
     BusError
         A name cannot be that of a worker, or a worker did not come in time.
     """
-    _require_names(names)
+    for name in names:
+        if not re.fullmatch(WORKER_NAME, name):
+            raise BusError(
+                f"worker name {name!r}: expected lower-case letters, digits, - and _, such as "
+                "'decision'"
+            )
     arrived: queue.SimpleQueue[str] = queue.SimpleQueue()
     bus.watch_workers(lambda name, alive: arrived.put(name) if alive else None)
     missing = set(names)
@@ -58,23 +61,6 @@ def attach(
             ) from None
     workers = [RemoteWorker(bus, name, step_timeout_s) for name in names]
     return [(worker, worker.describe()) for worker in workers]
-
-
-def _require_names(names: Sequence[str]) -> None:
-    """Refuse names that are malformed, reserved, or given twice."""
-    for name in names:
-        if not re.fullmatch(WORKER_NAME, name):
-            raise BusError(
-                f"worker name {name!r}: expected lower-case letters, digits, - and _, such as "
-                "'decision'"
-            )
-        if name in RESERVED:
-            raise BusError(
-                f"worker name {name!r}: the log calls others so; expected another than "
-                f"{', '.join(RESERVED)}"
-            )
-    if len(set(names)) < len(names):
-        raise BusError(f"workers {', '.join(names)}: expected each name once")
 
 
 def _how_to_start(name: str, bus: Bus) -> str:

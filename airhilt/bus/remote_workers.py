@@ -8,10 +8,16 @@ from dataclasses import dataclass
 import zenoh
 from pydantic import ValidationError
 
-from airhilt.bus.multipart import pack, unpack
-from airhilt.bus.session import Bus, Refusal
+from airhilt.bus.session import Bus
 from airhilt.errors import RendererError, WorkerError, first_problem, shown
-from airhilt.messages import Grant, GrantInput, StepReply, WorkerDescription, worker_output
+from airhilt.messages import (
+    Grant,
+    GrantInput,
+    StepReply,
+    WorkerDescription,
+    parts_of,
+    worker_output,
+)
 from airhilt.sim.worker import Input, Output, Pending, Reply, StepDone, WorkerLost
 
 MAXIMUM_REPLY_BYTES = 64_000_000
@@ -96,7 +102,7 @@ class RemoteWorker:
     def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> Pending:
         """Send a grant; a picture that cannot be drawn any more counts as the worker's loss."""
         try:
-            payload = pack(item.payload for item in inputs)
+            payload = b"".join(item.payload for item in inputs)
         except RendererError as error:
             failure = WorkerLost(f"worker {self.name!r} cannot be called: {error}")
             return StepDone(failure=failure)
@@ -144,12 +150,10 @@ class RemoteWorker:
         return zenoh_id == self._zenoh_id or (zenoh_id is None and reply.ok is None)
 
     def _ignore(self, reply: zenoh.Reply) -> None:
-        self._bus.refuse(
-            Refusal(
-                f"worker/{self.name}/step",
-                f"an answer in the name of worker {self.name!r} was ignored: it came from another "
-                f"program (Zenoh id {_zenoh_id(reply)})",
-            )
+        self._bus.refused(
+            f"worker/{self.name}/step",
+            f"an answer in the name of worker {self.name!r} was ignored: it came from another "
+            f"program (Zenoh id {_zenoh_id(reply)})",
         )
 
     def _lost(self, payload: bytes) -> WorkerLost:
@@ -169,7 +173,7 @@ class RemoteWorker:
             )
         try:
             header = StepReply.model_validate_json(attachment)
-            payloads = unpack(payload, [output.size for output in header.outputs])
+            payloads = parts_of(payload, [output.size for output in header.outputs])
         except ValueError as error:
             raise self._broken(f"answered step {seq} with", error) from None
         if header.seq != seq:
@@ -185,13 +189,7 @@ class RemoteWorker:
         return Reply(outputs, header.compute_s, header.wake_ns)
 
     def _require_sizes(self, header: StepReply) -> None:
-        """Complain about an output that is larger than what a run takes on its key.
-
-        Raises
-        ------
-        WorkerError
-            One is.
-        """
+        """Complain about an output that is larger than what a run takes on its key."""
         for output in header.outputs:
             model = worker_output(output.key)
             limit = None if model is None else model.limit

@@ -108,13 +108,7 @@ def refuse_page_options(missing: str) -> None:
 
 
 def _check_certificate(certificate: Path | None, key: Path | None) -> None:
-    """Complain about files that are no certificate with its key.
-
-    Raises
-    ------
-    StationError
-        They are none, or the key asks for a password.
-    """
+    """Complain about files that are no certificate with its key."""
     if certificate is None or key is None:
         return
     try:

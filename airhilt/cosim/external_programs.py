@@ -8,7 +8,7 @@ from functools import partial
 from pydantic import ValidationError
 
 from airhilt.bus.intake import Intake
-from airhilt.bus.session import Answer, Bus, Refusal
+from airhilt.bus.session import Answer, Bus
 from airhilt.cosim.context import RunContext
 from airhilt.cosim.participants import Participants
 from airhilt.errors import WorkerError, first_problem
@@ -108,7 +108,7 @@ class ExternalPrograms:
 
     def serve(self, bus: Bus) -> None:
         """Hear what programs put on the bus, and what of it does not count."""
-        bus.hear_refusals(self._hear_refusal)
+        bus.refused = self._hear_refusal
         bus.watch_holders(lambda holder: self._director.post(lambda: self._end_holds(holder)))
         bus.answer(ACTS, partial(self._asked, bus))
         for keys in HEARD:
@@ -162,12 +162,12 @@ class ExternalPrograms:
         for key in self._seats.held_by(holder):
             self._accept(key, SeatAction(holder=holder, act=LeaveSeat()))
 
-    def _hear_refusal(self, refusal: Refusal) -> None:
+    def _hear_refusal(self, key: str, cause: str) -> None:
         """Take in that an answer on the bus does not count (any thread)."""
 
         def take() -> None:
             self._intake.release(0)
-            self.take_refused(refusal.key, refusal.cause)
+            self.take_refused(key, cause)
 
         if self._intake.admit(ANSWERS, 0):
             self._director.post(take)
@@ -289,13 +289,7 @@ class ExternalPrograms:
 
 
 def _parse(key: str, data: bytes, now_ns: int) -> Message:
-    """Return the message that a program put on a key.
-
-    Raises
-    ------
-    WorkerError
-        It is not what belongs there, or it is a voice.
-    """
+    """Return the message that a program put on a key."""
     if key.startswith("tts/"):
         raise WorkerError(
             "a program published on 'tts/*' without a grant; expected a voice that takes grants "

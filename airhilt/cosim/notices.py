@@ -24,7 +24,7 @@ from airhilt.scenario.failures import EffectiveLine
 from airhilt.seats import Seats
 from airhilt.sensors.radio.backends import FallbackRadio
 from airhilt.sim.payload import Payload
-from airhilt.workers.hints import no_action
+from airhilt.workers.checker import no_action
 from airhilt.world.actors import Actor
 from airhilt.world.actors.advisory_delivery import by_address
 

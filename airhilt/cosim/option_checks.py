@@ -73,13 +73,7 @@ def _against(options: Options, name: str, needs: tuple[str, ...]) -> Iterator[st
 
 
 def _require_use_of_enhancer(options: Options, topology: str) -> None:
-    """Complain about an enhancer whose output nobody would use.
-
-    Raises
-    ------
-    AirhiltError
-        It is no part of the topology, or calls are recognised before they can be enhanced.
-    """
+    """Complain about an enhancer whose output nobody would use."""
     if topology != "asr_first":
         raise AirhiltError(
             f"--enhancer {shown(options.enhancer)} would do nothing with --topology {topology}; "
@@ -93,13 +87,7 @@ def _require_use_of_enhancer(options: Options, topology: str) -> None:
 
 
 def _require_evidence(options: Options) -> None:
-    """Complain about modalities that leave an engine of AIRHILT nothing to read.
-
-    Raises
-    ------
-    WorkerError
-        Nothing of the traffic is left to it.
-    """
+    """Complain about modalities that leave an engine of AIRHILT nothing to read."""
     name = options.assistant or ASSISTANTS.default
     if options.given_modalities.issuperset(MODALITIES) or not is_own_engine(name):
         return

@@ -151,13 +151,7 @@ def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
 
 
 def _cache_problems() -> list[str]:
-    """Return a sentence if the cache cannot be written, for the use of later runs.
-
-    Raises
-    ------
-    AirhiltError
-        The limit of the cache is no number.
-    """
+    """Return a sentence if the cache cannot be written, for the use of later runs."""
     if cache_limit_bytes() and (problem := write_problem(cache_folder())):
         return [f"the cache cannot be written, so that later runs make everything anew: {problem}"]
     return []

@@ -70,6 +70,15 @@ SNAPSHOT_PERIOD_NS = SECOND_NS // 2
 """Period at which the observer is told how the run is doing, in ns."""
 
 
+@contextmanager
+def _memory_given_back() -> Iterator[None]:
+    try:
+        yield
+    finally:
+        give_memory_back()
+
+
+@_memory_given_back()  # After the function, whose variables are the run.
 def run(
     scenario: Scenario,
     options: Options | None = None,
@@ -101,7 +110,6 @@ def run(
     options, observer = options or Options(), observer or Observer()
     recorded = recorded or Recorded()
     with ExitStack() as stack:
-        stack.callback(give_memory_back)
         links = stack.enter_context(
             started_renderers(scenario, options, recorded, bool(workers), keeper)
         )
@@ -111,9 +119,7 @@ def run(
         options, pace = setup.options, setup.pace
         bus = stack.enter_context(closing(_open_bus(setup.name, options, observer)))
         tell_clock(bus, 0, "waiting", pace)
-        participants = connect(
-            options, setup.scenario, setup.recorded, bus, observer.notice, workers
-        )
+        participants = connect(setup, bus, observer.notice, workers)
         has_people = bool(setup.seats) and not setup.recorded.is_replay
         has_programs = bool(participants.programs) and not setup.recorded.programs
         if options.pace is None and (has_people or has_programs):

@@ -164,6 +164,7 @@ from airhilt.messages.worker_protocol import (
     StepOutput,
     StepReply,
     WorkerDescription,
+    parts_of,
 )
 
 BUS_MESSAGES: dict[str, type[Message]] = {

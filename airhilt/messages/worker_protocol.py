@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import accumulate
 from typing import Any, Literal
 
 from pydantic import BaseModel, Field
@@ -92,6 +94,20 @@ class StepReply(Part):
     wake_ns: Nanoseconds | None = Field(
         default=None, description="call again at this time even without inputs"
     )
+
+
+def parts_of(payload: bytes, sizes: Sequence[int]) -> list[bytes]:
+    """Return the bytes of each input or output of a payload, by their sizes.
+
+    Raises
+    ------
+    ValueError
+        The sizes do not add up to the payload's.
+    """
+    if sum(sizes) != len(payload):
+        raise ValueError(f"{len(payload)} bytes of payload, but sizes {list(sizes)}")
+    ends = accumulate(sizes)
+    return [payload[end - size : end] for size, end in zip(sizes, ends, strict=True)]
 
 
 KEYS: dict[str, type[BaseModel]] = {

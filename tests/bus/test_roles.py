@@ -16,7 +16,6 @@ import pytest
 import zenoh
 
 from airhilt import run
-from airhilt.bus import certificates
 from airhilt.bus.certificates import HOLDERS, key_file, make_keys, read_keys
 from airhilt.bus.session import Bus, connect_client, free_endpoint
 from airhilt.cosim.observer import Observer
@@ -207,16 +206,6 @@ def test_a_run_with_the_certificate_of_a_program_is_told_so(
     folder = with_files_exchanged(keys, tmp_path / "lab", named="router", of=of)
     with pytest.raises(BusError, match=rf"router\.json: its certificate is of '{of}'; expected"):
         Bus("run", tls=folder)
-
-
-def test_a_certificate_of_no_role_is_told_as_such(
-    keys: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(certificates, "CERTIFICATE_NAME", "somebody-{}")
-    make_keys(tmp_path / "keys", "tls/127.0.0.1:7447")
-    monkeypatch.undo()
-    with pytest.raises(BusError, match=r"worker\.json: its certificate is of no role; expected"):
-        read_keys(tmp_path / "keys", "worker")
 
 
 def refused(file: Path, endpoint: str, *left_out: str) -> bool:

@@ -86,13 +86,7 @@ class _Progress:
 
 
 def _write_csv(sweep: SweepFolder, path: Path) -> None:
-    """Write ``sweep.parquet`` as CSV; what is null is empty.
-
-    Raises
-    ------
-    AirhiltError
-        The table is not there, or the file cannot be written.
-    """
+    """Write ``sweep.parquet`` as CSV; what is null is empty."""
     from pyarrow import BufferOutputStream
     from pyarrow.csv import write_csv
 
