@@ -14,7 +14,7 @@ from typing import Any
 
 from airhilt._version import __version__
 from airhilt.engine_families import FAMILIES
-from airhilt.engines import Engine, EngineFamily
+from airhilt.engines import Engine, EngineFamily, Package
 from airhilt.errors import AirhiltError
 from airhilt.host import library
 from airhilt.host.caches import cache_folder, write_problem
@@ -55,7 +55,7 @@ def examine() -> list[Finding]:
         *_packages(),
         *[_library(kind) for kind in ("aircraft", "scenarios")],
         _jsbsim_models(),
-        *_engines(),
+        *(_engine(each, name) for each in FAMILIES for name in each.names()),
         *_renderers(),
         *_families(),
         _cache(),
@@ -82,28 +82,16 @@ def _package(name: str, extra: str = "") -> Finding:
     """Look for a package; one that an extra of AIRHILT brings is not needed."""
     what = f"'airhilt[{extra}]'" if extra else name
     remedy = f"{sys.executable} -m pip install {what}"
-    return Finding(name, _version(name), needed=not extra, remedy=remedy)
+    found = Package(name, extra).found().removeprefix(f"{name} ")
+    return Finding(name, found, needed=not extra, remedy=remedy)
 
 
-def _version(name: str) -> str:
-    try:
-        return importlib.metadata.version(name)
-    except importlib.metadata.PackageNotFoundError:
-        return ""
+def _engine(family: EngineFamily[Any], name: str) -> Finding:
+    """Look for what an engine needs, and load it if its name alone is enough for that.
 
-
-def _engines() -> list[Finding]:
-    """Look at the engines of all families; those that every run has by default are needed."""
-    return [
-        _engine(family, name, needed=name == family.default)
-        for family in FAMILIES
-        for name in family.names()
-    ]
-
-
-def _engine(family: EngineFamily[Any], name: str, needed: bool) -> Finding:
-    """Look for what an engine needs, and load it if its name alone is enough for that."""
-    title = f"{family.word} {name}"
+    Every run needs the default of each family.
+    """
+    title, needed = f"{family.word} {name}", name == family.default
     try:
         engine: Engine[Any] = family.load(name)
     except AirhiltError as error:
@@ -158,23 +146,20 @@ def _members(
 
 def _renderers() -> list[Finding]:
     """Let each renderer of camera pictures draw something; the one of a plain install first."""
-    from airhilt.sensors.cameras.renderers import renderer_names
-
-    others = [name for name in renderer_names() if name != EMBREE]
-    return [_renderer(EMBREE, needed=True), *[_renderer(name, needed=False) for name in others]]
-
-
-def _renderer(name: str, *, needed: bool) -> Finding:
     from airhilt.errors import RendererError
     from airhilt.sensors.cameras.renderer_process import probe
-    from airhilt.sensors.cameras.renderers import FAMILY
+    from airhilt.sensors.cameras.renderers import FAMILY, renderer_names
 
-    try:
-        probe(name)
-    except RendererError as error:
-        is_broken = not FAMILY.is_own(name)  # The library of AIRHILT's own may be missing.
-        return Finding(f"renderer {name}", "", needed, str(error), is_broken)
-    return Finding(f"renderer {name}", "(draws)", needed=needed)
+    findings = []
+    for name in sorted(renderer_names(), key=lambda name: name != EMBREE):
+        title, needed = f"renderer {name}", name == EMBREE
+        try:
+            probe(name)
+            findings.append(Finding(title, "(draws)", needed))
+        except RendererError as error:
+            is_broken = not FAMILY.is_own(name)  # The library of AIRHILT's own may be missing.
+            findings.append(Finding(title, "", needed, str(error), is_broken))
+    return findings
 
 
 def _library(kind: str) -> Finding:

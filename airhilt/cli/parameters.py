@@ -1,8 +1,10 @@
-"""Parameters that several commands have."""
+"""Parameters that several commands have, and commands whose parameters are made when needed."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any
 
 import click
 
@@ -24,3 +26,29 @@ renderer_option = click.option(
     metavar="NAME",
     help=RENDERER_HELP,
 )
+
+
+class CommandWithFlags(click.Command):
+    """A command with flags of a run, which are made when somebody asks for its parameters.
+
+    Parameters
+    ----------
+    flags
+        Returns the flags.
+    flags_at
+        Number of the command's own parameters that come before them.
+    """
+
+    def __init__(
+        self, flags: Callable[[], Sequence[click.Parameter]], flags_at: int, **given: Any
+    ) -> None:
+        super().__init__(**given)
+        self._flags: Callable[[], Sequence[click.Parameter]] | None = flags
+        self._flags_at = flags_at
+
+    def get_params(self, ctx: click.Context) -> list[click.Parameter]:
+        """Return the parameters: those of the command itself, and the flags."""
+        if self._flags is not None:
+            self.params[self._flags_at : self._flags_at] = self._flags()
+            self._flags = None
+        return super().get_params(ctx)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from itertools import accumulate
 from typing import Any, Literal
 
-from pydantic import BaseModel, Field
+from pydantic import Field
 
 from airhilt.messages.base import Nanoseconds, Part
 from airhilt.messages.run import Modality
@@ -108,11 +108,3 @@ def parts_of(payload: bytes, sizes: Sequence[int]) -> list[bytes]:
         raise ValueError(f"{len(payload)} bytes of payload, but sizes {list(sizes)}")
     ends = accumulate(sizes)
     return [payload[end - size : end] for size, end in zip(sizes, ends, strict=True)]
-
-
-KEYS: dict[str, type[BaseModel]] = {
-    "worker/{name}/describe (reply)": WorkerDescription,
-    "worker/{name}/step (attachment)": Grant,
-    "worker/{name}/step (attachment of the reply)": StepReply,
-}
-"""The messages of the worker protocol."""

@@ -9,7 +9,6 @@ import pytest
 
 import airhilt
 from airhilt.cli.run_flags import run_flags
-from airhilt.cosim.observer import Observer
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.replay import replay
 from airhilt.cosim.setup import set_up
@@ -29,23 +28,6 @@ def test_a_wrong_name_is_answered_with_the_nearest_right_one() -> None:
 def test_a_wrong_value_is_named_with_its_option() -> None:
     with pytest.raises(AirhiltError, match="option snr_db"):
         airhilt.run("s02a_headon", snr_db=1000.0)
-
-
-@pytest.mark.parametrize(
-    ("given", "words"),
-    [
-        ({"scenario": 5}, "scenario 5: expected an airhilt.Scenario, its name, or a file"),
-        ({"scenario": {"name": "x"}}, "expected an airhilt.Scenario, its name, or a file"),
-        ({"observer": 5}, "observer 5: expected an airhilt.Observer"),
-        ({"workers": "abc"}, "workers 'abc': expected a list of workers"),
-        ({"workers": Observer()}, "expected a list of workers"),
-    ],
-)
-def test_an_argument_of_another_type_is_named(given: dict[str, Any], words: str) -> None:
-    with pytest.raises(TypeError, match=words):
-        airhilt.run(**{"scenario": "s02a_headon", **given})
-    with pytest.raises(TypeError, match="scenario 5: expected its name, or a file"):
-        airhilt.load(5)  # type: ignore[arg-type]
 
 
 @pytest.mark.parametrize("name", ["a*", "#", "a/b", "../x", "", "$run", "a?", "a b", "x" * 81])

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from airhilt.cli.output import counted, echo, tell
+from airhilt.cli.parameters import CommandWithFlags
 from airhilt.cli.work_flags import work_flags, work_given
 
 if TYPE_CHECKING:
@@ -26,20 +27,16 @@ INTERRUPTED = 130
 """Exit code after a signal."""
 
 
-class EvaluateCommand(click.Command):
-    """A command with some flags of a run, made when somebody asks."""
+def _flags() -> list[click.Parameter]:
+    from airhilt.cli.run_flags import run_flags
 
-    def get_params(self, ctx: click.Context) -> list[click.Parameter]:
-        """Return the parameters: those of the command itself, and those of its runs."""
-        from airhilt.cli.run_flags import run_flags
-
-        if not any(parameter.name == "latency" for parameter in self.params):
-            self.params[3:3] = run_flags(CHOSEN, {"latency": "the preset's"})
-        return super().get_params(ctx)
+    return run_flags(CHOSEN, {"latency": "the preset's"})
 
 
 @click.command(
-    cls=EvaluateCommand,
+    cls=CommandWithFlags,
+    flags=_flags,
+    flags_at=3,
     epilog="""\b
 Examples:
   airhilt evaluate --preset paper --no-cameras --out evaluations/paper

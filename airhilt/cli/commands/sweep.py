@@ -12,7 +12,7 @@ from typing import Any
 import click
 
 from airhilt.cli.output import tell
-from airhilt.cli.parameters import allow_path_option
+from airhilt.cli.parameters import CommandWithFlags, allow_path_option
 from airhilt.cli.work_flags import work_flags, work_given
 
 INTERRUPTED = 130
@@ -21,16 +21,14 @@ WRITTEN = "airhilt.sweep.written"
 """Key of the arguments in the context."""
 
 
-class SweepCommand(click.Command):
-    """A command with the flags of a run that take several values, made when somebody asks."""
+def _flags() -> list[click.Parameter]:
+    from airhilt.cli.sweep_flags import value_flags
 
-    def get_params(self, ctx: click.Context) -> list[click.Parameter]:
-        """Return the parameters: those of the command itself, and those of its runs."""
-        from airhilt.cli.sweep_flags import value_flags
+    return value_flags()
 
-        if not any(parameter.name == "assistant" for parameter in self.params):
-            self.params[2:2] = value_flags()
-        return super().get_params(ctx)
+
+class SweepCommand(CommandWithFlags):
+    """A command that keeps its arguments as they were written."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Parse the arguments, and keep them as they were written."""
@@ -40,6 +38,8 @@ class SweepCommand(click.Command):
 
 @click.command(
     cls=SweepCommand,
+    flags=_flags,
+    flags_at=2,
     epilog="""\b
 Values are lists (0,5,10), ranges with their end (0:20:5), ranges in even ratios with a count
 (log:1:100:5), or intervals to draw samples from (0:20, with --sample).
