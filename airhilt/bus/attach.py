@@ -10,8 +10,8 @@ from typing import Literal, get_args
 
 from airhilt.bus.remote_workers import RemoteWorker
 from airhilt.bus.session import Bus
-from airhilt.errors import BusError
-from airhilt.messages import WORKER_NAME, WorkerDescription
+from airhilt.errors import BusError, WorkerError
+from airhilt.messages import RUN, UNREGISTERED, WORKER_NAME, WorkerDescription
 
 ReferenceKind = Literal["enhancement", "asr", "tts", "vision", "decision"]
 """Kinds of worker that ``airhilt worker`` serves; each has its kind for a name."""
@@ -37,6 +37,8 @@ def attach(
     ------
     BusError
         A name cannot be that of a worker, or a worker did not come in time.
+    WorkerError
+        The names do not tell the workers apart.
     """
     for name in names:
         if not re.fullmatch(WORKER_NAME, name):
@@ -44,6 +46,7 @@ def attach(
                 f"worker name {name!r}: expected lower-case letters, digits, - and _, such as "
                 "'decision'"
             )
+    require_different_names(names)
     arrived: queue.SimpleQueue[str] = queue.SimpleQueue()
     bus.watch_workers(lambda name, alive: arrived.put(name) if alive else None)
     missing = set(names)
@@ -61,6 +64,29 @@ def attach(
             ) from None
     workers = [RemoteWorker(bus, name, step_timeout_s) for name in names]
     return [(worker, worker.describe()) for worker in workers]
+
+
+def require_different_names(names: Sequence[str]) -> None:
+    """Check that the names of the workers and programs of a run tell them apart.
+
+    Raises
+    ------
+    WorkerError
+        One is reserved, is given twice, or begins another.
+    """
+    for name in names:
+        if name in (RUN, UNREGISTERED):
+            raise WorkerError(
+                f"a worker is named {name!r}, as the log calls others; expected another name"
+            )
+        if names.count(name) > 1:
+            raise WorkerError(f"two workers are named {name!r}; expected a name for each")
+        for other in names:
+            if other.startswith(f"{name}-"):
+                raise WorkerError(
+                    f"two workers are named {name!r} and {other!r}: an id that begins with "
+                    f"'{other}-' would be of both; expected a name that does not begin the other"
+                )
 
 
 def _how_to_start(name: str, bus: Bus) -> str:

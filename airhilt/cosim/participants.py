@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from airhilt.bus.attach import attach
+from airhilt.bus.attach import attach, require_different_names
 from airhilt.bus.session import Bus
 from airhilt.cosim.engines_in_use import engines_in_use, is_of_user, is_remote, other_machines
 from airhilt.cosim.equipment import equipment_of, require_no_equipment
@@ -14,7 +14,7 @@ from airhilt.cosim.reference_workers import reference_workers, speak_min_level
 from airhilt.cosim.setup import Setup
 from airhilt.engine_families import ASSISTANTS, EXTERNAL
 from airhilt.errors import WorkerError
-from airhilt.messages import RUN, UNREGISTERED, Modality, Severity
+from airhilt.messages import Modality, Severity
 from airhilt.options import Options
 from airhilt.workers import LocalWorker, Worker
 from airhilt.workers.pool import Participant, Where
@@ -110,7 +110,7 @@ def connect(
             notice(sentence)
     workers = [limited(worker, options.given_modalities) for worker in (*workers, *made)]
     workers += equipment_of(setup.scenario, [worker.description.name for worker in workers])
-    _require_different_names([*(each.description.name for each in workers), *programs])
+    require_different_names([*(each.description.name for each in workers), *programs])
     return Participants(assistant, tuple(workers), tuple(programs))
 
 
@@ -156,19 +156,3 @@ def _participant(worker: Worker, where: Where, is_of_user: bool) -> Participant:
     """Return a worker of this process as one of the run; see `LocalWorker` for its errors."""
     local = LocalWorker(worker)
     return Participant(local.description, local, where, is_of_user)
-
-
-def _require_different_names(names: Sequence[str]) -> None:
-    for name in names:
-        if name in (RUN, UNREGISTERED):
-            raise WorkerError(
-                f"a worker is named {name!r}, as the log calls others; expected another name"
-            )
-        if names.count(name) > 1:
-            raise WorkerError(f"two workers are named {name!r}; expected a name for each")
-        for other in names:
-            if other.startswith(f"{name}-"):
-                raise WorkerError(
-                    f"two workers are named {name!r} and {other!r}: an id that begins with "
-                    f"'{other}-' would be of both; expected a name that does not begin the other"
-                )

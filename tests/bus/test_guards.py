@@ -11,7 +11,7 @@ import zenoh
 from airhilt.bus.attach import attach
 from airhilt.bus.remote_workers import RemoteWorker
 from airhilt.bus.session import Bus, connect_client
-from airhilt.errors import BusError, WorkerError
+from airhilt.errors import AirhiltError, WorkerError
 from airhilt.messages import parts_of
 
 
@@ -25,14 +25,15 @@ def bus() -> Iterator[Bus]:
     ("names", "answer"),
     [
         (["Decision"], "worker name 'Decision': expected lower-case letters"),
-        (["my/worker"], "worker name 'my/worker': expected lower-case letters"),
+        (["run"], "a worker is named 'run', as the log calls others"),
+        (["asr", "own", "asr"], "two workers are named 'asr'"),
     ],
 )
 def test_names_that_no_worker_can_have_are_refused_before_anybody_is_waited_for(
     bus: Bus, names: list[str], answer: str
 ) -> None:
     told: list[str] = []
-    with pytest.raises(BusError, match=answer):
+    with pytest.raises(AirhiltError, match=answer):
         attach(bus, names, 0.0, 1.0, told.append)
     assert told == []
 

@@ -136,7 +136,10 @@ def test_doctor_finds_everything(airhilt_command: Any) -> None:
             "did not attach",
         ),
         (("cosim", "--scenario", "s02a_headon", "--attach", "a/*"), "worker name"),
-        (("cosim", "--scenario", "s02a_headon", "--attach", "a", "--attach", "a"), "once"),
+        (
+            ("cosim", "--scenario", "s02a_headon", "--attach", "a", "--attach", "a"),
+            "two workers are named",
+        ),
         (("cosim", "--scenario", "s02a_headon", "--snr", "nan"), "--snr': nan"),
         (("cosim", "--scenario", "s02a_headon", "--visibility", "inf"), "100000"),
         (("cosim", "--scenario", "s02a_headon", "--radio-profile", "vfh"), "vhf, vhf_833, fading"),

@@ -46,7 +46,12 @@ def test_a_detector_without_its_model_is_missing(
 def test_an_optional_package_is_named_with_the_extra_that_brings_it(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(doctor, "_version", lambda name: "" if name == "av" else "1")
+    def version(name: str) -> str:
+        if name == "av":
+            raise importlib.metadata.PackageNotFoundError
+        return "1"
+
+    monkeypatch.setattr(importlib.metadata, "version", version)
     assert str(found()["av"]).startswith("absent   av: ")
     assert "'airhilt[video]'" in found()["av"].remedy
 
@@ -84,9 +89,10 @@ def test_a_broken_renderer_is_listed_with_the_cause_and_is_not_absent(
 ) -> None:
     monkeypatch.undo()
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(tmp_path), *sys.path]))
+    monkeypatch.setattr("airhilt.sensors.cameras.renderers.renderer_names", lambda: ["broken"])
     source = "raise RuntimeError('it is broken')"
     with installed(tmp_path, monkeypatch, "airhilt.renderers", "broken", source):
-        broken = doctor._renderer("broken", needed=False)
+        (broken,) = doctor._renderers()
     assert str(broken).startswith("BROKEN   renderer broken: ")
     assert "RuntimeError: it is broken" in broken.remedy
 
