@@ -11,6 +11,9 @@ from airhilt.errors import WorkerError, first_line, is_of_machine, shown
 from airhilt.messages import WorkerDescription
 from airhilt.sim.worker import Input, Output, Reply, StepDone, WorkerLost
 
+OUTPUT = "airhilt.workers.Output"
+TIME = "an int, in ns, or None"
+
 
 @dataclass(frozen=True, slots=True)
 class Step:
@@ -86,46 +89,32 @@ def checked(name: str, step: Any) -> Step:
     WorkerError
         A part has another type.
     """
-    if not isinstance(step, Step):
-        raise WorkerError(
-            f"worker {name!r} returned {shown(step)} from step; expected an airhilt.workers.Step"
-        )
-    if not isinstance(step.outputs, tuple | list):
-        raise WorkerError(
-            f"worker {name!r} returned a Step whose outputs are {shown(step.outputs)}; expected a "
-            "tuple of airhilt.workers.Output"
-        )
-    if not _is_time(step.wake_ns):
-        raise WorkerError(
-            f"worker {name!r} returned a Step with wake_ns {shown(step.wake_ns)}; expected an int, "
-            "in ns, or None"
-        )
-    for output in step.outputs:
-        _check_output(name, output)
+    if problem := _problem_of(step):
+        raise WorkerError(f"worker {name!r} {problem}")
     return Step(tuple(step.outputs), step.wake_ns)
 
 
-def _check_output(name: str, output: Any) -> None:
-    if not isinstance(output, Output):
-        raise WorkerError(
-            f"worker {name!r} returned {shown(output)} among its outputs; expected "
-            "airhilt.workers.Output"
-        )
-    if not isinstance(output.key, str):
-        raise WorkerError(
-            f"worker {name!r} returned an Output with the key {shown(output.key)}; expected a str "
-            "such as 'advisory/ATC'"
-        )
-    if not isinstance(output.payload, bytes):
-        raise WorkerError(
-            f"worker {name!r} published on {output.key!r} the payload {shown(output.payload)}; "
-            "expected bytes"
-        )
-    if not _is_time(output.t_out_ns):
-        raise WorkerError(
-            f"worker {name!r} published on {output.key!r} with t_out_ns {shown(output.t_out_ns)}; "
-            "expected an int, in ns, or None"
-        )
+def _problem_of(step: Any) -> str:
+    """Return what is wrong with the types of a step; empty if nothing is."""
+    if not isinstance(step, Step):
+        return f"returned {shown(step)} from step; expected an airhilt.workers.Step"
+    if not isinstance(step.outputs, tuple | list):
+        outputs = shown(step.outputs)
+        return f"returned a Step whose outputs are {outputs}; expected a tuple of {OUTPUT}"
+    if not _is_time(step.wake_ns):
+        return f"returned a Step with wake_ns {shown(step.wake_ns)}; expected {TIME}"
+    for output in step.outputs:
+        if not isinstance(output, Output):
+            return f"returned {shown(output)} among its outputs; expected {OUTPUT}"
+        if not isinstance(output.key, str):
+            key = shown(output.key)
+            return f"returned an Output with the key {key}; expected a str such as 'advisory/ATC'"
+        where = f"published on {output.key!r}"
+        if not isinstance(output.payload, bytes):
+            return f"{where} the payload {shown(output.payload)}; expected bytes"
+        if not _is_time(output.t_out_ns):
+            return f"{where} with t_out_ns {shown(output.t_out_ns)}; expected {TIME}"
+    return ""
 
 
 def _is_time(value: object) -> bool:
