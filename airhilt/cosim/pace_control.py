@@ -66,10 +66,6 @@ class PaceControl:
         lost_ns = self._lost_ns if self._director.now_ns < self._lost_until_ns else 0
         return self._director.behind_ns + lost_ns
 
-    def keep_time(self) -> None:
-        """Lose the time of stalls from now on."""
-        self._director.lose_time(MOST_BEHIND_NS, self.stall)
-
     def stall(self, lost_ns: int = 0) -> None:
         """Log that time was lost; a replay does not know how much."""
         now_ns = self._director.now_ns

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass, replace
 
 from airhilt.bus.attach import attach, require_different_names
 from airhilt.bus.session import Bus
 from airhilt.cosim.engines_in_use import engines_in_use, is_of_user, is_remote, other_machines
 from airhilt.cosim.equipment import equipment_of, require_no_equipment
-from airhilt.cosim.given_modalities import limited
+from airhilt.cosim.option_checks import inputs_given
 from airhilt.cosim.reference_workers import reference_workers, speak_min_level
 from airhilt.cosim.setup import Setup
 from airhilt.engine_families import ASSISTANTS, EXTERNAL
@@ -156,3 +156,20 @@ def _participant(worker: Worker, where: Where, is_of_user: bool) -> Participant:
     """Return a worker of this process as one of the run; see `LocalWorker` for its errors."""
     local = LocalWorker(worker)
     return Participant(local.description, local, where, is_of_user)
+
+
+def limited(worker: Participant, given: Collection[str]) -> Participant:
+    """Return a worker that, if it decides, has inputs of the given modalities only.
+
+    Equipment of the world and all other workers keep their inputs.
+
+    Raises
+    ------
+    WorkerError
+        Nothing of the traffic is left.
+    """
+    description = worker.description
+    if description.modality != "decision":
+        return worker
+    inputs = inputs_given(description.engine or description.name, description.inputs, given)
+    return replace(worker, description=description.model_copy(update={"inputs": inputs}))

@@ -12,9 +12,8 @@ import pytest
 from click.testing import CliRunner
 
 from airhilt.assistant.vision.detectors import embedded
-from airhilt.cli import doctor
-from airhilt.cli.commands.doctor import COMMAND
-from airhilt.cli.doctor import Finding, examine
+from airhilt.cli.commands import doctor
+from airhilt.cli.commands.doctor import COMMAND, Finding, examine
 from airhilt.errors import RendererError
 from engine_package import installed
 from paths import ROOT

@@ -9,8 +9,7 @@ from typing import Any
 
 import pytest
 
-from airhilt.cli.sweep_output import print_estimate
-from airhilt.cli.sweep_progress import SweepProgress
+from airhilt.cli.sweep_output import SweepProgress, print_estimate
 from airhilt.record.sweep_folder import SweepFolder
 from airhilt.sweep.engine import SweepResult
 from airhilt.sweep.estimate import Estimate

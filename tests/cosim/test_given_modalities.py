@@ -11,8 +11,8 @@ import pytest
 import airhilt
 from airhilt import Input, Scenario, Step
 from airhilt.cosim.equipment import equipment_worker
-from airhilt.cosim.given_modalities import limited
 from airhilt.cosim.option_checks import check_options
+from airhilt.cosim.participants import limited
 from airhilt.cosim.replay import replay
 from airhilt.errors import AirhiltError, WorkerError
 from airhilt.messages import InputSpec, WorkerDescription

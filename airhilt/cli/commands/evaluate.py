@@ -15,7 +15,7 @@ from airhilt.cli.parameters import CommandWithFlags
 from airhilt.cli.work_flags import work_flags, work_given
 
 if TYPE_CHECKING:
-    from airhilt.cli.sweep_progress import SweepProgress
+    from airhilt.cli.sweep_output import SweepProgress
     from airhilt.sweep.estimate import Estimate
     from airhilt.sweep.evaluation.engine import Evaluation
     from airhilt.sweep.evaluation.preset import Choice, Preset
@@ -96,7 +96,7 @@ def evaluate(context: click.Context, /, **given: Any) -> int:
 @contextmanager
 def _progress(name: str, quiet: bool) -> Iterator[SweepProgress]:
     """Show how one sweep is doing; it stops after the runs in hand if the user asks."""
-    from airhilt.cli.sweep_progress import SweepProgress
+    from airhilt.cli.sweep_output import SweepProgress
 
     if not quiet:
         click.echo(f"{name}:", err=True)

@@ -102,8 +102,7 @@ def sweep(context: click.Context, /, **given: Any) -> int:
     1 if some have not, or if none finished.
     """
     from airhilt.cli.sweep_flags import specification_given
-    from airhilt.cli.sweep_output import print_estimate, print_result
-    from airhilt.cli.sweep_progress import SweepProgress
+    from airhilt.cli.sweep_output import SweepProgress, print_estimate, print_result
     from airhilt.sweep.engine import sweep as run_sweep
     from airhilt.sweep.estimate import estimate
 
