@@ -16,7 +16,7 @@ import pytest
 import zenoh
 
 from airhilt import run
-from airhilt.bus.certificates import HOLDERS, key_file, make_keys, read_keys
+from airhilt.bus.certificates import HOLDERS, key_file, make_keys
 from airhilt.bus.session import Bus, connect_client, free_endpoint
 from airhilt.cosim.observer import Observer
 from airhilt.cosim.replay import replay
@@ -176,27 +176,6 @@ def test_a_worker_with_the_certificate_of_another_role_is_told_so(
         f"airhilt: {folder}/worker.json: its certificate is of {of!r}; expected that of 'worker', "
         "as `airhilt keys init` has made it\n"
     )
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("of", mostly_slow(["observer", "worker", "recorder"], "worker"))
-def test_a_person_with_the_certificate_of_another_role_is_told_so(
-    bus: Bus, keys: Path, tmp_path: Path, of: str
-) -> None:
-    folder = with_files_exchanged(keys, tmp_path / "lab", named="operator", of=of)
-    arguments = ("--connect", bus.endpoint, "--tls", folder, "--seat", "TOWER", "--no-browser")
-    with process("-m", "airhilt", "view", *arguments) as page:
-        assert page.wait(timeout=60.0) == 2
-        assert page.stderr is not None
-        assert f"its certificate is of {of!r}; expected that of 'operator'" in str(
-            page.stderr.read()
-        ).replace("\\'", "'")
-
-
-def test_a_worker_with_the_certificate_of_the_run_is_told_so(keys: Path, tmp_path: Path) -> None:
-    folder = with_files_exchanged(keys, tmp_path / "lab", named="worker", of="router")
-    with pytest.raises(BusError, match=r"worker\.json: its certificate is of 'router'; expected"):
-        read_keys(folder, "worker")
 
 
 @pytest.mark.parametrize("of", ["observer", "worker", "operator", "recorder"])

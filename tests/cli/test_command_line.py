@@ -111,11 +111,6 @@ def test_list_names_every_scenario_with_a_title(airhilt_command: Any) -> None:
     assert all(row["title"] for row in rows)
 
 
-def test_help_has_examples(airhilt_command: Any) -> None:
-    for command in ("cosim", "list", "report", "replay", "validate", "schema", "doctor", "worker"):
-        assert "Examples:" in airhilt_command(command, "--help").stdout
-
-
 @pytest.mark.slow
 def test_doctor_finds_everything(airhilt_command: Any) -> None:
     done = airhilt_command("doctor")

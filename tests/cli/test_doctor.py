@@ -96,14 +96,6 @@ def test_a_broken_renderer_is_listed_with_the_cause_and_is_not_absent(
     assert "RuntimeError: it is broken" in broken.remedy
 
 
-def test_the_members_that_can_be_used_are_listed_by_family() -> None:
-    families = found()
-    for family, member in {
-        "sensors": "adsb", "kinds": "deer", "report sections": "timeline", "commands": "cosim",
-    }.items():  # fmt: skip
-        assert member in families[family].found
-
-
 def test_a_sensor_of_airhilt_that_is_broken_is_needed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("airhilt.sensors.adsb.SENSOR", 42)
     sensor = found()["sensor adsb"]

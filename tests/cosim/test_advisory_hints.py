@@ -10,7 +10,6 @@ import pytest
 
 from airhilt import Scenario, load, run
 from airhilt.cosim.notices import WorkerNotices
-from airhilt.cosim.observer import Observer
 from airhilt.cosim.replay import replay
 from airhilt.messages import (
     UNREGISTERED,
@@ -26,19 +25,10 @@ from airhilt.sim import Input, Output
 from airhilt.workers import Step
 from airhilt.world.actors import build_actors
 from airhilt.world.site import ScenarioSite
+from notices import Notices
 
 SEE = "see docs/workers.md#what-makes-somebody-act"
 TURN, HOLD = Turn(degrees=30.0), HoldPosition(runway="01")
-
-
-class Notices(Observer):
-    """Keeps all notices."""
-
-    def __init__(self) -> None:
-        self.texts: list[str] = []
-
-    def notice(self, text: str) -> None:
-        self.texts.append(text)
 
 
 def advisory(recipient: str, recommendation: Any = None, **other: Any) -> Advisory:

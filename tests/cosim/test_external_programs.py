@@ -10,23 +10,13 @@ import pytest
 
 from airhilt.bus.access import PUBLISHED
 from airhilt.cosim.external_programs import HEARD, LIMITS, MOST_NOTICES, ExternalPrograms
-from airhilt.cosim.observer import Observer
 from airhilt.errors import WorkerError
 from airhilt.host.text import MOST_CHARACTERS
 from airhilt.options import Options
 from airhilt.seats import Seats
 from airhilt.sim import Director, Virtual
+from notices import Notices
 from seats import state_of
-
-
-class Notices(Observer):
-    """Keeps all notices."""
-
-    def __init__(self) -> None:
-        self.texts: list[str] = []
-
-    def notice(self, text: str) -> None:
-        self.texts.append(text)
 
 
 def programs(

@@ -12,7 +12,6 @@ import pytest
 from airhilt.cosim import workload_questions
 from airhilt.cosim.replay import replay
 from airhilt.cosim.workload_questions import WorkloadQuestions
-from airhilt.errors import AirhiltError
 from airhilt.messages import (
     AnswerQuestion,
     LeaveSeat,
@@ -149,8 +148,3 @@ def test_who_sits_there_is_asked_regularly_and_the_answers_are_in_log_and_summar
 def test_nobody_is_asked_where_nobody_sits(tmp_path: Path) -> None:
     log = logged(tower(14.0), tmp_path / "run", ["tower"], isa_minutes=0.1, nasa_tlx=True)
     assert not asked_at_the_seat(log)
-
-
-def test_questions_without_a_seat_are_refused(tmp_path: Path) -> None:
-    with pytest.raises(AirhiltError, match=r"--nasa-tlx would do nothing without --seat"):
-        logged(tower(2.0), tmp_path / "run", [], nasa_tlx=True)

@@ -15,21 +15,12 @@ from airhilt import load, run
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.bus import free_endpoint
-from airhilt.cosim.observer import Observer, Result
+from airhilt.cosim.observer import Result
 from airhilt.record import read_log
 from breadth import mostly_slow
+from notices import Notices
 from paths import DOCS, EXAMPLES
 from processes import process
-
-
-class Notices(Observer):
-    """Keeps all notices."""
-
-    def __init__(self) -> None:
-        self.texts: list[str] = []
-
-    def notice(self, text: str) -> None:
-        self.texts.append(text)
 
 
 def engine_of_the_page() -> Any:

@@ -86,13 +86,6 @@ class TestContrast:
         picture[34:36, 41:45] = 255
         assert data.contrast(picture, BOX, mask) == 0.0
 
-    def test_of_pixels_beside_the_body_nothing_is_taken(self, data: Any) -> None:
-        picture = np.full((60, 100, 3), 100, dtype=np.uint8)
-        mask = np.zeros((60, 100), dtype=bool)
-        mask[30:35, 40:60] = True
-        picture[35:40, 40:60] = 255
-        assert data.contrast(picture, BOX, mask) == 0.0
-
     def test_a_body_that_fills_the_picture_is_seen(self, data: Any) -> None:
         picture = np.full((60, 100, 3), 100, dtype=np.uint8)
         mask = np.ones((60, 100), dtype=bool)
@@ -222,29 +215,6 @@ class TestKeptPictures:
         (folder / "1.png").write_bytes(second)
         assert asking(folder).pictures[:, 0, 0, 0].tolist() == [50, 90]
 
-    def test_so_it_is_where_answers_are_kept_and_pictures_are_lost(
-        self, asking: Any, tmp_path: Path
-    ) -> None:
-        folder = folder_of(tmp_path / "train", 50, 90)
-        asking(folder)
-        (kept,) = (tmp_path / "scratch").glob("*.u8")
-        kept.rename(kept.with_suffix(".partial"))
-        assert asking(folder).pictures[:, 0, 0, 0].tolist() == [50, 90]
-
-    def test_answers_that_are_written_in_part_are_asked_for_anew(
-        self, asking: Any, places: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-    ) -> None:
-        def full(file: Any, **_: Any) -> None:
-            file.write(b"PK")
-            raise OSError("no space left on device")
-
-        folder = folder_of(tmp_path / "train", 50)
-        with monkeypatch.context() as broken:
-            broken.setattr(places.np, "savez", full)
-            with pytest.raises(OSError, match="no space"):
-                asking(folder)
-        assert len(asking(folder)) == 1
-
     def test_other_data_of_the_same_size_is_not_taken_for_it(
         self, asking: Any, tmp_path: Path
     ) -> None:
@@ -261,11 +231,6 @@ class TestKeptPictures:
         asking(folder)
         assert FirstNetwork.asked == 4
         assert len(list((tmp_path / "scratch").glob("*.u8"))) == 1
-
-    def test_folders_of_one_name_keep_their_own(self, asking: Any, tmp_path: Path) -> None:
-        one = asking(folder_of(tmp_path / "a" / "train", 50, seed=1))
-        other = asking(folder_of(tmp_path / "b" / "train", 90, seed=2))
-        assert (one.pictures[0, 0, 0, 0], other.pictures[0, 0, 0, 0]) == (50, 90)
 
 
 class TestLessons:

@@ -24,7 +24,6 @@ from airhilt.messages import (
     WorkerDescription,
 )
 from airhilt.workers import Input, LocalWorker, Output, Step, check_worker
-from airhilt.workers.pool import require_open_key
 from airhilt.workers.samples import sample_inputs
 from decisions import reference
 from paths import EXAMPLES
@@ -278,25 +277,6 @@ def test_a_part_of_a_step_with_another_type_is_named_by_the_checker_and_in_a_run
 def test_a_class_in_the_place_of_a_worker_is_refused() -> None:
     with pytest.raises(WorkerError, match=r"Ears is a class; expected .*: Ears\(\)"):
         check_worker(Ears)  # type: ignore[arg-type]
-
-
-REFUSED = (
-    "truth/state/*", "*/118300", "9x/*", "$y/*", "$*/state", "/adsb", "command/*", "seat/*",
-    "seat/*/do", "seat/**",
-)  # fmt: skip
-
-
-def test_the_checker_and_a_run_refuse_the_same_inputs() -> None:
-    for key in REFUSED:
-        asking = Ears()
-        asking.description = WorkerDescription(
-            name="ears", modality="asr", inputs=(InputSpec(key=key),)
-        )
-        with pytest.raises(WorkerError) as checked:
-            check_worker(asking)
-        with pytest.raises(WorkerError) as refused:
-            require_open_key("ears", key)
-        assert str(checked.value) == str(refused.value)
 
 
 def test_a_key_of_a_sensor_of_another_package_is_no_fault() -> None:
