@@ -32,29 +32,67 @@ if TYPE_CHECKING:
 
 
 class Vision:
-    """The cameras of a run; without a renderer, `mount`, `start` and `finish` do nothing.
+    """The cameras of a run, and the renderer that draws for them, if somebody might look.
+
+    Without a renderer, `mount`, `start` and `finish` do nothing.
 
     Parameters
     ----------
-    renderer
-        Draws; None where nothing is to be drawn, or nothing can.
-    unavailable_reason
-        Why pictures that somebody would look at cannot be drawn; empty if they can.
-    is_watched
-        True if a worker looks at the pictures.
+    links
+        Processes that have been started to draw.
+    observer
+        Is told what a user should know at once, such as why nothing can be drawn.
+
+    Raises
+    ------
+    AirhiltError
+        There is no such renderer, or a camera could see nothing.
+    RendererError
+        Nothing can be drawn here of what was drawn when the run was recorded.
+    RunStopped
+        Nothing can be drawn, and the run is strict.
     """
 
     def __init__(
         self,
-        renderer: RendererProcess | RendererPool | None,
-        unavailable_reason: str,
-        is_watched: bool,
+        setup: Setup,
+        participants: Participants,
+        links: Sequence[RendererLink],
+        observer: Observer,
     ) -> None:
-        self._renderer = renderer
-        self._unavailable_reason = unavailable_reason
-        self._is_watched = is_watched
+        options, recorded = setup.options, setup.recorded
+        self._renderer: RendererProcess | RendererPool | None = None
+        self._unavailable_reason = recorded.unavailable_reason
+        """Why pictures that somebody would look at cannot be drawn; empty if they can."""
+        self._is_watched = participants.does("vision")
         self._sensor: CameraSensor | None = None
         self._recorders: list[KeyPictures | VideoRecorder] = []
+        if options.cameras and options.renderer != AUTO and not recorded.is_replay:
+            from airhilt.sensors.cameras.renderers import require_known
+
+            require_known(options.renderer)
+        has_viewers = _has_viewers(setup, participants) or recorded.has_pictures
+        if self._unavailable_reason or not has_viewers:
+            return
+        try:
+            self._renderer = _open_renderer(setup.scenario, options, links)
+        except RendererError as error:
+            if recorded.is_replay:
+                raise RendererError(f"cannot be replayed here: {error}") from None
+            self._unavailable_reason = str(error)
+            if error.is_of_machine:
+                observer.machine_failed(str(error))
+            text = f"vision is not evaluated: {error}"
+            if options.strict:
+                raise RunStopped(
+                    f"not begun, as --strict asks: {text}; leave cameras out with --no-cameras"
+                ) from None
+            observer.notice(text)
+
+    def close(self) -> None:
+        """Let the renderer go."""
+        if self._renderer is not None:
+            self._renderer.close()
 
     @property
     def renderer(self) -> str:
@@ -162,58 +200,6 @@ def started_renderers(
                         stack.callback(link.close)
                         links.append(link)
         yield links
-
-
-@contextmanager
-def open_vision(
-    setup: Setup,
-    participants: Participants,
-    links: Sequence[RendererLink],
-    observer: Observer,
-) -> Iterator[Vision]:
-    """Open the renderer for the time of a run, if somebody might look at its pictures.
-
-    Parameters
-    ----------
-    links
-        Processes that have been started to draw.
-    observer
-        Is told what a user should know at once, such as why nothing can be drawn.
-
-    Raises
-    ------
-    AirhiltError
-        There is no such renderer, or a camera could see nothing.
-    RendererError
-        Nothing can be drawn here of what was drawn when the run was recorded.
-    RunStopped
-        Nothing can be drawn, and the run is strict.
-    """
-    options, recorded = setup.options, setup.recorded
-    unavailable_reason = recorded.unavailable_reason
-    renderer: RendererProcess | RendererPool | None = None
-    if options.cameras and options.renderer != AUTO and not recorded.is_replay:
-        from airhilt.sensors.cameras.renderers import require_known
-
-        require_known(options.renderer)
-    with ExitStack() as stack:
-        if not unavailable_reason and (_has_viewers(setup, participants) or recorded.has_pictures):
-            try:
-                renderer = _open_renderer(setup.scenario, options, links)
-                stack.callback(renderer.close)
-            except RendererError as error:
-                if recorded.is_replay:
-                    raise RendererError(f"cannot be replayed here: {error}") from None
-                unavailable_reason = str(error)
-                if error.is_of_machine:
-                    observer.machine_failed(unavailable_reason)
-                text = f"vision is not evaluated: {unavailable_reason}"
-                if options.strict:
-                    raise RunStopped(
-                        f"not begun, as --strict asks: {text}; leave cameras out with --no-cameras"
-                    ) from None
-                observer.notice(text)
-        yield Vision(renderer, unavailable_reason, participants.does("vision"))
 
 
 def _has_viewers(setup: Setup, participants: Participants) -> bool:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -17,15 +15,14 @@ from airhilt.options import Options
 from airhilt.record import RunFolder
 from airhilt.record.video import require_video
 from airhilt.scenario import Scenario
-from airhilt.scenario.failures import EffectiveLine, apply_failures
-from airhilt.scenario.perturbation import Draw
+from airhilt.scenario.failures import apply_failures
 from airhilt.scenario.seats import seats_of
-from airhilt.sensors.base import SensorType, load_sensor_types
-from airhilt.sensors.radio.backends import RadioBackend, TextRadio
+from airhilt.sensors.base import load_sensor_types
+from airhilt.sensors.radio.backends import TextRadio
 from airhilt.sensors.radio.backends.selection import select_backend
 from airhilt.sensors.radio.script import planned_ends_ns
-from airhilt.sim import LatencySpec, Pace, parse_pace
-from airhilt.world.actors import Actor, build_actors
+from airhilt.sim import LatencySpec, parse_pace
+from airhilt.world.actors import build_actors
 from airhilt.world.loading import draw
 from airhilt.world.site import ScenarioSite
 
@@ -33,17 +30,15 @@ TICK_S = 0.05
 """Control tick of the aircraft; the flight dynamics take six steps in it."""
 
 
-@dataclass(frozen=True)
 class Setup:
-    """Everything that a run is made of before workers connect to it.
+    """Everything that a run is made of before workers connect to it; nothing is written yet.
 
     Attributes
     ----------
-    scenario
-        The scenario with its perturbations drawn, and with the radio and the visibility that
-        the options give it.
     given
-        The scenario as it was before.
+        The scenario as it was given.
+    scenario
+        The scenario with its perturbations drawn, and with what the options ask for.
     pace
         Pace of the run until its participants are known.
     notices
@@ -52,25 +47,37 @@ class Setup:
         Units and actors that are left to people.
     ends_ns
         Planned end of each line, by its id.
+
+    Raises
+    ------
+    AirhiltError
+        Something that was given is wrong.
     """
 
-    name: str
-    options: Options
-    recorded: Recorded
-    given: Scenario
-    scenario: Scenario
-    draws: Sequence[Draw]
-    latency: LatencySpec
-    pace: Pace
-    folder: RunFolder
-    site: ScenarioSite
-    actors: dict[str, Actor]
-    sound: RadioBackend
-    sensor_types: Sequence[SensorType]
-    notices: Sequence[str]
-    lines: Sequence[EffectiveLine]
-    seats: Sequence[str]
-    ends_ns: Mapping[str, int]
+    def __init__(self, given: Scenario, options: Options, recorded: Recorded) -> None:
+        if not recorded.is_replay:
+            check_options(options, given)
+        self.given, self.options, self.recorded = given, options, recorded
+        drawn, self.draws = draw(given, options.seed)
+        self.scenario = scenario = requested_scenario(options, drawn)
+        self.latency = recorded.latency or _requested_latency(given, options)
+        self.pace = parse_pace(options.pace or "virtual")
+        self.name = options.run_name or f"{given.name}-{options.seed}"
+        self.folder = RunFolder(options.out or _default_folder(self.name))
+        self.folder.require_free(options.overwrite)
+        if options.video:
+            _require_something_to_film(options, scenario)
+        self.site = ScenarioSite.of(scenario)
+        self.actors = build_actors(scenario, self.site, options.seed, TICK_S)
+        tts = options.tts if options.speech else None
+        self.sound = recorded.sound or select_backend(scenario.radio, options.seed, tts)
+        self.lines = apply_failures(scenario)
+        self.seats = seats_of(options.seat, scenario)
+        self.sensor_types, problems = load_sensor_types(scenario.sensors)
+        self.notices = [*problems, *_cache_problems()]
+        # For the summary alone; a record knows what was said, but not what was planned and was not.
+        text = TextRadio(scenario.radio.words_per_minute)
+        self.ends_ns = planned_ends_ns(self.lines, self.sound if recorded.sound is None else text)
 
 
 def check_given(given: Scenario, options: Options) -> None:
@@ -82,7 +89,7 @@ def check_given(given: Scenario, options: Options) -> None:
         Something that was given is wrong.
     """
     check_options(options, given)
-    _require_not_measured(options, requested_latency(options.latency, given, options.seed))
+    _requested_latency(given, options)
     parse_pace(options.pace or "virtual")
     if options.out is not None:
         RunFolder(options.out).require_free(options.overwrite)
@@ -101,55 +108,6 @@ def require_runnable(scenario: Scenario) -> None:
     build_actors(realised, ScenarioSite.of(realised), 0, TICK_S)
 
 
-def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
-    """Resolve everything that a run needs, and put its actors at their first positions.
-
-    Raises
-    ------
-    AirhiltError
-        Something that was given is wrong; nothing is written yet.
-    """
-    if not recorded.is_replay:
-        check_options(options, given)
-    drawn, draws = draw(given, options.seed)
-    scenario = requested_scenario(options, drawn)
-    latency = recorded.latency or requested_latency(options.latency, given, options.seed)
-    _require_not_measured(options, latency)
-    pace = parse_pace(options.pace or "virtual")
-    name = options.run_name or f"{given.name}-{options.seed}"
-    folder = RunFolder(options.out or _default_folder(name))
-    folder.require_free(options.overwrite)
-    if options.video:
-        _require_something_to_film(options, scenario)
-    site = ScenarioSite.of(scenario)
-    actors = build_actors(scenario, site, options.seed, TICK_S)
-    tts = options.tts if options.speech else None
-    sound = recorded.sound or select_backend(scenario.radio, options.seed, tts)
-    lines = apply_failures(scenario)
-    sensor_types, problems = load_sensor_types(scenario.sensors)
-    # For the summary alone; a record knows what was said, but not what was planned and was not.
-    planned = sound if recorded.sound is None else TextRadio(scenario.radio.words_per_minute)
-    return Setup(
-        name=name,
-        options=options,
-        recorded=recorded,
-        given=given,
-        scenario=scenario,
-        draws=draws,
-        latency=latency,
-        pace=pace,
-        folder=folder,
-        site=site,
-        actors=actors,
-        sound=sound,
-        sensor_types=sensor_types,
-        notices=[*problems, *_cache_problems()],
-        lines=lines,
-        seats=seats_of(options.seat, scenario),
-        ends_ns=planned_ends_ns(lines, planned),
-    )
-
-
 def _cache_problems() -> list[str]:
     """Return a sentence if the cache cannot be written, for the use of later runs."""
     if cache_limit_bytes() and (problem := write_problem(cache_folder())):
@@ -166,12 +124,14 @@ def _require_something_to_film(options: Options, scenario: Scenario) -> None:
         )
 
 
-def _require_not_measured(options: Options, latency: LatencySpec) -> None:
+def _requested_latency(given: Scenario, options: Options) -> LatencySpec:
+    latency = requested_latency(options.latency, given, options.seed)
     if options.share_pictures and is_vision_measured(latency, options.detector):
         raise AirhiltError(
             "--share-pictures: the latency of vision is measured, so a detection would be as late "
             "as a cache is fast; expected another one, such as --latency fixed"
         )
+    return latency
 
 
 def _default_folder(name: str) -> Path:

@@ -1,6 +1,6 @@
 """One run, from scenario to run folder. The main path of AIRHILT begins at `run`.
 
-`set_up` settles what the run is, `connect` who takes part in it, `open_vision` how it sees;
+`Setup` settles what the run is, `connect` who takes part in it, `Vision` how it sees;
 `Simulation` connects it all with one `Director`, and each part gets what it needs as arguments.
 Data flows one way: actors, sensors, workers, advisories, crews.
 """
@@ -18,7 +18,7 @@ from airhilt.bus.access import ROLES, WITHOUT_KEYS
 from airhilt.bus.endpoints import what_is_open
 from airhilt.bus.session import Bus
 from airhilt.cosim.briefing import briefing_of, seat_states
-from airhilt.cosim.cameras import Vision, open_vision, started_renderers
+from airhilt.cosim.cameras import Vision, started_renderers
 from airhilt.cosim.context import RunContext
 from airhilt.cosim.engines_in_use import is_own_engine
 from airhilt.cosim.external_programs import ExternalPrograms
@@ -29,7 +29,7 @@ from airhilt.cosim.participants import Participants, connect
 from airhilt.cosim.provenance import run_info
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.router import MessageRouter
-from airhilt.cosim.setup import Setup, set_up
+from airhilt.cosim.setup import Setup
 from airhilt.cosim.workload_questions import WorkloadQuestions
 from airhilt.cosim.world_loop import WorldLoop
 from airhilt.errors import AirhiltError
@@ -113,7 +113,7 @@ def run(
         links = stack.enter_context(
             started_renderers(scenario, options, recorded, bool(workers), keeper)
         )
-        setup = set_up(scenario, options, recorded)
+        setup = Setup(scenario, options, recorded)
         for text in setup.notices:
             observer.notice(text)
         options, pace = setup.options, setup.pace
@@ -124,7 +124,7 @@ def run(
         has_programs = bool(participants.programs) and not setup.recorded.programs
         if options.pace is None and (has_people or has_programs):
             pace = RealTime()
-        vision = stack.enter_context(open_vision(setup, participants, links, observer))
+        vision = stack.enter_context(closing(Vision(setup, participants, links, observer)))
         setup.folder.create(options.overwrite)
         info = run_info(setup, participants, pace, bus.endpoint, vision.renderer)
         setup.folder.write_info(info)

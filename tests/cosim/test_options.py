@@ -11,7 +11,7 @@ import airhilt
 from airhilt.cli.run_flags import run_flags
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.replay import replay
-from airhilt.cosim.setup import set_up
+from airhilt.cosim.setup import Setup
 from airhilt.errors import AirhiltError
 from airhilt.options import Options, flag_of, options_of
 from airhilt.record import RunFolder
@@ -44,8 +44,8 @@ def test_every_option_that_the_command_line_spells_is_a_flag_of_a_run() -> None:
 
 def test_a_given_visibility_replaces_the_drawn_one_and_no_other_draw() -> None:
     scenario = airhilt.load("s01a_bad_readback")
-    drawn = set_up(scenario, Options(seed=3), Recorded())
-    given = set_up(scenario, Options(seed=3, visibility_m=5000.0), Recorded())
+    drawn = Setup(scenario, Options(seed=3), Recorded())
+    given = Setup(scenario, Options(seed=3, visibility_m=5000.0), Recorded())
     assert drawn.scenario.weather.visibility_m not in (1500.0, 5000.0)
     weather = drawn.scenario.weather.model_copy(update={"visibility_m": 5000.0})
     assert given.scenario == drawn.scenario.model_copy(update={"weather": weather})
@@ -132,7 +132,7 @@ def test_an_option_that_does_nothing_is_refused_from_python_too(
     given: dict[str, Any], told: str, encounter: Scenario
 ) -> None:
     with pytest.raises(AirhiltError, match=told):
-        set_up(encounter, options_of(given), Recorded())
+        Setup(encounter, options_of(given), Recorded())
 
 
 @pytest.mark.parametrize(
@@ -148,7 +148,7 @@ def test_an_option_that_does_nothing_is_refused_from_python_too(
 def test_an_option_that_does_something_or_nothing_new_is_taken(
     given: dict[str, Any], encounter: Scenario
 ) -> None:
-    assert set_up(encounter, options_of(given), Recorded()).options.model_fields_set == set(given)
+    assert Setup(encounter, options_of(given), Recorded()).options.model_fields_set == set(given)
 
 
 @pytest.mark.parametrize("name", ["", "  "])
