@@ -313,11 +313,11 @@ class EngineFamily(Family, Generic[T]):
         else:
             alike = nearest(name, [*(each.name for each in engines if not each.usage), *words])
             meant = alike if "did you mean" in alike else ""
-        forms = [
+        every = [
             f"{engine.forms()} (needs {lacks})" if (lacks := engine.lacks()) else engine.forms()
             for engine in engines
         ]
-        *others, last = [*forms, *words]
+        *others, last = [*every, *words]
         expected = f"{', '.join(others)}, or {last}" if others else last
         raise self.error(f"{self.word} {text!r}: {problem}; expected {expected}{meant}")
 

@@ -115,7 +115,7 @@ class Vision:
         from airhilt.sensors.cameras.sensor import CameraSensor
         from airhilt.sensors.cameras.shared_pictures import SharedPictures
 
-        setup, observe = context.setup, context.router.observe
+        setup = context.setup
         actors = pair_of(setup.scenario) or tuple(setup.actors)
         pictures_path, video_path = setup.folder.pictures_path, setup.folder.video_path
         self._recorders = [
@@ -123,8 +123,7 @@ class Vision:
         ]
         if setup.options.video:
             self._recorders.append(VideoRecorder(video_path, notice=context.observer.notice))
-        for recorder in self._recorders:
-            observe(recorder.take)
+        context.router.observers += (recorder.take for recorder in self._recorders)
         renderer = self._renderer
         source: PictureSource = DrawnPictures(renderer)
         if isinstance(renderer, RendererProcess) and renderer.identity:

@@ -220,7 +220,7 @@ class Simulation:
         recorder = AudioRecorder(
             setup.folder.audio_path, keeps_voices=setup.options.voice_recording
         )
-        for take in (
+        router.listeners += (
             self._seats.take,
             recorder.take,
             self._pool.offer,
@@ -229,17 +229,15 @@ class Simulation:
             self._advisories.take,
             self._pace_control.take,
             self._questions.take,
-        ):
-            router.listen(take)
-        router.observe(self._collector.take)
-        router.observe(SeatNotices(self._context, self._seats).take)
+        )
+        router.observers += (self._collector.take, SeatNotices(self._context, self._seats).take)
         if not self._context.is_replay:
             # AIRHILT's own engines have no author to tell: a traffic advisory of TCAS is only to
             # look.
             descriptions = [worker.description for worker in self._participants.workers]
             exempt = [each.name for each in descriptions if is_own_engine(each.engine)]
             notices = WorkerNotices(setup.actors, exempt, self._observer.notice)
-            router.attribute(notices.take)
+            router.attributed.append(notices.take)
 
     def _make_collector(self) -> Collector:
         setup, world = self._setup, self._world
