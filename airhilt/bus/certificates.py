@@ -40,15 +40,7 @@ SETTING = "transport/link/tls"
 
 @dataclass(frozen=True)
 class Keys:
-    """What the file of a role, or of the run, says.
-
-    Attributes
-    ----------
-    endpoint
-        Where the run accepts connections.
-    settings
-        Settings of Zenoh, by their keys.
-    """
+    """What the file of a role, or of the run, says: its endpoint, and settings of Zenoh by key."""
 
     endpoint: str
     settings: dict[str, Any]

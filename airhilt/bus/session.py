@@ -12,7 +12,7 @@ from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Literal
 
 import zenoh
 
@@ -69,19 +69,12 @@ def free_endpoint() -> str:
 
 
 def configuration(
-    mode: str, kind: str, endpoint: str, more: Mapping[str, Any] = MappingProxyType({})
+    mode: Literal["router", "client"],
+    kind: Literal["listen", "connect"],
+    endpoint: str,
+    more: Mapping[str, Any] = MappingProxyType({}),
 ) -> zenoh.Config:
-    """Return a configuration with one explicit endpoint and no discovery.
-
-    Parameters
-    ----------
-    mode
-        ``router`` or ``client``.
-    kind
-        ``listen`` or ``connect``.
-    more
-        Further settings, by their keys.
-    """
+    """Return a configuration with one explicit endpoint, no discovery, and ``more`` settings."""
     config = zenoh.Config()
     settings: dict[str, Any] = {
         "mode": mode,

@@ -90,10 +90,7 @@ def station_options(command: F) -> F:
 def refuse_page_options(missing: str) -> None:
     """Complain about the options of a page that the current command does not open.
 
-    Parameters
-    ----------
-    missing
-        Options without which it opens none.
+    It opens none without the options ``missing``.
 
     Raises
     ------

@@ -23,12 +23,9 @@ an assumption."""
 
 
 def equipment_of(scenario: Scenario, taken: Collection[str]) -> list[Participant]:
-    """Return the workers that are the equipment of a scenario.
+    """Return the workers that are the equipment of a scenario, without those that are ``taken``.
 
-    Parameters
-    ----------
-    taken
-        Names of workers that are there already: a replay has some from its record.
+    A replay has the names of some from its record.
 
     Raises
     ------
@@ -83,18 +80,7 @@ def equipment_name(engine: str) -> str:
 
 
 class EquipmentWorker:
-    """Publishes the advisories of a decision worker as alerts of equipment.
-
-    Parameters
-    ----------
-    decision
-        The worker that decides.
-
-    Raises
-    ------
-    WorkerError
-        It publishes something else than advisories.
-    """
+    """Publishes the advisories of a decision worker as alerts of equipment."""
 
     def __init__(self, decision: Worker) -> None:
         self._decision = decision

@@ -28,15 +28,9 @@ MOST_BEHIND_NS = SECOND_NS
 class PaceControl:
     """Changes how fast the time of a run passes, and logs it.
 
-    Once everybody has left the seats, time passes in real time again: nobody else could let it go
-    on. A run that waits for its seats goes on waiting.
-
-    A run with people that was stopped for a while, or that the machine does not keep up with, does
-    not make up for it: time never passes faster for them than the pace says.
-
-    A run in virtual time, such as a replay, logs the change and goes on as fast as before.
-
-    It publishes the clock of the run, of which the pace is a part.
+    Once everybody has left the seats, time passes in real time again. A run with people does not
+    make up for a stall: time never passes faster for them than the pace says. A run in virtual
+    time, such as a replay, logs the change and goes on as fast as before.
     """
 
     def __init__(

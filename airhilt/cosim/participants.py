@@ -79,9 +79,8 @@ def connect(
     SpeechError, VisionError
         An engine cannot be loaded.
     WorkerError
-        A worker has no description or no method `step`, two have the same name, or one decides
-        though the options name another assistant, or reads nothing that the options give it. Or
-        one would ask a service in a replay.
+        A worker is none, cannot be told from another, or is not what the options or the record
+        ask for.
     """
     options, recorded = setup.options, setup.recorded
     workers = list(recorded.workers)
@@ -161,12 +160,7 @@ def _participant(worker: Worker, where: Where, is_of_user: bool) -> Participant:
 def limited(worker: Participant, given: Collection[str]) -> Participant:
     """Return a worker that, if it decides, has inputs of the given modalities only.
 
-    Equipment of the world and all other workers keep their inputs.
-
-    Raises
-    ------
-    WorkerError
-        Nothing of the traffic is left.
+    Others keep their inputs; see `inputs_given` for the error.
     """
     description = worker.description
     if description.modality != "decision":
