@@ -11,21 +11,23 @@ import click
 from airhilt.engines import RENDERER_HELP
 from airhilt.sensors.cameras import AUTO
 
+INTERRUPTED = 130
+"""Exit code after a signal."""
+PATH = click.Path(path_type=Path)
+FILE = click.Path(path_type=Path, dir_okay=False)
+FOLDER = click.Path(path_type=Path, file_okay=False)
+THERE = click.Path(path_type=Path, exists=True, file_okay=False)
 allow_path_option = click.option(
-    "--allow-path",
-    "allowed",
-    type=click.Path(path_type=Path, exists=True, file_okay=False),
-    multiple=True,
-    metavar="DIR",
+    "--allow-path", "allowed", type=THERE, multiple=True, metavar="DIR",
     help="A folder besides that of the scenario in which it may name files; again for more.",
-)
+)  # fmt: skip
 renderer_option = click.option(
-    "--renderer",
-    default=AUTO,
-    show_default=True,
-    metavar="NAME",
-    help=RENDERER_HELP,
+    "--renderer", default=AUTO, show_default=True, metavar="NAME", help=RENDERER_HELP
 )
+json_option = click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
+json_array_option = click.option("--json", "as_json", is_flag=True, help="Print a JSON array.")
+run_argument = click.argument("run_folder", metavar="RUN", type=PATH)
+folder_argument = click.argument("folder", metavar="RUN|SWEEP", type=PATH)
 
 
 class CommandWithFlags(click.Command):

@@ -10,11 +10,7 @@ import click
 
 from airhilt.cli.output import echo_json, tell
 from airhilt.cli.parameters import CommandWithFlags, allow_path_option
-from airhilt.cli.station_flags import (
-    PageOptions,
-    refuse_page_options,
-    station_options,
-)
+from airhilt.cli.station_flags import PageOptions, refuse_page_options, station_options
 
 if TYPE_CHECKING:
     from airhilt.options import Options

@@ -17,6 +17,7 @@ import click
 
 from airhilt._version import __version__
 from airhilt.cli.output import echo
+from airhilt.cli.parameters import json_array_option
 from airhilt.engine_families import FAMILIES
 from airhilt.engines import Engine, EngineFamily, Package
 from airhilt.errors import AirhiltError
@@ -208,7 +209,7 @@ Examples:
   airhilt doctor --json
 """
 )
-@click.option("--json", "as_json", is_flag=True, help="Print a JSON array.")
+@json_array_option
 def doctor(as_json: bool) -> None:
     """Say what is installed, what is missing or broken, and how to get it.
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from airhilt.cli.output import counted, echo, tell
-from airhilt.cli.parameters import CommandWithFlags
+from airhilt.cli.parameters import FOLDER, INTERRUPTED, CommandWithFlags
 from airhilt.cli.work_flags import work_flags, work_given
 
 if TYPE_CHECKING:
@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 
 CHOSEN = ("latency", "cameras", "renderer", "detector", "speech", "asr", "tts")
 """Options of runs that may be given; a preset settles or varies the others."""
-INTERRUPTED = 130
-"""Exit code after a signal."""
 
 
 def _flags() -> list[click.Parameter]:
@@ -58,7 +56,7 @@ Examples:
 )
 @click.option(
     "--out",
-    type=click.Path(path_type=Path, file_okay=False),
+    type=FOLDER,
     metavar="DIR",
     help="Folder of the evaluation; what it has already is not run again.  [default: "
     "evaluations/PRESET]",

@@ -12,11 +12,9 @@ from typing import Any
 import click
 
 from airhilt.cli.output import tell
-from airhilt.cli.parameters import CommandWithFlags, allow_path_option
+from airhilt.cli.parameters import FILE, FOLDER, INTERRUPTED, CommandWithFlags, allow_path_option
 from airhilt.cli.work_flags import work_flags, work_given
 
-INTERRUPTED = 130
-"""Exit code after a signal."""
 WRITTEN = "airhilt.sweep.written"
 """Key of the arguments in the context."""
 
@@ -80,13 +78,13 @@ Examples:
 )
 @click.option(
     "--file",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=FILE,
     metavar="FILE",
     help="A sweep file (`airhilt schema --sweep`); flags add to it, and replace what it says.",
 )
 @click.option(
     "--out",
-    type=click.Path(path_type=Path, file_okay=False),
+    type=FOLDER,
     metavar="DIR",
     help="Folder of the sweep; what it has already is not run again.  [default: a new one under "
     "sweeps/]",
