@@ -217,8 +217,6 @@ def step(query):
         if answer == "truth":
             payload = b"{}"
             reply["outputs"] = [{"key": "truth/conflict", "size": 2}]
-        if answer == "sizes":
-            reply["outputs"] = [{"key": "advisory/ATC", "size": 99}]
         if answer == "large":
             payload = b" " * 40_000
             reply["outputs"] = [{"key": "advisory/ATC", "size": 40_000}]
@@ -237,7 +235,6 @@ time.sleep(60)
         ("garbage", "Invalid JSON"),
         ("past", "before its step began"),
         ("truth", "published on 'truth/conflict'"),
-        ("sizes", "sizes"),
         ("large", "40,000 bytes; expected at most 32,000"),
         ("seq", "expected the seq of the grant"),
     ],

@@ -18,11 +18,11 @@ import zenoh
 from airhilt import run
 from airhilt.bus.certificates import HOLDERS, key_file, make_keys
 from airhilt.bus.session import Bus, connect_client, free_endpoint
-from airhilt.cosim.observer import Observer
 from airhilt.cosim.replay import replay
 from airhilt.errors import AirhiltError, BusError
 from airhilt.scenario import Scenario
 from breadth import mostly_slow
+from notices import Notices
 from processes import process
 
 TRIES = """
@@ -268,14 +268,7 @@ def test_an_endpoint_that_lets_strangers_in_is_refused(
 
 
 def test_insecure_says_what_it_opens(encounter: Scenario, tmp_path: Path) -> None:
-    class Notices(Observer):
-        texts: list[str]
-
-        def notice(self, text: str) -> None:
-            self.texts.append(text)
-
     notices = Notices()
-    notices.texts = []
     endpoint = free_endpoint().replace("127.0.0.1", "0.0.0.0")
     short = encounter.model_copy(update={"duration_s": 1.0})
     run(short, out=tmp_path / "run", endpoint=endpoint, insecure=True, observer=notices)

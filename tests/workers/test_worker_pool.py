@@ -271,15 +271,14 @@ def test_a_voice_that_is_not_what_its_header_says_is_refused(
         parse_output("w", key, pcm, 10, VOICE.model_dump(mode="json"))
 
 
-@pytest.mark.parametrize("header", [None, {"id": "decision-1"}])
-def test_a_voice_without_a_header_is_refused(
-    header: dict[Any, Any] | None,
-) -> None:
-    with pytest.raises(WorkerError, match=r"worker 'w' .* no AdvisoryAudio.*airhilt schema"):
-        parse_output("w", "tts/decision-1", PCM, 10, header)
-
-
-def test_a_voice_at_another_rate_is_refused() -> None:
-    header = VOICE.model_dump(mode="json") | {"sample_rate_hz": 22_050}
-    with pytest.raises(WorkerError, match="at 22050 Hz; expected 16000 Hz"):
+@pytest.mark.parametrize(
+    ("header", "said"),
+    [
+        (None, "worker 'w' .* no AdvisoryAudio.*airhilt schema"),
+        (VOICE.model_dump(mode="json") | {"sample_rate_hz": 22_050}, "at 22050 Hz; expected 16000"),
+    ],
+    ids=["none", "another rate"],
+)
+def test_a_voice_without_its_header_is_refused(header: dict[str, Any] | None, said: str) -> None:
+    with pytest.raises(WorkerError, match=said):
         parse_output("w", "tts/decision-1", PCM, 10, header)
