@@ -82,14 +82,9 @@ def load(name_or_file: str | Path) -> Scenario:
     ------
     AirhiltError
         There is none of that name, or it is not valid.
-    TypeError
-        It is neither a name nor a file.
     """
-    from airhilt.errors import shown
     from airhilt.world.loading import load as load_scenario
 
-    if not isinstance(name_or_file, str | Path):
-        raise TypeError(f"scenario {shown(name_or_file)}: expected its name, or a file")
     return load_scenario(name_or_file)
 
 
@@ -184,14 +179,12 @@ def run(
     AirhiltError
         Something that was given is wrong.
     TypeError
-        An argument has another type, or there is no option of that name; the message gives the
-        nearest.
+        There is no option of that name; the message gives the nearest.
     """
     from airhilt.configuration import read_configuration
     from airhilt.cosim.simulation import run as run_scenario
     from airhilt.options import options_of
 
-    _require_types(scenario, observer, workers)
     if isinstance(scenario, str | Path):
         scenario = load(scenario)
     if isinstance(options.get("assistant_config"), str | Path):
@@ -271,25 +264,3 @@ def run_sweep(
     )
     sweep_all(specification_of(document, "run_sweep"), work)
     return read_sweep(out)
-
-
-def _require_types(scenario: object, observer: object, workers: object) -> None:
-    """Complain about an argument of `run` that has another type.
-
-    Raises
-    ------
-    TypeError
-        One has.
-    """
-    from airhilt.cosim.observer import Observer
-    from airhilt.errors import shown
-    from airhilt.scenario import Scenario
-
-    if not isinstance(scenario, Scenario | str | Path):
-        raise TypeError(
-            f"scenario {shown(scenario)}: expected an airhilt.Scenario, its name, or a file"
-        )
-    if observer is not None and not isinstance(observer, Observer):
-        raise TypeError(f"observer {shown(observer)}: expected an airhilt.Observer")
-    if not isinstance(workers, Sequence) or isinstance(workers, str | bytes):
-        raise TypeError(f"workers {shown(workers)}: expected a list of workers")

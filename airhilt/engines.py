@@ -228,7 +228,7 @@ class EngineFamily(Family, Generic[T]):
         """
         name = text.partition(":")[0]
         if text not in self.words and name not in self.names():
-            self._choose(text, self.words)
+            self.choose(text, self.words)
 
     def configuration_model(self, name: str) -> type[BaseModel]:
         """Return the model of the configuration of an engine.
@@ -280,8 +280,13 @@ class EngineFamily(Family, Generic[T]):
             raise self.error(f"{self.word} {text!r}: what it makes, {made!r}, has no {lacks}")
         return made
 
-    def choose(self, text: str) -> tuple[Engine[T], str]:
+    def choose(self, text: str, words: Sequence[str] = ()) -> tuple[Engine[T], str]:
         """Return the engine that a text asks for, and the argument for it.
+
+        Parameters
+        ----------
+        words
+            Words that could be there instead, for the error.
 
         Raises
         ------
@@ -289,10 +294,6 @@ class EngineFamily(Family, Generic[T]):
             No engine is meant, or more than one, or one cannot say whether it is. The error is of
             the class that the family declares.
         """
-        return self._choose(text, ())
-
-    def _choose(self, text: str, words: Sequence[str]) -> tuple[Engine[T], str]:
-        """Return what `choose` does; an error names the words that could be there instead."""
         name, _, argument = text.partition(":")
         if name in self.names() and not is_service(text):
             engine: Engine[T] = self.load(name)
@@ -306,12 +307,19 @@ class EngineFamily(Family, Generic[T]):
         if takers:
             forms = " or ".join(f"{engine.name}:{text}" for engine in takers)
             raise self.error(f"{self.word} {text!r}: more than one can take it; expected {forms}")
+        problem, meant = "there is none of that name", ""
         if text and Path(text).exists():
-            problem, meant = f"no {self.word} knows such files", ""
+            problem = f"no {self.word} knows such files"
         else:
-            problem, meant = "there is none of that name", _suggestion(name, engines, words)
-        forms = _forms(engines, words)
-        raise self.error(f"{self.word} {text!r}: {problem}; expected {forms}{meant}")
+            alike = nearest(name, [*(each.name for each in engines if not each.usage), *words])
+            meant = alike if "did you mean" in alike else ""
+        every = [
+            f"{engine.forms()} (needs {lacks})" if (lacks := engine.lacks()) else engine.forms()
+            for engine in engines
+        ]
+        *others, last = [*every, *words]
+        expected = f"{', '.join(others)}, or {last}" if others else last
+        raise self.error(f"{self.word} {text!r}: {problem}; expected {expected}{meant}")
 
     def _takes(self, engine: Engine[T], text: str) -> bool:
         try:
@@ -329,19 +337,3 @@ class EngineFamily(Family, Generic[T]):
             with suppress(AirhiltError):  # Doctor says what is wrong with it.
                 found.append(self.load(name))
         return sorted(found, key=lambda engine: bool(engine.usage))
-
-
-def _forms(engines: Sequence[Engine[Any]], words: Sequence[str]) -> str:
-    """Return what may be written, for error messages."""
-    forms = [
-        f"{engine.forms()} (needs {lacks})" if (lacks := engine.lacks()) else engine.forms()
-        for engine in engines
-    ]
-    *others, last = [*forms, *words]
-    return f"{', '.join(others)}, or {last}" if others else last
-
-
-def _suggestion(name: str, engines: Sequence[Engine[Any]], words: Sequence[str]) -> str:
-    named = [engine.name for engine in engines if not engine.usage]
-    tail = nearest(name, [*named, *words])
-    return tail if "did you mean" in tail else ""

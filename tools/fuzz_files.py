@@ -10,7 +10,7 @@ import json
 import sys
 from typing import Any
 
-from airhilt.cosim.validation import require_runnable
+from airhilt.cosim.setup import require_runnable
 from airhilt.scenario import Scenario, documents
 from airhilt.world.flight.aircraft_type import load_aircraft_type
 from airhilt.world.loading import load_text

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import sys
 
-from airhilt.cosim.validation import require_runnable
+from airhilt.cosim.setup import require_runnable
 from airhilt.scenario import Scenario
 from airhilt.world.loading import load_text
 from mutants import fuzz

@@ -90,12 +90,7 @@ of a seat is what one person hears."""
 def access_control(root: str, run: str, subjects: Subjects) -> Any:
     """Return the setting ``access_control`` of Zenoh for the router of a run.
 
-    Parameters
-    ----------
-    root
-        First chunk of the keys of all runs.
-    subjects
-        Who may connect.
+    ``root`` is the first chunk of the keys of all runs; ``subjects`` may connect.
     """
     return {
         "enabled": True,

@@ -10,11 +10,9 @@ from typing import Literal, get_args
 
 from airhilt.bus.remote_workers import RemoteWorker
 from airhilt.bus.session import Bus
-from airhilt.errors import BusError
+from airhilt.errors import BusError, WorkerError
 from airhilt.messages import RUN, UNREGISTERED, WORKER_NAME, WorkerDescription
 
-RESERVED = (RUN, UNREGISTERED)
-"""Publishers in the log that are no workers."""
 ReferenceKind = Literal["enhancement", "asr", "tts", "vision", "decision"]
 """Kinds of worker that ``airhilt worker`` serves; each has its kind for a name."""
 
@@ -39,8 +37,16 @@ def attach(
     ------
     BusError
         A name cannot be that of a worker, or a worker did not come in time.
+    WorkerError
+        The names do not tell the workers apart.
     """
-    _require_names(names)
+    for name in names:
+        if not re.fullmatch(WORKER_NAME, name):
+            raise BusError(
+                f"worker name {name!r}: expected lower-case letters, digits, - and _, such as "
+                "'decision'"
+            )
+    require_different_names(names)
     arrived: queue.SimpleQueue[str] = queue.SimpleQueue()
     bus.watch_workers(lambda name, alive: arrived.put(name) if alive else None)
     missing = set(names)
@@ -60,21 +66,27 @@ def attach(
     return [(worker, worker.describe()) for worker in workers]
 
 
-def _require_names(names: Sequence[str]) -> None:
-    """Refuse names that are malformed, reserved, or given twice."""
+def require_different_names(names: Sequence[str]) -> None:
+    """Check that the names of the workers and programs of a run tell them apart.
+
+    Raises
+    ------
+    WorkerError
+        One is reserved, is given twice, or begins another.
+    """
     for name in names:
-        if not re.fullmatch(WORKER_NAME, name):
-            raise BusError(
-                f"worker name {name!r}: expected lower-case letters, digits, - and _, such as "
-                "'decision'"
+        if name in (RUN, UNREGISTERED):
+            raise WorkerError(
+                f"a worker is named {name!r}, as the log calls others; expected another name"
             )
-        if name in RESERVED:
-            raise BusError(
-                f"worker name {name!r}: the log calls others so; expected another than "
-                f"{', '.join(RESERVED)}"
-            )
-    if len(set(names)) < len(names):
-        raise BusError(f"workers {', '.join(names)}: expected each name once")
+        if names.count(name) > 1:
+            raise WorkerError(f"two workers are named {name!r}; expected a name for each")
+        for other in names:
+            if other.startswith(f"{name}-"):
+                raise WorkerError(
+                    f"two workers are named {name!r} and {other!r}: an id that begins with "
+                    f"'{other}-' would be of both; expected a name that does not begin the other"
+                )
 
 
 def _how_to_start(name: str, bus: Bus) -> str:

@@ -40,35 +40,10 @@ SETTING = "transport/link/tls"
 
 @dataclass(frozen=True)
 class Keys:
-    """What the file of a role, or of the run, says.
-
-    Attributes
-    ----------
-    endpoint
-        Where the run accepts connections.
-    settings
-        Settings of Zenoh, by their keys.
-    """
+    """What the file of a role, or of the run, says: its endpoint, and settings of Zenoh by key."""
 
     endpoint: str
     settings: dict[str, Any]
-
-
-@dataclass(frozen=True)
-class _Signed:
-    """A private key and its certificate."""
-
-    key: ec.EllipticCurvePrivateKey
-    certificate: x509.Certificate
-
-    def key_base64(self) -> str:
-        """Return the private key as Zenoh's configuration has it."""
-        pem = self.key.private_bytes(Encoding.PEM, PrivateFormat.PKCS8, NoEncryption())
-        return base64.b64encode(pem).decode()
-
-    def certificate_base64(self) -> str:
-        """Return the certificate as Zenoh's configuration has it."""
-        return base64.b64encode(self.certificate.public_bytes(Encoding.PEM)).decode()
 
 
 def key_file(folder: Path, holder: Holder) -> Path:
@@ -93,7 +68,7 @@ def make_keys(folder: Path, endpoint: str) -> None:
     host = host_of(endpoint)
     if host is None or protocol_of(endpoint) not in AUTHENTICATED:
         raise BusError(f"endpoint {endpoint!r}: expected the form tls/127.0.0.1:7447")
-    authority = _authority()
+    authority = _Authority()
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         if folder.stat().st_mode & (stat.S_IWGRP | stat.S_IWOTH):
@@ -106,7 +81,7 @@ def make_keys(folder: Path, endpoint: str) -> None:
             if path.exists() or path.is_symlink():
                 raise BusError(f"{path}: is there already; choose another folder for the keys")
         for holder in HOLDERS:
-            settings = _settings(authority, holder, host, endpoint)
+            settings = authority.settings(holder, host, endpoint)
             data = json.dumps(settings, indent=2) + "\n"
             write_new(key_file(folder, holder), data.encode(), 0o600)
     except OSError as error:
@@ -137,7 +112,12 @@ def read_keys(folder: Path, holder: Holder) -> Keys:
         ) from None
     except (ValueError, LookupError, TypeError):
         raise BusError(f"{path}: no keys; expected a file of `airhilt keys init`") from None
-    _require_holder(certificate, holder, path)
+    found = " ".join(str(each.value) for each in certificate.subject)
+    if found != CERTIFICATE_NAME.format(holder):  # A run would let nothing of it through.
+        raise BusError(
+            f"{path}: its certificate is of {found.removeprefix(CERTIFICATE_NAME.format(''))!r}; "
+            f"expected that of {holder!r}, as `airhilt keys init` has made it"
+        )
     if not is_of_owner_alone(path):
         raise BusError(
             f"{path}: other users may read or change this file, which has a private key; expected "
@@ -151,84 +131,64 @@ def read_keys(folder: Path, holder: Holder) -> Keys:
     return Keys(endpoint, {f"{SETTING}/{name}": value for name, value in settings.items()})
 
 
-def _require_holder(certificate: x509.Certificate, holder: Holder, path: Path) -> None:
-    """Complain about the certificate of another role, with which a run lets nothing through."""
-    names = certificate.subject.get_attributes_for_oid(NameOID.COMMON_NAME)
-    found = [str(name.value) for name in names]
-    if found == [CERTIFICATE_NAME.format(holder)]:
-        return
-    others = [other for other in HOLDERS if found == [CERTIFICATE_NAME.format(other)]]
-    whose = f"of {others[0]!r}" if others else "of no role"
-    raise BusError(
-        f"{path}: its certificate is {whose}; expected that of {holder!r}, as `airhilt keys init` "
-        "has made it"
-    )
+class _Authority:
+    """Signs the certificates of one folder of keys."""
 
+    def __init__(self) -> None:
+        self._key = ec.generate_private_key(ec.SECP256R1())
+        self._name = _name("airhilt")
+        extension = x509.BasicConstraints(ca=True, path_length=0)
+        builder = self._builder(self._name, self._key).add_extension(extension, critical=True)
+        self._certificate = builder.sign(self._key, SHA256())
 
-def _side(holder: Holder) -> Literal["listen", "connect"]:
-    return "listen" if holder == "router" else "connect"
-
-
-def _settings(authority: _Signed, holder: Holder, host: str, endpoint: str) -> dict[str, Any]:
-    side = _side(holder)
-    signed = _signed(authority, holder, host)
-    return {
-        "mode": "router" if side == "listen" else "client",
-        side: {"endpoints": [endpoint]} | ({"timeout_ms": 60_000} if side == "connect" else {}),
-        "scouting": {"multicast": {"enabled": False}, "gossip": {"enabled": False}},
-        "transport": {
-            "link": {
-                "tls": {
-                    "enable_mtls": True,
-                    "root_ca_certificate_base64": authority.certificate_base64(),
-                    f"{side}_certificate_base64": signed.certificate_base64(),
-                    f"{side}_private_key_base64": signed.key_base64(),
-                }
-            }
-        },
-    }
-
-
-def _authority() -> _Signed:
-    key = ec.generate_private_key(ec.SECP256R1())
-    name = _name("airhilt")
-    builder = _builder(name, name, key).add_extension(
-        x509.BasicConstraints(ca=True, path_length=0), critical=True
-    )
-    return _Signed(key, builder.sign(key, SHA256()))
-
-
-def _signed(authority: _Signed, holder: Holder, host: str) -> _Signed:
-    """Return a new certificate: the run proves its host with it, a program its role."""
-    key = ec.generate_private_key(ec.SECP256R1())
-    is_router = holder == "router"
-    use = ExtendedKeyUsageOID.SERVER_AUTH if is_router else ExtendedKeyUsageOID.CLIENT_AUTH
-    name = _name(CERTIFICATE_NAME.format(holder))
-    builder = (
-        _builder(name, authority.certificate.subject, key)
-        .add_extension(x509.BasicConstraints(ca=False, path_length=None), critical=True)
-        .add_extension(x509.ExtendedKeyUsage([use]), critical=False)
-    )
-    if is_router:
-        builder = builder.add_extension(
-            x509.SubjectAlternativeName([_alternative(host)]), critical=False
+    def _builder(self, name: x509.Name, key: ec.EllipticCurvePrivateKey) -> x509.CertificateBuilder:
+        now = datetime.now(UTC)
+        return (
+            x509.CertificateBuilder()
+            .subject_name(name)
+            .issuer_name(self._name)
+            .public_key(key.public_key())
+            .serial_number(x509.random_serial_number())
+            .not_valid_before(now - SKEW)
+            .not_valid_after(now + VALID_FOR)
         )
-    return _Signed(key, builder.sign(authority.key, SHA256()))
+
+    def settings(self, holder: Holder, host: str, endpoint: str) -> dict[str, Any]:
+        """Return a configuration of Zenoh with a new certificate.
+
+        A run proves its host with it, a program its role.
+        """
+        key = ec.generate_private_key(ec.SECP256R1())
+        is_router = holder == "router"
+        use = ExtendedKeyUsageOID.SERVER_AUTH if is_router else ExtendedKeyUsageOID.CLIENT_AUTH
+        builder = (
+            self._builder(_name(CERTIFICATE_NAME.format(holder)), key)
+            .add_extension(x509.BasicConstraints(ca=False, path_length=None), critical=True)
+            .add_extension(x509.ExtendedKeyUsage([use]), critical=False)
+        )
+        if is_router:
+            names = x509.SubjectAlternativeName([_alternative(host)])
+            builder = builder.add_extension(names, critical=False)
+        pem = key.private_bytes(Encoding.PEM, PrivateFormat.PKCS8, NoEncryption())
+        side = "listen" if is_router else "connect"
+        tls = {
+            "enable_mtls": True,
+            "root_ca_certificate_base64": _base64(self._certificate.public_bytes(Encoding.PEM)),
+            f"{side}_certificate_base64": _base64(
+                builder.sign(self._key, SHA256()).public_bytes(Encoding.PEM)
+            ),
+            f"{side}_private_key_base64": _base64(pem),
+        }
+        return {
+            "mode": "router" if is_router else "client",
+            side: {"endpoints": [endpoint]} | ({} if is_router else {"timeout_ms": 60_000}),
+            "scouting": {"multicast": {"enabled": False}, "gossip": {"enabled": False}},
+            "transport": {"link": {"tls": tls}},
+        }
 
 
-def _builder(
-    name: x509.Name, issuer: x509.Name, key: ec.EllipticCurvePrivateKey
-) -> x509.CertificateBuilder:
-    now = datetime.now(UTC)
-    return (
-        x509.CertificateBuilder()
-        .subject_name(name)
-        .issuer_name(issuer)
-        .public_key(key.public_key())
-        .serial_number(x509.random_serial_number())
-        .not_valid_before(now - SKEW)
-        .not_valid_after(now + VALID_FOR)
-    )
+def _base64(pem: bytes) -> str:
+    return base64.b64encode(pem).decode()
 
 
 def _name(text: str) -> x509.Name:

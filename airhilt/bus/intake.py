@@ -27,13 +27,7 @@ another program gets it. Nothing counts these."""
 
 
 def size_filter(prefix: str) -> Any:
-    """Return the setting ``low_pass_filter`` of Zenoh for the router of a run.
-
-    Parameters
-    ----------
-    prefix
-        First chunks of the keys of the run.
-    """
+    """Return the setting ``low_pass_filter`` of Zenoh for the keys below a prefix."""
     keys = [f"{prefix}/{key}" for keys in PUBLISHED.values() for key in keys]
     return [
         {
@@ -55,13 +49,7 @@ class Source:
 
 
 class _Allowance:
-    """Number of messages that may come now: at most those of one second.
-
-    Parameters
-    ----------
-    rate_hz
-        How many are added in a second.
-    """
+    """Number of messages that may come now: at most those of one second."""
 
     def __init__(self, rate_hz: int, now_s: float) -> None:
         self._rate_hz = rate_hz

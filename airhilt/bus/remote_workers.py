@@ -8,11 +8,17 @@ from dataclasses import dataclass
 import zenoh
 from pydantic import ValidationError
 
-from airhilt.bus.multipart import pack, unpack
-from airhilt.bus.session import Bus, Refusal
+from airhilt.bus.session import Bus
 from airhilt.errors import RendererError, WorkerError, first_problem, shown
-from airhilt.messages import Grant, GrantInput, StepReply, WorkerDescription, worker_output
-from airhilt.sim.worker import Input, Output, Reply, WorkerLost
+from airhilt.messages import (
+    Grant,
+    GrantInput,
+    StepReply,
+    WorkerDescription,
+    parts_of,
+    worker_output,
+)
+from airhilt.sim.worker import Input, Output, Pending, Reply, StepDone, WorkerLost
 
 MAXIMUM_REPLY_BYTES = 64_000_000
 """Greatest size of a reply to a grant, in bytes."""
@@ -93,12 +99,13 @@ class RemoteWorker:
             priority=zenoh.Priority.INTERACTIVE_HIGH,
         )
 
-    def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> RemoteStep:
+    def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> Pending:
         """Send a grant; a picture that cannot be drawn any more counts as the worker's loss."""
         try:
-            payload = pack(item.payload for item in inputs)
+            payload = b"".join(item.payload for item in inputs)
         except RendererError as error:
-            return RemoteStep(self, seq, None, f"worker {self.name!r} cannot be called: {error}")
+            failure = WorkerLost(f"worker {self.name!r} cannot be called: {error}")
+            return StepDone(failure=failure)
         grant = Grant(
             t_ns=t_ns,
             seq=seq,
@@ -114,7 +121,7 @@ class RemoteWorker:
         )
         header = grant.model_dump_json().encode()
         replies = self._ask("step", self._timeout_s, payload, header)
-        return RemoteStep(self, seq, replies, "")
+        return RemoteStep(self, seq, replies)
 
     def receive(self, seq: int, replies: zenoh.Handler[zenoh.Reply]) -> Reply:
         """Wait for the reply to a grant, and check it; those of other programs are ignored.
@@ -143,12 +150,10 @@ class RemoteWorker:
         return zenoh_id == self._zenoh_id or (zenoh_id is None and reply.ok is None)
 
     def _ignore(self, reply: zenoh.Reply) -> None:
-        self._bus.refuse(
-            Refusal(
-                f"worker/{self.name}/step",
-                f"an answer in the name of worker {self.name!r} was ignored: it came from another "
-                f"program (Zenoh id {_zenoh_id(reply)})",
-            )
+        self._bus.refused(
+            f"worker/{self.name}/step",
+            f"an answer in the name of worker {self.name!r} was ignored: it came from another "
+            f"program (Zenoh id {_zenoh_id(reply)})",
         )
 
     def _lost(self, payload: bytes) -> WorkerLost:
@@ -168,7 +173,7 @@ class RemoteWorker:
             )
         try:
             header = StepReply.model_validate_json(attachment)
-            payloads = unpack(payload, [output.size for output in header.outputs])
+            payloads = parts_of(payload, [output.size for output in header.outputs])
         except ValueError as error:
             raise self._broken(f"answered step {seq} with", error) from None
         if header.seq != seq:
@@ -184,13 +189,7 @@ class RemoteWorker:
         return Reply(outputs, header.compute_s, header.wake_ns)
 
     def _require_sizes(self, header: StepReply) -> None:
-        """Complain about an output that is larger than what a run takes on its key.
-
-        Raises
-        ------
-        WorkerError
-            One is.
-        """
+        """Complain about an output that is larger than what a run takes on its key."""
         for output in header.outputs:
             model = worker_output(output.key)
             limit = None if model is None else model.limit
@@ -215,15 +214,12 @@ def _zenoh_id(reply: zenoh.Reply) -> str | None:
 
 @dataclass(frozen=True, slots=True)
 class RemoteStep:
-    """A grant whose reply has not come yet, or that could not be sent."""
+    """A grant whose reply has not come yet."""
 
     worker: RemoteWorker
     seq: int
-    replies: zenoh.Handler[zenoh.Reply] | None
-    failure: str
+    replies: zenoh.Handler[zenoh.Reply]
 
     def result(self) -> Reply:
         """Wait for the reply; see `RemoteWorker.receive`."""
-        if self.replies is None:
-            raise WorkerLost(self.failure)
         return self.worker.receive(self.seq, self.replies)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import queue
 import random
 import re
 import socket
@@ -11,10 +10,9 @@ import threading
 import time
 from collections.abc import Callable, Collection, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Literal
 
 import zenoh
 
@@ -27,6 +25,8 @@ from airhilt.sim.payload import Payload
 
 Answer = Callable[[bytes], None]
 """Answers a query with a payload."""
+Refused = Callable[[str, str], None]
+"""Called with the key, relative to the run, and the cause of what does not count on the bus."""
 ROOT = "airhilt"
 """First chunk of every key; the second is the run."""
 RETRY_S = 0.2
@@ -69,19 +69,12 @@ def free_endpoint() -> str:
 
 
 def configuration(
-    mode: str, kind: str, endpoint: str, more: Mapping[str, Any] = MappingProxyType({})
+    mode: Literal["router", "client"],
+    kind: Literal["listen", "connect"],
+    endpoint: str,
+    more: Mapping[str, Any] = MappingProxyType({}),
 ) -> zenoh.Config:
-    """Return a configuration with one explicit endpoint and no discovery.
-
-    Parameters
-    ----------
-    mode
-        ``router`` or ``client``.
-    kind
-        ``listen`` or ``connect``.
-    more
-        Further settings, by their keys.
-    """
+    """Return a configuration with one explicit endpoint, no discovery, and ``more`` settings."""
     config = zenoh.Config()
     settings: dict[str, Any] = {
         "mode": mode,
@@ -166,16 +159,13 @@ def find_run(session: zenoh.Session, patience_s: float) -> str:
     raise BusError(f"no run answers at the endpoint after {patience_s:g} s")
 
 
-@dataclass(frozen=True)
-class Refusal:
-    """Something on the bus that does not count: its key, relative to the run, and the cause."""
-
-    key: str
-    cause: str
-
-
 class Bus:
     """The session of a run: publishes under ``airhilt/<run>/`` and hears what others publish there.
+
+    Attributes
+    ----------
+    refused
+        Called, on any thread, with what a worker of the bus refuses.
 
     Parameters
     ----------
@@ -234,8 +224,7 @@ class Bus:
             ) from None
         self._publishers: dict[str, zenoh.Publisher] = {}
         self._latest: dict[str, bytes] = {}
-        self._refusals: queue.SimpleQueue[Refusal] = queue.SimpleQueue()
-        self._refused: Callable[[Refusal], None] = self._refusals.put
+        self.refused: Refused = _ignored
         self._hearing: list[tuple[Any, threading.Thread]] = []
         self._kept: list[Any] = [self.session.liveliness().declare_token(f"{self.prefix}/run")]
 
@@ -294,7 +283,8 @@ class Bus:
         )
 
         def take(sample: zenoh.Sample) -> None:
-            if admit(_size(sample), _source(sample)):
+            size = len(sample.payload) + len(sample.attachment or b"")
+            if admit(size, _source(sample)):
                 heard(str(sample.key_expr)[len(self.prefix) + 1 :], sample.payload.to_bytes())
 
         self._receive(pattern, subscriber, take)
@@ -312,16 +302,6 @@ class Bus:
         thread = threading.Thread(target=receive, name=f"hear {pattern}", daemon=True)
         thread.start()
         self._hearing.append((subscriber, thread))
-
-    def refuse(self, refusal: Refusal) -> None:
-        """Take note of something on the bus that does not count (any thread)."""
-        self._refused(refusal)
-
-    def hear_refusals(self, heard: Callable[[Refusal], None]) -> None:
-        """Call ``heard`` with what was refused so far, and with what will be (on any thread)."""
-        self._refused = heard
-        while not self._refusals.empty():
-            heard(self._refusals.get())
 
     def watch_workers(self, changed: Callable[[str, bool], None]) -> None:
         """Call ``changed`` with a worker's name and whether it is there (on another thread)."""
@@ -383,7 +363,7 @@ class Bus:
             subscriber.undeclare()
             thread.join()
         self._hearing.clear()
-        self._refused = self._refusals.put
+        self.refused = _ignored
         self._publishers.clear()
         self._kept.clear()
         session = self.session
@@ -393,19 +373,18 @@ class Bus:
 
 def close_session(session: zenoh.Session) -> None:
     """Close a session; if the other end does not read, it goes on closing by itself."""
-    closing = threading.Thread(target=_close, args=(session,), daemon=True)
+
+    def close() -> None:
+        with suppress(zenoh.ZError):  # Of a connected program that never reads.
+            session.close()  # type: ignore[no-untyped-call]
+
+    closing = threading.Thread(target=close, daemon=True)
     closing.start()
     closing.join(CLOSING_S)
 
 
-def _close(session: zenoh.Session) -> None:
-    """Close a session; Zenoh fails to if a connected program never reads, which harms nobody."""
-    with suppress(zenoh.ZError):
-        session.close()  # type: ignore[no-untyped-call]
-
-
-def _size(sample: zenoh.Sample) -> int:
-    return len(sample.payload) + (0 if sample.attachment is None else len(sample.attachment))
+def _ignored(_key: str, _cause: str) -> None:
+    """Take no note."""
 
 
 def _source(sample: zenoh.Sample) -> Source | None:
@@ -416,13 +395,7 @@ def _source(sample: zenoh.Sample) -> Source | None:
 
 
 def _require_shared_memory(error: zenoh.ZError) -> None:
-    """Complain if a session cannot be opened for want of shared memory, whatever the endpoint.
-
-    Raises
-    ------
-    BusError
-        The error is one of shared memory.
-    """
+    """Complain if a session cannot be opened for want of shared memory, whatever the endpoint."""
     if SHARED_MEMORY in str(error):
         raise BusError(
             f"Zenoh cannot make its shared memory in {SHARED_MEMORY_FOLDER}: {_reason(error)}; "

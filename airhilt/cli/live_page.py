@@ -27,10 +27,8 @@ def live_page(
 
     Parameters
     ----------
-    endpoint
-        Endpoint of the run; None: the one of its keys.
-    tls
-        Folder with the keys of the run; None: it asks for none.
+    endpoint, tls
+        Where the run is, and the folder with its keys; None, as the run has none of it.
     seats
         Seats that browsers may take.
     arguments

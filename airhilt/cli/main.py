@@ -12,12 +12,12 @@ import click
 
 from airhilt._version import __version__
 from airhilt.cli.output import tell
+from airhilt.cli.parameters import INTERRUPTED
 from airhilt.errors import AirhiltError, is_out_of_memory
 from airhilt.plugins import Family
 
 COMMANDS = Family("command", "airhilt.commands", "airhilt.cli.commands", "COMMAND", click.Command)
 CONTEXT = {"help_option_names": ["-h", "--help"], "max_content_width": 100}
-INTERRUPTED = 130
 OUT_OF_MEMORY = 2
 
 ADDRESS_SPACE = 3 * 10**9

@@ -90,10 +90,7 @@ def station_options(command: F) -> F:
 def refuse_page_options(missing: str) -> None:
     """Complain about the options of a page that the current command does not open.
 
-    Parameters
-    ----------
-    missing
-        Options without which it opens none.
+    It opens none without the options ``missing``.
 
     Raises
     ------
@@ -108,13 +105,7 @@ def refuse_page_options(missing: str) -> None:
 
 
 def _check_certificate(certificate: Path | None, key: Path | None) -> None:
-    """Complain about files that are no certificate with its key.
-
-    Raises
-    ------
-    StationError
-        They are none, or the key asks for a password.
-    """
+    """Complain about files that are no certificate with its key."""
     if certificate is None or key is None:
         return
     try:

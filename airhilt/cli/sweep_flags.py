@@ -120,13 +120,7 @@ def _read_configurations(parts: dict[str, Json], folder: Path) -> None:
 
 
 def _object(document: Json, name: str, origin: str) -> Json:
-    """Return a copy of an object in a document, empty if it is not there.
-
-    Raises
-    ------
-    AirhiltError
-        It is something else; ``origin`` begins the message.
-    """
+    """Return a copy of an object in a document, empty if it is not there."""
     found = document.get(name)
     if found is not None and not isinstance(found, dict):
         raise AirhiltError(f"{origin}: {name}: found {shown(found)}; expected a JSON object")
@@ -140,13 +134,7 @@ def _forget(part: Json, path: str) -> None:
 
 
 def _given(context: click.Context, set_: tuple[str, ...]) -> dict[str, tuple[Place, Any]]:
-    """Return what the command line says, by path: its place in the file, and its value there.
-
-    Raises
-    ------
-    AirhiltError
-        A path is given twice, or cannot be swept.
-    """
+    """Return what the command line says, by path: its place in the file, and its value there."""
     found: dict[str, tuple[Place, Any]] = {}
     for spelling, value in _said(context, set_):
         path = parameter(spelling).path
@@ -178,13 +166,7 @@ def _said(context: click.Context, set_: tuple[str, ...]) -> Iterator[tuple[str, 
 
 
 def _placed(path: str, text: str) -> tuple[Place, Any]:
-    """Return what a text of values is in a sweep file.
-
-    Raises
-    ------
-    AirhiltError
-        It is no text of values; the path begins the message.
-    """
+    """Return what a text of values is in a sweep file."""
     try:
         values = read_values(text)
     except AirhiltError as error:

@@ -1,12 +1,23 @@
-"""The briefing: everything that all in the airspace know before a run begins."""
+"""What is known before a run begins: the briefing of all, and the equipment of each seat."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
 
-from airhilt.messages import AirportBriefing, Briefing, RosterEntry, RunwayBriefing
+from airhilt.cosim.participants import Participants
+from airhilt.cosim.setup import Setup
+from airhilt.messages import (
+    CONTROLLER,
+    AirportBriefing,
+    Briefing,
+    RosterEntry,
+    RunwayBriefing,
+    SeatState,
+)
 from airhilt.scenario import Scenario
 from airhilt.scenario.models import AircraftSpec, VehicleSpec, WildlifeSpec
+from airhilt.sensors.radio.stations import Stations
 from airhilt.units import DEGREE, FOOT
 from airhilt.world.flight import load_aircraft_type
 from airhilt.world.site import ScenarioSite
@@ -77,3 +88,37 @@ def _charted(layout: Layout) -> AirportBriefing:
         elevation_ft=layout.elevation_m / FOOT,
         runways=tuple(runways),
     )
+
+
+def seat_states(
+    setup: Setup, participants: Participants, stations: Stations
+) -> Iterator[SeatState]:
+    """Yield the state of each seat that is left to a person."""
+    radio, options = setup.scenario.radio, setup.options
+    for seat in sorted(setup.seats):
+        frequencies_khz = stations.selectable(seat)
+        yield SeatState(
+            seat=seat,
+            **_equipment_of(seat, setup.scenario),
+            frequencies_khz=frequencies_khz,
+            tuned_khz=frequencies_khz,
+            has_own_receiver=seat in radio.receivers,
+            is_recognised=participants.does("asr"),
+            voice_is_recorded=options.voice_recording,
+            may_pause=options.pause,
+            phraseology=radio.phraseology,
+        )
+
+
+def _equipment_of(seat: str, scenario: Scenario) -> dict[str, Any]:
+    """Return the fields that say what a person at a seat is shown."""
+    for spec in scenario.actors:
+        if spec.callsign == seat and not isinstance(spec, WildlifeSpec):
+            return {
+                "category": spec.type,
+                "icao24": spec.icao24,
+                "has_adsb_in": spec.adsb_in,
+                "recipients": (seat, spec.icao24),
+            }
+    is_controller = seat == scenario.radio.controller
+    return {"recipients": (seat, CONTROLLER) if is_controller else (seat,)}

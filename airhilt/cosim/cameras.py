@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager, suppress
+from functools import partial
 from typing import TYPE_CHECKING
 
+from airhilt.cosim.context import RunContext
 from airhilt.cosim.observer import Observer
 from airhilt.cosim.participants import Participants
 from airhilt.cosim.recorded import Recorded
-from airhilt.cosim.router import MessageRouter
 from airhilt.cosim.setup import Setup
 from airhilt.cosim.world_loop import WorldLoop
 from airhilt.engine_families import NONE
@@ -20,7 +21,6 @@ from airhilt.record.pictures import KeyPictures
 from airhilt.record.video import VideoRecorder
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import AUTO
-from airhilt.sim import Director, StepRecord
 
 if TYPE_CHECKING:
     from airhilt.host.child_process import ChildProcess
@@ -29,35 +29,67 @@ if TYPE_CHECKING:
 
 
 class Vision:
-    """The cameras of a run; without a renderer, `mount`, `start` and `finish` do nothing.
+    """The cameras of a run, and the renderer that draws for them, if somebody might look.
+
+    Without a renderer, `mount`, `start` and `finish` do nothing.
 
     Parameters
     ----------
-    renderer
-        Draws; None where nothing is to be drawn, or nothing can.
-    unavailable_reason
-        Why pictures that somebody would look at cannot be drawn; empty if they can.
-    is_watched
-        True if a worker looks at the pictures.
-    notice
-        Called with what a user should know at once.
+    processes
+        Processes that have been started to draw.
+    observer
+        Is told what a user should know at once, such as why nothing can be drawn.
+
+    Raises
+    ------
+    AirhiltError
+        There is no such renderer, or a camera could see nothing.
+    RendererError
+        Nothing can be drawn here of what was drawn when the run was recorded.
+    RunStopped
+        Nothing can be drawn, and the run is strict.
     """
 
     def __init__(
         self,
         setup: Setup,
-        renderer: RendererProcess | None,
-        unavailable_reason: str,
-        is_watched: bool,
-        notice: Callable[[str], None],
+        participants: Participants,
+        processes: Sequence[ChildProcess],
+        observer: Observer,
     ) -> None:
-        self._setup = setup
-        self._renderer = renderer
-        self._unavailable_reason = unavailable_reason
-        self._is_watched = is_watched
-        self._notice = notice
+        options, recorded = setup.options, setup.recorded
+        self._renderer: RendererProcess | None = None
+        self._unavailable_reason = recorded.unavailable_reason
+        """Why pictures that somebody would look at cannot be drawn; empty if they can."""
+        self._is_watched = participants.does("vision")
         self._sensor: CameraSensor | None = None
         self._recorders: list[KeyPictures | VideoRecorder] = []
+        if options.cameras and options.renderer != AUTO and not recorded.is_replay:
+            from airhilt.sensors.cameras.renderers import require_known
+
+            require_known(options.renderer)
+        has_viewers = _has_viewers(setup, participants) or recorded.has_pictures
+        if self._unavailable_reason or not has_viewers:
+            return
+        try:
+            self._renderer = _open_renderer(setup.scenario, options, processes)
+        except RendererError as error:
+            if recorded.is_replay:
+                raise RendererError(f"cannot be replayed here: {error}") from None
+            self._unavailable_reason = str(error)
+            if error.is_of_machine:
+                observer.machine_failed(str(error))
+            text = f"vision is not evaluated: {error}"
+            if options.strict:
+                raise RunStopped(
+                    f"not begun, as --strict asks: {text}; leave cameras out with --no-cameras"
+                ) from None
+            observer.notice(text)
+
+    def close(self) -> None:
+        """Let the renderer go."""
+        if self._renderer is not None:
+            self._renderer.close()
 
     @property
     def renderer(self) -> str:
@@ -71,50 +103,33 @@ class Vision:
             return "not evaluated", self._unavailable_reason
         return "on" if self._renderer is not None and self._is_watched else "off", ""
 
-    def mount(
-        self,
-        director: Director,
-        router: MessageRouter,
-        world: WorldLoop,
-        *,
-        lost: Callable[[str, bool], None],
-    ) -> None:
-        """Add the cameras to a run, and let recorders take what is published.
-
-        Parameters
-        ----------
-        world
-            The actors that the cameras show.
-        lost
-            Called when there will be no more pictures, with the cause, and true if that is of the
-            machine.
-        """
+    def mount(self, context: RunContext, world: WorldLoop) -> None:
+        """Add the cameras to a run, and let recorders take what is published."""
         if self._renderer is None:
             return
         from airhilt.sensors.cameras.sensor import CameraSensor
         from airhilt.sensors.cameras.shared_pictures import SharedPictures
 
-        setup = self._setup
+        setup = context.setup
         actors = setup.scenario.pair or tuple(setup.actors)
         pictures_path, video_path = setup.folder.pictures_path, setup.folder.video_path
         self._recorders = [
             KeyPictures(pictures_path, actors=actors, closest_ns=world.closest_approach_ns)
         ]
         if setup.options.video:
-            self._recorders.append(VideoRecorder(video_path, notice=self._notice))
-        for recorder in self._recorders:
-            router.observe(recorder.take)
+            self._recorders.append(VideoRecorder(video_path, notice=context.observer.notice))
+        context.router.observers += (recorder.take for recorder in self._recorders)
         renderer = self._renderer
         self._sensor = CameraSensor(
-            director,
+            context.director,
             SharedPictures(renderer) if renderer.identity else renderer,
             setup.scenario.cameras,
             setup.site,
             setup.actors,
             is_adaptive=setup.options.camera_rate == "adaptive",
-            state_at_ns=world.state_at_ns,
-            publish=router.publish,
-            lost=lost,
+            state_at_ns=lambda: world.ticked_ns,
+            publish=context.router.publish,
+            lost=partial(context.lose_modality, "vision", "cameras_lost", "cameras"),
             loss=setup.recorded.cameras_lost,
         )
 
@@ -122,10 +137,6 @@ class Vision:
         """Publish what never changes about the cameras, and schedule their exposures."""
         if self._sensor is not None:
             self._sensor.start()
-
-    def unfinished(self) -> Sequence[StepRecord]:
-        """Return nothing: a picture is published at the instant of its exposure."""
-        return ()
 
     def finish(self) -> None:
         """Write what is still to be kept of the pictures.
@@ -180,59 +191,6 @@ def started_renderers(
                         stack.callback(process.close)
                         processes.append(process)
         yield processes
-
-
-@contextmanager
-def open_vision(
-    setup: Setup,
-    participants: Participants,
-    processes: Sequence[ChildProcess],
-    observer: Observer,
-) -> Iterator[Vision]:
-    """Open the renderer for the time of a run, if somebody might look at its pictures.
-
-    Parameters
-    ----------
-    processes
-        Processes that have been started to draw.
-    observer
-        Is told what a user should know at once, such as why nothing can be drawn.
-
-    Raises
-    ------
-    AirhiltError
-        There is no such renderer, or a camera could see nothing.
-    RendererError
-        Nothing can be drawn here of what was drawn when the run was recorded.
-    RunStopped
-        Nothing can be drawn, and the run is strict.
-    """
-    options, recorded = setup.options, setup.recorded
-    unavailable_reason = recorded.unavailable_reason
-    renderer: RendererProcess | None = None
-    if options.cameras and options.renderer != AUTO and not recorded.is_replay:
-        from airhilt.sensors.cameras.renderers import require_known
-
-        require_known(options.renderer)
-    with ExitStack() as stack:
-        if not unavailable_reason and (_has_viewers(setup, participants) or recorded.has_pictures):
-            try:
-                renderer = _open_renderer(setup.scenario, options, processes)
-                stack.callback(renderer.close)
-            except RendererError as error:
-                if recorded.is_replay:
-                    raise RendererError(f"cannot be replayed here: {error}") from None
-                unavailable_reason = str(error)
-                if error.is_of_machine:
-                    observer.machine_failed(unavailable_reason)
-                text = f"vision is not evaluated: {unavailable_reason}"
-                if options.strict:
-                    raise RunStopped(
-                        f"not begun, as --strict asks: {text}; leave cameras out with --no-cameras"
-                    ) from None
-                observer.notice(text)
-        is_watched = participants.does("vision")
-        yield Vision(setup, renderer, unavailable_reason, is_watched, observer.notice)
 
 
 def _has_viewers(setup: Setup, participants: Participants) -> bool:

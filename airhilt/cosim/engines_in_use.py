@@ -27,11 +27,6 @@ def engines_of(options: Options, modalities: Collection[str]) -> Iterator[UsedEn
     """Yield the engines of the reference workers of some modalities.
 
     One that is not installed is left out: a replay takes its results from the record.
-
-    Parameters
-    ----------
-    options
-        Options that name the assistant of the run.
     """
     for family in FAMILIES:
         text = getattr(options, family.option)
@@ -43,15 +38,7 @@ def engines_of(options: Options, modalities: Collection[str]) -> Iterator[UsedEn
 def engines_in_use(
     options: Options, equipment: Iterable[str], workers: Iterable[Participant]
 ) -> list[UsedEngine]:
-    """Return the engines of a run; it looks for them in every installed package.
-
-    Parameters
-    ----------
-    options
-        Options that name the assistant of the run.
-    equipment
-        Engines of the equipment of the world.
-    """
+    """Return the engines of a run, whose options name its assistant, and of its equipment."""
     does: set[str] = {each.description.modality for each in workers if each.where == "in process"}
     if options.speech:
         does.add("tts")  # Crews and controllers speak with it, too.

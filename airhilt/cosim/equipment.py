@@ -22,19 +22,10 @@ LATENCY = DeclaredLatency(median_s=0.1, sigma=0.0)
 an assumption."""
 
 
-def with_requested_equipment(scenario: Scenario, requested: Sequence[str]) -> Scenario:
-    """Return a scenario with the equipment that the options ask for besides its own."""
-    equipment = tuple(dict.fromkeys((*scenario.equipment, *requested)))
-    return scenario.model_copy(update={"equipment": equipment})
-
-
 def equipment_of(scenario: Scenario, taken: Collection[str]) -> list[Participant]:
-    """Return the workers that are the equipment of a scenario.
+    """Return the workers that are the equipment of a scenario, without those that are ``taken``.
 
-    Parameters
-    ----------
-    taken
-        Names of workers that are there already: a replay has some from its record.
+    A replay has the names of some from its record.
 
     Raises
     ------
@@ -89,18 +80,7 @@ def equipment_name(engine: str) -> str:
 
 
 class EquipmentWorker:
-    """Publishes the advisories of a decision worker as alerts of equipment.
-
-    Parameters
-    ----------
-    decision
-        The worker that decides.
-
-    Raises
-    ------
-    WorkerError
-        It publishes something else than advisories.
-    """
+    """Publishes the advisories of a decision worker as alerts of equipment."""
 
     def __init__(self, decision: Worker) -> None:
         self._decision = decision

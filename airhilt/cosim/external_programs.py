@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from functools import partial
 
 from pydantic import ValidationError
 
 from airhilt.bus.intake import Intake
-from airhilt.bus.session import Answer, Bus, Refusal
-from airhilt.cosim.events import EventPublisher
-from airhilt.cosim.modalities import Modalities
-from airhilt.cosim.observer import Observer
-from airhilt.cosim.router import MessageRouter
+from airhilt.bus.session import Answer, Bus
+from airhilt.cosim.context import RunContext
+from airhilt.cosim.participants import Participants
 from airhilt.errors import WorkerError, first_problem
 from airhilt.host.text import readable
 from airhilt.messages import (
@@ -36,7 +34,7 @@ from airhilt.messages import (
     key_chunk,
 )
 from airhilt.seats import Seats
-from airhilt.sim import Director, RealTime, Virtual
+from airhilt.sim import RealTime, Virtual
 from airhilt.workers.pool import is_match, parse_output
 
 PAGE = "page"
@@ -79,45 +77,26 @@ class ExternalPrograms:
         True if such a program has published.
     has_decision
         True if somebody decides, so that its first advisory changes nothing.
+    dropped
+        Number of messages that were dropped, by kind of key and cause; see `finish`.
 
     Parameters
     ----------
     seats
         Seats that are left to people.
-    workers
-        Names of the workers that take grants: their advisories are not those of a program.
-    keeps_voices
-        False leaves the voices of people out of the log.
-    is_strict
-        True if a message that is refused stops the run.
     """
 
-    def __init__(
-        self,
-        director: Director,
-        router: MessageRouter,
-        event: EventPublisher,
-        modalities: Modalities,
-        observer: Observer,
-        seats: Seats,
-        *,
-        workers: Collection[str],
-        has_decision: bool,
-        keeps_voices: bool,
-        is_strict: bool,
-    ) -> None:
+    def __init__(self, context: RunContext, seats: Seats, participants: Participants) -> None:
+        options = context.setup.options
         self.heard = False
-        self._refusals: set[str] = set()
-        self.has_decision = has_decision
-        self._director = director
-        self._router = router
-        self._event = event
-        self._modalities = modalities
-        self._observer = observer
+        self.has_decision = bool(participants.programs) or participants.does("decision")
+        self._context = context
+        self._director = context.director
         self._seats = seats
-        self._workers = workers
-        self._keeps_voices = keeps_voices
-        self._is_strict = is_strict
+        self._workers = [worker.description.name for worker in participants.workers]
+        self._keeps_voices = options.voice_recording
+        self._is_strict = options.strict
+        self._refusals: set[str] = set()
         self._act_keys = frozenset(f"seat/{key_chunk(state.seat)}/do" for state in seats)
         self._limits = {
             **LIMITS,
@@ -125,15 +104,15 @@ class ExternalPrograms:
             **dict.fromkeys((ACTS, *self._act_keys), ACTS_LIMIT),
         }
         self._intake = Intake(self._limits, self._dropping)
-        self._dropped: dict[str, int] = {}
+        self.dropped: dict[str, int] = {}
 
     def serve(self, bus: Bus) -> None:
         """Hear what programs put on the bus, and what of it does not count."""
-        bus.hear_refusals(self._hear_refusal)
+        bus.refused = self._hear_refusal
         bus.watch_holders(lambda holder: self._director.post(lambda: self._end_holds(holder)))
         bus.answer(ACTS, partial(self._asked, bus))
         for keys in HEARD:
-            bus.hear(keys, self._post, partial(self._intake.admit, keys))
+            bus.hear(keys, self._hear, partial(self._intake.admit, keys))
 
     def _asked(self, bus: Bus, key: str, data: bytes, answer: Answer) -> None:
         """Take in a query by which somebody acts at a seat (any thread)."""
@@ -160,7 +139,7 @@ class ExternalPrograms:
         self._intake.release(size)
         why = action if isinstance(action, str) else self._seats.refusal(key, action)
         if isinstance(action, str) or why:
-            self._event("refused", readable(key), readable(why))
+            self._context.event("refused", readable(key), readable(why))
             answer(_refused(why))
             return
         self._need_real_time(key)
@@ -176,23 +155,22 @@ class ExternalPrograms:
         if isinstance(action.act, SayVoice) and not self._keeps_voices:
             silent = action.act.model_copy(update={"pcm": b""})
             logged = action.model_copy(update={"act": silent})
-        self._router.heard(key, action, UNREGISTERED, logged)
+        self._context.router.heard(key, action, UNREGISTERED, logged)
 
     def _end_holds(self, holder: str) -> None:
         """Let who is gone leave the seat."""
         for key in self._seats.held_by(holder):
             self._accept(key, SeatAction(holder=holder, act=LeaveSeat()))
 
-    def _hear_refusal(self, refusal: Refusal) -> None:
+    def _hear_refusal(self, key: str, cause: str) -> None:
+        """Take in that an answer on the bus does not count (any thread)."""
+
+        def take() -> None:
+            self._intake.release(0)
+            self.take_refused(key, cause)
+
         if self._intake.admit(ANSWERS, 0):
-            self._director.post(lambda: self._take_answer(refusal))
-
-    def _take_answer(self, refusal: Refusal) -> None:
-        self._intake.release(0)
-        self.take_refused(refusal.key, refusal.cause)
-
-    def _post(self, key: str, data: bytes) -> None:
-        self._director.post(lambda: self._hear(key, data))
+            self._director.post(take)
 
     def _dropping(self, keys: str, cause: DropCause) -> None:
         """Tell of the first message of its kind that is dropped for this cause (any thread)."""
@@ -201,17 +179,21 @@ class ExternalPrograms:
         self._director.post(lambda: self.take_refused(keys, text))
 
     def _hear(self, key: str, data: bytes) -> None:
-        """Take a message from the bus."""
-        self._intake.release(len(data))
-        if key != PAGE:
-            self._need_real_time(key)
-        self.take(key, data)
+        """Take in a message from the bus (any thread)."""
+
+        def take() -> None:
+            self._intake.release(len(data))
+            if key != PAGE:
+                self._need_real_time(key)
+            self.take(key, data)
+
+        self._director.post(take)
 
     def _need_real_time(self, key: str) -> None:
         """Go on in real time: nobody can keep up with a run that goes faster without grants."""
         if isinstance(self._director.pace, Virtual):
             self._director.change_pace(RealTime())
-            self._observer.notice(
+            self._context.observer.notice(
                 f"a program that takes no grants published on {key}: going on in real time"
             )
 
@@ -236,47 +218,30 @@ class ExternalPrograms:
         self._note_first(key)
         try:
             message = _parse(key, data, self._director.now_ns)
-            self._require_own(message)
-            self._require_no_seat(key, message)
+            self._require_allowed(key, message)
         except WorkerError as error:
             self._refuse(key, str(error))
             if self._is_strict:
                 raise
             return
         if isinstance(message, PageRefusal):
-            self._event("refused", PAGE, readable(message.text))
+            self._context.event("refused", PAGE, readable(message.text))
             return
         stamped = message.model_copy(update={"t_ns": self._director.now_ns})
         if isinstance(stamped, Advisory) and not self.has_decision:
             self.has_decision = True
-            self._modalities.set("decision", "on")
-        self._router.heard(key, stamped, UNREGISTERED)
+            self._context.set_modality("decision", "on")
+        self._context.router.heard(key, stamped, UNREGISTERED)
 
-    def _require_own(self, message: Message) -> None:
-        """Complain about an advisory that says it is of a worker that takes grants.
-
-        Raises
-        ------
-        WorkerError
-            Its id begins with the name of one.
-        """
-        if not isinstance(message, Advisory):
-            return
-        for name in self._workers:
-            if message.id.startswith(f"{name}-"):
-                raise WorkerError(
-                    f"a program published an advisory with the id {message.id!r}; expected an id "
-                    f"of its own: this one belongs to worker {name!r}"
-                )
-
-    def _require_no_seat(self, key: str, message: Message) -> None:
-        """Complain about a command to an actor that is left to a person.
-
-        Raises
-        ------
-        WorkerError
-            It is one.
-        """
+    def _require_allowed(self, key: str, message: Message) -> None:
+        """Complain about an advisory of a worker, and a command to an actor left to a person."""
+        if isinstance(message, Advisory):
+            for name in self._workers:
+                if message.id.startswith(f"{name}-"):
+                    raise WorkerError(
+                        f"a program published an advisory with the id {message.id!r}; expected an "
+                        f"id of its own: this one belongs to worker {name!r}"
+                    )
         if isinstance(message, ActorCommand) and self._seats.at(key) is not None:
             raise WorkerError(
                 f"a program published on {key!r}, whose actor is left to a person; expected an act "
@@ -286,7 +251,7 @@ class ExternalPrograms:
     def take_refused(self, key: str, cause: str) -> None:
         """Record a refusal whose message is unavailable, such as that of an earlier run."""
         if key == PAGE or is_match(key, ACTS):
-            self._event("refused", readable(key), readable(cause))
+            self._context.event("refused", readable(key), readable(cause))
             return
         self._note_first(key)
         self._refuse(key, cause)
@@ -299,42 +264,32 @@ class ExternalPrograms:
     def finish(self) -> None:
         """Publish how many messages were dropped; what is dropped from now on is not counted."""
         for (keys, cause), number in sorted(self._intake.dropped.items()):
-            self._dropped[f"{keys}: {cause}"] = number
+            self.dropped[f"{keys}: {cause}"] = number
             message = DroppedMessages(
                 t_ns=self._director.now_ns, keys=keys, cause=cause, messages=number
             )
-            self._router.publish("truth/dropped", message)
+            self._context.router.publish("truth/dropped", message)
         self._intake.close()
-
-    def dropped(self) -> dict[str, int]:
-        """Return how many messages were dropped, by kind of key and cause; see `finish`."""
-        return self._dropped
 
     def _note_first(self, key: str) -> None:
         """Tell once that such a program has published; a page that refuses takes no part."""
         if not self.heard and key != PAGE:
             self.heard = True
-            self._event("unregistered", key, "a program that takes no grants has published")
+            self._context.event("unregistered", key, "a program that takes no grants has published")
 
     def _refuse(self, key: str, cause: str) -> None:
         cause = readable(cause)
-        self._event("refused", readable(key), cause)
+        self._context.event("refused", readable(key), cause)
         if cause in self._refusals or len(self._refusals) > MOST_NOTICES:
             return
         self._refusals.add(cause)
         if len(self._refusals) > MOST_NOTICES:
             cause = "more was refused: the log has it all, as events of the kind refused"
-        self._observer.notice(cause)
+        self._context.observer.notice(cause)
 
 
 def _parse(key: str, data: bytes, now_ns: int) -> Message:
-    """Return the message that a program put on a key.
-
-    Raises
-    ------
-    WorkerError
-        It is not what belongs there, or it is a voice.
-    """
+    """Return the message that a program put on a key."""
     if key.startswith("tts/"):
         raise WorkerError(
             "a program published on 'tts/*' without a grant; expected a voice that takes grants "

@@ -2,17 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.cosim.engines_in_use import is_own_engine
-from airhilt.cosim.given_modalities import inputs_given
 from airhilt.engine_families import ASSISTANTS, EXTERNAL, FAMILIES, NONE
-from airhilt.errors import AirhiltError, shown
+from airhilt.errors import AirhiltError, WorkerError, shown
+from airhilt.messages import InputSpec
 from airhilt.options import MODALITIES, Options, flag_of
 from airhilt.scenario import Scenario
+
+KEYS: Mapping[str, tuple[str, ...]] = {
+    "adsb": ("adsb",),
+    "asr": ("asr", "radio", "enhanced", "seat"),
+    "vision": ("vision", "camera"),
+}
+"""First chunks of the keys of each modality: its results, and the sound or pictures behind them."""
+NO_EVIDENCE = frozenset({"briefing", "status"})
+"""First chunks of keys that tell an assistant of the run, and nothing of the traffic."""
 
 
 def check_options(options: Options, scenario: Scenario) -> None:
@@ -73,13 +82,7 @@ def _against(options: Options, name: str, needs: tuple[str, ...]) -> Iterator[st
 
 
 def _require_use_of_enhancer(options: Options, topology: str) -> None:
-    """Complain about an enhancer whose output nobody would use.
-
-    Raises
-    ------
-    AirhiltError
-        It is no part of the topology, or calls are recognised before they can be enhanced.
-    """
+    """Complain about an enhancer whose output nobody would use."""
     if topology != "asr_first":
         raise AirhiltError(
             f"--enhancer {shown(options.enhancer)} would do nothing with --topology {topology}; "
@@ -93,13 +96,7 @@ def _require_use_of_enhancer(options: Options, topology: str) -> None:
 
 
 def _require_evidence(options: Options) -> None:
-    """Complain about modalities that leave an engine of AIRHILT nothing to read.
-
-    Raises
-    ------
-    WorkerError
-        Nothing of the traffic is left to it.
-    """
+    """Complain about modalities that leave an engine of AIRHILT nothing to read."""
     name = options.assistant or ASSISTANTS.default
     if options.given_modalities.issuperset(MODALITIES) or not is_own_engine(name):
         return
@@ -123,3 +120,37 @@ def require_known_equipment(names: Iterable[str]) -> None:
                 f"equipment {name!r}: it asks a program elsewhere; expected an engine that "
                 "decides by itself"
             )
+
+
+def inputs_given(
+    name: str, inputs: Sequence[InputSpec], given: Collection[str]
+) -> tuple[InputSpec, ...]:
+    """Return those of the inputs that belong to no modality, or to one that is given.
+
+    Parameters
+    ----------
+    name
+        Name of the assistant, for the error message.
+
+    Raises
+    ------
+    WorkerError
+        Nothing of the traffic is left.
+    """
+    withheld = {key for modality, keys in KEYS.items() if modality not in given for key in keys}
+    left = tuple(each for each in inputs if _first(each) not in withheld)
+    if len(left) < len(inputs) and all(_first(each) in NO_EVIDENCE for each in left):
+        reads = "+".join(
+            modality
+            for modality, keys in KEYS.items()
+            if any(_first(each) in keys for each in inputs)
+        )
+        raise WorkerError(
+            f"--modalities {'+'.join(each for each in KEYS if each in given)}: assistant {name!r} "
+            f"reads {reads}, so nothing is left to it; expected some of that"
+        )
+    return left
+
+
+def _first(wanted: InputSpec) -> str:
+    return wanted.key.partition("/")[0]

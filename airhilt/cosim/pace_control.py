@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from airhilt.bus.session import Bus
-from airhilt.cosim.events import EventPublisher
-from airhilt.cosim.radio import RunRadio
+from airhilt.cosim.context import RunContext
 from airhilt.messages import (
     AFTER_STALL_S,
     STALLED,
@@ -17,7 +16,8 @@ from airhilt.messages import (
     TakeSeat,
 )
 from airhilt.seats import Seats
-from airhilt.sim import Director, Pace, Paused, RealTime, Virtual
+from airhilt.sensors.radio.conversation import RadioConversation
+from airhilt.sim import Pace, Paused, RealTime, Virtual
 from airhilt.sim.payload import Payload
 from airhilt.units import SECOND_NS, seconds_to_ns
 
@@ -28,27 +28,16 @@ MOST_BEHIND_NS = SECOND_NS
 class PaceControl:
     """Changes how fast the time of a run passes, and logs it.
 
-    Once everybody has left the seats, time passes in real time again: nobody else could let it go
-    on. A run that waits for its seats goes on waiting.
-
-    A run with people that was stopped for a while, or that the machine does not keep up with, does
-    not make up for it: time never passes faster for them than the pace says.
-
-    A run in virtual time, such as a replay, logs the change and goes on as fast as before.
-
-    It publishes the clock of the run, of which the pace is a part.
+    Once everybody has left the seats, time passes in real time again. A run with people does not
+    make up for a stall: time never passes faster for them than the pace says. A run in virtual
+    time, such as a replay, logs the change and goes on as fast as before.
     """
 
     def __init__(
-        self,
-        director: Director,
-        event: EventPublisher,
-        seats: Seats,
-        radio: RunRadio,
-        bus: Bus,
+        self, context: RunContext, seats: Seats, radio: RadioConversation, bus: Bus
     ) -> None:
-        self._director = director
-        self._event = event
+        self._context = context
+        self._director = context.director
         self._seats = seats
         self._radio = radio
         self._bus = bus
@@ -56,7 +45,7 @@ class PaceControl:
         self._is_awaiting = False
         """True while the run waits for its seats: it has not begun."""
         self._is_at_end = False
-        pace = director.pace
+        pace = self._director.pace
         self._begun_factor = pace.factor if isinstance(pace, RealTime) else 1.0
         self._lost_ns = 0
         self._lost_until_ns = 0
@@ -71,16 +60,12 @@ class PaceControl:
         lost_ns = self._lost_ns if self._director.now_ns < self._lost_until_ns else 0
         return self._director.behind_ns + lost_ns
 
-    def keep_time(self) -> None:
-        """Lose the time of stalls from now on."""
-        self._director.lose_time(MOST_BEHIND_NS, self.stall)
-
     def stall(self, lost_ns: int = 0) -> None:
         """Log that time was lost; a replay does not know how much."""
         now_ns = self._director.now_ns
         self._lost_ns = lost_ns + (self._lost_ns if now_ns < self._lost_until_ns else 0)
         self._lost_until_ns = now_ns + seconds_to_ns(AFTER_STALL_S)
-        self._event("pace", "run", STALLED)
+        self._context.event("pace", "run", STALLED)
         self.publish_clock()
 
     def wait_for_seats(self) -> None:
@@ -98,7 +83,7 @@ class PaceControl:
         self._is_awaiting = False
         self._factor = factor
         pace = Paused() if factor == 0.0 else RealTime(factor)
-        self._event("pace", "run", pace.name)
+        self._context.event("pace", "run", pace.name)
         if factor == 0.0:
             self._radio.pause()
         self._seats.change_all(pace=pace.name)

@@ -2,21 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass, replace
 
-from airhilt.bus.attach import RESERVED, attach
+from airhilt.bus.attach import attach, require_different_names
 from airhilt.bus.session import Bus
 from airhilt.cosim.engines_in_use import engines_in_use, is_of_user, is_remote, other_machines
 from airhilt.cosim.equipment import equipment_of, require_no_equipment
-from airhilt.cosim.given_modalities import limited
-from airhilt.cosim.recorded import Recorded
+from airhilt.cosim.option_checks import inputs_given
 from airhilt.cosim.reference_workers import reference_workers, speak_min_level
+from airhilt.cosim.setup import Setup
 from airhilt.engine_families import ASSISTANTS, EXTERNAL
 from airhilt.errors import WorkerError
 from airhilt.messages import Modality, Severity
 from airhilt.options import Options
-from airhilt.scenario import Scenario
 from airhilt.workers import LocalWorker, Worker
 from airhilt.workers.pool import Participant, Where
 
@@ -62,12 +61,7 @@ class Participants:
 
 
 def connect(
-    options: Options,
-    scenario: Scenario,
-    recorded: Recorded,
-    bus: Bus,
-    notice: Callable[[str], None],
-    given: Sequence[Worker] = (),
+    setup: Setup, bus: Bus, notice: Callable[[str], None], given: Sequence[Worker] = ()
 ) -> Participants:
     """Wait for the programs that are to attach, and make the workers that nobody else is.
 
@@ -85,10 +79,10 @@ def connect(
     SpeechError, VisionError
         An engine cannot be loaded.
     WorkerError
-        A worker has no description or no method `step`, two have the same name, or one decides
-        though the options name another assistant, or reads nothing that the options give it. Or
-        one would ask a service in a replay.
+        A worker is none, cannot be told from another, or is not what the options or the record
+        ask for.
     """
+    options, recorded = setup.options, setup.recorded
     workers = list(recorded.workers)
     workers += [_participant(worker, "caller", is_of_user=True) for worker in given]
     attached = attach(bus, options.attach, options.attach_timeout_s, options.step_timeout_s, notice)
@@ -101,29 +95,45 @@ def connect(
         require_no_equipment(workers)
     programs = [worker.name for worker, description in attached if description is None]
     programs = programs or list(recorded.programs)
-    _require_no_programs(options, programs)
     taken = {worker.description.modality for worker in workers}
-    if "decision" in taken and not recorded.is_replay:
-        assistant = _external_assistant(options)
-    else:
-        may_decide = "decision" in taken or bool(programs)
-        assistant = options.assistant or (EXTERNAL if may_decide else ASSISTANTS.default)
-    _require_used(options, assistant)
+    assistant = _assistant(options, recorded.is_replay, "decision" in taken, programs)
     options = options.model_copy(update={"assistant": assistant})
     made = [
         _participant(worker, "in process", is_of_user(options, worker.description.modality))
-        for worker in reference_workers(options, scenario, taken)
+        for worker in reference_workers(options, setup.scenario, taken)
     ]
     if recorded.is_replay:
         _require_no_service(made, options)
     else:
         for sentence in other_machines(options, engines_in_use(options, (), made)):
             notice(sentence)
-    workers += made
-    workers = [limited(worker, options.given_modalities) for worker in workers]
-    workers += equipment_of(scenario, [worker.description.name for worker in workers])
-    _require_different_names(workers, programs)
+    workers = [limited(worker, options.given_modalities) for worker in (*workers, *made)]
+    workers += equipment_of(setup.scenario, [worker.description.name for worker in workers])
+    require_different_names([*(each.description.name for each in workers), *programs])
     return Participants(assistant, tuple(workers), tuple(programs))
+
+
+def _assistant(
+    options: Options, is_replay: bool, has_decision: bool, programs: Sequence[str]
+) -> str:
+    """Return the name of the assistant of a run, if what the options say of it can be."""
+    if has_decision and not is_replay and options.assistant not in (None, EXTERNAL):
+        raise WorkerError(
+            f"assistant {options.assistant!r}, but a worker of yours decides; expected one of them"
+        )
+    if programs and options.modalities != Options.model_fields["modalities"].default:
+        raise WorkerError(
+            f"--modalities {options.modalities}: {programs[0]!r} takes no grants, so it hears "
+            "everything on the bus; expected a worker (docs/workers.md)"
+        )
+    may_decide = has_decision or bool(programs)
+    assistant = options.assistant or (EXTERNAL if may_decide else ASSISTANTS.default)
+    if assistant == EXTERNAL and options.assistant_config is not None:
+        raise WorkerError(
+            "--assistant-config would do nothing: a worker or program of yours decides; expected "
+            "only one of the two"
+        )
+    return assistant
 
 
 def _require_no_service(workers: Sequence[Participant], options: Options) -> None:
@@ -131,11 +141,6 @@ def _require_no_service(workers: Sequence[Participant], options: Options) -> Non
 
     A run records what each service answers, so that its replay sends nothing, and no key, to the
     addresses in a record that may be somebody else's.
-
-    Raises
-    ------
-    WorkerError
-        The record names a service, and has not the worker that asked it.
     """
     for worker in workers:
         if is_remote(options, worker.description.modality):
@@ -146,69 +151,19 @@ def _require_no_service(workers: Sequence[Participant], options: Options) -> Non
             )
 
 
-def _external_assistant(options: Options) -> str:
-    """Return the name of an assistant whose decisions a worker of the user makes.
-
-    Raises
-    ------
-    WorkerError
-        The options name another one, or ask for none.
-    """
-    if options.assistant not in (None, EXTERNAL):
-        raise WorkerError(
-            f"assistant {options.assistant!r}, but a worker of yours decides; expected one of them"
-        )
-    return EXTERNAL
-
-
-def _require_used(options: Options, assistant: str) -> None:
-    """Complain about a configuration of an assistant that the run does not make.
-
-    Raises
-    ------
-    WorkerError
-        A worker or program of the user decides.
-    """
-    if assistant == EXTERNAL and options.assistant_config is not None:
-        raise WorkerError(
-            "--assistant-config would do nothing: a worker or program of yours decides; expected "
-            "only one of the two"
-        )
-
-
-def _require_no_programs(options: Options, programs: Sequence[str]) -> None:
-    """Complain about limited modalities where a program without grants reads the whole bus.
-
-    Raises
-    ------
-    WorkerError
-        There is such a program.
-    """
-    if programs and options.modalities != Options.model_fields["modalities"].default:
-        raise WorkerError(
-            f"--modalities {options.modalities}: {programs[0]!r} takes no grants, so it hears "
-            "everything on the bus; expected a worker (docs/workers.md)"
-        )
-
-
 def _participant(worker: Worker, where: Where, is_of_user: bool) -> Participant:
     """Return a worker of this process as one of the run; see `LocalWorker` for its errors."""
     local = LocalWorker(worker)
     return Participant(local.description, local, where, is_of_user)
 
 
-def _require_different_names(workers: Sequence[Participant], programs: Sequence[str]) -> None:
-    names = [*(worker.description.name for worker in workers), *programs]
-    for name in names:
-        if name in RESERVED:
-            raise WorkerError(
-                f"a worker is named {name!r}, as the log calls others; expected another name"
-            )
-        if names.count(name) > 1:
-            raise WorkerError(f"two workers are named {name!r}; expected a name for each")
-        for other in names:
-            if other.startswith(f"{name}-"):
-                raise WorkerError(
-                    f"two workers are named {name!r} and {other!r}: an id that begins with "
-                    f"'{other}-' would be of both; expected a name that does not begin the other"
-                )
+def limited(worker: Participant, given: Collection[str]) -> Participant:
+    """Return a worker that, if it decides, has inputs of the given modalities only.
+
+    Others keep their inputs; see `inputs_given` for the error.
+    """
+    description = worker.description
+    if description.modality != "decision":
+        return worker
+    inputs = inputs_given(description.engine or description.name, description.inputs, given)
+    return replace(worker, description=description.model_copy(update={"inputs": inputs}))

@@ -14,7 +14,7 @@ from pydantic import ValidationError
 
 from airhilt.cosim.differences import first_difference
 from airhilt.cosim.observer import Observer
-from airhilt.cosim.recording import depends_on_log, read_recorded
+from airhilt.cosim.recorded import depends_on_log, read_recorded
 from airhilt.cosim.simulation import run
 from airhilt.errors import RunFolderError, first_problem
 from airhilt.host.files import content_sha256
@@ -130,13 +130,7 @@ def _configuration(info: RunInfo) -> dict[str, Any] | None:
 
 
 def _require_inputs(original: Run) -> None:
-    """Refuse a recording that is damaged where what came from outside may have been.
-
-    Raises
-    ------
-    RunFolderError
-        The log is damaged, and has what other programs or services said.
-    """
+    """Refuse a recording that is damaged where what came from outside may have been."""
     if original.log_damage and depends_on_log(original.info):
         raise RunFolderError(
             f"{original.folder.path}: {original.log_damage}; a replay needs it, because other "

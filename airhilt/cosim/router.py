@@ -18,32 +18,29 @@ CONSTANT = (Briefing, SeatState, RadarInfo)
 
 
 class MessageRouter:
-    """Publishes a message once to everybody; truth reaches the log and viewers only."""
+    """Publishes a message once to everybody; truth reaches the log and viewers only.
+
+    Attributes
+    ----------
+    observers
+        Called with every message, truth too: they measure the run.
+    listeners
+        Called with every message that is not truth.
+    attributed
+        Called with every message that is not truth, and the name of its publisher.
+    """
 
     def __init__(self, bus: Bus, log: LogWriter) -> None:
         self._bus = bus
         self._log = log
-        self._listeners: list[Listener] = []
-        self._observers: list[Listener] = []
-        self._attributed: list[Attributed] = []
-
-    def listen(self, listener: Listener) -> None:
-        """Call ``listener`` with every message that is not truth."""
-        self._listeners.append(listener)
-
-    def observe(self, observer: Listener) -> None:
-        """Call ``observer`` with every message, truth too: for what measures the run."""
-        self._observers.append(observer)
-
-    def attribute(self, listener: Attributed) -> None:
-        """Call ``listener`` with every message that is not truth, and the name of its publisher."""
-        self._attributed.append(listener)
+        self.observers: list[Listener] = []
+        self.listeners: list[Listener] = []
+        self.attributed: list[Attributed] = []
 
     def clear(self) -> None:
-        """Forget all listeners: the run is over."""
-        self._listeners.clear()
-        self._observers.clear()
-        self._attributed.clear()
+        """Forget all who are called: the run is over."""
+        for called in (self.observers, self.listeners, self.attributed):
+            called.clear()
 
     def publish(
         self, key: str, message: Message, publisher: str = RUN, raw: Payload | None = None
@@ -63,14 +60,7 @@ class MessageRouter:
             self._bus.put(key, data)
         else:
             self._bus.put(key, raw, data)
-        payload: Payload = data if raw is None else raw
-        for observer in self._observers:
-            observer(key, message, payload)
-        if not key.startswith("truth/"):
-            for listener in self._listeners:
-                listener(key, message, payload)
-            for attributed in self._attributed:
-                attributed(publisher, message)
+        self._tell(key, message, publisher, data if raw is None else raw)
 
     def heard(
         self, key: str, message: Message, publisher: str, logged: Message | None = None
@@ -84,7 +74,14 @@ class MessageRouter:
         """
         data = (logged or message).model_dump_json().encode()
         self._log.write(key, publisher, type(message), message.t_ns, data)
-        for listener in (*self._observers, *self._listeners):
-            listener(key, message, data)
-        for attributed in self._attributed:
+        self._tell(key, message, publisher, data)
+
+    def _tell(self, key: str, message: Message, publisher: str, payload: Payload) -> None:
+        for observer in self.observers:
+            observer(key, message, payload)
+        if key.startswith("truth/"):
+            return
+        for listener in self.listeners:
+            listener(key, message, payload)
+        for attributed in self.attributed:
             attributed(publisher, message)

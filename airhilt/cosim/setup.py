@@ -3,36 +3,26 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
-from airhilt.cosim.engines_in_use import engines_in_use
-from airhilt.cosim.equipment import with_requested_equipment
-from airhilt.cosim.option_checks import check_options
-from airhilt.cosim.participants import Participants
-from airhilt.cosim.provenance import model_files, other_packages
+from airhilt.cosim.option_checks import check_options, require_known_equipment
 from airhilt.cosim.recorded import Recorded
-from airhilt.cosim.requested_latency import is_vision_measured, requested_latency
-from airhilt.cosim.requested_radio import with_requested_radio
-from airhilt.cosim.requested_sensors import with_requested_sensors
+from airhilt.cosim.requested import is_vision_measured, requested_latency, requested_scenario
 from airhilt.errors import AirhiltError
 from airhilt.host.caches import cache_folder, cache_limit_bytes, write_problem
 from airhilt.options import Options
-from airhilt.record import RunFolder, RunInfo
-from airhilt.record.folder import WorkerRecord, machine, versions
+from airhilt.record import RunFolder
 from airhilt.record.video import require_video
 from airhilt.scenario import Scenario
-from airhilt.scenario.failures import EffectiveLine, apply_failures
-from airhilt.scenario.perturbation import Draw
+from airhilt.scenario.failures import apply_failures
 from airhilt.scenario.seats import seats_of
-from airhilt.sensors.base import SensorType, load_sensor_types
-from airhilt.sensors.radio.backends import RadioBackend, TextRadio
+from airhilt.sensors.base import load_sensor_types
+from airhilt.sensors.radio.backends import TextRadio
 from airhilt.sensors.radio.backends.selection import select_backend
 from airhilt.sensors.radio.script import planned_ends_ns
-from airhilt.sim import LatencySpec, Pace, parse_pace
-from airhilt.world.actors import Actor, build_actors
+from airhilt.sim import LatencySpec, parse_pace
+from airhilt.world.actors import build_actors
 from airhilt.world.loading import draw
 from airhilt.world.site import ScenarioSite
 
@@ -40,17 +30,15 @@ TICK_S = 0.05
 """Control tick of the aircraft; the flight dynamics take six steps in it."""
 
 
-@dataclass(frozen=True)
 class Setup:
-    """Everything that a run is made of before workers connect to it.
+    """Everything that a run is made of before workers connect to it; nothing is written yet.
 
     Attributes
     ----------
-    scenario
-        The scenario with its perturbations drawn, and with the radio and the visibility that
-        the options give it.
     given
-        The scenario as it was before.
+        The scenario as it was given.
+    scenario
+        The scenario with its perturbations drawn, and with what the options ask for.
     pace
         Pace of the run until its participants are known.
     notices
@@ -59,50 +47,37 @@ class Setup:
         Units and actors that are left to people.
     ends_ns
         Planned end of each line, by its id.
+
+    Raises
+    ------
+    AirhiltError
+        Something that was given is wrong.
     """
 
-    name: str
-    options: Options
-    recorded: Recorded
-    given: Scenario
-    scenario: Scenario
-    draws: Sequence[Draw]
-    latency: LatencySpec
-    pace: Pace
-    folder: RunFolder
-    site: ScenarioSite
-    actors: dict[str, Actor]
-    sound: RadioBackend
-    sensor_types: Sequence[SensorType]
-    notices: Sequence[str]
-    lines: Sequence[EffectiveLine]
-    seats: Sequence[str]
-    ends_ns: Mapping[str, int]
-
-    def info(self, participants: Participants, pace: Pace, endpoint: str, renderer: str) -> RunInfo:
-        """Return what ``run.json`` says of the run when it begins."""
-        named = self.options.model_copy(update={"assistant": participants.assistant})
-        engines = engines_in_use(named, self.scenario.equipment, participants.workers)
-        return RunInfo(
-            run=self.name,
-            options=self.options,
-            assistant=participants.assistant,
-            pace=pace.name,
-            scenario=self.given.model_dump(mode="json"),
-            realised=self.scenario.model_dump(mode="json"),
-            draws=[draw.model_dump() for draw in self.draws],
-            workers=[
-                WorkerRecord(description=worker.description, where=worker.where)
-                for worker in participants.workers
-            ],
-            endpoint=endpoint,
-            started_at=datetime.now(UTC).isoformat(timespec="seconds"),
-            versions=versions(),
-            platform=machine(),
-            renderer=renderer,
-            models=model_files(self, engines),
-            other_packages=other_packages(self, engines, renderer),
-        )
+    def __init__(self, given: Scenario, options: Options, recorded: Recorded) -> None:
+        if not recorded.is_replay:
+            check_options(options, given)
+        self.given, self.options, self.recorded = given, options, recorded
+        drawn, self.draws = draw(given, options.seed)
+        self.scenario = scenario = requested_scenario(options, drawn)
+        self.latency = recorded.latency or _requested_latency(given, options)
+        self.pace = parse_pace(options.pace or "virtual")
+        self.name = options.run_name or f"{given.name}-{options.seed}"
+        self.folder = RunFolder(options.out or _default_folder(self.name))
+        self.folder.require_free(options.overwrite)
+        if options.video:
+            _require_something_to_film(options, scenario)
+        self.site = ScenarioSite.of(scenario)
+        self.actors = build_actors(scenario, self.site, options.seed, TICK_S)
+        tts = options.tts if options.speech else None
+        self.sound = recorded.sound or select_backend(scenario.radio, options.seed, tts)
+        self.lines = apply_failures(scenario)
+        self.seats = seats_of(options.seat, scenario)
+        self.sensor_types, problems = load_sensor_types(scenario.sensors)
+        self.notices = [*problems, *_cache_problems()]
+        # For the summary alone; a record knows what was said, but not what was planned and was not.
+        text = TextRadio(scenario.radio.words_per_minute)
+        self.ends_ns = planned_ends_ns(self.lines, self.sound if recorded.sound is None else text)
 
 
 def check_given(given: Scenario, options: Options) -> None:
@@ -114,74 +89,27 @@ def check_given(given: Scenario, options: Options) -> None:
         Something that was given is wrong.
     """
     check_options(options, given)
-    _require_not_measured(options, requested_latency(options.latency, given, options.seed))
+    _requested_latency(given, options)
     parse_pace(options.pace or "virtual")
     if options.out is not None:
         RunFolder(options.out).require_free(options.overwrite)
 
 
-def set_up(given: Scenario, options: Options, recorded: Recorded) -> Setup:
-    """Resolve everything that a run needs, and put its actors at their first positions.
+def require_runnable(scenario: Scenario) -> None:
+    """Check that a run of a loaded scenario can begin: put all its actors where they begin.
 
     Raises
     ------
     AirhiltError
-        Something that was given is wrong; nothing is written yet.
+        There is no such equipment, or an actor cannot be where it begins.
     """
-    if not recorded.is_replay:
-        check_options(options, given)
-    scenario, draws = draw(given, options.seed)
-    scenario = _with_visibility_of(options, with_requested_radio(options, scenario))
-    scenario = with_requested_sensors(
-        scenario, options.radar, options.cockpit, options.surface_surveillance
-    )
-    scenario = with_requested_equipment(scenario, options.equipment)
-    latency = recorded.latency or requested_latency(options.latency, given, options.seed)
-    _require_not_measured(options, latency)
-    pace = parse_pace(options.pace or "virtual")
-    name = options.run_name or f"{given.name}-{options.seed}"
-    folder = RunFolder(options.out or _default_folder(name))
-    folder.require_free(options.overwrite)
-    if options.video:
-        _require_something_to_film(options, scenario)
-    site = ScenarioSite.of(scenario)
-    actors = build_actors(scenario, site, options.seed, TICK_S)
-    tts = options.tts if options.speech else None
-    sound = recorded.sound or select_backend(scenario.radio, options.seed, tts)
-    lines = apply_failures(scenario)
-    sensor_types, problems = load_sensor_types(scenario.sensors)
-    problems = [*problems, *_cache_problems()]
-    # For the summary alone; a record knows what was said, but not what was planned and was not.
-    planned = sound if recorded.sound is None else TextRadio(scenario.radio.words_per_minute)
-    return Setup(
-        name=name,
-        options=options,
-        recorded=recorded,
-        given=given,
-        scenario=scenario,
-        draws=draws,
-        latency=latency,
-        pace=pace,
-        folder=folder,
-        site=site,
-        actors=actors,
-        sound=sound,
-        sensor_types=sensor_types,
-        notices=problems,
-        lines=lines,
-        seats=seats_of(options.seat, scenario),
-        ends_ns=planned_ends_ns(lines, planned),
-    )
+    require_known_equipment(scenario.equipment)
+    realised, _ = draw(scenario, 0)
+    build_actors(realised, ScenarioSite.of(realised), 0, TICK_S)
 
 
 def _cache_problems() -> list[str]:
-    """Return a sentence if the cache cannot be written, for the use of later runs.
-
-    Raises
-    ------
-    AirhiltError
-        The limit of the cache is no number.
-    """
+    """Return a sentence if the cache cannot be written, for the use of later runs."""
     if cache_limit_bytes() and (problem := write_problem(cache_folder())):
         return [f"the cache cannot be written, so that later runs make everything anew: {problem}"]
     return []
@@ -196,20 +124,14 @@ def _require_something_to_film(options: Options, scenario: Scenario) -> None:
         )
 
 
-def _require_not_measured(options: Options, latency: LatencySpec) -> None:
+def _requested_latency(given: Scenario, options: Options) -> LatencySpec:
+    latency = requested_latency(options.latency, given, options.seed)
     if options.share_pictures and is_vision_measured(latency, options.detector):
         raise AirhiltError(
             "--share-pictures: the latency of vision is measured, so a detection would be as late "
             "as a cache is fast; expected another one, such as --latency fixed"
         )
-
-
-def _with_visibility_of(options: Options, scenario: Scenario) -> Scenario:
-    """Return a scenario with the visibility that the options give, if they do."""
-    if options.visibility_m is None:
-        return scenario
-    weather = scenario.weather.model_copy(update={"visibility_m": options.visibility_m})
-    return scenario.model_copy(update={"weather": weather})
+    return latency
 
 
 def _default_folder(name: str) -> Path:

@@ -1,6 +1,6 @@
 """One run, from scenario to run folder. The main path of AIRHILT begins at `run`.
 
-`set_up` settles what the run is, `connect` who takes part in it, `open_vision` how it sees;
+`Setup` settles what the run is, `connect` who takes part in it, `Vision` how it sees;
 `Simulation` connects it all with one `Director`, and each part gets what it needs as arguments.
 Data flows one way: actors, sensors, workers, advisories, crews.
 """
@@ -17,23 +17,19 @@ from typing import TYPE_CHECKING, Literal
 from airhilt.bus.access import ROLES, WITHOUT_KEYS
 from airhilt.bus.endpoints import what_is_open
 from airhilt.bus.session import Bus
-from airhilt.cosim.advisory_hints import AdvisoryHints
-from airhilt.cosim.briefing import briefing_of
-from airhilt.cosim.cameras import Vision, open_vision, started_renderers
+from airhilt.cosim.briefing import briefing_of, seat_states
+from airhilt.cosim.cameras import Vision, started_renderers
+from airhilt.cosim.context import RunContext
 from airhilt.cosim.engines_in_use import is_own_engine
-from airhilt.cosim.events import EventPublisher
 from airhilt.cosim.external_programs import ExternalPrograms
-from airhilt.cosim.language_model_notices import LanguageModelNotices
-from airhilt.cosim.modalities import Modalities
+from airhilt.cosim.notices import RadioNotices, SeatNotices, WorkerNotices
 from airhilt.cosim.observer import Observer, Result, Snapshot
-from airhilt.cosim.pace_control import PaceControl, tell_clock
+from airhilt.cosim.pace_control import MOST_BEHIND_NS, PaceControl, tell_clock
 from airhilt.cosim.participants import Participants, connect
-from airhilt.cosim.radio import RunRadio
+from airhilt.cosim.provenance import run_info
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.router import MessageRouter
-from airhilt.cosim.seat_notices import SeatNotices
-from airhilt.cosim.seat_states import seat_states
-from airhilt.cosim.setup import Setup, set_up
+from airhilt.cosim.setup import Setup
 from airhilt.cosim.workload_questions import WorkloadQuestions
 from airhilt.cosim.world_loop import WorldLoop
 from airhilt.errors import AirhiltError
@@ -53,6 +49,9 @@ from airhilt.seats import Seats
 from airhilt.sensors.adsb import STAGE as ADSB
 from airhilt.sensors.base import Sensor, SensorContext
 from airhilt.sensors.radio.advisory_calls import AdvisoryChannel
+from airhilt.sensors.radio.backends import FallbackRadio
+from airhilt.sensors.radio.context import RadioContext
+from airhilt.sensors.radio.conversation import RadioConversation
 from airhilt.sensors.radio.stations import Stations
 from airhilt.sensors.starting import start_sensors
 from airhilt.sim import Director, Pace, Priority, RealTime, StepRecord, Virtual, interruptible
@@ -71,6 +70,15 @@ SNAPSHOT_PERIOD_NS = SECOND_NS // 2
 """Period at which the observer is told how the run is doing, in ns."""
 
 
+@contextmanager
+def _memory_given_back() -> Iterator[None]:
+    try:
+        yield
+    finally:
+        give_memory_back()
+
+
+@_memory_given_back()  # After the function, whose variables are the run.
 def run(
     scenario: Scenario,
     options: Options | None = None,
@@ -99,43 +107,26 @@ def run(
     KeyboardInterrupt
         Likewise.
     """
-    options = options or Options()
-    try:
-        return _run(
-            scenario, options, observer or Observer(), recorded or Recorded(), workers, keeper
-        )
-    finally:
-        give_memory_back()
-
-
-def _run(
-    scenario: Scenario,
-    options: Options,
-    observer: Observer,
-    recorded: Recorded,
-    workers: Sequence[Worker],
-    keeper: RendererKeeper | None,
-) -> Result:
+    options, observer = options or Options(), observer or Observer()
+    recorded = recorded or Recorded()
     with ExitStack() as stack:
         processes = stack.enter_context(
             started_renderers(scenario, options, recorded, bool(workers), keeper)
         )
-        setup = set_up(scenario, options, recorded)
+        setup = Setup(scenario, options, recorded)
         for text in setup.notices:
             observer.notice(text)
         options, pace = setup.options, setup.pace
         bus = stack.enter_context(closing(_open_bus(setup.name, options, observer)))
         tell_clock(bus, 0, "waiting", pace)
-        participants = connect(
-            options, setup.scenario, setup.recorded, bus, observer.notice, workers
-        )
+        participants = connect(setup, bus, observer.notice, workers)
         has_people = bool(setup.seats) and not setup.recorded.is_replay
         has_programs = bool(participants.programs) and not setup.recorded.programs
         if options.pace is None and (has_people or has_programs):
             pace = RealTime()
-        vision = stack.enter_context(open_vision(setup, participants, processes, observer))
+        vision = stack.enter_context(closing(Vision(setup, participants, processes, observer)))
         setup.folder.create(options.overwrite)
-        info = setup.info(participants, pace, bus.endpoint, vision.renderer)
+        info = run_info(setup, participants, pace, bus.endpoint, vision.renderer)
         setup.folder.write_info(info)
         log = stack.enter_context(closing(LogWriter(setup.folder.log_path)))
         log.flush()  # A run that is killed at once leaves a log that can be read.
@@ -190,60 +181,63 @@ class Simulation:
     ) -> None:
         self._setup = setup
         self._participants = participants
-        self._bus = bus
         self._observer = observer
         self._vision = vision
         self._director = Director(pace)
         self._log = log
         self._latency_log = latency_log
         self._router = MessageRouter(bus, log)
-        self._event = EventPublisher(self._director, self._router)
-        self._modalities = Modalities(
-            self._director, self._router, self._event, observer, is_strict=setup.options.strict
-        )
-        self._stations = Stations(setup.actors, setup.site, setup.scenario.radio.lines)
+        self._context = context = RunContext(setup, self._director, self._router, observer)
+        stations = Stations(setup.actors, setup.site, setup.scenario.radio.lines)
         self._seats = Seats(
-            seat_states(setup, participants, self._stations), self._router.publish, self._director
+            seat_states(setup, participants, stations), self._router.publish, self._director
         )
-        self._world = WorldLoop(self._director, setup, self._router, self._event, self._seats)
+        self._world = WorldLoop(context, self._seats)
         self._collector = self._make_collector()
         self._advisories = self._make_advisory_delivery()
-        self._pool = self._connect_workers()
-        self._programs = self._connect_programs()
-        self._connect_seats_and_records()
-        self._router.listen(self._pool.offer)
-        self._router.listen(self._world.take)
-        self._radio = self._connect_radio()
-        self._pace_control = PaceControl(self._director, self._event, self._seats, self._radio, bus)
-        if setup.seats:
-            self._pace_control.keep_time()
-        self._questions = self._make_questions()
-        self._router.listen(self._advisories.take)
-        self._connect_notices()
-        self._router.listen(self._pace_control.take)
-        self._router.listen(self._questions.take)
-        self._sensors: list[Sensor] = [self._radio, vision]
-        self._mount_cameras()
-        self._schedule()
-        self._serve_bus()
-
-    def _connect_seats_and_records(self) -> None:
-        keeps_voices = self._setup.options.voice_recording
-        recorder = AudioRecorder(self._setup.folder.audio_path, keeps_voices=keeps_voices)
-        self._router.listen(self._seats.take)
-        self._router.listen(recorder.take)
-        self._router.observe(self._collector.take)
-
-    def _make_advisory_delivery(self) -> AdvisoryDelivery:
-        return AdvisoryDelivery(
-            self._director,
-            self._setup.actors,
-            self._event,
-            is_voiced=self._participants.does("tts"),
-            speak_min_level=self._participants.speak_min_level,
-            is_on_frequency=self._setup.options.advisory_channel == "frequency",
-            seats=self._seats,
+        self._pool = self._make_pool()
+        self._programs = ExternalPrograms(context, self._seats, participants)
+        self._backend = FallbackRadio(
+            setup.sound,
+            setup.scenario.radio.words_per_minute,
+            partial(context.lose_modality, "radio", "radio_lost", "radio"),
         )
+        self._radio = self._make_radio(stations)
+        self._radio.start()
+        self._pace_control = PaceControl(context, self._seats, self._radio, bus)
+        if setup.seats:
+            self._director.lose_time(MOST_BEHIND_NS, self._pace_control.stall)
+        self._questions = WorkloadQuestions(context, self._seats, self._pace_control)
+        self._sensors: list[Sensor] = []
+        self._connect()
+        self._vision.mount(context, self._world)
+        self._schedule()
+        self._serve(bus)
+
+    def _connect(self) -> None:
+        """Let the parts take in the messages of the run, in this order."""
+        setup, router = self._setup, self._router
+        recorder = AudioRecorder(
+            setup.folder.audio_path, keeps_voices=setup.options.voice_recording
+        )
+        router.listeners += (
+            self._seats.take,
+            recorder.take,
+            self._pool.offer,
+            self._world.take,
+            self._radio.take,
+            self._advisories.take,
+            self._pace_control.take,
+            self._questions.take,
+        )
+        router.observers += (self._collector.take, SeatNotices(self._context, self._seats).take)
+        if not self._context.is_replay:
+            # AIRHILT's own engines have no author to tell: a traffic advisory of TCAS is only to
+            # look.
+            descriptions = [worker.description for worker in self._participants.workers]
+            exempt = [each.name for each in descriptions if is_own_engine(each.engine)]
+            notices = WorkerNotices(setup.actors, exempt, self._observer.notice)
+            router.attributed.append(notices.take)
 
     def _make_collector(self) -> Collector:
         setup, world = self._setup, self._world
@@ -269,129 +263,48 @@ class Simulation:
             self._director.pace.name,
         )
 
-    def _connect_workers(self) -> WorkerPool:
-        watch = _WorkerWatch(
+    def _make_advisory_delivery(self) -> AdvisoryDelivery:
+        return AdvisoryDelivery(
             self._director,
-            self._latency_log,
-            self._collector,
-            self._advisories,
-            self._seats,
-            self._modalities,
+            self._setup.actors,
+            self._context.event,
+            is_voiced=self._participants.does("tts"),
+            speak_min_level=self._participants.speak_min_level,
+            is_on_frequency=self._setup.options.advisory_channel == "frequency",
+            seats=self._seats,
         )
+
+    def _make_pool(self) -> WorkerPool:
         return WorkerPool(
             self._director,
             self._participants.workers,
             self._setup.latency,
             self._setup.options.seed,
             publish=self._router.publish,
-            done=watch.done,
-            lost=watch.lost,
+            done=self._step_done,
+            lost=self._worker_lost,
         )
 
-    def _connect_programs(self) -> ExternalPrograms:
-        participants = self._participants
-        return ExternalPrograms(
+    def _make_radio(self, stations: Stations) -> RadioConversation:
+        setup, participants = self._setup, self._participants
+        channel = None
+        if setup.options.advisory_channel == "frequency":
+            channel = AdvisoryChannel(
+                participants.does("tts"), participants.speak_min_level, self._advisories
+            )
+        context = RadioContext(
             self._director,
-            self._router,
-            self._event,
-            self._modalities,
-            self._observer,
-            self._seats,
-            workers=[worker.description.name for worker in participants.workers],
-            has_decision=bool(participants.programs) or participants.does("decision"),
-            keeps_voices=self._setup.options.voice_recording,
-            is_strict=self._setup.options.strict,
-        )
-
-    def _make_questions(self) -> WorkloadQuestions:
-        options = self._setup.options
-        return WorkloadQuestions(
-            self._director,
-            self._seats,
-            self._router,
-            self._pace_control,
-            isa_minutes=options.isa_minutes,
-            has_tlx=options.nasa_tlx,
-            is_replay=self._setup.recorded.is_replay,
-        )
-
-    def _wait_for_seats(self) -> None:
-        """Let the run stand still at its start until its seats are taken, if that is wanted."""
-        setup = self._setup
-        if not setup.options.wait_for_seats:
-            return
-        self._pace_control.wait_for_seats()
-        if not setup.recorded.is_replay and not isinstance(self._director.pace, Virtual):
-            self._observer.notice(f"the run begins when this is taken: {', '.join(setup.seats)}")
-
-    def _connect_notices(self) -> None:
-        """Tell people at seats, and the user, what they would not see otherwise."""
-        observer = None if self._setup.recorded.is_replay else self._observer
-        self._router.observe(SeatNotices(self._seats, self._event, observer).take)
-        self._connect_hints()
-
-    def _connect_hints(self) -> None:
-        """Tell of warnings on which nobody acts, and of a language model; not in a replay.
-
-        AIRHILT's own engines have no author to tell: a traffic advisory of TCAS is only to look.
-        """
-        if self._setup.recorded.is_replay:
-            return
-        descriptions = [worker.description for worker in self._participants.workers]
-        exempt = [each.name for each in descriptions if is_own_engine(each.engine)]
-        hints = AdvisoryHints(self._setup.actors, exempt, self._observer.notice)
-        self._router.attribute(hints.take)
-        self._router.attribute(LanguageModelNotices(self._observer.notice).take)
-
-    def _connect_radio(self) -> RunRadio:
-        radio = RunRadio(
-            self._director,
-            self._setup,
+            setup.scenario,
+            setup.lines,
+            stations,
+            self._backend,
+            setup.options.seed,
             self._world,
-            self._router,
-            self._event,
-            self._modalities,
-            self._observer,
-            self._advisory_channel(),
-            self._stations,
+            RadioNotices(self._context, self._world, self._backend),
+            self._router.publish,
             self._seats,
         )
-        radio.start()
-        return radio
-
-    def _advisory_channel(self) -> AdvisoryChannel | None:
-        """Return the use of the frequencies for advisories, None if they are heard in cockpits."""
-        if self._setup.options.advisory_channel == "cockpit":
-            return None
-        participants = self._participants
-        return AdvisoryChannel(
-            participants.does("tts"),
-            participants.speak_min_level,
-            self._advisories,
-        )
-
-    def _mount_cameras(self) -> None:
-        self._vision.mount(
-            self._director,
-            self._router,
-            self._world,
-            lost=partial(self._modalities.lose, "vision", "cameras_lost", "cameras"),
-        )
-
-    def _sensor_context(self) -> SensorContext:
-        setup = self._setup
-        return SensorContext(
-            director=self._director,
-            scenario=setup.scenario,
-            site=setup.site,
-            actors=setup.actors,
-            latency=setup.latency,
-            seed=setup.options.seed,
-            state_at_ns=self._world.state_at_ns,
-            publish=self._router.publish,
-            step_done=self._latency_log.step,
-            subscribed=self._participants.subscribed,
-        )
+        return RadioConversation(context, channel)
 
     def _schedule(self) -> None:
         """Schedule the world, what is published regularly, and the end of the run."""
@@ -422,7 +335,7 @@ class Simulation:
         for name, loss in recorded.losses.items():
             self._director.at(loss.t_ns, partial(self._gone, name), Priority.SETTLE)
 
-    def _serve_bus(self) -> None:
+    def _serve(self, bus: Bus) -> None:
         """Notice workers that end, and hear what other programs publish by themselves."""
         expected = set(self._participants.attached)
 
@@ -431,8 +344,8 @@ class Simulation:
                 expected.discard(name)
                 self._director.post(partial(self._gone, name))
 
-        self._bus.watch_workers(changed)
-        self._programs.serve(self._bus)
+        bus.watch_workers(changed)
+        self._programs.serve(bus)
 
     # --- the run ----------------------------------------------------------------------------
 
@@ -462,9 +375,10 @@ class Simulation:
                 self._observer.notice(sentence)
         with _kept(failures):
             folder.write_info(self._final_info(info, _cause(failures)))
+        error = self._first(failures) if failures else None
         self._clear()
-        if failures:
-            raise self._first(failures)
+        if error is not None:
+            raise error
         return Result(summary, folder.path)
 
     def interrupt(self) -> None:
@@ -477,6 +391,7 @@ class Simulation:
         self._director.clear()
         self._router.clear()
         self._world.clear()
+        del self._pool
 
     def _measurements_in_hand(self, failures: list[BaseException]) -> list[StepRecord]:
         """Return what sensors have measured and not published; keep the failures of those asked."""
@@ -496,7 +411,7 @@ class Simulation:
         phase: Literal["stopped", "finished"] = "stopped" if cause else "finished"
         with closing(self._latency_log), closing(self._log), ExitStack() as stack:
             stack.callback(self._vision.finish)
-            self._event(phase, "run", cause or "came to its end")
+            self._context.event(phase, "run", cause or "came to its end")
             self._programs.finish()
             self._pace_control.publish_clock(phase)
             self._radio.close()
@@ -536,11 +451,35 @@ class Simulation:
                 },
                 "too_slow": self._pool.too_slow(),
                 "inputs_dropped": self._pool.inputs_dropped(),
-                "messages_dropped": self._programs.dropped(),
+                "messages_dropped": self._programs.dropped,
                 "real_time_factor": now_ns / SECOND_NS / max(wall_s, 1e-9),
                 "cpu_s": used_s,
             },
             now_ns,
+        )
+
+    def _wait_for_seats(self) -> None:
+        """Let the run stand still at its start until its seats are taken, if that is wanted."""
+        if not self._setup.options.wait_for_seats:
+            return
+        self._pace_control.wait_for_seats()
+        if not self._context.is_replay and not isinstance(self._director.pace, Virtual):
+            seats = ", ".join(self._setup.seats)
+            self._observer.notice(f"the run begins when this is taken: {seats}")
+
+    def _sensor_context(self) -> SensorContext:
+        setup, world = self._setup, self._world
+        return SensorContext(
+            director=self._director,
+            scenario=setup.scenario,
+            site=setup.site,
+            actors=setup.actors,
+            latency=setup.latency,
+            seed=setup.options.seed,
+            state_at_ns=lambda: world.ticked_ns,
+            publish=self._router.publish,
+            step_done=self._latency_log.step,
+            subscribed=self._participants.subscribed,
         )
 
     def _end_if_due(self) -> None:
@@ -549,12 +488,25 @@ class Simulation:
 
     # --- workers ----------------------------------------------------------------------------
 
+    def _step_done(self, record: StepRecord) -> None:
+        self._latency_log.step(record)
+        self._collector.step(record)
+
+    def _worker_lost(self, worker: WorkerDescription, cause: str, is_of_machine: bool) -> None:
+        """Go on without a worker."""
+        if worker.modality == "tts":
+            self._advisories.voice_lost()
+            self._seats.change_all(spoken_from=None)
+        cause, name = readable(cause), worker.name
+        self._latency_log.lost(name, self._director.now_ns, cause)
+        self._context.lose_modality(worker.modality, "worker_lost", name, cause, is_of_machine)
+
     def _gone(self, name: str) -> None:
         """Give up a worker or a program of another process that has ended."""
         cause = f"worker {name!r} is gone: its process ended"
         if name in self._participants.programs:
             self._latency_log.lost(name, self._director.now_ns, cause)
-            self._modalities.lose("decision", "worker_lost", name, cause, is_of_machine=True)
+            self._context.lose_modality("decision", "worker_lost", name, cause, is_of_machine=True)
         else:
             self._pool.servers[name].lose(cause, is_of_machine=True)
 
@@ -564,7 +516,7 @@ class Simulation:
         self._router.publish("briefing", briefing_of(self._setup.scenario, self._setup.site))
         has_voice = self._participants.does("tts")
         self._seats.open(
-            has_sound=self._radio.has_sound,
+            has_sound=self._backend.has_sound,
             spoken_from=self._participants.speak_min_level if has_voice else None,
         )
 
@@ -575,16 +527,16 @@ class Simulation:
             not isinstance(spec, WildlifeSpec) and spec.transponder.has_adsb
             for spec in scenario.actors
         )
-        self._modalities.set("adsb", "on" if is_equipped and "adsb" in given else "off")
-        self._modalities.set("radio", "on" if scenario.radio.lines else "off")
-        self._modalities.set("asr", "on" if does("asr") and "asr" in given else "off")
-        self._modalities.set("tts", "on" if does("tts") else "off")
-        self._modalities.set("vision", *self._vision.state)
-        self._modalities.set("decision", "on" if self._programs.has_decision else "off")
+        self._context.set_modality("adsb", "on" if is_equipped and "adsb" in given else "off")
+        self._context.set_modality("radio", "on" if scenario.radio.lines else "off")
+        self._context.set_modality("asr", "on" if does("asr") and "asr" in given else "off")
+        self._context.set_modality("tts", "on" if does("tts") else "off")
+        self._context.set_modality("vision", *self._vision.state)
+        self._context.set_modality("decision", "on" if self._programs.has_decision else "off")
         if does("enhancement"):
-            self._modalities.set("enhancement", "on")
+            self._context.set_modality("enhancement", "on")
         if does("equipment"):
-            self._modalities.set("equipment", "on")
+            self._context.set_modality("equipment", "on")
 
     def _tell_observer(self) -> None:
         horizontal_m, vertical_m = self._world.distances_m() or (None, None)
@@ -597,40 +549,6 @@ class Simulation:
                 self._collector.last_advisory,
             )
         )
-
-
-class _WorkerWatch:
-    """Takes in what workers have done, and the loss of one."""
-
-    def __init__(
-        self,
-        director: Director,
-        log: LatencyLog,
-        collector: Collector,
-        advisories: AdvisoryDelivery,
-        seats: Seats,
-        modalities: Modalities,
-    ) -> None:
-        self._director = director
-        self._log = log
-        self._collector = collector
-        self._advisories = advisories
-        self._seats = seats
-        self._modalities = modalities
-
-    def done(self, record: StepRecord) -> None:
-        """Log and count a finished step."""
-        self._log.step(record)
-        self._collector.step(record)
-
-    def lost(self, worker: WorkerDescription, cause: str, is_of_machine: bool) -> None:
-        """Go on without a worker."""
-        if worker.modality == "tts":
-            self._advisories.voice_lost()
-            self._seats.change_all(spoken_from=None)
-        cause = readable(cause)
-        self._log.lost(worker.name, self._director.now_ns, cause)
-        self._modalities.lose(worker.modality, "worker_lost", worker.name, cause, is_of_machine)
 
 
 @contextmanager

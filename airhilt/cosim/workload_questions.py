@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import threading
 from collections import Counter
+from functools import partial
 from typing import Literal
 
+from airhilt.cosim.context import RunContext
 from airhilt.cosim.pace_control import PaceControl
-from airhilt.cosim.router import MessageRouter
 from airhilt.messages import (
     RUN,
     UNREGISTERED,
@@ -18,7 +19,7 @@ from airhilt.messages import (
     key_chunk,
 )
 from airhilt.seats import Seats
-from airhilt.sim import Director, Priority, Virtual
+from airhilt.sim import Priority, Virtual
 from airhilt.sim.payload import Payload
 from airhilt.units import seconds_to_ns
 
@@ -31,40 +32,22 @@ class WorkloadQuestions:
 
     A person who leaves the seat is not waited for. Who does not answer in time is logged as having
     given no answer, so that a replay ends at the same time.
-
-    Parameters
-    ----------
-    isa_minutes
-        Time between two ISA questions, in minutes; None: they are not asked.
-    has_tlx
-        True asks for NASA-TLX at the end.
-    is_replay
-        True if the answers come from the record of an earlier run.
     """
 
-    def __init__(
-        self,
-        director: Director,
-        seats: Seats,
-        router: MessageRouter,
-        pace: PaceControl,
-        *,
-        isa_minutes: float | None,
-        has_tlx: bool,
-        is_replay: bool,
-    ) -> None:
-        self._director = director
+    def __init__(self, context: RunContext, seats: Seats, pace: PaceControl) -> None:
+        options = context.setup.options
+        self._context = context
+        self._director = context.director
         self._seats = seats
-        self._router = router
         self._pace = pace
-        self._has_tlx = has_tlx
-        self._is_replay = is_replay
+        self._has_tlx = options.nasa_tlx
         self._is_closing = False
         self._asked: Counter[str] = Counter()
         self._patience: threading.Timer | None = None
-        if isa_minutes is not None:
-            period_ns = seconds_to_ns(60.0 * isa_minutes)
-            director.every(period_ns, self._ask_isa, Priority.OBSERVE, first_ns=period_ns)
+        if options.isa_minutes is not None:
+            period_ns = seconds_to_ns(60.0 * options.isa_minutes)
+            ask = partial(self._ask_all, "isa")
+            self._director.every(period_ns, ask, Priority.OBSERVE, first_ns=period_ns)
 
     def take(self, key: str, message: Message, data: Payload) -> None:  # noqa: ARG002
         """End the run after the last answer, or when the last who was asked has left."""
@@ -75,14 +58,14 @@ class WorkloadQuestions:
         """End the run, after the answers of those who are asked at the end."""
         if self._is_closing:
             return
-        can_wait = self._is_replay or not isinstance(self._director.pace, Virtual)
+        can_wait = self._context.is_replay or not isinstance(self._director.pace, Virtual)
         if not (self._has_tlx and can_wait and any(one.phase == "taken" for one in self._seats)):
             self._director.stop()
             return
         self._is_closing = True
         self._ask_all("nasa_tlx")
         self._pace.stand_still()
-        if not self._is_replay:
+        if not self._context.is_replay:
             self._patience = threading.Timer(PATIENCE_S, self._director.post, [self._give_up])
             self._patience.daemon = True
             self._patience.start()
@@ -92,9 +75,6 @@ class WorkloadQuestions:
         if self._patience is not None:
             self._patience.cancel()
             self._patience = None
-
-    def _ask_isa(self) -> None:
-        self._ask_all("isa")
 
     def _ask_all(self, scale: Literal["isa", "nasa_tlx"]) -> None:
         for state in self._seats:
@@ -114,4 +94,4 @@ class WorkloadQuestions:
             action = SeatAction(
                 t_ns=self._director.now_ns, holder=RUN, act=AnswerQuestion(question=number)
             )
-            self._router.heard(f"seat/{key_chunk(seat)}/do", action, UNREGISTERED)
+            self._context.router.heard(f"seat/{key_chunk(seat)}/do", action, UNREGISTERED)

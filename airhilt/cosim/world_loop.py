@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from functools import partial
+from typing import Any, Literal
 
 from airhilt.commands import Command
-from airhilt.cosim.conflict_publisher import ConflictPublisher, publish_incursion, tell_end
-from airhilt.cosim.conflict_window import ConflictWindow, Step
-from airhilt.cosim.events import EventPublisher
-from airhilt.cosim.router import MessageRouter
-from airhilt.cosim.setup import TICK_S, Setup
+from airhilt.cosim.context import RunContext
+from airhilt.cosim.setup import TICK_S
 from airhilt.errors import AirhiltError, failure_in
 from airhilt.messages import (
     ActorCommand,
+    ConflictPhase,
     ConflictTruth,
     FlyCommand,
     Message,
@@ -21,15 +20,15 @@ from airhilt.messages import (
 )
 from airhilt.scenario.models import AircraftSpec, Condition, EngineFailure, WildlifeSpec
 from airhilt.seats import Seats
-from airhilt.sim import Director, Priority
+from airhilt.sim import Priority
 from airhilt.sim.payload import Payload
 from airhilt.units import SECOND_NS, seconds_to_ns
 from airhilt.world.actors import Actor, Unable
 from airhilt.world.actors.triggers import Triggers
 from airhilt.world.flight import Aircraft
 from airhilt.world.truth.conditions import ConditionCompiler
-from airhilt.world.truth.conflicts import ConflictMonitor
-from airhilt.world.truth.runways import RunwayMonitor
+from airhilt.world.truth.conflicts import ConflictMonitor, Pair
+from airhilt.world.truth.runways import Incursion, RunwayMonitor
 from airhilt.world.truth.states import minima_of, truth_of, zone_of
 
 TRUTH_PERIOD_NS = SECOND_NS // 5
@@ -61,20 +60,12 @@ class WorldLoop:
         Time of the last physics tick, of which all states are.
     """
 
-    def __init__(
-        self,
-        director: Director,
-        setup: Setup,
-        router: MessageRouter,
-        event: EventPublisher,
-        seats: Seats,
-    ) -> None:
-        scenario, site, actors = setup.scenario, setup.site, setup.actors
-        self._director = director
-        self._scenario = scenario
-        self._actors = actors
-        self._publish = router.publish
-        self._event = event
+    def __init__(self, context: RunContext, seats: Seats) -> None:
+        self._context = context
+        self._director = context.director
+        self._scenario = context.setup.scenario
+        self._actors = context.setup.actors
+        self._publish = context.router.publish
         self._seats = seats
         self._triggers = Triggers()
         self.affected: set[str] = set()
@@ -82,28 +73,34 @@ class WorldLoop:
         self.begun_lines: set[str] = set()
         self.ended_lines: set[str] = set()
         self.ticked_ns = 0
-        self.pair = scenario.pair
+        self.pair = self._scenario.pair
+        layout = context.setup.site.layout
         self.runways: RunwayMonitor | None = None
-        if site.layout is not None:
+        if layout is not None:
             self.runways = RunwayMonitor(
-                site.layout,
-                actors,
+                layout,
+                self._actors,
                 self.affected,
                 self.uncleared,
                 self._publish,
-                partial(publish_incursion, director, router),
+                self._publish_incursion,
             )
-        conflicts = ConflictPublisher(director, actors, router, event, self.runways)
-        self.monitor = self._conflict_monitor(setup, conflicts)
+        self.monitor = self._conflict_monitor()
         self._compile = ConditionCompiler(
-            actors, self.monitor, self.runways, self.begun_lines, self.ended_lines
+            self._actors, self.monitor, self.runways, self.begun_lines, self.ended_lines
         ).compile
-        self._window = self._conflict_window()
-        self._ends = [self._compile(condition) for condition in scenario.end_when]
+        conflict = self._scenario.conflict
+        if conflict is not None:
+            self._opens = self._compile(conflict.opens_when)
+            begins = conflict.begins
+            self._begins = self._opens if begins is None else self._compile(begins)
+        self._ends = [self._compile(condition) for condition in self._scenario.end_when]
+        self._has_begun = conflict is None
+        self._window: Literal["before", "open", "after"] = "before" if conflict else "after"
 
-    def _conflict_monitor(self, setup: Setup, conflicts: ConflictPublisher) -> ConflictMonitor:
-        scenario, site = setup.scenario, setup.site
-        bodies = {callsign: actor.body for callsign, actor in setup.actors.items()}
+    def _conflict_monitor(self) -> ConflictMonitor:
+        scenario, site = self._scenario, self._context.setup.site
+        bodies = {callsign: actor.body for callsign, actor in self._actors.items()}
         return ConflictMonitor(
             {c: body for c, body in bodies.items() if isinstance(body, Aircraft)},
             {c: body for c, body in bodies.items() if not isinstance(body, Aircraft)},
@@ -117,16 +114,8 @@ class WorldLoop:
                 if isinstance(spec, AircraftSpec) and spec.transponder.equipped
             ),
             frozenset() if self.pair is None else frozenset({self.pair}),
-            conflicts.became_true,
+            self._became_true,
         )
-
-    def _conflict_window(self) -> ConflictWindow | None:
-        conflict = self._scenario.conflict
-        if conflict is None or self.pair is None:
-            return None
-        opens = self._compile(conflict.opens_when)
-        begins = opens if conflict.begins is None else self._compile(conflict.begins)
-        return ConflictWindow(self.pair, begins, opens, self.monitor)
 
     def schedule(self) -> None:
         """Schedule physics, truth and the evaluation of conditions."""
@@ -155,7 +144,7 @@ class WorldLoop:
     def do(self, callsign: str, command: Command) -> None:
         """Let an actor do what a radio line or its plan says, and publish that it does."""
         if self._actors[callsign].body.ended is None:
-            self._event("command", callsign, command.model_dump_json(exclude_none=True))
+            self._context.event("command", callsign, command.model_dump_json(exclude_none=True))
             self.obey(callsign, command)
 
     def take(self, key: str, message: Message, data: Payload) -> None:  # noqa: ARG002
@@ -178,19 +167,14 @@ class WorldLoop:
         try:
             actor.command(command)
         except Unable as unable:
-            self._event("unable", callsign, str(unable))
+            self._context.event("unable", callsign, str(unable))
         else:
             self._seats.end_offer(callsign, command)
 
     def line_begun(self, line: str) -> None:
         """Take in that a radio line begins now: it may be what begins the conflict."""
         self.begun_lines.add(line)
-        if self._window is not None:
-            self._publish_steps(self._window.begin_if_due(self._director.now_ns))
-
-    def state_at_ns(self) -> int:
-        """Return the time of the states of the actors."""
-        return self.ticked_ns
+        self._begin_if_due()
 
     def has_ended(self) -> bool:
         """Return whether all actors have ended, or a condition that ends the run is true."""
@@ -210,8 +194,8 @@ class WorldLoop:
         return self.monitor.motion(self.pair).distance_m, self.monitor.vertical_m(self.pair)
 
     def clear(self) -> None:
-        """Forget what waits for a condition: the run is over."""
-        self._triggers.clear()
+        """Let go of all parts, because monitors and triggers refer back to it: the run is over."""
+        vars(self).clear()
 
     def _tick(self) -> None:
         now_ns = self._director.now_ns
@@ -219,7 +203,7 @@ class WorldLoop:
             if actor.body.ended is None:
                 self._advance(actor)
                 if actor.body.ended is not None:
-                    tell_end(self._event, actor)
+                    self._tell_end(actor)
         self.ticked_ns = now_ns
         self.monitor.tick(now_ns)
 
@@ -243,16 +227,16 @@ class WorldLoop:
                 try:
                     actor.attend()
                 except Unable as unable:
-                    self._event("unable", actor.spec.callsign, str(unable))
+                    self._context.event("unable", actor.spec.callsign, str(unable))
         self._triggers.evaluate(now_ns)
-        if self._window is not None:
-            self._publish_steps(self._window.look(now_ns))
+        self._begin_if_due()
+        self._move_window()
 
     def _fail_engine(self, failure: EngineFailure) -> None:
         body = self._actors[failure.actor].body
         if isinstance(body, Aircraft) and body.ended is None:
             body.fail_engine(failure.engine)
-            self._event("failure", failure.actor, f"engine {failure.engine} stops")
+            self._context.event("failure", failure.actor, f"engine {failure.engine} stops")
 
     def _publish_states(self) -> None:
         now_ns = self._director.now_ns
@@ -260,8 +244,68 @@ class WorldLoop:
             if actor.body.ended is None:
                 self._publish(f"truth/state/{callsign}", truth_of(actor, now_ns))
 
-    def _publish_steps(self, steps: Iterable[Step]) -> None:
-        assert self.pair is not None
-        for step in steps:
-            conflict = ConflictTruth(t_ns=self._director.now_ns, phase=step, actors=self.pair)
-            self._publish("truth/conflict", conflict)
+    # --- what becomes true ------------------------------------------------------------------
+
+    def _begin_if_due(self) -> None:
+        """Begin the declared conflict if its event has happened."""
+        if not self._has_begun and self._begins(self._director.now_ns):
+            self._has_begun = True
+            self._publish_conflict("begun", self.pair)
+
+    def _move_window(self) -> None:
+        """Open the conflict window on the scenario's condition; close it once the pair is past."""
+        if self.pair is None:
+            return
+        now_ns = self._director.now_ns
+        if self._window == "before" and self._opens(now_ns):
+            self._window = "open"
+            self.monitor.open_window(self.pair, now_ns)
+            self._publish_conflict("opened", self.pair)
+        elif self._window == "open" and self._has_passed(self.pair):
+            self._window = "after"
+            self.monitor.close_window(self.pair)
+            self._publish_conflict("closed", self.pair)
+
+    def _has_passed(self, pair: Pair) -> bool:
+        """Return whether a pair moves apart and will not lose separation, or one has ended."""
+        if not self.monitor.flying(pair):
+            return True
+        is_receding = self.monitor.motion(pair).time_to_closest_approach_s() < 0.0
+        return is_receding and self.monitor.time_to_loss_s(pair) is None
+
+    def _became_true(
+        self, phase: ConflictPhase, pair: Pair, horizontal_m: float, vertical_m: float
+    ) -> None:
+        """Publish what became true of a pair; whatever collides, ends."""
+        if all(self._actors[callsign].category == "wildlife" for callsign in pair):
+            return  # A herd.
+        self._publish_conflict(phase, pair, horizontal_m=horizontal_m, vertical_m=vertical_m)
+        if phase != "collision":
+            return
+        if self.runways is not None:
+            self.runways.collided(*pair)
+        for callsign, other in (pair, pair[::-1]):
+            actor, struck = self._actors[callsign], self._actors[other]
+            if struck.category == "wildlife" and not struck.body.on_ground:
+                continue  # An aircraft flies on after a bird strike.
+            actor.body.ended = f"collision with {other}"
+            self._tell_end(actor)
+
+    def _publish_incursion(self, incursion: Incursion) -> None:
+        closest = incursion.closest
+        self._publish_conflict(
+            "runway_incursion",
+            tuple(each for each in (incursion.user, incursion.intruder) if each is not None),
+            horizontal_m=closest.horizontal_m if closest else None,
+            vertical_m=closest.vertical_m if closest else None,
+            runway=incursion.runway.replace("/", "-"),
+        )
+
+    def _publish_conflict(
+        self, phase: ConflictPhase, actors: tuple[str, ...] | None, **facts: Any
+    ) -> None:
+        truth = ConflictTruth(t_ns=self._director.now_ns, phase=phase, actors=actors or (), **facts)
+        self._publish("truth/conflict", truth)
+
+    def _tell_end(self, actor: Actor) -> None:
+        self._context.event("actor_ended", actor.spec.callsign, actor.body.ended or "")

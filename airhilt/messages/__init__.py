@@ -14,18 +14,6 @@ from typing import Any
 
 from pydantic import BaseModel, TypeAdapter
 
-from airhilt.messages import (
-    advisories,
-    cameras,
-    cockpit,
-    radio,
-    run,
-    seats,
-    surveillance,
-    transcripts,
-    truth,
-    worker_protocol,
-)
 from airhilt.messages.advisories import (
     CONTROLLER,
     Advisory,
@@ -164,21 +152,56 @@ from airhilt.messages.worker_protocol import (
     StepOutput,
     StepReply,
     WorkerDescription,
+    parts_of,
 )
 
 BUS_MESSAGES: dict[str, type[Message]] = {
-    **run.KEYS,
-    **radio.KEYS,
-    **surveillance.KEYS,
-    **cockpit.KEYS,
-    **cameras.KEYS,
-    **transcripts.KEYS,
-    **advisories.KEYS,
-    **seats.KEYS,
-    **truth.KEYS,
+    "clock": Clock,
+    "briefing": Briefing,
+    "status/{modality}": Status,
+    "radio/{frequency_khz}/tx": Transmission,
+    "radio/{frequency_khz}/audio (opened)": TransmissionOpened,
+    "radio/{frequency_khz}/audio (chunk)": TransmissionChunk,
+    "radio/{frequency_khz}/audio (closed)": TransmissionClosed,
+    "enhanced/{frequency_khz}": EnhancedTransmission,
+    "adsb/{icao24}": AdsbReport,
+    "radar/{site}/info": RadarInfo,
+    "radar/{site}": RadarPlot,
+    "surface/{airport}": SurfaceTrack,
+    "tcas/{callsign}": TcasReply,
+    "cockpit/{callsign}": CockpitInstruments,
+    "cockpit/{callsign}/position": VehiclePosition,
+    "equipment/{equipment}/{recipient}": EquipmentAlert,
+    "camera/{camera}/info": CameraInfo,
+    "camera/{camera}/frame": CameraFrame,
+    "vision/{camera}": Detections,
+    "asr/{frequency_khz}": Transcript,
+    "asr/{frequency_khz}/partial": PartialTranscript,
+    "advisory/{recipient}": Advisory,
+    "tts/{id}": AdvisoryAudio,
+    "llm/{worker}": ModelExchange,
+    "command/{actor}": ActorCommand,
+    "page": PageRefusal,
+    "seat/{seat}": SeatState,
+    "seat/{seat}/do": SeatAction,
+    "seat/{seat}/audio (opened)": SeatAudioOpened,
+    "seat/{seat}/audio (chunk)": SeatAudioChunk,
+    "seat/{seat}/audio (closed)": SeatAudioClosed,
+    "truth/state/{actor}": ActorTruth,
+    "truth/radio/{id}": SpokenTruth,
+    "truth/hearing/{actor}": HearingTruth,
+    "truth/camera/{camera}": CameraTruth,
+    "truth/conflict": ConflictTruth,
+    "truth/runway/{runway}": RunwayTruth,
+    "truth/event": Event,
+    "truth/dropped": DroppedMessages,
 }
 """The message of each key below ``airhilt/<run>/``."""
-WORKER_MESSAGES = worker_protocol.KEYS
+WORKER_MESSAGES: dict[str, type[BaseModel]] = {
+    "worker/{name}/describe (reply)": WorkerDescription,
+    "worker/{name}/step (attachment)": Grant,
+    "worker/{name}/step (attachment of the reply)": StepReply,
+}
 """The messages of the worker protocol."""
 WORKER_OUTPUTS: dict[str, type[Message]] = {
     "enhanced": EnhancedTransmission,

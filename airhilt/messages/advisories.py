@@ -181,11 +181,3 @@ class AdvisoryAudio(Header):
     sample_rate_hz: int = 16_000
     samples: int = Field(ge=0)
     sha256: str = Field(description="of the PCM")
-
-
-KEYS: dict[str, type[Message]] = {
-    "advisory/{recipient}": Advisory,
-    "tts/{id}": AdvisoryAudio,
-    "llm/{worker}": ModelExchange,
-}
-"""The message of each key below ``airhilt/<run>/``."""

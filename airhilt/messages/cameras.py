@@ -127,11 +127,3 @@ class Detections(Message):
         "",
         description="why the detector did not look at the picture; empty if it did",
     )
-
-
-KEYS: dict[str, type[Message]] = {
-    "camera/{camera}/info": CameraInfo,
-    "camera/{camera}/frame": CameraFrame,
-    "vision/{camera}": Detections,
-}
-"""The message of each key below ``airhilt/<run>/``."""

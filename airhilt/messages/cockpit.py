@@ -72,11 +72,3 @@ class EquipmentAlert(Message):
         pattern=r"^[a-z0-9_-]{1,40}$", description="its name", examples=["tcas", "conflict_alert"]
     )
     advisory: Advisory
-
-
-KEYS: dict[str, type[Message]] = {
-    "cockpit/{callsign}": CockpitInstruments,
-    "cockpit/{callsign}/position": VehiclePosition,
-    "equipment/{equipment}/{recipient}": EquipmentAlert,
-}
-"""The message of each key below ``airhilt/<run>/``."""

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from airhilt.messages.base import Header, Limit, Message, Nanoseconds
+from airhilt.messages.base import Header, Limit, Nanoseconds
 
 ASSISTANT = "ASSISTANT"
 """The assistant as a speaker: the name of its voice, and of its transmitter."""
@@ -111,13 +111,3 @@ TransmissionAudio = Annotated[
     TransmissionOpened | TransmissionChunk | TransmissionClosed, Field(discriminator="phase")
 ]
 """Messages on ``radio/<freq_khz>/audio``."""
-
-
-KEYS: dict[str, type[Message]] = {
-    "radio/{frequency_khz}/tx": Transmission,
-    "radio/{frequency_khz}/audio (opened)": TransmissionOpened,
-    "radio/{frequency_khz}/audio (chunk)": TransmissionChunk,
-    "radio/{frequency_khz}/audio (closed)": TransmissionClosed,
-    "enhanced/{frequency_khz}": EnhancedTransmission,
-}
-"""The message of each key below ``airhilt/<run>/``."""

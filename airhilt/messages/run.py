@@ -87,11 +87,3 @@ class Briefing(Message):
     animals: tuple[VisibleClass, ...] = Field(
         default=("bird", "coyote", "deer"), description="classes of pictures that are animals"
     )
-
-
-KEYS: dict[str, type[Message]] = {
-    "clock": Clock,
-    "briefing": Briefing,
-    "status/{modality}": Status,
-}
-"""The message of each key below ``airhilt/<run>/``."""

@@ -380,14 +380,3 @@ class PageRefusal(Message):
 
 SEAT_AUDIO = "seat/*/audio"
 """Keys of the sound that the receiver of one seat gets: nobody else hears it."""
-
-KEYS: dict[str, type[Message]] = {
-    "command/{actor}": ActorCommand,
-    "page": PageRefusal,
-    "seat/{seat}": SeatState,
-    "seat/{seat}/do": SeatAction,
-    "seat/{seat}/audio (opened)": SeatAudioOpened,
-    "seat/{seat}/audio (chunk)": SeatAudioChunk,
-    "seat/{seat}/audio (closed)": SeatAudioClosed,
-}
-"""The message of each key below ``airhilt/<run>/``."""

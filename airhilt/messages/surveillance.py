@@ -153,13 +153,3 @@ class TcasReply(Message):
         default=False,
         description="it has TCAS II as well, and coordinates (field RI of a Mode S reply)",
     )
-
-
-KEYS: dict[str, type[Message]] = {
-    "adsb/{icao24}": AdsbReport,
-    "radar/{site}/info": RadarInfo,
-    "radar/{site}": RadarPlot,
-    "surface/{airport}": SurfaceTrack,
-    "tcas/{callsign}": TcasReply,
-}
-"""The message of each key below ``airhilt/<run>/``."""

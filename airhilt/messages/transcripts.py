@@ -68,10 +68,3 @@ class PartialTranscript(Message):
         "has too; the others may change, because little audio follows them",
     )
     engine: str
-
-
-KEYS: dict[str, type[Message]] = {
-    "asr/{frequency_khz}": Transcript,
-    "asr/{frequency_khz}/partial": PartialTranscript,
-}
-"""The message of each key below ``airhilt/<run>/``."""

@@ -181,16 +181,3 @@ class Event(Message):
     kind: EventKind
     subject: str
     text: str
-
-
-KEYS: dict[str, type[Message]] = {
-    "truth/state/{actor}": ActorTruth,
-    "truth/radio/{id}": SpokenTruth,
-    "truth/hearing/{actor}": HearingTruth,
-    "truth/camera/{camera}": CameraTruth,
-    "truth/conflict": ConflictTruth,
-    "truth/runway/{runway}": RunwayTruth,
-    "truth/event": Event,
-    "truth/dropped": DroppedMessages,
-}
-"""The message of each key below ``airhilt/<run>/``."""

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from itertools import accumulate
 from typing import Any, Literal
 
-from pydantic import BaseModel, Field
+from pydantic import Field
 
 from airhilt.messages.base import Nanoseconds, Part
 from airhilt.messages.run import Modality
@@ -94,9 +96,15 @@ class StepReply(Part):
     )
 
 
-KEYS: dict[str, type[BaseModel]] = {
-    "worker/{name}/describe (reply)": WorkerDescription,
-    "worker/{name}/step (attachment)": Grant,
-    "worker/{name}/step (attachment of the reply)": StepReply,
-}
-"""The messages of the worker protocol."""
+def parts_of(payload: bytes, sizes: Sequence[int]) -> list[bytes]:
+    """Return the bytes of each input or output of a payload, by their sizes.
+
+    Raises
+    ------
+    ValueError
+        The sizes do not add up to the payload's.
+    """
+    if sum(sizes) != len(payload):
+        raise ValueError(f"{len(payload)} bytes of payload, but sizes {list(sizes)}")
+    ends = accumulate(sizes)
+    return [payload[end - size : end] for size, end in zip(sizes, ends, strict=True)]

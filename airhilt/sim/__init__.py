@@ -9,7 +9,7 @@ from airhilt.sim.interruption import interruptible
 from airhilt.sim.latency import LatencySpec, parse_latency
 from airhilt.sim.pace import Pace, Paused, RealTime, Virtual, parse_pace
 from airhilt.sim.server import Server, StepRecord
-from airhilt.sim.worker import Endpoint, Input, Output, Pending, Policy, Reply, WorkerLost
+from airhilt.sim.worker import Endpoint, Input, Output, Pending, Policy, Reply, StepDone, WorkerLost
 
 __all__ = [
     "Director",
@@ -26,6 +26,7 @@ __all__ = [
     "Reply",
     "Scheduler",
     "Server",
+    "StepDone",
     "StepRecord",
     "Virtual",
     "WorkerLost",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal, Protocol
+from typing import Any, Literal, Protocol, cast
 
 from airhilt.sim.payload import DeferredBytes, Payload
 
@@ -114,6 +114,20 @@ class Pending(Protocol):
         WorkerLost says that none came, WorkerError that it broke the contract.
         """
         ...
+
+
+@dataclass(frozen=True, slots=True)
+class StepDone:
+    """A step that has ended: its reply, or what it raises instead."""
+
+    reply: Reply | None = None
+    failure: Exception | None = None
+
+    def result(self) -> Reply:
+        """Return the reply, or raise the failure; see `Pending`."""
+        if self.failure is not None:
+            raise self.failure
+        return cast("Reply", self.reply)
 
 
 class Endpoint(Protocol):

@@ -17,8 +17,7 @@ from pydantic import JsonValue, ValidationError
 
 from airhilt.cosim.latency_presets import PRESETS
 from airhilt.cosim.option_checks import check_options
-from airhilt.cosim.requested_latency import is_vision_measured, requested_latency
-from airhilt.cosim.requested_radio import with_requested_radio
+from airhilt.cosim.requested import is_vision_measured, requested_latency, requested_radio
 from airhilt.engine_families import ASSISTANTS, DETECTORS, EXTERNAL
 from airhilt.errors import AirhiltError, ScenarioError, shown
 from airhilt.host import library
@@ -282,7 +281,7 @@ class RunChecks:
     def _require_channel(self, options: Options, scenario: Scenario) -> None:
         if not options.speech:
             return
-        profile = with_requested_radio(options, scenario).radio.profile or DEFAULT_PROFILE
+        profile = requested_radio(options, scenario).profile or DEFAULT_PROFILE
         if profile not in self._channels:
             self._channels[profile] = None
             try:

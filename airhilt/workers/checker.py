@@ -5,19 +5,27 @@ from __future__ import annotations
 import re
 import threading
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from difflib import get_close_matches
 from typing import Any
 
 from pydantic import ValidationError
 
+from airhilt.engine_families import ASSISTANTS
 from airhilt.errors import WorkerError
-from airhilt.messages import BUS_MESSAGES, Advisory, Modality, WorkerDescription
+from airhilt.messages import (
+    BUS_MESSAGES,
+    CONTROLLER,
+    SPEAK_MIN_LEVEL,
+    Advisory,
+    Modality,
+    Recommendation,
+    WorkerDescription,
+)
 from airhilt.sim.worker import Input, Output
 from airhilt.units import SECOND_NS
-from airhilt.workers.hints import is_reference, no_action
 from airhilt.workers.pool import is_match, parse_output, require_open_key
-from airhilt.workers.protocol import Worker, checked, described
+from airhilt.workers.protocol import Step, Worker, checked, described
 from airhilt.workers.samples import NAMES, sample_inputs
 
 PUBLISHED = sorted(
@@ -41,6 +49,7 @@ PATIENCE_S = 5.0
 """Longest wall time of one step, in s: after it, a run gives an attached worker up."""
 STEPS_AT_S = (1, 2, 30)
 """Simulation times of the steps that are tried."""
+PAGE = "docs/workers.md#what-makes-somebody-act"
 
 
 def check_worker(
@@ -62,37 +71,40 @@ def check_worker(
     WorkerError
         Something is wrong; the message has a line for each problem.
     """
+    description = described(worker)
+    problems = [
+        problem
+        for wanted in description.inputs
+        for problem in _wrong_input(description.name, wanted.key)
+    ]
     hints: list[str] = []
-    problems = list(dict.fromkeys(_problems(worker, inputs, patience_s, hints)))
-    for hint in hints[:1]:
-        warnings.warn(hint, stacklevel=2)
-    if problems:
-        raise WorkerError("\n".join(problems))
-
-
-def _problems(
-    worker: Worker, inputs: Sequence[Input] | None, patience_s: float, hints: list[str]
-) -> Iterator[str]:
-    """Yield the problems that a run would refuse; add advisories without effect to ``hints``."""
-    try:
-        description = described(worker)
-    except WorkerError as error:
-        yield str(error)
-        return
-    for wanted in description.inputs:
-        yield from _wrong_input(description.name, wanted.key)
     for t_ns, given in _steps(description, inputs):
         answer = _Answer(worker, t_ns, given)
         answer.start()
         answer.join(patience_s)
         if answer.is_alive():
-            yield (
+            problems.append(
                 f"worker {description.name!r} has not answered for {patience_s:g} s to "
                 f"{_named(given)}; an attached worker that takes longer is lost"
             )
-            return
-        yield from _wrong_answer(description, t_ns, given, answer)
-        hints += _hints(description, answer.step, None if inputs is not None else NAMES)
+            break
+        try:
+            step = answer.result(description.name)
+        except WorkerError as error:
+            problems.append(str(error))
+            continue
+        problems += _wrong_step(description, t_ns, step)
+        if description.engine != ASSISTANTS.default:  # Its advisories need no hint.
+            hints += _hints(description.name, step, None if inputs is not None else NAMES)
+    else:
+        problems += _changed_description(worker, description)
+    for hint in hints[:1]:
+        warnings.warn(hint, stacklevel=2)
+    if problems:
+        raise WorkerError("\n".join(dict.fromkeys(problems)))
+
+
+def _changed_description(worker: Worker, description: WorkerDescription) -> Iterator[str]:
     try:
         is_same = described(worker) == description
     except WorkerError:
@@ -157,24 +169,21 @@ class _Answer(threading.Thread):
         except (Exception, SystemExit) as error:
             self.failure = error
 
+    def result(self, name: str) -> Step:
+        """Return the step, checked; see `checked` for its error."""
+        if self.failure is not None:
+            raise WorkerError(
+                f"worker {name!r} raised {type(self.failure).__name__} on {_named(self._call[2])}: "
+                f"{self.failure}"
+            )
+        return checked(name, self.step)
 
-def _wrong_answer(
-    description: WorkerDescription, t_ns: int, given: Sequence[Input], answer: _Answer
-) -> Iterator[str]:
-    name = description.name
-    if answer.failure is not None:
-        error = answer.failure
-        yield f"worker {name!r} raised {type(error).__name__} on {_named(given)}: {error}"
-        return
-    try:
-        step = checked(name, answer.step)
-    except WorkerError as error:
-        yield str(error)
-        return
+
+def _wrong_step(description: WorkerDescription, t_ns: int, step: Step) -> Iterator[str]:
     if step.wake_ns is not None and step.wake_ns <= t_ns:
         yield (
-            f"worker {name!r} asks at {t_ns} ns to be called again at {step.wake_ns} ns; expected "
-            "a later time"
+            f"worker {description.name!r} asks at {t_ns} ns to be called again at {step.wake_ns} "
+            "ns; expected a later time"
         )
     for output in step.outputs:
         yield from _wrong_output(description, t_ns, output)
@@ -211,7 +220,7 @@ def _wrong_output(description: WorkerDescription, t_ns: int, output: Output) -> 
         )
 
 
-def _hints(description: WorkerDescription, step: Any, names: Sequence[str] | None) -> Iterator[str]:
+def _hints(name: str, step: Step, names: Sequence[str] | None) -> Iterator[str]:
     """Yield a hint for each advisory on which nobody acts.
 
     Parameters
@@ -219,22 +228,48 @@ def _hints(description: WorkerDescription, step: Any, names: Sequence[str] | Non
     names
         Names of all who may be told; None if anybody may be.
     """
-    if is_reference(description):
-        return
-    try:
-        outputs = checked(description.name, step).outputs
-    except WorkerError:
-        return  # `_wrong_answer` tells what is wrong with the step.
-    for output in outputs:
+    for output in step.outputs:
         try:
             advisory = Advisory.model_validate_json(output.payload)
         except ValidationError:
-            continue  # It is no advisory; `_wrong_answer` tells if it had to be one.
+            continue  # It is no advisory; `_wrong_output` tells if it had to be one.
         is_known = names is None or advisory.recipient in names
         # Everybody in the samples is an aircraft, and its crew follows every recommendation.
         text = no_action(advisory, (lambda _: True) if is_known else None)
         if text is not None:
-            yield f"worker {description.name!r}: {text}"
+            yield f"worker {name!r}: {text}"
+
+
+def no_action(advisory: Advisory, follows: Callable[[Recommendation], bool] | None) -> str | None:
+    """Return why nobody acts on a warning; None if somebody may act, or if it is for ATC.
+
+    Parameters
+    ----------
+    follows
+        Tells whether the recipient follows recommendations of a kind; None if there is no such
+        recipient.
+    """
+    if (
+        not advisory.active
+        or advisory.severity.rank < SPEAK_MIN_LEVEL.rank
+        or advisory.recipient == CONTROLLER
+    ):
+        return None
+    recipient, recommendation = advisory.recipient, advisory.recommendation
+    told = f"its {advisory.severity.value} to {recipient}"
+    if follows is None:
+        return (
+            f"{told}: nobody has that name, so nobody acts on it; expected a callsign or "
+            f"{CONTROLLER}; see {PAGE}"
+        )
+    if recommendation is None:
+        return f"{told} has no recommendation: nobody acts on it; see {PAGE}"
+    if not follows(recommendation):
+        return (
+            f"{told} recommends {recommendation.action}, which {recipient} does not follow: "
+            f"nobody acts on it; see {PAGE}"
+        )
+    return None
 
 
 def _named(given: Sequence[Input]) -> str:

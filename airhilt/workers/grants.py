@@ -9,10 +9,9 @@ from typing import Any
 import zenoh
 from pydantic import ValidationError
 
-from airhilt.bus.multipart import pack, unpack
 from airhilt.bus.session import ROOT, close_session, connect_client, find_run
 from airhilt.errors import BusError
-from airhilt.messages import Grant, StepOutput, StepReply
+from airhilt.messages import Grant, StepOutput, StepReply, parts_of
 from airhilt.sim.worker import Input
 from airhilt.workers.protocol import Worker, checked, described, timed_step
 
@@ -71,7 +70,7 @@ def _answer(name: str, worker: Worker, query: zenoh.Query) -> tuple[bytes, bytes
     except ValidationError as error:
         raise BusError(f"not a grant: {error}") from None
     payload = query.payload.to_bytes() if query.payload is not None else b""
-    parts = unpack(payload, [item.size for item in grant.inputs])
+    parts = parts_of(payload, [item.size for item in grant.inputs])
     inputs = [
         Input(item.key, item.t_in_ns, part, item.attachment)
         for item, part in zip(grant.inputs, parts, strict=True)
@@ -92,4 +91,4 @@ def _answer(name: str, worker: Worker, query: zenoh.Query) -> tuple[bytes, bytes
         ),
         wake_ns=step.wake_ns,
     )
-    return pack(output.payload for output in step.outputs), header.model_dump_json().encode()
+    return b"".join(output.payload for output in step.outputs), header.model_dump_json().encode()

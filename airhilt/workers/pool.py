@@ -111,13 +111,13 @@ class WorkerPool:
         """Workers to which a piece of a call is a part of it, not news of one instant."""
         for participant in participants:
             description = participant.description
+            declared = description.latency
+            spec = latency.of(description.modality, participant.is_of_user)
             server = Server(
                 description.name,
                 director,
                 participant.endpoint,
-                latency.of(description.modality, participant.is_of_user).source(
-                    description.name, seed, description.latency.median_s, description.latency.sigma
-                ),
+                spec.source(description.name, seed, declared.median_s, declared.sigma),
                 deliver=partial(_deliver, director, publish, description),
                 done=done,
                 lost=partial(lost, description),
@@ -127,10 +127,9 @@ class WorkerPool:
                 require_open_key(description.name, wanted.key)
                 policies[wanted.key] = wanted.policy
             self.servers[description.name] = server
-            source = latency.of(description.modality, participant.is_of_user)
-            self._sources.setdefault(description.modality, set()).add(source.own_text)
-            if source.kind == "measured":
-                self._declared_s[description.name] = description.latency.median_s
+            self._sources.setdefault(description.modality, set()).add(spec.own_text)
+            if spec.kind == "measured":
+                self._declared_s[description.name] = declared.median_s
             self._inputs.append((server, policies))
 
     def offer(self, key: str, message: Message, data: Payload) -> None:
@@ -199,13 +198,7 @@ class WorkerPool:
 def _deliver(
     director: Director, publish: Publish, worker: WorkerDescription, output: Output
 ) -> None:
-    """Publish an output that leaves a worker, after a check.
-
-    Raises
-    ------
-    WorkerError
-        The worker may not publish there, or it is not what belongs there.
-    """
+    """Publish an output that leaves a worker, after a check."""
     message = parse_output(
         worker.name, output.key, output.payload, director.now_ns, output.attachment
     )

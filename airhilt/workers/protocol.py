@@ -9,7 +9,10 @@ from typing import Any, Protocol
 
 from airhilt.errors import WorkerError, first_line, is_of_machine, shown
 from airhilt.messages import WorkerDescription
-from airhilt.sim.worker import Input, Output, Reply, WorkerLost
+from airhilt.sim.worker import Input, Output, Reply, StepDone, WorkerLost
+
+OUTPUT = "airhilt.workers.Output"
+TIME = "an int, in ns, or None"
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,46 +89,32 @@ def checked(name: str, step: Any) -> Step:
     WorkerError
         A part has another type.
     """
-    if not isinstance(step, Step):
-        raise WorkerError(
-            f"worker {name!r} returned {shown(step)} from step; expected an airhilt.workers.Step"
-        )
-    if not isinstance(step.outputs, tuple | list):
-        raise WorkerError(
-            f"worker {name!r} returned a Step whose outputs are {shown(step.outputs)}; expected a "
-            "tuple of airhilt.workers.Output"
-        )
-    if not _is_time(step.wake_ns):
-        raise WorkerError(
-            f"worker {name!r} returned a Step with wake_ns {shown(step.wake_ns)}; expected an int, "
-            "in ns, or None"
-        )
-    for output in step.outputs:
-        _check_output(name, output)
+    if problem := _problem_of(step):
+        raise WorkerError(f"worker {name!r} {problem}")
     return Step(tuple(step.outputs), step.wake_ns)
 
 
-def _check_output(name: str, output: Any) -> None:
-    if not isinstance(output, Output):
-        raise WorkerError(
-            f"worker {name!r} returned {shown(output)} among its outputs; expected "
-            "airhilt.workers.Output"
-        )
-    if not isinstance(output.key, str):
-        raise WorkerError(
-            f"worker {name!r} returned an Output with the key {shown(output.key)}; expected a str "
-            "such as 'advisory/ATC'"
-        )
-    if not isinstance(output.payload, bytes):
-        raise WorkerError(
-            f"worker {name!r} published on {output.key!r} the payload {shown(output.payload)}; "
-            "expected bytes"
-        )
-    if not _is_time(output.t_out_ns):
-        raise WorkerError(
-            f"worker {name!r} published on {output.key!r} with t_out_ns {shown(output.t_out_ns)}; "
-            "expected an int, in ns, or None"
-        )
+def _problem_of(step: Any) -> str:
+    """Return what is wrong with the types of a step; empty if nothing is."""
+    if not isinstance(step, Step):
+        return f"returned {shown(step)} from step; expected an airhilt.workers.Step"
+    if not isinstance(step.outputs, tuple | list):
+        outputs = shown(step.outputs)
+        return f"returned a Step whose outputs are {outputs}; expected a tuple of {OUTPUT}"
+    if not _is_time(step.wake_ns):
+        return f"returned a Step with wake_ns {shown(step.wake_ns)}; expected {TIME}"
+    for output in step.outputs:
+        if not isinstance(output, Output):
+            return f"returned {shown(output)} among its outputs; expected {OUTPUT}"
+        if not isinstance(output.key, str):
+            key = shown(output.key)
+            return f"returned an Output with the key {key}; expected a str such as 'advisory/ATC'"
+        where = f"published on {output.key!r}"
+        if not isinstance(output.payload, bytes):
+            return f"{where} the payload {shown(output.payload)}; expected bytes"
+        if not _is_time(output.t_out_ns):
+            return f"{where} with t_out_ns {shown(output.t_out_ns)}; expected {TIME}"
+    return ""
 
 
 def _is_time(value: object) -> bool:
@@ -150,40 +139,19 @@ class LocalWorker:
         self.description = described(worker)
         self._worker = worker
 
-    def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> LocalStep:  # noqa: ARG002
+    def dispatch(self, seq: int, t_ns: int, inputs: Sequence[Input]) -> StepDone:  # noqa: ARG002
         """Compute the step at once.
 
         An exception of the worker counts as its loss, so that it cannot end the run.
         """
         name = self.description.name
         try:
-            step, compute_s = timed_step(self._worker, t_ns, inputs)
+            result, compute_s = timed_step(self._worker, t_ns, inputs)
         except (Exception, SystemExit) as error:
             failure = f"worker {name!r} failed: {type(error).__name__}: {error}"
-            return LocalStep(name, None, 0.0, WorkerLost(failure, is_of_machine(error)))
-        return LocalStep(name, step, compute_s, None)
-
-
-@dataclass(frozen=True, slots=True)
-class LocalStep:
-    """A step that has been computed, or has failed."""
-
-    worker: str
-    step: Step | None
-    compute_s: float
-    failure: WorkerLost | None
-
-    def result(self) -> Reply:
-        """Return the reply.
-
-        Raises
-        ------
-        WorkerLost
-            The worker raised.
-        WorkerError
-            The worker returned something else than a step.
-        """
-        if self.failure is not None:
-            raise self.failure
-        step = checked(self.worker, self.step)
-        return Reply(step.outputs, self.compute_s, step.wake_ns)
+            return StepDone(failure=WorkerLost(failure, is_of_machine(error)))
+        try:
+            step = checked(name, result)
+        except WorkerError as error:
+            return StepDone(failure=error)
+        return StepDone(Reply(step.outputs, compute_s, step.wake_ns))

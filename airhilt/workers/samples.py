@@ -27,8 +27,9 @@ from airhilt.messages import (
 from airhilt.sim.worker import Input
 from airhilt.units import SECOND_NS
 
-NAMES = ("AAL123", "DAL456", "a00001", "a00002")
+CALLSIGNS, ADDRESSES = ("AAL123", "DAL456"), ("a00001", "a00002")
 """Callsigns and addresses of the aircraft in the samples."""
+NAMES = (*CALLSIGNS, *ADDRESSES)
 SILENCE = bytes(32_000)
 """PCM of one second."""
 VIEW = CameraView(
@@ -49,20 +50,22 @@ PIXELS = bytes(3 * VIEW.width_px * VIEW.height_px)
 def sample_inputs(t_ns: int) -> Iterator[Input]:
     """Yield an input of each kind, as if it arrived at a time after the first second of a run."""
     yield _json("clock", Clock(t_ns=t_ns, run="sample", pace="virtual", phase="running"))
-    briefing = Briefing(
-        t_ns=t_ns,
-        controller="Washington Center",
-        horizontal_separation_nm=5.0,
-        vertical_separation_ft=1000.0,
-        roster=tuple(
-            RosterEntry(callsign=callsign, category="aircraft", type="B738")
-            for callsign in ("AAL123", "DAL456")
+    yield _json(
+        "briefing",
+        Briefing(
+            t_ns=t_ns,
+            controller="Washington Center",
+            horizontal_separation_nm=5.0,
+            vertical_separation_ft=1000.0,
+            roster=tuple(
+                RosterEntry(callsign=callsign, category="aircraft", type="B738")
+                for callsign in CALLSIGNS
+            ),
         ),
     )
-    yield _json("briefing", briefing)
     yield _json("status/asr", Status(t_ns=t_ns, modality="asr", state="on"))
-    yield _json("adsb/a00001", _report(t_ns, "a00001", "AAL123", 38.80))
-    yield _json("adsb/a00002", _report(t_ns, "a00002", "DAL456", 38.90))
+    for icao24, callsign, latitude_deg in zip(ADDRESSES, CALLSIGNS, (38.80, 38.90), strict=True):
+        yield _json(f"adsb/{icao24}", _report(t_ns, icao24, callsign, latitude_deg))
     yield from _call(t_ns)
     yield from _pictures(t_ns)
     yield from _advisory(t_ns)
@@ -73,11 +76,8 @@ def _json(key: str, message: Message) -> Input:
 
 
 def _raw(key: str, header: Message, data: bytes) -> Input:
+    header = header.model_copy(update={"sha256": hashlib.sha256(data).hexdigest()})
     return Input(key, header.t_ns, data, header.model_dump(mode="json"))
-
-
-def _sha256(data: bytes) -> str:
-    return hashlib.sha256(data).hexdigest()
 
 
 def _report(t_ns: int, icao24: str, callsign: str, latitude_deg: float) -> AdsbReport:
@@ -109,7 +109,7 @@ def _call(t_ns: int) -> Iterator[Input]:
         t_tx_ns=t_ns - SECOND_NS,
         t_end_ns=t_ns,
         samples=len(SILENCE) // 2,
-        sha256=_sha256(SILENCE),
+        sha256="",
     )
     yield _raw("radio/118300/tx", transmission, SILENCE)
     transcript = Transcript(
@@ -142,7 +142,7 @@ def _pictures(t_ns: int) -> Iterator[Input]:
         seq=t_ns // SECOND_NS,
         t_frame_ns=t_ns,
         view=VIEW,
-        sha256=_sha256(PIXELS),
+        sha256="",
     )
     yield _raw("camera/sample/frame", frame, PIXELS)
     detections = Detections(
@@ -167,7 +167,7 @@ def _advisory(t_ns: int) -> Iterator[Input]:
         recipients=("ATC",),
         kind="loss_of_separation",
         severity=Severity.CAUTION,
-        traffic=("AAL123", "DAL456"),
+        traffic=CALLSIGNS,
         message="AAL123 and DAL456 lose separation in 60 s",
         evidence=Evidence(sources=("adsb",)),
         t_ready_ns=t_ns,
@@ -182,6 +182,6 @@ def _advisory(t_ns: int) -> Iterator[Input]:
         t_dec_ns=t_ns,
         engine="sample",
         samples=len(SILENCE) // 2,
-        sha256=_sha256(SILENCE),
+        sha256="",
     )
     yield _raw("tts/sample-1", voice, SILENCE)

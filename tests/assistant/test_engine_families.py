@@ -18,7 +18,7 @@ from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.reference import reference_worker
 from airhilt.assistant.wording.engines.template import Template
 from airhilt.bus import free_endpoint
-from airhilt.cli.doctor import examine
+from airhilt.cli.commands.doctor import examine
 from airhilt.cosim.observer import Result
 from airhilt.cosim.replay import replay
 from airhilt.engine_families import DETECTORS, RECOGNISERS
@@ -247,7 +247,7 @@ def test_a_replay_takes_from_the_record_what_an_engine_asked_elsewhere(
 
 @pytest.mark.usefixtures("added")
 def test_doctor_lists_the_engines_of_all_families(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("airhilt.cli.doctor._renderers", list)
+    monkeypatch.setattr("airhilt.cli.commands.doctor._renderers", list)
     found = {one.name: one for one in examine()}
     assert found["recogniser embedded"].needed
     assert found["recogniser parrot"].found == "(hears the same in everything)"
@@ -298,7 +298,7 @@ def test_an_engine_that_cannot_be_made_is_named_with_the_cause(
 def test_doctor_survives_a_broken_engine_and_gives_the_cause(
     source: str, cause: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("airhilt.cli.doctor._renderers", list)
+    monkeypatch.setattr("airhilt.cli.commands.doctor._renderers", list)
     with installed(tmp_path, monkeypatch, "airhilt.asr", "faulty", source):
         found = {one.name: one for one in examine()}
     broken = found["recogniser faulty"]

@@ -14,7 +14,7 @@ import zenoh
 
 from airhilt.bus.access import ROLES
 from airhilt.bus.remote_workers import RemoteWorker
-from airhilt.bus.session import Bus, Refusal, connect_client
+from airhilt.bus.session import Bus, connect_client
 from airhilt.errors import WorkerError
 from airhilt.messages import InputSpec, StepReply, WorkerDescription
 
@@ -138,12 +138,12 @@ def test_an_answer_of_another_program_is_ignored_and_named(
     assert described(worker)
     stranger = client()
     kept += answer(stranger, rogue, complete=True)
-    refused: list[Refusal] = []
-    bus.hear_refusals(refused.append)
+    refused: list[tuple[str, str]] = []
+    bus.refused = lambda *refusal: refused.append(refusal)
     for _ in itertools.takewhile(lambda _: not refused, range(1000)):
         assert worker.dispatch(0, 0, []).result().wake_ns == 1
-    assert {refusal.key for refusal in refused} == {"worker/own/step"}
-    assert f"Zenoh id {stranger.info.zid()}" in refused[0].cause
+    assert {key for key, _ in refused} == {"worker/own/step"}
+    assert f"Zenoh id {stranger.info.zid()}" in refused[0][1]
 
 
 def test_two_programs_that_answer_as_one_worker_are_refused(

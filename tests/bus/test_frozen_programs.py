@@ -8,7 +8,7 @@ import subprocess
 import threading
 import time
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack, closing, contextmanager
+from contextlib import closing, contextmanager
 
 import pytest
 import zenoh
@@ -16,8 +16,6 @@ import zenoh
 from airhilt.bus.remote_workers import RemoteWorker
 from airhilt.bus.session import Bus, close_session, connect_client, find_run, free_endpoint
 from airhilt.messages import InputSpec, StepReply, WorkerDescription
-from airhilt.station.connection import RunConnection
-from airhilt.station.subscription import Subscription
 from processes import process
 
 READER = """
@@ -94,19 +92,6 @@ def test_a_program_ends_before_its_run_reads_again() -> None:
         find_run(session, 30.0)
         stop_and_fill(program, lambda: session.put("airhilt/run/command/AAL123", bytes(3000)))
         assert is_done_before_it_reads(program, lambda: close_session(session))
-
-
-@pytest.mark.slow
-def test_a_page_ends_before_its_run_reads_again() -> None:
-    endpoint = free_endpoint()
-    with process("-c", RUN, endpoint) as program:
-        connection = RunConnection(endpoint, "operator")
-        page = Subscription(connection, lambda _: None, lambda: None, seats=["TOWER"])
-        stop_and_fill(program, lambda: page.log_refusal("a" * 400))
-        with ExitStack() as stack:
-            stack.callback(connection.close)
-            stack.callback(page.close)
-            assert is_done_before_it_reads(program, stack.pop_all().close)
 
 
 def test_another_run_may_listen_where_one_ended_that_was_not_read() -> None:

@@ -8,17 +8,17 @@ import signal
 import subprocess
 import time
 from collections.abc import Iterator
-from contextlib import closing, contextmanager
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from airhilt import run
-from airhilt.bus import Bus, free_endpoint
+from airhilt.bus import free_endpoint
 from airhilt.cosim.observer import Observer, Snapshot
 from airhilt.cosim.replay import replay
-from airhilt.errors import AirhiltError, BusError, RunStopped, WorkerError
+from airhilt.errors import RunStopped, WorkerError
 from airhilt.record import RunFolder, read_log
 from airhilt.scenario import Scenario
 from breadth import mostly_slow
@@ -52,21 +52,6 @@ def test_a_worker_in_another_process_gives_the_same_log(
     assert (outside / "log.mcap").read_bytes() == (inside / "log.mcap").read_bytes()
     assert RunFolder(outside).info().workers[0].where == "attached"
     assert replay(outside).identical
-
-
-def test_an_attached_worker_knows_the_separation_of_the_scenario(
-    brief: Scenario, tmp_path: Path
-) -> None:
-    narrow = brief.separation.model_copy(update={"horizontal_nm": 3.0})
-    scenario = brief.model_copy(update={"separation": narrow})
-    inside = run(scenario, out=tmp_path / "inside", speech=False, latency="fixed").folder
-    endpoint = free_endpoint()
-    with decision_worker(endpoint):
-        outside = run(
-            scenario, out=tmp_path / "outside", speech=False, latency="fixed", endpoint=endpoint,
-            attach=("decision",),
-        ).folder  # fmt: skip
-    assert (outside / "log.mcap").read_bytes() == (inside / "log.mcap").read_bytes()
 
 
 @pytest.mark.slow
@@ -232,21 +217,6 @@ def step(query):
         if answer == "truth":
             payload = b"{}"
             reply["outputs"] = [{"key": "truth/conflict", "size": 2}]
-        if answer == "no advisory":
-            payload = b"{}"
-            reply["outputs"] = [{"key": "advisory/ATC", "size": 2}]
-        if answer == "future":
-            payload = json.dumps({
-                "id": "bad-1", "revision": 0, "recipient": "ATC", "recipients": ["ATC"],
-                "kind": "loss_of_separation", "severity": "CAUTION", "traffic": [],
-                "message": "", "evidence": {"sources": []}, "t_ready_ns": 10**18,
-            }).encode()
-            reply["outputs"] = [{"key": "advisory/ATC", "size": len(payload)}]
-        if answer == "wild":
-            payload = b"{}"
-            reply["outputs"] = [{"key": "advisory/a#b", "size": 2}]
-        if answer == "sizes":
-            reply["outputs"] = [{"key": "advisory/ATC", "size": 99}]
         if answer == "large":
             payload = b" " * 40_000
             reply["outputs"] = [{"key": "advisory/ATC", "size": 40_000}]
@@ -265,10 +235,6 @@ time.sleep(60)
         ("garbage", "Invalid JSON"),
         ("past", "before its step began"),
         ("truth", "published on 'truth/conflict'"),
-        ("no advisory", "no Advisory"),
-        ("future", "expected a time that has come"),
-        ("wild", "no Advisory"),
-        ("sizes", "sizes"),
         ("large", "40,000 bytes; expected at most 32,000"),
         ("seq", "expected the seq of the grant"),
     ],
@@ -316,14 +282,6 @@ def test_a_worker_of_the_sdk_whose_step_has_a_part_of_another_type_is_lost(
         if logged.key == "status/decision" and json.loads(logged.data)["state"] == "lost"
     ]
     assert "worker 'odd' returned 'x' among its outputs; expected airhilt.workers.Output" in lost
-
-
-def test_two_runs_side_by_side_do_not_meet() -> None:
-    with closing(Bus("one")) as first, closing(Bus("two")) as second:
-        assert first.endpoint != second.endpoint
-        assert first.endpoint.startswith("tcp/127.0.0.1:")
-        with pytest.raises(BusError, match="--endpoint"):
-            Bus("three", first.endpoint)
 
 
 @pytest.mark.skipif(not Path("/proc/net/tcp").exists(), reason="needs /proc")
@@ -403,29 +361,3 @@ def test_a_command_from_outside_moves_an_aircraft(encounter: Scenario, tmp_path:
     assert refused == {"command/DAL456", "tts/a-1"}
     verdict = replay(result.folder)
     assert verdict.identical, verdict.difference
-
-
-def test_a_worker_may_not_ask_for_truth(encounter: Scenario, tmp_path: Path) -> None:
-    from airhilt.messages import InputSpec, WorkerDescription
-    from airhilt.sim import Director, Virtual, parse_latency
-    from airhilt.workers import LocalWorker, Step
-    from airhilt.workers.pool import Participant, WorkerPool
-
-    class Peeks:
-        description = WorkerDescription(
-            name="peeks", modality="decision", inputs=(InputSpec(key="truth/*"),)
-        )
-
-        def step(self, t_ns: int, inputs: object) -> Step:
-            return Step()
-
-    with pytest.raises(AirhiltError, match="truth never reaches a worker"):
-        WorkerPool(
-            Director(Virtual()),
-            [Participant(Peeks.description, LocalWorker(Peeks()), where="in process")],
-            parse_latency("fixed"),
-            0,
-            publish=lambda *_, **__: None,
-            done=lambda record: None,
-            lost=lambda *_: None,
-        )

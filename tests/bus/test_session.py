@@ -74,14 +74,6 @@ def test_shared_memory_that_cannot_be_made_is_the_cause_and_not_the_port() -> No
     assert "port" not in str(error.value)
 
 
-@pytest.mark.usefixtures("_no_shared_memory")
-def test_a_client_without_shared_memory_does_not_wait_for_the_run() -> None:
-    begun = time.monotonic()
-    with pytest.raises(BusError, match="/dev/shm must be writable"):
-        connect_client(free_endpoint(), patience_s=60.0)
-    assert time.monotonic() - begun < 30.0
-
-
 @linux_only
 def test_a_closed_session_leaves_no_descriptor_and_no_shared_memory() -> None:
     def use(name: str) -> Bus:

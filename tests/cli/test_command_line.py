@@ -111,11 +111,6 @@ def test_list_names_every_scenario_with_a_title(airhilt_command: Any) -> None:
     assert all(row["title"] for row in rows)
 
 
-def test_help_has_examples(airhilt_command: Any) -> None:
-    for command in ("cosim", "list", "report", "replay", "validate", "schema", "doctor", "worker"):
-        assert "Examples:" in airhilt_command(command, "--help").stdout
-
-
 @pytest.mark.slow
 def test_doctor_finds_everything(airhilt_command: Any) -> None:
     done = airhilt_command("doctor")
@@ -136,7 +131,10 @@ def test_doctor_finds_everything(airhilt_command: Any) -> None:
             "did not attach",
         ),
         (("cosim", "--scenario", "s02a_headon", "--attach", "a/*"), "worker name"),
-        (("cosim", "--scenario", "s02a_headon", "--attach", "a", "--attach", "a"), "once"),
+        (
+            ("cosim", "--scenario", "s02a_headon", "--attach", "a", "--attach", "a"),
+            "two workers are named",
+        ),
         (("cosim", "--scenario", "s02a_headon", "--snr", "nan"), "--snr': nan"),
         (("cosim", "--scenario", "s02a_headon", "--visibility", "inf"), "100000"),
         (("cosim", "--scenario", "s02a_headon", "--radio-profile", "vfh"), "vhf, vhf_833, fading"),

@@ -68,12 +68,3 @@ def test_calling_a_broken_command_is_an_error(airhilt_command: Any) -> None:
         done = airhilt_command("broken", *arguments)
         assert (done.returncode, done.stdout) == (2, "")
         assert done.stderr == f"airhilt: {CAUSE}\n"
-
-
-def test_a_command_that_ends_the_process_on_import_does_not_end_the_help(
-    airhilt_command: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    with installed(tmp_path, monkeypatch, "airhilt.commands", "broken", "raise SystemExit(7)"):
-        done = airhilt_command("--help")
-    assert done.returncode == 0
-    assert "SystemExit: 7" in done.stdout

@@ -123,13 +123,6 @@ def test_a_call_cuts_off_the_squelch_tail_before_it(recording: Recording, tmp_pa
     assert [at(audio, second) for second in (0.9, 1.1, 1.3)] == [0.1, 0.1, 0.2]
 
 
-def test_a_call_within_another_one_is_heard_there(recording: Recording, tmp_path: Path) -> None:
-    recording.call("1", 0.0, 0.1, seconds=4.0)
-    recording.call("2", 1.0, 0.2, seconds=1.0)
-    _, wav, _ = write_frequency(recording.close(), out=tmp_path / "tower.wav")
-    assert set(read_wav(wav).round(2)) == {np.float32(0.1)}
-
-
 def test_the_transcript_says_who_said_what_and_what_was_heard(
     recording: Recording, tmp_path: Path
 ) -> None:

@@ -10,7 +10,6 @@ from typing import Any
 import pytest
 
 from airhilt.cli.sweep_output import print_estimate
-from airhilt.cli.sweep_progress import SweepProgress
 from airhilt.record.sweep_folder import SweepFolder
 from airhilt.sweep.engine import SweepResult
 from airhilt.sweep.estimate import Estimate
@@ -84,12 +83,3 @@ def test_an_estimate_for_a_cluster_tells_no_time(capsys: pytest.CaptureFixture[s
     told = capsys.readouterr().out
     assert "how long all take depends on the workers of the scheduler" in told
     assert "about" not in told
-
-
-def test_one_run_is_no_runs(capsys: pytest.CaptureFixture[str]) -> None:
-    one = Estimate(runs=1, finished=0, run_s=2.0, run_mb=300.0, workers=1, at_once=1, total_s=2.0)
-    print_estimate(one, False)
-    SweepProgress(quiet=False).begun(1, 0, "1 worker")
-    captured = capsys.readouterr()
-    assert captured.out == "1 run; one took 2.0 s and 300 MB, so about 2 s, 1 at a time\n"
-    assert captured.err == "1 run; 1 worker\n"

@@ -9,8 +9,7 @@ from typing import Any
 import pytest
 
 from airhilt import Scenario, load, run
-from airhilt.cosim.advisory_hints import AdvisoryHints
-from airhilt.cosim.observer import Observer
+from airhilt.cosim.notices import WorkerNotices
 from airhilt.cosim.replay import replay
 from airhilt.messages import (
     UNREGISTERED,
@@ -26,19 +25,10 @@ from airhilt.sim import Input, Output
 from airhilt.workers import Step
 from airhilt.world.actors import build_actors
 from airhilt.world.site import ScenarioSite
+from notices import Notices
 
 SEE = "see docs/workers.md#what-makes-somebody-act"
 TURN, HOLD = Turn(degrees=30.0), HoldPosition(runway="01")
-
-
-class Notices(Observer):
-    """Keeps all notices."""
-
-    def __init__(self) -> None:
-        self.texts: list[str] = []
-
-    def notice(self, text: str) -> None:
-        self.texts.append(text)
 
 
 def advisory(recipient: str, recommendation: Any = None, **other: Any) -> Advisory:
@@ -58,7 +48,7 @@ def actors() -> dict[str, Any]:
 
 def notices(actors: dict[str, Any], *advisories: Advisory, publisher: str = "mine") -> list[str]:
     texts: list[str] = []
-    hints = AdvisoryHints(actors, ("decision",), texts.append)
+    hints = WorkerNotices(actors, ("decision",), texts.append)
     for each in advisories:
         hints.take(publisher, each)
     return texts

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -147,15 +145,6 @@ def test_a_video_of_no_cameras_is_refused(tmp_path: Path) -> None:
     with pytest.raises(AirhiltError, match="--video: there are no cameras"):
         run(blind, Options(out=tmp_path / "run", video=True))
     assert not (tmp_path / "run").exists()
-
-
-def test_the_command_line_refuses_a_video_without_cameras(
-    airhilt_command: Callable[..., subprocess.CompletedProcess[str]],
-) -> None:
-    done = airhilt_command("cosim", "--scenario", "s02a_headon", "--no-cameras", "--video")
-    assert done.returncode == 2
-    assert "--video" in done.stderr
-    assert "--no-cameras" in done.stderr
 
 
 @pytest.mark.skipif(not FULL.exists(), reason="needs /dev/full")

@@ -38,13 +38,6 @@ def test_the_same_seed_gives_the_same_log(first: bytes, brief: Scenario, tmp_pat
     assert log_of(brief, tmp_path / "b", seed=3, latency="fixed") == first
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("latency", ["fixed:0.4", "lognormal"])
-def test_so_it_is_with_other_latencies(brief: Scenario, tmp_path: Path, latency: str) -> None:
-    first = log_of(brief, tmp_path / "a", seed=3, latency=latency)
-    assert log_of(brief, tmp_path / "b", seed=3, latency=latency) == first
-
-
 def test_another_seed_gives_another_log(first: bytes, brief: Scenario, tmp_path: Path) -> None:
     assert log_of(brief, tmp_path / "b", seed=4, latency="fixed") != first
 

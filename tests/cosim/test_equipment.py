@@ -17,7 +17,6 @@ from airhilt.messages import (
     Modality,
     WorkerDescription,
 )
-from airhilt.metrics.summary import EquipmentSummary
 from airhilt.record import Logged, RunFolder, read_log
 from airhilt.units import SECOND_NS
 from meetings import meeting
@@ -113,11 +112,6 @@ def test_a_scenario_with_unknown_equipment_is_not_valid(
     assert "Traceback" not in done.stderr
 
 
-@pytest.mark.slow
-def test_a_run_with_equipment_is_repeated_by_its_replay(equipped: airhilt.Result) -> None:
-    assert replay(equipped.folder).identical
-
-
 def test_the_report_has_its_alerts(equipped: airhilt.Result) -> None:
     page = (equipped.folder / "report.html").read_text()
     assert "tcas: climb, climb" in page or "tcas: descend, descend" in page
@@ -196,10 +190,3 @@ def test_no_worker_of_the_user_poses_as_equipment(tmp_path: Path) -> None:
         airhilt.run(meeting(), out=tmp_path / "a", workers=[Poses("equipment")], **QUIET)
     with pytest.raises(WorkerError, match="only equipment of the world publishes there"):
         airhilt.run(meeting(), out=tmp_path / "b", workers=[Poses("decision")], **QUIET)
-
-
-def test_a_summary_of_before_has_no_equipment(equipped: airhilt.Result) -> None:
-    document = equipped.summary.model_dump(mode="json")
-    entries = [EquipmentSummary.model_validate(each) for each in document.pop("equipment")]
-    assert len(entries) == 2
-    assert type(equipped.summary).model_validate(document).equipment == []

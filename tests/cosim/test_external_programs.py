@@ -3,45 +3,39 @@
 from __future__ import annotations
 
 import json
+from types import SimpleNamespace
 from typing import Any, cast
 
 import pytest
 
 from airhilt.bus.access import PUBLISHED
 from airhilt.cosim.external_programs import HEARD, LIMITS, MOST_NOTICES, ExternalPrograms
-from airhilt.cosim.observer import Observer
 from airhilt.errors import WorkerError
 from airhilt.host.text import MOST_CHARACTERS
+from airhilt.options import Options
 from airhilt.seats import Seats
 from airhilt.sim import Director, Virtual
+from notices import Notices
 from seats import state_of
-
-
-class Notices(Observer):
-    """Keeps all notices."""
-
-    def __init__(self) -> None:
-        self.texts: list[str] = []
-
-    def notice(self, text: str) -> None:
-        self.texts.append(text)
 
 
 def programs(
     notices: Notices, events: list[Any], *, is_strict: bool = False, seats: tuple[str, ...] = ()
 ) -> ExternalPrograms:
-    return ExternalPrograms(
-        Director(Virtual()),
-        cast(Any, None),
-        cast(Any, lambda *event: events.append(event)),
-        cast(Any, None),
-        notices,
-        Seats(map(state_of, seats), lambda _key, _state: None, Director(Virtual())),
-        workers=("decision",),
-        has_decision=False,
-        keeps_voices=True,
-        is_strict=is_strict,
+    director = Director(Virtual())
+    context = SimpleNamespace(
+        setup=SimpleNamespace(options=Options(strict=is_strict)),
+        director=director,
+        observer=notices,
+        event=lambda *event: events.append(event),
     )
+    participants = SimpleNamespace(
+        programs=(),
+        workers=[SimpleNamespace(description=SimpleNamespace(name="decision"))],
+        does=lambda _modality: False,
+    )
+    held = Seats(map(state_of, seats), lambda _key, _state: None, director)
+    return ExternalPrograms(cast(Any, context), held, cast(Any, participants))
 
 
 def test_a_voice_without_a_grant_is_refused_and_noticed_once() -> None:

@@ -11,9 +11,8 @@ import pytest
 import airhilt
 from airhilt import Input, Scenario, Step
 from airhilt.cosim.equipment import equipment_worker
-from airhilt.cosim.given_modalities import limited
 from airhilt.cosim.option_checks import check_options
-from airhilt.cosim.replay import replay
+from airhilt.cosim.participants import limited
 from airhilt.errors import AirhiltError, WorkerError
 from airhilt.messages import InputSpec, WorkerDescription
 from airhilt.options import Options, options_of
@@ -98,13 +97,6 @@ def test_evidence_that_was_not_given_has_no_age(encounter: Scenario, tmp_path: P
     summary = airhilt.run(short, out=tmp_path / "run", modalities="asr", **NO_SENSES).summary
     assert "adsb" not in summary.evidence
     assert summary.modalities["adsb"] == "off"
-
-
-@pytest.mark.slow
-def test_a_run_with_fewer_modalities_replays(tmp_path: Path) -> None:
-    folder = airhilt.run(talking(), out=tmp_path / "run", modalities="adsb", **NO_SENSES).folder
-    assert RunFolder(folder).info().options.modalities == "adsb"
-    assert replay(folder).identical
 
 
 def test_equipment_of_the_world_keeps_its_inputs() -> None:

@@ -17,21 +17,11 @@ from airhilt.messages import Advisory, ModelExchange
 from airhilt.metrics.summary import LanguageModelStatistics
 from airhilt.record import read_log
 from language_models import Json, saying
+from notices import Notices
 from services import service
 
 OPTIONS: dict[str, Any] = {"latency": "fixed", "speech": False, "cameras": False}
 KEY = "sk-do-not-record"
-
-
-class Notices(Observer):
-    """Keeps what a run tells its user."""
-
-    def __init__(self) -> None:
-        self.texts: list[str] = []
-
-    def notice(self, text: str) -> None:
-        """Keep a notice."""
-        self.texts.append(text)
 
 
 def reword_for_dal456(question: Json) -> Json:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -150,14 +149,3 @@ def test_who_leaves_takes_nothing_along_that_a_call_had_for_the_seat(tmp_path: P
     assert offers(log, "OPS1")
     assert not states(log, "OPS1")[-1]["offers"]
     assert way_m(log, "OPS1") == 0.0
-
-
-def test_who_leaves_before_an_instruction_drives_by_the_script(tmp_path: Path) -> None:
-    given = [
-        act("OPS1", 2.0, "take"),
-        act("OPS1", 20.0, "leave"),
-    ]
-    log = logged(tower(60.0), tmp_path / "run", ["OPS1"], given)
-    assert not offers(log, "OPS1")
-    commands = [one for one in contents(log, "truth/event") if one["kind"] == "command"]
-    assert json.loads(commands[-1]["text"])["action"] == "taxi"

@@ -9,10 +9,9 @@ import pytest
 
 import airhilt
 from airhilt.cli.run_flags import run_flags
-from airhilt.cosim.observer import Observer
 from airhilt.cosim.recorded import Recorded
 from airhilt.cosim.replay import replay
-from airhilt.cosim.setup import set_up
+from airhilt.cosim.setup import Setup
 from airhilt.errors import AirhiltError
 from airhilt.options import Options, flag_of, options_of
 from airhilt.record import RunFolder
@@ -31,23 +30,6 @@ def test_a_wrong_value_is_named_with_its_option() -> None:
         airhilt.run("s02a_headon", snr_db=1000.0)
 
 
-@pytest.mark.parametrize(
-    ("given", "words"),
-    [
-        ({"scenario": 5}, "scenario 5: expected an airhilt.Scenario, its name, or a file"),
-        ({"scenario": {"name": "x"}}, "expected an airhilt.Scenario, its name, or a file"),
-        ({"observer": 5}, "observer 5: expected an airhilt.Observer"),
-        ({"workers": "abc"}, "workers 'abc': expected a list of workers"),
-        ({"workers": Observer()}, "expected a list of workers"),
-    ],
-)
-def test_an_argument_of_another_type_is_named(given: dict[str, Any], words: str) -> None:
-    with pytest.raises(TypeError, match=words):
-        airhilt.run(**{"scenario": "s02a_headon", **given})
-    with pytest.raises(TypeError, match="scenario 5: expected its name, or a file"):
-        airhilt.load(5)  # type: ignore[arg-type]
-
-
 @pytest.mark.parametrize("name", ["a*", "#", "a/b", "../x", "", "$run", "a?", "a b", "x" * 81])
 def test_a_run_is_not_named_by_what_is_no_part_of_a_key(name: str) -> None:
     with pytest.raises(AirhiltError, match=r"option run_name: found .*expected at most 80 letters"):
@@ -62,8 +44,8 @@ def test_every_option_that_the_command_line_spells_is_a_flag_of_a_run() -> None:
 
 def test_a_given_visibility_replaces_the_drawn_one_and_no_other_draw() -> None:
     scenario = airhilt.load("s01a_bad_readback")
-    drawn = set_up(scenario, Options(seed=3), Recorded())
-    given = set_up(scenario, Options(seed=3, visibility_m=5000.0), Recorded())
+    drawn = Setup(scenario, Options(seed=3), Recorded())
+    given = Setup(scenario, Options(seed=3, visibility_m=5000.0), Recorded())
     assert drawn.scenario.weather.visibility_m not in (1500.0, 5000.0)
     weather = drawn.scenario.weather.model_copy(update={"visibility_m": 5000.0})
     assert given.scenario == drawn.scenario.model_copy(update={"weather": weather})
@@ -150,7 +132,7 @@ def test_an_option_that_does_nothing_is_refused_from_python_too(
     given: dict[str, Any], told: str, encounter: Scenario
 ) -> None:
     with pytest.raises(AirhiltError, match=told):
-        set_up(encounter, options_of(given), Recorded())
+        Setup(encounter, options_of(given), Recorded())
 
 
 @pytest.mark.parametrize(
@@ -166,7 +148,7 @@ def test_an_option_that_does_nothing_is_refused_from_python_too(
 def test_an_option_that_does_something_or_nothing_new_is_taken(
     given: dict[str, Any], encounter: Scenario
 ) -> None:
-    assert set_up(encounter, options_of(given), Recorded()).options.model_fields_set == set(given)
+    assert Setup(encounter, options_of(given), Recorded()).options.model_fields_set == set(given)
 
 
 @pytest.mark.parametrize("name", ["", "  "])

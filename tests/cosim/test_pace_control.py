@@ -17,7 +17,8 @@ from seats import state_of
 
 if TYPE_CHECKING:
     from airhilt.bus.session import Bus
-    from airhilt.cosim.radio import RunRadio
+    from airhilt.cosim.context import RunContext
+    from airhilt.sensors.radio.conversation import RadioConversation
 
 LATER_NS = 3_600_000_000_000
 """Time of the first step of the run, to which no test comes."""
@@ -33,14 +34,17 @@ class Waiting:
         states = (state_of("tower"), state_of("AAL1"))
         self.seats = Seats(states, lambda _key, _state: None, self.director)
         self.control = PaceControl(
-            self.director,
-            lambda kind, subject, text: self.paces.append(text),  # type: ignore[arg-type]
+            cast("RunContext", self),
             self.seats,
-            cast("RunRadio", SimpleNamespace(pause=lambda: None)),
+            cast("RadioConversation", SimpleNamespace(pause=lambda: None)),
             cast("Bus", SimpleNamespace(run="run", keep=lambda _key, _data: None)),
         )
         self.control.wait_for_seats()
         self.director.at(LATER_NS, lambda: None, Priority.PHYSICS)
+
+    def event(self, _kind: str, _subject: str, text: str) -> None:
+        """Take in an event, as the context of the run does."""
+        self.paces.append(text)
 
     def act(self, seat: str, act: SeatAct) -> None:
         action = SeatAction(holder="somebody", act=act)

@@ -44,13 +44,6 @@ def test_a_model_that_was_changed_is_told_in_a_replay(encounter: Scenario, tmp_p
     assert f"{model} is not the file of the recording any more" in replay(folder).notes
 
 
-def test_a_model_that_is_not_used_is_not_recorded(encounter: Scenario, tmp_path: Path) -> None:
-    short = encounter.model_copy(update={"duration_s": 1.0})
-    folder = airhilt.run(short, out=tmp_path / "run", latency="fixed", speech=False).folder
-    info = RunFolder(folder).info()
-    assert (info.models, info.other_packages) == ({}, {})
-
-
 def test_a_replay_that_differs_names_other_versions_before_the_difference(
     recorded_run: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

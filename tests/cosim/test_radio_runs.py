@@ -75,14 +75,6 @@ def test_in_noise_calls_are_made_again_until_they_are_understood(tmp_path: Path)
     assert counts.total() > 6
 
 
-@pytest.mark.slow
-def test_a_run_in_noise_is_the_same_every_time_and_replays(tmp_path: Path) -> None:
-    first = ran("s02a_nominal", tmp_path / "first", snr_db=0.0, seed=3)
-    again = ran("s02a_nominal", tmp_path / "again", snr_db=0.0, seed=3)
-    assert first.everything == again.everything
-    assert replay(tmp_path / "first").identical
-
-
 def test_a_microphone_stuck_for_ten_minutes_blocks_the_frequency_and_breaks_nothing(
     tmp_path: Path,
 ) -> None:
@@ -150,12 +142,6 @@ def test_that_the_radio_is_blocked_is_told_and_that_it_is_free_again(tmp_path: P
         "radio free again at 5.0 s",
     ]
     assert result.summary.modalities["radio"] == "on"
-
-
-def test_a_radio_that_is_blocked_at_the_end_is_lost(tmp_path: Path) -> None:
-    options = QUIET.model_copy(update={"out": tmp_path / "run"})
-    result = run(stuck_at_1_s(600.0, duration_s=3.0), options)
-    assert result.summary.modalities["radio"] == "lost"
 
 
 def test_a_run_that_is_interrupted_under_a_stuck_microphone_replays(tmp_path: Path) -> None:

@@ -94,25 +94,9 @@ def test_the_file_of_a_call_has_its_name(recorded: RunFolder) -> None:
     assert (recorded.audio_path / "check-in-aal.wav").is_file()
 
 
-def test_the_same_run_gives_the_same_sounds(
-    short: Scenario, recorded: RunFolder, tmp_path: Path
-) -> None:
-    again = RunFolder(run(short, out=tmp_path / "run", latency="fixed", snr_db=10.0).folder)
-    assert sounds_of(again) == sounds_of(recorded)
-    for path in recorded.audio_path.iterdir():
-        assert (again.audio_path / path.name).read_bytes() == path.read_bytes()
-
-
 def test_a_run_without_speech_has_no_sounds(short: Scenario, tmp_path: Path) -> None:
     folder = RunFolder(run(short, out=tmp_path / "run", speech=False).folder)
     assert not folder.audio_path.exists()
-
-
-def test_sounds_of_an_earlier_run_do_not_stay(short: Scenario, tmp_path: Path) -> None:
-    silent = short.model_copy(update={"duration_s": 1.0})
-    run(short, out=tmp_path / "run", assistant="none")
-    folder = RunFolder(run(silent, out=tmp_path / "run", overwrite=True).folder)
-    assert list(folder.audio_path.glob("*.wav")) == []
 
 
 # --- files and their names ----------------------------------------------------------------------
@@ -131,11 +115,6 @@ def test_a_name_cannot_lead_out_of_the_folder(tmp_path: Path) -> None:
 def test_what_was_written_is_read_again(tmp_path: Path) -> None:
     AudioRecorder(tmp_path / "audio").take("radio/134325/tx", received(), PCM)
     assert recorded_pcm(tmp_path / "audio", received()) == PCM
-
-
-def test_what_has_no_sound_has_no_file(tmp_path: Path) -> None:
-    AudioRecorder(tmp_path / "audio").take("radio/134325/tx", received(pcm=b""), b"")
-    assert not (tmp_path / "audio").exists()
 
 
 def closed(*, is_complete: bool) -> TransmissionClosed:

@@ -105,12 +105,6 @@ def test_a_recogniser_hears_what_is_enhanced_if_somebody_enhances(
     assert hearing == ([] if heard is None else [heard])
 
 
-@pytest.mark.parametrize("partial", [False, True])
-def test_calls_that_go_on_are_recognised_if_that_is_asked_for(partial: bool) -> None:
-    asr = team(partial_transcripts=partial)[0]
-    assert ("radio/*/audio" in [each.key for each in asr.inputs]) is partial
-
-
 def test_the_fusion_gate_reads_more_than_the_engine_alone() -> None:
     taken: tuple[Modality, ...] = ("asr", "tts", "vision")
     (alone,), (gated,) = (team("paper", each, taken) for each in ("parallel", "gated_fusion"))

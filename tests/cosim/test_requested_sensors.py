@@ -9,7 +9,7 @@ import pytest
 
 from airhilt import load
 from airhilt.cosim.replay import replay
-from airhilt.cosim.requested_sensors import with_requested_sensors
+from airhilt.cosim.requested import requested_scenario
 from airhilt.cosim.simulation import run
 from airhilt.messages import RadarKind
 from airhilt.options import Options
@@ -21,13 +21,13 @@ from airhilt.world.site import FixedSite, ScenarioSite
 
 
 def requested(name: str, kind: RadarKind) -> tuple[Scenario, ScenarioSite]:
-    scenario = with_requested_sensors(load(name), kind, cockpit=False)
+    scenario = requested_scenario(Options(radar=kind), load(name))
     return scenario, ScenarioSite.of(scenario)
 
 
 def test_without_options_the_scenario_stays_as_it_is() -> None:
     scenario = load("s02a_headon")
-    assert with_requested_sensors(scenario, None, cockpit=False) == scenario
+    assert requested_scenario(Options(), scenario) == scenario
 
 
 def test_a_terminal_radar_stands_at_the_airport() -> None:
@@ -50,22 +50,22 @@ def test_a_radar_of_the_scenario_with_that_name_stays() -> None:
     scenario, _ = requested("s02a_headon", "terminal")
     moved = scenario.radars[0].model_copy(update={"antenna_height_ft": 20.0})
     own = scenario.model_copy(update={"radars": (moved,)})
-    assert with_requested_sensors(own, "terminal", cockpit=False).radars == (moved,)
-    assert len(with_requested_sensors(own, "en_route", cockpit=False).radars) == 2
+    assert requested_scenario(Options(radar="terminal"), own).radars == (moved,)
+    assert len(requested_scenario(Options(radar="en_route"), own).radars) == 2
 
 
 def test_a_radar_of_another_kind_with_that_name_does_not_stand_in_for_it() -> None:
     scenario, _ = requested("s02a_headon", "terminal")
     misnamed = scenario.radars[0].model_copy(update={"kind": "en_route"})
     own = scenario.model_copy(update={"radars": (misnamed,)})
-    radars = with_requested_sensors(own, "terminal", cockpit=False).radars
+    radars = requested_scenario(Options(radar="terminal"), own).radars
     assert [(radar.name, radar.kind) for radar in radars] == [
         ("terminal", "en_route"), ("terminal_2", "terminal"),
     ]  # fmt: skip
 
 
 def test_all_aircraft_and_nothing_else_show_their_instruments() -> None:
-    scenario = with_requested_sensors(load("s01c_deer_delayed_warning"), None, cockpit=True)
+    scenario = requested_scenario(Options(cockpit=True), load("s01c_deer_delayed_warning"))
     assert scenario.cockpits == ("AAL123",)
 
 

@@ -11,10 +11,10 @@ from typing import Any
 
 import airhilt
 from airhilt import Scenario
-from airhilt.cosim.observer import Observer
 from airhilt.cosim.replay import replay
 from airhilt.messages import Event, Severity
 from airhilt.record import read_log
+from notices import Notices
 from paths import ROOT
 from services import answering, nobody, service
 
@@ -23,17 +23,6 @@ STRANGER = {
     "id": "x", "kind": "loss_of_separation", "severity": "WARNING", "recipients": ["NOBODY9"],
     "traffic": ["AAL123", "DAL456"],
 }  # fmt: skip
-
-
-class Notices(Observer):
-    """Keeps what a run tells its user."""
-
-    def __init__(self) -> None:
-        self.texts: list[str] = []
-
-    def notice(self, text: str) -> None:
-        """Keep a notice."""
-        self.texts.append(text)
 
 
 def test_a_service_that_warns_nobody_gets_a_hint(encounter: Scenario, tmp_path: Path) -> None:

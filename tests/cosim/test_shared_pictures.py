@@ -158,9 +158,3 @@ def headers(out: Path) -> list[bytes]:
 def test_measured_latencies_of_vision_cannot_be_shared(tmp_path: Path) -> None:
     with pytest.raises(AirhiltError, match=r"--share-pictures: the latency of vision .*fixed"):
         log_of(tmp_path / "run", share_pictures=True, latency="measured")
-
-
-def test_without_cameras_there_is_nothing_to_share(tmp_path: Path) -> None:
-    options = Options(cameras=False, share_pictures=True, latency="fixed", out=tmp_path / "run")
-    with pytest.raises(AirhiltError, match="--share-pictures would do nothing with --no-cameras"):
-        run(meeting(), options)

@@ -12,8 +12,7 @@ import pytest
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, to_pcm
 from airhilt.cosim.recorded import UnregisteredMessage
 from airhilt.cosim.replay import replay
-from airhilt.errors import AirhiltError, RunFolderError
-from airhilt.options import Options
+from airhilt.errors import RunFolderError
 from airhilt.sensors.radio.microphones import LONGEST_CALL_S
 from seats import (
     SECOND,
@@ -130,9 +129,3 @@ def test_calls_of_people_are_no_stuck_microphones(tmp_path: Path) -> None:
     radio = json.loads((tmp_path / "run" / "summary.json").read_text())["radio"]
     assert (radio["transmissions"], radio["stuck_microphone"]) == (1, 0)
     assert radio["hallucinated"] is None
-
-
-def test_voices_cannot_be_left_out_where_nobody_has_a_seat(tmp_path: Path) -> None:
-    with pytest.raises(AirhiltError, match=r"--no-voice-recording would do nothing without --seat"):
-        logged(tower(2.0), tmp_path / "run", [], voice_recording=False)
-    assert Options().voice_recording

@@ -6,23 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from airhilt.cosim.observer import Observer
 from airhilt.cosim.replay import replay
 from airhilt.cosim.simulation import run
 from airhilt.messages import Advisory
 from airhilt.options import Options
 from airhilt.record import read_log
 from meetings import meeting
-
-
-class Notices(Observer):
-    """Keeps what the user would read."""
-
-    def __init__(self) -> None:
-        self.texts: list[str] = []
-
-    def notice(self, text: str) -> None:
-        self.texts.append(text)
+from notices import Notices
 
 
 @pytest.mark.slow

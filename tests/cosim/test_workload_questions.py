@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any, cast
 
 import pytest
@@ -11,7 +12,6 @@ import pytest
 from airhilt.cosim import workload_questions
 from airhilt.cosim.replay import replay
 from airhilt.cosim.workload_questions import WorkloadQuestions
-from airhilt.errors import AirhiltError
 from airhilt.messages import (
     AnswerQuestion,
     LeaveSeat,
@@ -22,14 +22,15 @@ from airhilt.messages import (
     TakeSeat,
     WorkloadQuestion,
 )
+from airhilt.options import Options
 from airhilt.record import Logged
 from airhilt.seats import Seats
 from airhilt.sim import Director, Pace, Paused, Priority, RealTime, Virtual
 from seats import act, logged, once, states, tower
 
 if TYPE_CHECKING:
+    from airhilt.cosim.context import RunContext
     from airhilt.cosim.pace_control import PaceControl
-    from airhilt.cosim.router import MessageRouter
 
 SEAT = "Washington_Tower"
 DO = f"seat/{SEAT}/do"
@@ -40,11 +41,14 @@ SECOND = 1_000_000_000
 class Ending:
     """A run that comes to its end after 1 s, with somebody at the tower.
 
-    It stands for the router, which takes acts, and for the pace.
+    It stands for the context of the run, for its router, which takes acts, and for the pace.
     """
 
     def __init__(self, *, is_replay: bool = False, pace: Pace | None = None) -> None:
         self.director = Director(pace or RealTime(1000.0))
+        self.setup = SimpleNamespace(options=Options(nasa_tlx=True))
+        self.is_replay = is_replay
+        self.router = self
         self.asked: list[WorkloadQuestion] = []
         self.given: list[SeatAct] = []
         state = SeatState(
@@ -53,13 +57,7 @@ class Ending:
         )  # fmt: skip
         self.seats = Seats([state], self._published, self.director)
         self.questions = WorkloadQuestions(
-            self.director,
-            self.seats,
-            cast("MessageRouter", self),
-            cast("PaceControl", self),
-            isa_minutes=None,
-            has_tlx=True,
-            is_replay=is_replay,
+            cast("RunContext", self), self.seats, cast("PaceControl", self)
         )
         self.seats.open()
         self.act(TakeSeat())
@@ -150,8 +148,3 @@ def test_who_sits_there_is_asked_regularly_and_the_answers_are_in_log_and_summar
 def test_nobody_is_asked_where_nobody_sits(tmp_path: Path) -> None:
     log = logged(tower(14.0), tmp_path / "run", ["tower"], isa_minutes=0.1, nasa_tlx=True)
     assert not asked_at_the_seat(log)
-
-
-def test_questions_without_a_seat_are_refused(tmp_path: Path) -> None:
-    with pytest.raises(AirhiltError, match=r"--nasa-tlx would do nothing without --seat"):
-        logged(tower(2.0), tmp_path / "run", [], nasa_tlx=True)

@@ -14,22 +14,11 @@ import pytest
 from airhilt import load, run
 from airhilt.assistant.decision.worker import DecisionWorker
 from airhilt.assistant.wording.engines.template import Template
-from airhilt.bus import free_endpoint
-from airhilt.cosim.observer import Observer, Result
+from airhilt.cosim.observer import Result
 from airhilt.record import read_log
 from breadth import mostly_slow
+from notices import Notices
 from paths import DOCS, EXAMPLES
-from processes import process
-
-
-class Notices(Observer):
-    """Keeps all notices."""
-
-    def __init__(self) -> None:
-        self.texts: list[str] = []
-
-    def notice(self, text: str) -> None:
-        self.texts.append(text)
 
 
 def engine_of_the_page() -> Any:
@@ -46,14 +35,6 @@ def event_texts(result: Result, kind: str) -> Sequence[tuple[str, str]]:
         if logged.key == "truth/event"
     ]
     return [(event["subject"], event["text"]) for event in events if event["kind"] == kind]
-
-
-@pytest.mark.slow
-def test_without_an_assistant_separation_is_lost(tmp_path: Path) -> None:
-    scenario = load("s02a_headon")
-    options: Any = {"latency": "fixed", "speech": False, "cameras": False}
-    result = run(scenario, out=tmp_path / "run", assistant="none", **options)
-    assert result.summary.loss_of_separation
 
 
 @pytest.mark.parametrize("source", mostly_slow(["sdk_worker.py", "decision.md"], "decision.md"))
@@ -79,18 +60,3 @@ def test_the_crews_return_to_their_levels_when_the_conflict_is_over(tmp_path: Pa
     result = run(scenario, out=tmp_path / "run", **options)
     resumed = [text for _, text in event_texts(result, "pilot_reacts") if "resumes" in text]
     assert len(resumed) == 2
-
-
-@pytest.mark.slow
-def test_the_example_in_plain_zenoh_keeps_separation(tmp_path: Path) -> None:
-    """The run goes by the wall clock, here 20 times as fast."""
-    endpoint, observer = free_endpoint(), Notices()
-    options: Any = {"pace": "20x", "speech": False, "cameras": False, "endpoint": endpoint}
-    with process(EXAMPLES / "plain_zenoh_worker.py", endpoint):
-        result = run(
-            load("s02a_headon"), out=tmp_path / "run", attach=("plain",), observer=observer,
-            **options,
-        )  # fmt: skip
-    assert result.summary.avoided
-    assert {subject for subject, _ in event_texts(result, "pilot_reacts")} == {"AAL123", "DAL456"}
-    assert not [text for text in observer.texts if "nobody acts" in text]

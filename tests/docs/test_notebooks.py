@@ -13,9 +13,6 @@ from airhilt.scenario import Scenario
 from paths import ROOT
 from shortened import shortened
 
-MOST_LINES = 15
-"""Lines of code, blank ones not counted."""
-
 
 @pytest.mark.slow
 def test_the_notebook_runs_a_sweep_and_plots_it(
@@ -34,16 +31,3 @@ def test_the_notebook_runs_a_sweep_and_plots_it(
     table, plot = [cell.outputs for cell in notebook.cells if cell.cell_type == "code"][1:]
     assert "adsb_only" in table[0].data["text/html"]
     assert any("image/png" in output.get("data", {}) for output in plot)
-
-
-def test_the_notebook_has_at_most_15_lines_of_code() -> None:
-    notebook = nbformat.read(ROOT / "examples" / "sweep.ipynb", as_version=4)  # type: ignore[no-untyped-call]
-    lines = [
-        line
-        for cell in notebook.cells
-        if cell.cell_type == "code"
-        for line in cell.source.splitlines()
-        if line
-    ]
-    assert len(lines) <= MOST_LINES
-    assert not any(cell.get("outputs") for cell in notebook.cells)

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from airhilt.cosim.recorded import Recorded
-from airhilt.cosim.setup import set_up
+from airhilt.cosim.setup import Setup
 from airhilt.errors import AirhiltError
 from airhilt.host.caches import (
     DEFAULT_LIMIT_MB,
@@ -123,10 +123,10 @@ def test_a_run_without_a_cache_says_so_once_and_goes_on(
     (tmp_path / "file").write_text("in the way")
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
     options = Options(out=tmp_path / "run")
-    (told,) = set_up(encounter, options, Recorded()).notices
+    (told,) = Setup(encounter, options, Recorded()).notices
     assert told.startswith("the cache cannot be written, so that later runs make everything anew:")
     monkeypatch.setenv("AIRHILT_CACHE_LIMIT_MB", "0")
-    assert not set_up(encounter, options, Recorded()).notices
+    assert not Setup(encounter, options, Recorded()).notices
 
 
 def test_the_cache_is_where_the_user_has_theirs_if_they_have_a_home(

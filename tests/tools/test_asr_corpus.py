@@ -71,15 +71,6 @@ def test_no_name_that_is_held_out_is_a_common_word() -> None:
     assert set(held_out_places()).isdisjoint(common_words())
 
 
-def test_unexpected_words_are_in_no_callsign() -> None:
-    talk = Talk(random.Random(2))
-    with pytest.MonkeyPatch.context() as patched:
-        patched.setattr("asr_corpus.UNEXPECTED_SHARE", 1.0)
-        patched.setattr("asr_corpus.Talk._hesitating", lambda _, text: text)
-        calls = [(talk.call(), talk._who, talk.callsign_of_call) for _ in range(500)]
-    assert all(who in text for text, who, sign in calls if sign)
-
-
 def test_every_word_of_a_scenario_is_drawn() -> None:
     spoken = [text for path in SCENARIOS for text in spoken_in(json.loads(path.read_text()))]
     assert len(spoken) > 50
@@ -152,8 +143,3 @@ def test_callsign_of_a_call_is_that_which_the_parser_reads() -> None:
     read = [parse_call(text, (callsign,)).callsign == callsign for text, callsign in named]
     assert len(named) > 300
     assert sum(read) >= 0.97 * len(read)
-
-
-def test_salad_has_only_the_words_that_it_is_given() -> None:
-    talk = Talk(random.Random(3))
-    assert set(talk.salad(["deer", "park"]).split()) <= {"deer", "park"}

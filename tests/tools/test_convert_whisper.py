@@ -23,10 +23,6 @@ def folder(tmp_path: Path) -> Path:
     return made
 
 
-def test_a_folder_with_all_files_is_taken(folder: Path) -> None:
-    require_whisper(folder)
-
-
 @pytest.mark.parametrize(
     "name", ["config.json", "model.safetensors", "tokenizer.json", "preprocessor_config.json"]
 )
@@ -34,13 +30,6 @@ def test_a_file_that_is_missing_is_named(name: str, folder: Path) -> None:
     (folder / name).unlink()
     with pytest.raises(SpeechError, match=f"model: without {name}"):
         require_whisper(folder)
-
-
-def test_all_that_is_missing_is_named_at_once(tmp_path: Path) -> None:
-    with pytest.raises(SpeechError) as refused:
-        require_whisper(tmp_path)
-    for name in ("config.json", "tokenizer.json", "model.safetensors or pytorch_model.bin"):
-        assert name in str(refused.value)
 
 
 def test_the_settings_of_a_processor_are_those_of_the_features(folder: Path) -> None:
@@ -68,12 +57,6 @@ def test_an_adapter_is_to_be_merged_first(folder: Path) -> None:
 def test_another_model_is_refused_by_its_kind(folder: Path) -> None:
     (folder / "config.json").write_text(json.dumps({"model_type": "wav2vec2"}))
     with pytest.raises(SpeechError, match="model_type is 'wav2vec2'; expected 'whisper'"):
-        require_whisper(folder)
-
-
-def test_a_configuration_that_is_no_json_is_refused(folder: Path) -> None:
-    (folder / "config.json").write_text("{")
-    with pytest.raises(SpeechError, match=r"config\.json: no JSON object"):
         require_whisper(folder)
 
 

@@ -4,10 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-import sys
-from collections.abc import Iterator
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -16,51 +13,20 @@ from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
 
+import calibrate_detector as calibrating
+import detector_data as data
+import detector_lessons as lessons
+import detector_places as places
+import eval_detector as judging
 from airhilt.assistant.vision.detector import Found
 from airhilt.assistant.vision.detectors.embedded import Calibration
 from airhilt.sensors.cameras.dataset.coco import run_lengths
 from airhilt.sensors.cameras.scene.bodies import BodyState
-from paths import TOOLS
 
 BOX = (40.0, 30.0, 60.0, 40.0)
 
 
-@pytest.fixture(scope="module", autouse=True)
-def _tools() -> Iterator[None]:
-    sys.path.insert(0, str(TOOLS))
-    yield
-    sys.path.remove(str(TOOLS))
-
-
-@pytest.fixture(scope="module")
-def data() -> ModuleType:
-    import detector_data
-
-    return detector_data
-
-
-@pytest.fixture(scope="module")
-def places() -> ModuleType:
-    import detector_places
-
-    return detector_places
-
-
-@pytest.fixture(scope="module")
-def judging() -> ModuleType:
-    import eval_detector
-
-    return eval_detector
-
-
-@pytest.fixture(scope="module")
-def calibrating() -> ModuleType:
-    import calibrate_detector
-
-    return calibrate_detector
-
-
-def body(data: ModuleType, box: Any = BOX, label: int = 0, contrast: float = 80.0) -> Any:
+def body(box: Any = BOX, label: int = 0, contrast: float = 80.0) -> Any:
     return data.Body(label, box, 900.0, 1.0, 0.8, contrast)
 
 
@@ -69,9 +35,7 @@ def found(box: Any, label: str = "airplane", confidence: float = 0.9) -> Found:
 
 
 class TestContrast:
-    def test_it_is_what_half_of_the_body_differs_more_than_from_what_is_around(
-        self, data: Any
-    ) -> None:
+    def test_it_is_what_half_of_the_body_differs_more_than_from_what_is_around(self) -> None:
         picture = np.full((60, 100, 3), 100, dtype=np.uint8)
         mask = np.zeros((60, 100), dtype=bool)
         mask[30:40, 40:60] = True
@@ -79,91 +43,82 @@ class TestContrast:
         picture[30:40, 54:60] = 255
         assert data.contrast(picture, BOX, mask) == 30.0
 
-    def test_lamps_alone_make_no_contrast(self, data: Any) -> None:
+    def test_lamps_alone_make_no_contrast(self) -> None:
         picture = np.full((60, 100, 3), 8, dtype=np.uint8)
         mask = np.zeros((60, 100), dtype=bool)
         mask[30:40, 40:60] = True
         picture[34:36, 41:45] = 255
         assert data.contrast(picture, BOX, mask) == 0.0
 
-    def test_of_pixels_beside_the_body_nothing_is_taken(self, data: Any) -> None:
-        picture = np.full((60, 100, 3), 100, dtype=np.uint8)
-        mask = np.zeros((60, 100), dtype=bool)
-        mask[30:35, 40:60] = True
-        picture[35:40, 40:60] = 255
-        assert data.contrast(picture, BOX, mask) == 0.0
-
-    def test_a_body_that_fills_the_picture_is_seen(self, data: Any) -> None:
+    def test_a_body_that_fills_the_picture_is_seen(self) -> None:
         picture = np.full((60, 100, 3), 100, dtype=np.uint8)
         mask = np.ones((60, 100), dtype=bool)
         assert data.contrast(picture, (0.0, 0.0, 100.0, 60.0), mask) == 255.0
 
-    def test_what_can_hardly_be_made_out_does_not_count(self, data: Any) -> None:
-        assert body(data).counts
-        assert not body(data, contrast=12.0).counts
-        assert not body(data, box=(40.0, 30.0, 44.0, 32.0)).counts
+    def test_what_can_hardly_be_made_out_does_not_count(self) -> None:
+        assert body().counts
+        assert not body(contrast=12.0).counts
+        assert not body(box=(40.0, 30.0, 44.0, 32.0)).counts
 
 
 class TestMask:
     @given(cells=st.lists(st.lists(st.booleans(), min_size=3, max_size=3), min_size=1, max_size=5))
-    def test_it_is_what_was_written(self, data: Any, cells: list[list[bool]]) -> None:
+    def test_it_is_what_was_written(self, cells: list[list[bool]]) -> None:
         mask = np.array(cells)
         assert np.array_equal(data.mask_of(run_lengths(mask)), mask)
 
 
 class TestMatching:
-    def test_each_body_is_found_once(self, data: Any, judging: Any) -> None:
-        seen, used = judging.matched([body(data)], [found(BOX), found(BOX)], judging.strictly)
+    def test_each_body_is_found_once(self) -> None:
+        seen, used = judging.matched([body()], [found(BOX), found(BOX)], judging.strictly)
         assert (seen, used) == ({0}, {0})
 
-    def test_another_class_finds_nothing(self, data: Any, judging: Any) -> None:
-        assert judging.matched([body(data)], [found(BOX, "truck")], judging.strictly) == (
+    def test_another_class_finds_nothing(self) -> None:
+        assert judging.matched([body()], [found(BOX, "truck")], judging.strictly) == (
             set(),
             set(),
         )
 
-    def test_half_of_a_body_is_not_enough_unless_asked_loosely(
-        self, data: Any, judging: Any
-    ) -> None:
+    def test_half_of_a_body_is_not_enough_unless_asked_loosely(self) -> None:
         half = found((40.0, 30.0, 49.0, 40.0))
-        assert judging.matched([body(data)], [half], judging.strictly) == (set(), set())
-        assert judging.matched([body(data)], [half], judging.loosely) == ({0}, {0})
+        assert judging.matched([body()], [half], judging.strictly) == (set(), set())
+        assert judging.matched([body()], [half], judging.loosely) == ({0}, {0})
 
-    def test_what_lies_on_a_faint_body_is_not_false(self, data: Any, judging: Any) -> None:
-        assert judging.on_faint([body(data, contrast=3.0)], found(BOX))
-        assert not judging.on_faint([body(data)], found(BOX))
+    def test_what_lies_on_a_faint_body_is_not_false(self) -> None:
+        assert judging.on_faint([body(contrast=3.0)], found(BOX))
+        assert not judging.on_faint([body()], found(BOX))
 
 
 class TestPlaces:
-    def shot(self, data: Any, *bodies: Any) -> Any:
+    def shot(self, *bodies: Any) -> Any:
         about = {"width": 100, "height": 60}
         return data.Shot(Path("none.jpg"), about, bodies)
 
-    def labels(self, places: Any, shot: Any, *boxes: Any) -> list[int]:
+    def labels(self, shot: Any, *boxes: Any) -> list[int]:
         return [label for _, _, label, _ in places.places_in(shot, [found(box) for box in boxes])]
 
-    def test_a_place_on_a_body_has_its_class_and_its_box(self, data: Any, places: Any) -> None:
-        shot = self.shot(data, body(data, label=1))
+    def test_a_place_on_a_body_has_its_class_and_its_box(self) -> None:
+        shot = self.shot(body(label=1))
         near = (38.0, 29.0, 57.0, 41.0)
         assert list(places.places_in(shot, [found(near)])) == [(near, 0.9, 2, BOX)]
 
-    def test_a_place_beside_all_bodies_is_nothing(self, data: Any, places: Any) -> None:
-        assert self.labels(places, self.shot(data, body(data)), (0.0, 0.0, 20.0, 10.0)) == [0]
+    def test_a_place_beside_all_bodies_is_nothing(self) -> None:
+        assert self.labels(self.shot(body()), (0.0, 0.0, 20.0, 10.0)) == [0]
 
-    def test_a_place_with_a_part_of_a_body_teaches_nothing(self, data: Any, places: Any) -> None:
+    def test_a_place_with_a_part_of_a_body_teaches_nothing(self) -> None:
         part = (40.0, 30.0, 47.0, 36.0)
-        assert self.labels(places, self.shot(data, body(data)), part) == []
+        assert self.labels(self.shot(body()), part) == []
 
-    def test_a_place_on_a_faint_body_teaches_nothing(self, data: Any, places: Any) -> None:
-        assert self.labels(places, self.shot(data, body(data, contrast=3.0)), BOX) == []
+    def test_a_place_on_a_faint_body_teaches_nothing(self) -> None:
+        assert self.labels(self.shot(body(contrast=3.0)), BOX) == []
 
-    def test_of_two_bodies_the_likelier_is_meant(self, data: Any, places: Any) -> None:
-        behind = body(data, box=(44.0, 30.0, 66.0, 40.0), label=2)
-        assert self.labels(places, self.shot(data, behind, body(data)), BOX) == [1]
+    def test_of_two_bodies_the_likelier_is_meant(self) -> None:
+        behind = body(box=(44.0, 30.0, 66.0, 40.0), label=2)
+        assert self.labels(self.shot(behind, body()), BOX) == [1]
 
-    def test_what_hardly_looks_like_anything_is_left_out(self, data: Any, places: Any) -> None:
+    def test_what_hardly_looks_like_anything_is_left_out(self) -> None:
         faint = [found(BOX, confidence=0.01)]
-        assert list(places.places_in(self.shot(data), faint)) == []
+        assert list(places.places_in(self.shot(), faint)) == []
 
 
 class FirstNetwork:
@@ -194,7 +149,7 @@ def folder_of(path: Path, *levels: int, seed: int = 0) -> Path:
 
 class TestKeptPictures:
     @pytest.fixture
-    def asking(self, places: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
+    def asking(self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
         """Return what asks a first network about folders, and keeps what it says."""
         monkeypatch.setattr(places, "EmbeddedDetector", FirstNetwork)
         monkeypatch.setattr(FirstNetwork, "asked", 0)
@@ -222,29 +177,6 @@ class TestKeptPictures:
         (folder / "1.png").write_bytes(second)
         assert asking(folder).pictures[:, 0, 0, 0].tolist() == [50, 90]
 
-    def test_so_it_is_where_answers_are_kept_and_pictures_are_lost(
-        self, asking: Any, tmp_path: Path
-    ) -> None:
-        folder = folder_of(tmp_path / "train", 50, 90)
-        asking(folder)
-        (kept,) = (tmp_path / "scratch").glob("*.u8")
-        kept.rename(kept.with_suffix(".partial"))
-        assert asking(folder).pictures[:, 0, 0, 0].tolist() == [50, 90]
-
-    def test_answers_that_are_written_in_part_are_asked_for_anew(
-        self, asking: Any, places: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-    ) -> None:
-        def full(file: Any, **_: Any) -> None:
-            file.write(b"PK")
-            raise OSError("no space left on device")
-
-        folder = folder_of(tmp_path / "train", 50)
-        with monkeypatch.context() as broken:
-            broken.setattr(places.np, "savez", full)
-            with pytest.raises(OSError, match="no space"):
-                asking(folder)
-        assert len(asking(folder)) == 1
-
     def test_other_data_of_the_same_size_is_not_taken_for_it(
         self, asking: Any, tmp_path: Path
     ) -> None:
@@ -262,14 +194,9 @@ class TestKeptPictures:
         assert FirstNetwork.asked == 4
         assert len(list((tmp_path / "scratch").glob("*.u8"))) == 1
 
-    def test_folders_of_one_name_keep_their_own(self, asking: Any, tmp_path: Path) -> None:
-        one = asking(folder_of(tmp_path / "a" / "train", 50, seed=1))
-        other = asking(folder_of(tmp_path / "b" / "train", 90, seed=2))
-        assert (one.pictures[0, 0, 0, 0], other.pictures[0, 0, 0, 0]) == (50, 90)
-
 
 class TestLessons:
-    def folder(self, places: Any, boxes: Any, labels: Any, truth: Any) -> Any:
+    def folder(self, boxes: Any, labels: Any, truth: Any) -> Any:
         picture = np.zeros((1, 60, 100, 3), dtype=np.uint8)
         picture[0, :, 50:] = 200
         return places.Places(
@@ -281,46 +208,38 @@ class TestLessons:
             np.array(truth, dtype=np.float32),
         )
 
-    def test_a_batch_has_bodies_and_nothing_in_the_parts_that_it_says(self, places: Any) -> None:
-        import detector_lessons as lessons
-
+    def test_a_batch_has_bodies_and_nothing_in_the_parts_that_it_says(self) -> None:
         other = (10.0, 10.0, 20.0, 20.0)
-        drawn = lessons.Lessons([self.folder(places, [BOX, other], [1, 0], [BOX, other])], 4)
+        drawn = lessons.Lessons([self.folder([BOX, other], [1, 0], [BOX, other])], 4)
         numbers, views, known, labels, _ = drawn.batch(0)
         assert len(labels) == lessons.BATCH
         assert (labels > 0).mean() == pytest.approx(lessons.OF_BODIES, abs=0.01)
         assert ((numbers >= 0) == (labels == 0)).all()
         assert np.isfinite(known).all()
-        again = lessons.Lessons([self.folder(places, [BOX, other], [1, 0], [BOX, other])], 4)
+        again = lessons.Lessons([self.folder([BOX, other], [1, 0], [BOX, other])], 4)
         assert np.array_equal(again.batch(0)[1], views)
 
-    def test_mirrored_views_have_mirrored_moves(self, places: Any) -> None:
+    def test_mirrored_views_have_mirrored_moves(self) -> None:
         """The body is always where the picture gets bright."""
-        import detector_lessons as lessons
-
         body_box = (50.0, 20.0, 70.0, 40.0)
         places_of_it = [(40.0, 20.0, 60.0, 40.0), (10.0, 10.0, 20.0, 20.0)]
-        folder = self.folder(places, places_of_it, [1, 0], [body_box, places_of_it[1]])
+        folder = self.folder(places_of_it, [1, 0], [body_box, places_of_it[1]])
         _, views, _, labels, moves = lessons.Lessons([folder], 4).batch(1)
         columns = views[labels > 0, 0].astype(float).mean(axis=(1, 3))
         is_brighter_right = columns[:, 16:].mean(axis=1) > columns[:, :16].mean(axis=1)
         assert ((moves[labels > 0, 0] > 0.0) == is_brighter_right).all()
         assert 0.2 < is_brighter_right.mean() < 0.8
 
-    def test_what_fooled_the_network_comes_more_often(self, places: Any) -> None:
-        import detector_lessons as lessons
-
+    def test_what_fooled_the_network_comes_more_often(self) -> None:
         boxes = [BOX, (0.0, 0.0, 10.0, 10.0), (20.0, 0.0, 30.0, 10.0)]
-        drawn = lessons.Lessons([self.folder(places, boxes, [1, 0, 0], boxes)], 4)
+        drawn = lessons.Lessons([self.folder(boxes, [1, 0, 0], boxes)], 4)
         drawn.fooled = np.array([0.9, 0.0])
         numbers = drawn.batch(2)[0]
         assert (numbers == 0).sum() > 10 * (numbers == 1).sum()
 
 
 class TestCalibration:
-    def test_the_fit_finds_the_calibration_under_which_findings_came_true(
-        self, calibrating: Any
-    ) -> None:
+    def test_the_fit_finds_the_calibration_under_which_findings_came_true(self) -> None:
         draws = np.random.default_rng(3)
         meant = Calibration(
             of_class={"airplane": 0.8, "bird": -1.0}, logit=1.5, size=0.6, logit_and_size=0.2
@@ -342,9 +261,7 @@ class TestCalibration:
                         meant.log_odds(kind, score, side), abs=0.3
                     )
 
-    def test_the_threshold_is_the_lowest_from_which_no_camera_has_too_many(
-        self, calibrating: Any
-    ) -> None:
+    def test_the_threshold_is_the_lowest_from_which_no_camera_has_too_many(self) -> None:
         few, many = calibrating.Count(minutes=2.0), calibrating.Count(minutes=2.0)
         low, middle = calibrating.THRESHOLDS[3], calibrating.THRESHOLDS[8]
         for threshold in calibrating.THRESHOLDS:
@@ -357,20 +274,18 @@ class TestMinutesOfCameras:
     def aircraft(self, up_m: float, shape: str) -> BodyState:
         return BodyState("own", 0.0, 0.0, up_m, math.pi / 2.0, 0.02, 0.0, shape, True)
 
-    def test_an_aircraft_on_the_ground_rolls_ahead(self, calibrating: Any) -> None:
+    def test_an_aircraft_on_the_ground_rolls_ahead(self) -> None:
         later = calibrating.gone_on(self.aircraft(3.0, "gear"), 10.0)
         assert (later.east_m, later.up_m) == (pytest.approx(80.0), 3.0)
         assert (later.pitch_rad, later.roll_rad) == (0.02, 0.0)
 
-    def test_one_with_its_gear_down_descends_and_stays_above_the_ground(
-        self, calibrating: Any
-    ) -> None:
+    def test_one_with_its_gear_down_descends_and_stays_above_the_ground(self) -> None:
         start = self.aircraft(200.0, "gear")
         heights = [calibrating.gone_on(start, float(t)).up_m for t in range(120)]
         assert heights == sorted(heights, reverse=True)
         assert heights[10] == pytest.approx(200.0 - 750.0 * math.tan(math.radians(3.0)))
         assert heights[-1] > 0.0
 
-    def test_one_in_cruise_keeps_its_height(self, calibrating: Any) -> None:
+    def test_one_in_cruise_keeps_its_height(self) -> None:
         later = calibrating.gone_on(self.aircraft(3000.0, "clean"), 10.0)
         assert (later.east_m, later.up_m) == (pytest.approx(750.0), 3000.0)

@@ -10,7 +10,6 @@ import pytest
 
 import asr_speech
 import eval_asr
-import phraseology_judge
 
 TURN = "delta four five six turn left heading two seven zero"
 CALLS: list[dict[str, Any]] = [
@@ -59,9 +58,3 @@ def test_a_callsign_without_digits_is_never_one_digit_off(folder: Path) -> None:
 def test_the_roster_of_an_exam_is_the_one_it_names(folder: Path) -> None:
     ((_, calls),) = eval_asr.sets_of(folder, 10)
     assert eval_asr.rosters_for(calls) == [("DAL456", "UAL12"), ("OPS", "UAL12")]
-
-
-def test_the_exams_can_be_spoken() -> None:
-    exam = Path(phraseology_judge.__file__).parent / "third_exam.jsonl"
-    lines = [json.loads(line) for line in exam.read_text().splitlines()]
-    assert all({"text", "callsign", "roster", "items"} <= line.keys() for line in lines)

@@ -17,7 +17,7 @@ import asr_speech
 from airhilt.errors import SpeechError
 from convert_whisper import convert
 from eval_asr import spoken
-from finetune_whisper import CARD, Settings, finetune, main
+from finetune_whisper import CARD, Settings, finetune
 
 from ..conftest import Cli
 
@@ -138,14 +138,6 @@ def test_calls_of_another_format_of_features_are_converted_too(tuned: Path, tmp_
     assert kept["chunk_length"] == features["chunk_length"] == 10
 
 
-def test_damaged_weights_leave_no_folder(tuned: Path, tmp_path: Path) -> None:
-    other = Path(shutil.copytree(tuned, tmp_path / "other"))
-    (other / "model.safetensors").write_bytes(b"damaged")
-    with pytest.raises(SpeechError, match="other: does not convert: "):
-        convert(other, tmp_path / "out")
-    assert [path.name for path in tmp_path.iterdir()] == ["other"]
-
-
 def test_features_of_another_model_are_refused_after_the_conversion(
     tuned: Path, tmp_path: Path
 ) -> None:
@@ -167,17 +159,6 @@ def test_nothing_asks_the_network(
     monkeypatch.setattr(socket.socket, "connect", refuse)
     finetune(model, speech, tmp_path / "out", Settings(steps=1, batch=1, scored_calls=1))
     convert(tmp_path / "out", tmp_path / "converted")
-
-
-def test_a_mistake_ends_the_command_without_a_traceback(
-    model: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    given = [str(path) for path in (model, tmp_path, tmp_path / "out")]
-    monkeypatch.setattr(sys, "argv", ["finetune_whisper.py", *given])
-    with pytest.raises(SystemExit) as ended:
-        main()
-    assert ended.value.code == 2
-    assert "no calls; expected shards of tools/asr/asr_speech.py" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 import make_recogniser
-from asr_speech import SHARD
 from synthesisers import FAMILY
 from training import add_options, options_of
 
@@ -28,22 +27,6 @@ def test_every_lineage_that_may_be_trained_is() -> None:
     assert lineages([each.synthesiser for each in make_recogniser.SPOKEN]) == lineages(
         list(FAMILY.names())
     )
-
-
-def test_shards_of_a_synthesiser_have_seeds_of_their_own_and_none_of_confidence() -> None:
-    seeds = [
-        (each.synthesiser, each.first_seed + number)
-        for each in make_recogniser.SPOKEN
-        for number in range(each.shards)
-    ]
-    assert len(set(seeds)) == len(seeds)
-    assert {make_recogniser.DEV_SEED, make_recogniser.DEV_EXAM_SEED}.isdisjoint(
-        seed for _, seed in seeds
-    )
-
-
-def test_a_shard_is_one_file() -> None:
-    assert all(each.calls <= SHARD for each in make_recogniser.SPOKEN)
 
 
 @pytest.mark.parametrize(

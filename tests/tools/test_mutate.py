@@ -5,7 +5,6 @@ from __future__ import annotations
 import ast
 import subprocess
 import sys
-import weakref
 from pathlib import Path
 from typing import Any
 
@@ -95,20 +94,6 @@ def test_a_seed_gives_the_same_mutants_again_as_many_of_each_area(repository: Pa
     assert sorted(counts) == [2, 2, 2, 2, 3, 3]
     for each in first:
         ast.parse(each.applied(SOURCE))
-
-
-class Short:
-    """An object that is gone at once."""
-
-
-def test_weak_proxies_of_what_is_gone_are_passed_over() -> None:
-    source = "def once():\n    return 1 + 1\n"
-    changed = changed_functions(source, source.replace("+", "-"), "gone.py")
-    assert changed is not None
-    proxy = weakref.proxy(Short())
-    replace(changed)
-    with pytest.raises(ReferenceError):
-        str(proxy)
 
 
 def test_a_function_that_differs_is_replaced_in_a_running_process() -> None:

@@ -41,24 +41,6 @@ def seconds(samples: np.ndarray) -> float:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_every_voice_names_its_lineage_and_speaker(name: str) -> None:
-    member: Synthesiser = FAMILY.load(name)
-    assert member.licence
-    assert all(voice.lineage and voice.speaker for voice in member.voices)
-    assert len({voice.name for voice in member.voices}) == len(member.voices)
-
-
-def test_voices_of_a_speaker_have_that_speaker_in_every_synthesiser() -> None:
-    of: dict[str, set[str]] = {}
-    for name in NAMES:
-        for voice in FAMILY.load(name).voices:
-            of.setdefault(voice.speaker, set()).add(name)
-    assert of["kal"] >= {"flite", "festival"}
-    assert of["slt"] >= {"flite", "rhvoice"}
-    assert of["awb"] >= {"flite", "rhvoice"}
-
-
-@pytest.mark.parametrize("name", NAMES)
 def test_rate_changes_the_duration(name: str) -> None:
     made_by = installed(name)
     talker = made_by.create()

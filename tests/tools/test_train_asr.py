@@ -142,12 +142,6 @@ def test_a_training_without_prepared_calls_is_refused_in_words(tmp_path: Path) -
         train_asr.train(Training(tmp_path, tmp_path / "full", 2))
 
 
-def test_the_rate_falls_with_the_way_that_is_done() -> None:
-    rates = [train_asr._rate(1.0, 1_000, share) for share in (0.0, 0.3, 0.6, 0.9, 1.0)]
-    assert rates[0] == rates[1] > rates[2] > rates[3] > rates[4] > 0.0
-    assert train_asr._rate(1.0, 0, 0.0) < 0.01
-
-
 def test_what_is_exported_hears_what_the_network_hears_in_steps_of_30_ms(trained: Path) -> None:
     train_asr.export(trained, trained / "model")
     network = train_asr.Recogniser(len(PIECES))
@@ -160,12 +154,6 @@ def test_what_is_exported_hears_what_the_network_hears_in_steps_of_30_ms(trained
         expected = network(torch.from_numpy(features)).numpy()
     assert heard.shape == (1, 40, len(PIECES) + 1)
     assert np.abs(heard - expected).max() < 0.02 * np.abs(expected).max()
-
-
-def test_large_weights_are_kept_in_half_precision(trained: Path) -> None:
-    train_asr.export(trained, trained / "model")
-    parameters = sum(each.numel() for each in train_asr.Recogniser(len(PIECES)).parameters())
-    assert (trained / "model" / "ctc.onnx").stat().st_size < 2.2 * parameters
 
 
 def test_a_training_begins_with_the_weights_that_were_kept(trained: Path) -> None:
@@ -181,18 +169,6 @@ def test_weights_of_another_network_are_refused(trained: Path) -> None:
     train_asr.keep(trained, trained / "kept")
     with pytest.raises(SystemExit, match="weights of another network"):
         train_asr.begin_with(train_asr.Recogniser(len(PIECES) + 1), trained / "kept")
-
-
-@pytest.mark.parametrize("adamw", [False, True])
-def test_all_weights_have_one_optimiser(adamw: bool) -> None:
-    network = train_asr.Recogniser(len(PIECES))
-    given = [
-        id(weight)
-        for optimiser in train_asr.optimisers_of(network, 1e-3, adamw=adamw)
-        for group in optimiser.param_groups
-        for weight in group["params"]
-    ]
-    assert sorted(given) == sorted(id(weight) for weight in network.parameters())
 
 
 def test_a_step_hears_nothing_that_is_farther_away_than_the_context_of_a_window() -> None:

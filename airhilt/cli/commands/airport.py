@@ -9,9 +9,8 @@ from typing import Any
 import click
 
 from airhilt.cli.output import echo, echo_json
+from airhilt.cli.parameters import FILE, json_array_option, json_option
 from airhilt.errors import ScenarioError
-
-FILE = click.Path(path_type=Path, dir_okay=False)
 
 
 @click.group(
@@ -34,7 +33,7 @@ Examples:
   airhilt airport list --json
 """,
 )
-@click.option("--json", "as_json", is_flag=True, help="Print a JSON array.")
+@json_array_option
 def list_airports(as_json: bool) -> None:
     """Name the airports that ship with AIRHILT."""
     from airhilt.host import library
@@ -65,7 +64,7 @@ Examples:
 )
 @click.argument("name", metavar="NAME_OR_FILE")
 @click.option("--out", type=FILE, metavar="FILE", help="Draw it: an .svg or a .png.")
-@click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
+@json_option
 def show(name: str, out: Path | None, as_json: bool) -> None:
     """Say what an airport has: runways, holds, exits, stands; or draw it.
 
@@ -114,11 +113,7 @@ Examples:
     help="Magnetic variation, east positive.  [default: World Magnetic Model 2025]",
 )
 @click.option(
-    "--year",
-    type=float,
-    default=2025.0,
-    show_default=True,
-    help="Year of the magnetic variation.",
+    "--year", type=float, default=2025.0, show_default=True, help="Year of the magnetic variation."
 )
 @click.option("--out", type=FILE, metavar="FILE", help="[default: IDENT.json, in lower case]")
 @click.option("--overwrite", is_flag=True, help="Replace the file.")

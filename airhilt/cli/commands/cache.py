@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 
 import click
 
+from airhilt.cli.parameters import json_option
+
 if TYPE_CHECKING:
     from airhilt.host.caches import Usage
 
@@ -22,7 +24,7 @@ Examples:
   airhilt cache clear backgrounds   delete one kind
 """,
 )
-@click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
+@json_option
 @click.pass_context
 def cache(context: click.Context, as_json: bool) -> None:
     """Show what runs keep for later runs, and clear it.

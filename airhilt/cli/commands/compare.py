@@ -8,6 +8,7 @@ from pathlib import Path
 import click
 
 from airhilt.cli.output import tell
+from airhilt.cli.parameters import FILE, PATH
 
 
 def _pair(
@@ -30,17 +31,14 @@ Examples:
   airhilt compare sweeps/s01a --assistants paper,reference
 """
 )
-@click.argument("first", type=click.Path(path_type=Path))
-@click.argument("second", required=False, type=click.Path(path_type=Path))
+@click.argument("first", type=PATH)
+@click.argument("second", required=False, type=PATH)
 @click.option(
     "--assistants", metavar="NAME,NAME", callback=_pair, help="Two assistants of one sweep."
 )
 @click.option("--json", "as_json", is_flag=True, help="Print it as JSON.")
 @click.option(
-    "--out",
-    type=click.Path(path_type=Path, dir_okay=False),
-    metavar="FILE",
-    help="Write a page of it: one HTML file that opens offline.",
+    "--out", type=FILE, metavar="FILE", help="Write a page of it: one HTML file that opens offline."
 )
 def compare(
     first: Path,

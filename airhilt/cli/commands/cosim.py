@@ -9,32 +9,24 @@ from typing import TYPE_CHECKING
 import click
 
 from airhilt.cli.output import echo_json, tell
-from airhilt.cli.parameters import allow_path_option
-from airhilt.cli.station_flags import (
-    PageOptions,
-    refuse_page_options,
-    station_options,
-)
+from airhilt.cli.parameters import CommandWithFlags, allow_path_option
+from airhilt.cli.station_flags import PageOptions, refuse_page_options, station_options
 
 if TYPE_CHECKING:
     from airhilt.options import Options
     from airhilt.scenario import Scenario
 
 
-class RunCommand(click.Command):
-    """A command with the flags of a run; they are made when somebody asks for them."""
+def _flags() -> list[click.Parameter]:
+    from airhilt.cli.run_flags import run_flags
 
-    def get_params(self, ctx: click.Context) -> list[click.Parameter]:
-        """Return the parameters: those of the command itself, and the flags of a run."""
-        from airhilt.cli.run_flags import run_flags
-
-        if not any(parameter.name == "seed" for parameter in self.params):
-            self.params[1:1] = run_flags()
-        return super().get_params(ctx)
+    return run_flags()
 
 
 @click.command(
-    cls=RunCommand,
+    cls=CommandWithFlags,
+    flags=_flags,
+    flags_at=1,
     epilog="""\b
 Examples:
   airhilt cosim --scenario s02a_headon

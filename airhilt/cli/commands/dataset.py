@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from airhilt.cli.parameters import renderer_option
+from airhilt.cli.parameters import PATH, renderer_option
 from airhilt.errors import AirhiltError
 from airhilt.imaging.lenses import GREATEST_SIDE_PX, SMALLEST_SIDE_PX
 
@@ -30,7 +30,7 @@ Examples:
   airhilt dataset export --out headon --images 200 --scenario s02a_headon --renderer moderngl
 """
 )
-@click.option("--out", required=True, type=click.Path(path_type=Path), metavar="DIR")
+@click.option("--out", required=True, type=PATH, metavar="DIR")
 @click.option("--images", required=True, type=click.IntRange(1, 1_000_000), metavar="N")
 @click.option("--seed", type=click.IntRange(min=0), default=0, show_default=True)
 @click.option(

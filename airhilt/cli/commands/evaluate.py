@@ -11,10 +11,11 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from airhilt.cli.output import counted, echo, tell
+from airhilt.cli.parameters import FOLDER, INTERRUPTED, CommandWithFlags
 from airhilt.cli.work_flags import work_flags, work_given
 
 if TYPE_CHECKING:
-    from airhilt.cli.sweep_progress import SweepProgress
+    from airhilt.cli.sweep_output import SweepProgress
     from airhilt.sweep.estimate import Estimate
     from airhilt.sweep.evaluation.engine import Evaluation
     from airhilt.sweep.evaluation.preset import Choice, Preset
@@ -22,24 +23,18 @@ if TYPE_CHECKING:
 
 CHOSEN = ("latency", "cameras", "renderer", "detector", "speech", "asr", "tts")
 """Options of runs that may be given; a preset settles or varies the others."""
-INTERRUPTED = 130
-"""Exit code after a signal."""
 
 
-class EvaluateCommand(click.Command):
-    """A command with some flags of a run, made when somebody asks."""
+def _flags() -> list[click.Parameter]:
+    from airhilt.cli.run_flags import run_flags
 
-    def get_params(self, ctx: click.Context) -> list[click.Parameter]:
-        """Return the parameters: those of the command itself, and those of its runs."""
-        from airhilt.cli.run_flags import run_flags
-
-        if not any(parameter.name == "latency" for parameter in self.params):
-            self.params[3:3] = run_flags(CHOSEN, {"latency": "the preset's"})
-        return super().get_params(ctx)
+    return run_flags(CHOSEN, {"latency": "the preset's"})
 
 
 @click.command(
-    cls=EvaluateCommand,
+    cls=CommandWithFlags,
+    flags=_flags,
+    flags_at=3,
     epilog="""\b
 Examples:
   airhilt evaluate --preset paper --no-cameras --out evaluations/paper
@@ -61,7 +56,7 @@ Examples:
 )
 @click.option(
     "--out",
-    type=click.Path(path_type=Path, file_okay=False),
+    type=FOLDER,
     metavar="DIR",
     help="Folder of the evaluation; what it has already is not run again.  [default: "
     "evaluations/PRESET]",
@@ -99,7 +94,7 @@ def evaluate(context: click.Context, /, **given: Any) -> int:
 @contextmanager
 def _progress(name: str, quiet: bool) -> Iterator[SweepProgress]:
     """Show how one sweep is doing; it stops after the runs in hand if the user asks."""
-    from airhilt.cli.sweep_progress import SweepProgress
+    from airhilt.cli.sweep_output import SweepProgress
 
     if not quiet:
         click.echo(f"{name}:", err=True)

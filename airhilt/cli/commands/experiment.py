@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from airhilt.cli.output import tell, tell_page
+from airhilt.cli.parameters import FILE, FOLDER
 from airhilt.cli.station_flags import PageOptions, refuse_page_options, station_options
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ Examples:
   airhilt schema --experiment > plan.schema.json
 """
 )
-@click.argument("plan_file", metavar="PLAN", type=click.Path(path_type=Path, dir_okay=False))
+@click.argument("plan_file", metavar="PLAN", type=FILE)
 @click.option(
     "--participant",
     metavar="ID",
@@ -32,7 +33,7 @@ Examples:
 )
 @click.option(
     "--out",
-    type=click.Path(path_type=Path, file_okay=False),
+    type=FOLDER,
     metavar="DIR",
     help="Folder of the experiment; what it has already is not run again.  [default: the name of "
     "PLAN under experiments/]",

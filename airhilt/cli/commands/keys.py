@@ -6,6 +6,8 @@ from pathlib import Path
 
 import click
 
+from airhilt.cli.parameters import FILE, FOLDER
+
 
 @click.group(
     epilog="""\b
@@ -27,12 +29,7 @@ Examples:
   airhilt verify RUN --key lab.key.pub
 """
 )
-@click.argument(
-    "file",
-    metavar="[FILE]",
-    default="airhilt.key",
-    type=click.Path(path_type=Path, dir_okay=False),
-)
+@click.argument("file", metavar="[FILE]", default="airhilt.key", type=FILE)
 def sign(file: Path) -> None:
     """Make a key to sign runs with: FILE, which stays with you, and FILE.pub for others.
 
@@ -53,7 +50,7 @@ Examples:
   airhilt worker decision --tls lab-keys
 """
 )
-@click.argument("folder", metavar="DIR", type=click.Path(path_type=Path, file_okay=False))
+@click.argument("folder", metavar="DIR", type=FOLDER)
 @click.option(
     "--endpoint",
     default="tls/127.0.0.1:7447",

@@ -6,6 +6,8 @@ import json
 
 import click
 
+from airhilt.cli.parameters import json_array_option
+
 
 @click.command(
     "list",
@@ -15,7 +17,7 @@ Examples:
   airhilt list --json
 """,
 )
-@click.option("--json", "as_json", is_flag=True, help="Print a JSON array.")
+@json_array_option
 def list_scenarios(as_json: bool) -> None:
     """Name the scenarios that ship with AIRHILT."""
     from airhilt.host import library

@@ -8,6 +8,7 @@ from pathlib import Path
 import click
 
 from airhilt.cli.output import echo, tell
+from airhilt.cli.parameters import FILE, json_option, run_argument
 
 
 @click.command(
@@ -18,7 +19,7 @@ Examples:
   airhilt listen RUN --json
 """
 )
-@click.argument("run_folder", metavar="RUN", type=click.Path(path_type=Path))
+@run_argument
 @click.option(
     "--frequency",
     "frequency_khz",
@@ -28,12 +29,12 @@ Examples:
 )
 @click.option(
     "--out",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=FILE,
     metavar="FILE",
     help="The WAV file; the transcript has its name with .txt.  [default: frequency-KHZ.wav in "
     "the run folder]",
 )
-@click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
+@json_option
 def listen(run_folder: Path, frequency_khz: int | None, out: Path | None, as_json: bool) -> None:
     """Write a frequency of a run as a WAV file, and who said and heard what beside it."""
     from airhilt.report.frequency import write_frequency

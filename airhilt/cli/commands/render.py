@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from airhilt.cli.parameters import renderer_option
+from airhilt.cli.parameters import FILE, renderer_option
 from airhilt.errors import CameraError
 
 
@@ -24,15 +24,9 @@ Examples:
 @click.option("--seed", type=int, default=0, show_default=True)
 @renderer_option
 @click.option("--boxes", is_flag=True, help="Draw what is really there.")
-@click.option("--out", type=click.Path(path_type=Path, dir_okay=False), metavar="FILE")
+@click.option("--out", type=FILE, metavar="FILE")
 def render(
-    name: str,
-    camera: str,
-    at_s: float,
-    seed: int,
-    renderer: str,
-    boxes: bool,
-    out: Path | None,
+    name: str, camera: str, at_s: float, seed: int, renderer: str, boxes: bool, out: Path | None
 ) -> None:
     """Write what a camera of a scenario sees at a time, as a PNG.
 

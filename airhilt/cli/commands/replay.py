@@ -9,6 +9,7 @@ from pathlib import Path
 import click
 
 from airhilt.cli.output import echo
+from airhilt.cli.parameters import json_option, run_argument
 
 
 @click.command(
@@ -18,8 +19,8 @@ Examples:
   airhilt replay RUN --json
 """
 )
-@click.argument("run_folder", metavar="RUN", type=click.Path(path_type=Path))
-@click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
+@run_argument
+@json_option
 def replay(run_folder: Path, as_json: bool) -> None:
     """Run a run again with the latencies it had, and say where the two differ.
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from airhilt.cli.output import counted, tell
+from airhilt.cli.parameters import FILE, folder_argument
 from airhilt.errors import AirhiltError
 from airhilt.host.files import replace_file
 
@@ -31,16 +32,16 @@ Examples:
   airhilt report RUN --csv people.csv
 """
 )
-@click.argument("folder", metavar="RUN|SWEEP", type=click.Path(path_type=Path))
+@folder_argument
 @click.option(
     "--out",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=FILE,
     metavar="FILE",
     help="Where to write it.  [default: report.html in the folder]",
 )
 @click.option(
     "--csv",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=FILE,
     metavar="FILE",
     help="Write the table of a sweep, or of the people of a run, as CSV instead.",
 )
@@ -86,13 +87,7 @@ class _Progress:
 
 
 def _write_csv(sweep: SweepFolder, path: Path) -> None:
-    """Write ``sweep.parquet`` as CSV; what is null is empty.
-
-    Raises
-    ------
-    AirhiltError
-        The table is not there, or the file cannot be written.
-    """
+    """Write ``sweep.parquet`` as CSV; what is null is empty."""
     from pyarrow import BufferOutputStream
     from pyarrow.csv import write_csv
 

@@ -29,11 +29,7 @@ Examples:
 @click.option("--sweep", is_flag=True, help="The schema of sweep files instead.")
 @click.option("--experiment", is_flag=True, help="The schema of plans of experiments instead.")
 def schema(
-    scenario: bool,
-    services: bool,
-    assistant: str | None,
-    sweep: bool,
-    experiment: bool,
+    scenario: bool, services: bool, assistant: str | None, sweep: bool, experiment: bool
 ) -> None:
     """Print the JSON Schemas of all messages on the bus."""
     given = (scenario, services, assistant is not None, sweep, experiment)

@@ -6,6 +6,8 @@ from pathlib import Path
 
 import click
 
+from airhilt.cli.parameters import FILE, folder_argument
+
 
 @click.command(
     epilog="""\b
@@ -16,11 +18,11 @@ Examples:
   airhilt verify RUN --key lab.key.pub          what others do
 """
 )
-@click.argument("folder", metavar="RUN|SWEEP", type=click.Path(path_type=Path))
+@folder_argument
 @click.option(
     "--key",
     required=True,
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=FILE,
     metavar="PRIVATE",
     help="Private key that `airhilt keys sign` has made.",
 )

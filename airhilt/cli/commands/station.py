@@ -7,9 +7,8 @@ from pathlib import Path
 import click
 
 from airhilt.cli.output import tell, tell_page
+from airhilt.cli.parameters import FOLDER
 from airhilt.cli.station_flags import PageOptions, station_options
-
-FOLDER = click.Path(path_type=Path, file_okay=False)
 
 
 @click.command(

@@ -12,25 +12,21 @@ from typing import Any
 import click
 
 from airhilt.cli.output import tell
-from airhilt.cli.parameters import allow_path_option
+from airhilt.cli.parameters import FILE, FOLDER, INTERRUPTED, CommandWithFlags, allow_path_option
 from airhilt.cli.work_flags import work_flags, work_given
 
-INTERRUPTED = 130
-"""Exit code after a signal."""
 WRITTEN = "airhilt.sweep.written"
 """Key of the arguments in the context."""
 
 
-class SweepCommand(click.Command):
-    """A command with the flags of a run that take several values, made when somebody asks."""
+def _flags() -> list[click.Parameter]:
+    from airhilt.cli.sweep_flags import value_flags
 
-    def get_params(self, ctx: click.Context) -> list[click.Parameter]:
-        """Return the parameters: those of the command itself, and those of its runs."""
-        from airhilt.cli.sweep_flags import value_flags
+    return value_flags()
 
-        if not any(parameter.name == "assistant" for parameter in self.params):
-            self.params[2:2] = value_flags()
-        return super().get_params(ctx)
+
+class SweepCommand(CommandWithFlags):
+    """A command that keeps its arguments as they were written."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Parse the arguments, and keep them as they were written."""
@@ -40,6 +36,8 @@ class SweepCommand(click.Command):
 
 @click.command(
     cls=SweepCommand,
+    flags=_flags,
+    flags_at=2,
     epilog="""\b
 Values are lists (0,5,10), ranges with their end (0:20:5), ranges in even ratios with a count
 (log:1:100:5), or intervals to draw samples from (0:20, with --sample).
@@ -80,13 +78,13 @@ Examples:
 )
 @click.option(
     "--file",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=FILE,
     metavar="FILE",
     help="A sweep file (`airhilt schema --sweep`); flags add to it, and replace what it says.",
 )
 @click.option(
     "--out",
-    type=click.Path(path_type=Path, file_okay=False),
+    type=FOLDER,
     metavar="DIR",
     help="Folder of the sweep; what it has already is not run again.  [default: a new one under "
     "sweeps/]",
@@ -102,8 +100,7 @@ def sweep(context: click.Context, /, **given: Any) -> int:
     1 if some have not, or if none finished.
     """
     from airhilt.cli.sweep_flags import specification_given
-    from airhilt.cli.sweep_output import print_estimate, print_result
-    from airhilt.cli.sweep_progress import SweepProgress
+    from airhilt.cli.sweep_output import SweepProgress, print_estimate, print_result
     from airhilt.sweep.engine import sweep as run_sweep
     from airhilt.sweep.estimate import estimate
 

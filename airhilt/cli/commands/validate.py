@@ -24,7 +24,7 @@ Examples:
 @allow_path_option
 def validate(file: str, allowed: tuple[Path, ...]) -> None:
     """Check a scenario file, and put all its actors where they begin."""
-    from airhilt.cosim.validation import require_runnable
+    from airhilt.cosim.setup import require_runnable
     from airhilt.world.checks.texts import doubtful_texts
     from airhilt.world.loading import load
 

@@ -10,6 +10,7 @@ from pathlib import Path
 import click
 
 from airhilt.cli.output import echo
+from airhilt.cli.parameters import FILE, folder_argument, json_option
 
 
 @click.command(
@@ -21,14 +22,14 @@ Examples:
   airhilt verify RUN --json
 """
 )
-@click.argument("folder", metavar="RUN|SWEEP", type=click.Path(path_type=Path))
+@folder_argument
 @click.option(
     "--key",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=FILE,
     metavar="PUBLIC",
     help="Public key by which the run or the sweep must be signed.",
 )
-@click.option("--json", "as_json", is_flag=True, help="Print a JSON object.")
+@json_option
 def verify(folder: Path, key: Path | None, as_json: bool) -> None:
     """Say whether every file of a run is as the run wrote it, or the tables of a sweep.
 

@@ -10,10 +10,8 @@ from typing import TYPE_CHECKING
 import click
 
 from airhilt.cli.output import tell, tell_page
-from airhilt.cli.station_flags import (
-    PageOptions,
-    station_options,
-)
+from airhilt.cli.parameters import PATH
+from airhilt.cli.station_flags import PageOptions, station_options
 
 if TYPE_CHECKING:
     from airhilt.station.address import Address
@@ -35,12 +33,12 @@ Examples:
   airhilt view --connect tcp/127.0.0.1:7447
 """
 )
-@click.argument("run_folder", metavar="[RUN]", required=False, type=click.Path(path_type=Path))
-@click.argument("other", metavar="[OTHER]", required=False, type=click.Path(path_type=Path))
+@click.argument("run_folder", metavar="[RUN]", required=False, type=PATH)
+@click.argument("other", metavar="[OTHER]", required=False, type=PATH)
 @click.option("--connect", metavar="ENDPOINT", help="Show a run that goes on at this endpoint.")
 @click.option(
     "--tls",
-    type=click.Path(path_type=Path),
+    type=PATH,
     metavar="DIR",
     help="Folder with observer.json of `airhilt keys init`, for a run that goes on.",
 )
@@ -94,11 +92,7 @@ def _show_recorded(run_folders: Sequence[Path], address: Address, browser: bool)
 
 
 def _show_live(
-    connect: str | None,
-    tls: Path | None,
-    asked: tuple[str, ...],
-    address: Address,
-    browser: bool,
+    connect: str | None, tls: Path | None, asked: tuple[str, ...], address: Address, browser: bool
 ) -> None:
     from airhilt.station.app import live_app
     from airhilt.station.browsers import Browsers

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import click
 
+from airhilt.cli.parameters import PATH
 from airhilt.engine_families import FAMILIES
 
 
@@ -24,7 +25,7 @@ Examples:
 @click.option("--engine", metavar="ENGINE", help="Engine, as for `airhilt cosim`.")
 @click.option(
     "--assistant-config",
-    type=click.Path(path_type=Path),
+    type=PATH,
     metavar="FILE",
     help="Configuration of a decision engine, as for `airhilt cosim`.",
 )
@@ -32,10 +33,7 @@ Examples:
     "--connect", metavar="ENDPOINT", help="The run's endpoint.  [default: that of the keys]"
 )
 @click.option(
-    "--tls",
-    type=click.Path(path_type=Path),
-    metavar="DIR",
-    help="Folder with worker.json of `airhilt keys init`.",
+    "--tls", type=PATH, metavar="DIR", help="Folder with worker.json of `airhilt keys init`."
 )
 @click.option(
     "--run", "run_name", metavar="RUN", help="Name of the run, where several share an endpoint."

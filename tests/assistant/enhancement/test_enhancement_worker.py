@@ -13,7 +13,7 @@ from airhilt.assistant.asr.worker import AsrWorker
 from airhilt.assistant.enhancement.worker import EnhancementWorker
 from airhilt.audio.pcm import Audio, from_pcm, to_pcm
 from airhilt.cosim.option_checks import check_options
-from airhilt.cosim.requested_latency import STAGES
+from airhilt.cosim.requested import STAGES
 from airhilt.errors import AirhiltError, WorkerError
 from airhilt.messages import EnhancedTransmission, Transcript, Transmission
 from airhilt.metrics.latencies import StageLatencies

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import subprocess
 import tempfile
 from pathlib import Path
 
@@ -13,12 +12,10 @@ from scipy.signal import resample_poly
 
 from airhilt.audio.pcm import FULL_SCALE, SAMPLE_RATE_HZ, Audio
 from airhilt.engines import Command
-from airhilt.errors import SpeechError
 from airhilt.voices.engine import VoiceSpec
 from synthesisers.festival import VOICES, FestivalProcess, quoted, voice_files
-from synthesisers.synthesiser import Synthesiser, Voice
+from synthesisers.synthesiser import Synthesiser, Voice, run
 
-TIMEOUT_S = 60.0
 _MODEL = "us/{voice}/hts/{voice}.htsvoice"
 _LABELS = """
  (voice_{voice})
@@ -39,22 +36,15 @@ class FestivalHts:
         with tempfile.TemporaryDirectory(prefix="airhilt-festival-") as folder:
             labels, spoken = Path(folder) / "speech.lab", Path(folder) / "speech.wav"
             self._process.ask(_LABELS.format(voice=voice.name, path=labels, text=quoted(text)))
-            done = subprocess.run(
+            run(
+                "festival_hts",
                 [
                     *("hts_engine", "-m", VOICES / _MODEL.format(voice=voice.name)),
                     *("-r", f"{voice.rate:.4f}"),
                     *("-fm", f"{12.0 * math.log2(voice.pitch):.4f}"),
                     *("-ow", spoken, labels),
                 ],
-                capture_output=True,
-                check=False,
-                timeout=TIMEOUT_S,
             )
-            if done.returncode:
-                said = done.stderr.decode("utf-8", "replace").strip()
-                raise SpeechError(
-                    f"synthesiser festival_hts: hts_engine: exit code {done.returncode}: {said}"
-                )
             rate_hz, samples = wavfile.read(spoken)
         audio = resample_poly(samples.astype(np.float32) / FULL_SCALE, SAMPLE_RATE_HZ, rate_hz)
         return np.asarray(audio, np.float32)

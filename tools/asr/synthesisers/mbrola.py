@@ -6,18 +6,15 @@ tests alone.
 
 from __future__ import annotations
 
-import subprocess
 import tempfile
 from pathlib import Path
 
 from airhilt.audio.pcm import Audio
 from airhilt.audio.wav import read_wav
 from airhilt.engines import Command
-from airhilt.errors import SpeechError
 from airhilt.voices.engine import VoiceSpec
-from synthesisers.synthesiser import InstalledFile, Synthesiser, Voice
+from synthesisers.synthesiser import InstalledFile, Synthesiser, Voice, run
 
-TIMEOUT_S = 60.0
 WORDS_PER_MINUTE, NORMAL_PITCH = 175, 50
 """Rate in words a minute, and pitch from 0 to 99, of a call that is not to be faster or higher."""
 VOICES = Path("/usr/share/mbrola")
@@ -32,15 +29,10 @@ class Mbrola:
             path = Path(folder) / "speech.wav"
             rate = str(round(WORDS_PER_MINUTE * voice.rate))
             pitch = str(min(round(NORMAL_PITCH * voice.pitch), 99))
-            done = subprocess.run(
+            run(
+                "mbrola",
                 ["espeak-ng", "-v", voice.name, "-s", rate, "-p", pitch, "-w", path, "--", text],
-                capture_output=True,
-                check=False,
-                timeout=TIMEOUT_S,
             )
-            if done.returncode or not path.exists():
-                said = done.stderr.decode("utf-8", "replace").strip()
-                raise SpeechError(f"synthesiser mbrola: exit code {done.returncode}: {said}")
             return read_wav(path)
 
 

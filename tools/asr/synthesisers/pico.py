@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import subprocess
 import tempfile
 from pathlib import Path
 
 from airhilt.audio.pcm import Audio
 from airhilt.audio.wav import read_wav
 from airhilt.engines import Command
-from airhilt.errors import SpeechError
 from airhilt.voices.engine import VoiceSpec
-from synthesisers.synthesiser import Synthesiser, Voice
-
-TIMEOUT_S = 60.0
+from synthesisers.synthesiser import Synthesiser, Voice, run
 
 
 class Pico:
@@ -27,15 +23,7 @@ class Pico:
         )
         with tempfile.TemporaryDirectory(prefix="airhilt-pico-") as folder:
             path = Path(folder) / "speech.wav"
-            done = subprocess.run(
-                ["pico2wave", "-l", voice.name, "-w", path, marked],
-                capture_output=True,
-                check=False,
-                timeout=TIMEOUT_S,
-            )
-            if done.returncode:
-                said = done.stderr.decode("utf-8", "replace").strip()
-                raise SpeechError(f"synthesiser pico: exit code {done.returncode}: {said}")
+            run("pico", ["pico2wave", "-l", voice.name, "-w", path, marked])
             return read_wav(path)
 
 

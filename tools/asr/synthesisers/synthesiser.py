@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import subprocess
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol
@@ -15,6 +16,8 @@ from airhilt.engines import Requirement
 from airhilt.errors import SpeechError
 from airhilt.voices.engine import VoiceSpec
 
+TIMEOUT_S = 60.0
+"""Longest time in which a program speaks a call, in s."""
 CHOICES = ("seen", "unseen", "all", "test-only")
 """Choices of voices that have a name."""
 
@@ -124,3 +127,17 @@ def speak(
     """Return a text as speech at a rate, with a pitch relative to the voice's own."""
     spec = VoiceSpec(voice.name, words_per_minute / voice.words_per_minute, pitch)
     return np.frombuffer(to_pcm(talker.synthesise(text, spec)), np.int16)
+
+
+def run(synthesiser: str, command: Sequence[str | Path]) -> None:
+    """Run the program of a synthesiser.
+
+    Raises
+    ------
+    SpeechError
+        It fails.
+    """
+    done = subprocess.run(command, capture_output=True, check=False, timeout=TIMEOUT_S)
+    if done.returncode:
+        said = done.stderr.decode("utf-8", "replace").strip()
+        raise SpeechError(f"synthesiser {synthesiser}: exit code {done.returncode}: {said}")
