@@ -6,10 +6,8 @@ from typing import Annotated
 
 from pydantic import Field
 
+from airhilt.imaging import GREATEST_SIDE_PX, SMALLEST_SIDE_PX
 from airhilt.quantities import Count, Number
-
-SMALLEST_SIDE_PX = 16
-GREATEST_SIDE_PX = 4096
 
 FieldOfView = Annotated[Number, Field(ge=0.1, le=170.0)]
 """Horizontal field of view in degrees."""

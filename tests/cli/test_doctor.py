@@ -15,6 +15,7 @@ from airhilt.assistant.vision.detectors import embedded
 from airhilt.cli.commands import doctor
 from airhilt.cli.commands.doctor import COMMAND, Finding, examine
 from airhilt.errors import RendererError
+from airhilt.plugins import Family
 from engine_package import installed
 from paths import ROOT
 
@@ -88,7 +89,7 @@ def test_a_broken_renderer_is_listed_with_the_cause_and_is_not_absent(
 ) -> None:
     monkeypatch.undo()
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join([str(tmp_path), *sys.path]))
-    monkeypatch.setattr("airhilt.sensors.cameras.renderers.renderer_names", lambda: ["broken"])
+    monkeypatch.setattr(Family, "names", lambda _: ["broken"])
     source = "raise RuntimeError('it is broken')"
     with installed(tmp_path, monkeypatch, "airhilt.renderers", "broken", source):
         (broken,) = doctor._renderers()

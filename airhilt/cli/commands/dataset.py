@@ -8,7 +8,7 @@ import click
 
 from airhilt.cli.parameters import PATH, renderer_option
 from airhilt.errors import AirhiltError
-from airhilt.imaging.lenses import GREATEST_SIDE_PX, SMALLEST_SIDE_PX
+from airhilt.imaging import GREATEST_SIDE_PX, SMALLEST_SIDE_PX
 
 SIDE = click.IntRange(SMALLEST_SIDE_PX, GREATEST_SIDE_PX)
 

@@ -105,7 +105,7 @@ class Air:
         backend = backend or audio_radio(radio=radio)
         context = radio_context(
             director=self.director,
-            scenario=SimpleNamespace(radio=radio, actors=()),
+            scenario=SimpleNamespace(radio=radio, roster=()),
             stations=self.stations,
             backend=backend,
             publish=self.publish,
