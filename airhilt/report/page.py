@@ -14,7 +14,6 @@ from airhilt.report.data import read_run
 from airhilt.report.sections import GuardedContent, load_sections
 
 SHARED = (
-    "document",
     "page",
     "words",
     "run",

@@ -9,7 +9,7 @@ from airhilt.report.assembly import Assembly
 from airhilt.report.evaluation import tables
 from airhilt.report.page_section import PageSection
 
-SHARED = ("document", "page")
+SHARED = ("page",)
 SECTION = PageSection("tables", order=10, module=tables.__file__)
 
 

@@ -36,8 +36,6 @@ const timeOf = (phase) => {
 const advisories = run.events.filter((event) => event.kind === "advisory");
 const reactions = run.events.filter((event) => event.kind === "pilot_reacts");
 const calls = run.events.filter((event) => event.kind === "radio");
-const losses = run.events.filter((event) => event.kind === "status" && event.state === "lost");
-const notEvaluated = run.events.filter((event) => event.kind === "status" && event.state === "not evaluated");
 const minimumNm = run.separation.horizontal_nm || 5;
 const minimumFt = run.separation.vertical_ft || 1000;
 const endS = Math.max(run.end_s, 1);

@@ -30,7 +30,8 @@ function bodySymbol(x, y, track, state, perMetre) {
   return svg("path", { class: "body", d: SHAPES[shape], fill: track.colour, transform: `${move} ${turn} scale(${wide.toFixed(1)} ${long.toFixed(1)})` });
 }
 const keyItem = (symbol, text) => html("li", {}, svg("svg", { viewBox: "0 0 20 14", "aria-hidden": "true" }, symbol), text);
-const keyLine = (attributes) => svg("line", { x1: 0, x2: 20, y1: 7, y2: 7, ...attributes });
+const keyLine = (attributes) => line(0, 7, 20, 7, attributes);
+const keyMore = (n, what = "") => n > 0 && dim(`and ${n} more${what}`, "li");
 
-/** Key of the conflict window, empty if there was none. */
-const windowKey = () => (known(timeOf("opened")) ? [keyItem(svg("rect", { class: "window", width: 20, height: 14 }), "conflict window")] : []);
+/** Key of the conflict window, false if there was none. */
+const windowKey = () => known(timeOf("opened")) && keyItem(svg("rect", { class: "window", width: 20, height: 14 }), "conflict window");
