@@ -108,7 +108,7 @@ class Assembly:
 
     def _all_scripts(self) -> list[_Script]:
         """Return all scripts; that of a section has a scope and an element of its own."""
-        shared = [_Script(_own_file(f"shared/{name}.js")) for name in self._shared]
+        shared = "".join(_own_file(f"shared/{name}.js") for name in self._shared)
         own = [
             _Script(
                 f"page.section({json.dumps(section.name)}, (data) => {{\n{script}}});\n",
@@ -117,7 +117,7 @@ class Assembly:
             for section in self._sections
             if section.name not in self._failed and (script := section.script())
         ]
-        scripts = [*shared, *own, _Script("page.begin();\n")]
+        scripts = [_Script(f'"use strict";\n{shared}'), *own, _Script("page.begin();\n")]
         return [script._replace(text=inline(script.text)) for script in scripts]
 
 

@@ -1,21 +1,12 @@
-/** The part of the plane that all tracks need. */
-function bounds() {
-  const range = (name) => lowAndHigh(tracks.flatMap((track) => track[name]));
-  return { east: range("east_nm"), north: range("north_nm") };
-}
-
 /** The views of the plan: all traffic and, at an airport, nearer ones. */
 const views = (() => {
-  const all = { name: "All traffic", box: () => bounds(), pad: 1.14, least: 4, markEveryS };
-  if (!airport || !tracks.length) return [all];
-  const range = (points, i) => lowAndHigh(points.map((point) => point[i] / METRE_PER_NM));
-  const paved = airport.runways.flatMap((runway) => runway.protected);
-  const field = { east: range(paved, 0), north: range(paved, 1) };
-  const join = (a, b) => ({ low: Math.min(a.low, b.low), high: Math.max(a.high, b.high) });
-  all.box = () => ({ east: join(bounds().east, field.east), north: join(bounds().north, field.north) });
-  const found = [all, { name: "Airport", box: () => field, pad: 1.06, least: 0, markEveryS: 10 }], spot = conflictBox();
-  if (spot) found.push({ name: run.has_conflict ? "Conflict" : "Closest approach", box: () => spot, pad: 1, least: 0, markEveryS: 2 });
-  return found;
+  const inMiles = (points) => points.map(([east, north]) => [east / METRE_PER_NM, north / METRE_PER_NM]), paved = inMiles(airport ? airport.runways.flatMap((runway) => runway.protected) : []);
+  const spot = airport && conflictBox();
+  return [
+    { name: "All traffic", box: boxOf([...tracks.flatMap((track) => track.east_nm.map((east, i) => [east, track.north_nm[i]])), ...paved]), pad: 1.14, least: 4, markEveryS },
+    airport && tracks.length && { name: "Airport", box: boxOf(paved), pad: 1.06, least: 0, markEveryS: 10 },
+    spot && { name: run.has_conflict ? "Conflict" : "Closest approach", box: spot, pad: 1, least: 0, markEveryS: 2 },
+  ].filter(Boolean);
 })();
 let view = views.at(closeUp ? -1 : 0);
 
@@ -51,7 +42,7 @@ function drawPlan() {
   const width = widthOf(holder), besides = innerWidth > 920;
   const chart = canvas(holder, besides ? Math.min(width * 1.5, 690) : Math.min(Math.max(width * 0.8, 300), 560), view.name === "All traffic" ? "Plan view of all tracks" : `Plan view: ${view.name}`);
   const { root } = chart, area = { left: airport ? 64 : 54, right: width - 12, top: 12, bottom: chart.height - 44 };
-  const { x, y, perNm, near } = planeScales(area, view.box(), view.pad, view.least, true);
+  const { x, y, perNm, near } = planeScales(area, view.box, view.pad, view.least, true);
   if (airport) drawAirport(clip(root, "airport-clip", area), x, y, perNm / METRE_PER_NM, area);
   axes(root, area, x, y, ...["East", "North"].map((name) => `${name} (${near ? "m" : "NM"})`));
   const ground = clip(root, "plan-clip", area);
@@ -111,7 +102,7 @@ function camerasAt(t, x, y, perNm) {
 /** Returns aircraft, their data blocks and the ring of the separation minimum at a time. */
 function planAt(t, x, y, perNm, area, reserved) {
   const nodes = camerasAt(t, x, y, perNm), states = tracks.map((track) => ({ track, state: stateAt(track, t) }));
-  const taken = states.map(({ state }) => ({ left: x(state.east) - 8, right: x(state.east) + 8, top: y(state.north) - 8, bottom: y(state.north) + 8 })).concat(reserved);
+  const taken = [...states.map(({ state }) => boxAround(x(state.east), y(state.north), 16, 16)), ...reserved];
   const focus = states.find(({ track, state }) => track.callsign === pair[0] && !state.ended);
   if (focus && !closeUp) nodes.push(svg("circle", { class: "ring", cx: x(focus.state.east), cy: y(focus.state.north), r: minimumNm * perNm }));
   for (const { track, state } of states) {
@@ -130,36 +121,29 @@ function planAt(t, x, y, perNm, area, reserved) {
 
 /** Points from the edge of the plan to an actor outside of it. */
 function pointAway(track, px, py, taken, area, perNm) {
-  const cx = (area.left + area.right) / 2, cy = (area.top + area.bottom) / 2, dx = px - cx, dy = py - cy;
-  const share = Math.min(((area.right - area.left) / 2 - 10) / Math.abs(dx || 1e-9), ((area.bottom - area.top) / 2 - 10) / Math.abs(dy || 1e-9));
+  const halfWidth = (area.right - area.left) / 2, halfHeight = (area.bottom - area.top) / 2, cx = area.left + halfWidth, cy = area.top + halfHeight, dx = px - cx, dy = py - cy;
+  const share = Math.min((halfWidth - 10) / Math.abs(dx || 1e-9), (halfHeight - 10) / Math.abs(dy || 1e-9));
   const ex = cx + dx * share, ey = cy + dy * share, text = `${track.callsign}, ${distance((1 - share) * Math.hypot(dx, dy) / perNm * METRE_PER_NM)} off`;
-  const width = measure(text, true) + 6, wantedX = ex - Math.sign(dx) * (Math.abs(dx) * share > (area.right - area.left) / 3 ? width / 2 + 14 : 0);
+  const width = measure(text, true) + 6, wantedX = ex - Math.sign(dx) * (Math.abs(dx) * share > halfWidth * 2 / 3 ? width / 2 + 14 : 0);
   const tx = Math.min(Math.max(wantedX, area.left + width / 2 + 4), area.right - width / 2 - 4);
-  const spots = [0, 16, -16, 32, -32, 48].map((shift) => Math.min(Math.max(ey + shift + (tx === ex ? -Math.sign(dy) * 18 : 0), area.top + 12), area.bottom - 12));
-  const boxes = spots.map((ty) => ({ left: tx - width / 2, right: tx + width / 2, top: ty - 9, bottom: ty + 9, ty }));
-  const box = boxes.find((own) => !taken.some((other) => overlap(own, other))) || boxes[0];
-  taken.push(box);
-  return svg("g", {}, arrowSymbol(ex, ey, Math.atan2(dx, -dy), track.colour), label(tx, box.ty + 4, text, { class: "halo bold", style: `fill: ${track.colour}` }));
+  const boxes = [0, 16, -16, 32, -32, 48].map((shift) => boxAround(tx, Math.min(Math.max(ey + shift + (tx === ex ? -Math.sign(dy) * 18 : 0), area.top + 12), area.bottom - 12), width, 18));
+  const box = firstFree(boxes, taken) ?? boxes[0];
+  return svg("g", {}, arrowSymbol(ex, ey, Math.atan2(dx, -dy), track.colour), label(tx, box.cy + 4, text, { class: "halo bold", style: `fill: ${track.colour}` }));
 }
+
+/** Directions in which the data block of an actor may lie, the best first. */
+const AROUND = [[0, -1], [0, 1], [1, -1], [-1, -1], [1, 1], [-1, 1], [1, 0], [-1, 0]];
 
 function placeBlock(track, state, px, py, taken, area) {
   const arrow = Math.abs(state.rate) < 150 ? "" : state.rate > 0 ? " ↑" : " ↓";
   const second = state.ended ? "ended" : airport && state.onGround ? `${state.phase}${state.speed > 1 ? `, ${whole(state.speed)} kt` : ""}` : `${feet(state.altitude)}${arrow}`;
   const lines = track.prominent ? [track.callsign, second] : [track.callsign];
   const width = Math.max(...lines.map((text, i) => measure(text, !i))) + 6, height = lines.length * 15 + 2;
-  for (const far of [14, 34, 58]) {
-    for (const [dx, dy] of [[0, -1], [0, 1], [1, -1], [-1, -1], [1, 1], [-1, 1], [1, 0], [-1, 0]]) {
-      const cx = px + dx * (far + width / 2 - (dy ? 8 : 0)), cy = py + dy * (far + height / 2 - 2);
-      const box = { left: cx - width / 2, right: cx + width / 2, top: cy - height / 2, bottom: cy + height / 2 };
-      const inside = box.left > area.left && box.right < area.right && box.top > area.top && box.bottom < area.bottom;
-      if (!inside || taken.some((other) => overlap(box, other))) continue;
-      taken.push(box);
-      return svg("g", {}, far > 14 && line(px, py, cx, cy, { stroke: "var(--dim)", opacity: .6 }),
-        lines.map((text, i) => label(cx, box.top + 12 + i * 15, text, { class: i ? "halo" : "halo bold", style: i ? null : `fill: ${track.colour}` })));
-    }
-    if (!track.prominent) return null;
-  }
-  return null;
+  const boxes = (track.prominent ? [14, 34, 58] : [14]).flatMap((far) => AROUND.map(([dx, dy]) => (
+    { far, ...boxAround(px + dx * (far + width / 2 - (dy ? 8 : 0)), py + dy * (far + height / 2 - 2), width, height) })));
+  const box = firstFree(boxes.filter((one) => isInside(one, area)), taken);
+  return box && svg("g", {}, box.far > 14 && line(px, py, box.cx, box.cy, { stroke: "var(--dim)", opacity: .6 }),
+    lines.map((text, i) => label(box.cx, box.top + 12 + i * 15, text, { class: i ? "halo" : "halo bold", style: i ? null : `fill: ${track.colour}` })));
 }
 
 /** Columns of the traffic: name, class, and what is read off a state. */

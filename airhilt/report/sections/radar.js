@@ -12,11 +12,9 @@ function plotSymbol(x, y, kind, colour, style = "plot") {
 
 /** The part of the plane that is drawn: all plots, and the antenna unless it is far from them. */
 function surroundings(radar) {
-  const range = (name, points) => lowAndHigh(points.map((point) => point[name]));
-  const box = (points) => ({ east: range("east_nm", points), north: range("north_nm", points) });
-  const size = ({ east, north }) => Math.max(east.high - east.low, north.high - north.low);
-  const whole = box([radar, ...radar.plots]), plots = radar.plots.length ? box(radar.plots) : whole;
-  return size(whole) > 3 * size(plots) ? plots : whole;
+  const box = (points) => boxOf(points.map(({ east_nm, north_nm }) => [east_nm, north_nm])), size = ({ east, north }) => Math.max(east.high - east.low, north.high - north.low);
+  const all = box([radar, ...radar.plots]), plots = radar.plots.length ? box(radar.plots) : all;
+  return size(all) > 3 * size(plots) ? plots : all;
 }
 
 /** Draws the plots of a radar around its antenna; returns what shows those of a time. */

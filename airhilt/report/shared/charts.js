@@ -1,4 +1,3 @@
-"use strict";
 // Scales, axes and labels of charts.
 
 function niceTimeStep(span, most) {
@@ -67,7 +66,15 @@ function planeScales(area, { east, north }, pad, least, inMetres = false) {
   const along = ({ low, high }, length, from, to) => scale((low + high - length / perNm) / 2, (low + high + length / perNm) / 2, from, to, step, format);
   return { x: along(east, width, area.left, area.right), y: along(north, height, area.bottom, area.top), perNm, step, near };
 }
+const boxAround = (cx, cy, width, height) => ({ cx, cy, left: cx - width / 2, right: cx + width / 2, top: cy - height / 2, bottom: cy + height / 2 });
+const isInside = (box, area) => box.left > area.left && box.right < area.right && box.top > area.top && box.bottom < area.bottom;
 const overlap = (one, other) => one.left < other.right && one.right > other.left && one.top < other.bottom && one.bottom > other.top;
+/** The first of some boxes that overlaps none of those taken, which it joins; undefined if none is free. */
+function firstFree(boxes, taken) {
+  const free = boxes.find((box) => !taken.some((other) => overlap(box, other)));
+  if (free) taken.push(free);
+  return free;
+}
 function path(xs, ys, x, y) {
   return xs.map((value, i) => `${i ? "L" : "M"}${x(value).toFixed(1)} ${y(ys[i]).toFixed(1)}`).join("");
 }

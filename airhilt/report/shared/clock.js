@@ -1,4 +1,3 @@
-"use strict";
 // The time shown, which is one for all charts, and what is read off under the pointer.
 
 const tip = html("div", { class: "tip", hidden: "" });

@@ -1,4 +1,3 @@
-"use strict";
 // Events in words.
 
 /** Kinds of events in words, in the order of the filters. */

@@ -1,4 +1,3 @@
-"use strict";
 // The data of the page, its elements and its sections. Text is only ever set as text.
 
 const given = JSON.parse(document.querySelector('script[type="application/json"]').textContent);

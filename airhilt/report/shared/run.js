@@ -1,4 +1,3 @@
-"use strict";
 // What happened in the run.
 
 const run = given, summary = run.summary;

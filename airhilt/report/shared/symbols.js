@@ -1,4 +1,3 @@
-"use strict";
 // Symbols of actors and events, and the keys of charts.
 
 const SEVERITY_COLOUR = { INFO: "var(--dim)", ADVISORY: "var(--accent)", CAUTION: "var(--warn)", WARNING: "var(--bad)" };

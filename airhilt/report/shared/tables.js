@@ -1,4 +1,3 @@
-"use strict";
 // Tiles and tables.
 
 function tile(name, value, second, why, tone = "") {

@@ -1,4 +1,3 @@
-"use strict";
 // Timelines: one row for each actor or camera, over time.
 
 const ROW = 24;

@@ -1,4 +1,3 @@
-"use strict";
 // Where each actor was, and how far apart the pair was.
 
 /** Time before and after an instant over which its speed is a mean, in s. */
@@ -41,6 +40,9 @@ const closeUp = (() => {
 const distance = (value) => (closeUp ? metres(value) : miles(value / METRE_PER_NM));
 const apartText = (apart) => [distance(apart.nm * METRE_PER_NM), feet(apart.ft)];
 const lowAndHigh = (values) => values.reduce(({ low, high }, value) => ({ low: Math.min(low, value), high: Math.max(high, value) }), { low: Infinity, high: -Infinity });
+
+/** The part of the plane that points `[east, north]` need. */
+const boxOf = (points) => ({ east: lowAndHigh(points.map(([east]) => east)), north: lowAndHigh(points.map(([, north]) => north)) });
 
 /** Separation of the pair. Its true closest approach, which lies between two points, is inserted. */
 const separations = (() => {

@@ -1,5 +1,3 @@
-"use strict";
-
 // Numbers, places and commands in words.
 
 const METRE_PER_NM = 1852;
