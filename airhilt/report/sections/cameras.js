@@ -4,45 +4,24 @@ const pixels = (value) => `${fixed(value, value < 10 ? 1 : 0)} px`;
 const perMinute = (value) => (known(value) ? `${fixed(value, value && value < 10 ? 2 : 0)}/min` : "–");
 const vision = summary && summary.vision;
 const pictures = data.pictures.filter((picture) => picture.occasion !== "start"), starts = data.pictures.filter((picture) => picture.occasion === "start");
-const cameras = new Map(data.timelines.map((one) => [one.camera, one]));
-
-function drawCameras() {
-  const { state, cause } = data;
-  byId("cameras").hidden = !cameras.size && !cause;
-  if (byId("cameras").hidden) return null;
-  const missed = vision?.missed ? `${counted(vision.missed, "picture")} could not be looked at, the first because of this: ${vision.why_missed}`
-    : vision?.looked_at === 0 ? "No picture had been looked at when the run ended." : "";
-  byId("cameras-note").hidden = state === "on" && !missed;
-  byId("cameras-note").textContent = state === "on" ? missed : state === "off" ? "Nobody looked at the pictures: there is nothing to measure."
-    : `Vision ${state === "lost" ? "was lost" : "is not evaluated"}${cause ? `: ${cause}` : "."}${vision?.looked_at ? " The numbers are of what was seen before." : ""}`;
-  byId("key-pictures").append(...pictures.map(pictureFigure));
-  if (known(vision?.looked_at)) drawVision();
-  if (cameras.size) drawCameraFigures();
-  byId("h-starts").hidden = !starts.length;
-  byId("starts").append(...starts.map(({ camera, src, href, t }) => html("figure", {}, src ? html("img", { src, alt: `View of ${camera} at ${seconds(t)}` }) : pictureLink(href),
-    html("figcaption", {}, html("b", {}, camera), ` ${cameraText(camera)}`))));
-  return drawVideos();
-}
+const { state, cause } = data, cameras = new Map(data.timelines.map((one) => [one.camera, one]));
 
 const pictureLink = (href) => html("a", { href }, "picture file");
 
 /** Shows the videos of the cameras, which go along with the time shown; one whose file is not there is left out. */
 function drawVideos() {
-  const found = data.timelines.filter((one) => one.video).map((one) => {
+  const videos = data.timelines.filter((one) => one.video).map((one) => {
     const video = html("video", { src: one.video, muted: "", playsinline: "", preload: "metadata", "aria-label": `Video of ${one.camera}` });
-    const figure = html("figure", { class: "panel picture" }, html("figcaption", {}, html("b", {}, one.camera), html("span", {}, " video, at the time shown")), video);
+    byId("videos").append(html("figure", { class: "panel picture" }, html("figcaption", {}, html("b", {}, one.camera), html("span", {}, " video, at the time shown")), video));
     video.muted = true;
-    video.addEventListener("error", () => { figure.hidden = true; });
+    video.addEventListener("error", () => { video.parentElement.hidden = true; });
     video.addEventListener("loadedmetadata", () => clock.set(clock.t));
-    return { video, figure };
+    return video;
   });
-  byId("videos").append(...found.map(({ figure }) => figure));
-  return (t) => {
-    for (const { video } of found) {
-      const isToBeSet = followMedia(video, 0, video.duration || 0, t) || clock.rate > FASTEST_MEDIA;
-      if (isToBeSet && !video.seeking && Math.abs(video.currentTime - t) > 0.02) video.currentTime = Math.min(t, video.duration || 0);
-    }
-  };
+  return (t) => videos.forEach((video) => {
+    const isToBeSet = followMedia(video, 0, video.duration || 0, t) || clock.rate > FASTEST_MEDIA;
+    if (isToBeSet && !video.seeking && Math.abs(video.currentTime - t) > 0.02) video.currentTime = Math.min(t, video.duration || 0);
+  });
 }
 
 function cameraText(camera) {
@@ -165,4 +144,17 @@ function drawDetections() {
 }
 const pictureSymbol = (x, y) => svg("path", { class: "taken", d: `M${x - 5} ${y - 5}H${x + 5}L${x} ${y + 3}Z`, fill: "var(--ink)", stroke: "var(--panel)" });
 
-return { draw: drawCameras, fit: drawDetections };
+byId("cameras").hidden = !cameras.size && !cause;
+if (byId("cameras").hidden) return null;
+const missed = vision?.missed ? `${counted(vision.missed, "picture")} could not be looked at, the first because of this: ${vision.why_missed}`
+  : vision?.looked_at === 0 ? "No picture had been looked at when the run ended." : "";
+byId("cameras-note").hidden = state === "on" && !missed;
+byId("cameras-note").textContent = state === "on" ? missed : state === "off" ? "Nobody looked at the pictures: there is nothing to measure."
+  : `Vision ${state === "lost" ? "was lost" : "is not evaluated"}${cause ? `: ${cause}` : "."}${vision?.looked_at ? " The numbers are of what was seen before." : ""}`;
+byId("key-pictures").append(...pictures.map(pictureFigure));
+if (known(vision?.looked_at)) drawVision();
+if (cameras.size) drawCameraFigures();
+byId("h-starts").hidden = !starts.length;
+byId("starts").append(...starts.map(({ camera, src, href, t }) => html("figure", {}, src ? html("img", { src, alt: `View of ${camera} at ${seconds(t)}` }) : pictureLink(href),
+  html("figcaption", {}, html("b", {}, camera), ` ${cameraText(camera)}`))));
+return { draw: drawVideos, fit: drawDetections };

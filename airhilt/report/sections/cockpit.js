@@ -4,12 +4,10 @@ const COLUMNS = [
   ["GS (kt)", "number", (state) => whole(state.ground_speed_kt)], ["Selected (ft)", "number", (state) => whole(state.selected_altitude_ft)], ["Mode", "kind", (state) => words(state.mode)],
 ];
 
-function drawCockpits() {
-  byId("cockpit").hidden = !data.length;
-  return fillStates(byId("instruments"), [["Aircraft", "row"]], COLUMNS, data.map(({ callsign, states }) => {
-    const times = states.map(({ t }) => t);
-    return { cells: [coloured(callsign, "span")], at: (t) => states[before(times, t)] };
-  }));
-}
+byId("cockpit").hidden = !data.length;
+const showStates = fillStates(byId("instruments"), [["Aircraft", "row"]], COLUMNS, data.map(({ callsign, states }) => {
+  const times = states.map(({ t }) => t);
+  return { cells: [coloured(callsign, "span")], at: (t) => states[before(times, t)] };
+}));
 
-return { draw: drawCockpits };
+return { draw: () => showStates };

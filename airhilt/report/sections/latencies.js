@@ -8,17 +8,6 @@ const STAGES = {
   tts: ["TTS", "t_tts − t_dec: an advisory, until its audio"],
 };
 
-function drawLatencies() {
-  const rows = Object.entries(summary ? summary.latencies : {}).map(([stage, { n, p50_s, p95_s, max_s }]) => {
-    const worker = stage.replace(/_step$/, "");
-    const [name, meaning] = STAGES[stage] || (worker !== stage ? [`Step of ${worker}`, `an input reached the worker ${worker}, until its result was due, waiting included`] : [stage, ""]);
-    return [explained(name, meaning), whole(n), duration(p50_s), duration(p95_s), duration(max_s)];
-  });
-  fillTable(byId("latencies"), [["Stage", "text"], ...["n", "p50", "p95", "max"].map((name) => [name, "number"])], rows, { empty: "There is no summary.json to take them from." });
-  const dropped = summary && Object.entries(summary.inputs_dropped).map(([name, n]) => `${name} ${n}`).join(", ");
-  byId("dropped").textContent = summary ? `Inputs dropped: ${dropped || "none."}` : "";
-}
-
 function drawHistogram() {
   const holder = byId("histogram"), ROW_PX = 74;
   if (!data.length) return holder.replaceChildren(dim("No worker finished a step."));
@@ -42,4 +31,12 @@ function drawHistogram() {
   return null;
 }
 
-return { draw: drawLatencies, fit: drawHistogram };
+const rows = Object.entries(summary ? summary.latencies : {}).map(([stage, { n, p50_s, p95_s, max_s }]) => {
+  const worker = stage.replace(/_step$/, "");
+  const [name, meaning] = STAGES[stage] || (worker !== stage ? [`Step of ${worker}`, `an input reached the worker ${worker}, until its result was due, waiting included`] : [stage, ""]);
+  return [explained(name, meaning), whole(n), duration(p50_s), duration(p95_s), duration(max_s)];
+});
+fillTable(byId("latencies"), [["Stage", "text"], ...["n", "p50", "p95", "max"].map((name) => [name, "number"])], rows, { empty: "There is no summary.json to take them from." });
+const dropped = summary && Object.entries(summary.inputs_dropped).map(([name, n]) => `${name} ${n}`).join(", ");
+byId("dropped").textContent = summary ? `Inputs dropped: ${dropped || "none."}` : "";
+return { fit: drawHistogram };

@@ -1,7 +1,3 @@
-function drawTiles() {
-  byId("tiles").append(...(summary ? numberTiles() : []), modalityTile());
-}
-
 function numberTiles() {
   const s = summary, time = (value) => (known(value) ? seconds(value, 2) : "–");
   const unwarned = !run.has_conflict ? "no conflict is annotated" : known(s.t_first_warning_s) ? "does not apply to this run" : "there was no warning of the conflict";
@@ -63,4 +59,4 @@ function modalityTile() {
   return html("article", { class: "tile panel wide" }, html("h3", {}, "Modalities"), html("ul", { class: "chips" }, items));
 }
 
-return { draw: drawTiles };
+byId("tiles").append(...(summary ? numberTiles() : []), modalityTile());

@@ -56,9 +56,6 @@ function drawProfileMarks(root, x, y, area) {
   for (const event of reactions) root.append(reactionSymbol(x(event.t), yOf(event.who, event.t) + 9));
 }
 
-function drawKey() {
-  fillKey("profile-key", SEVERITIES.filter((severity) => advisories.some((event) => event.active && event.severity === severity)).map((severity) => keyItem(advisorySymbol(10, 7, severity), severity)),
-    reactions.length && keyItem(reactionSymbol(10, 7), "pilot reacts"), advisories.some((event) => !trackOf(event.who)) && dim("at the top: to ATC", "li"), windowKey());
-}
-
-return { draw: drawKey, fit: drawProfile };
+fillKey("profile-key", SEVERITIES.filter((severity) => advisories.some((event) => event.active && event.severity === severity)).map((severity) => keyItem(advisorySymbol(10, 7, severity), severity)),
+  reactions.length && keyItem(reactionSymbol(10, 7), "pilot reacts"), advisories.some((event) => !trackOf(event.who)) && dim("at the top: to ATC", "li"), windowKey());
+return { fit: drawProfile };

@@ -1,6 +1,3 @@
-/** How long a plot stays in full colour with its label, in turns of the antenna. */
-const FRESH_TURNS = 1;
-
 const flightLevel = (ft) => `A${String(Math.round(ft / 100)).padStart(3, "0")}`;
 const plotColour = (plot) => (plot.actor ? colourOf(plot.actor) : "var(--ink)");
 
@@ -17,7 +14,7 @@ function surroundings(radar) {
   return size(all) > 3 * size(plots) ? plots : all;
 }
 
-/** Draws the plots of a radar around its antenna; returns what shows those of a time. */
+/** Draws the plots of a radar around its antenna; returns what shows those of the turn before a time. */
 function drawRadar(radar, holder, number) {
   const width = widthOf(holder), chart = canvas(holder, Math.min(Math.max(width * 0.75, 300), 560), `Plots of radar ${radar.site}`);
   const { root } = chart, area = { left: 54, right: width - 12, top: 12, bottom: chart.height - 44 };
@@ -33,7 +30,7 @@ function drawRadar(radar, holder, number) {
   const fresh = svg("g", {});
   root.append(fresh);
   pointOut(chart, radar.plots.map((plot) => [...at(plot), plot]), 14, plotLines);
-  return (t) => fresh.replaceChildren(...radar.plots.filter((plot) => plot.t <= t && t - plot.t < radar.rotation_s * FRESH_TURNS).flatMap((plot) => freshNodes(plot, ...at(plot), area)));
+  return (t) => fresh.replaceChildren(...radar.plots.filter((plot) => plot.t <= t && t - plot.t < radar.rotation_s).flatMap((plot) => freshNodes(plot, ...at(plot), area)));
 }
 
 /** Draws range rings around the antenna, each with its radius on the side towards the plots. */
@@ -76,11 +73,9 @@ function figure(radar, number) {
     html("div", { class: "panel scroll", tabindex: 0, role: "region", "aria-label": `Actors detected by radar ${radar.site}` }, detectionTable(radar)));
 }
 
+byId("radar").hidden = !data.length;
+byId("radars").append(...data.map(figure));
 return {
-  draw() {
-    byId("radar").hidden = !data.length;
-    byId("radars").replaceChildren(...data.map(figure));
-  },
   fit() {
     const shown = data.map((radar, i) => drawRadar(radar, byId(`radar-${i}`), i));
     return (t) => shown.forEach((show) => show(t));

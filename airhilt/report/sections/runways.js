@@ -36,12 +36,9 @@ function approachNodes({ from, to, threshold }, x, y, colour) {
 const incursionSymbol = (x, y, category, colour = colourOfCategory(category)) => svg("g", { class: "incursion" }, svg("circle", { cx: x, cy: y, r: 8.5, fill: "var(--panel)", stroke: colour, "stroke-width": 2 }),
   label(x, y + 4.3, !category || category === "accident" ? "!" : category, { class: "bold", style: `fill: ${colour}` }));
 
-function drawKey() {
-  const coming = data.flatMap((runway) => runway.approaches), isTimed = coming.some((approach) => known(approach.threshold));
-  fillKey("runways-key", windowKey(), keyItem(svg("rect", { y: 2, width: 20, height: 10, rx: 3, fill: "var(--dim)" }), "in the protected area"),
-    coming.length && keyItem(keyLine({ stroke: "var(--dim)", "stroke-width": 2 }), "on approach"),
-    isTimed && [keyItem(svg("path", { d: "M10 2V12", stroke: "var(--dim)", "stroke-width": 1.5 }), `${BEFORE_THRESHOLD_S.join(", ")} s before the threshold`), keyItem(svg("path", { d: "M5 3H15L10 11Z", fill: "var(--dim)" }), "over the threshold")],
-    [...new Set(incursions.map((incursion) => incursion.category))].map((category) => keyItem(incursionSymbol(10, 7, category), category ? `runway incursion, ${CATEGORIES[category][0]}` : "runway incursion")));
-}
-
-return { draw: drawKey, fit: drawRunways };
+const coming = data.flatMap((runway) => runway.approaches), isTimed = coming.some((approach) => known(approach.threshold));
+fillKey("runways-key", windowKey(), keyItem(svg("rect", { y: 2, width: 20, height: 10, rx: 3, fill: "var(--dim)" }), "in the protected area"),
+  coming.length && keyItem(keyLine({ stroke: "var(--dim)", "stroke-width": 2 }), "on approach"),
+  isTimed && [keyItem(svg("path", { d: "M10 2V12", stroke: "var(--dim)", "stroke-width": 1.5 }), `${BEFORE_THRESHOLD_S.join(", ")} s before the threshold`), keyItem(svg("path", { d: "M5 3H15L10 11Z", fill: "var(--dim)" }), "over the threshold")],
+  [...new Set(incursions.map((incursion) => incursion.category))].map((category) => keyItem(incursionSymbol(10, 7, category), category ? `runway incursion, ${CATEGORIES[category][0]}` : "runway incursion")));
+return { fit: drawRunways };

@@ -56,10 +56,7 @@ function drawPanel(root, area, x, y, values, name, nameX, minimum, minimumText) 
   root.append(svg("path", { class: "line", stroke: "var(--ink)", d: path(separations.t, values, x, y) }));
 }
 
-function drawKey() {
-  byId("separation-caption").textContent = pair.length ? `${pair.join(" and ")}${run.pair_is_annotated ? "" : ", the nearest pair"}${closeUp ? ", between centres" : ""}` : "";
-  fillKey("separation-key", windowKey(), separations && !closeUp && keyItem(keyLine({ class: "minimum" }), "separation minimum"),
-    marks().some((mark) => mark.would) && keyItem(keyLine({ class: "mark would", stroke: "var(--c3)" }), "had nobody reacted"));
-}
-
-return { draw: drawKey, fit: drawSeparation };
+byId("separation-caption").textContent = pair.length ? `${pair.join(" and ")}${run.pair_is_annotated ? "" : ", the nearest pair"}${closeUp ? ", between centres" : ""}` : "";
+fillKey("separation-key", windowKey(), separations && !closeUp && keyItem(keyLine({ class: "minimum" }), "separation minimum"),
+  marks().some((mark) => mark.would) && keyItem(keyLine({ class: "mark would", stroke: "var(--c3)" }), "had nobody reacted"));
+return { fit: drawSeparation };

@@ -9,19 +9,16 @@ const PARTS = {
 const parts = summary && summary.first_warning_parts;
 const colour = (part) => `var(--c${Object.keys(PARTS).indexOf(part)})`;
 
-function drawTable() {
-  if (!parts) return;
-  byId("warning").hidden = false;
-  const after = summary.time_to_first_warning_after_call_s;
-  fillTable(byId("warning-parts"), [["Part", "text"], ["Time", "number"]], [
-    ...Object.entries(PARTS).map(([part, [name, meaning]]) => [[swatch(colour(part)), ...explained(name, meaning)], seconds(parts[part], 2)]),
-    [explained("Time to first warning", "from the begin of the conflict; negative: warned before it"), seconds(summary.time_to_first_warning_s, 2)],
-    ...(known(after) ? [[explained("After the call", "from the end of the call that begins the conflict"), seconds(after, 2)]] : [])]);
-  byId("warning-begins").textContent = data.begins ? `begins with ${data.begins}, at ${seconds(summary.t_conflict_s)}` : "";
-}
+if (!parts) return null;
+byId("warning").hidden = false;
+const after = summary.time_to_first_warning_after_call_s;
+fillTable(byId("warning-parts"), [["Part", "text"], ["Time", "number"]], [
+  ...Object.entries(PARTS).map(([part, [name, meaning]]) => [[swatch(colour(part)), ...explained(name, meaning)], seconds(parts[part], 2)]),
+  [explained("Time to first warning", "from the begin of the conflict; negative: warned before it"), seconds(summary.time_to_first_warning_s, 2)],
+  ...(known(after) ? [[explained("After the call", "from the end of the call that begins the conflict"), seconds(after, 2)]] : [])]);
+byId("warning-begins").textContent = data.begins ? `begins with ${data.begins}, at ${seconds(summary.t_conflict_s)}` : "";
 
 function drawBar() {
-  if (!parts) return;
   const { root, width } = canvas(byId("warning-bar"), 96, "Parts of the time to first warning"), area = { left: 16, right: width - 16, top: 12, bottom: 48 };
   const values = Object.keys(PARTS).map((part) => parts[part]);
   const low = Math.min(...values, 0), high = values.reduce((sum, value) => sum + Math.max(value, 0), 0);
@@ -35,4 +32,4 @@ function drawBar() {
   }
 }
 
-return { draw: drawTable, fit: drawBar };
+return { fit: drawBar };
