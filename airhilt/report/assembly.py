@@ -65,7 +65,8 @@ def assemble(
 
     outer = [markup(one) for one in sections if not one.within]
     # The script of a section has a scope and an element of its own.
-    scripts = [("", _own_file(f"shared/{one}.js")) for one in shared]
+    together = "".join(_own_file(f"shared/{one}.js") for one in shared)
+    scripts = [("", f'"use strict";\n{together}')]
     scripts += [
         (one.name, f"page.section({json.dumps(one.name)}, (data) => {{\n{script}}});\n")
         for one in sections

@@ -13,7 +13,6 @@ from airhilt.report.page_section import load_members
 from airhilt.report.sections import FAMILY, GuardedContent
 
 SHARED = (
-    "document",
     "page",
     "words",
     "run",

@@ -16,7 +16,7 @@ from airhilt.report.page_section import PageSection
 
 Json = dict[str, Any]
 
-SHARED = ("document", "page")
+SHARED = ("page",)
 WIDTH_IN = 6.8
 SECTIONS = {
     "sweeps": PageSection("sweeps", order=10, module=sweeps.__file__),

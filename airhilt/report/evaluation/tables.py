@@ -8,7 +8,7 @@ from typing import Any
 from airhilt.report.assembly import assemble
 from airhilt.report.page_section import PageSection
 
-SHARED = ("document", "page")
+SHARED = ("page",)
 SECTION = PageSection("tables", order=10, module=__file__)
 
 

@@ -3,73 +3,42 @@ const MOST_BOXES = 6;
 const pixels = (value) => `${fixed(value, value < 10 ? 1 : 0)} px`;
 const perMinute = (value) => (known(value) ? `${fixed(value, value && value < 10 ? 2 : 0)}/min` : "–");
 const vision = summary && summary.vision;
-const pictures = data.pictures;
+const pictures = data.pictures.filter((picture) => picture.occasion !== "start"), starts = data.pictures.filter((picture) => picture.occasion === "start");
+const { state, cause } = data, cameras = new Map(data.timelines.map((one) => [one.camera, one]));
 
-function drawCameras() {
-  const { state, cause, timelines: all } = data;
-  byId("cameras").hidden = !all.length && !cause;
-  if (byId("cameras").hidden) return;
-  const missed = vision && vision.missed ? `${counted(vision.missed, "picture")} could not be looked at, the first because of this: ${vision.why_missed}`
-    : vision && vision.looked_at === 0 ? "No picture had been looked at when the run ended." : "";
-  byId("cameras-note").hidden = state === "on" && !missed;
-  byId("cameras-note").textContent = state === "on" ? missed : state === "off" ? "Nobody looked at the pictures: there is nothing to measure."
-    : `Vision ${state === "lost" ? "was lost" : "is not evaluated"}${cause ? `: ${cause}` : "."}${vision && vision.looked_at ? " The numbers are of what was seen before." : ""}`;
-  byId("key-pictures").replaceChildren(...pictures.filter((picture) => picture.occasion !== "start").map(pictureFigure));
-  if (vision && known(vision.looked_at)) {
-    byId("vision-tiles").append(...visionTiles());
-    drawFirstDetections();
-    drawRecall();
-    byId("vision-tables").hidden = false;
-  }
-  if (all.length) drawCameraFigures();
-  followVideos = drawVideos();
-  const starts = pictures.filter((picture) => picture.occasion === "start");
-  byId("h-starts").hidden = !starts.length;
-  byId("starts").replaceChildren(...starts.map((picture) => html("figure", {}, picture.src ? html("img", { src: picture.src, alt: `View of ${picture.camera} at ${seconds(picture.t)}` }) : html("a", { href: picture.href }, "picture file"),
-    html("figcaption", {}, html("b", {}, picture.camera), ` ${cameraText(picture.camera)}`))));
-}
-
-let followVideos = () => {};
+const pictureLink = (href) => html("a", { href }, "picture file");
 
 /** Shows the videos of the cameras, which go along with the time shown; one whose file is not there is left out. */
 function drawVideos() {
-  const found = data.timelines.filter((one) => one.video).map((one) => {
+  const videos = data.timelines.filter((one) => one.video).map((one) => {
     const video = html("video", { src: one.video, muted: "", playsinline: "", preload: "metadata", "aria-label": `Video of ${one.camera}` });
-    const figure = html("figure", { class: "panel picture" }, html("figcaption", {}, html("b", {}, one.camera), html("span", {}, " video, at the time shown")), video);
+    byId("videos").append(html("figure", { class: "panel picture" }, html("figcaption", {}, html("b", {}, one.camera), html("span", {}, " video, at the time shown")), video));
     video.muted = true;
-    video.addEventListener("error", () => { figure.hidden = true; });
+    video.addEventListener("error", () => { video.parentElement.hidden = true; });
     video.addEventListener("loadedmetadata", () => clock.set(clock.t));
-    return { video, figure };
+    return video;
   });
-  byId("videos").replaceChildren(...found.map(({ figure }) => figure));
-  return (t) => {
-    for (const { video } of found) {
-      const isToBeSet = followMedia(video, 0, video.duration || 0, t) || clock.rate > FASTEST_MEDIA;
-      if (isToBeSet && !video.seeking && Math.abs(video.currentTime - t) > 0.02) video.currentTime = Math.min(t, video.duration || 0);
-    }
-  };
+  return (t) => videos.forEach((video) => {
+    const isToBeSet = followMedia(video, 0, video.duration || 0, t) || clock.rate > FASTEST_MEDIA;
+    if (isToBeSet && !video.seeking && Math.abs(video.currentTime - t) > 0.02) video.currentTime = Math.min(t, video.duration || 0);
+  });
 }
 
-const cameraNamed = (name) => data.timelines.find((one) => one.camera === name);
 function cameraText(camera) {
-  const one = cameraNamed(camera);
+  const one = cameras.get(camera);
   return one ? `${one.width_px} × ${one.height_px}, ${fixed(one.horizontal_fov_deg, 0)}°, ${fixed(one.rate_hz, one.rate_hz % 1 ? 1 : 0)} Hz${one.carrier ? `, on ${one.carrier}` : ""}` : "";
 }
 
-const OCCASIONS = {
-  first_detection: () => "First detection",
-  first_warning: () => "First warning",
-  closest_approach: () => "Closest approach",
-};
+const OCCASIONS = { first_detection: "First detection", first_warning: "First warning", closest_approach: "Closest approach" };
 
 /** What a picture is about, beside its time and camera. */
 function occasionText(picture) {
   if (picture.occasion === "first_warning") {
     const first = advisories.find((event) => event.active && SEVERITIES.indexOf(event.severity) >= SPOKEN && event.t >= picture.t - 1e-6);
-    return first ? html("p", {}, html("span", { class: `severity-${first.severity}` }, first.severity), ` to ${first.who} at ${seconds(first.t)}: ${first.text}`) : null;
+    return first && html("p", {}, severityText(first.severity), ` to ${first.who} at ${seconds(first.t)}: ${first.text}`);
   }
   if (picture.occasion === "closest_approach" && closest) {
-    const before = closest.t_s - picture.t, camera = cameraNamed(picture.camera);
+    const before = closest.t_s - picture.t, camera = cameras.get(picture.camera);
     const when = Math.abs(before) < 1.1 / (camera ? camera.rate_hz : 10) ? "At the closest approach" : `${seconds(Math.abs(before))} ${before > 0 ? "before the closest approach: then nobody of the pair was in view" : "after the closest approach"}`;
     return html("p", {}, `${when} (${distance(closest.horizontal_m)}, ${feet(closest.vertical_m / METRE_PER_FT)}).`);
   }
@@ -86,14 +55,12 @@ function boxNodes(picture, thin = false) {
 }
 
 function pictureFigure(picture) {
-  const { width, height } = picture, name = OCCASIONS[picture.occasion]();
+  const { width, height } = picture, name = OCCASIONS[picture.occasion];
   const image = () => svg("image", { href: picture.src, width, height });
   const label = `${name}, ${picture.camera} at ${seconds(picture.t)}`;
-  const frame = picture.src ? html("div", { class: "framed" }, svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": label }, image(), ...boxNodes(picture)), zoom(picture, image)) : html("p", {}, html("a", { href: picture.href }, "picture file"));
+  const frame = picture.src ? html("div", { class: "framed" }, svg("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": label }, image(), ...boxNodes(picture)), zoom(picture, image)) : html("p", {}, pictureLink(picture.href));
   const late = known(picture.latency_s) ? `, known ${duration(picture.latency_s)} later` : ", nobody looked at it";
-  const time = timeButton(picture.t);
-  time.addEventListener("click", () => clock.set(picture.t));
-  return html("figure", { class: "panel picture" }, html("figcaption", {}, `${name} `, html("span", {}, "at ", time, ` s by ${picture.camera}${late}`)), frame, occasionText(picture), boxList(picture));
+  return html("figure", { class: "panel picture" }, html("figcaption", {}, `${name} `, html("span", {}, "at ", timeButton(picture.t), ` s by ${picture.camera}${late}`)), frame, occasionText(picture), boxList(picture));
 }
 
 /** The boxes of a picture in words: what was found first, then what was not. */
@@ -104,8 +71,8 @@ function boxList(picture) {
     html("span", { class: one.actor ? "" : "bad" }, `${one.label} ${fixed(one.confidence, 2)}${one.confirmed ? "" : ", not confirmed"}: ${one.actor ? `${one.actor}, ${place(one)}` : "about nothing"}`)));
   const missed = picture.truth.filter((one) => !one.found).map((one) => html("li", {}, swatch({ style: "stroke: var(--dim); stroke-dasharray: 2 2" }),
     html("span", { class: one.counts ? "warn" : "dim" }, `${one.actor} (${one.label}), ${place(one)}: not found${one.counts ? "" : ", too small, hidden or faint to count"}`)));
-  const items = [...found, ...missed], more = items.length - MOST_BOXES;
-  return html("ul", { class: "boxes" }, ...items.slice(0, MOST_BOXES), more > 0 ? html("li", { class: "dim" }, `and ${more} more`) : null, items.length ? null : html("li", { class: "dim" }, "nobody in view, and nothing found"));
+  const items = [...found, ...missed];
+  return html("ul", { class: "boxes" }, items.slice(0, MOST_BOXES), keyMore(items.length - MOST_BOXES), !items.length && dim("nobody in view, and nothing found", "li"));
 }
 
 /** A magnified piece of a picture in the corner away from it, if what the picture is about is small. */
@@ -135,54 +102,59 @@ function visionTiles() {
   ];
 }
 
+function drawVision() {
+  byId("vision-tiles").append(...visionTiles());
+  byId("vision-tables").hidden = false;
+  fillTable(byId("first-detections"), [["First detection of"], ["At", "number"], ["Range", "number"], ["Size", "number"], ["By"]],
+    vision.first_detections.map((one) => [coloured(one.actor), seconds(one.t_s), metres(one.range_m), pixels(one.size_px), one.camera]), { empty: "Nobody was found." });
+  fillTable(byId("recall"), [["Longest side"], ["Sightings", "number"], ["Recall", "number"]],
+    vision.by_size.map((one) => [known(one.to_px) ? `${fixed(one.from_px, 0)} to ${pixels(one.to_px)}` : `${pixels(one.from_px)} and more`, whole(one.sightings), percent(one.recall)]));
+}
+
 function drawCameraFigures() {
-  const heads = [["Camera", ""], ["Pictures", "number"], ["Looked at", "number"], ["Dropped", "number"], ["Missed", "number"], ["Least", "number"], ["Median", "number"], ["p95", "number"], ["Sightings", "number"], ["Recall", "number"], ["False", "number"], ["Confirmed false", "number"]];
+  const heads = ["Pictures", "Looked at", "Dropped", "Missed", "Least", "Median", "p95", "Sightings", "Recall", "False", "Confirmed false"].map((name) => [name, "number"]);
   const count = (value) => (known(value) ? whole(value) : "–");
-  const row = (name, v) => [name, count(v.taken), count(v.looked_at), count(v.dropped), count(v.missed), duration(v.latency.min_s), duration(v.latency.p50_s), duration(v.latency.p95_s), count(v.sightings), percent(v.recall), perMinute(v.false_per_minute), perMinute(v.false_confirmed_per_minute)];
+  const row = (name, v) => [name, ...[v.taken, v.looked_at, v.dropped, v.missed].map(count), ...[v.latency.min_s, v.latency.p50_s, v.latency.p95_s].map(duration), count(v.sightings), percent(v.recall), perMinute(v.false_per_minute), perMinute(v.false_confirmed_per_minute)];
   const named = (camera) => {
-    const one = cameraNamed(camera);
-    return html("span", {}, html("b", {}, camera), html("div", { class: "dim" }, cameraText(camera)), one && one.video ? html("a", { href: one.video }, "video") : null);
+    const video = cameras.get(camera)?.video;
+    return [...explained(camera, cameraText(camera)), video && html("a", { href: video }, "video")];
   };
-  const rows = vision ? [...vision.cameras.map((v) => row(named(v.camera), v)), ...(vision.cameras.length > 1 ? [row(html("b", {}, "all"), vision)] : [])] : data.timelines.map((one) => [named(one.camera), ...heads.slice(1).map(() => "–")]);
-  byId("camera-figures").hidden = false;
-  byId("camera-figures").replaceChildren(plainTable(heads, rows));
+  const rows = vision ? vision.cameras.map((v) => row(named(v.camera), v)) : [...cameras.keys()].map((camera) => [named(camera), ...heads.map(() => "–")]);
+  if (vision?.cameras.length > 1) rows.push(row(html("b", {}, "all"), vision));
+  byId("camera-figures").parentElement.hidden = false;
+  fillTable(byId("camera-figures"), [["Camera"], ...heads], rows);
 }
 
-function drawFirstDetections() {
-  const heads = [["First detection of", ""], ["At", "number"], ["Range", "number"], ["Size", "number"], ["By", ""]];
-  const rows = vision.first_detections.map((one) => [html("b", { style: `color: ${colourOf(one.actor)}` }, one.actor), seconds(one.t_s), metres(one.range_m), pixels(one.size_px), one.camera]);
-  byId("first-detections").replaceChildren(rows.length ? plainTable(heads, rows) : html("p", { class: "dim" }, "Nobody was found."));
-}
-
-function drawRecall() {
-  const rows = vision.by_size.map((one) => [known(one.to_px) ? `${fixed(one.from_px, 0)} to ${pixels(one.to_px)}` : `${pixels(one.from_px)} and more`, whole(one.sightings), percent(one.recall)]);
-  byId("recall").replaceChildren(plainTable([["Longest side", ""], ["Sightings", "number"], ["Recall", "number"]], rows));
-}
+const FOUND = { in_view: "in view", found: "found", confirmed: "confirmed", false: "false" };
 
 /** Draws when an actor was in view of each camera, and when it was found. */
 function drawDetections() {
-  const all = data.timelines.slice(0, MOST_ROWS);
-  if (!all.length) return (t) => followVideos(t);
-  byId("detections-figure").hidden = false;
-  const frame = timelines(byId("detections"), all.map(({ camera, carrier }) => ({ text: camera.length > 18 ? `${camera.slice(0, 17)}…` : camera, colour: carrier ? colourOf(carrier) : "var(--ink)" })), "In view and found, over time");
-  const { chart: { root }, area, x, middles } = frame;
-  const bar = (style, [from, to], top, height) => svg("rect", { class: style, x: x(from), y: top, width: Math.max(x(to) - x(from), 2), height });
-  all.forEach((camera, i) => {
-    const y = middles[i];
-    root.append(...camera.in_view.map((interval) => bar("in-view", interval, y - 8, 16)), ...camera.found.map((interval) => bar("found", interval, y - 5, 10)), ...camera.confirmed.map((interval) => bar("confirmed", interval, y - 5, 10)),
-      ...camera.false.map((interval) => bar("false", interval, y + 5, 5)),
-      ...pictures.filter((picture) => picture.camera === camera.camera && picture.occasion !== "start").map((picture) => pictureSymbol(x(picture.t), y - 9)));
-  });
-  const has = (intervals, t) => intervals.some(([from, to]) => from - 0.05 <= t && t <= to + 0.05);
-  const followLine = followPointer(frame.chart, area, x, (t) => [
-    ...all.map((camera) => `${camera.camera}: ${[["in_view", "in view"], ["found", "found"], ["confirmed", "confirmed"], ["false", "false"]].filter(([name]) => has(camera[name], t)).map(([, name]) => name).join(", ") || "nobody in view"}`),
-    ...pictures.filter((picture) => picture.occasion !== "start" && Math.abs(picture.t - t) < 4 * endS / (area.right - area.left)).map((picture) => `${OCCASIONS[picture.occasion]()}, ${seconds(picture.t)}`),
-  ]);
+  if (!cameras.size) return null;
+  const shown = data.timelines.slice(0, MOST_ROWS).map((one) => ({ ...one, text: one.camera.length > 18 ? `${one.camera.slice(0, 17)}…` : one.camera, colour: one.carrier ? colourOf(one.carrier) : "var(--ink)" }));
   const example = (style, y, height) => svg("rect", { class: style, x: 0, y, width: 20, height });
-  byId("detections-key").replaceChildren(keyItem(example("in-view", 0, 14), "in view, large and clear enough to count"), keyItem(example("found", 2, 10), "found"), keyItem(example("confirmed", 2, 10), "confirmed"),
-    ...(all.some((camera) => camera.false.length) ? [keyItem(example("false", 5, 5), "confirmed, about nothing")] : []), ...(pictures.some((picture) => picture.occasion !== "start") ? [keyItem(pictureSymbol(10, 10), "picture above")] : []));
-  return (t) => { followLine(t); followVideos(t); };
+  fillKey("detections-key", keyItem(example("in-view", 0, 14), "in view, large and clear enough to count"), keyItem(example("found", 2, 10), "found"), keyItem(example("confirmed", 2, 10), "confirmed"),
+    shown.some((camera) => camera.false.length) && keyItem(example("false", 5, 5), "confirmed, about nothing"), pictures.length && keyItem(pictureSymbol(10, 10), "picture above"));
+  return timelines("detections", shown, "In view and found, over time", (one, x, y) => {
+    const bars = (name, top, height) => one[name].map(([from, to]) => intervalRect(x, { from, to }, y + top, height, { class: name.replace("_", "-") }));
+    return [bars("in_view", -8, 16), bars("found", -5, 10), bars("confirmed", -5, 10), bars("false", 5, 5), pictures.filter((picture) => picture.camera === one.camera).map((picture) => pictureSymbol(x(picture.t), y - 9))].flat();
+  }, (t, near) => [
+    ...shown.map((one) => `${one.camera}: ${Object.keys(FOUND).filter((name) => one[name].some(([from, to]) => from - 0.05 <= t && t <= to + 0.05)).map((name) => FOUND[name]).join(", ") || "nobody in view"}`),
+    ...near(pictures).map((picture) => `${OCCASIONS[picture.occasion]}, ${seconds(picture.t)}`),
+  ]).follow;
 }
 const pictureSymbol = (x, y) => svg("path", { class: "taken", d: `M${x - 5} ${y - 5}H${x + 5}L${x} ${y + 3}Z`, fill: "var(--ink)", stroke: "var(--panel)" });
 
-return { draw: drawCameras, fit: drawDetections };
+byId("cameras").hidden = !cameras.size && !cause;
+if (byId("cameras").hidden) return null;
+const missed = vision?.missed ? `${counted(vision.missed, "picture")} could not be looked at, the first because of this: ${vision.why_missed}`
+  : vision?.looked_at === 0 ? "No picture had been looked at when the run ended." : "";
+byId("cameras-note").hidden = state === "on" && !missed;
+byId("cameras-note").textContent = state === "on" ? missed : state === "off" ? "Nobody looked at the pictures: there is nothing to measure."
+  : `Vision ${state === "lost" ? "was lost" : "is not evaluated"}${cause ? `: ${cause}` : "."}${vision?.looked_at ? " The numbers are of what was seen before." : ""}`;
+byId("key-pictures").append(...pictures.map(pictureFigure));
+if (known(vision?.looked_at)) drawVision();
+if (cameras.size) drawCameraFigures();
+byId("h-starts").hidden = !starts.length;
+byId("starts").append(...starts.map(({ camera, src, href, t }) => html("figure", {}, src ? html("img", { src, alt: `View of ${camera} at ${seconds(t)}` }) : pictureLink(href),
+  html("figcaption", {}, html("b", {}, camera), ` ${cameraText(camera)}`))));
+return { draw: drawVideos, fit: drawDetections };

@@ -13,33 +13,32 @@ function drawNow() {
 }
 
 function drawPlayer() {
-  const slider = byId("slider"), play = byId("play"), calm = matchMedia("(prefers-reduced-motion: reduce)");
+  const slider = byId("slider"), button = byId("play"), calm = matchMedia("(prefers-reduced-motion: reduce)");
   slider.max = endS;
   slider.addEventListener("input", () => clock.set(Number(slider.value)));
-  let playing = false, lastFrame = 0, shown = 0;
-  const stop = () => { playing = clock.playing = false; play.textContent = "Play"; clock.set(clock.t); };
+  let lastFrame = 0;
+  const play = (isPlaying) => {
+    clock.playing = isPlaying;
+    button.textContent = isPlaying ? "Pause" : "Play";
+    clock.set(isPlaying && clock.t >= endS ? 0 : clock.t);
+  };
   const setRate = () => { clock.rate = Number(byId("speed").value); byId("media-note").textContent = clock.rate > FASTEST_MEDIA ? ` up to ${FASTEST_MEDIA}×` : ""; };
   byId("speed").addEventListener("change", setRate);
   byId("sound").addEventListener("change", (event) => { clock.sound = event.target.checked; clock.set(clock.t); });
   requestAnimationFrame(() => { byId("media").hidden = !document.querySelector("audio, video"); }); // once all sections are drawn
   setRate();
   const frame = (now) => {
-    if (!playing) return;
-    const wait = calm.matches ? 1000 : 0; // steps of a second where motion is not wanted
-    if (now - lastFrame >= wait) {
-      shown = (now - lastFrame) / 1000 * clock.rate;
+    if (!clock.playing) return;
+    if (now - lastFrame >= (calm.matches ? 1000 : 0)) { // steps of a second where motion is not wanted
+      clock.set(clock.t + (now - lastFrame) / 1000 * clock.rate);
       lastFrame = now;
-      clock.set(clock.t + shown);
     }
-    if (clock.t >= endS) stop(); else requestAnimationFrame(frame);
+    if (clock.t >= endS) play(false); else requestAnimationFrame(frame);
   };
-  play.addEventListener("click", () => {
-    if (playing) { stop(); return; }
-    if (clock.t >= endS) clock.set(0);
-    playing = clock.playing = true;
-    play.textContent = "Pause";
+  button.addEventListener("click", () => {
+    play(!clock.playing);
     lastFrame = performance.now();
-    requestAnimationFrame(frame);
+    if (clock.playing) requestAnimationFrame(frame);
   });
 }
 

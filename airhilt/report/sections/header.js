@@ -16,43 +16,29 @@ function outcome() {
   if (incursions.length) return say("good", "Avoided", `The conflict window opened. The runway incursion stayed at ${CATEGORIES[worst][0]}: ${CATEGORIES[worst][1]}.`);
   return say("good", "Avoided", closeUp ? "The conflict window opened, and nobody got in the other’s way on a runway." : "The conflict window opened, and separation was kept.");
 }
-function drawHeader() {
-  const { scenario, options } = run, result = outcome();
-  const title = scenario.title || scenario.name || run.run;
-  document.title = `${scenario.name || run.run}, seed ${options.seed}: AIRHILT`;
-  byId("title").textContent = title;
-  byId("description").textContent = scenario.description;
-  const facts = [["Scenario", scenario.name], ["Family", scenario.family], ...(airport ? [["Airport", airport.icao]] : []), ["Seed", options.seed], ["Assistant", options.assistant], ["Latency", latencySource()], ["Simulated", seconds(run.end_s)]];
-  byId("facts").append(...facts.map(([name, value]) => html("li", {}, `${name} `, html("b", {}, String(value)))));
-  fill(byId("outcome"), { class: `outcome ${result.tone}` }, [html("b", {}, result.word), html("span", {}, result.text)]);
-  byId("notes").append(
-    ...losses.map((event) => html("p", { class: "note loud", role: "alert" }, `${event.who} was lost at ${seconds(event.t)}${event.text ? `: ${event.text}` : ""}`)),
-    ...notEvaluated.map((event) => html("p", { class: "note" }, `${event.who} is not evaluated${event.text ? `: ${event.text}` : ""}`)),
-    ...(summary && summary.unassisted_as_declared === false ? [html("p", { class: "note" }, "Nobody was warned, and yet the outcome that the scenario declares did not come about: this run is no baseline.")] : []),
-    ...run.notes.map((note) => html("p", { class: "note" }, note)));
-  for (const [name, value] of about()) byId("about").append(html("dt", {}, name), html("dd", {}, value));
-}
 
 /** The latency source that was asked for; without one, that of each stage. */
-function latencySource() {
-  if (run.options.latency) return run.options.latency;
-  const sources = Object.entries(summary?.latency_sources || {});
-  const different = new Set(sources.map(([, source]) => source));
-  return different.size === 1 ? sources[0][1] : sources.map(([stage, source]) => `${stage} ${source}`).join(", ") || "default";
-}
+const latencySource = (() => {
+  const sources = Object.entries(summary?.latency_sources ?? {}), isOne = new Set(sources.map(([, source]) => source)).size === 1;
+  return run.options.latency || (isOne ? sources[0][1] : sources.map((stage) => stage.join(" ")).join(", ") || "default");
+})();
 
-/** What it takes to run it again, as names and values. */
-function about() {
-  const { options } = run, measured = latencySource().includes("measured");
-  let reproducible = "yes: scenario, seed and latency source give the same bytes again";
-  if (run.unregistered) reproducible = "by `airhilt replay` only: a program took part that takes no time grants";
-  else if (measured) reproducible = "by `airhilt replay` only: latencies were measured on this machine";
-  const workers = data.workers.map((worker) => `${worker.name} (${worker.modality}, ${worker.where})`).join("; ");
-  return [
-    ["run", run.run], ["phase", run.cause ? `${run.phase}: ${run.cause}` : run.phase], ["latency source", latencySource()],
-    ["reproducible", reproducible], ["pace", options.pace], ["workers", workers || "none"],
-    ...(summary ? [["real-time factor", `${fixed(summary.real_time_factor, 1)}, ${seconds(summary.cpu_s, 2)} of CPU`]] : []), ...data.about,
-  ];
-}
+const { scenario, options } = run, { tone, word, text } = outcome(), note = (...texts) => html("p", { class: "note" }, texts.join(""));
+document.title = `${scenario.name || run.run}, seed ${options.seed}: AIRHILT`;
+const facts = [["Scenario", scenario.name], ["Family", scenario.family], airport && ["Airport", airport.icao], ["Seed", options.seed], ["Assistant", options.assistant], ["Latency", latencySource], ["Simulated", seconds(run.end_s)]].filter(Boolean);
+byId("facts").append(...facts.map(([name, value]) => html("li", {}, `${name} `, html("b", {}, String(value)))));
+fill(byId("outcome"), { class: `outcome ${tone}` }, [html("b", {}, word), html("span", {}, text)]);
+const statesOf = (state) => run.events.filter((event) => event.kind === "status" && event.state === state), because = ({ text: why }) => (why ? `: ${why}` : "");
+byId("notes").append(
+  ...statesOf("lost").map((event) => html("p", { class: "note loud", role: "alert" }, `${event.who} was lost at ${seconds(event.t)}${because(event)}`)),
+  ...statesOf("not evaluated").map((event) => note(event.who, " is not evaluated", because(event))),
+  ...(summary?.unassisted_as_declared === false ? [note("Nobody was warned, and yet the outcome that the scenario declares did not come about: this run is no baseline.")] : []),
+  ...run.notes.map((text) => note(text)));
 
-return { draw: drawHeader };
+// What it takes to run it again.
+const reproducible = run.unregistered ? "by `airhilt replay` only: a program took part that takes no time grants"
+  : latencySource.includes("measured") ? "by `airhilt replay` only: latencies were measured on this machine" : "yes: scenario, seed and latency source give the same bytes again";
+const workers = data.workers.map((worker) => `${worker.name} (${worker.modality}, ${worker.where})`).join("; ") || "none";
+const about = [["run", run.run], ["phase", run.cause ? `${run.phase}: ${run.cause}` : run.phase], ["latency source", latencySource], ["reproducible", reproducible], ["pace", options.pace], ["workers", workers],
+  ...(summary ? [["real-time factor", `${fixed(summary.real_time_factor, 1)}, ${seconds(summary.cpu_s, 2)} of CPU`]] : []), ...data.about];
+byId("about").append(...about.flatMap(([name, value]) => [html("dt", {}, name), html("dd", {}, value)]));

@@ -1,44 +1,25 @@
-function drawTiles() {
-  if (summary) byId("tiles").append(...numberTiles());
-  byId("tiles").append(modalityTile());
-}
-
 function numberTiles() {
-  const s = summary, none = "–", warned = known(s.t_first_warning_s);
-  const unwarned = !run.has_conflict ? "no conflict is annotated" : warned ? "does not apply to this run" : "there was no warning of the conflict";
-  const time = (value) => (known(value) ? seconds(value, 2) : none);
-  const numbers = (value, unit, why) => (known(value)
-    ? [unit === "NM" ? miles(value / METRE_PER_NM) : feet(value / METRE_PER_FT), `${whole(value)} m`, why] : [none, "", `never: ${why}`]);
-  const early = known(s.time_to_first_warning_s) && s.time_to_first_warning_s < 0;
-  const least = (name, value, unit, other, minimum) => {
-    const why = known(value) ? `least while less than the ${other} minimum apart` : `never less than the ${other} minimum apart`;
-    const lost = known(value) && value < minimum && s.loss_of_separation;
-    return known(value) ? tile(name, ...numbers(value, unit, why), lost ? "bad" : "") : tile(name, none, "", why);
-  };
+  const s = summary, time = (value) => (known(value) ? seconds(value, 2) : "–");
+  const unwarned = !run.has_conflict ? "no conflict is annotated" : known(s.t_first_warning_s) ? "does not apply to this run" : "there was no warning of the conflict";
+  const isEarly = known(s.time_to_first_warning_s) && s.time_to_first_warning_s < 0;
+  const least = (name, value, text, other, minimum) => (known(value)
+    ? tile(name, text(value), `${whole(value)} m`, `least while less than the ${other} minimum apart`, value < minimum && s.loss_of_separation ? "bad" : "")
+    : tile(name, "–", "", `never less than the ${other} minimum apart`));
   const margin = (name, value) => tile(name, time(value), "", known(value)
     ? `first warning ${value < 0 ? "after" : "before"} TCAS II would have spoken, had nobody reacted` : unwarned, known(value) && value < 0 ? "bad" : "");
   const warnings = [
     tile("Time to first warning", time(s.time_to_first_warning_s), "", known(s.time_to_first_warning_s)
-      ? `conflict began at ${seconds(s.t_conflict_s)}, warned at ${seconds(s.t_first_warning_s)}${early ? ", before it began" : ""}` : unwarned),
+      ? `conflict began at ${seconds(s.t_conflict_s)}, warned at ${seconds(s.t_first_warning_s)}${isEarly ? ", before it began" : ""}` : unwarned),
     tile("Lead before closest approach", time(s.lead_before_closest_approach_s), "", known(s.lead_before_closest_approach_s) ? "from the first warning" : unwarned),
   ];
   const nearest = closest ? tile("Closest approach", distance(closest.horizontal_m), `and ${feet(closest.vertical_m / METRE_PER_FT)}${closeUp ? "" : ` (${whole(closest.horizontal_m)} m, ${whole(closest.vertical_m)} m)`}`,
-    `at ${seconds(closest.t_s)}, nearest in three dimensions${closeUp ? ", between centres" : ""}`) : tile("Closest approach", none, "", "no pair was followed");
-  const nuisance = known(s.nuisance_alerts)
-    ? tile("Nuisance alerts", String(s.nuisance_alerts), "", "of CAUTION or above, about traffic in no conflict", s.nuisance_alerts ? "warn" : "")
-    : tile("Nuisance alerts", none, "", "not counted: cameras left exposures out");
+    `at ${seconds(closest.t_s)}, nearest in three dimensions${closeUp ? ", between centres" : ""}`) : tile("Closest approach", "–", "", "no pair was followed");
+  const nuisance = tile("Nuisance alerts", String(s.nuisance_alerts ?? "–"), "", known(s.nuisance_alerts) ? "of CAUTION or above, about traffic in no conflict" : "not counted: cameras left exposures out", s.nuisance_alerts ? "warn" : "");
   if (closeUp) return [incursionTile(), ...outcomeTiles(), ...warnings, nearest, failuresTile(), nuisance, ...staleTile()];
-  return [
-    ...warnings,
-    margin("Margin over TCAS TA", s.margin_over_tcas_ta_s),
-    margin("Margin over TCAS RA", s.margin_over_tcas_ra_s),
-    least("Least horizontal separation", s.min_horizontal_separation_m, "NM", "vertical", minimumNm * METRE_PER_NM),
-    least("Least vertical separation", s.min_vertical_separation_m, "ft", "horizontal", minimumFt * METRE_PER_FT),
-    nearest,
-    nuisance,
-    ...staleTile(),
-    ...(failures.length ? [failuresTile()] : []),
-  ];
+  return [...warnings, margin("Margin over TCAS TA", s.margin_over_tcas_ta_s), margin("Margin over TCAS RA", s.margin_over_tcas_ra_s),
+    least("Least horizontal separation", s.min_horizontal_separation_m, (value) => miles(value / METRE_PER_NM), "vertical", minimumNm * METRE_PER_NM),
+    least("Least vertical separation", s.min_vertical_separation_m, (value) => feet(value / METRE_PER_FT), "horizontal", minimumFt * METRE_PER_FT),
+    nearest, nuisance, ...staleTile(), ...(failures.length ? [failuresTile()] : [])];
 }
 
 function incursionTile() {
@@ -74,9 +55,8 @@ function failuresTile() {
 }
 
 function modalityTile() {
-  const items = Object.entries(data.modalities).map(([name, state]) => html("li", { class: state === "lost" ? "lost" : "" },
-    `${name}: `, html("b", {}, state === "lost" ? "LOST" : state)));
-  return html("article", { class: "tile panel wide" }, html("h3", {}, "Modalities"), html("ul", { class: "chips" }, ...items));
+  const items = Object.entries(data.modalities).map(([name, state]) => html("li", { class: state }, `${name}: `, html("b", {}, state === "lost" ? "LOST" : state)));
+  return html("article", { class: "tile panel wide" }, html("h3", {}, "Modalities"), html("ul", { class: "chips" }, items));
 }
 
-return { draw: drawTiles };
+byId("tiles").append(...(summary ? numberTiles() : []), modalityTile());

@@ -1,6 +1,3 @@
-/** How long a plot stays in full colour with its label, in turns of the antenna. */
-const FRESH_TURNS = 1;
-
 const flightLevel = (ft) => `A${String(Math.round(ft / 100)).padStart(3, "0")}`;
 const plotColour = (plot) => (plot.actor ? colourOf(plot.actor) : "var(--ink)");
 
@@ -12,16 +9,14 @@ function plotSymbol(x, y, kind, colour, style = "plot") {
 
 /** The part of the plane that is drawn: all plots, and the antenna unless it is far from them. */
 function surroundings(radar) {
-  const range = (name, points) => lowAndHigh(points.map((point) => point[name]));
-  const box = (points) => ({ east: range("east_nm", points), north: range("north_nm", points) });
-  const size = ({ east, north }) => Math.max(east.high - east.low, north.high - north.low);
-  const whole = box([radar, ...radar.plots]), plots = radar.plots.length ? box(radar.plots) : whole;
-  return size(whole) > 3 * size(plots) ? plots : whole;
+  const box = (points) => boxOf(points.map(({ east_nm, north_nm }) => [east_nm, north_nm])), size = ({ east, north }) => Math.max(east.high - east.low, north.high - north.low);
+  const all = box([radar, ...radar.plots]), plots = radar.plots.length ? box(radar.plots) : all;
+  return size(all) > 3 * size(plots) ? plots : all;
 }
 
-/** Draws the plots of a radar around its antenna; returns what shows those of a time. */
+/** Draws the plots of a radar around its antenna; returns what shows those of the turn before a time. */
 function drawRadar(radar, holder, number) {
-  const width = Math.max(holder.clientWidth, 240), chart = canvas(holder, Math.min(Math.max(width * 0.75, 300), 560), `Plots of radar ${radar.site}`);
+  const width = widthOf(holder), chart = canvas(holder, Math.min(Math.max(width * 0.75, 300), 560), `Plots of radar ${radar.site}`);
   const { root } = chart, area = { left: 54, right: width - 12, top: 12, bottom: chart.height - 44 };
   const { east, north } = surroundings(radar), from = ({ low, high }, zero) => ({ low: low - zero, high: high - zero });
   const shift = { x: radar.east_nm, y: radar.north_nm }; // distances are from the antenna
@@ -29,14 +24,13 @@ function drawRadar(radar, holder, number) {
   const ground = clip(root, `radar-clip-${number}`, area);
   if (airport) drawAirport(ground, (value) => x(value - shift.x), (value) => y(value - shift.y), perNm / METRE_PER_NM, area);
   drawRings(ground, x, y, perNm, area, step);
-  axes(root, area, x, y, { x: "East of the antenna (NM)", y: "North (NM)" });
+  axes(root, area, x, y, "East of the antenna (NM)", "North (NM)");
   const at = (plot) => [x(plot.east_nm - shift.x), y(plot.north_nm - shift.y)];
   for (const plot of radar.plots) ground.append(plotSymbol(...at(plot), plot.kind, plotColour(plot), "plot past"));
   const fresh = svg("g", {});
   root.append(fresh);
-  root.addEventListener("pointermove", (event) => hoverRadar(event, chart, radar, at));
-  root.addEventListener("pointerleave", hideTip);
-  return (t) => fresh.replaceChildren(...radar.plots.filter((plot) => plot.t <= t && t - plot.t < radar.rotation_s * FRESH_TURNS).flatMap((plot) => freshNodes(plot, ...at(plot), area)));
+  pointOut(chart, radar.plots.map((plot) => [...at(plot), plot]), 14, plotLines);
+  return (t) => fresh.replaceChildren(...radar.plots.filter((plot) => plot.t <= t && t - plot.t < radar.rotation_s).flatMap((plot) => freshNodes(plot, ...at(plot), area)));
 }
 
 /** Draws range rings around the antenna, each with its radius on the side towards the plots. */
@@ -46,54 +40,42 @@ function drawRings(ground, x, y, perNm, area, step) {
   const turn = Math.atan2(middle[0], middle[1]) + (away < far / 2 ? 0.6 : Math.atan(0.35 * (area.bottom - area.top) / perNm / away));
   for (let radius = step; radius <= far; radius += step) {
     ground.append(svg("circle", { class: "range-ring", cx: x(0), cy: y(0), r: radius * perNm }),
-      svg("text", { class: "unit small", x: x(radius * Math.sin(turn)), y: y(radius * Math.cos(turn)) + 4, "text-anchor": "middle" }, `${fixed(radius, digitsOf(step))} NM`));
+      label(x(radius * Math.sin(turn)), y(radius * Math.cos(turn)) + 4, `${fixed(radius, digitsOf(step))} NM`, { class: "unit small" }));
   }
   ground.append(svg("circle", { class: "antenna", cx: x(0), cy: y(0), r: 5 }), svg("circle", { cx: x(0), cy: y(0), r: 1.5, fill: "var(--dim)" }));
 }
 
 /** A plot of the last turn with its codes. */
 function freshNodes(plot, px, py, area) {
-  const label = [plot.mode_a, known(plot.mode_c_ft) ? flightLevel(plot.mode_c_ft) : null].filter(known).join(" ") || "primary", flip = px + 12 + measure(label) > area.right;
-  return [plotSymbol(px, py, plot.kind, plotColour(plot)), svg("circle", { cx: px, cy: py, r: 8, fill: "none", stroke: plotColour(plot) }),
-    svg("text", { class: "halo", x: px + (flip ? -12 : 12), y: py + 4, "text-anchor": flip ? "end" : "start", style: `fill: ${plotColour(plot)}` }, label)];
+  const text = [plot.mode_a, known(plot.mode_c_ft) ? flightLevel(plot.mode_c_ft) : null].filter(known).join(" ") || "primary", flip = px + 12 + measure(text) > area.right, colour = plotColour(plot);
+  return [plotSymbol(px, py, plot.kind, colour), svg("circle", { cx: px, cy: py, r: 8, fill: "none", stroke: colour }),
+    label(px + (flip ? -12 : 12), py + 4, text, { class: "halo", "text-anchor": flip ? "end" : "start", style: `fill: ${colour}` })];
 }
 
-function hoverRadar(event, chart, radar, at) {
-  const p = pointer(chart.root, chart.width, event);
-  let best = null, least = 14 ** 2;
-  for (const plot of radar.plots) {
-    const [px, py] = at(plot), distance = (px - p.x) ** 2 + (py - p.y) ** 2;
-    if (distance < least) { least = distance; best = plot; }
-  }
-  if (!best) { hideTip(); return; }
-  showTip(event, [`${best.kind} plot, t = ${seconds(best.t)}`, `${miles(best.range_m / METRE_PER_NM)}, ${fixed(best.azimuth_deg, 1)}°`,
-    ...(best.mode_a ? [`Mode A ${best.mode_a}`] : []), ...(known(best.mode_c_ft) ? [`Mode C ${feet(best.mode_c_ft)}`] : []), ...(best.actor ? [`of ${best.actor}`] : [])]);
-}
+const plotLines = (plot) => [`${plot.kind} plot, t = ${seconds(plot.t)}`, `${miles(plot.range_m / METRE_PER_NM)}, ${fixed(plot.azimuth_deg, 1)}°`,
+  plot.mode_a && `Mode A ${plot.mode_a}`, known(plot.mode_c_ft) && `Mode C ${feet(plot.mode_c_ft)}`, plot.actor && `of ${plot.actor}`].filter(Boolean);
 
 /** How often each actor was detected, of how many turns of the antenna. */
 function detectionTable(radar) {
-  const heads = [["Actor", ""], ["Turns", "number"], ["Detected", "number"], ["Primary", "number"], ["Replies", "number"], ["Both", "number"]];
-  const rows = radar.detected.map((one) => {
-    const all = one.primary + one.secondary + one.combined;
-    return [html("b", { style: `color: ${colourOf(one.actor)}` }, one.actor), whole(one.turns), all ? `${whole(all)} (${percent(Math.min(all / Math.max(one.turns, 1), 1))})` : "never", whole(one.primary), whole(one.secondary), whole(one.combined)];
-  });
-  return plainTable(heads, rows);
+  const heads = [["Actor"], ...["Turns", "Detected", "Primary", "Replies", "Both"].map((name) => [name, "number"])];
+  return fillTable(html("table"), heads, radar.detected.map(({ actor, turns, primary, secondary, combined }) => {
+    const all = primary + secondary + combined;
+    return [coloured(actor), whole(turns), all ? `${whole(all)} (${percent(Math.min(all / Math.max(turns, 1), 1))})` : "never", ...[primary, secondary, combined].map(whole)];
+  }));
 }
 
 function figure(radar, number) {
-  const kind = radar.kind === "terminal" ? "terminal radar" : "en-route radar";
+  const kind = radar.kind === "terminal" ? "terminal radar" : "en-route radar", example = (type, text) => keyItem(plotSymbol(10, 7, type, "var(--ink)"), text);
   return html("div", { class: "radar" },
     html("figure", { class: "panel" }, html("figcaption", {}, `${words(radar.site)} `, html("span", {}, `${kind}, one turn in ${seconds(radar.rotation_s)}`)), html("div", { id: `radar-${number}` }),
-      html("ul", { class: "key" }, keyItem(plotSymbol(10, 7, "primary", "var(--ink)"), "primary plot"), keyItem(plotSymbol(10, 7, "secondary", "var(--ink)"), "Mode A/C reply"), keyItem(plotSymbol(10, 7, "combined", "var(--ink)"), "both"),
-        html("li", { class: "dim" }, "colours tell the actor, which the radar does not know; a plot without Mode C lies at its slant range"))),
+      html("ul", { class: "key" }, example("primary", "primary plot"), example("secondary", "Mode A/C reply"), example("combined", "both"),
+        dim("colours tell the actor, which the radar does not know; a plot without Mode C lies at its slant range", "li"))),
     html("div", { class: "panel scroll", tabindex: 0, role: "region", "aria-label": `Actors detected by radar ${radar.site}` }, detectionTable(radar)));
 }
 
+byId("radar").hidden = !data.length;
+byId("radars").append(...data.map(figure));
 return {
-  draw() {
-    byId("radar").hidden = !data.length;
-    byId("radars").replaceChildren(...data.map(figure));
-  },
   fit() {
     const shown = data.map((radar, i) => drawRadar(radar, byId(`radar-${i}`), i));
     return (t) => shown.forEach((show) => show(t));

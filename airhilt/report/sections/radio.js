@@ -9,22 +9,19 @@ function player(sound, name, from, to) {
 
 /** The words recognised: those struck out were said and not recognised, those marked were recognised and not said. */
 function recognised(words) {
-  const nodes = words.flatMap((one) => (one.kind === "equal" ? [one.heard] : [one.said ? html("del", {}, one.said) : null, one.heard ? html("ins", {}, one.heard) : null]))
-    .filter((node) => node !== null);
-  return html("div", {}, ...(nodes.length ? nodes.flatMap((node) => [node, " "]) : [html("span", { class: "dim" }, "no words")]));
+  const nodes = words.flatMap((one) => (one.kind === "equal" ? [one.heard] : [one.said && html("del", {}, one.said), one.heard && html("ins", {}, one.heard)])).filter(Boolean);
+  return html("div", {}, nodes.length ? nodes.flatMap((node) => [node, " "]) : dim("no words", "span"));
 }
 
 function callRows(call, oneFrequency, oneRatio) {
-  const noise = oneRatio ? "" : decibels(call.snr_db), tags = [
-    ...(call.blocked_by.length ? [html("span", { class: "tag bad" }, "blocked")] : []),
-    ...(call.received ? [] : [html("span", { class: "tag warn" }, "not received")]),
-  ];
-  const who = [html("div", {}, call.who), call.addressed ? html("div", { class: "dim" }, `to ${call.addressed}`) : null, oneFrequency ? null : html("div", { class: "dim" }, megahertz(call.frequency_khz))];
-  const said = [html("div", {}, call.said || html("span", { class: "dim" }, "a carrier without words")), noise || tags.length ? html("div", {}, ...tags.flatMap((tag) => [tag, " "]), html("span", { class: "dim" }, noise)) : null];
+  const noise = oneRatio ? "" : decibels(call.snr_db), tag = (is, tone, text) => is && [html("span", { class: `tag ${tone}` }, text), " "];
+  const tags = [tag(call.blocked_by.length > 0, "bad", "blocked"), tag(!call.received, "warn", "not received")].filter(Boolean);
+  const who = [html("div", {}, call.who), call.addressed && dim(`to ${call.addressed}`, "div"), !oneFrequency && dim(megahertz(call.frequency_khz), "div")];
+  const said = [html("div", {}, call.said || dim("a carrier without words", "span")), (noise || tags.length > 0) && html("div", {}, tags.flat(), dim(noise, "span"))];
   const heard = call.hearings.map((one) => html("div", { class: HEARD[one.outcome][1] }, `${one.who} ${HEARD[one.outcome][0]}${one.outcome === "misheard" ? `: “${one.text}”` : ""}`));
-  const first = (transcript) => [html("div", {}, timeButton(call.from)), who, said, ...(transcript || [[], [], []]), heard, player(call.sound, `the call at ${seconds(call.from)}`, call.from, call.to)];
-  const results = call.transcripts.map((one) => [[recognised(one.words), engines.length > 1 ? html("div", { class: "dim" }, one.engine) : null], html("div", {}, fixed(one.confidence, 2)), html("div", {}, duration(one.after_end_s))]);
-  return [first(results[0]), ...results.slice(1).map((result) => [[], [], [], ...result, [], []])].map((cells) => ({ t: call.from, cells }));
+  const [first = [[], [], []], ...others] = call.transcripts.map((one) => [[recognised(one.words), engines.length > 1 && dim(one.engine, "div")], html("div", {}, fixed(one.confidence, 2)), html("div", {}, duration(one.after_end_s))]);
+  const complete = [html("div", {}, timeButton(call.from)), who, said, ...first, heard, player(call.sound, `the call at ${seconds(call.from)}`, call.from, call.to)];
+  return [complete, ...others.map((result) => [[], [], [], ...result, [], []])].map((cells) => ({ t: call.from, cells }));
 }
 const engines = [...new Set(data.calls.flatMap((call) => call.transcripts.map((one) => one.engine)))];
 
@@ -43,38 +40,26 @@ function radioTiles() {
   ];
 }
 
-function drawSnr() {
-  const levels = summary ? summary.radio.by_snr : [];
-  byId("radio-snr").hidden = !levels.length;
-  const heads = [["SNR", ""], ["Calls", "number"], ["Word error rate", "number"], ["Callsigns", "number"], ["Slots", "number"], ["False slots", "number"]];
-  byId("radio-snr").replaceChildren(plainTable(heads, levels.map((level) => [decibels(level.snr_db), whole(level.calls), percent(level.wer), percent(level.callsign_accuracy), percent(level.slot_accuracy), whole(level.false_slots || 0)])));
-}
-
 function drawRadio() {
-  const { calls: said, advisories: spokenAdvisories } = data;
-  byId("radio").hidden = !said.length && !spokenAdvisories.length;
-  byId("spoken-advisories").hidden = !spokenAdvisories.length;
+  const { calls, advisories } = data, levels = summary ? summary.radio.by_snr : [];
+  byId("radio").hidden = !calls.length && !advisories.length;
+  byId("spoken-advisories").hidden = !advisories.length;
+  byId("radio-legend").hidden = !engines.length;
   if (summary) byId("radio-tiles").append(...radioTiles());
-  drawSnr();
-  const heads = [["Time (s)", "number"], ["From", ""], ["Said", "text"], ["Recognised", "text"], ["Confidence", "number"], ["After end", "number"], ["Heard", ""], ["Sound", ""]];
-  const oneOf = (name) => new Set(said.map((call) => call[name])).size === 1;
-  const found = said.flatMap((call) => callRows(call, oneOf("frequency_khz"), oneOf("snr_db")));
-  const wanted = heads.map(([name], i) => i < 3 || found.some(({ cells }) => [cells[i]].flat().some(known)));
-  const table = fillTable(byId("calls"), heads.filter((_, i) => wanted[i]), found.map(({ t, cells }) => ({ t, cells: cells.filter((_, i) => wanted[i]) })));
-  byId("radio-legend").replaceChildren(...(engines.length ? ["In what was recognised, ", html("span", { class: "calls" }, html("del", {}, "words struck out"), " were said and not recognised, ", html("ins", {}, "words marked"), " were recognised and not said.")] : []));
-  const spoken = fillTable(byId("spoken"), [["Time (s)", "number"], ["To", ""], ["Said", "text"], ["After decision", "number"], ["Sound", ""]],
-    spokenAdvisories.map((one) => ({ t: one.from, cells: [html("div", {}, timeButton(one.from)), html("div", {}, one.recipient), html("div", {}, one.said), html("div", {}, duration(one.after_decision_s)), player(one.sound, `the advisory at ${seconds(one.from)}`, one.from, one.to)] })));
-  const players = [...document.querySelectorAll("audio")];
+  byId("radio-snr").parentElement.hidden = !levels.length;
+  fillTable(byId("radio-snr"), [["SNR"], ...["Calls", "Word error rate", "Callsigns", "Slots", "False slots"].map((name) => [name, "number"])],
+    levels.map((level) => [decibels(level.snr_db), whole(level.calls), percent(level.wer), percent(level.callsign_accuracy), percent(level.slot_accuracy), whole(level.false_slots || 0)]));
+  const isOne = (name) => new Set(calls.map((call) => call[name])).size === 1;
+  fillTable(byId("calls"), [["Time (s)", "number"], ["From"], ["Said", "text"], ["Recognised", "text"], ["Confidence", "number"], ["After end", "number"], ["Heard"], ["Sound"]],
+    calls.flatMap((call) => callRows(call, isOne("frequency_khz"), isOne("snr_db"))), { always: 3 });
+  fillTable(byId("spoken"), [["Time (s)", "number"], ["To"], ["Said", "text"], ["After decision", "number"], ["Sound"]],
+    advisories.map((one) => ({ t: one.from, cells: [...[timeButton(one.from), one.recipient, one.said, duration(one.after_decision_s)].map((text) => html("div", {}, text)), player(one.sound, `the advisory at ${seconds(one.from)}`, one.from, one.to)] })));
+  const tables = ["calls", "spoken"].map((id) => [...byId(id).tBodies[0].rows]), players = [...document.querySelectorAll("audio")];
   for (const one of players) one.addEventListener("play", () => players.forEach((other) => { if (other !== one && !one.dataset.follows) other.pause(); }));
   return (t) => {
     for (const one of players) followMedia(one, Number(one.dataset.from), Math.min(Number(one.dataset.to), Number(one.dataset.from) + (one.duration || Infinity)), t, clock.sound);
-    showRows(t);
+    tables.forEach((rows) => markCurrent(rows, t));
   };
-
-  function showRows(t) { [table, spoken].forEach((all) => {
-    const current = all.findLast((row) => Number(row.dataset.t) <= t + 1e-6);
-    all.forEach((row) => row.classList.toggle("current", row === current));
-  }); }
 }
 
 return { draw: drawRadio };

@@ -20,55 +20,43 @@ function marks() {
 
 function drawSeparation() {
   const holder = byId("separation");
-  if (!separations) { holder.replaceChildren(html("p", { class: "dim" }, "There is no pair whose separation could be drawn.")); return () => {}; }
-  const width = Math.max(holder.clientWidth, 240), found = marks();
-  const area = { left: 70, right: width - 62 }, x = timeScale(area);
+  if (!separations) return holder.replaceChildren(dim("There is no pair whose separation could be drawn."));
+  const found = marks(), area = { left: 70, right: widthOf(holder) - 62 }, x = timeScale(area);
   const head = rows(found, x, area) * 16 + 8, panelHeight = 165, gap = 20;
   const upper = { ...area, top: head, bottom: head + panelHeight }, lower = { ...area, top: head + panelHeight + gap, bottom: head + 2 * panelHeight + gap };
   const chart = canvas(holder, lower.bottom + 44, "Horizontal and vertical separation against time"), { root } = chart;
   if (closeUp) {
     const apart = separations.horizontal_nm.map((value) => Math.max(value * METRE_PER_NM, 1));
-    drawPanel(root, upper, x, decades(apart, upper), apart, null, "Horizontal (m)", true);
-    drawPanel(root, lower, x, upFrom0(separations.vertical_ft, lower), separations.vertical_ft, null, "Vertical (ft)", false);
+    drawPanel(root, upper, x, decades(apart, upper), apart, "Horizontal (m)");
+    drawPanel(root, lower, x, upFrom0(separations.vertical_ft, lower), separations.vertical_ft, "Vertical (ft)", "Time (s)");
   } else {
-    drawPanel(root, upper, x, upFrom0([...separations.horizontal_nm, minimumNm], upper), separations.horizontal_nm, [minimumNm, `${minimumNm} NM`], "Horizontal (NM)", true);
-    drawPanel(root, lower, x, upFrom0([...separations.vertical_ft, minimumFt], lower), separations.vertical_ft, [minimumFt, feet(minimumFt)], "Vertical (ft)", false);
+    drawPanel(root, upper, x, upFrom0([...separations.horizontal_nm, minimumNm], upper), separations.horizontal_nm, "Horizontal (NM)", "", minimumNm, `${minimumNm} NM`);
+    drawPanel(root, lower, x, upFrom0([...separations.vertical_ft, minimumFt], lower), separations.vertical_ft, "Vertical (ft)", "Time (s)", minimumFt, feet(minimumFt));
   }
   const both = { ...area, top: upper.top, bottom: lower.bottom };
-  for (const mark of found) {
-    root.append(svg("line", { class: mark.would ? "mark would" : "mark", stroke: mark.colour, x1: mark.px, x2: mark.px, y1: mark.row * 16 + 4, y2: both.bottom }));
-  }
-  for (const mark of found) {
-    root.append(svg("text", { class: "halo", x: mark.labelX, y: mark.row * 16 + 14, "text-anchor": mark.flip ? "end" : "start", style: `fill: ${mark.colour}` }, mark.label));
-  }
+  root.append(...found.map((mark) => line(mark.px, mark.row * 16 + 4, mark.px, both.bottom, { class: mark.would ? "mark would" : "mark", stroke: mark.colour })),
+    ...found.map((mark) => label(mark.labelX, mark.row * 16 + 14, mark.label, { class: "halo", "text-anchor": mark.flip ? "end" : "start", style: `fill: ${mark.colour}` })));
   return followPointer(chart, both, x, (t) => {
-    const apart = apartAt(t), near = found.filter((mark) => Math.abs(mark.t - t) < 4 * endS / (area.right - area.left));
-    return [...(apart ? apartText(apart).map((text, i) => `${text} ${["horizontally", "vertically"][i]}`) : []), ...near.map((mark) => `${mark.label}, ${seconds(mark.t)}`)];
+    const apart = apartAt(t);
+    return [...(apart ? apartText(apart).map((text, i) => `${text} ${["horizontally", "vertically"][i]}`) : []), ...nearby(found, t, area).map((mark) => `${mark.label}, ${seconds(mark.t)}`)];
   });
 }
 
 /** A logarithmic scale over whole decades. */
 function decades(values, area) {
   const { low, high } = lowAndHigh(values), from = Math.floor(Math.log10(low)), to = Math.max(Math.ceil(Math.log10(high)), from + 1);
-  const linear = scale(from, to, area.bottom, area.top), y = (value) => linear(Math.log10(value));
-  y.ticks = Array.from({ length: to - from + 1 }, (_, i) => 10 ** (from + i));
-  y.format = whole;
-  return y;
+  const linear = scale(from, to, area.bottom, area.top, 1);
+  return Object.assign((value) => linear(Math.log10(value)), { ticks: linear.ticks.map((power) => 10 ** power), format: whole });
 }
 
-function drawPanel(root, area, x, y, values, minimum, name, noX) {
+function drawPanel(root, area, x, y, values, name, nameX, minimum, minimumText) {
   drawWindow(root, x, area);
-  axes(root, area, x, y, { x: "Time (s)", y: name }, noX);
-  if (minimum) root.append(svg("line", { class: "minimum", x1: area.left, x2: area.right, y1: y(minimum[0]), y2: y(minimum[0]) }),
-    svg("text", { x: area.right + 6, y: y(minimum[0]) + 4, style: "fill: var(--bad)" }, minimum[1]));
+  axes(root, area, x, y, nameX, name);
+  if (minimum) root.append(line(area.left, y(minimum), area.right, y(minimum), { class: "minimum" }), label(area.right + 6, y(minimum) + 4, minimumText, { "text-anchor": "start", style: "fill: var(--bad)" }));
   root.append(svg("path", { class: "line", stroke: "var(--ink)", d: path(separations.t, values, x, y) }));
 }
 
-function drawKey() {
-  byId("separation-caption").textContent = pair.length ? `${pair.join(" and ")}${run.pair_is_annotated ? "" : ", the nearest pair"}${closeUp ? ", between centres" : ""}` : "";
-  byId("separation-key").append(...windowKey());
-  if (separations && !closeUp) byId("separation-key").append(keyItem(keyLine({ class: "minimum" }), "separation minimum"));
-  if (marks().some((mark) => mark.would)) byId("separation-key").append(keyItem(keyLine({ class: "mark would", stroke: "var(--c3)" }), "had nobody reacted"));
-}
-
-return { draw: drawKey, fit: drawSeparation };
+byId("separation-caption").textContent = pair.length ? `${pair.join(" and ")}${run.pair_is_annotated ? "" : ", the nearest pair"}${closeUp ? ", between centres" : ""}` : "";
+fillKey("separation-key", windowKey(), separations && !closeUp && keyItem(keyLine({ class: "minimum" }), "separation minimum"),
+  marks().some((mark) => mark.would) && keyItem(keyLine({ class: "mark would", stroke: "var(--c3)" }), "had nobody reacted"));
+return { fit: drawSeparation };

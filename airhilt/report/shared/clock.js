@@ -1,4 +1,3 @@
-"use strict";
 // The time shown, which is one for all charts, and what is read off under the pointer.
 
 const tip = html("div", { class: "tip", hidden: "" });
@@ -24,25 +23,35 @@ function pointer(root, width, event) {
 function followPointer(chart, area, x, read) {
   const { root, width } = chart;
   root.classList.add("timed");
-  const line = svg("line", { class: "hover", y1: area.top, y2: area.bottom, visibility: "hidden" });
-  const cursor = svg("line", { class: "cursor", y1: area.top, y2: area.bottom });
-  root.append(cursor, line);
+  const upright = (style) => svg("line", { class: style, y1: area.top, y2: area.bottom, visibility: style === "hover" ? "hidden" : null }), cursor = upright("cursor"), hover = upright("hover");
+  root.append(cursor, hover);
   const timeAt = (event) => Math.min(Math.max(x.invert(pointer(root, width, event).x), 0), endS);
   root.addEventListener("pointermove", (event) => {
     const t = timeAt(event);
-    fill(line, { x1: x(t), x2: x(t), visibility: "visible" }, []);
+    fill(hover, { x1: x(t), x2: x(t), visibility: "visible" });
     showTip(event, [`t = ${seconds(t)}`, ...read(t)]);
     if (event.buttons & 1) clock.set(t);
   });
   root.addEventListener("pointerdown", (event) => clock.set(timeAt(event)));
-  root.addEventListener("pointerleave", () => { line.setAttribute("visibility", "hidden"); hideTip(); });
-  return (t) => fill(cursor, { x1: x(t), x2: x(t) }, []);
+  root.addEventListener("pointerleave", () => { hover.setAttribute("visibility", "hidden"); hideTip(); });
+  return (t) => fill(cursor, { x1: x(t), x2: x(t) });
 }
 
-/** Returns events near a time in words. */
-function eventsNear(events, t, within) {
-  return events.filter((event) => Math.abs(event.t - t) <= within).slice(0, 4)
-    .map((event) => event.kind === "advisory" ? `${event.severity} to ${event.who}: ${event.text}` : `${event.who} ${event.text}`);
+/** Shows what a part of a chart says while the pointer is on it. */
+function sayAt(node, lines) {
+  node.addEventListener("pointermove", (event) => showTip(event, lines));
+  node.addEventListener("pointerleave", hideTip);
+  return node;
+}
+
+/** Makes a chart of points `[x, y, what]` show the nearest that is within reach of the pointer. */
+function pointOut({ root, width }, points, reach, read) {
+  root.addEventListener("pointermove", (event) => {
+    const p = pointer(root, width, event), far = ([x, y]) => Math.hypot(x - p.x, y - p.y);
+    const best = points.reduce((one, other) => (far(other) < far(one) ? other : one), [Infinity, Infinity]);
+    if (far(best) < reach) showTip(event, read(best[2])); else hideTip();
+  });
+  root.addEventListener("pointerleave", hideTip);
 }
 
 /** The time shown; `playing` and `rate` say how it passes. */
@@ -75,6 +84,12 @@ function followMedia(media, from, to, t, isWanted = true) {
   if (media.paused) media.play().catch(() => {}); // A browser plays nothing before the first click on the page.
   return false;
 }
+
+/** A click on what has a time, other than on a sound or link in it, shows that time. */
+document.addEventListener("click", ({ target }) => {
+  const timed = target.closest("[data-t]");
+  if (timed && !target.closest("audio, a")) clock.set(Number(timed.dataset.t));
+});
 
 page.shown = (listeners) => {
   clock.listeners = listeners;

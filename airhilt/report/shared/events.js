@@ -1,4 +1,3 @@
-"use strict";
 // Events in words.
 
 /** Kinds of events in words, in the order of the filters. */
@@ -9,22 +8,17 @@ const KINDS = {
 const kindOf = (event) => (event.kind === "advisory" ? event.severity : event.kind in KINDS ? event.kind : "run");
 
 function textOf(event) {
-  switch (event.kind) {
-    case "radio": return event.text;
-    case "transcript": return `${event.text} (${event.engine ? `${event.engine}, ` : ""}confidence ${fixed(event.confidence, 2)})`;
-    case "command": return command(event);
-    case "failure": return event.line ? `${event.speaker}’s call “${event.line}”: ${event.text}` : event.text;
-    case "status": return event.text ? `${event.state}: ${event.text}` : event.state;
-    case "conflict": return event.phase === "runway_incursion" ? incursionText(event) : (PHASES[event.phase] || event.phase) + (known(event.horizontal_m)
-      ? `: ${distance(event.horizontal_m)} and ${feet(event.vertical_m / METRE_PER_FT)} apart` : "");
-    case "advisory": return event.active ? event.text : `over: ${event.text}`;
-    case "finished": case "stopped": return `${event.kind}: ${event.text}`;
-    default: return event.text;
+  const { kind, text, actors, phase } = event, apart = (sign, read) => (known(event.horizontal_m) ? `${sign} ${read(event.horizontal_m)} and ${feet(event.vertical_m / METRE_PER_FT)} apart` : "");
+  switch (kind) {
+    case "transcript": return `${text} (${event.engine ? `${event.engine}, ` : ""}confidence ${fixed(event.confidence, 2)})`;
+    case "command": try { return instruction(JSON.parse(text), trackOf(event.who)?.category === "vehicle"); } catch { return text; }
+    case "failure": return event.line ? `${event.speaker}’s call “${event.line}”: ${text}` : text;
+    case "status": return text ? `${event.state}: ${text}` : event.state;
+    case "conflict": return phase !== "runway_incursion" ? (PHASES[phase] || phase) + apart(":", distance)
+      : `runway incursion: ${actors.at(-1)} on runway ${event.runway}${actors.length > 1 ? `, in the way of ${actors[0]}${apart(",", metres)}` : ", where it has no business"}`;
+    case "advisory": return event.active ? text : `over: ${text}`;
+    case "finished": case "stopped": return `${kind}: ${text}`;
+    default: return text;
   }
 }
-const incursionText = (event) => {
-  const [user, intruder] = event.actors.length > 1 ? event.actors : [null, event.actors[0]];
-  const apart = known(event.horizontal_m) ? `, ${metres(event.horizontal_m)} and ${feet(event.vertical_m / METRE_PER_FT)} apart` : "";
-  return `runway incursion: ${intruder} on runway ${event.runway}${user ? `, in the way of ${user}${apart}` : ", where it has no business"}`;
-};
 const whoOf = (event) => (event.kind === "radio" && event.to ? `${event.who} to ${event.to}` : ["advisory", "equipment"].includes(event.kind) ? `to ${event.who}` : event.who);

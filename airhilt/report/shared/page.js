@@ -1,4 +1,21 @@
-"use strict";
+// The data of the page, its elements and its sections. Text is only ever set as text.
+
+const given = JSON.parse(document.querySelector('script[type="application/json"]').textContent);
+
+const byId = (id) => document.getElementById(id);
+const SVG = byId("namespace").namespaceURI;
+
+/** Sets the attributes of a node, and appends children; what is null or undefined is left out, and a child that is false. */
+function fill(node, attributes, children = []) {
+  for (const [name, value] of Object.entries(attributes)) {
+    if (value !== null && value !== undefined) node.setAttribute(name, value);
+  }
+  node.append(...children.flat().filter((child) => child !== null && child !== undefined && child !== false));
+  return node;
+}
+const html = (tag, attributes = {}, ...children) => fill(document.createElement(tag), attributes, children);
+const svg = (tag, attributes = {}, ...children) => fill(document.createElementNS(SVG, tag), attributes, children);
+const dim = (text, tag = "p") => html(tag, { class: "dim" }, text);
 
 /** The sections of the page, and what each draws. */
 const page = {
@@ -6,9 +23,7 @@ const page = {
 
   /** Adds a section: a function of the section's data that returns `draw`, `fit`, both or nothing. */
   section(name, make) {
-    const data = given.sections[name];
-    const parts = this.attempt(name, () => make(data === undefined ? null : data)) || {};
-    this.drawn.push({ name, ...parts });
+    this.drawn.push({ name, ...this.attempt(name, () => make(given.sections[name] ?? null)) });
   },
 
   /** Receives the functions that were returned by what was drawn; a page with a clock keeps them. */

@@ -1,4 +1,3 @@
-"use strict";
 // What happened in the run.
 
 const run = given, summary = run.summary;
@@ -29,15 +28,8 @@ const inPair = (event) => event.actors && event.actors.every((actor) => pair.inc
 const conflictPhases = run.events.filter((event) => event.kind === "conflict");
 const happened = (phase) => conflictPhases.some((event) => event.phase === phase);
 /** Time at which the pair came to a phase of its conflict, or null. */
-const timeOf = (phase) => {
-  const event = conflictPhases.find((candidate) => candidate.phase === phase && inPair(candidate));
-  return event ? event.t : null;
-};
-const advisories = run.events.filter((event) => event.kind === "advisory");
-const reactions = run.events.filter((event) => event.kind === "pilot_reacts");
-const calls = run.events.filter((event) => event.kind === "radio");
-const losses = run.events.filter((event) => event.kind === "status" && event.state === "lost");
-const notEvaluated = run.events.filter((event) => event.kind === "status" && event.state === "not evaluated");
+const timeOf = (phase) => conflictPhases.find((event) => event.phase === phase && inPair(event))?.t ?? null;
+const [advisories, reactions, calls, failures] = ["advisory", "pilot_reacts", "radio", "failure"].map((kind) => run.events.filter((event) => event.kind === kind));
 const minimumNm = run.separation.horizontal_nm || 5;
 const minimumFt = run.separation.vertical_ft || 1000;
 const endS = Math.max(run.end_s, 1);
@@ -45,7 +37,6 @@ const endS = Math.max(run.end_s, 1);
 const markEveryS = endS <= 600 ? 30 : endS <= 1800 ? 120 : 600;
 const closest = summary && summary.closest_approach;
 const airport = run.airport;
-const failures = run.events.filter((event) => event.kind === "failure");
 const incursions = summary ? summary.runway_incursions : conflictPhases.filter((event) => event.phase === "runway_incursion").map((event) => ({
   t_s: event.t, runway: event.runway, user: event.actors.length > 1 ? event.actors[0] : null, intruder: event.actors.at(-1), category: null,
 }));

@@ -1,4 +1,3 @@
-"use strict";
 // Series of rising times and their values, and steps along them.
 
 /** Index of the last of some rising values that is at most the given one, or 0. */

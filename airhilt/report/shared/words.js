@@ -1,5 +1,3 @@
-"use strict";
-
 // Numbers, places and commands in words.
 
 const METRE_PER_NM = 1852;
@@ -7,6 +5,8 @@ const METRE_PER_FT = 0.3048;
 const SEVERITIES = ["INFO", "ADVISORY", "CAUTION", "WARNING"];
 
 const known = (value) => value !== null && value !== undefined;
+/** A value in words, empty where it is not known or empty. */
+const ifKnown = (value, text) => (known(value) && value !== "" ? text(value) : "");
 const minus = (text) => text.replace("-", "−");
 function fixed(value, digits) {
   const text = value.toFixed(digits);
@@ -50,42 +50,36 @@ function place(position) {
 
 /** A command, or what an advisory recommends, in words; a vehicle does not taxi, it drives. */
 function instruction(action, drives = false) {
-  const points = (n) => `${n} point${n === 1 ? "" : "s"}`;
-  const given = (value, text) => (known(value) && value !== "" ? text(value) : "");
   const turn = (degrees) => `turn ${degrees < 0 ? "left" : "right"} ${fixed(Math.abs(degrees), 0)}°`;
-  const climb = (sense) => given(action.climb_to_ft, (value) => `${sense}climb to ${feet(value)}`);
+  const climb = (sense) => ifKnown(action.climb_to_ft, (value) => `${sense}climb to ${feet(value)}`);
   switch (action && action.action) {
-    case "altitude": return `${action.turn_deg ? `${turn(action.turn_deg)} and ` : ""}${action.sense || "go"} to ${feet(action.altitude_ft)}${given(action.vertical_rate_fpm, (rate) => ` at ${whole(rate)} ft/min`)}`;
+    case "altitude": return `${action.turn_deg ? `${turn(action.turn_deg)} and ` : ""}${action.sense || "go"} to ${feet(action.altitude_ft)}${ifKnown(action.vertical_rate_fpm, (rate) => ` at ${whole(rate)} ft/min`)}`;
     case "turn": return turn(action.degrees);
     case "maintain": return `maintain ${feet(action.altitude_ft)}`;
     case "track": return `turn to track ${bearing(action.track_deg)}`;
     case "speed": return `fly ${whole(action.cas_kt)} kt`;
-    case "route": return `fly a route of ${points(action.route)}`;
+    case "route": return `fly a route of ${counted(action.route, "point")}`;
     case "resume_route": return "go back to the route";
     case "drift_down": return "drift down";
     case "emergency_descent": return `descend in emergency to ${feet(action.altitude_ft)}`;
     case "line_up": return `line up on runway ${action.runway} and wait`;
     case "take_off": return `take off from runway ${action.runway}${climb(", ")}`;
-    case "cancel_takeoff": return `cancel the takeoff${given(action.runway, (runway) => ` on runway ${runway}`)}`;
-    case "land": return `land on runway ${action.runway}${action.via ? ` over ${points(action.via)}` : ""}`
-      + (action.vacate === false ? ", and stop on it" : given(action.exit, (exit) => `, exit at ${words(exit)}`));
-    case "go_around": return `go around${given(action.runway, (runway) => ` from runway ${runway}`)}${climb(", ")}`;
+    case "cancel_takeoff": return `cancel the takeoff${ifKnown(action.runway, (runway) => ` on runway ${runway}`)}`;
+    case "land": return `land on runway ${action.runway}${action.via ? ` over ${counted(action.via, "point")}` : ""}`
+      + (action.vacate === false ? ", and stop on it" : ifKnown(action.exit, (exit) => `, exit at ${words(exit)}`));
+    case "go_around": return `go around${ifKnown(action.runway, (runway) => ` from runway ${runway}`)}${climb(", ")}`;
     case "side_step": return `side-step to runway ${action.runway}`;
     case "taxi": return `${drives ? "drive" : "taxi"} to ${place(action.to)}${action.via && action.via.length ? ` via ${action.via.join(", ")}` : ""}`
-      + `${given(action.speed_kt, (speed) => ` at ${whole(speed)} kt`)}${action.off_taxiways ? ", straight off the taxiways" : ""}`;
-    case "hold_position": return `hold position${given(action.runway, (runway) => ` short of runway ${runway}`)}`;
+      + `${ifKnown(action.speed_kt, (speed) => ` at ${whole(speed)} kt`)}${action.off_taxiways ? ", straight off the taxiways" : ""}`;
+    case "hold_position": return `hold position${ifKnown(action.runway, (runway) => ` short of runway ${runway}`)}`;
     case "continue": return "continue";
-    case "move": return `${action.gait} to ${place(action.to)}${action.gait === "fly" ? given(action.height_ft, (height) => `, ${feet(height)} above the ground`) : ""}`;
+    case "move": return `${action.gait} to ${place(action.to)}${action.gait === "fly" ? ifKnown(action.height_ft, (height) => `, ${feet(height)} above the ground`) : ""}`;
     case "stand": return "stand still";
     case "confirm": return `confirm the ${words(action.slot)} of ${action.callsign}`;
     default: return action ? words(action.action) : "";
   }
 }
 
-function command(event) {
-  const track = tracks.find((candidate) => candidate.callsign === event.who);
-  try { return instruction(JSON.parse(event.text), track && track.category === "vehicle"); } catch { return event.text; }
-}
 const capital = (text) => text[0].toUpperCase() + text.slice(1);
 const megahertz = (khz) => `${fixed(khz / 1000, 3)} MHz`;
 const decibels = (value) => (known(value) ? `${fixed(value, 1)} dB` : "no noise");

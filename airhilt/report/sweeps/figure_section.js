@@ -1,30 +1,17 @@
-const section = byId(data.name), drawings = [...section.querySelectorAll("figure.drawing")];
-const chosen = {};
-
-/** True if a figure is what is chosen, as far as the choices up to a label go. */
-const fits = (figure, labels) => labels.every((label) => figure.choice[label] === chosen[label]);
-const labels = data.choices.map((choice) => choice.label);
+const section = byId(data.name), drawings = [...section.querySelectorAll("figure.drawing")], selects = [...section.querySelectorAll("select")];
 
 /** Shows the figure chosen; a value that no figure has any more gives way to one that it has. */
 function show() {
-  labels.forEach((label, i) => {
-    const left = data.figures.filter((figure) => fits(figure, labels.slice(0, i)));
-    const values = [...new Set(left.map((figure) => figure.choice[label]))];
-    if (!values.includes(chosen[label])) [chosen[label]] = values;
-    const select = section.querySelector(`select[data-place="${i}"]`);
-    select.replaceChildren(...values.map((value) => html("option", { value }, value)));
-    select.value = chosen[label];
-    select.parentElement.hidden = values.length < 2 && data.choices[i].values.length < 2;
+  let left = data.figures;
+  data.choices.forEach(({ label, values: all }, i) => {
+    const values = [...new Set(left.map((figure) => figure.choice[label]))], chosen = values.includes(selects[i].value) ? selects[i].value : values[0];
+    selects[i].replaceChildren(...values.map((value) => html("option", { value }, value)));
+    selects[i].value = chosen;
+    selects[i].parentElement.hidden = values.length < 2 && all.length < 2;
+    left = left.filter((figure) => figure.choice[label] === chosen);
   });
-  data.figures.forEach((figure, i) => { drawings[i].hidden = !fits(figure, labels); });
+  data.figures.forEach((figure, i) => { drawings[i].hidden = !left.includes(figure); });
 }
 
-function draw() {
-  section.querySelector(".chooser").append(...labels.map((label, i) => {
-    const select = html("select", { "data-place": i });
-    select.addEventListener("change", () => { chosen[label] = select.value; show(); });
-    return html("label", {}, `${label} `, select);
-  }));
-  show();
-}
-return { draw };
+selects.forEach((select) => select.addEventListener("change", show));
+show();

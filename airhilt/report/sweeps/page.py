@@ -16,7 +16,7 @@ from airhilt.report.page_section import cannot_be_shown, load_members
 from airhilt.report.sweeps.data import SweepData, read_sweep_data
 from airhilt.report.sweeps.sections import FAMILY, SweepSection
 
-SHARED = ("document", "page", "words", "tables")
+SHARED = ("page", "words")
 """Scripts that all sections may use, in the order in which they build on each other."""
 
 

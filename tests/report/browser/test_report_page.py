@@ -82,7 +82,7 @@ def test_the_parts_of_the_time_to_first_warning_are_drawn(page: Page, report: Pa
     page.open(report)
     assert page.evaluate("document.querySelectorAll('#warning-bar rect.part').length") == 5
     assert page.evaluate("document.querySelectorAll('#warning-parts .swatch').length") == 5
-    rows = page.evaluate("document.querySelectorAll('#warning-parts tr').length")
+    rows = page.evaluate("document.querySelectorAll('#warning-parts tbody tr').length")
     assert rows == 6  # The parts and their sum; no call begins this conflict.
     begins = page.evaluate("document.getElementById('warning-begins').textContent")
     assert begins.startswith("begins with predicted loss of separation: AAL123, DAL456, at 0")
@@ -116,7 +116,7 @@ def test_the_play_button_moves_time_and_stops_again(page: Page, report: Path) ->
 def test_a_row_of_the_timeline_shows_its_time(page: Page, report: Path) -> None:
     page.open(report)
     page.evaluate("document.querySelector('#timeline tr:last-child button').click()")
-    last = float(page.evaluate("document.querySelector('#timeline tr:last-child').dataset.t"))
+    last = float(page.evaluate("document.querySelector('#timeline tbody tr:last-child').dataset.t"))
     assert page.evaluate("clock.t") == pytest.approx(last)
 
 
@@ -453,7 +453,8 @@ def test_text_can_be_read(page: Page, report: Path, dark: bool) -> None:
     ratios = page.evaluate("""(() => {
       const pixel = document.createElement("canvas").getContext("2d", { willReadFrequently: true });
       const luminance = (name) => {
-        pixel.fillStyle = getComputedStyle(document.documentElement).getPropertyValue(name);
+        document.body.style.color = `var(${name})`;
+        pixel.fillStyle = getComputedStyle(document.body).color;
         pixel.fillRect(0, 0, 1, 1);
         const [r, g, b] = [...pixel.getImageData(0, 0, 1, 1).data].map((v) => v / 255)
           .map((v) => (v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4));

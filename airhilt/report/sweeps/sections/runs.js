@@ -1,11 +1,9 @@
 const ROW_PX = 30, BEYOND = 12;
-const { columns, keys, links } = data;
-const filters = columns.map(() => "");
-let order = keys.map((_, i) => i), sorted = { column: -1, down: false };
-const table = byId("runs-table"), holder = byId("runs-window"), body = html("tbody");
+const { columns, keys, links } = data, table = byId("runs-table"), holder = byId("runs-window"), body = html("tbody");
+let order = [], sorted = null, isDown = false;
 
-const isNumber = (column) => column.values.some((value) => typeof value === "number");
-columns.forEach((column) => { column.number = isNumber(column); });
+columns.forEach((column) => Object.assign(column, { filter: "", kind: column.values.some((value) => typeof value === "number") ? "number" : null }));
+const shown = () => columns.filter((column) => column.shown);
 
 function written(value) {
   if (!known(value)) return "–";
@@ -13,46 +11,39 @@ function written(value) {
   return typeof value === "number" ? minus(String(value)) : value;
 }
 
+/** Comparisons of a number with a limit, as they are written in a filter. */
+const COMPARE = { "<": (v, limit) => v < limit, "<=": (v, limit) => v <= limit, ">": (v, limit) => v > limit, ">=": (v, limit) => v >= limit, "=": (v, limit) => v === limit };
+
 /** Returns a function that says whether a value is what a filter asks for. */
 function wanted(text) {
   const asked = text.trim().toLowerCase();
   if (asked === "-") return (value) => !known(value) || value === "";
-  const range = asked.match(/^(-?[\d.]+)\s*\.\.\s*(-?[\d.]+)$/), bound = asked.match(/^([<>]=?|=)\s*(-?[\d.]+(?:e-?\d+)?)$/);
-  if (range) return (value) => typeof value === "number" && value >= +range[1] && value <= +range[2];
-  if (bound) {
-    const limit = +bound[2];
-    const compare = { "<": (v) => v < limit, "<=": (v) => v <= limit, ">": (v) => v > limit, ">=": (v) => v >= limit, "=": (v) => v === limit }[bound[1]];
-    return (value) => typeof value === "number" && compare(value);
-  }
+  const [, low, high] = asked.match(/^(-?[\d.]+)\s*\.\.\s*(-?[\d.]+)$/) ?? [], [, sign, limit] = asked.match(/^([<>]=?|=)\s*(-?[\d.]+(?:e-?\d+)?)$/) ?? [];
+  if (low) return (value) => typeof value === "number" && value >= +low && value <= +high;
+  if (sign) return (value) => typeof value === "number" && COMPARE[sign](value, +limit);
   return (value) => written(value).toLowerCase().includes(asked);
 }
 
-/** Returns a comparison of two rows; what is empty comes last either way. */
-function comparison({ column, down }) {
-  if (column < 0) return (a, b) => a - b;
-  const { values } = columns[column], sign = down ? -1 : 1;
-  return (a, b) => {
-    const x = values[a], y = values[b];
-    if (!known(x) || !known(y)) return (known(y) - known(x)) || a - b;
-    return sign * (typeof x === "string" ? x.localeCompare(y) : x - y) || a - b;
-  };
+/** Compares two rows; what is empty comes last either way. */
+function compare(a, b) {
+  const x = sorted?.values[a], y = sorted?.values[b];
+  if (!known(x) || !known(y)) return (known(y) - known(x)) || a - b;
+  return (isDown ? -1 : 1) * (typeof x === "string" ? x.localeCompare(y) : x - y) || a - b;
 }
 
 function arrange() {
-  const tests = filters.map((text, i) => [columns[i].values, text.trim() && wanted(text)]).filter(([, test]) => test);
-  order = keys.map((_, i) => i).filter((i) => tests.every(([values, test]) => test(values[i]))).sort(comparison(sorted));
+  const tests = columns.filter(({ filter }) => filter.trim()).map(({ values, filter }) => [values, wanted(filter)]);
+  order = [...keys.keys()].filter((i) => tests.every(([values, test]) => test(values[i]))).sort(compare);
   byId("runs-count").textContent = order.length === keys.length ? counted(keys.length, "run") : `${whole(order.length)} of ${counted(keys.length, "run")}`;
   holder.scrollTop = 0;
   fillWindow();
 }
 
-const shown = () => columns.map((column, i) => [column, i]).filter(([column]) => column.shown);
-
 function row(i) {
-  const key = links[i] ? html("a", { href: links[i] }, keys[i].slice(0, 8)) : keys[i].slice(0, 8);
-  return html("tr", {}, html("td", { title: keys[i] }, key), ...shown().map(([column]) => {
-    const text = written(column.values[i]);
-    return html("td", { class: column.number ? "number" : null, title: text.length > 24 ? text : null }, text);
+  const key = keys[i].slice(0, 8);
+  return html("tr", {}, html("td", { title: keys[i] }, links[i] ? html("a", { href: links[i] }, key) : key), shown().map(({ values, kind }) => {
+    const text = written(values[i]);
+    return html("td", { class: kind, title: text.length > 24 ? text : null }, text);
   }));
 }
 
@@ -64,37 +55,28 @@ function fillWindow() {
   body.replaceChildren(gap(from), ...order.slice(from, to).map(row), gap(order.length - to));
 }
 
-function head([column, i]) {
-  const button = html("button", { type: "button", title: column.description }, `${column.name}${sorted.column === i ? (sorted.down ? " ▾" : " ▴") : ""}`);
+/** Head of a column; clicks sort upwards, downwards, and as the rows came. */
+function head(column) {
+  const isSorted = sorted === column, button = html("button", { type: "button", title: column.description }, `${column.name}${isSorted ? (isDown ? " ▾" : " ▴") : ""}`);
   button.addEventListener("click", () => {
-    sorted = sorted.column !== i ? { column: i, down: false } : sorted.down ? { column: -1, down: false } : { column: i, down: true };
+    [sorted, isDown] = !isSorted ? [column, false] : isDown ? [null, false] : [column, true];
     drawTable();
   });
-  const state = sorted.column !== i ? "none" : sorted.down ? "descending" : "ascending";
-  return html("th", { scope: "col", class: column.number ? "number" : null, "aria-sort": state }, button);
+  return html("th", { scope: "col", class: column.kind, "aria-sort": isSorted ? (isDown ? "descending" : "ascending") : "none" }, button);
 }
 
-function filter([column, i]) {
-  const box = html("input", { type: "text", "aria-label": `Filter ${column.name}`, value: filters[i] });
-  box.addEventListener("input", () => { filters[i] = box.value; arrange(); });
+function filter(column) {
+  const box = html("input", { type: "text", "aria-label": `Filter ${column.name}`, value: column.filter });
+  box.addEventListener("input", () => { column.filter = box.value; arrange(); });
   return html("td", {}, box);
 }
 
 function drawTable() {
-  table.replaceChildren(html("thead", {}, html("tr", {}, html("th", { scope: "col" }, "run"), ...shown().map(head)),
-    html("tr", {}, html("td"), ...shown().map(filter))), body);
+  table.replaceChildren(html("thead", {}, html("tr", {}, html("th", { scope: "col" }, "run"), shown().map(head)), html("tr", {}, html("td"), shown().map(filter))), body);
   arrange();
 }
 
-function draw() {
-  byId("runs-columns").append(...columns.map((column) => {
-    const box = html("input", { type: "checkbox" });
-    box.checked = column.shown;
-    box.addEventListener("change", () => { column.shown = box.checked; drawTable(); });
-    return html("label", { title: column.description }, box, ` ${column.name}`);
-  }));
-  byId("runs-clear").addEventListener("click", () => { filters.fill(""); drawTable(); });
-  holder.addEventListener("scroll", fillWindow);
-  drawTable();
-}
-return { draw, fit() { fillWindow(); } };
+document.querySelectorAll("#runs .columns input").forEach((box, i) => box.addEventListener("change", () => { columns[i].shown = box.checked; drawTable(); }));
+byId("runs-clear").addEventListener("click", () => { columns.forEach((column) => { column.filter = ""; }); drawTable(); });
+holder.addEventListener("scroll", fillWindow);
+return { draw: drawTable, fit: fillWindow };
