@@ -305,11 +305,20 @@ class Bus:
 
     def watch_workers(self, changed: Callable[[str, bool], None]) -> None:
         """Call ``changed`` with a worker's name and whether it is there (on another thread)."""
-        self._watch("worker/*", changed)
+        self._watch("worker/*", lambda key, is_there: changed(key.rpartition("/")[2], is_there))
 
-    def watch_holders(self, ended: Callable[[str], None]) -> None:
-        """Call ``ended`` with the holder of a seat whose token has ended (on another thread)."""
-        self._watch(HOLDERS, lambda holder, is_there: None if is_there else ended(holder))
+    def watch_holders(self, ended: Callable[[str, str], None]) -> None:
+        """Call ``ended`` with the key of a seat and a holder whose token of it has ended.
+
+        It is called on another thread.
+        """
+
+        def end(key: str, is_there: bool) -> None:
+            if not is_there:
+                seat_key, _, holder = key.partition("/holder/")
+                ended(seat_key, holder)
+
+        self._watch(HOLDERS, end)
 
     def has_holder(self, seat_key: str, holder: str) -> bool:
         """Return whether the liveliness token of a holder is declared now."""
@@ -338,10 +347,11 @@ class Bus:
         self._receive(pattern, queryable, take)
 
     def _watch(self, pattern: str, changed: Callable[[str, bool], None]) -> None:
-        """Call ``changed`` with the last part of a liveliness token, and whether it is there."""
+        """Call ``changed`` with the key of a liveliness token, and whether it is there."""
 
         def notice(sample: zenoh.Sample) -> None:
-            changed(str(sample.key_expr).rsplit("/", 1)[1], sample.kind == zenoh.SampleKind.PUT)
+            key = str(sample.key_expr)[len(self.prefix) + 1 :]
+            changed(key, sample.kind == zenoh.SampleKind.PUT)
 
         subscriber = self.session.liveliness().declare_subscriber(
             f"{self.prefix}/{pattern}", zenoh.handlers.FifoChannel(RECEIVED), history=True

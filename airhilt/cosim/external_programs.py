@@ -109,7 +109,9 @@ class ExternalPrograms:
     def serve(self, bus: Bus) -> None:
         """Hear what programs put on the bus, and what of it does not count."""
         bus.refused = self._hear_refusal
-        bus.watch_holders(lambda holder: self._director.post(lambda: self._end_holds(holder)))
+        bus.watch_holders(
+            lambda key, holder: self._director.post(lambda: self._end_hold(key, holder))
+        )
         bus.answer(ACTS, partial(self._asked, bus))
         for keys in HEARD:
             bus.hear(keys, self._hear, partial(self._intake.admit, keys))
@@ -157,10 +159,10 @@ class ExternalPrograms:
             logged = action.model_copy(update={"act": silent})
         self._context.router.heard(key, action, UNREGISTERED, logged)
 
-    def _end_holds(self, holder: str) -> None:
+    def _end_hold(self, seat_key: str, holder: str) -> None:
         """Let who is gone leave the seat."""
-        for key in self._seats.held_by(holder):
-            self._accept(key, SeatAction(holder=holder, act=LeaveSeat()))
+        if self._seats.ends_hold(seat_key, holder):
+            self._accept(f"{seat_key}/do", SeatAction(holder=holder, act=LeaveSeat()))
 
     def _hear_refusal(self, key: str, cause: str) -> None:
         """Take in that an answer on the bus does not count (any thread)."""

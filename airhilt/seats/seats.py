@@ -61,8 +61,8 @@ class Seats:
         """Secret of the holder, by seat."""
         self._pressed: set[str] = set()
         """Seats whose transmit button is held."""
-        self._gone: set[str] = set()
-        """Holders whose tokens have ended."""
+        self._gone: set[tuple[str, str]] = set()
+        """Seats and holders whose tokens have ended."""
         self._offers = 0
         self._is_open = False
 
@@ -102,7 +102,7 @@ class Seats:
         if state is None:
             known = ", ".join(self._names) or "none: there is no --seat"
             return f"no seat of this run; expected {known}"
-        if action.holder in self._gone:
+        if (state.seat, action.holder) in self._gone:
             return "the liveliness token of the holder has ended; declare another one"
         secret = self._secrets.get(state.seat)
         if isinstance(action.act, TakeSeat):
@@ -142,11 +142,13 @@ class Seats:
                 return "this run has no pause and no slow motion"
         return ""
 
-    def held_by(self, holder: str) -> list[str]:
-        """Return the keys of the acts at the seats of a holder whose token has ended."""
-        self._gone.add(holder)
-        held = [state.seat for state in self if state.holder == holder]
-        return [f"seat/{key_chunk(name)}/do" for name in held]
+    def ends_hold(self, key: str, holder: str) -> bool:
+        """Return whether the end of a holder's token at the seat of a key ends the hold."""
+        state = self.at(key)
+        if state is None:
+            return False
+        self._gone.add((state.seat, holder))
+        return state.holder == holder
 
     # --- what changes them ------------------------------------------------------------------
 

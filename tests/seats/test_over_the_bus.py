@@ -42,9 +42,10 @@ PATIENCE_S = 30.0
 class Station:
     """A program beside a run, as an operator."""
 
-    def __init__(self, session: zenoh.Session, prefix: str) -> None:
+    def __init__(self, session: zenoh.Session, prefix: str, endpoint: str) -> None:
         self.session = session
         self.prefix = prefix
+        self.endpoint = endpoint
 
     def client(self, seat: str = TOWER, secret: str | None = None) -> SeatClient:
         return SeatClient(self.session, self.prefix, seat, secret)
@@ -81,7 +82,7 @@ def beside_a_run(out: Path, **options: Any) -> Iterator[Station]:
     thread.start()
     session = connect_client(endpoint, PATIENCE_S, None, "operator")
     try:
-        station = Station(session, find_run(session, PATIENCE_S))
+        station = Station(session, find_run(session, PATIENCE_S), endpoint)
         while not list(session.get(f"{station.prefix}/seat/{CHUNK}")):
             time.sleep(0.05)
         yield station
@@ -144,6 +145,21 @@ def test_a_seat_is_free_again_when_its_holder_is_gone(tmp_path: Path) -> None:
         assert person.act(WORDS).startswith("the liveliness token of the holder has ended")
         assert other.take() == ""
         other.close()
+
+
+@pytest.mark.parametrize("chunk", [CHUNK, "ELSEWHERE"])
+def test_nobody_ends_the_hold_of_another_one_by_a_token_of_the_same_name(
+    chunk: str, tmp_path: Path
+) -> None:
+    with beside_a_run(tmp_path / "run") as station, closing(station.client()) as person:
+        assert person.take() == ""
+        with closing(connect_client(station.endpoint, PATIENCE_S, None, "operator")) as stranger:
+            name = f"{station.prefix}/seat/{chunk}/holder/{person.holder}"
+            stranger.liveliness().declare_token(name).undeclare()  # type: ignore[no-untyped-call]
+            time.sleep(0.5)
+            assert person.act(AgreeToUses(uses=("words",))) == ""
+        time.sleep(0.5)
+        assert person.act(WORDS) == ""
 
 
 def test_a_seat_without_a_liveliness_token_is_not_given(tmp_path: Path) -> None:

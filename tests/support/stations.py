@@ -303,14 +303,13 @@ class PretendedRun:
         self._note(seat, action.act)
         return ""
 
-    def end_hold(self, holder: str) -> None:
+    def end_hold(self, seat: str, holder: str) -> None:
         """Let who is gone leave the seat."""
+        key = f"seat/{key_chunk(seat)}/do"
         with self._acting:
-            for key in self.seats.held_by(holder):
-                state = self.seats.at(key)
-                assert state is not None
+            if self.seats.ends_hold(key, holder):
                 self.seats.take(key, SeatAction(holder=holder, act=LeaveSeat()), b"")
-                self.presence.put((state.seat, False))
+                self.presence.put((seat, False))
 
     def _note(self, seat: str, act: SeatAct) -> None:
         self.deeds.append(act.do)
@@ -378,7 +377,7 @@ class PretendedClient:
 
     def close(self) -> None:
         """Let the hold end."""
-        self._run.end_hold(self.holder)
+        self._run.end_hold(self.seat, self.holder)
 
 
 @contextmanager
