@@ -83,6 +83,7 @@ def cli() -> None:
     airhilt compare SWEEP SWEEP               say what differs, and how surely
     airhilt render --scenario s01b_nominal --camera runway_01    write what a camera sees
     """
+    _check_address_space()
 
 
 def main() -> NoReturn:
@@ -90,7 +91,6 @@ def main() -> NoReturn:
     signal.signal(signal.SIGTERM, _interrupt)
     signal.signal(signal.SIGINT, _interrupt)
     try:
-        _check_address_space()
         code = cli.main(standalone_mode=False)
     except AirhiltError as error:
         for line in str(error).splitlines():
@@ -114,7 +114,7 @@ def _check_address_space() -> None:
     limit, _ = resource.getrlimit(resource.RLIMIT_AS)
     if limit != resource.RLIM_INFINITY and limit < ADDRESS_SPACE:
         raise AirhiltError(
-            f"the address space is limited to {limit / 1e9:.1f} GB (ulimit -v); "
+            f"the address space is limited to {limit / 1e9:.2f} GB (ulimit -v); "
             f"expected at least {ADDRESS_SPACE / 1e9:.0f} GB"
         )
 

@@ -117,7 +117,7 @@ class ExternalPrograms:
             bus.hear(keys, self._hear, partial(self._intake.admit, keys))
 
     def _asked(self, bus: Bus, key: str, data: bytes, answer: Answer) -> None:
-        """Take in a query by which somebody acts at a seat (any thread)."""
+        """Handle a query by which somebody acts at a seat; called on any thread."""
         # Seats that nobody offers share one limit, so that they crowd out none that there is.
         if not self._intake.admit(key if key in self._act_keys else ACTS, len(data)):
             answer(_refused("there were too many acts, or this one is too large"))
@@ -165,7 +165,7 @@ class ExternalPrograms:
             self._accept(f"{seat_key}/do", SeatAction(holder=holder, act=LeaveSeat()))
 
     def _hear_refusal(self, key: str, cause: str) -> None:
-        """Take in that an answer on the bus does not count (any thread)."""
+        """Handle an answer on the bus that does not count; called on any thread."""
 
         def take() -> None:
             self._intake.release(0)
@@ -181,7 +181,7 @@ class ExternalPrograms:
         self._director.post(lambda: self.take_refused(keys, text))
 
     def _hear(self, key: str, data: bytes) -> None:
-        """Take in a message from the bus (any thread)."""
+        """Handle a message from the bus; called on any thread."""
 
         def take() -> None:
             self._intake.release(len(data))

@@ -47,5 +47,5 @@ def test_an_address_space_in_which_libraries_hang_is_refused(command: list[str])
     )
     assert done.returncode == 2
     assert done.stderr == (
-        "airhilt: the address space is limited to 2.0 GB (ulimit -v); expected at least 3 GB\n"
+        "airhilt: the address space is limited to 2.00 GB (ulimit -v); expected at least 3 GB\n"
     )
