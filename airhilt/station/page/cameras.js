@@ -2,7 +2,7 @@
 // with the boxes of a detector.
 
 import { Pane } from "./pane.js";
-import { byId, html, on, svg } from "./dom.js";
+import { byId, offer, on, svg } from "./dom.js";
 import { identity } from "./identity.js";
 import { before } from "./series.js";
 import { counted, fixed, seconds } from "./words.js";
@@ -71,13 +71,14 @@ export class Cameras extends Pane {
   renew() {
     const chosen = this.#choice.value,
       offered = this.#offered;
-    this.#choice.replaceChildren(
-      ...offered.map(({ name }) => html("option", { value: name }, name)),
+    offer(
+      this.#choice,
+      offered.map(({ name }) => name),
     );
     this.#choice.hidden = !offered.length;
     document.body.dataset.camera = offered.length ? "some" : "none";
-    if (offered.some(({ name }) => name === chosen)) this.#choice.value = chosen;
-    else if (offered.length) this.#open();
+    if (offered.length && this.#choice.value !== chosen) this.#open();
+    else if (offered.length) return;
     else
       byId("camera-none").textContent = this.#carrier
         ? "This aircraft has no camera."

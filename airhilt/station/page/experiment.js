@@ -1,7 +1,7 @@
 // The page of a participant: what is to be done now, and the questions of the plan. Where several
 // have seats together, the end of its address says whose page it is, such as #P01.
 
-import { byId, html, on } from "./dom.js";
+import { byId, html, on, onSubmit, write } from "./dom.js";
 import { addressee, onThisHost } from "./neighbours.js";
 import { Questionnaire } from "./questionnaire.js";
 import { ask, found, lost, note } from "./server.js";
@@ -33,11 +33,6 @@ const askFor = (path, wish) =>
   ask(`${path}?participant=${encodeURIComponent(addressee())}`, wish).catch((error) => {
     throw error instanceof TypeError ? new Error("The experiment does not answer.") : error;
   });
-
-// What is written is read aloud, so that only what has changed is written.
-function write(id, text) {
-  if (byId(id).textContent !== text) byId(id).textContent = text;
-}
 
 const afterTrial = ({ trial, trials }) => `Questions after trial ${trial} of ${trials}`;
 
@@ -95,9 +90,9 @@ function show(state) {
   const now = JSON.stringify([participant, trial, step, questions?.name]);
   if (now !== shown) note("");
   shown = now;
-  write("title", ["Experiment", participant].filter(Boolean).join(", "));
-  write("step", titleOf(state));
-  write("step-text", textOf(state));
+  write(byId("title"), ["Experiment", participant].filter(Boolean).join(", "));
+  write(byId("step"), titleOf(state));
+  write(byId("step-text"), textOf(state));
   byId("begin").hidden = step !== "ready";
   byId("begin").disabled = rest > 0;
   byId("open").hidden = step !== "running";
@@ -182,8 +177,5 @@ addEventListener("hashchange", () => {
   look();
 });
 on("begin", "click", () => act("api/begin", {}));
-on("questions", "submit", (event) => {
-  event.preventDefault();
-  answer();
-});
+onSubmit(byId("questions"), answer);
 follow();

@@ -1,6 +1,6 @@
 // The first page: choose a scenario, its seats and conditions, start the run, open what is there.
 
-import { button, byId, html, on } from "./dom.js";
+import { button, byId, html, offer, on, onSubmit } from "./dom.js";
 import { onThisHost } from "./neighbours.js";
 import { Rows } from "./rows.js";
 import { ask, found, lost, note } from "./server.js";
@@ -205,14 +205,11 @@ async function begin() {
   scenarios = station.scenarios;
   byId("subtitle").textContent = `Runs are in ${station.folder}`;
   byId("subtitle").title = station.folder;
-  byId("scenario").replaceChildren(
-    ...scenarios.map((one) => html("option", { value: one.id }, `${one.id}: ${one.title}`)),
+  offer(
+    byId("scenario"),
+    scenarios.map(({ id, title }) => [id, `${id}: ${title}`]),
   );
-  byId("assistant").replaceChildren(
-    ...station.assistants.map((name) =>
-      html("option", { value: name, selected: name === "reference" }, name),
-    ),
-  );
+  offer(byId("assistant"), station.assistants, "reference");
   on("scenario", "change", showScenario);
   on("cameras", "change", showCameras);
   on("seats", "change", showAsked);
@@ -223,10 +220,7 @@ async function begin() {
       recorded.map((run) => run.name).filter((name) => chosen.has(name)),
     ),
   );
-  on("new", "submit", (event) => {
-    event.preventDefault();
-    start();
-  });
+  onSubmit(byId("new"), start);
   showScenario();
   await follow();
   document.body.dataset.ready = "true";

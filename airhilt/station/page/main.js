@@ -11,7 +11,6 @@ import { Marks } from "./marks.js";
 import { Run } from "./model.js";
 import { Plan } from "./plan.js";
 import { Profile } from "./profile.js";
-import { noteReading } from "./rows.js";
 import { Seat } from "./seat.js";
 import { LiveSounds, Sounds } from "./sounds.js";
 import { Talk } from "./talk.js";
@@ -73,7 +72,6 @@ async function begin() {
     sounds,
     transport,
   };
-  noteReading(byId("calls"), byId("advisories"));
   connectTheme(() => {
     profile.redraw();
     latencies.draw();

@@ -21,8 +21,7 @@ const AUDIO = {
 
 export class Microphone {
   #live;
-  #frequency;
-  #delay;
+  #frequencies;
   #state = null; // of the seat
   #node = null;
   #stream = null;
@@ -30,14 +29,9 @@ export class Microphone {
   #opening = null; // the attempt to open it that goes on
   #held = false;
 
-  /**
-   * `frequency()` returns that on which is spoken, in kHz; `delay(event)` the time since an event,
-   * in s.
-   */
-  constructor(live, frequency, delay) {
+  constructor(live, frequencies) {
     this.#live = live;
-    this.#frequency = frequency;
-    this.#delay = delay;
+    this.#frequencies = frequencies;
     const button = byId("talk-button");
     button.addEventListener("pointerdown", (event) => {
       if (event.button === 0) {
@@ -107,8 +101,8 @@ export class Microphone {
     this.#held = true;
     const press = {
       do: "press",
-      frequency_khz: this.#frequency(),
-      delay_s: this.#delay(event),
+      frequency_khz: this.#frequencies.transmit,
+      delay_s: this.#live.delay(event),
     };
     this.#live.act(press).then(
       (why) => why && this.cut(why),
@@ -228,19 +222,17 @@ export class Microphone {
 
 /** Connects a stream at 16 kHz, or, where the browser cannot do that, at the rate of the device. */
 function connected(stream) {
-  const context = new AudioContext({ sampleRate: 16000, latencyHint: "interactive" });
-  try {
-    return { context, source: context.createMediaStreamSource(stream) };
-  } catch {
-    context.close();
-    const other = new AudioContext({ latencyHint: "interactive" });
+  let failure;
+  for (const rate of [{ sampleRate: 16000 }, {}]) {
+    const context = new AudioContext({ ...rate, latencyHint: "interactive" });
     try {
-      return { context: other, source: other.createMediaStreamSource(stream) };
+      return { context, source: context.createMediaStreamSource(stream) };
     } catch (error) {
-      other.close();
-      throw error;
+      context.close();
+      failure = error;
     }
   }
+  throw failure;
 }
 
 /** Returns the node that gives out what the microphone hears. */

@@ -2,8 +2,8 @@
 // own track up.
 
 import { Pane } from "./pane.js";
-import { byId, html } from "./dom.js";
-import { boxesOff, firstFree } from "./labels.js";
+import { byId, offer } from "./dom.js";
+import { runwayNumbers } from "./labels.js";
 import { box, circle, label, line, onSize, shape } from "./pen.js";
 import { INK } from "./primary_flight_display.js";
 import { METRE_PER_NM, SEVERITIES, whole } from "./words.js";
@@ -23,8 +23,10 @@ export class NavigationDisplay extends Pane {
 
   constructor(run, clock) {
     super(run, clock);
-    const options = RANGES_NM.map((nm) => html("option", { value: nm }, `${nm} NM`));
-    this.#range.replaceChildren(...options);
+    offer(
+      this.#range,
+      RANGES_NM.map((nm) => [nm, `${nm} NM`]),
+    );
   }
 
   /** Shows the range that one begins with: short at an airport. */
@@ -102,23 +104,16 @@ export class NavigationDisplay extends Pane {
     return [x + e * cos - n * sin, y - e * sin - n * cos];
   }
 
-  /** Draws the runways, and their numbers off their ends: farther off where others are. */
+  /** Draws the runways, and their numbers off their ends. */
   #runways(view) {
-    const taken = [];
-    for (const { pavement, ends } of this.run.airport?.runways ?? []) {
-      const corners = pavement.map(([east, north]) => this.#pixel(view, east, north));
+    const runways = this.run.airport?.runways ?? [],
+      pixel = ([east, north]) => this.#pixel(view, east, north);
+    for (const { pavement } of runways) {
+      const corners = pavement.map(pixel);
       line(this.#size.pen, INK.text, 2, ...corners, corners[0]);
-      ends.forEach(({ ident, start }, i) => {
-        const from = this.#pixel(view, ...start),
-          to = this.#pixel(view, ...ends[1 - i].start),
-          length = Math.hypot(to[0] - from[0], to[1] - from[1]),
-          found = firstFree(boxesOff(from, to, length, IDENTS_OFF_PX, [10, 7]), taken);
-        if (length <= 30 || !found) return;
-        taken.push(found);
-        const [left, top, right, bottom] = found;
-        this.#text(ident, (left + right) / 2, (top + bottom) / 2, INK.dim, 11, "center");
-      });
     }
+    for (const { ident, box } of runwayNumbers(runways, pixel, IDENTS_OFF_PX, [10, 7], 30))
+      this.#text(ident, box[0] + 10, box[1] + 7, INK.dim, 11, "center");
   }
 
   #compass({ x, y, reach }, shown) {

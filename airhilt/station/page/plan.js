@@ -1,7 +1,7 @@
 // The plan: what is drawn on it, in which order, and how one moves on it.
 
 import { Pane } from "./pane.js";
-import { byId, colour, html, on } from "./dom.js";
+import { byId, colour, offer, on } from "./dom.js";
 import { NOWHERE, widened } from "./model.js";
 import { box, copyOf, line, onSize } from "./pen.js";
 import { drawAirport } from "./plan_map.js";
@@ -11,7 +11,6 @@ import { drawActor, drawBlocks, drawTracks } from "./plan_traffic.js";
 import { PlanView, ROOM } from "./plan_view.js";
 import { known, whole } from "./words.js";
 
-const LEADERS_S = [0, 10, 30, 60, 120];
 const MOST_NAMED = 30; // actors in words
 const RENEWED_MS = 1000; // after which tracks that grow are drawn again
 // Of the width, by which more is shown than is needed, so that the view changes seldom.
@@ -81,22 +80,13 @@ export class Plan extends Pane {
   }
 
   #views() {
-    const options = [["all", "all traffic"]];
-    if (this.run.airport) options.push(["airport", "airport"]);
-    if (this.#closest()) options.push(["conflict", "conflict"]);
-    byId("plan-view").replaceChildren(
-      ...options.map(([value, text]) => html("option", { value }, text)),
-      html("option", { value: "", hidden: true }, "free"),
-    );
-    byId("plan-leader").replaceChildren(
-      ...LEADERS_S.map((s) =>
-        html(
-          "option",
-          { value: s, selected: s === (this.run.airport ? 30 : 60) },
-          s ? `${s} s ahead` : "no leaders",
-        ),
-      ),
-    );
+    offer(byId("plan-view"), [
+      ["all", "all traffic"],
+      ...(this.run.airport ? ["airport"] : []),
+      ...(this.#closest() ? ["conflict"] : []),
+      ["", "free"],
+    ]);
+    byId("plan-leader").value = this.run.airport ? 30 : 60;
   }
 
   #controls() {

@@ -14,39 +14,14 @@ const CLIMBS_FPM = 200;
 const AROUND = { WARNING: [4, Math.PI / 4, 20], CAUTION: [3, -Math.PI / 2, 25] };
 const CIRCLE = [40, 0, 20];
 
-// Outlines of actors, nose up: places right and back of the middle, in half lengths.
-
-/** Returns an outline of which the right half is given, from the front to the back. */
-const mirrored = (half) => [...half, ...half.toReversed().map(([right, back]) => [-right, back])];
-
-const AIRCRAFT = mirrored([
-  [0, -1],
-  [0.12, -0.7],
-  [0.12, -0.25],
-  [1, 0.2],
-  [1, 0.36],
-  [0.12, 0.14],
-  [0.08, 0.66],
-  [0.4, 0.86],
-  [0.4, 1],
-  [0, 0.9],
-]);
-const VEHICLE = mirrored([
-  [0.3, -1],
-  [0.6, -0.5],
-  [0.6, 1],
-]);
-const ANIMAL = mirrored([
-  [0, -0.9],
-  [0.9, 0],
-  [0, 0.9],
-]);
-
-/** Returns the outline of a category of actors, and its least half length in pixels. */
-function symbolOf(category) {
-  const outline = { vehicle: VEHICLE, wildlife: ANIMAL }[category] ?? AIRCRAFT;
-  return { outline, least: outline === AIRCRAFT ? 10 : 6 };
-}
+// Outlines of actors, nose up, in half lengths.
+const AIRCRAFT = new Path2D(
+  "M0-1 .12-.7V-.25L1 .2V.36L.12 .14 .08 .66 .4 .86V1L0 .9-.4 1V.86L-.08 .66-.12 .14-1 .36V.2L-.12-.25V-.7Z",
+);
+const OUTLINES = {
+  vehicle: new Path2D("M.3-1 .6-.5V1H-.6V-.5L-.3-1Z"),
+  wildlife: new Path2D("M0-.9 .9 0 0 .9-.9 0Z"),
+};
 
 /** Draws the track of each actor, as far as it is known. */
 export function drawTracks(view, tracks) {
@@ -80,15 +55,20 @@ export function drawActor(view, run, { track, state }, t, leaderS) {
   drawSymbol(view, track, state.heading, [x, y]);
 }
 
-function drawSymbol(view, track, heading, [x, y]) {
-  const { outline, least } = symbolOf(track.category),
-    size = Math.max(((track.length_m ?? 0) * view.scale) / 2, least),
-    [sin, cos] = [size * Math.sin(heading), size * Math.cos(heading)];
-  const points = outline.map(([right, back]) => [
-    x + right * cos - back * sin,
-    y + right * sin + back * cos,
-  ]);
-  shape(view.pen, { fill: colour(track.colour), edge: colour("--map") }, ...points);
+function drawSymbol({ pen, scale }, track, heading, [x, y]) {
+  const outline = OUTLINES[track.category] ?? AIRCRAFT,
+    least = outline === AIRCRAFT ? 10 : 6, // half length in pixels
+    size = Math.max(((track.length_m ?? 0) * scale) / 2, least);
+  pen.save();
+  pen.translate(x, y);
+  pen.rotate(heading);
+  pen.scale(size, size);
+  pen.fillStyle = colour(track.colour);
+  pen.fill(outline);
+  pen.strokeStyle = colour("--map");
+  pen.lineWidth = 1 / size;
+  pen.stroke(outline);
+  pen.restore();
 }
 
 /** Draws dots behind an actor, where it was some seconds ago. */

@@ -31,17 +31,8 @@ const KNOTS_A_TAPE = 80,
   DEGREES_A_HEIGHT = 44,
   DEGREES_A_WIDTH = 60;
 
-// The outline of a selected value on a tape: places inward of its edge, and below.
-const BUG = [
-  [0, 0],
-  [7, -6],
-  [7, -11],
-  [0, -11],
-  [0, 11],
-  [7, 11],
-  [7, 6],
-  [0, 0],
-];
+// The outline of a selected value on a tape, at its left edge.
+const BUG = new Path2D("M0 0 7-6V-11H0V11H7V6Z");
 const GEAR = { 0: ["GEAR UP", INK.text], 1: ["GEAR DOWN", INK.mode] };
 const RADIAN = Math.PI / 180;
 const BANKS = [-60, -45, -30, -20, -10, 0, 10, 20, 30, 45, 60]; // marks of the bank scale, degrees
@@ -187,7 +178,11 @@ export class PrimaryFlightDisplay {
           );
       }
       const at = Math.min(Math.max(place(selected), top), bottom);
-      this.#line(INK.selected, 3, ...BUG.map(([dx, dy]) => [edge + inward * dx, at + dy]));
+      pen.translate(edge, at);
+      pen.scale(inward, 1);
+      pen.strokeStyle = INK.selected;
+      pen.lineWidth = 3;
+      pen.stroke(BUG);
     });
   }
 
