@@ -57,6 +57,17 @@ export function line(pen, ink, width, ...points) {
   pen.stroke();
 }
 
+/** Draws an outline at a place, as it is (1) or the other way round (-1). */
+export function outline(pen, ink, width, [x, y], shape, side = 1) {
+  pen.save();
+  pen.translate(x, y);
+  pen.scale(side, 1);
+  pen.strokeStyle = ink;
+  pen.lineWidth = width;
+  pen.stroke(shape);
+  pen.restore();
+}
+
 /** Draws a circle, and fills it if that has a colour. */
 export function circle(pen, ink, width, [x, y], radius, fill = null) {
   pen.beginPath();

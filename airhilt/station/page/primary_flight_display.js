@@ -2,7 +2,7 @@
 // is selected.
 
 import { byId } from "./dom.js";
-import { BOLD, box, label, line, onSize, shape, within } from "./pen.js";
+import { BOLD, box, label, line, onSize, outline, shape, within } from "./pen.js";
 import { bearing, whole } from "./words.js";
 
 // Colours of the instrument, the same in a light and in a dark page (FAA AC 25-11B, 31.c).
@@ -33,6 +33,7 @@ const KNOTS_A_TAPE = 80,
 
 // The outline of a selected value on a tape, at its left edge.
 const BUG = new Path2D("M0 0 7-6V-11H0V11H7V6Z");
+const DRIFT = new Path2D("M0 0-5 7 0 14 5 7Z"); // the track on the heading scale
 const GEAR = { 0: ["GEAR UP", INK.text], 1: ["GEAR DOWN", INK.mode] };
 const RADIAN = Math.PI / 180;
 const BANKS = [-60, -45, -30, -20, -10, 0, 10, 20, 30, 45, 60]; // marks of the bank scale, degrees
@@ -125,14 +126,9 @@ export class PrimaryFlightDisplay {
       this.#bank(roll, half - 6);
     });
     const wing = Math.min(56, (right - left) / 4);
-    for (const [ink, wide] of [
-      [INK.black, 7],
-      [INK.own, 3.5],
-    ]) {
-      for (const side of [-1, 1])
-        this.#line(ink, wide, [x + side * wing, y], [x + side * 22, y], [x + side * 22, y + 9]);
-      this.#line(ink, wide, [x - 2.5, y], [x + 2.5, y]);
-    }
+    const own = new Path2D(`M${-wing} 0H-22V9M${wing} 0H22V9M-2.5 0H2.5`);
+    outline(pen, INK.black, 7, [x, y], own);
+    outline(pen, INK.own, 3.5, [x, y], own);
     if (typeof height !== "number") return;
     box(pen, INK.black, x - 34, bottom - 27, 68, 22);
     this.#text(`${whole(height)} RA`, x, bottom - 16, height < 500 ? INK.caution : INK.mode, 14);
@@ -178,11 +174,7 @@ export class PrimaryFlightDisplay {
           );
       }
       const at = Math.min(Math.max(place(selected), top), bottom);
-      pen.translate(edge, at);
-      pen.scale(inward, 1);
-      pen.strokeStyle = INK.selected;
-      pen.lineWidth = 3;
-      pen.stroke(BUG);
+      outline(pen, INK.selected, 3, [edge, at], BUG, inward);
     });
   }
 
@@ -255,18 +247,8 @@ export class PrimaryFlightDisplay {
           );
       }
       const drift = ((shown.track_deg - heading + 540) % 360) - 180,
-        at = x + drift * unit,
-        [middle, low] = [top + 7, top + 14];
-      if (shown.ground_speed_kt > 10)
-        this.#line(
-          INK.mode,
-          2,
-          [at, top],
-          [at - 5, middle],
-          [at, low],
-          [at + 5, middle],
-          [at, top],
-        );
+        at = x + drift * unit;
+      if (shown.ground_speed_kt > 10) outline(pen, INK.mode, 2, [at, top], DRIFT);
     });
     const digits = bearing((Math.round(heading) + 360) % 360).replace("°", "");
     this.#readout(digits, x, top + 20, 48, 16);
