@@ -83,7 +83,6 @@ export class Displays extends Pane {
       ["b", "brake, hold position, reject take-off", () => panel.brake(), ["pilot", "driver"]],
     ].map(([name, text, act, seats = ["pilot"]]) => ({
       names: [name],
-      shown: [name.toUpperCase()],
       text,
       act,
       isUsed: () => seats.includes(document.body.dataset.seat),
@@ -126,7 +125,7 @@ export class Displays extends Pane {
 
   #drawCockpit(shown) {
     const told = tcasOf(this.run, this.clock.t),
-      label = ["Primary flight display", spoken(told)].filter((text) => text).join(", ");
+      label = ["Primary flight display", spoken(told)].filter(Boolean).join(", ");
     this.#pfd.draw(shown, told);
     this.#nd.draw(this.#seat, shown, told);
     if (byId("pfd").ariaLabel !== label) byId("pfd").ariaLabel = label;

@@ -47,43 +47,33 @@ const QUESTIONNAIRES = {
   end: [() => "Questions at the end", "Please answer each question."],
 };
 
-function titleOf(state) {
-  switch (state.step) {
-    case "nothing":
-      return "";
-    case "questions":
-      return QUESTIONNAIRES[state.questions.name][0](state);
-    case "choose":
-      return "Who are you?";
-    case "done":
-      return "All trials are done";
-    default:
-      return `Trial ${state.trial} of ${state.trials}`;
-  }
-}
+const ofTrial = ({ trial, trials }) => `Trial ${trial} of ${trials}`;
 
-function textOf({ step, seat, together, said, questions, rest_s: rest, may_pause: mayPause }) {
-  switch (step) {
-    case "nothing":
-      return "";
-    case "ready":
-      return rest > 0
-        ? `Take a break. The next trial can begin in ${Math.ceil(rest / 60)} min.`
-        : `${said} When you are ready, begin. A link to your seat, ${seat}, will appear here.`.trim();
-    case "starting":
-      return "The trial is being prepared. That takes some seconds.";
-    case "running":
-      return `Open the page of your seat, and take the seat ${seat}: the trial begins ${together ? "when everybody has taken their seat" : "then"}, and not before. ${mayPause ? "" : "It cannot be paused. "}When it is over, come back to this page.`;
-    case "questions":
-      return QUESTIONNAIRES[questions.name][1];
-    case "choose":
-      return "Choose your identifier. Each participant has a page of their own.";
-    case "waiting":
-      return "Please wait: somebody else still answers questions.";
-    default:
-      return "That was the last trial. Thank you.";
-  }
-}
+/** Heading and text of each step. */
+const STEPS = {
+  nothing: () => ["", ""],
+  choose: () => [
+    "Who are you?",
+    "Choose your identifier. Each participant has a page of their own.",
+  ],
+  ready: (state) => [
+    ofTrial(state),
+    state.rest_s > 0
+      ? `Take a break. The next trial can begin in ${Math.ceil(state.rest_s / 60)} min.`
+      : `${state.said} When you are ready, begin. A link to your seat, ${state.seat}, will appear here.`.trim(),
+  ],
+  starting: (state) => [ofTrial(state), "The trial is being prepared. That takes some seconds."],
+  running: (state) => [
+    ofTrial(state),
+    `Open the page of your seat, and take the seat ${state.seat}: the trial begins ${state.together ? "when everybody has taken their seat" : "then"}, and not before. ${state.may_pause ? "" : "It cannot be paused. "}When it is over, come back to this page.`,
+  ],
+  questions: (state) => {
+    const [title, text] = QUESTIONNAIRES[state.questions.name];
+    return [title(state), text];
+  },
+  waiting: (state) => [ofTrial(state), "Please wait: somebody else still answers questions."],
+  done: () => ["All trials are done", "That was the last trial. Thank you."],
+};
 
 function show(state) {
   const { step, participant, trial, seat, seats, url, questions, rest_s: rest } = state;
@@ -91,8 +81,9 @@ function show(state) {
   if (now !== shown) note("");
   shown = now;
   write(byId("title"), ["Experiment", participant].filter(Boolean).join(", "));
-  write(byId("step"), titleOf(state));
-  write(byId("step-text"), textOf(state));
+  const [title, text] = STEPS[step](state);
+  write(byId("step"), title);
+  write(byId("step-text"), text);
   byId("begin").hidden = step !== "ready";
   byId("begin").disabled = rest > 0;
   byId("open").hidden = step !== "running";

@@ -273,8 +273,8 @@ export class Live extends Pane {
       changed = this.run.apply(changes ?? []),
       has = (...kinds) => kinds.some((kind) => changed.has(kind));
     talk.take(message);
-    // The frequencies of the seat are known from now on.
-    if (own?.some(([kind]) => kind === "seat")) transcript.redraw();
+    // With its state, the frequencies of the seat are known.
+    if (has("call") || own?.some(([kind]) => kind === "seat")) transcript.redraw();
     if (!changes) return;
     this.#seen = next;
     for (const [kind, ...rest] of changes) {
@@ -284,7 +284,6 @@ export class Live extends Pane {
     if (has("call")) this.#panes.seat.drawTasks();
     if (has("briefing")) plan.renew();
     if (has("state", "plot")) plan.keepFitted();
-    if (has("call")) transcript.redraw();
     if (has("camera")) cameras.renew();
     if (has("clock")) {
       this.#tell();
@@ -315,13 +314,12 @@ export class Live extends Pane {
   }
 
   #takeSeats(seats) {
-    const { seat, talk, transcript, advisories, plan } = this.#panes,
+    const { seat, talk, transcript, plan } = this.#panes,
       before = this.run.own;
     seat.setSeats(seats);
     talk.setSeat(this.run.own);
     if (this.run.own === before) return;
     transcript.redraw();
-    advisories.redraw();
     plan.fitFirst();
   }
 
@@ -349,11 +347,9 @@ export class Live extends Pane {
 
   /** Draws what takes long: not with every message. */
   #drawLists() {
-    const { profile, marks, advisories, traffic, transport } = this.#panes;
+    const { profile, marks, traffic, transport } = this.#panes;
     this.#drawing = null;
     this.#drawn = performance.now();
-    if (["advisory", "name", "briefing"].some((kind) => this.#undrawn.has(kind)))
-      advisories.redraw();
     if (this.#undrawn.has("call") || this.#undrawn.has("event")) transport.renew();
     if (this.#undrawn.has("event")) this.#tellRefused();
     if (this.#undrawn.has("track")) traffic.redraw();

@@ -374,25 +374,8 @@ const PHASES = {
   runway_incursion: "runway incursion",
   collision: "collision",
 };
-const TOLD = [
-  "advisory",
-  "equipment",
-  "conflict",
-  "pilot_reacts",
-  "failure",
-  "unable",
-  "status",
-  "actor_ended",
-  "worker_lost",
-  "radio_lost",
-  "cameras_lost",
-  "command",
-  "refused",
-  "seat",
-  "pace",
-  "finished",
-  "stopped",
-];
+// Kinds of events to which nobody jumps: calls have rows of their own.
+const UNTOLD = ["radio", "transcript", "llm", "unregistered"];
 
 /** The events that one may jump to, in the order of their times. */
 function momentsOf(run) {
@@ -402,7 +385,7 @@ function momentsOf(run) {
     text: `${call.speaker ?? "somebody"}: ${call.said ?? ""}`,
   }));
   const others = run.events
-    .filter((event) => TOLD.includes(event.kind) && event.t > 0)
+    .filter((event) => !UNTOLD.includes(event.kind) && event.t > 0)
     .map((event) => ({
       t: event.t,
       kind: event.kind,
@@ -448,9 +431,7 @@ function commandOf(text) {
 }
 
 function ofReaction({ seat, reaction }) {
-  const about = [reaction.severity, words(reaction.advised ?? "")]
-      .filter((part) => part)
-      .join(", "),
+  const about = [reaction.severity, words(reaction.advised ?? "")].filter(Boolean).join(", "),
     began = reaction.counted_from === "seen" ? reaction.t_seen_s : reaction.t_heard_s;
   return [
     { t: reaction.t_seen_s, text: `${seat} sees ${about}` },

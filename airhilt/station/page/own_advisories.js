@@ -114,6 +114,6 @@ function restsOn(evidence, said) {
     basis ? `rests on ${basis}` : "",
     known(toGo) ? `time to go ${seconds(toGo)}` : "",
   ]
-    .filter((part) => part)
+    .filter(Boolean)
     .join("; ");
 }

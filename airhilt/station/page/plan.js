@@ -32,7 +32,6 @@ export class Plan extends Pane {
   #ringNames = []; // those of the range rings
   #still = null; // picture of what does not move
   #stillSince = 0;
-  #described = 0;
   #describing = null; // a timer, after which the plan is told in words
 
   constructor(run, clock) {
@@ -195,21 +194,14 @@ export class Plan extends Pane {
     view.pen.drawImage(this.#still, 0, 0, view.width, view.height);
     if (!this.run.airport) this.#drawRings();
     if (this.#camera) drawCamera(view, this.#camera);
-    const states = this.run.states(t).filter(({ state }) => state.isThere),
-      plots = this.run.plots.at(t),
+    const states = this.#statesThere(),
       leaderS = Number(byId("plan-leader").value);
-    drawPlots(view, plots);
+    drawPlots(view, this.run.plots.at(t));
     for (const one of states) drawActor(view, this.run, one, t, leaderS);
     drawBlocks(view, this.run, states, t, [...this.#names, ...this.#ringNames]);
     drawScale(view);
-    if (this.clock.playing) return;
-    const after = this.clock.following ? this.#described + RENEWED_MS - now : 0;
-    clearTimeout(this.#describing);
     // The last picture before the clock stands is told too.
-    if (after > 0) this.#describing = setTimeout(() => this.draw(), after);
-    if (after > 0) return;
-    this.#described = now;
-    this.#describe(states, plots);
+    this.#describing ??= setTimeout(() => this.#describe(), RENEWED_MS);
   }
 
   /** Draws the airport, the rings about it, and the tracks, and keeps the picture of them. */
@@ -234,12 +226,18 @@ export class Plan extends Pane {
     this.#ringNames = isDrawn ? drawRings(this.#view, middle()) : [];
   }
 
-  #describe(states, plots) {
-    const actors = states.map(
+  #statesThere() {
+    return this.run.states(this.clock.t).filter(({ state }) => state.isThere);
+  }
+
+  #describe() {
+    this.#describing = null;
+    if (this.clock.playing) return;
+    const actors = this.#statesThere().map(
       ({ track, state }) =>
         `${track.callsign} ${state.ended ? "ended" : state.onGround ? state.phase || "on the ground" : `${whole(state.altitude)} feet`}`,
     );
-    const parts = [...actors, ...inWords(plots)],
+    const parts = [...actors, ...inWords(this.run.plots.at(this.clock.t))],
       rest = parts.length - MOST_NAMED;
     if (rest > 0) parts.splice(MOST_NAMED, rest, `and ${rest} more`);
     this.#canvas.ariaLabel = `Plan view: ${parts.join(", ") || "no traffic"}`;

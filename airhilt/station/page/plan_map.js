@@ -9,7 +9,7 @@ const NAMES_OFF_PX = [14, 30, 46]; // from the end of a runway, where its number
 /** Draws an airport, and returns the boxes of the names of its runways. */
 export function drawAirport(view, airport) {
   const { pen, scale } = view,
-    fill = (outline, ink) => shape(pen, { fill: colour(ink) }, ...view.pixels(outline)),
+    fill = (outline, ink) => shape(pen, colour(ink), view.pixels(outline)),
     leg = ([e1, n1, e2, n2], ink, width) =>
       line(pen, colour(ink), width, view.pixel([e1, n1]), view.pixel([e2, n2]));
   airport.water.forEach(({ outline }) => fill(outline, "--water"));

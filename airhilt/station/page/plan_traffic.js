@@ -2,7 +2,7 @@
 
 import { colour } from "./dom.js";
 import { freeBox, level } from "./labels.js";
-import { BOLD, FONT, line, path, severityInk, shape, write } from "./pen.js";
+import { BOLD, FONT, line, severityInk, stamp, write } from "./pen.js";
 import { whole } from "./words.js";
 
 const HISTORY_DOTS = 8;
@@ -10,9 +10,13 @@ const MOST_POINTS = 1500; // of a track that are drawn
 // From which an arrow shows that an actor climbs or descends: three steps of the rate that ADS-B
 // reports (64 ft/min, RTCA DO-260B, 2.2.3.2.6.1).
 const CLIMBS_FPM = 200;
-// Corners of the shape about an actor, its turn, and its half width in pixels, by severity.
-const AROUND = { WARNING: [4, Math.PI / 4, 20], CAUTION: [3, -Math.PI / 2, 25] };
-const CIRCLE = [40, 0, 20];
+// Outlines about an actor, by the severity of the advisory about it.
+const AROUND = {
+  WARNING: new Path2D("M14-14V14H-14V-14Z"),
+  CAUTION: new Path2D("M0-25 21.7 12.5H-21.7Z"),
+};
+const CIRCLE = new Path2D("M-20 0a20 20 0 1 0 40 0a20 20 0 1 0-40 0Z");
+const ARROW = new Path2D("M0-5 4 4H-4Z");
 
 // Outlines of actors, nose up, in half lengths.
 const AIRCRAFT = new Path2D(
@@ -51,24 +55,17 @@ export function drawActor(view, run, { track, state }, t, leaderS) {
     [sin, cos] = [Math.sin(state.course), Math.cos(state.course)];
   if (ahead >= 6) line(pen, ink, 1.4, [x, y], [x + ahead * sin, y - ahead * cos]);
   const severity = run.severityOf(track.callsign, t);
-  if (severity) drawSeverity(pen, x, y, severity);
+  if (severity)
+    stamp(pen, AROUND[severity] ?? CIRCLE, [x, y], { edge: severityInk(severity), width: 2 });
   drawSymbol(view, track, state.heading, [x, y]);
 }
 
-function drawSymbol({ pen, scale }, track, heading, [x, y]) {
+function drawSymbol({ pen, scale }, track, heading, place) {
   const outline = OUTLINES[track.category] ?? AIRCRAFT,
     least = outline === AIRCRAFT ? 10 : 6, // half length in pixels
     size = Math.max(((track.length_m ?? 0) * scale) / 2, least);
-  pen.save();
-  pen.translate(x, y);
-  pen.rotate(heading);
-  pen.scale(size, size);
-  pen.fillStyle = colour(track.colour);
-  pen.fill(outline);
-  pen.strokeStyle = colour("--map");
-  pen.lineWidth = 1 / size;
-  pen.stroke(outline);
-  pen.restore();
+  const look = { fill: colour(track.colour), edge: colour("--map"), turn: heading, size };
+  stamp(pen, outline, place, look);
 }
 
 /** Draws dots behind an actor, where it was some seconds ago. */
@@ -83,19 +80,6 @@ function drawHistory(view, run, track, [x, y], t) {
     pen.arc(px, py, 2.2 - i * 0.12, 0, 2 * Math.PI);
     pen.fill();
   }
-}
-
-/** Draws the shape around an actor that an advisory is about. */
-function drawSeverity(pen, x, y, severity) {
-  const [corners, turn, reach] = AROUND[severity] ?? CIRCLE;
-  const points = Array.from({ length: corners }, (_, i) => {
-    const angle = turn + (i / corners) * 2 * Math.PI;
-    return [x + reach * Math.cos(angle), y + reach * Math.sin(angle)];
-  });
-  path(pen, points, true);
-  pen.strokeStyle = severityInk(severity);
-  pen.lineWidth = 2;
-  pen.stroke();
 }
 
 /** Draws data blocks, each where it covers no other, no symbol, and none of the boxes of names. */
@@ -126,8 +110,9 @@ export function drawBlocks(view, run, states, t, names) {
       pen.font = font;
       write(pen, text, left + 2, top + 12 + i * 14, ink, colour("--map"));
     });
-    if (!state.ended && !state.onGround && Math.abs(state.rate) >= CLIMBS_FPM)
-      drawArrow(pen, left + 8 + pen.measureText(level(state.altitude)).width, top + 22, state.rate);
+    if (state.ended || state.onGround || Math.abs(state.rate) < CLIMBS_FPM) continue;
+    const place = [left + 8 + pen.measureText(level(state.altitude)).width, top + 22];
+    stamp(pen, ARROW, place, { fill: colour("--ink"), turn: state.rate > 0 ? 0 : Math.PI });
   }
 }
 
@@ -146,11 +131,4 @@ function linesOf(track, state, severity) {
   ];
   if (severity) lines.push({ text: severity, font: FONT, ink: severityInk(severity) });
   return lines;
-}
-
-/** Draws an arrow, up or down, in a data block. */
-function drawArrow(pen, x, y, rate) {
-  const side = Math.sign(rate),
-    foot = y + 4 * side;
-  shape(pen, { fill: colour("--ink") }, [x, y - 5 * side], [x + 4, foot], [x - 4, foot]);
 }

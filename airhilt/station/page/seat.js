@@ -153,7 +153,7 @@ export class Seat extends Pane {
       words(shown.mode),
       `selected ${feet(shown.selected_altitude_ft)}, ${whole(shown.selected_airspeed_kt)} kt`,
     ];
-    byId("instruments").textContent = parts.filter((part) => part).join(", ");
+    byId("instruments").textContent = parts.filter(Boolean).join(", ");
     byId("instruments").hidden = false;
   }
 
@@ -203,7 +203,7 @@ export class Seat extends Pane {
   /** Gives words back, before what was typed meanwhile. */
   #giveBack(text, why) {
     const field = byId("words");
-    field.value = [text, field.value].filter((part) => part).join(" ");
+    field.value = [text, field.value].filter(Boolean).join(" ");
     this.refuse(why);
   }
 }

@@ -43,23 +43,12 @@ export class Talk {
   /** Keys of a seat, for the list of keys. */
   get keys() {
     const isUsed = () => Boolean(this.#own),
-      ratings = ["1", "2", "3", "4", "5"];
+      press = "press a button, tick a box or clear it",
+      rate = ({ key }) => this.#workload.rate(Number(key));
     return [
-      { names: [], shown: ["Space"], text: "hold to talk", isUsed }, // the microphone takes it
-      {
-        names: ["Enter"],
-        shown: ["Enter"],
-        text: "press a button, tick a box or clear it",
-        isUsed,
-        act: ({ target }) => target.click(),
-      },
-      {
-        names: ratings,
-        shown: ratings,
-        text: "workload, when it is asked",
-        isUsed,
-        act: ({ key }) => this.#workload.rate(Number(key)),
-      },
+      { names: [" "], text: "hold to talk", isUsed, act: () => {} }, // the microphone takes it
+      { names: ["Enter"], text: press, isUsed, act: ({ target }) => target.click() },
+      { names: [..."12345"], text: "workload, when it is asked", isUsed, act: rate },
     ];
   }
 

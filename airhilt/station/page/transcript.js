@@ -65,7 +65,7 @@ export class Transcript extends Pane {
       several ? megahertz(call.frequency_khz) : null,
       known(call.snr_db) ? decibels(call.snr_db) : null,
       call.blocked_by.length ? "blocked" : null,
-    ].filter((fact) => fact);
+    ].filter(Boolean);
     const hearings = call.hearings.map(({ who: hearer, outcome }) =>
       html("span", { class: `badge ${outcome}` }, `${hearer}: ${words(outcome)}`),
     );
