@@ -39,6 +39,12 @@ export class Track {
     return this.t[this.t.length - 1];
   }
 
+  /** Indices of points of the track, not many more than `most`, and the last one. */
+  thinned(most) {
+    const step = Math.ceil(this.t.length / most);
+    return [...this.t.keys()].filter((i) => (this.t.length - 1 - i) % step === 0);
+  }
+
   /** Metres east and north of the centre at a time. */
   place(t) {
     return [at(this.t, this.east, t), at(this.t, this.north, t)];
@@ -379,19 +385,13 @@ const UNTOLD = ["radio", "transcript", "llm", "unregistered"];
 
 /** The events that one may jump to, in the order of their times. */
 function momentsOf(run) {
-  const calls = run.calls.map((call) => ({
-    t: call.from,
-    kind: "radio",
-    text: `${call.speaker ?? "somebody"}: ${call.said ?? ""}`,
+  const calls = run.calls.map(({ from, speaker, said }) => ({
+    t: from,
+    text: `${speaker ?? "somebody"}: ${said ?? ""}`,
   }));
   const others = run.events
-    .filter((event) => !UNTOLD.includes(event.kind) && event.t > 0)
-    .map((event) => ({
-      t: event.t,
-      kind: event.kind,
-      severity: event.severity,
-      text: textOf(event),
-    }));
+    .filter(({ kind, t }) => !UNTOLD.includes(kind) && t > 0)
+    .map((event) => ({ t: event.t, text: textOf(event) }));
   const people = personMoments(run.summary?.people),
     seen = new Set(),
     all = [...calls, ...others, ...people].sort((a, b) => a.t - b.t);
@@ -458,5 +458,5 @@ function personMoments(people = []) {
     ...reactions.flatMap((reaction) => ofReaction({ seat, reaction })),
     ...(workload?.isa ?? []).map((rating) => ofRating({ seat, rating })),
   ]);
-  return found.filter(({ t }) => known(t)).map((moment) => ({ ...moment, kind: "person" }));
+  return found.filter(({ t }) => known(t));
 }

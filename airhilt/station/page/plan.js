@@ -201,7 +201,8 @@ export class Plan extends Pane {
     drawBlocks(view, this.run, states, t, [...this.#names, ...this.#ringNames]);
     drawScale(view);
     // The last picture before the clock stands is told too.
-    this.#describing ??= setTimeout(() => this.#describe(), RENEWED_MS);
+    if (this.clock.following) this.#describing ??= setTimeout(() => this.#describe(), RENEWED_MS);
+    else this.#describe();
   }
 
   /** Draws the airport, the rings about it, and the tracks, and keeps the picture of them. */

@@ -32,10 +32,8 @@ export function drawTracks(view, tracks) {
   const { pen } = view;
   pen.setLineDash([2, 3]);
   for (const track of tracks) {
-    const step = Math.ceil(track.t.length / MOST_POINTS) || 1,
-      points = [];
-    for (let i = track.t.length - 1; i >= 0; i -= step)
-      points.push(view.pixel([track.east[i], track.north[i]]));
+    const places = track.thinned(MOST_POINTS).map((i) => [track.east[i], track.north[i]]),
+      points = view.pixels(places);
     line(pen, colour(track.colour), 1, ...points);
   }
   pen.setLineDash([]);
