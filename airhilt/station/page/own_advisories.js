@@ -81,7 +81,8 @@ export class OwnAdvisories {
     if (equipment || this.#told.has(name)) return;
     this.#told.add(name);
     const after_s = this.#live.afterArrival(after);
-    this.#live.do({ do: "perceive", id, revision, recipient, way, after_s });
+    // Whoever has just left the seat need not be told that this came too late.
+    this.#live.act({ do: "perceive", id, revision, recipient, way, after_s }).catch(() => {});
   }
 
   #draw() {
