@@ -68,10 +68,10 @@ LONG = """import(new URL('page/model.js', location)).then(({ LiveTrack, Run }) =
     for (let i = 0; i < 9000; i += 100) {
         const rows = [];
         for (let j = i; j < i + 100; j += 1) rows.push({ id: `${j}`, from: j, to: j, t: j });
-        for (const kind of ['call', 'event', 'advisory', 'spoken'])
+        for (const kind of ['call', 'event', 'advisory'])
             run.apply(rows.map((row) => [kind, row]));
     }
-    const kept = [run.calls, run.events, run.advisories, run.spoken].map((rows) => rows.length);
+    const kept = [run.calls, run.events, run.advisories].map((rows) => rows.length);
     return { most, kept, early: track.place(10000)[0], newest: run.calls.at(-1).id };
 })"""
 
@@ -167,18 +167,15 @@ PLOTS = """import(new URL('page/model.js', location)).then(({ Run }) => {
         state = (name, t, east) =>
             ['state', name, 'aircraft', '', t, east, 0, 1000, [0, 0], 90, false, ''],
         alone = (run, t) => run.plots.at(t).map(({ isAlone }) => isAlone);
-    return [null, 'TOWER'].map((own) => {
-        const run = new Run({ ...none, scenario: { name: '' } });
-        run.own = own;
-        run.apply([state('AAL123', 1, 0), plot(1, 100), plot(1, 9000)]);
-        const settled = alone(run, 2);
-        run.apply([state('DAL456', 3, 9100)]);
-        const explained = alone(run, 3);
-        run.apply([['clock', 100, 'running', 'realtime'], plot(100, 20000)]);
-        return { settled, explained, older: alone(run, 10), newest: alone(run, 100) };
-    });
+    const run = new Run({ ...none, scenario: { name: '' } });
+    run.apply([state('AAL123', 1, 0), plot(1, 100), plot(1, 9000)]);
+    const settled = alone(run, 2);
+    run.apply([state('DAL456', 3, 9100)]);
+    const explained = alone(run, 3);
+    run.apply([plot(100, 20000)]);
+    return { settled, explained, older: alone(run, 10), newest: alone(run, 100) };
 })"""
-"""Plots that are alone at some times, on a page without a seat, and at one."""
+"""Plots that are alone at some times."""
 
 
 LATE_PLOT = """import(new URL('page/radar_plots.js', location)).then(({ RadarPlots }) => {
@@ -195,16 +192,13 @@ def test_an_old_plot_that_comes_late_hides_no_other(station: Page) -> None:
     assert station.evaluate(LATE_PLOT) == [[[100, True]], [[100, False]]]
 
 
-def test_a_plot_is_alone_until_another_sensor_finds_its_actor_and_past_ones_go_at_a_seat(
-    station: Page,
-) -> None:
-    free, seat = station.evaluate(PLOTS)
-    for shown in (free, seat):
-        assert shown["settled"] == [False, True]
-        assert shown["explained"] == [False, False]
-        assert shown["newest"] == [True]
-    assert free["older"] == [False, False]
-    assert seat["older"] == []
+def test_a_plot_is_alone_until_another_sensor_finds_its_actor(station: Page) -> None:
+    assert station.evaluate(PLOTS) == {
+        "settled": [False, True],
+        "explained": [False, False],
+        "older": [False, False],
+        "newest": [True],
+    }
 
 
 LISTED_AT_ONCE = """Promise.all(['advisories', 'model', 'clock'].map((name) =>

@@ -3,7 +3,7 @@
 import { Pane } from "./pane.js";
 import { button, byId, html, svg, timeButton } from "./dom.js";
 import { FILLED } from "./pen.js";
-import { Rows, keepInView } from "./rows.js";
+import { Rows } from "./rows.js";
 import { capital, instruction, known, percent, seconds, words } from "./words.js";
 
 const SHAPES = {
@@ -35,11 +35,9 @@ export const basisOf = ({ sources, shares }) =>
     .join(", ");
 
 export class Advisories extends Pane {
-  #list = byId("advisories");
-  #rows = new Rows(this.#list);
+  #rows = new Rows(byId("advisories"));
   #links;
   #items = [];
-  #current = "";
   #listed = null; // which advisories were listed last
   #last = 0;
   #names = null; // of the advisories that were listed last
@@ -66,7 +64,6 @@ export class Advisories extends Pane {
     );
     this.#items = rows.map((row, i) => ({ row, item: items[i] }));
     this.#announceNew(rows, name);
-    this.#current = null;
     this.#listed = this.run.advised;
     this.draw();
   }
@@ -85,14 +82,8 @@ export class Advisories extends Pane {
     const { t } = this.clock,
       active = new Set(this.run.activeAdvisories(t)),
       now = this.#items.filter(({ row }) => active.has(row));
-    const names = now.map(({ row }) => `${row.id}/${row.revision}`).join(" ");
     this.#announceTimely(t);
-    if (names === this.#current) return;
-    this.#current = names;
-    for (const { row, item } of this.#items)
-      if (active.has(row)) item.setAttribute("aria-current", "true");
-      else item.removeAttribute("aria-current");
-    if (now.length) keepInView(this.#list, now.at(-1).item);
+    this.#rows.mark(now.map(({ item }) => item));
   }
 
   /** Announces advisories whose time has just come while the clock plays. */

@@ -2,7 +2,7 @@
 // with the boxes of a detector.
 
 import { Pane } from "./pane.js";
-import { byId, html, on, svg } from "./dom.js";
+import { byId, offer, on, svg } from "./dom.js";
 import { identity } from "./identity.js";
 import { before } from "./series.js";
 import { counted, fixed, seconds } from "./words.js";
@@ -71,13 +71,14 @@ export class Cameras extends Pane {
   renew() {
     const chosen = this.#choice.value,
       offered = this.#offered;
-    this.#choice.replaceChildren(
-      ...offered.map(({ name }) => html("option", { value: name }, name)),
+    offer(
+      this.#choice,
+      offered.map(({ name }) => name),
     );
     this.#choice.hidden = !offered.length;
     document.body.dataset.camera = offered.length ? "some" : "none";
-    if (offered.some(({ name }) => name === chosen)) this.#choice.value = chosen;
-    else if (offered.length) this.#open();
+    if (offered.length && this.#choice.value !== chosen) this.#open();
+    else if (offered.length) return;
     else
       byId("camera-none").textContent = this.#carrier
         ? "This aircraft has no camera."
@@ -155,40 +156,37 @@ export class Cameras extends Pane {
     );
   }
 
-  #load(record, i) {
+  async #load(record, i) {
     const { name } = this.#camera,
+      { live } = this.clock,
       wanted = `${name}/${record.seq[i]}`;
     if (this.#isLoading || wanted === this.#shown || wanted === this.#missing) return;
     this.#isLoading = true;
-    if (!this.#shown && !this.#failure && !this.clock.live && !isKept(record, i))
+    if (!this.#shown && !this.#failure && !live && !isKept(record, i))
       byId("camera-none").textContent = "Drawing the first picture. That takes some seconds.";
     const arrived = new Image();
-    arrived.onload = () => {
-      this.#isLoading = false;
-      if (this.#camera?.name === name) {
-        this.#image.src = arrived.src;
-        this.#image.alt = `Camera ${name} at ${seconds(record.t[i])}`;
-        this.#image.hidden = false;
-        byId("camera-none").textContent = "";
-        this.#shown = wanted;
-        this.#missing = "";
-        this.#drawBoxes();
-      }
-      this.draw();
-    };
-    arrived.onerror = async () => {
-      // Of a live run it is an old one, which is not kept.
-      const why = this.clock.live ? "" : ((await answered(arrived.src)).error ?? "");
-      this.#isLoading = false;
-      if (this.clock.live) return;
-      if (this.#camera?.name === name) {
-        this.#missing = wanted;
-        if (!isKept(record, i)) this.#failure = why; // Without a reason, others may come.
-        this.#hide(why || "The picture did not come. Go to another one and back.");
-      }
-      this.draw();
-    };
     arrived.src = `api/cameras/${encodeURIComponent(name)}/${record.seq[i]}.jpg?browser=${identity()}`;
+    const isThere = await arrived.decode().then(
+      () => true,
+      () => false,
+    );
+    const why = isThere || live ? "" : ((await answered(arrived.src)).error ?? "");
+    this.#isLoading = false;
+    if (!isThere && live) return; // It is an old one, which is not kept.
+    if (this.#camera?.name === name && isThere) {
+      this.#image.src = arrived.src;
+      this.#image.alt = `Camera ${name} at ${seconds(record.t[i])}`;
+      this.#image.hidden = false;
+      byId("camera-none").textContent = "";
+      this.#shown = wanted;
+      this.#missing = "";
+      this.#drawBoxes();
+    } else if (this.#camera?.name === name) {
+      this.#missing = wanted;
+      if (!isKept(record, i)) this.#failure = why; // Without a reason, others may come.
+      this.#hide(why || "The picture did not come. Go to another one and back.");
+    }
+    this.draw();
   }
 
   /** Shows a text in the place of a picture. */

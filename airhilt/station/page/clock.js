@@ -12,8 +12,7 @@ export class Clock {
   #animations = [];
   #last = null;
   #run = new LiveTime();
-  #told = 0;
-  #telling = null;
+  #isMoved = false; // since the panes of a live run were told last
   #frame = 0;
 
   /**
@@ -28,7 +27,9 @@ export class Clock {
     this.rate = 1;
     this.playing = false;
     this.loop = { from: null, to: null, on: false };
-    if (live) requestAnimationFrame((now) => this.#follow(now));
+    if (!live) return;
+    requestAnimationFrame((now) => this.#follow(now));
+    setInterval(() => this.#isMoved && this.#tellMoved(), BETWEEN_TELLS_MS);
   }
 
   /** Calls a function with the clock, now and after each change. */
@@ -47,7 +48,6 @@ export class Clock {
   }
 
   tell() {
-    this.#told = performance.now();
     this.#listeners.forEach((listener) => listener(this));
     this.#animations.forEach((draw) => draw(this));
   }
@@ -61,27 +61,15 @@ export class Clock {
 
   /** Takes in that a live run has come to a time. */
   setEnd(end) {
-    const now = performance.now();
     this.end = Math.max(end, this.end);
-    this.#run.arrived(this.end, now);
-    if (!this.live) {
-      this.tell();
-      return;
-    }
-    this.#tellSoon(now);
+    this.#run.arrived(this.end, performance.now());
+    this.#isMoved = this.live;
+    if (!this.live) this.tell();
   }
 
-  #tellSoon(now) {
-    this.#telling ??= setTimeout(
-      () => this.#tellSlowly(),
-      Math.max(BETWEEN_TELLS_MS - (now - this.#told), 0),
-    );
-  }
-
-  #tellSlowly() {
-    this.#telling = null;
-    this.#told = performance.now();
-    if (this.following && this.#told - this.#frame > HIDDEN_MS) this.#jump();
+  #tellMoved() {
+    this.#isMoved = false;
+    if (this.following && performance.now() - this.#frame > HIDDEN_MS) this.#jump();
     this.#listeners.forEach((listener) => listener(this));
   }
 
@@ -101,7 +89,7 @@ export class Clock {
     if (this.following && t !== this.t) {
       this.t = t;
       this.#animations.forEach((draw) => draw(this));
-      this.#tellSoon(performance.now()); // It moves on a little after the last message too.
+      this.#isMoved = true;
     }
     requestAnimationFrame((later) => this.#follow(later));
   }

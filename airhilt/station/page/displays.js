@@ -56,7 +56,7 @@ export class Displays extends Pane {
   #pfd = new PrimaryFlightDisplay();
   #nd;
   #strips;
-  #panel;
+  panel;
   #cameras;
 
   constructor(run, clock, cameras, live) {
@@ -64,13 +64,13 @@ export class Displays extends Pane {
     this.#cameras = cameras;
     this.#nd = new NavigationDisplay(run, clock);
     this.#strips = new Strips(run, clock);
-    this.#panel = new ModePanel(live);
+    this.panel = new ModePanel(live);
     requestAnimationFrame(() => this.#draw());
   }
 
   /** Keys of the displays, each for the seats that have what it works. */
   get keys() {
-    const panel = this.#panel,
+    const panel = this.panel,
       nd = this.#nd;
     return [
       ["s", "cockpit: speed", () => panel.focus("speed")],
@@ -83,7 +83,6 @@ export class Displays extends Pane {
       ["b", "brake, hold position, reject take-off", () => panel.brake(), ["pilot", "driver"]],
     ].map(([name, text, act, seats = ["pilot"]]) => ({
       names: [name],
-      shown: [name.toUpperCase()],
       text,
       act,
       isUsed: () => seats.includes(document.body.dataset.seat),
@@ -107,31 +106,26 @@ export class Displays extends Pane {
     if (category) document.body.dataset.seat = KINDS[category];
     else delete document.body.dataset.seat;
     this.#cameras.offer(!category ? undefined : category === "unit" ? null : this.#seat);
-    this.#panel.offer(category, this.run.airport);
+    this.panel.offer(category, this.run.airport);
   }
 
   /** Forgets the former seat: strips with their notes, instruments, and what was not set yet. */
   forget() {
     this.#strips.clear();
     this.#instruments.clear();
-    this.#panel.clear();
+    this.panel.clear();
     this.#drawCockpit(null);
   }
 
   /** Takes in what the instruments show. */
   take(shown) {
     this.#instruments.take(shown);
-    this.#panel.take(shown);
-  }
-
-  /** Takes in which commands calls have for the person, and have no more. */
-  takeOffers(offers) {
-    this.#panel.takeOffers(offers);
+    this.panel.take(shown);
   }
 
   #drawCockpit(shown) {
     const told = tcasOf(this.run, this.clock.t),
-      label = ["Primary flight display", spoken(told)].filter((text) => text).join(", ");
+      label = ["Primary flight display", spoken(told)].filter(Boolean).join(", ");
     this.#pfd.draw(shown, told);
     this.#nd.draw(this.#seat, shown, told);
     if (byId("pfd").ariaLabel !== label) byId("pfd").ariaLabel = label;

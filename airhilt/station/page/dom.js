@@ -7,6 +7,18 @@ export const byId = (id) => document.getElementById(id);
 /** Calls a function when something happens to an element. */
 export const on = (id, event, act) => byId(id).addEventListener(event, act);
 
+/** Calls a function instead of sending a form. */
+export const onSubmit = (form, act) =>
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    act();
+  });
+
+/** Writes a text, unless it is there: what is written may be read aloud. */
+export function write(node, text) {
+  if (node.textContent !== text) node.textContent = text;
+}
+
 /** Fills an element that `make` makes of a name such as "div" or "div.row-head", with its classes. */
 function filled(make, name, given) {
   const [tag, ...classes] = name.split("."),
@@ -34,6 +46,21 @@ export function button(text, act, attributes = {}) {
   const made = html("button", { type: "button", ...attributes }, text);
   made.addEventListener("click", act);
   return made;
+}
+
+/**
+ * Offers values in a choice, each with its text where that is another one. What is chosen stays
+ * chosen, and an open list stays open, if they can. The empty value is not offered.
+ */
+export function offer(select, options, first = "") {
+  const pairs = options.map((option) => (Array.isArray(option) ? option : [option, option])),
+    values = pairs.map(([value]) => String(value));
+  const chosen = select.value;
+  if (chosen && [...select.options].map(({ value }) => value).join() === values.join()) return;
+  select.replaceChildren(
+    ...pairs.map(([value, text]) => html("option", { value, hidden: value === "" }, text)),
+  );
+  select.value = values.includes(chosen) ? chosen : first || values[0];
 }
 
 /** Returns a button that sets the clock to a time. */

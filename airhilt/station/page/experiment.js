@@ -1,7 +1,7 @@
 // The page of a participant: what is to be done now, and the questions of the plan. Where several
 // have seats together, the end of its address says whose page it is, such as #P01.
 
-import { byId, html, on } from "./dom.js";
+import { byId, html, on, onSubmit, write } from "./dom.js";
 import { addressee, onThisHost } from "./neighbours.js";
 import { Questionnaire } from "./questionnaire.js";
 import { ask, found, lost, note } from "./server.js";
@@ -34,11 +34,6 @@ const askFor = (path, wish) =>
     throw error instanceof TypeError ? new Error("The experiment does not answer.") : error;
   });
 
-// What is written is read aloud, so that only what has changed is written.
-function write(id, text) {
-  if (byId(id).textContent !== text) byId(id).textContent = text;
-}
-
 const afterTrial = ({ trial, trials }) => `Questions after trial ${trial} of ${trials}`;
 
 /** Heading of each questionnaire, and what is said of it, by its name. */
@@ -52,52 +47,43 @@ const QUESTIONNAIRES = {
   end: [() => "Questions at the end", "Please answer each question."],
 };
 
-function titleOf(state) {
-  switch (state.step) {
-    case "nothing":
-      return "";
-    case "questions":
-      return QUESTIONNAIRES[state.questions.name][0](state);
-    case "choose":
-      return "Who are you?";
-    case "done":
-      return "All trials are done";
-    default:
-      return `Trial ${state.trial} of ${state.trials}`;
-  }
-}
+const ofTrial = ({ trial, trials }) => `Trial ${trial} of ${trials}`;
 
-function textOf({ step, seat, together, said, questions, rest_s: rest, may_pause: mayPause }) {
-  switch (step) {
-    case "nothing":
-      return "";
-    case "ready":
-      return rest > 0
-        ? `Take a break. The next trial can begin in ${Math.ceil(rest / 60)} min.`
-        : `${said} When you are ready, begin. A link to your seat, ${seat}, will appear here.`.trim();
-    case "starting":
-      return "The trial is being prepared. That takes some seconds.";
-    case "running":
-      return `Open the page of your seat, and take the seat ${seat}: the trial begins ${together ? "when everybody has taken their seat" : "then"}, and not before. ${mayPause ? "" : "It cannot be paused. "}When it is over, come back to this page.`;
-    case "questions":
-      return QUESTIONNAIRES[questions.name][1];
-    case "choose":
-      return "Choose your identifier. Each participant has a page of their own.";
-    case "waiting":
-      return "Please wait: somebody else still answers questions.";
-    default:
-      return "That was the last trial. Thank you.";
-  }
-}
+/** Heading and text of each step. */
+const STEPS = {
+  nothing: () => ["", ""],
+  choose: () => [
+    "Who are you?",
+    "Choose your identifier. Each participant has a page of their own.",
+  ],
+  ready: (state) => [
+    ofTrial(state),
+    state.rest_s > 0
+      ? `Take a break. The next trial can begin in ${Math.ceil(state.rest_s / 60)} min.`
+      : `${state.said} When you are ready, begin. A link to your seat, ${state.seat}, will appear here.`.trim(),
+  ],
+  starting: (state) => [ofTrial(state), "The trial is being prepared. That takes some seconds."],
+  running: (state) => [
+    ofTrial(state),
+    `Open the page of your seat, and take the seat ${state.seat}: the trial begins ${state.together ? "when everybody has taken their seat" : "then"}, and not before. ${state.may_pause ? "" : "It cannot be paused. "}When it is over, come back to this page.`,
+  ],
+  questions: (state) => {
+    const [title, text] = QUESTIONNAIRES[state.questions.name];
+    return [title(state), text];
+  },
+  waiting: (state) => [ofTrial(state), "Please wait: somebody else still answers questions."],
+  done: () => ["All trials are done", "That was the last trial. Thank you."],
+};
 
 function show(state) {
   const { step, participant, trial, seat, seats, url, questions, rest_s: rest } = state;
   const now = JSON.stringify([participant, trial, step, questions?.name]);
   if (now !== shown) note("");
   shown = now;
-  write("title", ["Experiment", participant].filter(Boolean).join(", "));
-  write("step", titleOf(state));
-  write("step-text", textOf(state));
+  write(byId("title"), ["Experiment", participant].filter(Boolean).join(", "));
+  const [title, text] = STEPS[step](state);
+  write(byId("step"), title);
+  write(byId("step-text"), text);
   byId("begin").hidden = step !== "ready";
   byId("begin").disabled = rest > 0;
   byId("open").hidden = step !== "running";
@@ -182,8 +168,5 @@ addEventListener("hashchange", () => {
   look();
 });
 on("begin", "click", () => act("api/begin", {}));
-on("questions", "submit", (event) => {
-  event.preventDefault();
-  answer();
-});
+onSubmit(byId("questions"), answer);
 follow();

@@ -1,17 +1,16 @@
 // The frequency panel of a seat: which frequencies are heard, on which one is spoken, and which are
 // busy.
 
-import { byId, html } from "./dom.js";
+import { byId, html, write } from "./dom.js";
 import { megahertz } from "./words.js";
 
 export class Frequencies {
-  #tune;
+  #live;
   #rows = new Map();
   #open = new Map(); // frequencies of the transmissions on the air
 
-  /** `tune(frequencies)` tells the run which frequencies in kHz are heard. */
-  constructor(tune) {
-    this.#tune = tune;
+  constructor(live) {
+    this.#live = live;
   }
 
   /** Shows the frequencies of the seat, and which of them are heard; none without a seat. */
@@ -53,7 +52,7 @@ export class Frequencies {
       lamp = html("span", { class: "lamp", role: "status" });
     listen.addEventListener("change", () => {
       this.#open.clear();
-      this.#tune(this.heard);
+      this.#live.tune(this.heard);
       this.#draw();
     });
     speak.addEventListener("change", () => {
@@ -68,8 +67,7 @@ export class Frequencies {
     const busy = new Set(this.#open.values());
     for (const [khz, { lamp, listen }] of this.#rows) {
       lamp.classList.toggle("on", busy.has(khz));
-      const text = busy.has(khz) ? "busy" : listen.checked ? "free" : "off";
-      if (lamp.textContent !== text) lamp.textContent = text;
+      write(lamp, busy.has(khz) ? "busy" : listen.checked ? "free" : "off");
     }
   }
 }

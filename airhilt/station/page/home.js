@@ -1,6 +1,6 @@
 // The first page: choose a scenario, its seats and conditions, start the run, open what is there.
 
-import { button, byId, html, on } from "./dom.js";
+import { button, byId, html, offer, on, onSubmit } from "./dom.js";
 import { onThisHost } from "./neighbours.js";
 import { Rows } from "./rows.js";
 import { ask, found, lost, note } from "./server.js";
@@ -32,7 +32,7 @@ function showScenario() {
   const seats = (scenario.seats ?? []).map((seat) =>
     html(
       "label",
-      html("input", { type: "checkbox", value: seat }),
+      html("input", { type: "checkbox", name: "seat", value: seat }),
       seat === scenario.controller ? `${seat} (controller)` : seat,
     ),
   );
@@ -59,32 +59,29 @@ function showCameras() {
   byId("visibility").disabled = byId("cameras").disabled || !byId("cameras").checked;
 }
 
-/** Values that are ticked in a group, undefined for none; those of the scenario itself cannot be. */
-function ticked(group) {
-  const boxes = [...byId(group).querySelectorAll("input:checked:enabled")];
-  return boxes.length ? boxes.map((one) => one.value) : undefined;
+/** The options of the form that can be filled in; what is not given is undefined. */
+function optionsChosen() {
+  const form = new FormData(byId("new")),
+    given = (name) => form.get(name) || undefined,
+    number = (name) => given(name) && Number(given(name)),
+    ticked = (name) => (form.has(name) ? form.getAll(name) : undefined),
+    // The options of a run have what the boxes begin with.
+    unlessCleared = (id) => (byId(id).matches(":enabled:not(:checked)") ? false : undefined);
+  return {
+    seed: number("seed"),
+    assistant: given("assistant"),
+    seat: ticked("seat"),
+    isa_minutes: number("isa_minutes"),
+    nasa_tlx: form.has("nasa_tlx") || undefined,
+    voice_recording: unlessCleared("voice-recording"),
+    radar: given("radar"),
+    equipment: ticked("equipment"),
+    snr_db: number("snr_db"),
+    visibility_m: number("visibility_m"),
+    cameras: unlessCleared("cameras"),
+    speech: unlessCleared("speech"),
+  };
 }
-
-/** What is given in a field, undefined if it is empty or cannot be filled in. */
-const given = (id) => (byId(id).matches(":enabled") && byId(id).value) || undefined;
-const number = (id) => given(id) && Number(given(id));
-/** False if a box was cleared, else undefined: the options of a run have what the boxes begin with. */
-const unlessCleared = (id) => (byId(id).matches(":enabled:not(:checked)") ? false : undefined);
-
-const optionsChosen = () => ({
-  seed: number("seed"),
-  assistant: given("assistant"),
-  seat: ticked("seats"),
-  isa_minutes: number("isa-minutes"),
-  nasa_tlx: byId("nasa-tlx").matches(":enabled:checked") || undefined,
-  voice_recording: unlessCleared("voice-recording"),
-  radar: given("radar"),
-  equipment: ticked("equipment"),
-  snr_db: number("snr"),
-  visibility_m: number("visibility"),
-  cameras: unlessCleared("cameras"),
-  speech: unlessCleared("speech"),
-});
 
 async function start() {
   byId("start").disabled = true;
@@ -115,7 +112,7 @@ function startedRow(run) {
     parts.push(button("Stop", () => stop(run.name), { "aria-label": `Stop ${run.name}` }));
   const said =
     run.state === "running" ? run.seats.map((seat) => `seat ${seat}`).join(", ") : run.said;
-  return html("li", html("div.started-head", ...parts), html("div.heard", said));
+  return html("li", html("div.row-head", ...parts), html("div.heard", said));
 }
 
 const stop = (name) =>
@@ -205,14 +202,11 @@ async function begin() {
   scenarios = station.scenarios;
   byId("subtitle").textContent = `Runs are in ${station.folder}`;
   byId("subtitle").title = station.folder;
-  byId("scenario").replaceChildren(
-    ...scenarios.map((one) => html("option", { value: one.id }, `${one.id}: ${one.title}`)),
+  offer(
+    byId("scenario"),
+    scenarios.map(({ id, title }) => [id, `${id}: ${title}`]),
   );
-  byId("assistant").replaceChildren(
-    ...station.assistants.map((name) =>
-      html("option", { value: name, selected: name === "reference" }, name),
-    ),
-  );
+  offer(byId("assistant"), station.assistants, "reference");
   on("scenario", "change", showScenario);
   on("cameras", "change", showCameras);
   on("seats", "change", showAsked);
@@ -223,10 +217,7 @@ async function begin() {
       recorded.map((run) => run.name).filter((name) => chosen.has(name)),
     ),
   );
-  on("new", "submit", (event) => {
-    event.preventDefault();
-    start();
-  });
+  onSubmit(byId("new"), start);
   showScenario();
   await follow();
   document.body.dataset.ready = "true";

@@ -5,42 +5,42 @@ import { byId, html, on } from "./dom.js";
 /** True where nobody has a seat: who has one cannot go back in time. */
 const isWatching = () => !document.body.dataset.seat;
 
+/** Names of keys as they are shown, where these are not the same. */
+const SHOWN = { " ": "Space", ArrowLeft: "Left", ArrowRight: "Right" };
+
 /** Returns the keys of the time. */
 export const timeKeys = (clock, transport) =>
   [
-    [[" ", "k"], ["Space", "K"], "play or pause", () => clock.toggle()],
-    [["ArrowLeft"], ["Left"], "1 s back", () => clock.set(clock.t - 1), true],
-    [["ArrowRight"], ["Right"], "1 s on", () => clock.set(clock.t + 1), true],
-    [["j"], ["J"], "10 s back", () => clock.set(clock.t - 10), true],
-    [["l"], ["L"], "10 s on", () => clock.set(clock.t + 10), true],
-    [[","], [","], "previous event", () => transport.step(-1), true],
-    [["."], ["."], "next event", () => transport.step(1), true],
-    [["Home"], ["Home"], "beginning of the run", () => clock.set(0)],
-    [["End"], ["End"], "end of the run", () => clock.set(clock.end)],
-    [["<"], ["<"], "slower", () => clock.stepRate(-1)],
-    [[">"], [">"], "faster", () => clock.stepRate(1)],
-    [["["], ["["], "loop from here", () => clock.mark("from")],
-    [["]"], ["]"], "loop to here", () => clock.mark("to")],
-    [["o"], ["O"], "loop on or off", () => clock.toggleLoop()],
-  ].map(([names, shown, text, act, repeats]) => {
-    return { names, shown, text, act, repeats, isUsed: isWatching };
-  });
+    [[" ", "k"], "play or pause", () => clock.toggle()],
+    [["ArrowLeft"], "1 s back", () => clock.set(clock.t - 1), true],
+    [["ArrowRight"], "1 s on", () => clock.set(clock.t + 1), true],
+    [["j"], "10 s back", () => clock.set(clock.t - 10), true],
+    [["l"], "10 s on", () => clock.set(clock.t + 10), true],
+    [[","], "previous event", () => transport.step(-1), true],
+    [["."], "next event", () => transport.step(1), true],
+    [["Home"], "beginning of the run", () => clock.set(0)],
+    [["End"], "end of the run", () => clock.set(clock.end)],
+    [["<"], "slower", () => clock.stepRate(-1)],
+    [[">"], "faster", () => clock.stepRate(1)],
+    [["["], "loop from here", () => clock.mark("from")],
+    [["]"], "loop to here", () => clock.mark("to")],
+    [["o"], "loop on or off", () => clock.toggleLoop()],
+  ].map(([names, text, act, repeats]) => ({ names, text, act, repeats, isUsed: isWatching }));
 
 /** The field of the words for the radio, wherever one is on the page. */
 const callField = {
   names: ["c"],
-  shown: ["C"],
   text: "to the field for a call",
   isUsed: () => byId("words")?.checkVisibility(),
   act: () => byId("words").focus(),
 };
 
 /**
- * Connects keys. Each has its names, how it is shown, what it does in words, and a function `act`.
+ * Connects keys. Each has its names, what it does in words, and a function `act`.
  * It may have `isUsed`, which returns false where it does nothing, and `repeats`: held, it acts again.
  */
 export function connectKeys(keys) {
-  const help = { names: ["?"], shown: ["?"], text: "this list", act: () => showHelp() },
+  const help = { names: ["?"], text: "this list", act: () => showHelp() },
     all = [...keys, callField, help];
   const used = () => all.filter(({ isUsed }) => !isUsed || isUsed());
   const showHelp = () => {
@@ -60,8 +60,9 @@ export function connectKeys(keys) {
 }
 
 /** Returns a key and what it does, for the list. */
-function inWords({ shown, text }) {
-  const keys = shown.flatMap((key, i) => [i ? " " : "", html("kbd", key)]);
+function inWords({ names, text }) {
+  const shown = names.map((name) => SHOWN[name] ?? (name.length > 1 ? name : name.toUpperCase())),
+    keys = shown.flatMap((key, i) => [i ? " " : "", html("kbd", key)]);
   return html("div", html("dt", keys), html("dd", text));
 }
 

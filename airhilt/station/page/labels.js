@@ -7,16 +7,33 @@ export const level = (feet) => String(Math.max(Math.round(feet / 100), 0)).padSt
 const overlap = (a, b) => a[0] < b[2] && a[2] > b[0] && a[1] < b[3] && a[3] > b[1];
 
 /** Returns the first of some boxes that covers none of those that are taken. */
-export const firstFree = (boxes, taken) =>
+const firstFree = (boxes, taken) =>
   boxes.find((box) => !taken.some((other) => overlap(box, other)));
 
-/** Returns boxes off the end of a runway, at some distances from it, each of half a width and height. */
-export const boxesOff = ([x, y], to, length, distances, [wide, high]) =>
-  distances.map((far) => {
-    const cx = x - ((to[0] - x) / length) * far,
-      cy = y - ((to[1] - y) / length) * far;
-    return [cx - wide, cy - high, cx + wide, cy + high];
-  });
+/**
+ * Returns the numbers of runways off their ends, each with the middle and the box of its text:
+ * farther off where others are. `pixel` returns where a place is, `distances` are tried, and the
+ * boxes have half a width and height. Runways that are too short on the display have none.
+ */
+export function runwayNumbers(runways, pixel, distances, [wide, high], shortest) {
+  const placed = [];
+  for (const { ends } of runways)
+    ends.forEach(({ ident, start }, i) => {
+      const [x, y] = pixel(start),
+        [tx, ty] = pixel(ends[1 - i].start),
+        length = Math.hypot(tx - x, ty - y);
+      if (length < shortest) return;
+      const boxes = distances.map((far) => {
+        const cx = x - ((tx - x) / length) * far,
+          cy = y - ((ty - y) / length) * far;
+        return [cx - wide, cy - high, cx + wide, cy + high];
+      });
+      const taken = placed.map(({ box }) => box),
+        box = firstFree(boxes, taken) ?? boxes[0];
+      placed.push({ ident, box });
+    });
+  return placed;
+}
 
 /**
  * Returns a box for a text near a place, where it covers none of those that are taken, if there is

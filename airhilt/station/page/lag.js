@@ -1,6 +1,6 @@
 // Tells when a run falls behind the clock that its pace asks for.
 
-import { byId } from "./dom.js";
+import { byId, write } from "./dom.js";
 import { seconds } from "./words.js";
 
 const LEAST_S = 1; // of the run, from which it is told
@@ -29,7 +29,7 @@ export class Lag {
     const behind = isHeard ? this.#behindAt(heardMs) : 0,
       isBehind = behind > LEAST_S,
       text = isBehind ? `${seconds(behind, 0)} behind the clock: the machine does not keep up` : "";
-    if (byId("behind").textContent !== text) byId("behind").textContent = text;
+    write(byId("behind"), text);
     if (isBehind === this.#isBehind) return;
     this.#isBehind = isBehind;
     const end = isHeard ? "The run is not behind the clock any more." : "";

@@ -5,13 +5,11 @@ import { byId } from "./dom.js";
 import { identity } from "./identity.js";
 import { Lag } from "./lag.js";
 import { PACES } from "./run_pace.js";
-import { SeatWish } from "./seat_wish.js";
 import { capital, seconds } from "./words.js";
 
 const RETRY_MS = 1000;
-const SILENT_MS = 4000; // an answer to an echo comes every two seconds
-// Without a message, after which another connection is tried: the server has given this one up.
-const DEAD_MS = 8000;
+const ECHO_MS = 2000;
+const SILENT_MS = 5000; // without an answer to an echo, after which another connection is opened
 const HOLD_MS = 5000; // for which the server keeps a seat whose connection is lost
 // Codes with which the server closes: the page has to be loaded again, or has another connection.
 const OLD_PAGE = 4426,
@@ -23,9 +21,8 @@ const PHASES = {
   gone: "the run is not there any more",
 };
 const SLOWLY_MS = 1000; // between two drawings of what takes long
+const KEPT = "seat-wish"; // name of the wish for a seat in the storage of the tab
 
-const SILENT = "Nothing comes from the station. What is shown is old";
-const SILENT_AT_SEAT = "and nobody hears you. If it stays so, your seat is given back.";
 const DEBRIEF =
   "Its debrief is on the first page of the station, or at “airhilt view” with its folder.";
 
@@ -44,7 +41,7 @@ function ending({ title, phase }) {
 export const sentence = (reason) => `${capital(reason).replace(/\.$/, "")}.`;
 
 export class Live extends Pane {
-  #wish;
+  #wish = {}; // seat, uses and frequencies that the person wants
   #panes;
   #socket = null;
   #watched = null;
@@ -56,13 +53,15 @@ export class Live extends Pane {
   #shown = null; // the seat whose view is shown; null: what everybody sees
   #lostAt = null; // since when there is no connection, null while there is one
   #heard = 0; // when the last message came
-  #isSilent = false;
+  #roundTrip = 0; // s
   #unanswered = []; // acts that the run has not answered, in their order: { resolve, reject }
 
   constructor(run, clock) {
     super(run, clock);
-    this.#wish = new SeatWish(run.run);
+    const kept = JSON.parse(sessionStorage.getItem(KEPT));
+    if (kept?.run === run.run) this.#wish = kept;
     this.#lag = new Lag(run);
+    byId("link-reload").onclick = () => location.reload();
   }
 
   /** Begins to follow the run. */
@@ -70,6 +69,22 @@ export class Live extends Pane {
     this.#panes = panes;
     this.#open();
     setInterval(() => this.#listen(), SILENT_MS / 4);
+    setInterval(() => this.echo(), ECHO_MS);
+  }
+
+  /** Asks the station for an answer at once. */
+  echo() {
+    this.send({ echo: performance.now() });
+  }
+
+  /** Time from when a message of now is with the server until a time from now, in s. */
+  afterArrival(after) {
+    return Math.max(-10, Math.min(10, after - this.#roundTrip / 2));
+  }
+
+  /** Time from an event on the page until a message of now is with the server, in s. */
+  delay(event) {
+    return Math.max(0, (performance.now() - event.timeStamp) / 1000 + this.#roundTrip / 2);
   }
 
   /** Lets the pictures of a camera come. */
@@ -79,8 +94,6 @@ export class Live extends Pane {
   }
 
   #open() {
-    this.#abandon();
-    this.#lose();
     const url = new URL("api/live", location.href);
     url.protocol = url.protocol.replace("http", "ws");
     url.searchParams.set("from", this.#seen);
@@ -91,85 +104,53 @@ export class Live extends Pane {
     this.#heard = performance.now();
     this.#socket.onopen = () => {
       this.#lostAt = null;
-      this.#heard = performance.now();
       this.#tell();
       this.#sendWish();
       this.watch(this.#watched);
     };
     this.#socket.onmessage = (event) => {
       this.#heard = performance.now();
-      if (this.#isSilent) {
-        this.#isSilent = false;
-        this.#tell();
-      }
       this.#take(JSON.parse(event.data));
     };
-    this.#socket.onclose = (event) => {
-      this.#panes.talk.lost();
-      this.#lose();
-      if (this.run.isOver) {
-        this.#tell();
-        return;
-      }
-      const isOld = event.code === OLD_PAGE || event.code === REPLACED;
-      this.#warn(
-        event.reason ||
-          (this.run.own
-            ? `Connection lost, trying again. ${this.#seatMeanwhile}`
-            : "Connection lost, trying again."),
-        isOld,
-      );
-      if (!isOld) setTimeout(() => this.#open(), RETRY_MS);
+    this.#socket.onclose = ({ code, reason }) => {
+      const isOld = code === OLD_PAGE || code === REPLACED;
+      this.#lose(reason, isOld);
+      if (!isOld && !this.run.isOver) setTimeout(() => this.#open(), RETRY_MS);
     };
-    byId("link-reload").onclick = () => location.reload();
   }
 
   /**
-   * Leaves a connection over which nothing comes; its end may come much later, and says nothing
-   * new.
+   * Opens another connection where nothing comes: the network is cut, or the station stands still.
+   * The end of the old one may come much later, and says nothing new.
    */
-  #abandon() {
-    if (!this.#socket) return;
-    this.#socket.onopen = this.#socket.onmessage = this.#socket.onclose = null;
+  #listen() {
+    const isLeft = this.#socket.readyState > WebSocket.OPEN || this.run.isOver;
+    this.#lag.draw(this.isThere, this.#heard);
+    if (isLeft || performance.now() - this.#heard < SILENT_MS) return;
+    this.#socket.onmessage = this.#socket.onclose = null;
     this.#socket.close();
+    this.#lose();
+    this.#open();
+  }
+
+  /**
+   * Tells that there is no connection, and of the acts of which nobody knows whether they were
+   * done, the newest first.
+   */
+  #lose(why = "", isOld = false) {
+    this.#lostAt ??= performance.now();
+    this.#panes.talk.lost();
+    for (const { reject } of this.#unanswered.splice(0).reverse()) reject({ wasSent: true });
+    if (this.run.isOver) this.#tell();
+    else this.#warn(why || `Connection lost, trying again. ${this.#seatMeanwhile}`, isOld);
   }
 
   /** What becomes of the own seat meanwhile, as far as the page can know. */
   get #seatMeanwhile() {
+    if (!this.run.own) return "";
     return performance.now() - this.#lostAt < HOLD_MS
-      ? "Your seat is kept for 5 s; then its script goes on."
-      : "After more than 5 s your seat may have been given back. If the server has ended, it has to be started again.";
-  }
-
-  /** Tells of the acts of which nobody knows whether they were done, the newest first. */
-  #lose() {
-    this.#lostAt ??= performance.now();
-    const lost = this.#unanswered.reverse();
-    this.#unanswered = [];
-    for (const { reject } of lost) reject({ wasSent: true });
-  }
-
-  /**
-   * Tells if nothing comes although the connection is there: the network is cut, or the station
-   * stands still.
-   */
-  #listen() {
-    const isOpen = this.#isOpen,
-      isOpening = this.#socket.readyState === WebSocket.CONNECTING,
-      silentMs = performance.now() - this.#heard;
-    this.#isSilent = isOpen && !this.run.isOver && silentMs > SILENT_MS;
-    this.#lag.draw(isOpen && !this.#isSilent, this.#heard);
-    if (this.#isSilent) {
-      this.#panes.talk.lost();
-      this.#warn(this.run.own ? `${SILENT}, ${SILENT_AT_SEAT}` : `${SILENT}.`);
-    }
-    if (
-      !this.run.isOver &&
-      ((isOpen && silentMs > DEAD_MS) || (isOpening && silentMs > SILENT_MS))
-    ) {
-      this.#lostAt ??= this.#heard;
-      this.#open();
-    }
+      ? "Until then nobody hears you. Your seat is kept for 5 s; then its script goes on."
+      : "Until then nobody hears you. After more than 5 s your seat may have been given back. If the server has ended, it has to be started again.";
   }
 
   /** Shows large what keeps the page from following the run; nothing if it does. */
@@ -191,13 +172,9 @@ export class Live extends Pane {
     byId("link-text").textContent = ending(this.run);
   }
 
-  get #isOpen() {
-    return this.#socket?.readyState === WebSocket.OPEN;
-  }
-
   /** True while the station can be reached. */
   get isThere() {
-    return this.#isOpen && !this.#isSilent;
+    return this.#socket?.readyState === WebSocket.OPEN;
   }
 
   /**
@@ -211,27 +188,33 @@ export class Live extends Pane {
     });
   }
 
+  /** Keeps what the person wants, also when the page is loaded again. */
+  #want(wish) {
+    this.#wish = { ...wish, run: this.run.run };
+    sessionStorage.setItem(KEPT, JSON.stringify(this.#wish));
+  }
+
   /** Takes a seat with the uses to which the person agrees. */
   sit(seat, uses) {
-    this.#wish.set({ seat, uses });
+    this.#want({ seat, uses });
     this.#sendWish();
   }
 
   /** Leaves the seat. */
   leave() {
-    this.#wish.set({});
+    this.#want({});
     this.do({ do: "leave" });
   }
 
   /** Agrees to these uses from now on. */
   agree(uses) {
-    this.#wish.set({ ...this.#wish, uses });
+    this.#want({ ...this.#wish, uses });
     this.do({ do: "agree", uses });
   }
 
   /** Listens to these frequencies in kHz from now on. */
   tune(khz) {
-    this.#wish.set({ ...this.#wish, tuned: khz });
+    this.#want({ ...this.#wish, tuned: khz });
     this.do({ do: "tune", frequencies_khz: khz });
   }
 
@@ -246,29 +229,31 @@ export class Live extends Pane {
     );
   }
 
+  /** Tells the run all that the person wants, so that nothing depends on what it has heard. */
   #sendWish() {
-    const { seat, acts } = this.#wish;
+    const { seat, uses, tuned } = this.#wish;
     if (!seat || this.run.isOver) return;
-    this.act(acts[0], seat).then(
+    this.act({ do: "take" }, seat).then(
       (why) => {
         if (!why) return;
-        this.#wish.set({});
+        this.#want({});
         this.refuse(why);
       },
       () => {},
     );
-    for (const act of acts.slice(1)) this.act(act).catch(() => {});
+    this.act({ do: "agree", uses }).catch(() => {});
+    if (tuned) this.act({ do: "tune", frequencies_khz: tuned }).catch(() => {});
   }
 
   /** Sends a message; returns false if there is no connection. */
   send(message) {
-    if (this.#isOpen) this.#socket.send(JSON.stringify(message));
-    return this.#isOpen;
+    if (this.isThere) this.#socket.send(JSON.stringify(message));
+    return this.isThere;
   }
 
   /** Sends sound of the microphone. */
   sendSound(buffer) {
-    if (this.#isOpen) this.#socket.send(buffer);
+    if (this.isThere) this.#socket.send(buffer);
   }
 
   /** Number of bytes that wait to be sent. */
@@ -277,7 +262,8 @@ export class Live extends Pane {
   }
 
   #take(message) {
-    const { next, changes, seats, own, answer, forget, shown } = message;
+    const { next, changes, seats, own, answer, echo, forget, shown } = message;
+    if (echo !== undefined) this.#roundTrip = (performance.now() - echo) / 1000;
     if (answer !== undefined) this.#unanswered.shift()?.resolve(answer && sentence(answer));
     if (forget) this.#forget(shown);
     if (seats) this.#takeSeats(seats);
@@ -287,8 +273,8 @@ export class Live extends Pane {
       changed = this.run.apply(changes ?? []),
       has = (...kinds) => kinds.some((kind) => changed.has(kind));
     talk.take(message);
-    // The frequencies of the seat are known from now on.
-    if (own?.some(([kind]) => kind === "seat")) transcript.redraw();
+    // With its state, the frequencies of the seat are known.
+    if (has("call") || own?.some(([kind]) => kind === "seat")) transcript.redraw();
     if (!changes) return;
     this.#seen = next;
     for (const [kind, ...rest] of changes) {
@@ -298,7 +284,6 @@ export class Live extends Pane {
     if (has("call")) this.#panes.seat.drawTasks();
     if (has("briefing")) plan.renew();
     if (has("state", "plot")) plan.keepFitted();
-    if (has("call")) transcript.redraw();
     if (has("camera")) cameras.renew();
     if (has("clock")) {
       this.#tell();
@@ -329,13 +314,12 @@ export class Live extends Pane {
   }
 
   #takeSeats(seats) {
-    const { seat, talk, transcript, advisories, plan } = this.#panes,
+    const { seat, talk, transcript, plan } = this.#panes,
       before = this.run.own;
     seat.setSeats(seats);
     talk.setSeat(this.run.own);
     if (this.run.own === before) return;
     transcript.redraw();
-    advisories.redraw();
     plan.fitFirst();
   }
 
@@ -363,11 +347,9 @@ export class Live extends Pane {
 
   /** Draws what takes long: not with every message. */
   #drawLists() {
-    const { profile, marks, advisories, traffic, transport } = this.#panes;
+    const { profile, marks, traffic, transport } = this.#panes;
     this.#drawing = null;
     this.#drawn = performance.now();
-    if (["advisory", "name", "briefing"].some((kind) => this.#undrawn.has(kind)))
-      advisories.redraw();
     if (this.#undrawn.has("call") || this.#undrawn.has("event")) transport.renew();
     if (this.#undrawn.has("event")) this.#tellRefused();
     if (this.#undrawn.has("track")) traffic.redraw();

@@ -23,14 +23,13 @@ export class Loudspeaker {
   #playing = new Map();
   #waiting = new Map(); // pieces of the transmissions that are played when they have ended
   #begun = new Set(); // transmissions that have begun, and of which no sound has come yet
-  #tell;
+  #live;
   #isWanted = false;
   #silent = html("span", { class: "note", role: "status", hidden: true });
   #volume = html("input", { type: "range", min: 0, max: 1, step: 0.05, value: 0.8 });
 
-  /** `tell(id, after)` is told in how many s the first sample of a transmission is audible. */
-  constructor(tell) {
-    this.#tell = tell;
+  constructor(live) {
+    this.#live = live;
     this.#volume.addEventListener("input", () => this.#setVolume());
     byId("hearing").append(html("label", "Volume", this.#volume), this.#silent);
     for (const gesture of ["pointerup", "keydown"])
@@ -63,12 +62,16 @@ export class Loudspeaker {
   }
 
   /**
-   * Takes in pieces of transmissions. `isOwn(id)` says which are one's own; `isDeaf`, that one
-   * transmits; `isSlow`, that time passes slowly.
+   * Takes in pieces of transmissions, of which one's own are not heard, and none while one
+   * transmits. Where time passes slowly, a transmission is heard when it has ended.
    */
-  take(pieces, { isOwn, isDeaf, isSlow }) {
+  take(pieces, isTransmitting) {
+    const { own, pace } = this.#live.run,
+      ofOwn = `microphone.${own.replace(/[^A-Za-z0-9]+/g, "_")}.`,
+      isSlow = Number.parseFloat(pace) < 1;
     for (const [phase, { id, pcm }] of pieces) {
-      const isHeard = !isOwn(id) && !isDeaf && this.#context?.state === "running";
+      const isHeard =
+        !id.startsWith(ofOwn) && !isTransmitting && this.#context?.state === "running";
       if (phase === "opened" && isHeard) this.#begun.add(id);
       if (phase === "closed") this.#close(id);
       if (pcm && isHeard) {
@@ -120,7 +123,8 @@ export class Loudspeaker {
     line ??= { due: now + Math.max(PIECE_S - buffer.duration, 0) + AHEAD_S, sources: [] };
     const due = Math.max(line.due, now + AHEAD_S);
     line.sources = [...line.sources.slice(-MOST_SOURCES), this.#start(buffer, due)];
-    if (this.#begun.delete(id) && this.#isOn) this.#tell(id, due - now + this.#delay);
+    if (this.#begun.delete(id) && this.#isOn)
+      this.#live.do({ do: "hear", id, after_s: this.#live.afterArrival(due - now + this.#delay) });
     line.due = due + buffer.duration;
     this.#playing.set(id, line);
   }

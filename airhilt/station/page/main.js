@@ -11,7 +11,6 @@ import { Marks } from "./marks.js";
 import { Run } from "./model.js";
 import { Plan } from "./plan.js";
 import { Profile } from "./profile.js";
-import { noteReading } from "./rows.js";
 import { Seat } from "./seat.js";
 import { LiveSounds, Sounds } from "./sounds.js";
 import { Talk } from "./talk.js";
@@ -36,14 +35,14 @@ async function begin() {
   const folder = run.folder?.split(/[\\/]/).at(-1),
     assistant = run.summary?.assistant,
     named = [folder ?? run.run, assistant ? `assistant ${assistant}` : ""]
-      .filter((text) => text)
+      .filter(Boolean)
       .join(", ");
   byId("title").textContent = together ? named : run.title || run.run;
   byId("subtitle").textContent = run.live
     ? ""
     : together
       ? run.title
-      : [named, run.scenario.description].filter((text) => text).join(": ");
+      : [named, run.scenario.description].filter(Boolean).join(": ");
   byId("subtitle").title = run.scenario.description;
   byId("state").textContent = run.live ? "connecting" : run.phase;
   run.notes.forEach(note);
@@ -73,7 +72,6 @@ async function begin() {
     sounds,
     transport,
   };
-  noteReading(byId("calls"), byId("advisories"));
   connectTheme(() => {
     profile.redraw();
     latencies.draw();
@@ -88,16 +86,11 @@ async function begin() {
   live?.connect({ ...panes, plan, seat, talk });
   connectKeys([
     ...timeKeys(clock, transport),
-    {
-      names: ["m"],
-      shown: ["M"],
-      text: "sound off or on",
-      isUsed: () => !run.own, // a seat has its volume
-      act: () => sounds.mute(),
-    },
-    { names: ["f"], shown: ["F"], text: "all traffic in the plan", act: () => plan.fit("all") },
-    { names: ["+", "="], shown: ["+"], text: "zoom in", repeats: true, act: () => plan.zoom(1.5) },
-    { names: ["-"], shown: ["-"], text: "zoom out", repeats: true, act: () => plan.zoom(1 / 1.5) },
+    // A seat has its volume.
+    { names: ["m"], text: "sound off or on", isUsed: () => !run.own, act: () => sounds.mute() },
+    { names: ["f"], text: "all traffic in the plan", act: () => plan.fit("all") },
+    { names: ["+", "="], text: "zoom in", repeats: true, act: () => plan.zoom(1.5) },
+    { names: ["-"], text: "zoom out", repeats: true, act: () => plan.zoom(1 / 1.5) },
     ...(run.seats?.length ? [...seat.keys, ...talk.keys] : []),
   ]);
   if (together && !together.join(window, run)) sounds.mute();

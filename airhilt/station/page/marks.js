@@ -3,8 +3,10 @@
 
 import { Pane } from "./pane.js";
 import { byId, colour } from "./dom.js";
-import { FILLED, box, onSize, severityInk, shape } from "./pen.js";
+import { FILLED, box, onSize, severityInk, stamp } from "./pen.js";
 
+const TRIANGLE = new Path2D("M0 0 5 8H-5Z"),
+  DIAMOND = new Path2D("M0-5 4 0 0 5-4 0Z");
 const THUMB_PX = 8; // half the width of the slider's thumb, by which its ends are inside the strip
 
 export class Marks extends Pane {
@@ -30,17 +32,11 @@ export class Marks extends Pane {
     for (const { from, to } of this.run.calls)
       box(pen, colour("--dim"), x(from), height - 6, Math.max(x(to) - x(from), 2), 5);
     for (const { t, kind, active, severity } of this.run.events) {
-      if (kind === "conflict") diamond(pen, x(t), height - 13);
-      else if (kind === "advisory" && active) triangle(pen, x(t), severity);
+      const edge = severityInk(severity),
+        fill = FILLED.includes(severity) ? edge : colour("--page");
+      if (kind === "conflict") stamp(pen, DIAMOND, [x(t), height - 13], { fill: colour("--ink") });
+      else if (kind === "advisory" && active)
+        stamp(pen, TRIANGLE, [x(t), 1], { fill, edge, width: 1.4 });
     }
   }
 }
-
-function triangle(pen, x, severity) {
-  const edge = severityInk(severity),
-    fill = FILLED.includes(severity) ? edge : colour("--page");
-  shape(pen, { fill, edge, width: 1.4 }, [x, 1], [x + 5, 9], [x - 5, 9]);
-}
-
-const diamond = (pen, x, y) =>
-  shape(pen, { fill: colour("--ink") }, [x, y - 5], [x + 4, y], [x, y + 5], [x - 4, y]);

@@ -21,23 +21,15 @@ const AUDIO = {
 
 export class Microphone {
   #live;
-  #frequency;
-  #delay;
+  #frequencies;
   #state = null; // of the seat
-  #node = null;
-  #stream = null;
-  #context = null; // that reads it
+  #opened = {}; // its stream, and the context and the node that read it
   #opening = null; // the attempt to open it that goes on
   #held = false;
 
-  /**
-   * `frequency()` returns that on which is spoken, in kHz; `delay(event)` the time since an event,
-   * in s.
-   */
-  constructor(live, frequency, delay) {
+  constructor(live, frequencies) {
     this.#live = live;
-    this.#frequency = frequency;
-    this.#delay = delay;
+    this.#frequencies = frequencies;
     const button = byId("talk-button");
     button.addEventListener("pointerdown", (event) => {
       if (event.button === 0) {
@@ -48,7 +40,7 @@ export class Microphone {
     for (const name of ["pointerup", "pointercancel"])
       button.addEventListener(name, () => this.release());
     button.addEventListener("click", () => {
-      if (!this.#node) this.#open();
+      if (!this.#opened.node) this.#open();
     });
     window.addEventListener("blur", () => this.release());
     window.addEventListener("keydown", (event) => this.#key(event, true), { capture: true });
@@ -85,6 +77,7 @@ export class Microphone {
 
   /** Closes the microphone, also if it opens now, and tells why. */
   shut(why) {
+    this.#opening?.abort();
     this.#opening = null;
     this.#close();
     this.#tell(why);
@@ -98,7 +91,7 @@ export class Microphone {
 
   /** Begins to transmit. */
   press(event) {
-    if (this.#held || !this.#node) return;
+    if (this.#held || !this.#opened.node) return;
     if (!this.#live.isThere) {
       this.#tell("Nobody hears you: the connection is lost.");
       return;
@@ -107,14 +100,14 @@ export class Microphone {
     this.#held = true;
     const press = {
       do: "press",
-      frequency_khz: this.#frequency(),
-      delay_s: this.#delay(event),
+      frequency_khz: this.#frequencies.transmit,
+      delay_s: this.#live.delay(event),
     };
     this.#live.act(press).then(
       (why) => why && this.cut(why),
       () => {},
     );
-    this.#node.port.postMessage({ isOn: true });
+    this.#opened.node.port.postMessage({ isOn: true });
     this.#draw();
   }
 
@@ -122,7 +115,7 @@ export class Microphone {
   release() {
     if (!this.#held) return;
     this.#held = false;
-    this.#node?.port.postMessage({ isOn: false });
+    this.#opened.node?.port.postMessage({ isOn: false });
     this.#draw();
   }
 
@@ -141,59 +134,36 @@ export class Microphone {
   #use(event, isDown) {
     if (!this.#mayOpen || (isDown && document.querySelector("dialog[open]"))) return;
     if (!isDown) this.release();
-    else if (this.#node) this.press(event);
+    else if (this.#opened.node) this.press(event);
     else this.#open();
   }
 
   async #open() {
     this.#tell(OPENING);
     if (this.#opening) return;
-    const attempt = (this.#opening = {});
-    let told = "";
-    try {
-      await this.#connect(attempt);
-    } catch (error) {
-      told =
-        WHY[error.name] ??
-        `The microphone cannot be opened: ${error.message}. Type what you want to say.`;
-    }
-    if (this.#opening !== attempt) return; // What has become of it was told then.
+    this.#opening = new AbortController();
+    const { signal } = this.#opening,
+      opened = await openMicrophone(signal).catch((error) => ({ error }));
+    if (signal.aborted) return; // What has become of it was told then.
+    const { error, node, stream } = opened;
     this.#opening = null;
-    this.#tell(told);
+    this.#opened = error ? {} : opened;
+    this.#tell(
+      !error
+        ? ""
+        : (WHY[error.name] ??
+            `The microphone cannot be opened: ${error.message}. Type what you want to say.`),
+    );
     this.#draw();
-  }
-
-  /** Opens the microphone, unless the attempt is ended before it is open. */
-  async #connect(attempt) {
-    if (!navigator.mediaDevices) throw new DOMException("not secure", "SecurityError");
-    const stream = await navigator.mediaDevices.getUserMedia({ audio: AUDIO });
-    if (this.#opening !== attempt) {
-      stop(stream);
-      return;
-    }
-    this.#stream = stream; // It can be closed from now on.
-    stream
-      .getTracks()[0]
-      .addEventListener("ended", () =>
-        this.shut("The microphone is gone. Type what you want to say."),
-      );
-    try {
-      const { context, source } = connected(stream);
-      this.#context = context;
-      const node = await listening(context);
-      if (this.#opening !== attempt) return;
-      node.port.onmessage = ({ data }) => this.#take(data);
-      source.connect(node);
-      this.#node = node;
-    } catch (error) {
-      if (this.#opening === attempt) this.#close();
-      throw error;
-    }
+    if (error) return;
+    node.port.onmessage = ({ data }) => this.#take(data);
+    const gone = "The microphone is gone. Type what you want to say.";
+    stream.getTracks()[0].addEventListener("ended", () => this.shut(gone));
   }
 
   #take({ pcm, level, isOver }) {
     if (level !== undefined) byId("talk-level").value = level;
-    if (pcm && !this.#node) return; // It was closed meanwhile.
+    if (pcm && !this.#opened.node) return; // It was closed meanwhile.
     if (pcm && this.#live.unsent > MOST_UNSENT_BYTES) {
       this.release();
       this.#tell("Your call was cut: the connection is too slow.");
@@ -203,9 +173,8 @@ export class Microphone {
 
   #close() {
     this.release();
-    if (this.#stream) stop(this.#stream);
-    this.#context?.close();
-    this.#node = this.#stream = this.#context = null;
+    close(this.#opened);
+    this.#opened = {};
     byId("talk-level").value = 0;
     this.#draw();
   }
@@ -213,12 +182,12 @@ export class Microphone {
   #draw() {
     const button = byId("talk-button");
     button.setAttribute("aria-pressed", this.#held);
-    button.textContent = this.#node
+    button.textContent = this.#opened.node
       ? this.#held
         ? "On the air"
         : "Hold to talk"
       : "Open the microphone";
-    byId("talk-level").hidden = !this.#node;
+    byId("talk-level").hidden = !this.#opened.node;
   }
 
   #tell(text) {
@@ -228,33 +197,42 @@ export class Microphone {
 
 /** Connects a stream at 16 kHz, or, where the browser cannot do that, at the rate of the device. */
 function connected(stream) {
-  const context = new AudioContext({ sampleRate: 16000, latencyHint: "interactive" });
-  try {
-    return { context, source: context.createMediaStreamSource(stream) };
-  } catch {
-    context.close();
-    const other = new AudioContext({ latencyHint: "interactive" });
+  let failure;
+  for (const rate of [{ sampleRate: 16000 }, {}]) {
+    const context = new AudioContext({ ...rate, latencyHint: "interactive" });
     try {
-      return { context: other, source: other.createMediaStreamSource(stream) };
+      return { context, source: context.createMediaStreamSource(stream) };
     } catch (error) {
-      other.close();
-      throw error;
+      context.close();
+      failure = error;
     }
+  }
+  throw failure;
+}
+
+/** Returns the stream of the microphone, with the context and the node that give out what it hears. */
+async function openMicrophone(signal) {
+  if (!navigator.mediaDevices) throw new DOMException("not secure", "SecurityError");
+  const opened = { stream: await navigator.mediaDevices.getUserMedia({ audio: AUDIO }) };
+  signal.addEventListener("abort", () => close(opened));
+  try {
+    signal.throwIfAborted();
+    const { context, source } = connected(opened.stream);
+    opened.context = context;
+    await context.audioWorklet.addModule("page/microphone_worklet.js");
+    await context.resume();
+    const one = { numberOfOutputs: 0, channelCount: 1, channelCountMode: "explicit" };
+    opened.node = new AudioWorkletNode(context, "microphone", one);
+    source.connect(opened.node);
+    return opened;
+  } catch (error) {
+    if (!signal.aborted || !opened.context) close(opened);
+    throw error;
   }
 }
 
-/** Returns the node that gives out what the microphone hears. */
-async function listening(context) {
-  await context.audioWorklet.addModule("page/microphone_worklet.js");
-  await context.resume();
-  return new AudioWorkletNode(context, "microphone", {
-    numberOfOutputs: 0,
-    channelCount: 1,
-    channelCountMode: "explicit",
-  });
-}
-
 /** Ends a microphone, so that the browser does not show it as open any more. */
-function stop(stream) {
-  for (const track of stream.getTracks()) track.stop();
+function close({ stream, context }) {
+  for (const track of stream?.getTracks() ?? []) track.stop();
+  context?.close();
 }

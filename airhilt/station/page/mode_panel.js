@@ -1,55 +1,32 @@
 // The mode panel: what autopilot and guidance are to do. A field sets its value with Enter. Each
 // command that calls have for the person has a button, which gives it.
 
-import { button, byId, html } from "./dom.js";
+import { button, byId, html, offer, onSubmit } from "./dom.js";
 import { identsOf } from "./model.js";
 import { Rows } from "./rows.js";
 import { capital, feet, instruction, known } from "./words.js";
 
 const LEAST_CHANGE_FT = 100; // of altitude, for which a vertical speed can be set
-// What a field sets: its name, its unit, the least and the greatest value, and its command.
-const FIELDS = {
-  speed: ["Speed", "kt", 1, 1000, (value) => ({ action: "speed", cas_kt: value })],
-  track: [
-    "Track",
-    "\u00b0 true",
-    0,
-    360,
-    (value, { variation }) => ({
-      action: "track",
-      track_deg: (value + (variation ?? 0) + 360) % 360,
-    }),
-  ],
-  altitude: ["Altitude", "ft", 0, 60_000, (value) => ({ action: "altitude", altitude_ft: value })],
-  rate: [
-    "Vertical speed",
-    "ft/min",
-    100,
-    20_000,
-    (value, { selected }) => ({
-      action: "altitude",
-      altitude_ft: selected,
-      vertical_rate_fpm: value,
-    }),
-  ],
+// Command that each field sets.
+const COMMANDS = {
+  speed: (value) => ({ action: "speed", cas_kt: value }),
+  track: (value, { variation }) => ({
+    action: "track",
+    track_deg: (value + (variation ?? 0) + 360) % 360,
+  }),
+  altitude: (value) => ({ action: "altitude", altitude_ft: value }),
+  rate: (value, { selected }) => ({
+    action: "altitude",
+    altitude_ft: selected,
+    vertical_rate_fpm: value,
+  }),
 };
-const SHORT = { rate: "V/S" };
-const OF_RUNWAYS = [
-  ["Line up", "line_up"],
-  ["Take off", "take_off"],
-  ["Approach", "land"],
-];
-const URGENT = [
-  ["Go around", "go_around"],
-  ["Reject take-off", "cancel_takeoff"],
-]; // one of them is shown
-const AT_ONCE = [
-  ["Hold position", "hold_position"],
-  ["Continue", "continue"],
-  ["Own route", "resume_route"],
-];
-const NAMES_IN_VEHICLE = { hold_position: "Brake, hold position", continue: "Drive on" };
-const OF_VEHICLES = ["hold_position", "continue"];
+// Names of what is done at once, in an aircraft and in a vehicle, where it can be done there.
+const AT_ONCE = {
+  hold_position: ["Hold position", "Brake, hold position"],
+  continue: ["Continue", "Drive on"],
+  resume_route: ["Own route"],
+};
 
 /** Returns a command in words; a track as the instruments show it, magnetic where that is known. */
 function inWords(command, isVehicle, variation) {
@@ -76,14 +53,14 @@ export class ModePanel {
 
   constructor(live) {
     this.#live = live;
-    byId("panel-values").replaceChildren(...Object.keys(FIELDS).map((id) => this.#field(id)));
-    const runway = html("select", { id: "panel-runway", "aria-label": "Runway" });
-    byId("panel-runways").replaceChildren(
-      runway,
-      ...OF_RUNWAYS.map(([name, action]) => button(name, () => this.#atRunway(name, action))),
-    );
-    const actions = [...URGENT, ...AT_ONCE].map(([name, action]) => this.#atOnce(name, action));
-    byId("panel-actions").replaceChildren(...actions);
+    for (const form of byId("panel-values").children)
+      onSubmit(form, () => this.#set(form.dataset.field, form.querySelector("input")));
+    for (const made of byId("panel-runways").querySelectorAll("button"))
+      made.addEventListener("click", () => this.#atRunway(made));
+    for (const made of byId("panel-actions").children)
+      made.addEventListener("click", () =>
+        this.#give(made.textContent, { action: made.dataset.action }),
+      );
   }
 
   /** Offers what an aircraft or a vehicle can do, and the runways of the airport. */
@@ -94,9 +71,9 @@ export class ModePanel {
     byId("panel-values").hidden = isVehicle;
     byId("panel-runways").hidden = isVehicle || !idents.length;
     this.#isVehicle = isVehicle;
-    for (const [name, action] of AT_ONCE) {
-      this.#action(action).hidden = isVehicle && !OF_VEHICLES.includes(action);
-      this.#action(action).textContent = (isVehicle && NAMES_IN_VEHICLE[action]) || name;
+    for (const [action, names] of Object.entries(AT_ONCE)) {
+      this.#action(action).hidden = !names[Number(isVehicle)];
+      this.#action(action).textContent = names[Number(isVehicle)];
     }
     this.#shown.variation = airport?.variation_deg ?? null;
     const north = `\u00b0 ${known(this.#shown.variation) ? "mag" : "true"}`;
@@ -104,14 +81,7 @@ export class ModePanel {
     byId("panel-track").ariaLabel = `Track in ${north}`;
     this.#offerActions("");
     this.#drawOffers();
-    const select = byId("panel-runway"),
-      chosen = select.value;
-    if (select.options.length !== idents.length)
-      select.replaceChildren(
-        ...idents.map((ident) =>
-          html("option", { value: ident, selected: ident === chosen }, ident),
-        ),
-      );
+    offer(byId("panel-runway"), idents);
   }
 
   /** Takes in what the instruments show. */
@@ -152,7 +122,7 @@ export class ModePanel {
   /** Forgets what was shown and typed. */
   clear() {
     Object.assign(this.#shown, { altitude: null, selected: null });
-    for (const id of Object.keys(FIELDS)) byId(`panel-${id}`).value = "";
+    for (const id of Object.keys(COMMANDS)) byId(`panel-${id}`).value = "";
     this.takeOffers([]);
   }
 
@@ -186,52 +156,19 @@ export class ModePanel {
     );
   }
 
-  #atOnce(name, action) {
-    const made = button(name, () => this.#give(made.textContent, { action }));
-    made.id = `panel-${action.replaceAll("_", "-")}`;
-    return made;
-  }
-
-  #atRunway(name, action) {
+  #atRunway({ textContent: name, dataset: { action } }) {
     const runway = byId("panel-runway").value;
     this.#give(`${name}, runway ${runway}`, { action, runway });
   }
 
-  #field(id) {
-    const [name, unit] = FIELDS[id];
-    const input = html("input", {
-      type: "text",
-      inputmode: "decimal",
-      autocomplete: "off",
-      id: `panel-${id}`,
-      size: 5,
-      "aria-label": `${name} in ${unit}`,
-    });
-    const form = html(
-      "form",
-      html(
-        "span.dial-name",
-        `${SHORT[id] ?? name} `,
-        html("span", { class: "dim", id: `panel-${id}-unit` }, unit),
-      ),
-      html("span.dial", input),
-      html("button", { "aria-label": `Set ${name.toLowerCase()}` }, "Set"),
-    );
-    form.addEventListener("submit", (event) => {
-      event.preventDefault();
-      this.#set(id, input);
-    });
-    return form;
-  }
-
   /** Gives the command of a field, or says why it cannot be given. */
   #set(id, input) {
-    const [name, , least, most, command] = FIELDS[id],
+    const { name, min, max } = input,
       unit = byId(`panel-${id}-unit`).textContent,
       value = Number(input.value),
       { altitude, selected } = this.#shown;
-    if (input.value.trim() === "" || !(value >= least && value <= most)) {
-      tell(`${name}: expected ${least} to ${most} ${unit}.`);
+    if (input.value.trim() === "" || !(value >= Number(min) && value <= Number(max))) {
+      tell(`${name}: expected ${min} to ${max} ${unit}.`);
       return;
     }
     let target = "";
@@ -242,7 +179,7 @@ export class ModePanel {
       }
       target = `, ${selected > altitude ? "up" : "down"} to ${feet(selected)}`;
     }
-    this.#give(`${name.toLowerCase()} ${value} ${unit}${target}`, command(value, this.#shown));
+    this.#give(`${name.toLowerCase()} ${value} ${unit}${target}`, COMMANDS[id](value, this.#shown));
     input.value = "";
     input.blur();
   }

@@ -6,18 +6,15 @@ import { at, before, headingAt } from "./series.js";
 import { METRE_PER_NM, SEVERITIES, instruction, known, words } from "./words.js";
 
 const COLOURS = 8;
-const MOST_LATENCIES = 4000; // bars of a live run that are kept: some ten minutes
 const LONGEST_INTERVAL_S = 12; // between two reports of an actor: a turn of a surveillance radar
 // Intervals between reports for which an actor is shown further on after the last one.
 const AHEAD = 1.5;
 const RATE_SPAN_S = 10; // over which a vertical rate that no sensor reports is a mean
-const FULL_S = 300,
-  OLD_STEP_S = 2; // of a live run, what is older than that is kept in steps of this at least
-// Of an actor of a live run that are kept: its old ones in longer steps the longer it is there.
-const MOST_STATES = 2500;
+// Of an actor of a live run that are kept: the older ones in the longer steps.
+const MOST_STATES = 3000;
 const MOST_TRACKS = 200; // of a live run that are kept: those that were reported last
-// Of a live run that are kept, the newest.
-const MOST_ROWS = { calls: 1000, events: 2000, advisories: 1000, spoken: 200 };
+// Of a live run that are kept, the newest; bars of latencies for some ten minutes.
+const MOST_ROWS = { calls: 1000, events: 2000, advisories: 1000, latencies: 4000 };
 const CONTROLLER = "ATC"; // as recipient of advisories
 
 /** Returns the identifiers of the ends of all runways; none without an airport. */
@@ -40,6 +37,12 @@ export class Track {
   }
   get last() {
     return this.t[this.t.length - 1];
+  }
+
+  /** Indices of points of the track, not many more than `most`, and the last one. */
+  thinned(most) {
+    const step = Math.ceil(this.t.length / most);
+    return [...this.t.keys()].filter((i) => (this.t.length - 1 - i) % step === 0);
   }
 
   /** Metres east and north of the centre at a time. */
@@ -94,26 +97,15 @@ export class Track {
   }
 }
 
-const ROWS_OF_TRACK = [
-  "t",
-  "east_nm",
-  "north_nm",
-  "altitude_ft",
-  "heading_deg",
-  "on_ground",
-  "phases",
-];
-
 /** The track of an actor of a live run, to which states are added. */
 export class LiveTrack extends Track {
   patience = 15;
   #velocities = []; // m/s eastward and northward, and ft/min upward where a sensor reports that
   #interval = 0; // s between two reports, rather too long than too short
-  #thinAt = MOST_STATES;
-  #oldStep = OLD_STEP_S;
 
   constructor(callsign, category, type, index) {
-    const rows = Object.fromEntries(ROWS_OF_TRACK.map((name) => [name, []]));
+    const names = "t east_nm north_nm altitude_ft heading_deg on_ground phases".split(" "),
+      rows = Object.fromEntries(names.map((name) => [name, []]));
     super({ callsign, category, type, ...rows }, index);
   }
 
@@ -131,34 +123,15 @@ export class LiveTrack extends Track {
     this.altitude_ft.push(altitude);
     this.heading_deg.push(heading);
     this.#velocities.push(velocity);
-    if (this.t.length > this.#thinAt) this.#thin();
+    if (this.t.length > MOST_STATES) this.#thin();
   }
 
-  /** Keeps few states of what is long ago, so that a run of any length needs no more memory. */
+  /** Keeps every second state of the older half, so that a run of any length needs no more memory. */
   #thin() {
-    let kept = this.#every(this.#oldStep);
-    while (kept.length > MOST_STATES && this.#oldStep < this.last)
-      kept = this.#every((this.#oldStep *= 2));
+    const thinned = (values) => values.filter((_, i) => i % 2 === 0 || i > MOST_STATES / 2);
     for (const name of ["t", "east", "north", "altitude_ft", "heading_deg"])
-      this[name] = kept.map((i) => this[name][i]);
-    this.#velocities = kept.map((i) => this.#velocities[i]);
-    this.#thinAt = kept.length + 1000;
-  }
-
-  /**
-   * Indices of the states of the last minutes, and of one in so many seconds of what was before.
-   */
-  #every(step) {
-    const kept = [],
-      full = this.last - FULL_S;
-    let last = -Infinity;
-    this.t.forEach((t, i) => {
-      if (t >= full || t - last >= step) {
-        kept.push(i);
-        last = t;
-      }
-    });
-    return kept;
+      this[name] = thinned(this[name]);
+    this.#velocities = thinned(this.#velocities);
   }
 
   /**
@@ -207,7 +180,7 @@ export class Run {
   advised = 0; // changes so far of the advisories that are seen
   #moments = null; // until somebody asks for them
   ownCategory = null; // of the seat: "unit", "aircraft" or "vehicle"; null until it is known
-  #own = null; // the seat of the person at this page
+  own = null; // the seat of the person at this page, who sees the advisories to it alone
   tuned = () => null; // returns the frequencies in kHz that are listened to here; null: all
   plots = new RadarPlots();
   #actors; // that have had a track so far
@@ -230,8 +203,7 @@ export class Run {
 
   /** Forgets what was seen of a live run: another seat sees something else. */
   forget() {
-    for (const name of ["tracks", "cameras", "latencies", ...Object.keys(MOST_ROWS)])
-      this[name] = [];
+    for (const name of ["tracks", "cameras", ...Object.keys(MOST_ROWS)]) this[name] = [];
     this.plots = new RadarPlots();
     this.bounds = NOWHERE;
     this.#callsigns.clear();
@@ -257,10 +229,6 @@ export class Run {
       changed.add(kind);
       if (this.#takers[kind]?.(...rest)) changed.add("track");
     }
-    if (this.latencies.length > 2 * MOST_LATENCIES)
-      this.latencies.splice(0, this.latencies.length - MOST_LATENCIES);
-    // Nobody at a seat goes back in time.
-    if (this.#own !== null && changed.has("plot")) this.plots.forgetPast(this.now ?? 0);
     if (changed.has("call")) this.calls.sort((a, b) => a.from - b.from);
     for (const [name, most] of Object.entries(MOST_ROWS))
       if (this[name].length > 1.2 * most) this[name].splice(0, this[name].length - most);
@@ -288,7 +256,6 @@ export class Run {
       put(this.advisories, row, (one) =>
         ["id", "revision", "equipment"].every((part) => one[part] === row[part]),
       ),
-    spoken: (row) => void this.spoken.push(row),
     event: (row) => void this.events.push(row),
     latency: (bar) => void this.latencies.push(bar),
     camera: (camera) => void this.cameras.push(camera),
@@ -342,28 +309,15 @@ export class Run {
     return this.#callsigns.get(name) ?? name;
   }
 
-  /**
-   * The seat of the person at this page, which sees the advisories to it alone; null: all are seen.
-   */
-  get own() {
-    return this.#own;
-  }
-
   /** True if a call is on a frequency that is listened to here. */
   hears(call) {
     const heard = this.tuned();
     return !heard || heard.includes(call.frequency_khz);
   }
 
-  set own(seat) {
-    if (seat !== this.#own) this.ownCategory = null;
-    this.#own = seat;
-    this.advised += 1;
-  }
-
   /** Texts of an advisory that are seen here. */
   textsOf(row) {
-    return this.#own === null
+    return this.own === null
       ? row.texts
       : row.texts.filter(({ recipient }) => this.isTo(recipient));
   }
@@ -371,9 +325,9 @@ export class Run {
   /** True if what is sent to a recipient is for the own seat. */
   isTo(recipient) {
     return (
-      recipient === this.#own ||
-      (recipient === CONTROLLER && this.#own === this.controller) ||
-      this.callsignOf(recipient) === this.#own
+      recipient === this.own ||
+      (recipient === CONTROLLER && this.own === this.controller) ||
+      this.callsignOf(recipient) === this.own
     );
   }
 
@@ -426,41 +380,18 @@ const PHASES = {
   runway_incursion: "runway incursion",
   collision: "collision",
 };
-const TOLD = [
-  "advisory",
-  "equipment",
-  "conflict",
-  "pilot_reacts",
-  "failure",
-  "unable",
-  "status",
-  "actor_ended",
-  "worker_lost",
-  "radio_lost",
-  "cameras_lost",
-  "command",
-  "refused",
-  "seat",
-  "pace",
-  "finished",
-  "stopped",
-];
+// Kinds of events to which nobody jumps: calls have rows of their own.
+const UNTOLD = ["radio", "transcript", "llm", "unregistered"];
 
 /** The events that one may jump to, in the order of their times. */
 function momentsOf(run) {
-  const calls = run.calls.map((call) => ({
-    t: call.from,
-    kind: "radio",
-    text: `${call.speaker ?? "somebody"}: ${call.said ?? ""}`,
+  const calls = run.calls.map(({ from, speaker, said }) => ({
+    t: from,
+    text: `${speaker ?? "somebody"}: ${said ?? ""}`,
   }));
   const others = run.events
-    .filter((event) => TOLD.includes(event.kind) && event.t > 0)
-    .map((event) => ({
-      t: event.t,
-      kind: event.kind,
-      severity: event.severity,
-      text: textOf(event),
-    }));
+    .filter(({ kind, t }) => !UNTOLD.includes(kind) && t > 0)
+    .map((event) => ({ t: event.t, text: textOf(event) }));
   const people = personMoments(run.summary?.people),
     seen = new Set(),
     all = [...calls, ...others, ...people].sort((a, b) => a.t - b.t);
@@ -500,9 +431,7 @@ function commandOf(text) {
 }
 
 function ofReaction({ seat, reaction }) {
-  const about = [reaction.severity, words(reaction.advised ?? "")]
-      .filter((part) => part)
-      .join(", "),
+  const about = [reaction.severity, words(reaction.advised ?? "")].filter(Boolean).join(", "),
     began = reaction.counted_from === "seen" ? reaction.t_seen_s : reaction.t_heard_s;
   return [
     { t: reaction.t_seen_s, text: `${seat} sees ${about}` },
@@ -529,5 +458,5 @@ function personMoments(people = []) {
     ...reactions.flatMap((reaction) => ofReaction({ seat, reaction })),
     ...(workload?.isa ?? []).map((rating) => ofRating({ seat, rating })),
   ]);
-  return found.filter(({ t }) => known(t)).map((moment) => ({ ...moment, kind: "person" }));
+  return found.filter(({ t }) => known(t));
 }

@@ -2,9 +2,9 @@
 // own track up.
 
 import { Pane } from "./pane.js";
-import { byId, html } from "./dom.js";
-import { boxesOff, firstFree } from "./labels.js";
-import { box, circle, label, line, onSize, shape } from "./pen.js";
+import { byId, offer } from "./dom.js";
+import { runwayNumbers } from "./labels.js";
+import { box, circle, label, line, onSize, stamp } from "./pen.js";
 import { INK } from "./primary_flight_display.js";
 import { METRE_PER_NM, SEVERITIES, whole } from "./words.js";
 
@@ -12,19 +12,28 @@ const RANGES_NM = [1, 2.5, 5, 10, 20, 40, 80];
 const NEAR_NM = 6,
   NEAR_FT = 1200; // proximate traffic (RTCA DO-185B, 2.2.6.1)
 const VEHICLES_NM = 2.5; // greatest range with which vehicles are shown
-const OWN = { fill: INK.black, edge: INK.text, width: 2 };
+const OWN = new Path2D("M0-11 8 9H-8Z"),
+  AIRCRAFT = new Path2D("M0-8 6 0 0 8-6 0Z"),
+  VEHICLE = new Path2D("M-4-4H4V4H-4Z");
+/** Outlines of traffic with an advisory, by severity. */
+const SYMBOLS = {
+  WARNING: new Path2D("M-7-7H7V7H-7Z"),
+  CAUTION: new Path2D("M-7.5 0a7.5 7.5 0 1 0 15 0a7.5 7.5 0 1 0-15 0Z"),
+};
 const IDENTS_OFF_PX = [12, 26, 40]; // from the end of a runway, where its number is tried
 const CLIMBS_FPM = 500; // from which an arrow tells that traffic climbs or descends
 
 export class NavigationDisplay extends Pane {
   #canvas = byId("nd");
-  #size = onSize(this.#canvas, () => {}); // It is drawn with each frame.
+  #size = onSize(this.#canvas); // It is drawn with each frame.
   #range = byId("nd-range");
 
   constructor(run, clock) {
     super(run, clock);
-    const options = RANGES_NM.map((nm) => html("option", { value: nm }, `${nm} NM`));
-    this.#range.replaceChildren(...options);
+    offer(
+      this.#range,
+      RANGES_NM.map((nm) => [nm, `${nm} NM`]),
+    );
   }
 
   /** Shows the range that one begins with: short at an airport. */
@@ -73,8 +82,8 @@ export class NavigationDisplay extends Pane {
         (one) =>
           one.track !== track && one.state.isThere && !one.state.ended && this.#isShown(one.track),
       );
-    const seen = others.map((one) => this.#traffic(view, one, shown, t)).filter((text) => text);
-    shape(pen, OWN, [x, y - 11], [x + 8, y + 9], [x - 8, y + 9]);
+    const seen = others.map((one) => this.#traffic(view, one, shown, t)).filter(Boolean);
+    stamp(pen, OWN, [x, y], { fill: INK.black, edge: INK.text, width: 2 });
     this.#text(`GS ${whole(shown.ground_speed_kt)}`, 8, 14, INK.text);
     this.#text(`ALT ${whole(shown.altitude_ft)}`, 8, 32, INK.text);
     if (tcas?.severity === "CAUTION") this.#text("TRAFFIC", 8, 52, INK.caution, 15);
@@ -102,23 +111,16 @@ export class NavigationDisplay extends Pane {
     return [x + e * cos - n * sin, y - e * sin - n * cos];
   }
 
-  /** Draws the runways, and their numbers off their ends: farther off where others are. */
+  /** Draws the runways, and their numbers off their ends. */
   #runways(view) {
-    const taken = [];
-    for (const { pavement, ends } of this.run.airport?.runways ?? []) {
-      const corners = pavement.map(([east, north]) => this.#pixel(view, east, north));
+    const runways = this.run.airport?.runways ?? [],
+      pixel = ([east, north]) => this.#pixel(view, east, north);
+    for (const { pavement } of runways) {
+      const corners = pavement.map(pixel);
       line(this.#size.pen, INK.text, 2, ...corners, corners[0]);
-      ends.forEach(({ ident, start }, i) => {
-        const from = this.#pixel(view, ...start),
-          to = this.#pixel(view, ...ends[1 - i].start),
-          length = Math.hypot(to[0] - from[0], to[1] - from[1]),
-          found = firstFree(boxesOff(from, to, length, IDENTS_OFF_PX, [10, 7]), taken);
-        if (length <= 30 || !found) return;
-        taken.push(found);
-        const [left, top, right, bottom] = found;
-        this.#text(ident, (left + right) / 2, (top + bottom) / 2, INK.dim, 11, "center");
-      });
     }
+    for (const { ident, box } of runwayNumbers(runways, pixel, IDENTS_OFF_PX, [10, 7], 30))
+      this.#text(ident, box[0] + 10, box[1] + 7, INK.dim, 11, "center");
   }
 
   #compass({ x, y, reach }, shown) {
@@ -180,16 +182,9 @@ export class NavigationDisplay extends Pane {
   }
 
   #symbol(x, y, severity, isNear, ink, category) {
-    const { pen } = this.#size,
-      fill = severity >= 2 || isNear ? ink : INK.black,
-      look = { fill, edge: ink, width: 1.8 };
-    const square = (half) => {
-      const [left, top, right, bottom] = [x - half, y - half, x + half, y + half];
-      shape(pen, look, [left, top], [right, top], [right, bottom], [left, bottom]);
-    };
-    if (severity === 3) square(7);
-    else if (severity === 2) circle(pen, ink, 1.8, [x, y], 7.5, fill);
-    else if (category === "vehicle") square(4);
-    else shape(pen, look, [x, y - 8], [x + 6, y], [x, y + 8], [x - 6, y]);
+    const fill = severity >= 2 || isNear ? ink : INK.black,
+      isVehicle = severity < 2 && category === "vehicle",
+      outline = isVehicle ? VEHICLE : (SYMBOLS[SEVERITIES[severity]] ?? AIRCRAFT);
+    stamp(this.#size.pen, outline, [x, y], { fill, edge: ink, width: 1.8 });
   }
 }

@@ -11,8 +11,8 @@ const MOST_SHOWN = 10; // at a time, the most severe
 
 export class OwnAdvisories {
   #run;
-  #tell;
-  #warn;
+  #live;
+  #loudspeaker;
   // Least severity that the assistant speaks; null: it speaks none; undefined: not known yet.
   spokenFrom = undefined;
   #shown = new Map(); // the newest text of each advisory in force
@@ -20,14 +20,10 @@ export class OwnAdvisories {
   #sounded = new Set(); // what was audible, and is not to sound again
   #rows = new Rows(byId("own-advisories"));
 
-  /**
-   * `tell(perceived)` reports to the run; `warn(severity, url)` sounds, and returns when it is
-   * audible, in s.
-   */
-  constructor(run, tell, warn) {
-    this.#run = run;
-    this.#tell = tell;
-    this.#warn = warn;
+  constructor(live, loudspeaker) {
+    this.#run = live.run;
+    this.#live = live;
+    this.#loudspeaker = loudspeaker;
   }
 
   /** Takes in an advisory, as the run publishes it. */
@@ -75,7 +71,7 @@ export class OwnAdvisories {
   async #sound(row, recipient, url) {
     const name = soundOf(row, recipient);
     this.#sounded.add(name);
-    const after = await this.#warn(row.severity, url);
+    const after = await this.#loudspeaker.warn(row.severity, url);
     if (after === null) this.#sounded.delete(name);
     else this.#report(row, recipient, "heard", after);
   }
@@ -84,7 +80,9 @@ export class OwnAdvisories {
     const name = `${way} ${id} ${revision} ${recipient}`;
     if (equipment || this.#told.has(name)) return;
     this.#told.add(name);
-    this.#tell({ id, revision, recipient, way, after_s: after });
+    const after_s = this.#live.afterArrival(after);
+    // Whoever has just left the seat need not be told that this came too late.
+    this.#live.act({ do: "perceive", id, revision, recipient, way, after_s }).catch(() => {});
   }
 
   #draw() {
@@ -117,6 +115,6 @@ function restsOn(evidence, said) {
     basis ? `rests on ${basis}` : "",
     known(toGo) ? `time to go ${seconds(toGo)}` : "",
   ]
-    .filter((part) => part)
+    .filter(Boolean)
     .join("; ");
 }

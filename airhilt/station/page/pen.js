@@ -16,7 +16,7 @@ export const severityInk = (severity) => colour(SEVERITY_INKS[severity] ?? "--di
  * Keeps the drawing context, width and height of a canvas in an object, which it returns, and calls
  * a function whenever they change, with true for the first time. Until then the pen is null.
  */
-export function onSize(canvas, changed, size = { pen: null, width: 0, height: 0 }) {
+export function onSize(canvas, changed = () => {}, size = { pen: null, width: 0, height: 0 }) {
   const resized = () => {
     const factor = devicePixelRatio || 1,
       { width, height } = canvas.getBoundingClientRect();
@@ -43,10 +43,9 @@ export function copyOf(canvas) {
 }
 
 /** Begins a path through points. */
-export function path(pen, points, isClosed = false) {
+function path(pen, points) {
   pen.beginPath();
   for (const [x, y] of points) pen.lineTo(x, y);
-  if (isClosed) pen.closePath();
 }
 
 /** Draws a line through points. */
@@ -57,28 +56,35 @@ export function line(pen, ink, width, ...points) {
   pen.stroke();
 }
 
-/** Draws a circle, and fills it if that has a colour. */
-export function circle(pen, ink, width, [x, y], radius, fill = null) {
+/** Draws an outline at a place, turned in rad, scaled, or mirrored left and right. */
+export function stamp(pen, outline, [x, y], look) {
+  const { fill, edge, width = 1, turn = 0, size = 1, mirrored = false } = look;
+  pen.save();
+  pen.translate(x, y);
+  pen.rotate(turn);
+  pen.scale(mirrored ? -size : size, size);
+  pen.fillStyle = fill;
+  if (fill) pen.fill(outline);
+  pen.strokeStyle = edge;
+  pen.lineWidth = width / size;
+  if (edge) pen.stroke(outline);
+  pen.restore();
+}
+
+/** Draws a circle. */
+export function circle(pen, ink, width, [x, y], radius) {
   pen.beginPath();
   pen.arc(x, y, radius, 0, 2 * Math.PI);
-  if (fill) {
-    pen.fillStyle = fill;
-    pen.fill();
-  }
   pen.strokeStyle = ink;
   pen.lineWidth = width;
   pen.stroke();
 }
 
-/** Draws the shape between points; without an edge where that has no ink. */
-export function shape(pen, { fill, edge = null, width = 1 }, ...points) {
-  path(pen, points, true);
+/** Fills the shape between points. */
+export function shape(pen, fill, points) {
+  path(pen, points);
   pen.fillStyle = fill;
   pen.fill();
-  if (!edge) return;
-  pen.strokeStyle = edge;
-  pen.lineWidth = width;
-  pen.stroke();
 }
 
 /** Fills a box, given by its left and top edges, its width and its height. */

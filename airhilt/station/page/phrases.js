@@ -1,7 +1,9 @@
 // Phrases for the situation, that can be chosen instead of typed.
 
-import { button, byId, html, on } from "./dom.js";
+import { button, byId, offer, on } from "./dom.js";
 import { identsOf } from "./model.js";
+import { Rows } from "./rows.js";
+import { ask } from "./server.js";
 import { METRE_PER_FT, METRE_PER_NM } from "./words.js";
 
 const PERIOD_MS = 3000;
@@ -12,6 +14,7 @@ export class Phrases {
   #style = "faa";
   #told = "";
   #asked = 0;
+  #rows = new Rows(byId("phrase-list"));
 
   constructor(run) {
     this.#run = run;
@@ -26,7 +29,7 @@ export class Phrases {
     this.#style = style;
     byId("phrases").hidden = !own;
     if (isOther) {
-      byId("phrase-list").replaceChildren();
+      this.#show([]);
       this.#asked += 1; // What comes yet is for the former seat.
     }
     this.#told = "";
@@ -42,15 +45,6 @@ export class Phrases {
 
   get #isUnit() {
     return this.#run.ownCategory === "unit";
-  }
-
-  /** Fills a choice, unless it has the same options already; keeps what is chosen. */
-  #offer(id, values, first = values[0]) {
-    const select = byId(id),
-      chosen = select.value;
-    if ([...select.options].map(({ value }) => value).join() === values.join()) return;
-    select.replaceChildren(...values.map((value) => html("option", { value }, value)));
-    select.value = values.includes(chosen) ? chosen : first;
   }
 
   #situation() {
@@ -96,36 +90,29 @@ export class Phrases {
     if (!this.#run.ownCategory || !this.#run.categories) return;
     const idents = identsOf(this.#run.airport),
       spoken = Object.keys(this.#run.categories).filter((name) => name !== this.#own);
-    this.#offer("phrase-to", spoken);
-    this.#offer("phrase-runway", idents);
+    offer(byId("phrase-to"), spoken);
+    offer(byId("phrase-runway"), idents);
     byId("phrase-to-label").hidden = !this.#isUnit;
     byId("phrase-runway-label").hidden = !idents.length || this.#run.ownCategory === "aircraft";
-    const situation = JSON.stringify(this.#situation());
-    if (situation === this.#told) return;
-    this.#told = situation;
+    const situation = this.#situation(),
+      told = JSON.stringify(situation);
+    if (told === this.#told) return;
+    this.#told = told;
     const asked = ++this.#asked;
     try {
-      const answer = await fetch("api/phrases", {
-        method: "POST",
-        headers: { "Content-Type": "application/json" },
-        body: situation,
-      });
-      if (answer.ok && asked === this.#asked) this.#show(await answer.json());
+      const phrases = await ask("api/phrases", situation);
+      if (asked === this.#asked) this.#show(phrases);
     } catch {
       this.#told = "";
     } // The server does not answer; the page tells that.
   }
 
   #show(phrases) {
-    const list = byId("phrase-list"),
-      old = [...list.children];
-    const fresh = phrases.map(
-      ({ label, text }) =>
-        old.find((node) => node.title === text && node.textContent === label) ??
-        button(label, () => choose(text), { title: text }),
+    this.#rows.show(
+      phrases,
+      ({ label, text }) => `${label}: ${text}`,
+      ({ label, text }) => button(label, () => choose(text), { title: text }),
     );
-    if (fresh.length !== old.length || fresh.some((node, i) => node !== old[i]))
-      list.replaceChildren(...fresh);
   }
 }
 

@@ -1,7 +1,7 @@
 // The plan: what is drawn on it, in which order, and how one moves on it.
 
 import { Pane } from "./pane.js";
-import { byId, colour, html, on } from "./dom.js";
+import { byId, colour, offer, on } from "./dom.js";
 import { NOWHERE, widened } from "./model.js";
 import { box, copyOf, line, onSize } from "./pen.js";
 import { drawAirport } from "./plan_map.js";
@@ -11,7 +11,6 @@ import { drawActor, drawBlocks, drawTracks } from "./plan_traffic.js";
 import { PlanView, ROOM } from "./plan_view.js";
 import { known, whole } from "./words.js";
 
-const LEADERS_S = [0, 10, 30, 60, 120];
 const MOST_NAMED = 30; // actors in words
 const RENEWED_MS = 1000; // after which tracks that grow are drawn again
 // Of the width, by which more is shown than is needed, so that the view changes seldom.
@@ -33,7 +32,6 @@ export class Plan extends Pane {
   #ringNames = []; // those of the range rings
   #still = null; // picture of what does not move
   #stillSince = 0;
-  #described = 0;
   #describing = null; // a timer, after which the plan is told in words
 
   constructor(run, clock) {
@@ -81,22 +79,13 @@ export class Plan extends Pane {
   }
 
   #views() {
-    const options = [["all", "all traffic"]];
-    if (this.run.airport) options.push(["airport", "airport"]);
-    if (this.#closest()) options.push(["conflict", "conflict"]);
-    byId("plan-view").replaceChildren(
-      ...options.map(([value, text]) => html("option", { value }, text)),
-      html("option", { value: "", hidden: true }, "free"),
-    );
-    byId("plan-leader").replaceChildren(
-      ...LEADERS_S.map((s) =>
-        html(
-          "option",
-          { value: s, selected: s === (this.run.airport ? 30 : 60) },
-          s ? `${s} s ahead` : "no leaders",
-        ),
-      ),
-    );
+    offer(byId("plan-view"), [
+      ["all", "all traffic"],
+      ...(this.run.airport ? ["airport"] : []),
+      ...(this.#closest() ? ["conflict"] : []),
+      ["", "free"],
+    ]);
+    byId("plan-leader").value = this.run.airport ? 30 : 60;
   }
 
   #controls() {
@@ -205,21 +194,15 @@ export class Plan extends Pane {
     view.pen.drawImage(this.#still, 0, 0, view.width, view.height);
     if (!this.run.airport) this.#drawRings();
     if (this.#camera) drawCamera(view, this.#camera);
-    const states = this.run.states(t).filter(({ state }) => state.isThere),
-      plots = this.run.plots.at(t),
+    const states = this.#statesThere(),
       leaderS = Number(byId("plan-leader").value);
-    drawPlots(view, plots);
+    drawPlots(view, this.run.plots.at(t));
     for (const one of states) drawActor(view, this.run, one, t, leaderS);
     drawBlocks(view, this.run, states, t, [...this.#names, ...this.#ringNames]);
     drawScale(view);
-    if (this.clock.playing) return;
-    const after = this.clock.following ? this.#described + RENEWED_MS - now : 0;
-    clearTimeout(this.#describing);
     // The last picture before the clock stands is told too.
-    if (after > 0) this.#describing = setTimeout(() => this.draw(), after);
-    if (after > 0) return;
-    this.#described = now;
-    this.#describe(states, plots);
+    if (this.clock.following) this.#describing ??= setTimeout(() => this.#describe(), RENEWED_MS);
+    else this.#describe();
   }
 
   /** Draws the airport, the rings about it, and the tracks, and keeps the picture of them. */
@@ -244,12 +227,18 @@ export class Plan extends Pane {
     this.#ringNames = isDrawn ? drawRings(this.#view, middle()) : [];
   }
 
-  #describe(states, plots) {
-    const actors = states.map(
+  #statesThere() {
+    return this.run.states(this.clock.t).filter(({ state }) => state.isThere);
+  }
+
+  #describe() {
+    this.#describing = null;
+    if (this.clock.playing) return;
+    const actors = this.#statesThere().map(
       ({ track, state }) =>
         `${track.callsign} ${state.ended ? "ended" : state.onGround ? state.phase || "on the ground" : `${whole(state.altitude)} feet`}`,
     );
-    const parts = [...actors, ...inWords(plots)],
+    const parts = [...actors, ...inWords(this.run.plots.at(this.clock.t))],
       rest = parts.length - MOST_NAMED;
     if (rest > 0) parts.splice(MOST_NAMED, rest, `and ${rest} more`);
     this.#canvas.ariaLabel = `Plan view: ${parts.join(", ") || "no traffic"}`;

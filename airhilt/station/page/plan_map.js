@@ -1,7 +1,7 @@
 // The airport on the plan: water, runways, taxiways, buildings, and their names.
 
 import { colour } from "./dom.js";
-import { boxesOff, firstFree } from "./labels.js";
+import { runwayNumbers } from "./labels.js";
 import { BOLD, FONT_SMALL, line, shape, write } from "./pen.js";
 
 const NAMES_OFF_PX = [14, 30, 46]; // from the end of a runway, where its number is tried
@@ -9,7 +9,7 @@ const NAMES_OFF_PX = [14, 30, 46]; // from the end of a runway, where its number
 /** Draws an airport, and returns the boxes of the names of its runways. */
 export function drawAirport(view, airport) {
   const { pen, scale } = view,
-    fill = (outline, ink) => shape(pen, { fill: colour(ink) }, ...view.pixels(outline)),
+    fill = (outline, ink) => shape(pen, colour(ink), view.pixels(outline)),
     leg = ([e1, n1, e2, n2], ink, width) =>
       line(pen, colour(ink), width, view.pixel([e1, n1]), view.pixel([e2, n2]));
   airport.water.forEach(({ outline }) => fill(outline, "--water"));
@@ -46,21 +46,12 @@ function nameTaxiways(view, airport) {
   }
 }
 
-function nameRunways(view, airport) {
+function nameRunways(view, { runways }) {
   const { pen } = view,
-    names = [];
+    numbers = runwayNumbers(runways, (place) => view.pixel(place), NAMES_OFF_PX, [11, 8], 40);
   pen.font = BOLD;
   pen.textAlign = "center";
-  for (const { ends } of airport.runways)
-    ends.forEach(({ ident, start }, i) => {
-      const from = view.pixel(start),
-        to = view.pixel(ends[1 - i].start),
-        length = Math.hypot(to[0] - from[0], to[1] - from[1]);
-      if (length < 40) return;
-      const boxes = boxesOff(from, to, length, NAMES_OFF_PX, [11, 8]),
-        box = firstFree(boxes, names) ?? boxes[0];
-      names.push(box);
-      write(pen, ident, box[0] + 11, box[1] + 12, colour("--ink"), colour("--map"));
-    });
-  return names;
+  for (const { ident, box } of numbers)
+    write(pen, ident, box[0] + 11, box[1] + 12, colour("--ink"), colour("--map"));
+  return numbers.map(({ box }) => box);
 }

@@ -34,7 +34,7 @@ export function drawPlots(view, plots) {
 
 /** Returns a code and an altitude, as far as they are known. */
 const joined = (code, altitude, inUnit) =>
-  [code, known(altitude) ? inUnit(altitude) : null].filter((part) => part).join(" ");
+  [code, known(altitude) ? inUnit(altitude) : null].filter(Boolean).join(" ");
 
 /** Returns what the last turn has found besides the actors, in words. */
 export const inWords = (plots) =>

@@ -2,7 +2,7 @@
 
 import { colour } from "./dom.js";
 import { freeBox, level } from "./labels.js";
-import { BOLD, FONT, line, path, severityInk, shape, write } from "./pen.js";
+import { BOLD, FONT, line, severityInk, stamp, write } from "./pen.js";
 import { whole } from "./words.js";
 
 const HISTORY_DOTS = 8;
@@ -10,53 +10,30 @@ const MOST_POINTS = 1500; // of a track that are drawn
 // From which an arrow shows that an actor climbs or descends: three steps of the rate that ADS-B
 // reports (64 ft/min, RTCA DO-260B, 2.2.3.2.6.1).
 const CLIMBS_FPM = 200;
-// Corners of the shape about an actor, its turn, and its half width in pixels, by severity.
-const AROUND = { WARNING: [4, Math.PI / 4, 20], CAUTION: [3, -Math.PI / 2, 25] };
-const CIRCLE = [40, 0, 20];
+// Outlines about an actor, by the severity of the advisory about it.
+const AROUND = {
+  WARNING: new Path2D("M14-14V14H-14V-14Z"),
+  CAUTION: new Path2D("M0-25 21.7 12.5H-21.7Z"),
+};
+const CIRCLE = new Path2D("M-20 0a20 20 0 1 0 40 0a20 20 0 1 0-40 0Z");
+const ARROW = new Path2D("M0-5 4 4H-4Z");
 
-// Outlines of actors, nose up: places right and back of the middle, in half lengths.
-
-/** Returns an outline of which the right half is given, from the front to the back. */
-const mirrored = (half) => [...half, ...half.toReversed().map(([right, back]) => [-right, back])];
-
-const AIRCRAFT = mirrored([
-  [0, -1],
-  [0.12, -0.7],
-  [0.12, -0.25],
-  [1, 0.2],
-  [1, 0.36],
-  [0.12, 0.14],
-  [0.08, 0.66],
-  [0.4, 0.86],
-  [0.4, 1],
-  [0, 0.9],
-]);
-const VEHICLE = mirrored([
-  [0.3, -1],
-  [0.6, -0.5],
-  [0.6, 1],
-]);
-const ANIMAL = mirrored([
-  [0, -0.9],
-  [0.9, 0],
-  [0, 0.9],
-]);
-
-/** Returns the outline of a category of actors, and its least half length in pixels. */
-function symbolOf(category) {
-  const outline = { vehicle: VEHICLE, wildlife: ANIMAL }[category] ?? AIRCRAFT;
-  return { outline, least: outline === AIRCRAFT ? 10 : 6 };
-}
+// Outlines of actors, nose up, in half lengths.
+const AIRCRAFT = new Path2D(
+  "M0-1 .12-.7V-.25L1 .2V.36L.12 .14 .08 .66 .4 .86V1L0 .9-.4 1V.86L-.08 .66-.12 .14-1 .36V.2L-.12-.25V-.7Z",
+);
+const OUTLINES = {
+  vehicle: new Path2D("M.3-1 .6-.5V1H-.6V-.5L-.3-1Z"),
+  wildlife: new Path2D("M0-.9 .9 0 0 .9-.9 0Z"),
+};
 
 /** Draws the track of each actor, as far as it is known. */
 export function drawTracks(view, tracks) {
   const { pen } = view;
   pen.setLineDash([2, 3]);
   for (const track of tracks) {
-    const step = Math.ceil(track.t.length / MOST_POINTS) || 1,
-      points = [];
-    for (let i = track.t.length - 1; i >= 0; i -= step)
-      points.push(view.pixel([track.east[i], track.north[i]]));
+    const places = track.thinned(MOST_POINTS).map((i) => [track.east[i], track.north[i]]),
+      points = view.pixels(places);
     line(pen, colour(track.colour), 1, ...points);
   }
   pen.setLineDash([]);
@@ -76,19 +53,17 @@ export function drawActor(view, run, { track, state }, t, leaderS) {
     [sin, cos] = [Math.sin(state.course), Math.cos(state.course)];
   if (ahead >= 6) line(pen, ink, 1.4, [x, y], [x + ahead * sin, y - ahead * cos]);
   const severity = run.severityOf(track.callsign, t);
-  if (severity) drawSeverity(pen, x, y, severity);
+  if (severity)
+    stamp(pen, AROUND[severity] ?? CIRCLE, [x, y], { edge: severityInk(severity), width: 2 });
   drawSymbol(view, track, state.heading, [x, y]);
 }
 
-function drawSymbol(view, track, heading, [x, y]) {
-  const { outline, least } = symbolOf(track.category),
-    size = Math.max(((track.length_m ?? 0) * view.scale) / 2, least),
-    [sin, cos] = [size * Math.sin(heading), size * Math.cos(heading)];
-  const points = outline.map(([right, back]) => [
-    x + right * cos - back * sin,
-    y + right * sin + back * cos,
-  ]);
-  shape(view.pen, { fill: colour(track.colour), edge: colour("--map") }, ...points);
+function drawSymbol({ pen, scale }, track, heading, place) {
+  const outline = OUTLINES[track.category] ?? AIRCRAFT,
+    least = outline === AIRCRAFT ? 10 : 6, // half length in pixels
+    size = Math.max(((track.length_m ?? 0) * scale) / 2, least);
+  const look = { fill: colour(track.colour), edge: colour("--map"), turn: heading, size };
+  stamp(pen, outline, place, look);
 }
 
 /** Draws dots behind an actor, where it was some seconds ago. */
@@ -103,19 +78,6 @@ function drawHistory(view, run, track, [x, y], t) {
     pen.arc(px, py, 2.2 - i * 0.12, 0, 2 * Math.PI);
     pen.fill();
   }
-}
-
-/** Draws the shape around an actor that an advisory is about. */
-function drawSeverity(pen, x, y, severity) {
-  const [corners, turn, reach] = AROUND[severity] ?? CIRCLE;
-  const points = Array.from({ length: corners }, (_, i) => {
-    const angle = turn + (i / corners) * 2 * Math.PI;
-    return [x + reach * Math.cos(angle), y + reach * Math.sin(angle)];
-  });
-  path(pen, points, true);
-  pen.strokeStyle = severityInk(severity);
-  pen.lineWidth = 2;
-  pen.stroke();
 }
 
 /** Draws data blocks, each where it covers no other, no symbol, and none of the boxes of names. */
@@ -146,8 +108,9 @@ export function drawBlocks(view, run, states, t, names) {
       pen.font = font;
       write(pen, text, left + 2, top + 12 + i * 14, ink, colour("--map"));
     });
-    if (!state.ended && !state.onGround && Math.abs(state.rate) >= CLIMBS_FPM)
-      drawArrow(pen, left + 8 + pen.measureText(level(state.altitude)).width, top + 22, state.rate);
+    if (state.ended || state.onGround || Math.abs(state.rate) < CLIMBS_FPM) continue;
+    const place = [left + 8 + pen.measureText(level(state.altitude)).width, top + 22];
+    stamp(pen, ARROW, place, { fill: colour("--ink"), turn: state.rate > 0 ? 0 : Math.PI });
   }
 }
 
@@ -166,11 +129,4 @@ function linesOf(track, state, severity) {
   ];
   if (severity) lines.push({ text: severity, font: FONT, ink: severityInk(severity) });
   return lines;
-}
-
-/** Draws an arrow, up or down, in a data block. */
-function drawArrow(pen, x, y, rate) {
-  const side = Math.sign(rate),
-    foot = y + 4 * side;
-  shape(pen, { fill: colour("--ink") }, [x, y - 5 * side], [x + 4, foot], [x - 4, foot]);
 }

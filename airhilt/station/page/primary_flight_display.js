@@ -2,7 +2,7 @@
 // is selected.
 
 import { byId } from "./dom.js";
-import { BOLD, box, label, line, onSize, shape, within } from "./pen.js";
+import { BOLD, box, label, line, onSize, stamp, within } from "./pen.js";
 import { bearing, whole } from "./words.js";
 
 // Colours of the instrument, the same in a light and in a dark page (FAA AC 25-11B, 31.c).
@@ -31,17 +31,10 @@ const KNOTS_A_TAPE = 80,
   DEGREES_A_HEIGHT = 44,
   DEGREES_A_WIDTH = 60;
 
-// The outline of a selected value on a tape: places inward of its edge, and below.
-const BUG = [
-  [0, 0],
-  [7, -6],
-  [7, -11],
-  [0, -11],
-  [0, 11],
-  [7, 11],
-  [7, 6],
-  [0, 0],
-];
+// The outline of a selected value on a tape, at its left edge.
+const BUG = new Path2D("M0 0 7-6V-11H0V11H7V6Z");
+const POINTER = new Path2D("M0 0 7 12H-7Z"); // of the bank scale
+const DRIFT = new Path2D("M0 0-5 7 0 14 5 7Z"); // the track on the heading scale
 const GEAR = { 0: ["GEAR UP", INK.text], 1: ["GEAR DOWN", INK.mode] };
 const RADIAN = Math.PI / 180;
 const BANKS = [-60, -45, -30, -20, -10, 0, 10, 20, 30, 45, 60]; // marks of the bank scale, degrees
@@ -54,16 +47,12 @@ const climbScale = (fpm) =>
     : 0.5 + Math.min(Math.abs(fpm) - 1000, 3000) / 6000);
 
 export class PrimaryFlightDisplay {
-  #size = onSize(byId("pfd"), () => this.draw(this.#shown, this.#tcas));
-  #shown = null;
-  #tcas = null;
+  #size = onSize(byId("pfd")); // It is drawn with each frame.
 
   /**
    * Draws what the instruments show, and what TCAS tells; null: nothing is known, nothing is told.
    */
   draw(shown, tcas) {
-    this.#shown = shown;
-    this.#tcas = tcas;
     if (!this.#size.pen) return;
     const { pen, width, height } = this.#size;
     box(pen, INK.black, 0, 0, width, height);
@@ -75,7 +64,7 @@ export class PrimaryFlightDisplay {
     this.#attitude(shown, [left, top, right, bottom]);
     this.#speed(shown, top, bottom);
     this.#altitude(shown, right, top, bottom);
-    this.#climb(shown, right + ALTITUDE + 3, top, bottom);
+    this.#climb(shown, tcas, right + ALTITUDE + 3, top, bottom);
     this.#heading(shown, left, right, bottom + 4);
     this.#mode(shown);
     if (tcas) this.#advisory(tcas, (left + right) / 2, top + (bottom - top) * 0.72);
@@ -134,14 +123,9 @@ export class PrimaryFlightDisplay {
       this.#bank(roll, half - 6);
     });
     const wing = Math.min(56, (right - left) / 4);
-    for (const [ink, wide] of [
-      [INK.black, 7],
-      [INK.own, 3.5],
-    ]) {
-      for (const side of [-1, 1])
-        this.#line(ink, wide, [x + side * wing, y], [x + side * 22, y], [x + side * 22, y + 9]);
-      this.#line(ink, wide, [x - 2.5, y], [x + 2.5, y]);
-    }
+    const own = new Path2D(`M${-wing} 0H-22V9M${wing} 0H22V9M-2.5 0H2.5`);
+    stamp(pen, own, [x, y], { edge: INK.black, width: 7 });
+    stamp(pen, own, [x, y], { edge: INK.own, width: 3.5 });
     if (typeof height !== "number") return;
     box(pen, INK.black, x - 34, bottom - 27, 68, 22);
     this.#text(`${whole(height)} RA`, x, bottom - 16, height < 500 ? INK.caution : INK.mode, 14);
@@ -154,10 +138,8 @@ export class PrimaryFlightDisplay {
       const inner = reach - (degrees % 30 === 0 ? 11 : 7);
       this.#line(INK.text, 1.5, at(degrees, reach), at(degrees, inner));
     }
-    pen.save();
-    pen.rotate(-roll * RADIAN);
-    shape(pen, { fill: INK.own }, [0, 12 - reach], [7, 24 - reach], [-7, 24 - reach]);
-    pen.restore();
+    const place = [(12 - reach) * Math.sin(roll * RADIAN), (12 - reach) * Math.cos(roll * RADIAN)];
+    stamp(pen, POINTER, place, { fill: INK.own, turn: -roll * RADIAN });
   }
 
   /**
@@ -187,7 +169,8 @@ export class PrimaryFlightDisplay {
           );
       }
       const at = Math.min(Math.max(place(selected), top), bottom);
-      this.#line(INK.selected, 3, ...BUG.map(([dx, dy]) => [edge + inward * dx, at + dy]));
+      const look = { edge: INK.selected, width: 3, mirrored: inward < 0 };
+      stamp(pen, BUG, [edge, at], look);
     });
   }
 
@@ -212,15 +195,15 @@ export class PrimaryFlightDisplay {
     this.#text("1013", left + ALTITUDE / 2, bottom - 10, INK.mode);
   }
 
-  #climb({ vertical_speed_fpm: rate }, left, top, bottom) {
+  #climb({ vertical_speed_fpm: rate }, tcas, left, top, bottom) {
     const { pen } = this.#size,
       middle = (top + bottom) / 2,
       half = (bottom - top) / 2 - 40,
       place = (fpm) => middle - climbScale(fpm) * half;
     box(pen, INK.tape, left, middle - half - 14, CLIMB - 6, 2 * half + 28);
     for (const [band, ink] of [
-      [this.#tcas?.red, INK.avoid],
-      [this.#tcas?.green, INK.fly],
+      [tcas?.red, INK.avoid],
+      [tcas?.green, INK.fly],
     ]) {
       const [low, high] = (band ?? [0, 0]).map(place);
       box(pen, ink, left, high, 7, low - high);
@@ -260,18 +243,8 @@ export class PrimaryFlightDisplay {
           );
       }
       const drift = ((shown.track_deg - heading + 540) % 360) - 180,
-        at = x + drift * unit,
-        [middle, low] = [top + 7, top + 14];
-      if (shown.ground_speed_kt > 10)
-        this.#line(
-          INK.mode,
-          2,
-          [at, top],
-          [at - 5, middle],
-          [at, low],
-          [at + 5, middle],
-          [at, top],
-        );
+        at = x + drift * unit;
+      if (shown.ground_speed_kt > 10) stamp(pen, DRIFT, [at, top], { edge: INK.mode, width: 2 });
     });
     const digits = bearing((Math.round(heading) + 360) % 360).replace("°", "");
     this.#readout(digits, x, top + 20, 48, 16);

@@ -18,16 +18,7 @@ export function timeTicks(end, most) {
   }));
 }
 
-const MOST_POINTS = 400;
-
-/** Returns the indices of the points of a track that are drawn: not many, and the last one. */
-function thinned(track) {
-  const step = Math.ceil(track.t.length / MOST_POINTS) || 1,
-    indices = [];
-  for (let i = 0; i < track.t.length; i += step) indices.push(i);
-  if (indices.length && indices.at(-1) !== track.t.length - 1) indices.push(track.t.length - 1);
-  return indices;
-}
+const MOST_POINTS = 400; // of a track that are drawn
 
 export class Profile extends Pane {
   #canvas = byId("profile");
@@ -81,7 +72,7 @@ export class Profile extends Pane {
   #drawLines() {
     const { pen, width, height } = this.#size,
       { left, right, top, bottom } = this.#area,
-      lines = this.run.tracks.map((track) => ({ track, indices: thinned(track) })),
+      lines = this.run.tracks.map((track) => ({ track, indices: track.thinned(MOST_POINTS) })),
       values = lines.flatMap(({ track, indices }) => indices.map((i) => track.altitude_ft[i]));
     const low = values.reduce((a, b) => Math.min(a, b), values[0] ?? 0),
       high = values.reduce((a, b) => Math.max(a, b), values[0] ?? 1000),

@@ -4,7 +4,6 @@ const NEAR_M = 2000; // of an actor whose data block says what the plot would
 const MOST_KEPT = 2000;
 const MOST_SHOWN = 500; // at a time, the newest
 export const TURNS = 5; // of the antenna, whose plots are shown
-const PAST_TURNS = TURNS + 1; // after which none is shown, though the clock is a little behind
 
 const isNear = (plot, track) => {
   const [east, north] = track.place(plot.t);
@@ -29,13 +28,6 @@ export class RadarPlots {
       if (track.last - one.plot.t > this.#longestTurn) continue;
       one.isAlone &&= !isNear(one.plot, track);
     }
-  }
-
-  /** Forgets what is not shown any more at a time, where nobody goes back. */
-  forgetPast(t) {
-    const past = t - PAST_TURNS * this.#longestTurn,
-      first = this.#kept.findIndex(({ plot }) => plot.t > past);
-    this.#kept.splice(0, first < 0 ? this.#kept.length : first);
   }
 
   /**

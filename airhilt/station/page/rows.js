@@ -4,35 +4,6 @@ import { html } from "./dom.js";
 
 const QUIET_MS = 4000;
 
-/** Scrolls a list so that a row can be seen, unless somebody has just scrolled or is in it. */
-export function keepInView(list, row) {
-  if (
-    list.contains(document.activeElement) ||
-    performance.now() - Number(list.dataset.touched ?? -QUIET_MS) < QUIET_MS
-  )
-    return;
-  const top = row.offsetTop - list.offsetTop;
-  if (top < list.scrollTop || top + row.offsetHeight > list.scrollTop + list.clientHeight)
-    list.scrollTop = Math.max(top - 8, 0);
-}
-
-/**
- * Lets lists be read in peace: for some seconds after the wheel or a touch they do not follow the
- * clock.
- */
-export function noteReading(...lists) {
-  for (const list of lists) {
-    for (const event of ["wheel", "pointerdown"])
-      list.addEventListener(
-        event,
-        () => {
-          list.dataset.touched = performance.now();
-        },
-        { passive: true },
-      );
-  }
-}
-
 /**
  * The rows of a list. A row that shows what it has shown before stays, with the focus and with what
  * is open in it.
@@ -40,9 +11,45 @@ export function noteReading(...lists) {
 export class Rows {
   #list;
   #known = new Map(); // by names: what a row shows, and its element
+  #current = []; // rows of what happens now
+  #kept = null; // the row that is kept in view
+  #touched = -QUIET_MS; // when somebody has scrolled last
 
   constructor(list) {
     this.#list = list;
+    for (const event of ["wheel", "pointerdown", "keydown"])
+      list.addEventListener(event, () => (this.#touched = performance.now()), { passive: true });
+    // What is shown above the list takes room from it.
+    new ResizeObserver(() => this.#keepInView()).observe(list);
+  }
+
+  /** Marks the rows of what happens now, and keeps the last of them, or another one, in view. */
+  mark(rows, kept = rows.at(-1)) {
+    const isSame = rows.length === this.#current.length && rows.every((row) => row.ariaCurrent);
+    if (isSame && kept === this.#kept) return;
+    for (const row of this.#current) row.removeAttribute("aria-current");
+    for (const row of rows) row.ariaCurrent = "true";
+    this.#current = rows;
+    this.#kept = kept;
+    this.#keepInView();
+  }
+
+  /**
+   * Scrolls the list so that a row can be seen, unless somebody is in it or has just scrolled: then
+   * it can be read in peace.
+   */
+  #keepInView() {
+    const list = this.#list,
+      row = this.#kept;
+    if (
+      !row ||
+      list.contains(document.activeElement) ||
+      performance.now() - this.#touched < QUIET_MS
+    )
+      return;
+    const top = row.offsetTop - list.offsetTop;
+    if (top < list.scrollTop || top + row.offsetHeight > list.scrollTop + list.clientHeight)
+      list.scrollTop = Math.max(top - 8, 0);
   }
 
   /**

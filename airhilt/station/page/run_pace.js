@@ -5,16 +5,20 @@ import { byId, html, on } from "./dom.js";
 export const PACES = { realtime: "real time", virtual: "as fast as it can" };
 
 export class RunPace {
+  #live;
   #run;
   #mayPause = false; // It is known with the seat.
 
-  /** `set(factor)` asks the run for a part of real time; 0 is a pause. */
-  constructor(run, set) {
-    this.#run = run;
-    on("pace-pause", "click", () => set(this.#isPaused ? this.#chosen : 0));
-    on("pace-factor", "change", () => {
-      if (!this.#isPaused) set(this.#chosen);
-    });
+  constructor(live) {
+    this.#live = live;
+    this.#run = live.run;
+    on("pace-pause", "click", () => this.#set(this.#isPaused ? this.#chosen : 0));
+    on("pace-factor", "change", () => !this.#isPaused && this.#set(this.#chosen));
+  }
+
+  /** Asks the run for a part of real time; 0 is a pause. */
+  #set(factor) {
+    this.#live.do({ do: "pace", factor }, "Not set: the connection is lost.");
   }
 
   get #isPaused() {

@@ -2,7 +2,7 @@
 
 import { Pane } from "./pane.js";
 import { Displays } from "./displays.js";
-import { button, byId, html, on } from "./dom.js";
+import { button, byId, html, offer, on, onSubmit } from "./dom.js";
 import { addressee } from "./neighbours.js";
 import { Rows } from "./rows.js";
 import { bearing, feet, known, percent, seconds, whole, words } from "./words.js";
@@ -35,15 +35,10 @@ export class Seat extends Pane {
     byId("seat").hidden = !run.seats?.length;
     const seats = run.seats ?? [],
       named = addressee(); // A page that is for a seat offers no other.
-    byId("seat-name").replaceChildren(
-      ...(seats.includes(named) ? [named] : seats).map((name) =>
-        html("option", { value: name }, name),
-      ),
-    );
+    offer(byId("seat-name"), seats.includes(named) ? [named] : seats);
     on("seat-name", "change", () => this.#hint());
     this.#displays = new Displays(run, clock, cameras, live);
-    on("seat-form", "submit", (event) => {
-      event.preventDefault();
+    onSubmit(byId("seat-form"), () => {
       if (!live.isThere) this.refuse("Not done: the connection is lost.");
       else if (this.run.own) live.leave();
       else live.sit(byId("seat-name").value, USES[byId("seat-uses").value]);
@@ -51,8 +46,7 @@ export class Seat extends Pane {
     on("seat-uses", "change", (event) => {
       if (this.run.own) live.agree(USES[event.target.value]);
     });
-    on("say", "submit", (event) => {
-      event.preventDefault();
+    onSubmit(byId("say"), () => {
       const text = byId("words").value.trim();
       if (text) this.#say(text);
     });
@@ -68,7 +62,8 @@ export class Seat extends Pane {
     const before = this.run.own;
     this.#seats = seats;
     const own = Object.keys(seats).find((name) => seats[name].is === "yours") ?? null;
-    this.run.own = own;
+    if (own !== before) Object.assign(this.run, { own, ownCategory: null });
+    this.run.advised += 1;
     byId("seat-take").textContent = own ? "Leave the seat" : "Take the seat";
     byId("seat-name").disabled = Boolean(own);
     if (own) byId("seat-name").value = own;
@@ -136,7 +131,7 @@ export class Seat extends Pane {
     byId("words").placeholder = uses.length
       ? "Type a call, or choose a phrase"
       : "To type, choose above that it may be used";
-    this.#displays.takeOffers(offers);
+    this.#displays.panel.takeOffers(offers);
     this.#tasks = tasks;
     if (notice && JSON.stringify(notice) !== this.#notice) {
       this.refuse(notice.text);
@@ -158,7 +153,7 @@ export class Seat extends Pane {
       words(shown.mode),
       `selected ${feet(shown.selected_altitude_ft)}, ${whole(shown.selected_airspeed_kt)} kt`,
     ];
-    byId("instruments").textContent = parts.filter((part) => part).join(", ");
+    byId("instruments").textContent = parts.filter(Boolean).join(", ");
     byId("instruments").hidden = false;
   }
 
@@ -208,7 +203,7 @@ export class Seat extends Pane {
   /** Gives words back, before what was typed meanwhile. */
   #giveBack(text, why) {
     const field = byId("words");
-    field.value = [text, field.value].filter((part) => part).join(" ");
+    field.value = [text, field.value].filter(Boolean).join(" ");
     this.refuse(why);
   }
 }

@@ -85,7 +85,7 @@ export class Strips extends Pane {
       knots = isThere ? whole(state.knots) : "",
       call = this.#lastCall(callsign);
     Object.assign(item.dataset, { kind, severity });
-    type.textContent = [words(track?.type || kind), severity].filter((text) => text).join(" ");
+    type.textContent = [words(track?.type || kind), severity].filter(Boolean).join(" ");
     where.textContent = !isThere
       ? "not seen"
       : state.onGround

@@ -10,8 +10,6 @@ import { OwnAdvisories } from "./own_advisories.js";
 import { Phrases } from "./phrases.js";
 import { Workload } from "./workload.js";
 
-const ECHO_MS = 2000;
-
 export class Talk {
   #run;
   #live;
@@ -24,67 +22,33 @@ export class Talk {
   #phrases;
   #workload;
   #isPrepared = false; // what is known of the seat from its beginning has been shown
-  #roundTrip = 0; // s
-  #isBehind = false; // what comes was sent while the connection was lost
-  #asked = null; // when the echo was asked for that ends this
 
   constructor(run, live) {
     this.#run = run;
     this.#live = live;
-    this.#microphone = new Microphone(
-      live,
-      () => this.#frequencies.transmit,
-      (event) => this.#delay(event),
-    );
-    this.#loudspeaker = new Loudspeaker((id, after) =>
-      live.do({ do: "hear", id, after_s: this.#afterArrival(after) }),
-    );
-    this.#advisories = new OwnAdvisories(
-      run,
-      (perceived) =>
-        live.do({
-          do: "perceive",
-          ...perceived,
-          after_s: this.#afterArrival(perceived.after_s),
-        }),
-      (severity, url) => this.#loudspeaker.warn(severity, url),
-    );
-    this.#pace = new RunPace(run, (factor) =>
-      live.do({ do: "pace", factor }, "Not set: the connection is lost."),
-    );
-    this.#frequencies = new Frequencies((khz) => live.tune(khz));
+    this.#frequencies = new Frequencies(live);
+    this.#microphone = new Microphone(live, this.#frequencies);
+    this.#loudspeaker = new Loudspeaker(live);
+    this.#advisories = new OwnAdvisories(live, this.#loudspeaker);
+    this.#pace = new RunPace(live);
     this.#phrases = new Phrases(run);
-    this.#workload = new Workload(run.nasa_tlx, (answer) =>
-      live.do({ do: "answer", ...answer }, "Not answered: the connection is lost."),
-    );
+    this.#workload = new Workload(live);
     this.#microphone.setState(null);
     on("strips", "focusin", ({ target }) =>
       this.#phrases.address(target.closest(".flight-strip")?.dataset.callsign),
     );
     on("seat-take", "click", () => this.#loudspeaker.begin());
-    setInterval(() => live.send({ echo: performance.now() }), ECHO_MS);
   }
 
   /** Keys of a seat, for the list of keys. */
   get keys() {
     const isUsed = () => Boolean(this.#own),
-      ratings = ["1", "2", "3", "4", "5"];
+      press = "press a button, tick a box or clear it",
+      rate = ({ key }) => this.#workload.rate(Number(key));
     return [
-      { names: [], shown: ["Space"], text: "hold to talk", isUsed }, // the microphone takes it
-      {
-        names: ["Enter"],
-        shown: ["Enter"],
-        text: "press a button, tick a box or clear it",
-        isUsed,
-        act: ({ target }) => target.click(),
-      },
-      {
-        names: ratings,
-        shown: ratings,
-        text: "workload, when it is asked",
-        isUsed,
-        act: ({ key }) => this.#workload.rate(Number(key)),
-      },
+      { names: [" "], text: "hold to talk", isUsed, act: () => {} }, // the microphone takes it
+      { names: ["Enter"], text: press, isUsed, act: ({ target }) => target.click() },
+      { names: [..."12345"], text: "workload, when it is asked", isUsed, act: rate },
     ];
   }
 
@@ -93,23 +57,9 @@ export class Talk {
     return this.#own ? this.#frequencies.heard : null;
   }
 
-  /**
-   * Takes in that the connection is lost: nobody is on the air without it, and what is said
-   * meanwhile is not heard later.
-   */
+  /** Takes in that the connection is lost: nobody is on the air without it. */
   lost() {
     this.#microphone.release();
-    this.#isBehind = true;
-    this.#asked = null;
-  }
-
-  /** Finds out, by an echo, if all has come that was sent while the connection was lost. */
-  #catchUp(echo) {
-    if (!this.#isBehind) return;
-    if (this.#asked === null) {
-      this.#asked = performance.now();
-      this.#live.send({ echo: this.#asked });
-    } else if (echo >= this.#asked) this.#isBehind = false;
   }
 
   /** Takes in one's own seat, null for none. */
@@ -129,7 +79,7 @@ export class Talk {
       this.#workload.take(null);
     }
     this.#phrases.setSeat(own);
-    this.#live.send({ echo: performance.now() });
+    this.#live.echo();
   }
 
   #takeActive() {
@@ -149,8 +99,7 @@ export class Talk {
   }
 
   /** Takes in a message of the server. */
-  take({ own, changes, sounds, echo, cut }) {
-    this.#catchUp(echo);
+  take({ own, changes, sounds, cut }) {
     if (cut) this.#microphone.cut(sentence(cut));
     if (changes?.some(([kind]) => kind === "clock")) this.#pace.draw();
     for (const [kind, row] of this.#own ? (changes ?? []) : []) {
@@ -161,14 +110,9 @@ export class Talk {
     const state = own?.find(([kind]) => kind === "seat")?.[1];
     if (state && this.#own) this.#takeState(state);
     if (changes?.some(([kind]) => kind === "call")) this.#phrases.renew();
-    if (sounds && this.#own) this.#frequencies.take(sounds);
-    if (sounds && this.#own && !this.#isBehind)
-      this.#loudspeaker.take(sounds, {
-        isOwn: (id) => id.startsWith(`microphone.${this.#own.replace(/[^A-Za-z0-9]+/g, "_")}.`),
-        isDeaf: this.#microphone.isHeld,
-        isSlow: Number.parseFloat(this.#run.pace) < 1,
-      });
-    if (echo !== undefined) this.#roundTrip = (performance.now() - echo) / 1000;
+    if (!sounds || !this.#own) return;
+    this.#frequencies.take(sounds);
+    this.#loudspeaker.take(sounds, this.#microphone.isHeld);
   }
 
   /** Takes in the state of the own seat. */
@@ -188,15 +132,5 @@ export class Talk {
     // The space bar is not to give the seat back at once.
     if (document.activeElement === byId("seat-take"))
       byId(byId("talk-button").disabled ? "words" : "talk-button").focus();
-  }
-
-  /** Time from when a message of now is with the server until a time from now, in s. */
-  #afterArrival(after) {
-    return Math.max(-10, Math.min(10, after - this.#roundTrip / 2));
-  }
-
-  /** Time from an event on the page until a message of now is with the server, in s. */
-  #delay(event) {
-    return Math.max(0, (performance.now() - event.timeStamp) / 1000 + this.#roundTrip / 2);
   }
 }

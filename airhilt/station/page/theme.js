@@ -8,7 +8,7 @@ const NAME = "airhilt-theme";
 export function connectTheme(changed) {
   const choice = byId("theme");
   const apply = () => {
-    document.documentElement.dataset.theme = choice.value;
+    document.documentElement.style.colorScheme = choice.value; // As the system, if it is empty.
     forgetColours();
     changed();
   };

@@ -42,7 +42,7 @@ export class Traffic extends Pane {
         numbers = gone ? ["", "", ""] : numbersOf(state);
       row.className = gone ? "gone" : "";
       head.className = (!gone && this.run.severityOf(track.callsign, t)) || "";
-      const what = [words(track.type), gone || state.phase].filter((text) => text).join(", ");
+      const what = [words(track.type), gone || state.phase].filter(Boolean).join(", ");
       [what, ...numbers].forEach((text, i) => (cells[i].textContent = text));
     }
   }

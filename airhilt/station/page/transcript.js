@@ -3,7 +3,7 @@
 
 import { Pane } from "./pane.js";
 import { byId, html, timeButton } from "./dom.js";
-import { Rows, keepInView } from "./rows.js";
+import { Rows } from "./rows.js";
 import { capital, decibels, fixed, known, megahertz, percent, seconds, words } from "./words.js";
 
 /** Confidence below which a word is marked: the paper's tau_ASR. */
@@ -11,19 +11,11 @@ const SURE = 0.8;
 const MOST_LIVE = 200; // calls of a live run that are listed, the newest
 
 export class Transcript extends Pane {
-  #list = byId("calls");
-  #rows = new Rows(this.#list);
+  #rows = new Rows(byId("calls"));
   #items = [];
-  #current = "";
-  #shown = null; // the row that is kept in view
 
   constructor(run, clock) {
     super(run, clock);
-    // An advisory or a question above the list takes room from it.
-    new ResizeObserver(() => this.#keepInView()).observe(this.#list);
-    for (const type of ["wheel", "pointerdown", "keydown"])
-      // Somebody reads what was said before.
-      this.#list.addEventListener(type, () => (this.#shown = null), { passive: true });
     this.redraw();
   }
 
@@ -46,7 +38,6 @@ export class Transcript extends Pane {
         empty,
       );
     this.#items = calls.map((call, i) => ({ call, item: items[i] }));
-    this.#current = null;
     this.draw();
   }
 
@@ -55,18 +46,11 @@ export class Transcript extends Pane {
       now = this.#items.filter(({ call }) => call.from <= t && t <= call.to),
       last = this.#items.findLast(({ call }) => call.from <= t);
     const shown = now.length ? now : last && t - last.call.to < 3 ? [last] : [],
-      names = shown.map(({ call }) => call.id).join(" ");
-    if (names === this.#current) return;
-    this.#current = names;
-    for (const { item } of this.#items) item.removeAttribute("aria-current");
-    for (const { item } of shown) item.setAttribute("aria-current", "true");
-    const kept = this.clock.live ? this.#items.find(({ call }) => call === last?.call) : null;
-    this.#shown = (shown.at(-1) ?? kept)?.item ?? null;
-    this.#keepInView();
-  }
-
-  #keepInView() {
-    if (this.#shown) keepInView(this.#list, this.#shown);
+      kept = shown.at(-1) ?? (this.clock.live ? last : null);
+    this.#rows.mark(
+      shown.map(({ item }) => item),
+      kept?.item,
+    );
   }
 
   /** Shows the row of a call and sets the clock to its beginning. */
@@ -81,7 +65,7 @@ export class Transcript extends Pane {
       several ? megahertz(call.frequency_khz) : null,
       known(call.snr_db) ? decibels(call.snr_db) : null,
       call.blocked_by.length ? "blocked" : null,
-    ].filter((fact) => fact);
+    ].filter(Boolean);
     const hearings = call.hearings.map(({ who: hearer, outcome }) =>
       html("span", { class: `badge ${outcome}` }, `${hearer}: ${words(outcome)}`),
     );

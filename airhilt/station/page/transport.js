@@ -2,7 +2,7 @@
 
 import { Pane } from "./pane.js";
 import { RATES } from "./clock.js";
-import { byId, html, on } from "./dom.js";
+import { byId, html, offer, on } from "./dom.js";
 import { METRE_PER_NM, feet, metres, miles, seconds } from "./words.js";
 
 const PLAY = "M4 2l10 6-10 6z",
@@ -12,13 +12,13 @@ const MOST_LISTED = 300; // events of a live run that can be chosen, the newest
 
 export class Transport extends Pane {
   #isOld = false; // The list of events lacks new ones.
-  #listed = []; // events as they were when they were listed
-  #first = 0; // index of the first event that can be chosen
+  #listed = []; // events that can be chosen
 
   constructor(run, clock) {
     super(run, clock);
-    byId("rate").replaceChildren(
-      ...RATES.map((rate) => html("option", { value: rate }, `${rate} x`)),
+    offer(
+      byId("rate"),
+      RATES.map((rate) => [rate, `${rate} x`]),
     );
     on("rate", "change", (event) => clock.setRate(Number(event.target.value)));
     on("play", "click", () => clock.toggle());
@@ -28,8 +28,8 @@ export class Transport extends Pane {
     on("loop-from", "click", () => clock.mark("from"));
     on("loop-to", "click", () => clock.mark("to"));
     on("loop", "click", () => clock.toggleLoop());
-    on("events", "change", (event) => {
-      if (event.target.value !== "") clock.set(this.#listed[Number(event.target.value)].t);
+    on("events", "change", ({ target }) => {
+      if (target.selectedIndex) clock.set(this.#listed[target.selectedIndex - 1].t);
     });
     on("events", "blur", () => {
       if (this.#isOld) this.renew();
@@ -43,17 +43,11 @@ export class Transport extends Pane {
   renew() {
     this.#isOld = document.activeElement === byId("events");
     if (this.#isOld) return;
-    const { moments } = this.run,
-      first = this.clock.live ? Math.max(moments.length - MOST_LISTED, 0) : 0;
-    this.#first = first;
-    this.#listed = moments;
+    const { moments } = this.run;
+    this.#listed = moments.slice(this.clock.live ? -MOST_LISTED : 0);
     byId("events").replaceChildren(
-      html("option", { value: "" }, `an event (${moments.length})`),
-      ...moments
-        .slice(first)
-        .map((moment, i) =>
-          html("option", { value: first + i }, `${seconds(moment.t)}  ${moment.text}`),
-        ),
+      html("option", `an event (${moments.length})`),
+      ...this.#listed.map(({ t, text }) => html("option", `${seconds(t)}  ${text}`)),
     );
   }
 
@@ -85,23 +79,14 @@ export class Transport extends Pane {
       loop.from === null && loop.to === null
         ? ""
         : `${loop.from === null ? "?" : seconds(loop.from)} to ${loop.to === null ? "?" : seconds(loop.to)}`;
-    const moment = this.run.moments.findLastIndex((one) => Math.abs(one.t - t) < 0.05);
     if (document.activeElement !== byId("events"))
-      byId("events").value = moment < this.#first ? "" : moment;
-    this.#drawApart(t);
-  }
-
-  #drawApart(t) {
+      byId("events").selectedIndex =
+        this.#listed.findLastIndex((one) => Math.abs(one.t - t) < 0.05) + 1;
     const apart = this.run.apart(t);
-    if (!apart) {
-      byId("apart").textContent = "";
-      return;
-    }
-    const horizontal =
-      apart.horizontal < METRE_PER_NM
-        ? metres(apart.horizontal)
-        : miles(apart.horizontal / METRE_PER_NM);
-    byId("apart").textContent =
-      `${this.run.pair.join(" and ")}: ${horizontal}, ${feet(apart.vertical)} apart`;
+    byId("apart").textContent = apart
+      ? `${this.run.pair.join(" and ")}: ${distance(apart.horizontal)}, ${feet(apart.vertical)} apart`
+      : "";
   }
 }
+
+const distance = (m) => (m < METRE_PER_NM ? metres(m) : miles(m / METRE_PER_NM));

@@ -1,6 +1,6 @@
 // Questions about workload: ISA while the run goes on, NASA-TLX at its end.
 
-import { button, byId, on } from "./dom.js";
+import { button, byId, on, onSubmit } from "./dom.js";
 import { Questionnaire } from "./questionnaire.js";
 
 /** Ratings of the Instantaneous Self-Assessment (Tattersall & Foord 1996). */
@@ -8,25 +8,19 @@ const RATINGS = ["Under-used", "Relaxed", "Comfortable", "High", "Excessive"];
 const PATIENCE_MS = 30_000; // for which ISA is asked
 
 export class Workload {
-  #answer;
+  #live;
   #question = null;
   #timer = null;
-  #nasaTlx;
   #tlx = null; // what is asked, or was asked last
 
-  /** `nasaTlx` is its questionnaire; `answer(answer)` gives an answer to the run. */
-  constructor(nasaTlx, answer) {
-    this.#nasaTlx = nasaTlx;
-    this.#answer = answer;
+  constructor(live) {
+    this.#live = live;
     byId("isa-ratings").replaceChildren(
       ...RATINGS.map((name, i) =>
         button(`${i + 1} ${name}`, () => this.rate(i + 1), { title: `${name}: key ${i + 1}` }),
       ),
     );
-    on("tlx", "submit", (event) => {
-      event.preventDefault();
-      this.#give();
-    });
+    onSubmit(byId("tlx"), () => this.#give());
     on("tlx-skip", "click", () => this.#close({}));
     on("tlx-dialog", "cancel", (event) => event.preventDefault());
   }
@@ -50,7 +44,7 @@ export class Workload {
       this.#timer = setTimeout(() => this.#hideIsa(), PATIENCE_MS);
     } else {
       this.#hideIsa();
-      this.#tlx = new Questionnaire(byId("tlx-items"), this.#nasaTlx);
+      this.#tlx = new Questionnaire(byId("tlx-items"), this.#live.run.nasa_tlx);
       byId("tlx-state").textContent = "";
       if (!byId("tlx-dialog").open) byId("tlx-dialog").showModal();
     }
@@ -59,8 +53,13 @@ export class Workload {
   /** Rates the workload from 1 to 5, if that is asked. */
   rate(rating) {
     if (byId("isa").hidden) return;
-    this.#answer({ question: this.#question, isa: rating });
+    this.#answer({ isa: rating });
     this.#hideIsa();
+  }
+
+  #answer(answers) {
+    const act = { do: "answer", question: this.#question, ...answers };
+    this.#live.do(act, "Not answered: the connection is lost.");
   }
 
   #hideIsa() {
@@ -76,7 +75,7 @@ export class Workload {
   }
 
   #close(answers) {
-    this.#answer({ question: this.#question, ...answers });
+    this.#answer(answers);
     byId("tlx-dialog").close();
   }
 }
