@@ -18,10 +18,9 @@ from typing import IO, NamedTuple, cast
 import zstandard
 from mcap.data_stream import ReadDataStream
 from mcap.exceptions import EndOfFile, McapError
-from mcap.reader import SeekingReader
-from mcap.records import Channel, Chunk, DataEnd, Footer, McapRecord, Message, MessageIndex
-from mcap.stream_reader import StreamReader, breakup_chunk
-from mcap.summary import Summary
+from mcap.opcode import Opcode
+from mcap.records import Channel, DataEnd, Footer, McapRecord, Message, MessageIndex, Statistics
+from mcap.stream_reader import StreamReader
 
 from airhilt.errors import RunFolderError
 from airhilt.host.files import open_inside
@@ -43,12 +42,17 @@ COMPRESSION = struct.pack("<I4s", 4, b"zstd")
 """Bytes that every chunk has, and by which it is found."""
 LENGTH_BYTES = 8
 """Size of the length of a record, in front of its content."""
-BEFORE_COMPRESSION, CHUNK_HEAD_BYTES = 28, 44
-"""Sizes of the fields of a chunk before its compression, and before its compressed records."""
+CHUNK_HEAD = struct.Struct("<16xQI8xQ")
+"""Size and CRC-32 of the records of a chunk, and their size as they are compressed behind it."""
+BEFORE_COMPRESSION = 28
+"""Size of the fields of a chunk before its compression."""
 FOOTER_BYTES = 20 + len(MAGIC)
 """Size of the content of the footer, and of the magic bytes behind it."""
 LARGEST_CHUNK_BYTES = 1 << 28
 """Greatest size of the records in a chunk, in bytes: a larger one is damaged."""
+MOST_EXPANSION = 1000
+"""Number of bytes that are expanded in vain for each byte of a log, before reading ends; each
+record counts as so many."""
 MOST_GAPS = 3
 """Number of gaps that are told one by one."""
 
@@ -88,6 +92,11 @@ class LogReader:
         """True if the log has its end: it neither breaks off nor goes on."""
         self._last = 0
         """Number of the last message that was read."""
+        self._nameless = 0
+        """Number of the last message whose channel is in a damaged chunk."""
+        self._channels: dict[int, Channel] = {}
+        self._left_bytes = 0
+        """Number of bytes that may be expanded in vain before reading ends."""
 
     def messages(self) -> Iterator[Logged]:
         """Yield the messages in the order of writing; what cannot be read is left out.
@@ -106,7 +115,7 @@ class LogReader:
             with self._content() as content:
                 for _ in _records(content, validate_crcs=True):
                     pass
-                return _summary(content) is not None and not self.gaps
+                return _index(content) is not None and not self.gaps
         except (RunFolderError, *BROKEN):
             return False
 
@@ -123,33 +132,54 @@ class LogReader:
         return RunFolderError(f"{self.path}: not an MCAP log: it has not the magic bytes")
 
     def _messages(self, content: mmap.mmap) -> Iterator[Logged]:
-        summary = _summary(content)
-        channels: dict[int, Channel] = {} if summary is None else dict(summary.channels)
-        is_end_damaged, nameless, place, end = False, 0, 0, len(MAGIC)
-        while (place := content.find(COMPRESSION, place + 1)) >= 0:
+        index = _index(content)
+        self._channels, total = index or ({}, 0)
+        self._left_bytes = LARGEST_CHUNK_BYTES + MOST_EXPANSION * len(content)
+        is_end_damaged, place, end = False, 0, len(MAGIC)
+        while self._left_bytes >= 0 and (place := content.find(COMPRESSION, place + 1)) >= 0:
+            size = 0
             try:
-                records, end = _chunk(content, place)
+                end_of_it, size, crc = _chunk_head(content, place)
+                records = _expanded(content, place, end_of_it, size, crc)
             except EndOfFile:
                 continue  # Whoever wrote it was killed, or is still writing.
             except BROKEN:
-                is_end_damaged = True
+                is_end_damaged, self._left_bytes = True, self._left_bytes - size
                 continue
-            is_end_damaged, place = False, end - 1
-            for record in records:
-                if isinstance(record, Channel):
-                    channels[record.id] = record
-                elif isinstance(record, Message) and record.sequence > self._last:
-                    if (channel := channels.get(record.channel_id)) is None:
-                        nameless = record.sequence  # Its channel is in a damaged chunk.
-                    else:
-                        yield self._logged(record, channel)
-        self.is_closed = summary is not None or _is_end_of_data(content, end)
-        statistics = summary and summary.statistics
-        total = statistics.message_count if statistics else nameless
+            is_end_damaged, end, place = False, end_of_it, end_of_it - 1
+            try:
+                yield from self._of_chunk(records)
+            except BROKEN:
+                is_end_damaged = True
+        if self._left_bytes < 0:
+            self.gaps.append(Gap(self.end_ns, None, None))
+            return
+        self.is_closed = index is not None or _is_end_of_data(content, end)
+        total = self._nameless if index is None else total
         if is_end_damaged and not self.is_closed:
             self.gaps.append(Gap(self.end_ns, None, None))
         elif total > self._last:
             self.gaps.append(Gap(self.end_ns, None, total - self._last))
+
+    def _of_chunk(self, records: bytes) -> Iterator[Logged]:
+        """Yield the messages among the records of a chunk, as far as these may be handled."""
+        stream = ReadDataStream(BytesIO(records))
+        while (begin := stream.count) < len(records) and self._left_bytes >= 0:
+            opcode, length = stream.read1(), stream.read8()
+            self._left_bytes -= MOST_EXPANSION
+            if opcode == Opcode.MESSAGE:
+                message = Message.read(stream, length)
+                if message.sequence > self._last:
+                    if (channel := self._channels.get(message.channel_id)) is not None:
+                        yield self._logged(message, channel)
+                        continue
+                    self._nameless = message.sequence
+            elif opcode == Opcode.CHANNEL:
+                channel = Channel.read(stream)
+                self._channels[channel.id] = channel
+            else:
+                stream.read(length)
+            self._left_bytes -= stream.count - begin
 
     def _logged(self, message: Message, channel: Channel) -> Logged:
         """Return a message, and keep the gap before it if there is one."""
@@ -167,39 +197,61 @@ def _records(content: mmap.mmap, **options: bool) -> Iterator[McapRecord]:
     return StreamReader(cast(IO[bytes], content), emit_chunks=True, **options).records
 
 
-def _chunk(content: mmap.mmap, place: int) -> tuple[list[McapRecord], int]:
-    """Return the records of the chunk whose compression is named at a place, and where it ends.
+def _chunk_head(content: mmap.mmap, place: int) -> tuple[int, int, int]:
+    """Return where the chunk ends whose compression is named at a place, and two of its fields.
 
-    It raises EndOfFile if the file ends before it, and others of `BROKEN` if it is damaged.
+    These are the size and the CRC-32 of its records. It raises EndOfFile if the file ends before
+    it, and others of `BROKEN` if it is damaged. Nothing of it is copied: broken chunks may lie
+    within each other.
     """
     begin = place - BEFORE_COMPRESSION
+    if begin < LENGTH_BYTES:
+        raise ValueError("no chunk")
     (length,) = struct.unpack_from("<Q", content, begin - LENGTH_BYTES)
     end = begin + length
     if end > len(content):
         raise EndOfFile
-    if length > LARGEST_CHUNK_BYTES:
-        raise ValueError("too large")
-    chunk = Chunk.read(ReadDataStream(BytesIO(content[begin:end])))
-    size = zstandard.frame_content_size(chunk.data)
-    if size != chunk.uncompressed_size or size > LARGEST_CHUNK_BYTES:
-        raise ValueError("too large")
-    if length != CHUNK_HEAD_BYTES + len(chunk.data):
-        raise ValueError("no chunk")
-    return breakup_chunk(chunk, validate_crc=True), end
+    size, crc, compressed = CHUNK_HEAD.unpack_from(content, begin)
+    if length != CHUNK_HEAD.size + compressed or max(length, size) > LARGEST_CHUNK_BYTES:
+        raise ValueError("no chunk, or too large")
+    return end, size, crc
 
 
-def _summary(content: mmap.mmap) -> Summary | None:
-    """Return what the end of a log repeats of it, None if it is not there or damaged."""
+def _expanded(content: mmap.mmap, place: int, end: int, size: int, crc: int) -> bytes:
+    """Return the records of a chunk by its head; it raises one of `BROKEN` if it is damaged."""
+    begin = place - BEFORE_COMPRESSION + CHUNK_HEAD.size
+    with memoryview(content) as whole, whole[begin:end] as part:
+        if zstandard.frame_content_size(part) != size:
+            raise ValueError("not what the head says")
+        records = zstandard.decompress(part)
+    if zlib.crc32(records) != crc:
+        raise ValueError("not what the checksum says")
+    return records
+
+
+def _index(content: mmap.mmap) -> tuple[dict[int, Channel], int] | None:
+    """Return the channels and the number of messages by the end of a log.
+
+    It is None if that is not there or damaged. Chunks in it are not expanded.
+    """
+    channels: dict[int, Channel] = {}
+    messages = 0
     try:
         footer = Footer.read(ReadDataStream(BytesIO(content[-FOOTER_BYTES:])))
         with memoryview(content) as whole, whole[footer.summary_start : -4 - len(MAGIC)] as part:
             if zlib.crc32(part) != footer.summary_crc:
                 return None
-        content.seek(0)
-        summary = SeekingReader(cast(IO[bytes], content)).get_summary()
+        content.seek(footer.summary_start)
+        for record in _records(content, skip_magic=True):
+            if isinstance(record, Channel):
+                channels[record.id] = record
+            elif isinstance(record, Statistics):
+                messages = record.message_count
+            elif isinstance(record, Footer):
+                break
     except BROKEN:
         return None
-    return summary
+    return channels, messages
 
 
 def _is_end_of_data(content: mmap.mmap, end: int) -> bool:

@@ -36,6 +36,8 @@ LARGEST_BYTES = 2_000_000_000
 """Size of the largest Parquet file that is read, and of its columns before compression."""
 MOST_CELLS = 200_000_000
 """Greatest number of rows times columns of a Parquet file."""
+MOST_TEXT_BYTES = 1_000_000_000
+"""Greatest size of all texts in it; a text that many rows have is kept once in the file."""
 UNREADABLE = (OSError, ValueError)
 """Exceptions of a file that cannot be read."""
 REQUIRED = ("key", "status")
@@ -316,8 +318,9 @@ def _parse(data: bytes) -> pa.Table:
     import pyarrow as pa
     import pyarrow.parquet as pq
 
+    buffer = pa.py_buffer(data)
     try:
-        with pq.ParquetFile(pa.py_buffer(data)) as file:
+        with pq.ParquetFile(buffer) as file:
             rows, columns = file.metadata.num_rows, file.metadata.num_columns
             if rows * columns > MOST_CELLS:
                 raise ValueError(
@@ -327,9 +330,47 @@ def _parse(data: bytes) -> pa.Table:
             groups = map(file.metadata.row_group, range(file.metadata.num_row_groups))
             if sum(group.total_byte_size for group in groups) > LARGEST_BYTES:
                 raise ValueError(f"its columns have over {LARGEST_BYTES:,} bytes; expected less")
-            return file.read()
+            schema = _flat(file.schema_arrow)
+        texts = [field.name for field in schema if _is_text(field.type)]
+        with pq.ParquetFile(buffer, read_dictionary=texts) as file:
+            table = file.read()
+        if sum(map(_text_bytes, table.columns)) > MOST_TEXT_BYTES:
+            raise ValueError(f"its texts have over {MOST_TEXT_BYTES:,} bytes; expected less")
+        return table.cast(schema)
     except (pa.ArrowException, OSError) as error:
         raise ValueError(str(error)) from None
+
+
+def _flat(schema: pa.Schema) -> pa.Schema:
+    """Return a schema with texts in the place of numbers of texts; ValueError for lists."""
+    import pyarrow as pa
+
+    fields = []
+    for field in schema:
+        kind = field.type.value_type if pa.types.is_dictionary(field.type) else field.type
+        if not (pa.types.is_primitive(kind) or pa.types.is_null(kind) or _is_text(kind)):
+            raise ValueError(f"column {field.name} has the type {kind}; expected numbers or texts")
+        fields.append(field.with_type(kind))
+    return pa.schema(fields, schema.metadata)
+
+
+def _is_text(kind: pa.DataType) -> bool:
+    import pyarrow as pa
+
+    return bool(pa.types.is_string(kind) or pa.types.is_large_string(kind))
+
+
+def _text_bytes(column: pa.ChunkedArray) -> int:
+    """Return the size of the texts of a column, one of each row."""
+    import pyarrow as pa
+    import pyarrow.compute as pc
+
+    if not pa.types.is_dictionary(column.type):
+        return 0
+    return sum(
+        pc.sum(pc.binary_length(chunk.dictionary).take(chunk.indices).cast("int64")).as_py() or 0
+        for chunk in column.chunks
+    )
 
 
 def _cast(table: pa.Table, schema: pa.Schema) -> pa.Table:

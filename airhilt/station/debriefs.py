@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import asyncio
 import itertools
 import threading
 from collections.abc import Sequence
+from concurrent.futures import Future
 from contextlib import suppress
 from functools import lru_cache
 from pathlib import Path
@@ -46,6 +48,8 @@ class Debriefs:
         self._runs = started
         self._open: dict[tuple[str, ...], tuple[str, list[Debrief]]] = {}
         """Path and content, by the names of the runs."""
+        self._reading: dict[tuple[str, ...], Future[str]] = {}
+        """Paths of those whose runs are still read, by the names of the runs."""
         self._numbers = itertools.count(1)
         self._lock = threading.Lock()
 
@@ -61,8 +65,10 @@ class Debriefs:
                 rows.append(_row(path.parent, written_ns))
         return rows
 
-    def open(self, names: tuple[str, ...]) -> str:
+    async def open(self, names: tuple[str, ...]) -> str:
         """Return the path of the debrief of one run, or of two side by side, below `router`.
+
+        The runs are read in a thread that holds up nothing else, and not the end of the process.
 
         Raises
         ------
@@ -70,6 +76,18 @@ class Debriefs:
             There is no such run here, it cannot be shown, or people have seats in it now: a debrief
             shows the truth.
         """
+        await asyncio.to_thread(self._require_shown, names)
+        with self._lock:
+            if names in self._open:
+                return f"{self._open[names][0]}/"
+            reading = self._reading.get(names)
+            if reading is None:
+                reading = self._reading[names] = Future()
+                reading.set_running_or_notify_cancel()  # Others may wait for it too.
+                threading.Thread(target=self._read, args=(names, reading), daemon=True).start()
+        return await asyncio.wrap_future(reading)
+
+    def _require_shown(self, names: tuple[str, ...]) -> None:
         known = {row["name"]: row for row in self.rows()}
         for name in names:
             if name not in known:
@@ -80,16 +98,30 @@ class Debriefs:
                     "truth; open its debrief when it has ended, or with airhilt view if it was "
                     "killed"
                 )
+
+    def _read(self, names: tuple[str, ...], reading: Future[str]) -> None:
+        debriefs: list[Debrief] = []
+        try:
+            for name in names:
+                debriefs.append(Debrief(open_run(self._folder / name, untold)))
+            app = recorded_app(debriefs)
+        except Exception as error:  # Who waits for it raises it.
+            _close(debriefs)
+            with self._lock:
+                del self._reading[names]
+            reading.set_exception(error)
+            return
+        first: Sequence[Debrief] = ()
         with self._lock:
-            if names not in self._open:
-                debriefs = [Debrief(open_run(self._folder / name, untold)) for name in names]
-                path = f"/{next(self._numbers)}"
-                self.router.mount(path, recorded_app(debriefs))
-                self._open[names] = path, debriefs
-                if len(self._open) > MOST_OPEN:
-                    del self.router.routes[0]
-                    _close(self._open.pop(next(iter(self._open)))[1])
-            return f"{self._open[names][0]}/"
+            path = f"/{next(self._numbers)}"
+            self.router.mount(path, app)
+            self._open[names] = path, debriefs
+            del self._reading[names]
+            if len(self._open) > MOST_OPEN:
+                del self.router.routes[0]
+                first = self._open.pop(next(iter(self._open)))[1]
+        reading.set_result(f"{path}/")
+        _close(first)
 
     def _goes_on(self, row: dict[str, Any]) -> bool:
         """Return true if a run has not ended; its folder tells where its process is not known."""
@@ -98,7 +130,9 @@ class Debriefs:
 
     def close(self) -> None:
         """Close all debriefs."""
-        for _, debriefs in self._open.values():
+        with self._lock:
+            opened = [debriefs for _, debriefs in self._open.values()]
+        for debriefs in opened:
             _close(debriefs)
 
 

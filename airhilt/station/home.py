@@ -66,8 +66,8 @@ def home_app(
         return {"name": name}
 
     @app.post("/api/debriefs")
-    def debrief(wish: DebriefWish) -> dict[str, str]:
-        return {"url": f"debriefs{debriefs.open(wish.runs)}"}
+    async def debrief(wish: DebriefWish) -> dict[str, str]:
+        return {"url": f"debriefs{await debriefs.open(wish.runs)}"}
 
     app.mount("/debriefs", debriefs.router)
     return app

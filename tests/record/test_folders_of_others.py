@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import os
 import shutil
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
+import pyarrow as pa
 import pytest
 
 from airhilt.errors import RunFolderError
@@ -75,6 +78,17 @@ def test_what_a_command_writes_into_a_run_folder_stays_in_it(
     assert outside.read_text() == PRECIOUS
 
 
+def test_what_is_written_into_a_sweep_folder_stays_in_it(
+    airhilt_command: Any, tmp_path: Path, outside: Path
+) -> None:
+    folder = write_sweep(tmp_path / "sweep", [sweep_row("s01a_tight_timing", "reference", 0)])
+    lead_out(folder, outside, "report.html", "runs.csv")
+    assert airhilt_command("report", folder, "--csv", folder / "runs.csv").returncode == 0
+    assert airhilt_command("report", folder).returncode == 0
+    assert outside.read_text() == PRECIOUS
+    assert (folder / "runs.csv").read_text().startswith('"')
+
+
 def test_figures_are_not_written_through_a_link(
     airhilt_command: Any, tmp_path: Path, outside: Path
 ) -> None:
@@ -125,6 +139,26 @@ def test_the_lock_of_a_sweep_empties_no_file_behind_a_link(tmp_path: Path, outsi
     with pytest.raises(Exception, match="cannot be written"), folder.locked():
         pass
     assert outside.read_text() == PRECIOUS
+
+
+def test_tables_of_a_sweep_are_written_in_the_place_of_links(tmp_path: Path, outside: Path) -> None:
+    folder = SweepFolder(tmp_path / "sweep")
+    folder.create()
+    lead_out(folder.path, outside, "sweep.parquet", "machine.parquet", "sweep.json")
+    table = pa.table({"key": ["a"], "status": ["finished"], "folder": [""]})
+    folder.write_tables(table, table, {"format": 1, "grid_sha256": "a"})
+    assert outside.read_text() == PRECIOUS
+    assert folder.table().num_rows == 1
+
+
+def test_threads_and_processes_that_write_one_file_leave_it_whole(tmp_path: Path) -> None:
+    path = tmp_path / "page.html"
+    contents = [bytes([65 + number]) * 10_000 for number in range(8)]
+    for pool in (ThreadPoolExecutor(8), ProcessPoolExecutor(2, mp_context=get_context("spawn"))):
+        with pool:
+            list(pool.map(replace_file, [path] * 80, contents * 10))
+    assert path.read_bytes() in contents
+    assert list(tmp_path.iterdir()) == [path]
 
 
 # --- reading --------------------------------------------------------------------------------

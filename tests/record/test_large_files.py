@@ -4,18 +4,22 @@ from __future__ import annotations
 
 import os
 import re
+import struct
 import tracemalloc
 import zlib
 from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
+from typing import Any
 
+import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
 import zstandard
 from mcap.data_stream import RecordBuilder
-from mcap.records import Chunk
+from mcap.opcode import Opcode
+from mcap.records import Chunk, Message
 
 from airhilt.audio.wav import LARGEST_WAV_BYTES
 from airhilt.configuration import read_configuration
@@ -26,7 +30,7 @@ from airhilt.record import RunFolder, log_reader
 from airhilt.record.audio import recorded_pcm
 from airhilt.record.latency import LONGEST_STEP_BYTES, read_latencies
 from airhilt.record.log import LogWriter
-from airhilt.record.log_reader import MAGIC, Gap, LogReader
+from airhilt.record.log_reader import CHUNK_HEAD, MAGIC, Gap, LogReader
 from airhilt.record.manifest import problem_of
 from airhilt.record.sweep_folder import SweepFolder
 from sweep_tables import grid, write_sweep
@@ -98,11 +102,39 @@ def rows_beyond_number() -> pa.Table:
     return pa.table({f"column{n}": pa.nulls(1_000_000) for n in range(300)})
 
 
-def test_a_table_that_claims_too_much_is_refused(tmp_path: Path) -> None:
+def long_text_in_each_row() -> pa.Table:
+    """Return a table of 20 GB of text, of which a file keeps 100 kB."""
+    texts = pa.array(["x" * 100_000])
+    return pa.table({"key": pa.DictionaryArray.from_arrays(np.zeros(200_000, np.int32), texts)})
+
+
+def lists() -> pa.Table:
+    return pa.table({"key": pa.array([["a"]])})
+
+
+@pytest.mark.parametrize(
+    ("make", "answer"),
+    [
+        (rows_beyond_number, "1,000,000 rows of 300 columns"),
+        (long_text_in_each_row, "its texts have over 1,000,000,000 bytes"),
+        (lists, "column key has the type list<element: string>"),
+    ],
+)
+def test_a_table_that_claims_too_much_is_refused(
+    tmp_path: Path, make: Callable[[], pa.Table], answer: str
+) -> None:
     folder = write_sweep(tmp_path / "sweep", grid(["s01a_tight_timing"], ["reference"]))
-    pq.write_table(rows_beyond_number(), folder / "sweep.parquet", compression="zstd")
-    with pytest.raises(AirhiltError, match=r"sweep\.parquet: damaged \(.*1,000,000 rows of 300"):
+    pq.write_table(make(), folder / "sweep.parquet", compression="zstd")
+    with pytest.raises(AirhiltError, match=rf"sweep\.parquet: damaged \(.*{answer}"):
         SweepFolder.open(folder).table()
+
+
+def test_a_table_of_texts_is_read_as_it_was_written(tmp_path: Path) -> None:
+    folder = write_sweep(tmp_path / "sweep", grid(["s01a_tight_timing"], ["reference"]))
+    written = pq.read_table(folder / "sweep.parquet")
+    read = SweepFolder.open(folder).table()
+    assert read.equals(written)
+    assert read.schema.equals(written.schema, check_metadata=True)
 
 
 def test_a_large_file_in_the_place_of_a_small_one_is_not_hashed(run_copy: Path) -> None:
@@ -112,6 +144,67 @@ def test_a_large_file_in_the_place_of_a_small_one_is_not_hashed(run_copy: Path) 
     assert problem_of(run_copy, "summary.json", record) == (
         f"summary.json: damaged or changed: it has {ENDLESS} bytes, and run.json says {size_bytes}"
     )
+
+
+def test_broken_chunks_within_each_other_end_the_log_before_they_hold_its_reader(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each of them claims all that is behind it."""
+    good = zstandard.compress(bytes(200))
+    broken = good[:-1] + bytes([good[-1] ^ 1])
+    step_bytes, count = 9 + CHUNK_HEAD.size + len(broken), 10_000
+    parts = []
+    for left in reversed(range(count)):
+        claimed = len(broken) + step_bytes * left
+        head = struct.pack("<QQQII4sQ", 0, 0, 200, zlib.crc32(bytes(200)), 4, b"zstd", claimed)
+        parts.append(struct.pack("<BQ", Opcode.CHUNK, len(head) + claimed) + head + broken)
+    path = tmp_path / "log.mcap"
+    path.write_bytes(MAGIC + b"".join(parts))
+    monkeypatch.setattr(log_reader, "LARGEST_CHUNK_BYTES", 1_000_000)
+    monkeypatch.setattr(log_reader, "MOST_EXPANSION", 1)
+    expanded: list[Any] = []
+
+    def noted(part: Any) -> bytes:
+        expanded.append(type(part))
+        return zstandard.ZstdDecompressor().decompress(part)
+
+    monkeypatch.setattr(zstandard, "decompress", noted)
+    reader = LogReader(path)
+    assert list(reader.messages()) == []
+    assert reader.gaps == [Gap(0, None, None)]
+    assert 0 < 200 * len(expanded) < path.stat().st_size + 1_001_000
+    assert set(expanded) == {memoryview}  # Copies would take the square of the size.
+
+
+@pytest.mark.parametrize("opcode", [Opcode.MESSAGE, 0x80])
+def test_records_without_number_end_the_log_before_they_hold_its_reader(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, opcode: int
+) -> None:
+    """In each of two chunks, which are whole."""
+    monkeypatch.setattr(log_reader, "LARGEST_CHUNK_BYTES", 4_000_000)
+    handled: list[None] = []
+    read = Message.read
+
+    def counted(*given: Any) -> Any:
+        handled.append(None)
+        return read(*given)
+
+    monkeypatch.setattr(Message, "read", counted)
+    builder = RecordBuilder()
+    records = struct.pack("<BQ22x", opcode, 22) * 100_000
+    Chunk("zstd", zstandard.compress(records), 0, 0, zlib.crc32(records), len(records)).write(
+        builder
+    )
+    path = tmp_path / "log.mcap"
+    path.write_bytes(MAGIC + 2 * builder.end())  # type: ignore[no-untyped-call]
+    reader = LogReader(path)
+    tracemalloc.start()
+    assert list(reader.messages()) == []
+    _, peak_bytes = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert reader.gaps == [Gap(0, None, None)]
+    assert len(handled) < path.stat().st_size + 4_000
+    assert peak_bytes < 5_000_000
 
 
 @pytest.mark.parametrize("claimed_bytes", [200, 1_000_000_000_000])
@@ -139,6 +232,7 @@ def test_a_log_that_a_program_has_flooded_with_one_text_is_whole(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(log_reader, "LARGEST_CHUNK_BYTES", 5_000_000)
+    monkeypatch.setattr(log_reader, "MOST_EXPANSION", 1)
     path = tmp_path / "log.mcap"
     with closing(LogWriter(path)) as log:
         for number in range(100):
