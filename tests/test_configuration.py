@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import os
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +14,7 @@ from airhilt.assistant.decision.engines.reference import ReferenceEngine
 from airhilt.configuration import read_configuration, settings
 from airhilt.engine_families import ASSISTANTS
 from airhilt.errors import AirhiltError
+from airhilt.scenario import documents
 from paths import DOCS
 
 
@@ -53,6 +56,16 @@ def test_a_file_that_holds_no_object_is_refused_by_its_name(
         path.write_text(content)
     with pytest.raises(AirhiltError, match=f"{re.escape(str(path))}: .*{answer}"):
         read_configuration(path)
+
+
+@pytest.mark.parametrize("read", [read_configuration, documents.read])
+def test_a_pipe_or_a_device_is_refused_and_not_read(
+    tmp_path: Path, read: Callable[[Path], Any]
+) -> None:
+    os.mkfifo(tmp_path / "pipe.json")
+    for path in (tmp_path / "pipe.json", Path("/dev/zero")):
+        with pytest.raises(AirhiltError, match=f"{re.escape(str(path))}: .*no regular file"):
+            read(path)
 
 
 @pytest.mark.parametrize("name", ["reference", "paper"])

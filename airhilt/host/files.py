@@ -22,6 +22,8 @@ PARTIAL = ".partial"
 """End of the name of a file that is being written."""
 BLOCK_BYTES = 1 << 20
 """Number of bytes that are read at a time."""
+NOT_INSIDE = (errno.ELOOP, errno.ENOTDIR, errno.EMLINK, errno.ENXIO, errno.EINVAL)
+"""Errors of the system for a link that is not followed and for a socket, and of `_regular`."""
 
 
 def replace_file(path: Path, data: bytes) -> None:
@@ -114,13 +116,34 @@ def open_inside(folder: Path, path: Path) -> BufferedReader:
         It is not there, or is not a regular file of that folder: a link, a pipe, a device, or
         behind a link to another folder.
     """
-    try:
-        found = Path(os.path.realpath(path, strict=True))
+    refused = OSError(errno.EINVAL, "no regular file of its folder", str(path))
+    parts = path.relative_to(folder).parts
+    if not parts or ".." in parts:
+        raise refused
+    *between, name = parts
+    reached = os.open(folder, os.O_RDONLY | os.O_DIRECTORY)
+    try:  # Each step is opened in the one before: nobody can put a link there in the meantime.
+        for part in between:
+            inner = os.open(part, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW, dir_fd=reached)
+            os.close(reached)
+            reached = inner
+        return _regular(name, os.O_NOFOLLOW, reached)
+    except OSError as error:
+        raise (refused if error.errno in NOT_INSIDE else error) from None
     except ValueError:  # No file can have such a name.
         raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(path)) from None
-    if found != Path(os.path.realpath(folder)) / path.relative_to(folder) or not found.is_file():
-        raise OSError(errno.EINVAL, "no regular file of its folder", str(path))
-    return found.open("rb")
+    finally:
+        os.close(reached)
+
+
+def _regular(path: Path | str, flags: int = 0, folder: int | None = None) -> BufferedReader:
+    """Open a regular file for reading; OSError for anything else, such as a pipe or a device."""
+    # Nonblocking: the other end of a pipe may never be opened.
+    opened = os.open(path, os.O_RDONLY | os.O_NONBLOCK | flags, dir_fd=folder)
+    if not stat.S_ISREG(os.fstat(opened).st_mode):
+        os.close(opened)
+        raise OSError(errno.EINVAL, "no regular file", str(path))
+    return os.fdopen(opened, "rb")
 
 
 def read_inside(folder: Path, path: Path, most_bytes: int) -> bytes:
@@ -141,9 +164,9 @@ def read_file(path: Path, most_bytes: int) -> bytes:
     Raises
     ------
     OSError
-        It cannot be read, or is larger than that.
+        It cannot be read, is no regular file, or is larger than that.
     """
-    with path.open("rb") as stream:
+    with _regular(path) as stream:
         return _content(stream, path, most_bytes)
 
 

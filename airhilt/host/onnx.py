@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from functools import cache
 from pathlib import Path
 from threading import Timer
@@ -16,6 +17,8 @@ LARGEST_FILE_BYTES = 500_000_000
 """Size of the largest file that is loaded."""
 LARGEST_MEMORY_BYTES = 4_000_000_000
 """Memory that all networks of a process may have at a time."""
+LONGEST_LOAD_S = 60.0
+"""Wall time after which a network is not loaded any more; it stops at its next step."""
 FIRST_LOOK_S = 20.0
 """Longest wall time of the first look of a network, in s; a loop in it may never end."""
 
@@ -55,7 +58,10 @@ def open_network(
     options.log_severity_level = 4
     options.add_session_config_entry("session.use_env_allocators", "1")
     try:
-        return onnxruntime.InferenceSession(str(path), options, providers=["CPUExecutionProvider"])
+        with _after(LONGEST_LOAD_S, lambda: options.set_load_cancellation_flag(True)):
+            return onnxruntime.InferenceSession(
+                str(path), options, providers=["CPUExecutionProvider"]
+            )
     except Exception as cause:  # onnxruntime raises classes of its own that share no base
         raise error(
             f"{subject}: no ONNX model that can be run: {first_line(cause)}; expected {expected}"
@@ -80,18 +86,41 @@ def first_look(
     limit_s = FIRST_LOOK_S if limit_s is None else limit_s
     options = onnxruntime.RunOptions()
     options.log_severity_level = 4
-    timer = Timer(limit_s, setattr, (options, "terminate", True))
-    timer.daemon = True
-    timer.start()
     try:
-        found: list[Any] = network.run(None, dict(inputs), options)
+        with _after(limit_s, lambda: setattr(options, "terminate", True)):
+            found: list[Any] = network.run(None, dict(inputs), options)
     except Exception:
         if options.terminate:
             raise TimeoutError(f"does not end within {limit_s:g} s") from None
         raise
+    return found
+
+
+def require_end(
+    network: onnxruntime.InferenceSession,
+    inputs: Mapping[str, Any],
+    subject: str,
+    error: type[AirhiltError],
+) -> None:
+    """Raise an error if a network does not end, or fails, when it is tried."""
+    try:
+        first_look(network, inputs)
+    except TimeoutError as cause:
+        raise error(f"{subject}: the network {cause}; expected one that ends") from None
+    except Exception as cause:  # onnxruntime raises classes of its own that share no base
+        raise error(f"{subject} has failed: {first_line(cause)}") from None
+
+
+@contextmanager
+def _after(limit_s: float, stop: Callable[[], None]) -> Iterator[None]:
+    """Stop what is done here if it has not ended after some wall time."""
+    timer = Timer(limit_s, stop)
+    timer.daemon = True
+    timer.start()
+    try:
+        yield
     finally:
         timer.cancel()
-    return found
 
 
 @cache

@@ -180,6 +180,28 @@ def test_a_file_inside_is_read_and_others_are_not(tmp_path: Path, outside: Path)
         read_inside(folder, folder / "nothing", 5)
 
 
+@pytest.mark.parametrize("name", ["audio", "call.wav"])
+def test_a_link_that_comes_while_a_file_is_opened_is_not_followed(
+    tmp_path: Path, outside: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    folder, real_open = tmp_path / "run", os.open
+    file = folder / "audio" / "call.wav"
+    file.parent.mkdir(parents=True)
+    file.write_bytes(b"sound")
+    (outside.parent / "call.wav").write_text(PRECIOUS)
+
+    def swap(path: Any, *rest: Any, **more: Any) -> int:
+        place = file if name == file.name else file.parent
+        if path == name and not place.is_symlink():
+            place.rename(tmp_path / "moved")
+            place.symlink_to(outside if place == file else outside.parent)
+        return real_open(path, *rest, **more)
+
+    monkeypatch.setattr(os, "open", swap)
+    with pytest.raises(OSError, match="no regular file of its folder"):
+        read_inside(folder, file, 100)
+
+
 @pytest.mark.parametrize(
     ("name", "command"),
     [

@@ -22,6 +22,13 @@ def write_large(path: Path, numbers: int) -> None:
     )
 
 
+def write_long(path: Path, nodes: int) -> None:
+    """Write a network of speech that is a chain of so many nodes."""
+    names = ["speech", *(f"value{number}" for number in range(nodes - 1)), "received"]
+    chain = [helper.make_node("Sin", [names[n]], [names[n + 1]]) for n in range(nodes)]
+    _write(path, chain, [])
+
+
 def _write(path: Path, nodes: list[NodeProto], constants: list[TensorProto]) -> None:
     ends = [
         helper.make_tensor_value_info(name, TensorProto.FLOAT, [1, "samples"])

@@ -172,3 +172,26 @@ def test_a_recogniser_that_answers_nonsense_is_refused(data: bytes) -> None:
         hear(url)
     assert url in str(refused.value)
     assert 'expected JSON such as {"text"' in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        {"text": "hello " * 21},
+        {"text": "h" * 401},
+        {"text": "hello", "words": [{"text": "hello", "confidence": 1.0}] * 21},
+    ],
+)
+def test_a_recogniser_that_hears_more_than_anybody_says_is_refused(
+    said: dict[str, object],
+) -> None:
+    with (
+        service(answering(json.dumps(said).encode())) as url,
+        pytest.raises(SpeechError, match=r"to 1\.0 s of audio; expected at most 20 words"),
+    ):
+        hear(url)
+
+
+def test_a_recogniser_may_hear_as_much_as_a_fast_talker_says() -> None:
+    with service(answering(json.dumps({"text": "hello " * 20}).encode())) as url:
+        assert hear(url).split() == ["hello"] * 20

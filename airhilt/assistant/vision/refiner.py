@@ -19,7 +19,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from airhilt.assistant.vision.detector import Found, Picture
 from airhilt.errors import VisionError, first_line
-from airhilt.host.onnx import open_network
+from airhilt.host.onnx import open_network, require_end
 from airhilt.imaging.boxes import centre, sides, size_px
 from airhilt.messages import Box, Confidence, VisibleClass
 
@@ -93,6 +93,9 @@ class Refiner:
             raise VisionError(
                 f"{self._subject} has {told}; expected {EXPECTED}, and {len(classes)} classes"
             )
+        views = np.zeros((1, 2, VIEW_PX, VIEW_PX, 3), np.uint8)
+        inputs = {"views": views, "about": np.zeros((1, 3), np.float32)}
+        require_end(self._network, inputs, self._subject, VisionError)
 
     def places(self, found: Sequence[Found], pixels: int) -> list[Found]:
         """Return the findings that are looked at in a picture of so many pixels."""

@@ -16,7 +16,7 @@ from airhilt.host.machine import available_cores
 from airhilt.imaging.masks import Mask
 from airhilt.imaging.view import View
 from airhilt.scenario import Scenario
-from airhilt.sensors.cameras import AUTO
+from airhilt.sensors.cameras import AUTO, STILL_SAMPLES
 from airhilt.sensors.cameras.frame import CameraPicture, Prospect
 from airhilt.sensors.cameras.mounts import Camera, cameras_named, find_camera
 from airhilt.sensors.cameras.scene.bodies import BodyState
@@ -30,9 +30,12 @@ ENVIRONMENT = {"EGL_PLATFORM": "surfaceless", "OMP_NUM_THREADS": "1", "LP_NUM_TH
 draw some of them sooner."""
 MOST_PROCESSES = 4
 """Most processes of a run; each takes some 300 MB for the scene."""
-PATIENCE_S = 600.0
-"""Time that it has for an answer, in s: a busy core draws the first picture of a fixed camera of
-4096 by 4096 pixels, with nine samples each, in that time."""
+STARTING_S = 120.0
+"""Time that a process has to open its scene, in s."""
+PATIENCE_S = 60.0
+"""Time that it has for the pictures of one instant, in s."""
+SLOWEST_SAMPLES_PER_S = 250_000.0
+"""Samples that a renderer on a busy core draws in a second; it is given the time for all."""
 
 
 class RendererProcess:
@@ -75,6 +78,8 @@ class RendererProcess:
         wanted = [camera.name for camera in scenario.cameras] if names is None else list(names)
         self._cameras = cameras_named(scenario, wanted)
         self.renderer = renderer
+        samples = sum(_samples(camera, supersampling) for camera in self._cameras.values())
+        self._drawing_s = samples / SLOWEST_SAMPLES_PER_S
         self._pixels: dict[str, Payload] = {}
         self._owned = [] if processes else [start_renderer(renderer)]
         self.processes = [*processes, *self._owned]
@@ -83,7 +88,9 @@ class RendererProcess:
         opening = (renderer, supersampling, shares_pictures)
         try:
             opened = self._answers(
-                "open", [(process, (scenario, share, *opening)) for process, share in self._shares]
+                "open",
+                [(process, (scenario, share, *opening)) for process, share in self._shares],
+                STARTING_S,
             )
         except BaseException:
             self.close()
@@ -123,7 +130,7 @@ class RendererProcess:
         ]
         found: dict[str, Any] = {}
         after: States = {}
-        for its_found, its_after in self._answers(what, asked):
+        for its_found, its_after in self._answers(what, asked, PATIENCE_S):
             found |= its_found
             after |= its_after
         if what == "take":
@@ -148,13 +155,14 @@ class RendererProcess:
         return {name: find_camera(self._cameras, name).view(there) for name in names}
 
     def _answers(
-        self, what: str, asked: Sequence[tuple[ChildProcess, tuple[Any, ...]]]
+        self, what: str, asked: Sequence[tuple[ChildProcess, tuple[Any, ...]]], patience_s: float
     ) -> list[Any]:
-        """Return what each process answers; all are asked at once."""
+        """Return what each process answers; all are asked at once, and have the time to draw."""
+        patience_s += self._drawing_s
         for process, arguments in asked:
             process.tell(what, *arguments)
-        with _lost_if_silent(self.renderer):
-            return [process.answer(PATIENCE_S) for process, _ in asked]
+        with _lost_if_silent(self.renderer, patience_s):
+            return [process.answer(patience_s) for process, _ in asked]
 
     def close(self) -> None:
         """End the process, unless it was given."""
@@ -229,18 +237,24 @@ def probe(renderer: str) -> None:
     RendererError
         It could not.
     """
-    with closing(start_renderer(renderer)) as process, _lost_if_silent(renderer):
-        process.ask("probe", renderer, patience_s=PATIENCE_S)
+    with closing(start_renderer(renderer)) as process, _lost_if_silent(renderer, STARTING_S):
+        process.ask("probe", renderer, patience_s=STARTING_S)
+
+
+def _samples(camera: Camera, supersampling: int) -> int:
+    """Return how many samples a picture has at most; a fixed camera's first one has more."""
+    along = max(supersampling, STILL_SAMPLES) if camera.is_fixed else supersampling
+    return camera.intrinsics.width_px * camera.intrinsics.height_px * along**2
 
 
 @contextmanager
-def _lost_if_silent(renderer: str) -> Iterator[None]:
+def _lost_if_silent(renderer: str, patience_s: float) -> Iterator[None]:
     """Raise RendererLost if a process does not answer."""
     try:
         yield
     except NoAnswer:
         raise RendererLost(
-            f"the renderer {renderer} has not answered for {PATIENCE_S:.0f} s; no more "
+            f"the renderer {renderer} has not answered for {patience_s:.0f} s; no more "
             "pictures are drawn: take smaller ones (width_px, height_px) or another --renderer"
         ) from None
     except Ended as ended:

@@ -15,6 +15,7 @@ import pytest
 import airhilt.assistant.asr.engines.embedded
 from airhilt.assistant.asr.confidences import WordCurve
 from airhilt.assistant.asr.engines.embedded import FILES, Ctc, Emission
+from airhilt.assistant.asr.features import BINS
 from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.engine_families import RECOGNISERS
 from airhilt.errors import SpeechError
@@ -207,6 +208,24 @@ def test_a_language_model_that_is_damaged_is_refused(folder: Path) -> None:
 def test_a_network_of_another_kind_is_refused(folder: Path) -> None:
     shutil.copy(DATA / "channels" / "echo.onnx", folder / "ctc.onnx")
     with pytest.raises(SpeechError, match=r"ctc\.onnx is of another kind.*expected a network of"):
+        Ctc(folder)
+
+
+def test_a_network_that_never_ends_is_stopped(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    pytest.importorskip("onnx")
+    from onnx import TensorProto
+
+    from endless_networks import write_endless
+
+    monkeypatch.setattr("airhilt.host.onnx.FIRST_LOOK_S", 0.3)
+    write_endless(
+        folder / "ctc.onnx",
+        {"features": (TensorProto.FLOAT, ["n", "frames", BINS])},
+        {"logits": ["n", 50, 4]},
+    )
+    with pytest.raises(SpeechError, match=r"ctc\.onnx .*does not end within 0\.3 s"):
         Ctc(folder)
 
 

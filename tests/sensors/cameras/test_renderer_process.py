@@ -17,6 +17,7 @@ import pytest
 
 from airhilt import load
 from airhilt.errors import CameraError, RendererError, RendererLost
+from airhilt.host.child_process import ChildProcess
 from airhilt.scenario import Scenario
 from airhilt.sensors.cameras import renderer_process
 from airhilt.sensors.cameras.renderer_process import RendererProcess, probe
@@ -155,12 +156,28 @@ def test_the_renderer_imports_nothing_from_the_folder_in_which_it_starts(
     probe("embree")
 
 
+def test_a_renderer_is_given_more_time_for_more_to_draw(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A fixed camera's first picture has 3 x 3 samples in each pixel, or more."""
+    waited = []
+
+    def note(_: ChildProcess, patience_s: float) -> None:
+        waited.append(patience_s)
+        raise RendererError("noted")
+
+    monkeypatch.setattr(renderer_process, "SLOWEST_SAMPLES_PER_S", 1600.0)
+    monkeypatch.setattr(ChildProcess, "answer", note)
+    for supersampling in (1, 4):
+        with pytest.raises(RendererError, match="noted"):
+            RendererProcess(washington(), None, "embree", supersampling)
+    assert waited == [120.0 + 9.0 * 9.0, 120.0 + 16.0 * 9.0]
+
+
 @pytest.mark.slow
 def test_a_renderer_that_hangs_is_given_up_and_says_what_to_do(
     bodies: list[BodyState], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     with RendererProcess(washington(), renderer="embree") as opened:
-        monkeypatch.setattr(renderer_process, "PATIENCE_S", 2.0)
+        monkeypatch.setattr(renderer_process, "PATIENCE_S", 1.0)
         os.kill(opened.processes[0].process_id, signal.SIGSTOP)
         with pytest.raises(RendererLost, match=r"not answered for 2 s.*take smaller"):
             opened.take(["field"], bodies, 0)

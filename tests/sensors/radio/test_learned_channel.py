@@ -12,7 +12,7 @@ from airhilt.errors import SpeechError
 from airhilt.host import onnx
 from airhilt.sensors.radio.channel import Other, active
 from airhilt.sensors.radio.learned_channel import LearnedChannel
-from large_networks import write_large
+from large_networks import write_large, write_long
 from paths import DATA
 
 CHANNELS = DATA / "channels"
@@ -36,6 +36,15 @@ def test_a_model_that_takes_too_much_memory_is_refused(tmp_path: Path) -> None:
     write_large(tmp_path / "large.onnx", numbers=100_000_000_000)
     with pytest.raises(SpeechError, match=r"large\.onnx: .*(no ONNX model|fails).*memory"):
         LearnedChannel(tmp_path / "large.onnx")
+
+
+def test_a_model_that_takes_too_long_to_load_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(onnx, "LONGEST_LOAD_S", 0.05)
+    write_long(tmp_path / "long.onnx", nodes=20_000)
+    with pytest.raises(SpeechError, match=r"long\.onnx: no ONNX model .* canceled"):
+        LearnedChannel(tmp_path / "long.onnx")
 
 
 def test_a_model_in_a_file_that_is_too_large_is_refused(tmp_path: Path) -> None:

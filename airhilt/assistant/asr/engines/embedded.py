@@ -38,7 +38,7 @@ from airhilt.assistant.asr.spotting import Odds, Spotted, Spotter, is_same
 from airhilt.audio.pcm import Audio
 from airhilt.engines import Engine
 from airhilt.errors import SpeechError, first_line, first_problem
-from airhilt.host.onnx import open_network
+from airhilt.host.onnx import first_look, open_network
 from airhilt.messages import Confidence
 
 MODEL = Path(__file__).parents[1] / "model"
@@ -149,7 +149,7 @@ class Ctc:
         self._session = open_network(network, f"recogniser {self.name}: {network}", EXPECTED)
         trial = {"features": np.zeros((1, TRIAL_FRAMES, BINS), np.float32)}
         try:
-            _, steps, units = self._session.run(None, trial)[0].shape
+            _, steps, units = first_look(self._session, trial)[0].shape
         except Exception as error:  # onnxruntime raises classes of its own that share no base
             raise SpeechError(
                 f"recogniser {self.name}: {network} is of another kind: {first_line(error)}; "

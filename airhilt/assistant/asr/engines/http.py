@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict
 
 from airhilt.assistant.asr.engine import Recognised
-from airhilt.audio.pcm import Audio
+from airhilt.audio.pcm import SAMPLE_RATE_HZ, Audio
 from airhilt.audio.wav import encode_wav
 from airhilt.engines import Engine
 from airhilt.errors import SpeechError
@@ -19,6 +19,10 @@ from airhilt.phraseology.canonical import canonical
 TIMEOUT_S = 30.0
 MAXIMUM_BYTES = 1_000_000
 """Size of the largest answer."""
+WORDS_PER_S = 10.0
+"""Largest number of words in a second of audio, and as many more in all: twice fast speech."""
+LETTERS_PER_WORD = 20
+"""Largest number of letters of a text for each word that it may have."""
 
 
 class _Answer(BaseModel):
@@ -47,6 +51,7 @@ class HttpAsr:
         data = self._service.post(encode_wav(audio), "audio/wav")
         expected = 'JSON such as {"text": "...", "confidence": 0.9}'
         answer = self._service.parsed(data, _Answer, expected)
+        self._require_sayable(answer, len(audio) / SAMPLE_RATE_HZ)
         given = [(word.text, word.confidence) for word in answer.words]
         words = canonical(given or [(answer.text, 1.0)])
         confidence = answer.confidence
@@ -54,6 +59,16 @@ class HttpAsr:
             confidence = float(np.mean([each for _, each in words])) if words else 1.0
         text = " ".join(word for word, _ in words)
         return Recognised(text, words if given else (), confidence)
+
+    def _require_sayable(self, answer: _Answer, duration_s: float) -> None:
+        most = int(WORDS_PER_S * (1.0 + duration_s))
+        for text in (answer.text, " ".join(word.text for word in answer.words)):
+            count = len(text.split())
+            if count > most or len(text) > most * LETTERS_PER_WORD:
+                raise self._service.error(
+                    f"answered {count} words ({len(text)} letters) to {duration_s:.1f} s of audio",
+                    f"at most {most} words, more than anybody says in that time",
+                )
 
 
 ENGINE = Engine(

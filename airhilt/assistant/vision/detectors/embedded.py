@@ -23,7 +23,7 @@ from airhilt.assistant.vision.tiling import Tile
 from airhilt.engines import Engine
 from airhilt.errors import VisionError, first_line, first_problem
 from airhilt.host.files import read_file, sha256
-from airhilt.host.onnx import open_network
+from airhilt.host.onnx import open_network, require_end
 from airhilt.imaging.boxes import area, moved, size_px, within
 from airhilt.messages import Confidence, VisibleClass
 
@@ -124,6 +124,8 @@ class EmbeddedDetector:
             both = (*inputs, *outputs)
             told = ", ".join(f"{each.name!r} {each.type} {each.shape}" for each in both)
             raise VisionError(f"{self._subject} has {told}; expected {EXPECTED}")
+        empty = np.zeros((1, SMALLEST_PX, SMALLEST_PX, 3), np.uint8)
+        require_end(self._network, {"picture": empty}, self._subject, VisionError)
         self._refiner: Refiner | None = None
         if card.refiner is not None:
             self._files.append(file.with_name(card.refiner.file))

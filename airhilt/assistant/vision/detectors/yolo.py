@@ -18,7 +18,7 @@ from airhilt.assistant.vision.detector import Found, Picture
 from airhilt.assistant.vision.detectors.embedded import has_card
 from airhilt.engines import Engine, Package
 from airhilt.errors import VisionError, first_line
-from airhilt.host.onnx import open_network
+from airhilt.host.onnx import open_network, require_end
 from airhilt.messages import VisibleClass
 
 LABELS: Mapping[str, VisibleClass] = {
@@ -39,6 +39,8 @@ THRESHOLD = 0.25
 """Findings with less only continue tracks (``conf`` of ultralytics' predictions)."""
 MOST_FOUND = 300
 STRIDE_PX = 32
+TRIAL_PX = 320
+"""Side of the picture with which a network that takes any is tried, in pixels."""
 EXPECTED = "a model for detection of ultralytics, .pt or .onnx"
 ENVIRONMENT = {"YOLO_OFFLINE": "true", "YOLO_AUTOINSTALL": "false", "YOLO_VERBOSE": "false"}
 """Variables with which ultralytics neither loads nor installs nor prints anything.
@@ -144,13 +146,19 @@ def _fixed_sides(path: Path) -> tuple[int, int] | None:
                 f"detector yolo: {path}: its metadata {name!r} is no plain value, and may be code; "
                 f"expected {EXPECTED}"
             ) from None
-    match session.get_inputs()[0].shape:
+    port, sides = session.get_inputs()[0], None
+    match port.shape:
         case [_, _, int(rows), int(columns)]:
-            return rows, columns
+            sides = rows, columns
         case [_, _, _, _]:
-            return None
+            pass
         case shape:
             raise VisionError(f"detector yolo: {path}: takes {shape}; expected {EXPECTED}")
+    channels = port.shape[1] if isinstance(port.shape[1], int) else 3
+    number = np.float16 if port.type == "tensor(float16)" else np.float32
+    trial = np.zeros((1, channels, *(sides or (TRIAL_PX, TRIAL_PX))), number)
+    require_end(session, {port.name: trial}, f"detector yolo: {path}", VisionError)
+    return sides
 
 
 def _is_model(path: Path) -> bool:
