@@ -105,7 +105,7 @@ def test_a_closed_session_keeps_nobody_who_listened() -> None:
         listener = Listener()
         with closing(Bus("left")) as bus:
             bus.watch_workers(listener.note)
-            bus.watch_holders(listener.note)
+            bus.watch_holders(lambda key, _: listener.note(key))
             bus.answer("seat/*/do", listener.answer)
             bus.hear("command/*", lambda key, _: listener.note(key, True))
         return ref(listener)
