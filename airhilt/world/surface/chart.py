@@ -16,7 +16,8 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Patch, Wedge
 from matplotlib.patches import Polygon as PolygonPatch
-from shapely import Point, Polygon, box
+from shapely import LineString, Point, Polygon, box
+from shapely.geometry.base import BaseGeometry
 
 from airhilt.errors import ScenarioError
 from airhilt.units import FOOT, bearing_degrees
@@ -37,6 +38,8 @@ MARGIN_M = 220.0
 """Ground shown around everything that is drawn, in m."""
 SHORT_TAXIWAY_PT = 70.0
 """A taxiway that is not longer, in points, has its letter beyond its end: its hold is seen."""
+NAMED_LEGS = 5
+"""Number of legs of a taxiway, the longest, on which or beside which its name may stand."""
 LABELLED_AREA_M2 = 4000.0
 """Buildings smaller than this are named only when pointed at."""
 NARROW_RUNWAY_PT = 9.0
@@ -107,8 +110,8 @@ class _Diagram:
 
     def __init__(self, layout: Layout) -> None:
         self._layout = layout
-        self._taken: list[Polygon] = []
-        """Boxes, in local metres, that no further name may hide."""
+        self._taken: list[BaseGeometry] = []
+        """Areas, in local metres, that no further name may hide."""
         self._buildings = [
             (building.name, Polygon(layout.outline(building.footprint)))
             for building in layout.airport.buildings
@@ -211,6 +214,7 @@ class _Diagram:
         for hold in layout.holds.values():
             ends = layout.hold_line(hold, least_half_m=5.0 * self._point_m)
             self._line(ends, f"hold {hold.name}", **HOLD)
+            self._taken.append(LineString(ends).buffer(2.0 * self._point_m))
         for first, second, at in layout.intersections:
             self._taken.append(self._box(at, 18.0, 18.0))
             circle = Circle(at, 9.0 * self._point_m, **CROSSING)
@@ -267,6 +271,7 @@ class _Diagram:
             self._text(at, size, _upright_deg(_bearing_deg(self._ahead(strip.ends[0]))), **white)
 
     def _name_taxiways(self) -> None:
+        self._taken += [strip.pavement for strip in self._layout.strips.values()]
         taxiways: dict[str, list[Leg]] = defaultdict(list)
         for edge in self._layout.airport.taxiways.edges:
             taxiways[edge.taxiway].append(self._layout.leg(edge))
@@ -276,7 +281,14 @@ class _Diagram:
             legs.sort(key=lambda leg: -math.dist(*leg))
             width = 7.5 * len(name) + 6.0
             spots = [
-                lines.between(a, b, part) for a, b in legs for part in (0.5, 0.3, 0.7, 0.1, 0.9)
+                lines.between(a, b, part)
+                for a, b in legs[:NAMED_LEGS]
+                for part in (0.5, 0.3, 0.7, 0.1, 0.9)
+            ]
+            spots += [
+                lines.step(at, side, (width / 2.0 + 8.0) * self._point_m)
+                for at in spots
+                for side in ((1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0))
             ]
             if sum(math.dist(*leg) for leg in legs) < SHORT_TAXIWAY_PT * self._point_m:
                 away_m = (width / 2.0 + 6.0) * self._point_m
@@ -292,13 +304,15 @@ class _Diagram:
         return sorted(spots, key=lambda at: -min(line.distance(Point(at)) for line in runways))
 
     def _free(self, spots: Sequence[Local], width_pt: float, height_pt: float) -> Local:
-        """Take the first spot at which a name hides nothing, or the first of all."""
-        for at in (*spots, spots[0]):
+        """Take the first spot at which a name hides nothing, or that at which it hides least."""
+
+        def hidden_m2(at: Local) -> float:
             name = self._box(at, width_pt, height_pt)
-            if not any(name.intersects(other) for other in self._taken):
-                break
-        self._taken.append(name)
-        return at
+            return sum(float(name.intersection(o).area) for o in self._taken if name.intersects(o))
+
+        best = next((at for at in spots if not hidden_m2(at)), None) or min(spots, key=hidden_m2)
+        self._taken.append(self._box(best, width_pt, height_pt))
+        return best
 
     def _box(self, at: Local, width_pt: float, height_pt: float) -> Polygon:
         (x, y), half_x, half_y = at, width_pt * self._point_m / 2.0, height_pt * self._point_m / 2.0
@@ -314,15 +328,14 @@ class _Diagram:
         """Write header and legend, and draw the scale and the directions of north."""
         airport, layout = self._layout.airport, self._layout
         variation = airport.magnetic_variation
-        side = "E" if variation.east_deg >= 0.0 else "W"
         facts = (
             f"elevation {airport.elevation_ft:.0f} ft ({airport.elevation_ft * FOOT:.0f} m) · "
-            f"variation {abs(variation.east_deg):.1f}° {side} ({variation.epoch:.1f}) · "
+            f"variation {_variation(variation.east_deg)} ({variation.epoch:.1f}) · "
             f"{len(layout.strips)} runways, {len(layout.holds)} holds"
         )
         self._note(self._height - 26.0, f"{airport.icao}  {airport.name}", 20, weight="bold")
         self._note(self._height - 48.0, facts, 12)
-        self._note(self._height - 68.0, _frequencies(airport), 12)
+        self._note(self._height - 68.0, _frequencies(airport), 10.5)
         invented = sorted(block for block, source in airport.sources.items() if source.synthetic)
         if invented:
             blocks = ", ".join(invented)
@@ -363,10 +376,11 @@ class _Diagram:
         """Draw an arrow to true north, and a dashed line to magnetic north."""
         x, y = self._width - 40.0, self._height - HEADER_PT - 62.0
         declination = math.radians(variation_deg)
-        magnetic = x + 44.0 * math.sin(declination), y + 44.0 * math.cos(declination)
-        for words, tip, arrow in (
-            ("N", (x, y + 42.0), {"facecolor": INK, "width": 3.0, "headwidth": 10.0}),
-            ("", magnetic, {"arrowstyle": "-", "linestyle": "--", "color": INK, "shrinkA": 0.0}),
+        magnetic = x + 56.0 * math.sin(declination), y + 56.0 * math.cos(declination)
+        line: Style = {"color": INK, "relpos": (0.5, 1.0), "shrinkA": 0.0, "shrinkB": 0.0}
+        for words, tip, kind in (
+            ("N", (x, y + 42.0), {"arrowstyle": "-|>", "mutation_scale": 16.0, "linewidth": 2.0}),
+            (f"\nvar. {_variation(variation_deg)}", magnetic, {"arrowstyle": "-", "ls": "--"}),
         ):
             self._map.annotate(
                 words,
@@ -375,8 +389,9 @@ class _Diagram:
                 xycoords="figure fraction",
                 ha="center",
                 va="top",
-                fontsize=12,
-                arrowprops=arrow,
+                fontsize=10,
+                arrowprops=line | kind,
+                zorder=self._layer,
             )
 
     def _note(self, y_pt: float, words: str, size_pt: float, **style: Any) -> None:
@@ -397,6 +412,10 @@ def _frequencies(airport: Airport) -> str:
         for role in SHOWN_ROLES
         if role in by_role
     )
+
+
+def _variation(east_deg: float) -> str:
+    return f"{abs(east_deg):.1f}° {'E' if east_deg >= 0.0 else 'W'}"
 
 
 def _bearing_deg(direction: Local) -> float:

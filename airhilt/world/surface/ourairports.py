@@ -6,22 +6,35 @@ The files are ``runways.csv`` and ``airport-frequencies.csv`` of https://ourairp
 
 from __future__ import annotations
 
+import csv
 import io
 import math
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+
+from pydantic import BaseModel, ValidationError
 
 from airhilt.errors import ScenarioError
 from airhilt.geodesy.wgs84 import distance_and_azimuth
 from airhilt.host import library
 from airhilt.host.files import read_file
 from airhilt.host.text import readable
+from airhilt.scenario.problems import problems_of
 from airhilt.units import FOOT
 from airhilt.world.surface.airport import Frequency, Role, Runway, RunwayThreshold
 
 LARGEST_BYTES = 50_000_000
 """Size of the largest file that is read; those of all airports had 4 MB in 2026."""
+MOST_LINES = 200_000
+"""Greatest number of lines; the runways of all airports were 48,000 in 2026."""
+MOST_RUNWAYS, MOST_FREQUENCIES = 50, 500
+"""Greatest numbers of rows of one airport: what its file may have."""
+LONGEST_NAME = 20
+LONGEST_M = 20_000.0
+"""Greatest length of a runway, in m; lake beds have some of 12 km."""
 CREDIT = "OurAirports (public domain)"
 ENDS = ("le", "he")
 """Beginnings of the columns of both ends of a runway."""
@@ -82,15 +95,14 @@ def read_runways(path: Path, ident: str) -> Runways:
     ScenarioError
         The file cannot be read, lacks a column, knows no such airport, or has nothing left.
     """
-    rows = _rows(path, RUNWAY_COLUMNS)
-    mine = [row for row in rows if row["airport_ident"].upper() == ident.upper()]
-    if not mine:
-        known = sorted({row["airport_ident"] for row in rows})
-        raise ScenarioError(f"{path} has no airport {ident!r}{library.nearest(ident, known)}")
+    rows, known = _rows(path, ident, RUNWAY_COLUMNS, MOST_RUNWAYS)
+    if not rows:
+        near = readable(library.nearest(ident, sorted(known)))
+        raise ScenarioError(f"{path} has no airport {ident!r}{near}")
     notes: list[str] = []
     usable = []
-    for row in mine:
-        name = f"{row['le_ident'] or '?'}/{row['he_ident'] or '?'}"
+    for row in rows:
+        name = readable(f"{row['le_ident'] or '?'}/{row['he_ident'] or '?'}", LONGEST_NAME)
         if reason := _unusable(row):
             notes.append(f"left out {name}: {reason}")
         else:
@@ -106,7 +118,7 @@ def read_runways(path: Path, ident: str) -> Runways:
     if not elevations:
         raise ScenarioError(f"{path} gives no elevation for any runway of {ident}")
     runways = tuple(
-        _runway(name, row, sum(elevations) / len(elevations), notes) for name, row in usable
+        _runway(path, name, row, sum(elevations) / len(elevations), notes) for name, row in usable
     )
     return Runways(tuple(sorted(runways, key=lambda runway: runway.name)), tuple(notes))
 
@@ -120,36 +132,61 @@ def read_frequencies(path: Path, ident: str) -> tuple[Frequency, ...]:
         The file cannot be read, or lacks a column.
     """
     found: dict[tuple[Role, int], Frequency] = {}
-    for row in _rows(path, FREQUENCY_COLUMNS):
+    rows, _ = _rows(path, ident, FREQUENCY_COLUMNS, MOST_FREQUENCIES)
+    for row in rows:
         megahertz = _number(row["frequency_mhz"])
-        if row["airport_ident"].upper() != ident.upper() or megahertz is None:
+        if megahertz is None:
             continue
         role = ROLES.get(row["type"].upper().split(" ")[0], "other")
         name = row["description"] or row["type"]
-        frequency = Frequency(role=role, frequency_khz=round(megahertz * 1000.0), name=name)
+        with refusing(f"{path}: a frequency of {ident}", Frequency):
+            frequency = Frequency(role=role, frequency_khz=round(megahertz * 1000.0), name=name)
         found.setdefault((role, frequency.frequency_khz), frequency)
     return tuple(found.values())
 
 
-def _rows(path: Path, columns: tuple[str, ...]) -> list[dict[str, str]]:
-    import pandas
-
+def _rows(
+    path: Path, ident: str, columns: tuple[str, ...], most: int
+) -> tuple[list[dict[str, str]], set[str]]:
+    """Return these columns of the rows of an airport, and the identifiers of all airports."""
+    rows: list[dict[str, str]] = []
+    known = set()
     try:
-        text = read_file(path, LARGEST_BYTES).decode("utf-8-sig")
-        header, _, _ = text.partition("\n")
-        separator = ";" if header.count(";") > header.count(",") else ","
-        table = pandas.read_csv(io.StringIO(text), sep=separator, dtype=str, na_filter=False)
+        data = read_file(path, LARGEST_BYTES)
+        header, _, _ = data.partition(b"\n")
+        separator = ";" if header.count(b";") > header.count(b",") else ","
+        text = io.TextIOWrapper(io.BytesIO(data), "utf-8-sig", newline="")
+        reader = csv.reader(text, delimiter=separator)
+        names = next(reader, [])
+        if missing := [name for name in columns if name not in names]:
+            has = readable(", ".join(names) or "none")
+            raise ScenarioError(f"{path} has no column {', '.join(missing)}; it has {has}")
+        places = {name: names.index(name) for name in columns}
+        for fields in reader:
+            row = {name: "".join(fields[at : at + 1]).strip() for name, at in places.items()}
+            known.add(row["airport_ident"])
+            if row["airport_ident"].upper() == ident.upper():
+                rows.append(row)
+            if reader.line_num > MOST_LINES:
+                raise ScenarioError(f"{path}: found over {MOST_LINES:,} lines; expected fewer")
+            if len(rows) > most:
+                raise ScenarioError(f"{path}: found over {most} rows of {ident}; expected fewer")
     except OSError as error:
         raise ScenarioError(f"{path}: cannot be read: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise ScenarioError(f"{path}: is not UTF-8 text: {error.reason}") from error
-    except ValueError as error:
-        raise ScenarioError(f"{path}: no CSV: {readable(str(error))}") from None
-    if missing := [name for name in columns if name not in table]:
-        has = readable(", ".join(table))
-        raise ScenarioError(f"{path} has no column {', '.join(missing)}; it has {has}")
-    rows = table[list(columns)].to_dict("records")
-    return [{name: field.strip() for name, field in row.items()} for row in rows]
+    except csv.Error as error:
+        raise ScenarioError(f"{path}: no CSV: {error}") from None
+    return rows, known
+
+
+@contextmanager
+def refusing(origin: str, model: type[BaseModel]) -> Iterator[None]:
+    """Raise the first of what pydantic finds wrong as a ScenarioError that names the origin."""
+    try:
+        yield
+    except ValidationError as error:
+        raise ScenarioError(f"{origin}: {problems_of(error, model)[0]}") from None
 
 
 def _unusable(row: dict[str, str]) -> str | None:
@@ -168,26 +205,40 @@ def _unusable(row: dict[str, str]) -> str | None:
     return None
 
 
-def _runway(name: str, row: dict[str, str], elevation_ft: float, notes: list[str]) -> Runway:
-    ends = (_end("le", row, elevation_ft, notes), _end("he", row, elevation_ft, notes))
+def _runway(
+    path: Path, name: str, row: dict[str, str], elevation_ft: float, notes: list[str]
+) -> Runway:
+    of_airport = f"{name} of {row['airport_ident']}"
+    ends = []
+    for end in ENDS:
+        with refusing(f"{path}: {end} of runway {of_airport}", RunwayThreshold):
+            ends.append(_end(end, row, elevation_ft, notes))
     length_m, _ = distance_and_azimuth(ends[0].place, ends[1].place)
+    if length_m > LONGEST_M:
+        raise ScenarioError(
+            f"{path}: runway {of_airport} is {length_m:.0f} m long by its coordinates; "
+            f"expected at most {LONGEST_M:.0f} m"
+        )
     published = _number(row["length_ft"])
     if published and abs(published * FOOT - length_m) > LENGTHS_DISAGREE_M:
         notes.append(
             f"{name} is {length_m / FOOT:.0f} ft long by its coordinates, which are used, "
-            f"and {published:.0f} ft as published"
+            f"and {published:g} ft as published"
         )
     if length_m < (ends[0].displaced_threshold_ft + ends[1].displaced_threshold_ft) * FOOT:
-        raise ScenarioError(f"runway {name} has thresholds that are displaced beyond its length")
+        raise ScenarioError(
+            f"{path}: runway {name} has thresholds that are displaced beyond its length"
+        )
     width_ft = _number(row["width_ft"])
     if not width_ft:
         notes.append(f"{name} has no width, {USUAL_WIDTH_FT:.0f} ft is used")
-    return Runway(
-        ends=ends,
-        width_ft=width_ft or USUAL_WIDTH_FT,
-        surface=row["surface"],
-        hold_distance_m=_hold_distance(row["airport_ident"], length_m),
-    )
+    with refusing(f"{path}: runway {of_airport}", Runway):
+        return Runway(
+            ends=(ends[0], ends[1]),
+            width_ft=width_ft or USUAL_WIDTH_FT,
+            surface=row["surface"],
+            hold_distance_m=_hold_distance(row["airport_ident"], length_m),
+        )
 
 
 def _end(end: str, row: dict[str, str], elevation_ft: float, notes: list[str]) -> RunwayThreshold:
@@ -211,9 +262,9 @@ def _hold_distance(ident: str, length_m: float) -> float:
 
 
 def _number(text: str) -> float | None:
-    """Return a field as a number, or None where it is empty or is none."""
+    """Return a field as a number, or None where it is empty, none, or beyond all reason."""
     try:
         number = float(text)
     except ValueError:
         return None
-    return number if math.isfinite(number) else None
+    return number if math.isfinite(number * 1000.0) else None

@@ -12,6 +12,7 @@ from xml.etree import ElementTree as ET
 
 import pytest
 from PIL import Image
+from shapely import LineString, Point
 
 from airhilt.errors import ScenarioError
 from airhilt.world.surface.airport import load_airport
@@ -132,6 +133,16 @@ def test_every_airport_can_be_drawn(subtests: pytest.Subtests, tmp_path: Path) -
 def test_a_name_that_ends_in_png_gets_a_picture(washington: Layout, tmp_path: Path) -> None:
     with Image.open(draw(washington, tmp_path / "kdca.png")) as picture:
         assert picture.size == (1720, 2296)
+        north = picture.convert("RGB").getpixel((1640, 252))
+        assert north == (0x1B, 0x2A, 0x36)
+
+
+def test_letters_of_taxiways_that_cross_a_runway_stand_beside_it(
+    washington: Layout, tmp_path: Path
+) -> None:
+    at = texts_of(drawn(washington, tmp_path))
+    runway = LineString([at["01"], at["19"]])
+    assert min(runway.distance(Point(at[name])) for name in "ABDEFMN") > 18.0
 
 
 def test_other_formats_are_refused(washington: Layout, tmp_path: Path) -> None:

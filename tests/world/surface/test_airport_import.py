@@ -123,7 +123,8 @@ def test_a_file_that_is_too_large_or_no_table_is_refused(tmp_path: Path) -> None
     path = tmp_path / "runways.csv"
     for text, answer in [
         ("\n" * 50_000_001, "has over 50,000,000 bytes"),
-        ("a\n1,2\n1,2,3", "no CSV"),
+        (",".join(ROWS[0]) + "\n" * 200_002, "found over 200,000 lines"),
+        (f"{','.join(ROWS[0])}\n{'a' * 200_000}", "no CSV"),
     ]:
         path.write_text(text)
         with pytest.raises(ScenarioError, match=rf"runways\.csv: .*{answer}"):
@@ -183,6 +184,43 @@ def test_thresholds_displaced_beyond_the_runway_are_refused(tmp_path: Path) -> N
     with pytest.raises(
         ScenarioError, match="runway 13/31 has thresholds that are displaced beyond"
     ):
+        imported("KPAO", path)
+
+
+@pytest.mark.parametrize(
+    ("changes", "answer"),
+    [
+        ({"le_latitude_deg": "4000"}, r"le of runway 13/31 of KPAO: lat_deg: found 4000\.0: "),
+        ({"he_elevation_ft": "1e30"}, r"he of runway 13/31 of KPAO: elevation_ft: found 1e\+30: "),
+        ({"width_ft": "-150"}, r"runway 13/31 of KPAO: width_ft: found -150\.0: .* greater than 0"),
+        ({"surface": "x" * 3000}, "surface: found .*: string should have at most 2000"),
+        ({"he_latitude_deg": "0"}, "m long by its coordinates; expected at most 20000 m"),
+    ],
+)
+def test_an_impossible_field_is_named_in_one_line(
+    tmp_path: Path, changes: dict[str, str], answer: str
+) -> None:
+    with pytest.raises(ScenarioError, match=rf"runways\.csv: .*{answer}") as caught:
+        imported("KPAO", rewritten(tmp_path, changes))
+    assert "\n" not in str(caught.value)
+    assert len(str(caught.value)) < 400
+
+
+def test_a_frequency_that_no_radio_has_is_named(tmp_path: Path) -> None:
+    path = tmp_path / "frequencies.csv"
+    path.write_text("airport_ident,type,description,frequency_mhz\nKPAO,TWR,T,5.6\n")
+    with pytest.raises(ScenarioError, match="a frequency of KPAO: frequency_khz: found 5600"):
+        imported("KPAO", frequencies=path)
+
+
+def test_a_table_may_be_wide_and_one_airport_has_few_rows(tmp_path: Path) -> None:
+    head, *rows = RUNWAYS.read_text(encoding="utf-8").splitlines()
+    row = next(each for each in rows if "KPAO" in each)
+    path = tmp_path / "runways.csv"
+    path.write_text(f"{head}{',more' * 100_000}\n{row}{',1' * 100_000}\n")
+    assert imported("KPAO", path) == imported("KPAO")
+    path.write_text("\n".join([head, *[row] * 51]))
+    with pytest.raises(ScenarioError, match="found over 50 rows of KPAO; expected fewer"):
         imported("KPAO", path)
 
 
