@@ -9,6 +9,7 @@ import zlib
 from collections.abc import Callable
 from contextlib import closing
 from pathlib import Path
+from typing import Any
 
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -65,6 +66,14 @@ def test_a_record_of_a_run_that_takes_too_much_is_refused(
     folder = RunFolder.open(run_copy)
     with pytest.raises(RunFolderError, match=f"{re.escape(name)}: .*{answer}"):
         _ = folder.info(), folder.summary()
+
+
+def test_a_command_names_a_record_that_takes_too_much(airhilt_command: Any, run_copy: Path) -> None:
+    make_many_values(run_copy / "run.json")
+    done = airhilt_command("report", run_copy)
+    assert done.returncode == 2
+    (line,) = done.stderr.splitlines()
+    assert "run.json: found over 500,000 values; expected fewer" in line
 
 
 @TOO_MUCH

@@ -69,6 +69,22 @@ def heading(page: Page, text: str) -> None:
 
 
 @pytest.mark.browser
+def test_the_page_says_which_answers_cannot_be_read(page: Page, tmp_path: Path) -> None:
+    (tmp_path / "plan.json").write_text(json.dumps(PLAN))
+    kept = tmp_path / "out" / "P01" / "before.json"
+    with experiment_page(tmp_path / "plan.json", tmp_path / "out") as url:
+        page.open(url)
+        heading(page, "Questions before the first trial")
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        kept.write_text('{"rested": 9}')
+        page.wait_for(f"{NOTES}.includes('before.json: rested: found 9')")
+        told = page.evaluate(NOTES)
+        assert told.endswith("move the file away to ask again. Please tell the experimenter.")
+        page.open("about:blank")
+    page.complaints.clear()  # A browser complains of each answer that is an error.
+
+
+@pytest.mark.browser
 def test_a_participant_answers_the_questions_of_the_plan(
     page: Page, recorded_run: Path, tmp_path: Path
 ) -> None:
