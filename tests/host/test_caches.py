@@ -192,11 +192,3 @@ def test_the_command_shows_and_clears(
     assert (wrong.returncode, "did you mean 'voices'?" in wrong.stderr) == (2, True)
     assert airhilt_command("cache", "clear", "voices").returncode == 0
     assert json.loads(airhilt_command("cache", "--json").stdout)["kinds"][-1]["files"] == 0
-
-
-@pytest.mark.parametrize("kind", ["voice", "../outside", ""])
-def test_what_is_no_kind_is_not_cleared(kind: str, tmp_path: Path) -> None:
-    CacheFolder("voices", tmp_path).get("key", Made())
-    with pytest.raises(AirhiltError, match="no kind of cache is named"):
-        clear(tmp_path, ("voices", kind))
-    assert len(entries(tmp_path)) == 1

@@ -29,6 +29,7 @@ from airhilt.messages import (
     key_chunk,
 )
 from airhilt.record import Logged
+from airhilt.station import subscription
 from airhilt.station.audiences import Audience
 from airhilt.station.changes import Changes
 from airhilt.station.connection import RunConnection
@@ -122,9 +123,19 @@ def test_a_message_above_its_limit_is_dropped(followed: Followed) -> None:
     for data in (fits, b"x" * (Advisory.limit.size_bytes + 1)):
         followed.publish("advisory/ATC", data)
         followed.publish("command/AAL123", b"x" * 1_000_000)
+    followed.publish("advisory/ATC", b"x", b"x" * Advisory.limit.size_bytes)
     followed.publish_last()
     large = [each for each in followed.taken if len(each.data) > 100]
     assert [(each.key, each.data) for each in large] == [("advisory/ATC", fits)]
+
+
+def test_what_has_no_room_to_wait_is_dropped(
+    followed: Followed, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(subscription, "MOST_WAITING_BYTES", 100)
+    followed.publish("advisory/ATC", b"x" * 100)
+    followed.publish_last()
+    assert [each.data for each in followed.taken if each.key == "advisory/ATC"] == [b'{"last": 1}']
 
 
 def test_the_sounds_that_are_kept_have_a_limit(followed: Followed) -> None:
