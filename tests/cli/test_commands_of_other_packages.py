@@ -53,6 +53,15 @@ def test_help_goes_on_without_a_broken_command_and_gives_the_cause(airhilt_comma
     assert CAUSE in " ".join(done.stdout.split())
 
 
+def test_a_command_that_ends_the_process_on_import_does_not_end_the_help(
+    airhilt_command: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with installed(tmp_path, monkeypatch, "airhilt.commands", "broken", "raise SystemExit(7)"):
+        done = airhilt_command("--help")
+    assert done.returncode == 0
+    assert "SystemExit: 7" in done.stdout
+
+
 @pytest.mark.usefixtures("other_packages")
 def test_completion_goes_on_without_a_broken_command() -> None:
     bash = get_completion_class("bash")

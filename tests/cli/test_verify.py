@@ -24,9 +24,13 @@ def signed(airhilt_command: Any, keys: Path, run_copy: Path) -> Path:
 # --- damage ---------------------------------------------------------------------------------
 
 
-def test_a_run_as_it_was_written_is_intact(airhilt_command: Any, run_copy: Path) -> None:
+def test_a_run_as_it_was_written_is_intact_with_a_file_besides(
+    airhilt_command: Any, run_copy: Path
+) -> None:
+    (run_copy / "notes.txt").write_text("run on a Tuesday")
     code, found = verified(airhilt_command, run_copy)
     assert (code, found["state"], found["problems"]) == (0, "intact", [])
+    assert found["additional"] == ["notes.txt"]
     assert found["files"] == len(RunFolder(run_copy).info().files) == 3
     assert found["signature"] == "absent"
 
@@ -93,6 +97,25 @@ def test_a_manifest_cannot_name_a_file_elsewhere(airhilt_command: Any, run_copy:
     code, found = verified(airhilt_command, run_copy)
     assert code == 1
     assert found["problems"][0].startswith("../secret.txt: outside of the folder")
+
+
+def test_a_manifest_with_a_name_that_no_file_can_have_is_damage(
+    airhilt_command: Any, run_copy: Path
+) -> None:
+    record = {"sha256": "0" * 64, "size_bytes": 0}
+    names = ("x" * 5000, "a\0b", ".")
+    tamper(run_copy, lambda document: document["files"].update(dict.fromkeys(names, record)))
+    code, found = verified(airhilt_command, run_copy)
+    assert (code, found["state"]) == (1, "damaged")
+    assert any("cannot be read: File name too long" in one for one in found["problems"])
+
+
+def test_pictures_and_videos_are_in_the_manifest(run_copy: Path) -> None:
+    names = {"pictures/start-nose-0.jpg", "pictures/first_warning-nose-1.png", "video/nose.mp4"}
+    for name in names:
+        (run_copy / name).parent.mkdir(exist_ok=True)
+        (run_copy / name).write_bytes(b"seen")
+    assert names < RunFolder(run_copy).manifest().keys()
 
 
 def test_a_folder_without_a_run_is_a_mistake(airhilt_command: Any, tmp_path: Path) -> None:

@@ -349,6 +349,15 @@ def test_transcripts_are_missing_only_where_somebody_was_to_make_them(
     assert followed.summary().radio.transcripts_missing == missing
 
 
+def test_the_terminal_says_that_a_declared_outcome_did_not_come_about(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    run = RUN | {"assistant": "none"}
+    print_summary(FollowedRun().collector.summary(run, 70 * SECOND_NS), tmp_path)
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "the declared outcome did not come about" in shown
+
+
 def test_the_terminal_tells_how_well_speech_was_recognised(
     capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:

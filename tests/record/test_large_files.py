@@ -71,6 +71,14 @@ def test_a_record_of_a_run_that_takes_too_much_is_refused(
         _ = folder.info(), folder.summary()
 
 
+def test_a_command_names_a_record_that_takes_too_much(airhilt_command: Any, run_copy: Path) -> None:
+    make_many_values(run_copy / "run.json")
+    done = airhilt_command("report", run_copy)
+    assert done.returncode == 2
+    (line,) = done.stderr.splitlines()
+    assert "run.json: found over 500,000 values; expected fewer" in line
+
+
 @TOO_MUCH
 def test_a_plan_or_configuration_that_takes_too_much_is_refused(
     tmp_path: Path, make: Callable[[Path], None], answer: str

@@ -66,6 +66,11 @@ def test_a_folder_of_something_else_is_left_as_it_is(tmp_path: Path, name: str) 
     assert [path for path in tmp_path.rglob("*") if path.is_file()] == [mine]
 
 
+def test_a_folder_without_a_sweep_is_named(tmp_path: Path) -> None:
+    with pytest.raises(AirhiltError, match=r"no sweep here; expected a folder with a sweep\.json"):
+        SweepFolder.open(tmp_path)
+
+
 def test_many_parts_become_one_and_no_run_is_lost(folder: SweepFolder) -> None:
     expected = sorted(f"{number:03}" for number in range(MOST_PARTS + 10))
     for key in expected:

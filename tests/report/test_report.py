@@ -342,6 +342,16 @@ def test_a_message_of_another_version_costs_itself_alone(
     assert page["sections"]["radio"] == {"calls": [], "advisories": []}
 
 
+def test_messages_of_another_version_are_counted(folder: Path) -> None:
+    with closing(LogWriter(folder / "log.mcap")) as log:
+        for t_s in range(3):
+            log.write("asr/119100", "test", Event, t_s * SECOND_NS, b"{}")
+    notes = shown(write_report(folder))["notes"]
+    (note,) = (note for note in notes if "not as this version writes them" in note)
+    assert note.startswith("3 messages of the log")
+    assert "asr/119100 at 0.0 s" in note
+
+
 # --- mistakes -------------------------------------------------------------------------------
 
 

@@ -11,6 +11,7 @@ import pytest
 from airhilt.station import browsers, server
 from cut_network import Network, forgive, through_network
 from devtools import Page
+from loudspeaker import COUNT_PIECES, PIECES, piece
 from microphone import (
     BUTTON,
     microphone_file,
@@ -59,12 +60,17 @@ def is_heard(run: PretendedRun, page: Page) -> bool:
     return True
 
 
-def test_who_is_cut_off_for_a_moment_is_told_and_keeps_the_seat(
+def test_who_is_cut_off_for_a_moment_is_told_and_keeps_the_seat_and_hears_nothing_later(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(server, "PATIENCE_S", 60.0)
     with seated(tmp_path / "said.wav") as (run, network, page):
+        page.key("keyUp", " ", 32)  # Nothing is heard while one transmits.
+        page.evaluate(COUNT_PIECES)
+        run.call_on_air("before", piece(0.5))
+        page.wait_for("window.pieces.length")
         network.cut()
+        run.call_on_air("meanwhile", *[piece(0.4)] * 3)
         page.wait_for(f"{WARNING}.includes('nobody hears you')")
         assert page.evaluate(f"{BUTTON} === 'Hold to talk'")
         press_again(page)
@@ -74,6 +80,10 @@ def test_who_is_cut_off_for_a_moment_is_told_and_keeps_the_seat(
         network.mend()
         page.wait_for(f"{WARNING} === ''")
         assert is_heard(run, page)
+        page.key("keyUp", " ", 32)
+        run.call_on_air("after", piece(0.3))
+        page.wait_for("window.pieces.at(-1) < 0.35")
+        assert page.evaluate(PIECES) == [0.5, 0.3]
         assert ("TOWER", False) not in run.presence.queue
 
 

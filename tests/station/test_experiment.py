@@ -35,6 +35,7 @@ from airhilt.station.participant_progress import Asked, Progress
 from airhilt.station.plan import Plan, balanced_latin_square, plan_of
 from airhilt.station.questionnaires import NASA_TLX, Answers
 from airhilt.station.started_runs import StartedRun, StartedRuns
+from stations import reachable
 
 Cli = Callable[..., subprocess.CompletedProcess[str]]
 ANSWERS: Answers = {
@@ -616,3 +617,28 @@ def test_a_trial_that_had_other_seats_is_refused(recorded_run: Path, tmp_path: P
         Conductor(led(changed, tmp_path, "P01"))
     with pytest.raises(RunFolderError, match=said):
         write_tables(changed, tmp_path)
+
+
+def test_the_trials_admit_those_whom_the_page_of_the_experiment_admits(
+    airhilt_command: Cli, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    plan = {"participants": ["P01"], "seat": "AAL123", "scenarios": ["s02a_headon"]}
+    (tmp_path / "plan.json").write_text(json.dumps(plan))
+    given: list[str] = []
+    monkeypatch.setattr("airhilt.station.conductor.Conductor", lambda _, page: given.extend(page))
+    monkeypatch.setattr("airhilt.station.experiment_app.experiment_app", lambda _: None)
+    monkeypatch.setattr("airhilt.station.server.serve", lambda *_, **__: None)
+    admitted = reachable(tmp_path)
+    done = airhilt_command("experiment", "plan.json", "--participant", "P01", *admitted)
+    assert done.returncode == 0, done.stderr
+    assert set(admitted) <= set(given)
+
+
+def test_a_scenario_that_cannot_be_run_is_refused_before_a_participant_comes(
+    tmp_path: Path,
+) -> None:
+    content = json.loads(find("scenarios", "s02a_headon").read_text()) | {"duration_s": 1.0}
+    path = tmp_path / "late.json"
+    path.write_text(json.dumps(content))
+    with pytest.raises(AirhiltError, match="when the run has ended"):
+        plan(scenarios=[str(path)]).check()

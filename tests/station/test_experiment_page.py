@@ -69,6 +69,22 @@ def heading(page: Page, text: str) -> None:
 
 
 @pytest.mark.browser
+def test_the_page_says_which_answers_cannot_be_read(page: Page, tmp_path: Path) -> None:
+    (tmp_path / "plan.json").write_text(json.dumps(PLAN))
+    kept = tmp_path / "out" / "P01" / "before.json"
+    with experiment_page(tmp_path / "plan.json", tmp_path / "out") as url:
+        page.open(url)
+        heading(page, "Questions before the first trial")
+        kept.parent.mkdir(parents=True, exist_ok=True)
+        kept.write_text('{"rested": 9}')
+        page.wait_for(f"{NOTES}.includes('before.json: rested: found 9')")
+        told = page.evaluate(NOTES)
+        assert told.endswith("move the file away to ask again. Please tell the experimenter.")
+        page.open("about:blank")
+    page.complaints.clear()  # A browser complains of each answer that is an error.
+
+
+@pytest.mark.browser
 def test_a_participant_answers_the_questions_of_the_plan(
     page: Page, recorded_run: Path, tmp_path: Path
 ) -> None:
@@ -174,6 +190,16 @@ def go(page: Page, url: str, participant: str) -> None:
     page.wait_for(f"document.getElementById('title').textContent === 'Experiment, {participant}'")
 
 
+HELD = """
+    window.held = [];
+    window.answering = fetch;
+    window.fetch = async (path, ...more) => {
+        const answer = await answering(path, ...more);
+        if (path.includes('P02')) await new Promise((release) => held.push(release));
+        return answer;
+    };
+"""
+"""Script that keeps answers of the server to P02 until `held` releases them."""
 WRITTEN = """
     window.written = 0;
     const observer = new MutationObserver((records) => { written += records.length; });
@@ -227,6 +253,26 @@ def test_answers_that_are_chosen_stay_with_their_participant(page: Page, tmp_pat
     page.complaints.clear()  # A browser complains of each answer that is an error.
     kept = json.loads((tmp_path / "out" / "P01+P02" / "P01" / "before.json").read_text())
     assert kept == {"licence": "private", "rested": 4}
+
+
+@pytest.mark.browser
+def test_a_slow_answer_is_not_shown_on_the_page_of_another_participant(
+    page: Page, tmp_path: Path
+) -> None:
+    with experiment_page(team_file(tmp_path), tmp_path / "out") as url:
+        go(page, url, "P01")
+        page.evaluate(HELD)
+        page.evaluate("location.hash = '#P02'")
+        page.wait_for("held.length")
+        assert not page.evaluate(ASKS)
+        page.evaluate(f"""window.titles = [];
+            new MutationObserver(() => titles.push({TITLE})).observe(
+                document.getElementById('title'), {{ childList: true }});
+            location.hash = '#P01';
+            held.forEach((release) => release())""")
+        turn_to(page, "P01")
+        assert "Experiment, P02" not in page.evaluate("titles")
+        page.open("about:blank")
 
 
 @pytest.mark.slow

@@ -255,6 +255,22 @@ def test_a_microphone_that_is_granted_late_does_not_open_for_the_next_person(
 
 
 @pytest.mark.browser
+def test_a_microphone_that_is_denied_late_is_not_told_to_the_next_person(
+    page: Page, seat: tuple[PretendedRun, str]
+) -> None:
+    _, url = seat
+    sit_down(page, url)
+    page.evaluate("""navigator.mediaDevices.getUserMedia = () => new Promise((_, fail) => {
+        window.deny = () => fail(new DOMException('', 'NotAllowedError'));
+    }); null""")
+    page.click("talk-button")
+    page.wait_for("Boolean(window.deny)")
+    change_person(page)
+    page.evaluate("window.deny(); new Promise((done) => setTimeout(done, 100))")
+    assert page.evaluate(TALK_STATE) == ""
+
+
+@pytest.mark.browser
 @pytest.mark.parametrize("is_broken", [True, False], ids=["cannot be", "is being"])
 def test_a_microphone_that_is_granted_and_not_heard_yet_is_closed(
     page: Page, seat: tuple[PretendedRun, str], is_broken: bool

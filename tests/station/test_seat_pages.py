@@ -336,8 +336,7 @@ def test_an_advisory_in_force_is_told_as_seen_for_each_person_who_takes_the_seat
             id="Both lose separation.", revision=1, recipient="ATC", way="seen", after_s=0.0
         )
         assert run.next().model_copy(update={"after_s": 0.0}) == seen
-        # Lists come and go meanwhile, and move the button.
-        page.evaluate("document.getElementById('seat-take').click()")
+        page.activate("seat-take")
         page.wait_for("document.getElementById('talk').hidden")
         take_seat(page)
         assert run.next().model_copy(update={"after_s": 0.0}) == seen

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import asyncio
 import json
+import threading
 import time
 from pathlib import Path
 
@@ -25,8 +25,8 @@ from airhilt.messages import (
     WorkloadQuestion,
 )
 from airhilt.record import Logged
-from airhilt.station import browsers
 from airhilt.station.audiences import EVERYBODY
+from airhilt.station.browsers import PageMessage
 from airhilt.station.live import LiveRun
 from airhilt.station.page_files import page_version
 from airhilt.station.subscription import Sound
@@ -336,9 +336,15 @@ def test_a_station_that_stands_still_is_told_on_the_page_and_so_is_the_end_of_th
     page.open(url)
     page.wait_for("document.getElementById('state').textContent.startsWith('running')")
     assert page.evaluate(told) == ""
-    with monkeypatch.context() as patch:
-        patch.setattr(browsers.Browsers, "_do", lambda *_: asyncio.sleep(0))
-        page.wait_for(f"({told}).includes('What is shown is old')")
+    goes_on, validate = threading.Event(), PageMessage.model_validate_json
+
+    def stand_still(text: str) -> PageMessage:
+        goes_on.wait(PATIENCE_S)
+        return validate(text)
+
+    monkeypatch.setattr(PageMessage, "model_validate_json", stand_still)
+    page.wait_for(f"({told}).includes('Connection lost')")
+    goes_on.set()
     page.wait_for(f"!({told})")
     run.changes.add("clock", 9.0, "finished", "realtime")
     page.wait_for(f"({told}).includes('The run is over')")

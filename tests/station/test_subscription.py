@@ -14,6 +14,7 @@ from typing import TypeVar
 import pytest
 import zenoh
 
+from airhilt.bus.access import ROLES
 from airhilt.bus.session import Bus, configuration
 from airhilt.errors import StationError
 from airhilt.messages import (
@@ -28,6 +29,7 @@ from airhilt.messages import (
     key_chunk,
 )
 from airhilt.record import Logged
+from airhilt.station import subscription
 from airhilt.station.audiences import Audience
 from airhilt.station.changes import Changes
 from airhilt.station.connection import RunConnection
@@ -121,9 +123,19 @@ def test_a_message_above_its_limit_is_dropped(followed: Followed) -> None:
     for data in (fits, b"x" * (Advisory.limit.size_bytes + 1)):
         followed.publish("advisory/ATC", data)
         followed.publish("command/AAL123", b"x" * 1_000_000)
+    followed.publish("advisory/ATC", b"x", b"x" * Advisory.limit.size_bytes)
     followed.publish_last()
     large = [each for each in followed.taken if len(each.data) > 100]
     assert [(each.key, each.data) for each in large] == [("advisory/ATC", fits)]
+
+
+def test_what_has_no_room_to_wait_is_dropped(
+    followed: Followed, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(subscription, "MOST_WAITING_BYTES", 100)
+    followed.publish("advisory/ATC", b"x" * 100)
+    followed.publish_last()
+    assert [each.data for each in followed.taken if each.key == "advisory/ATC"] == [b'{"last": 1}']
 
 
 def test_the_sounds_that_are_kept_have_a_limit(followed: Followed) -> None:
@@ -170,7 +182,7 @@ def test_the_sound_of_the_receiver_of_a_seat_is_for_that_seat_alone() -> None:
 
 
 @pytest.mark.parametrize("seats", [(), ("TOWER",)])
-def test_the_sound_of_whole_calls_is_kept_for_pages_without_seats_alone(
+def test_truth_comes_to_pages_without_seats_alone_and_so_does_the_sound_of_whole_calls(
     seats: tuple[str, ...],
 ) -> None:
     call = Transmission(id="call", frequency_khz=119_100, t_tx_ns=0, t_end_ns=1, samples=1)
@@ -178,16 +190,20 @@ def test_the_sound_of_whole_calls_is_kept_for_pages_without_seats_alone(
         id="a", revision=0, recipient="ATC", text="stop", t_dec_ns=0, engine="", samples=1,
         sha256="",
     )  # fmt: skip
-    with closing(Bus("run")) as bus:
+    with closing(Bus("run", anyone=ROLES)) as bus:
         bus.keep("clock", b"{}")
         with closing(RunConnection(bus.endpoint)) as connection:
             taken: queue.Queue[Logged] = queue.Queue()
             with closing(Subscription(connection, taken.put, lambda: None, seats=seats)) as page:
+                bus.put("truth/radio/call", b"{}")
                 bus.put("radio/119100/tx", b"\0\0", call.model_dump_json().encode())
                 bus.put("tts/a", b"\0\0", advice.model_dump_json().encode())
-                wanted = {"radio/119100/tx", "tts/a"}
-                while wanted:
-                    wanted -= {taken.get(timeout=PATIENCE_S).key}
+                truth = set() if seats else {"truth/radio/call"}
+                wanted = {"radio/119100/tx", "tts/a"} | truth
+                came: set[str] = set()
+                while not wanted <= came:
+                    came.add(taken.get(timeout=PATIENCE_S).key)
+                assert {key for key in came if key.startswith("truth")} == truth
                 assert page.sound("a-0-ATC")
                 assert bool(page.sound("call")) is not bool(seats)
 
@@ -264,3 +280,10 @@ def test_a_role_that_waits_for_a_run_is_refused_once_the_run_is_gone() -> None:
             connection.seats(["ground"], lambda _: None)
         ending.join()
         connection.close()
+
+
+def test_a_role_in_a_run_that_is_over_is_refused() -> None:
+    with begun("finished") as bus, closing(RunConnection(bus.endpoint)) as connection:
+        with pytest.raises(StationError, match=r"--seat 'tower': .*\(finished\); expected a run"):
+            connection.seats(["tower"], pytest.fail)
+        assert connection.seats(["Tower"], pytest.fail) == ("Tower",)

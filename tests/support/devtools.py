@@ -123,6 +123,13 @@ class Page:
         for kind in ("mousePressed", "mouseReleased"):
             self.call("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", clickCount=1)
 
+    def activate(self, name: str) -> None:
+        """Do what a click does, wherever the element is: what comes and goes may move it."""
+        element = f"document.getElementById({name!r})"
+        script = f"{element}.focus(); {element}.click()"
+        answer = self.call("Runtime.evaluate", expression=script, userGesture=True)
+        assert "exceptionDetails" not in answer, answer["exceptionDetails"]
+
     def _receive(self) -> dict[str, Any]:
         due = time.monotonic() + PATIENCE_S
         while b"\0" not in self._received:

@@ -70,7 +70,7 @@ def sit_down(page: Page, url: str, seat: str | None = None, uses: str = "voice")
     if seat is not None:
         page.evaluate(f"document.getElementById('seat-name').value = {seat!r}")
     page.evaluate(f"document.getElementById('seat-uses').value = {uses!r}")
-    page.click("seat-take")
+    page.activate("seat-take")
     page.wait_for("!document.getElementById('talk').hidden")
 
 

@@ -411,6 +411,7 @@ def serving(app: FastAPI) -> Iterator[str]:
 
 
 def take_seat(page: Page) -> None:
-    """Take the seat that is chosen, and let voice and words be used."""
+    """Take the seat that is chosen, and let voice and words be used, once the run is there."""
+    page.wait_for("document.getElementById('state').textContent.startsWith('running')")
     page.evaluate("document.getElementById('seat-uses').value ||= 'voice'")
-    page.click("seat-take")
+    page.activate("seat-take")

@@ -40,11 +40,19 @@ def test_a_runner_does_one_run_after_the_other(plugin: RunnerPlugin) -> None:
     assert first.process == second.process
 
 
-def test_a_worker_with_other_software_is_refused_by_name(worker: Any) -> None:
-    other = ENVIRONMENT.model_copy(update={"versions": {"airhilt": "2"}})
-    plugin = RunnerPlugin("", LIMITS, other)
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"versions": {"airhilt": "2"}}, "airhilt 1 instead of 2; expected"),
+        ({"code_sha256": "f" * 64}, "other code, models, aircraft or airports of AIRHILT"),
+    ],
+)
+def test_a_worker_with_other_software_is_refused_by_name(
+    worker: Any, changes: dict[str, Any], said: str
+) -> None:
+    plugin = RunnerPlugin("", LIMITS, ENVIRONMENT.model_copy(update=changes))
     plugin.setup(worker)
-    with pytest.raises(AirhiltError, match="worker tcp://w:1: airhilt 1 instead of 2; expected"):
+    with pytest.raises(AirhiltError, match=f"worker tcp://w:1: {said}"):
         plugin.run(request("a"))
     plugin.teardown(worker)
 

@@ -291,3 +291,10 @@ def test_windows_change_nothing(embedded: Ctc, monkeypatch: pytest.MonkeyPatch) 
     by_windows = embedded.posteriors(audio)
     monkeypatch.setattr(airhilt.assistant.asr.engines.embedded, "WINDOW_FRAMES", len(audio))
     assert np.abs(by_windows - embedded.posteriors(audio)).max() < 1e-4
+
+
+def test_a_language_model_of_other_pieces_is_refused(folder: Path) -> None:
+    np.savez(folder / "language.npz", keys1=np.arange(9, dtype=np.uint64),
+             scores1=np.zeros(9), backoffs1=np.zeros(9))  # fmt: skip
+    with pytest.raises(SpeechError, match="no language model of 4 units"):
+        Ctc(folder)

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+import pytest
 
 from airhilt.assistant.asr.engine import Recognised
 from airhilt.assistant.asr.worker import AsrWorker
 from airhilt.audio.pcm import Audio, to_pcm
+from airhilt.errors import WorkerError
 from airhilt.messages import (
     PartialTranscript,
     Transcript,
@@ -105,3 +107,11 @@ def test_a_worker_that_is_not_asked_for_it_does_not_hear_calls_before_their_end(
         inputs = AsrWorker(Growing(), gives_partials=gives_partials).description.inputs
         policies = {wanted.key: wanted.policy for wanted in inputs}
         assert policy_of(f"radio/{KHZ}/audio", policies) == policy
+
+
+def test_a_partial_transcript_names_its_frequency_in_the_key() -> None:
+    worker = AsrWorker(Growing(), gives_partials=True)
+    (output,) = worker.step(SECOND_NS, (opened(), chunk(0))).outputs
+    assert output.key == f"asr/{KHZ}/partial"
+    with pytest.raises(WorkerError, match="a partial transcript of 134325 kHz"):
+        parse_output("asr", "asr/118300/partial", output.payload, 0)

@@ -96,6 +96,11 @@ class Careless:
         return Decision([alert])
 
 
+def test_nothing_that_waits_is_left_out() -> None:
+    wanted = DecisionWorker(Careless(), Template()).description.inputs
+    assert {one.policy for one in wanted} == {"batch"}
+
+
 def test_an_alert_that_makes_no_advisory_costs_its_worker_and_not_the_run(
     encounter: Scenario, tmp_path: Path
 ) -> None:

@@ -227,3 +227,9 @@ def test_a_service_that_fails_is_named(answer: Callable[..., None], words: str) 
         advisories_of(worker_of(url), 2)
     with pytest.raises(WorkerError, match="is not there"):
         advisories_of(worker_of(nobody()), 2)
+
+
+def test_an_address_with_a_password_is_refused_without_showing_it() -> None:
+    with pytest.raises(WorkerError, match=r"http://127\.0\.0\.1:9000 contains a user") as raised:
+        HttpAssistant("http://me:secret@127.0.0.1:9000/advise")
+    assert "secret" not in str(raised.value)

@@ -173,6 +173,10 @@ class TestAdvisoriesOfTheModel:
         assert not result.advisories
         assert why in result.rejections[0].reason
 
+    def test_a_runway_that_nobody_uses_is_in_no_conflict(self) -> None:
+        result = reviewed(situation([], CLEARED), runway=None, advisories=[own()])
+        assert "none of them uses runway 01" in result.rejections[0].reason
+
     def test_an_action_against_that_of_the_rules_is_refused(self) -> None:
         actions = [{"callsign": "AAL123", "action": "hold_position"}]
         advisory = own(actions=actions, recipients=["AAL123"])

@@ -46,6 +46,10 @@ def test_a_warning_is_spoken_with_all_that_the_log_needs() -> None:
     assert header.sha256 == hashlib.sha256(output.payload).hexdigest()
 
 
+def test_no_advisory_that_waits_is_left_out() -> None:
+    assert {wanted.policy for wanted in TtsWorker(Tone()).description.inputs} == {"fifo"}
+
+
 @pytest.mark.parametrize(
     ("severity", "is_spoken"),
     [("INFO", False), ("ADVISORY", False), ("CAUTION", True), ("WARNING", True)],

@@ -45,6 +45,11 @@ def test_a_picture_becomes_detections_of_it() -> None:
     )
 
 
+def test_only_pictures_that_are_old_are_left_out() -> None:
+    wanted = VisionWorker(BlobDetector()).description.inputs
+    assert [one.key for one in wanted if one.policy == "latest"] == ["camera/*/frame"]
+
+
 def test_an_exposure_that_was_left_out_is_told_as_that_and_changes_no_track() -> None:
     left_out = replace(frame(TRUCK, 1, encoding="none"), payload=b"")
     items = [frame(TRUCK, 0), left_out, frame(TRUCK, 2)]

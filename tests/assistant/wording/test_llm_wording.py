@@ -139,6 +139,17 @@ def test_the_key_is_sent_and_shown_nowhere(monkeypatch: pytest.MonkeyPatch) -> N
     assert "sk-secret" not in exchange_of(echoing).model_dump_json()
 
 
+@pytest.mark.parametrize(("status", "cut_at"), [(401, 200), (200, 60)])
+def test_no_half_of_a_key_is_left_where_the_error_cuts_what_it_quotes(
+    monkeypatch: pytest.MonkeyPatch, status: int, cut_at: int
+) -> None:
+    monkeypatch.setenv(KEY_VARIABLE, "sk-secret")
+    quoting = answering(b"x" * (cut_at - 5) + b"sk-secret is no key", status)
+    failure = exchange_of(worded(quoting)).failure
+    assert "xxxxx***" in failure
+    assert "sk-" not in failure
+
+
 def test_a_key_that_no_header_can_have_is_refused_unseen(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv(KEY_VARIABLE, "sk-secret\nX: 1")
     with pytest.raises(LanguageModelError) as raised:

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from airhilt.units import FOOT, KNOT
-from airhilt.world.flight import load_aircraft_type
+from airhilt.world.flight import Atmosphere, load_aircraft_type
 from airhilt.world.flight.airframe import Airframe
 from airhilt.world.flight.guidance import GuidanceModes
 from flights import in_cruise
@@ -23,6 +23,11 @@ def test_it_may_begin_at_the_least_and_at_the_greatest_airspeed() -> None:
         aircraft = in_cruise("737", altitude_ft=20_000, airspeed_kt=airspeed_kt)
         begun_kt = aircraft.state.calibrated_airspeed_m_s / KNOT
         assert begun_kt == pytest.approx(airspeed_kt, rel=1e-3)
+
+
+def test_it_may_not_begin_in_more_wind_than_its_airspeed() -> None:
+    with pytest.raises(ValueError, match="expected more airspeed than wind"):
+        in_cruise("c172p", atmosphere=Atmosphere(wind_north_m_s=80.0))
 
 
 @pytest.mark.parametrize("rate_m_s", [2.0, -2.0])
