@@ -76,7 +76,7 @@ def sit_down(page: Page, url: str, seat: str | None = None, uses: str = "voice")
 
 def open_microphone(page: Page) -> None:
     """Open the microphone, and wait until it can be used or is refused."""
-    page.click("talk-button")
+    page.activate("talk-button")
     page.wait_for(f"{BUTTON} === 'Hold to talk' || {TALK_STATE}.includes('Type')")
 
 
