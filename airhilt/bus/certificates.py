@@ -40,7 +40,7 @@ SETTING = "transport/link/tls"
 
 @dataclass(frozen=True)
 class Keys:
-    """What the file of a role, or of the run, says: its endpoint, and settings of Zenoh by key."""
+    """Content of the file of a role, or of the run: its endpoint, and settings of Zenoh by key."""
 
     endpoint: str
     settings: dict[str, Any]

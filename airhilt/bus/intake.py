@@ -1,4 +1,4 @@
-"""What a run takes of the messages that programs publish by themselves, and what it drops."""
+"""Intake of the messages that programs publish by themselves: which of them a run drops."""
 
 from __future__ import annotations
 

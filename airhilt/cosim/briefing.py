@@ -1,4 +1,4 @@
-"""What is known before a run begins: the briefing of all, and the equipment of each seat."""
+"""Facts known before a run begins: the briefing of all, and the equipment of each seat."""
 
 from __future__ import annotations
 

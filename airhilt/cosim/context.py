@@ -1,4 +1,4 @@
-"""What all parts of a run work with: its setup, clock, messages and observer."""
+"""The context that all parts of a run share: its setup, clock, messages and observer."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class RunContext:
-    """What all parts of a run work with, and the events and modalities that all may change."""
+    """Context shared by all parts of a run, with the events and modalities that all may change."""
 
     setup: Setup
     director: Director

@@ -1,4 +1,4 @@
-"""What ``run.json`` says of a run when it begins, and of what AIRHILT does not bring."""
+"""Content of ``run.json`` when a run begins, and the origin of what AIRHILT does not bring."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What the options of a run ask for: changes of its scenario, and a latency source."""
+"""Requests of the options of a run: changes of its scenario, and a latency source."""
 
 from __future__ import annotations
 

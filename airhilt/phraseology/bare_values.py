@@ -50,7 +50,7 @@ _JOINT = re.compile(r"(?:and|then)(?: and| then)* ")
 
 @dataclass(slots=True)
 class Bare:
-    """What values that stand alone say."""
+    """Meaning of values that stand alone."""
 
     instructions: list[Instruction] = field(default_factory=list)
     pressure_hpa: float | None = None

@@ -40,8 +40,7 @@ class Verification:
     """``intact``: each file of the manifest is as it was written. ``unfinished``: a run has no
     manifest, because it was killed or goes on; a sweep has not written its tables yet."""
     ended: str = ""
-    """How far an unfinished log can be read, in words, or what tables an unfinished sweep has;
-    empty for another."""
+    """Readable part of an unfinished log, or tables of an unfinished sweep, in words."""
     files: int = 0
     """Number of files in the manifest."""
     problems: tuple[str, ...] = ()

@@ -152,7 +152,7 @@ def _with(heard: Sequence[HeardUnit], changed: HeardUnit, unit: int) -> list[int
 
 
 class Gap(NamedTuple):
-    """What was heard before a word or behind the last one, and is not written."""
+    """Sounds before a word or behind the last one that are not written."""
 
     heard: float
     """Sum of the posteriors of pieces, in steps."""

@@ -127,7 +127,7 @@ class RunwaySituation:
         self._wildlife: dict[str, Transcript] = {}
         """The last report of wildlife, by runway."""
         self.aloft: tuple[SeenAloft, ...] = ()
-        """What only cameras show in the air."""
+        """Things in the air that only cameras show."""
         self._seen: dict[str, list[SeenObstacle]] = {}
         """Obstacles that only cameras show, by runway."""
 

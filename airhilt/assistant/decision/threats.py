@@ -23,7 +23,7 @@ from airhilt.phraseology import Action
 PAPER_TIME_TO_GO_S = 8.0
 """Time to go in step (b) of the AIRHILT paper's ladder, in s (arXiv 2511.18718)."""
 BEHIND_M = 30.0
-"""What is farther behind the user of a runway than this, in m, is not in its way."""
+"""Distance behind the user of a runway beyond which nothing is in its way, in m."""
 STOPPING_MARGIN_M = 100.0
 """Room beyond the stopping distance of a landing, in m. What is farther ahead is not in its way."""
 WILDLIFE = "wildlife"

@@ -13,7 +13,7 @@ from airhilt.sensors.radio.receiver import RadioReceiver, sha256_of
 
 
 class EndedTransmission(NamedTuple):
-    """What becomes of a transmission that has ended and has been published."""
+    """Outcome of a transmission that has ended and been published."""
 
     is_blocked: bool
     """True if another one was received at the same time."""

@@ -108,7 +108,7 @@ class Emission:
     is_callsign: bool = False
     """True if it is of a callsign of the roster."""
     gaps: tuple[Gap, Gap] = (SILENCE, SILENCE)
-    """What was heard right before it and right behind it, and is in no word."""
+    """Sounds right before and right behind it that are in no word."""
 
 
 class Ctc:

@@ -7,7 +7,7 @@ from typing import Any
 
 from airhilt.host.text import readable
 from airhilt.report.figures import Figures
-from airhilt.report.sweeps.data import BEFORE_PARAMETERS, SweepData
+from airhilt.report.sweeps.data import SweepData
 from airhilt.report.sweeps.sections import SweepSection
 
 SHOWN = (
@@ -72,7 +72,6 @@ def content(sweep: SweepData, figures: Figures) -> dict[str, Any]:  # noqa: ARG0
                 "name": name,
                 **sweep.columns[name],
                 "shown": name in always,
-                "is_parameter": name in sweep.parameters or name in BEFORE_PARAMETERS,
                 "values": [
                     _value(value)
                     for value in runs[name].astype(object).where(runs[name].notna(), None)

@@ -12,7 +12,7 @@ from airhilt.sensors.radio.on_air import BackgroundNoise, OnAir
 
 
 class SoundRequest(NamedTuple):
-    """What a receiver is to give out of a transmission."""
+    """Request for the sound that a receiver gives out of a transmission."""
 
     on_air: OnAir
     mixed_with: tuple[OnAir, ...]
