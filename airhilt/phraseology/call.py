@@ -16,7 +16,8 @@ Action = Literal[
     "direct", "own_navigation", "squawk", "contact", "monitor", "stand_by", "report",
     "wildlife", "wildlife_gone", "stop_and_go", "circle", "cancel_approach", "missed_approach",
     "cross_fix", "climb_via", "descend_via", "vertical_rate", "turn_by", "hold_at", "mach",
-    "resume_speed", "no_speed_restrictions", "ident", "visual_separation",
+    "resume_speed", "no_speed_restrictions", "ident", "visual_separation", "orbit", "extend",
+    "short_approach", "join", "side_step", "return_to_field", "expedite", "say",
 ]  # fmt: skip
 """Action that a call orders, reads back, or reports."""
 
