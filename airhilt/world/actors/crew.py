@@ -35,6 +35,7 @@ from airhilt.scenario.models import AircraftSpec
 from airhilt.units import DEGREE, FOOT, FOOT_PER_MINUTE, KNOT
 from airhilt.world.actors.actor import Reaction, Unable
 from airhilt.world.actors.envelope import Envelope
+from airhilt.world.actors.ground_operations import GroundOperations, TaxiingAircraft
 from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
 from airhilt.world.actors.runway_operations import RunwayOperations
 from airhilt.world.flight.aircraft import Aircraft
@@ -72,6 +73,7 @@ class Crew:
     ) -> None:
         self.spec = spec
         self.body = aircraft
+        self.ground_operations = GroundOperations(TaxiingAircraft(aircraft), site)
         self.runway_operations = RunwayOperations(aircraft, site)
         self._reactions = ReactionModel(spec.callsign, spec.pilot, seed)
         self._site = site
@@ -125,6 +127,7 @@ class Crew:
     def attend(self) -> None:
         """Take the next step of a runway operation if it is due, or raise `Unable`."""
         try:
+            self.ground_operations.attend()
             self.runway_operations.attend()
         except (ValueError, ScenarioError) as error:
             raise Unable(f"unable, {error}") from None
@@ -134,7 +137,11 @@ class Crew:
         if why is not None:
             raise Unable(why)
         try:
-            if not self.runway_operations.carry_out(command):
+            on_the_ground = self.ground_operations.plan(command)
+            if on_the_ground is not None:
+                on_the_ground()
+                self.runway_operations.forget()
+            elif not self.runway_operations.carry_out(command):
                 self._fly(command)
         except (ValueError, ScenarioError) as error:
             raise Unable(f"unable, {error}") from None

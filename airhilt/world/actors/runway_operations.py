@@ -10,24 +10,19 @@ from typing import TYPE_CHECKING
 from airhilt.commands import (
     CancelTakeoffCommand,
     Command,
-    ContinueCommand,
-    CrossCommand,
     GoAroundCommand,
-    HoldPositionCommand,
-    HoldShortCommand,
     LandCommand,
     LineUpCommand,
     RouteCommand,
     SideStepCommand,
     TakeOffCommand,
-    TaxiCommand,
     TrackCommand,
     TurnCommand,
 )
 from airhilt.geodesy.wgs84 import Place
 from airhilt.units import FOOT, KNOT, NAUTICAL_MILE, wrap_angle
 from airhilt.world.actors.actor import Unable
-from airhilt.world.actors.taxi_paths import exit_for, hold_beside, taxi_path
+from airhilt.world.actors.taxi_paths import exit_for, hold_beside
 from airhilt.world.flight.aircraft import Aircraft
 from airhilt.world.site import ScenarioSite
 from airhilt.world.surface.runway import RunwayEnd
@@ -114,13 +109,6 @@ class RunwayOperations:
     def carry_out(self, command: Command) -> bool:
         """Carry out a command; return False for one that is not about runways or taxiways."""
         match command:
-            case TaxiCommand():
-                self._taxi(command)
-            case HoldPositionCommand() | HoldShortCommand():
-                self._aircraft.procedures.hold_position()
-                self._next = None
-            case ContinueCommand() | CrossCommand():
-                self._aircraft.procedures.resume_taxi()
             case LineUpCommand(runway=runway):
                 self._line_up(runway)
             case TakeOffCommand(runway=runway, climb_to_ft=altitude):
@@ -139,6 +127,10 @@ class RunwayOperations:
             case _:
                 return False
         return True
+
+    def forget(self) -> None:
+        """Take no further step of what was begun."""
+        self._next = None
 
     def begin_on_final(self, runway: str) -> None:
         """Fly the approach from where the aircraft is; it still needs a clearance to land."""
@@ -199,13 +191,6 @@ class RunwayOperations:
     def _here(self) -> Place:
         state = self._aircraft.state
         return state.latitude_rad, state.longitude_rad
-
-    def _taxi(self, command: TaxiCommand) -> None:
-        self._next = None
-        nose_m = self._aircraft.kind.dimensions.length_m / 2.0
-        path = taxi_path(self._site, self._here(), command, nose_m)
-        speed = None if command.speed_kt is None else command.speed_kt * KNOT
-        self._aircraft.procedures.taxi(path, speed)
 
     def _line_up(self, runway: str) -> None:
         aircraft, here = self._aircraft, self._here()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Generic, Literal, TypeVar
 
 from airhilt.commands import Command
@@ -12,6 +13,7 @@ from airhilt.geodesy.relative_motion import horizontal_distance_m
 from airhilt.messages import Advisory, EmitterCategory, HoldPosition, Recommendation
 from airhilt.scenario.models import VehicleSpec, WildlifeSpec
 from airhilt.world.actors.actor import Actor, Reaction, Unable
+from airhilt.world.actors.ground_operations import DrivenVehicle, GroundOperations
 from airhilt.world.actors.reactions import FOLLOWED_FROM, ReactionModel
 from airhilt.world.mover import Creature, Driven
 from airhilt.world.site import ScenarioSite
@@ -49,6 +51,11 @@ class Driver(_SurfaceActor[Driven]):
     reactions: ReactionModel
     category: Literal["vehicle"] = "vehicle"
 
+    @cached_property
+    def ground_operations(self) -> GroundOperations:
+        """What the driver is doing on the airport."""
+        return GroundOperations(DrivenVehicle(self.body), self.site)
+
     def refusal(self, command: Command) -> str | None:
         """Return why the driver cannot carry out a command; None if its kind has such a command."""
         if isinstance(command, self.kind.understands):
@@ -64,11 +71,16 @@ class Driver(_SurfaceActor[Driven]):
 
     def _carry_out(self, command: Command) -> bool:
         try:
-            return self.kind.carry_out(self.body, command, self.site)
+            on_the_ground = self.ground_operations.plan(command)
+            if on_the_ground is None:
+                return self.kind.carry_out(self.body, command, self.site)
+            was_moving = self.body.phase == "driving"
+            on_the_ground()
         except ValueError as error:
             raise Unable(f"unable, {error}") from None
         except ScenarioError as error:
             raise Unable(str(error)) from None
+        return was_moving or self.body.phase == "driving"
 
     def hear(self, advisory: Advisory) -> Reaction | None:
         """Return the driver's reaction to an advisory; None if there is none."""
@@ -89,7 +101,8 @@ class Driver(_SurfaceActor[Driven]):
         return self.kind.command_for(recommendation) is not None
 
     def attend(self) -> None:
-        """No-op: a driver has no delayed steps."""
+        """Take note of how far it has come."""
+        self.ground_operations.attend()
 
 
 @dataclass(frozen=True)

@@ -16,6 +16,7 @@ from airhilt.commands import (
     MoveCommand,
     StandCommand,
     TaxiCommand,
+    TaxiToCommand,
 )
 from airhilt.geodesy.local_frame import LocalFrame
 from airhilt.geodesy.wgs84 import Place
@@ -140,6 +141,7 @@ class DrivenKind:
     category: ClassVar[Literal["vehicle"]] = "vehicle"
     understands: ClassVar[tuple[type[BaseModel], ...]] = (
         TaxiCommand,
+        TaxiToCommand,
         HoldPositionCommand,
         HoldShortCommand,
         CrossCommand,

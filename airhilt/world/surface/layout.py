@@ -254,6 +254,22 @@ class Layout:
             self._exits[end.ident] = sorted(found, key=lambda way: (way.along_m, way.taxiway))
         return self._exits[end.ident]
 
+    def way_across(self, hold: Hold) -> tuple[list[Place], float] | None:
+        """Return the way from a hold line across its runway, and on beyond the far hold line.
+
+        The second number is the distance along the way, in m, at which that line is. None: no
+        taxiway leads across there.
+        """
+        holds = [each.name for each in self.holds.values() if each.runway == hold.runway]
+        across = self.taxiways.across(hold.name, hold.runway, holds)
+        if across is None:
+            return None
+        onward_from_hold = self.taxiways.away(across[-2], across[-1], self.stands)[1:]
+        corners = [self.taxiways.nodes[name] for name in [*across, *onward_from_hold]]
+        curve = lines.rounded(corners, TAXI_RADIUS_M)
+        line_m = LineString(curve).project(Point(self.taxiways.nodes[across[-1]]))
+        return self._places(lines.dense(curve, POINT_STEP_M)), float(line_m)
+
     @cached_property
     def stands(self) -> tuple[str, ...]:
         """Names of the nodes where aircraft and vehicles stand."""

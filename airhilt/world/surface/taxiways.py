@@ -126,6 +126,23 @@ class TaxiwayGraph:
             )
         return list(ways[min(reached)[1]])
 
+    def across(self, hold: str, runway: str, holds: Sequence[str]) -> list[str] | None:
+        """Return the nodes from a hold across its runway to the nearest on the other side, or None.
+
+        ``holds`` are the names of all holds of that runway.
+        """
+        centreline = self._strips[runway].centreline
+        protected = networkx.subgraph_view(
+            self._graph, filter_edge=lambda a, b: runway in self._graph.edges[a, b]["inside"]
+        )
+        lengths, ways = networkx.single_source_dijkstra(protected, hold, weight="cost")
+        beyond = [
+            (lengths[name], name)
+            for name in holds
+            if name in ways and centreline.crosses(LineString([self.nodes[hold], self.nodes[name]]))
+        ]
+        return list(ways[min(beyond)[1]]) if beyond else None
+
     def away(self, inside: str, hold: str, stands: Sequence[str]) -> list[str]:
         """Return nodes from a hold away from its runway, on whose side is the node ``inside``.
 
